@@ -1,0 +1,69 @@
+# How every target of the project is made: one function each for a library, an app, a test binary and a benchmark.
+include(GNUInstallDirs)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
+# Installed programs find the libraries beside them wherever the prefix is moved to.
+set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+
+find_program(OMNIMAPPER_CCACHE ccache)
+if(OMNIMAPPER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${OMNIMAPPER_CCACHE}")
+endif()
+
+# Applied to every target: warnings are errors, and a sanitizer where one was asked for.
+function(omnimapper_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Werror)
+  if(OMNIMAPPER_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE} -fno-omit-frame-pointer -g1 -O1)
+    target_link_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE})
+  endif()
+endfunction()
+
+# omnimapper_library(NAME PUBLIC <targets...> PRIVATE <targets...>)
+# Shared library omnimapper-NAME from libs/NAME/src/*.cpp, exported as omnimapper::NAME.
+function(omnimapper_library name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp")
+  set(target omnimapper-${name})
+  add_library(${target} SHARED ${sources})
+  add_library(omnimapper::${name} ALIAS ${target})
+  target_include_directories(${target} PUBLIC
+    "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  omnimapper_compile_options(${target})
+  install(TARGETS ${target} EXPORT omnimapperTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# omnimapper_app(NAME <targets...>): program NAME from main.cpp.
+function(omnimapper_app name)
+  add_executable(${name} main.cpp)
+  target_link_libraries(${name} PRIVATE ${ARGN})
+  omnimapper_compile_options(${name})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# omnimapper_test(NAME <targets...>): one test binary for the folder's *Test.cpp files, named test-NAME.
+function(omnimapper_test name)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*Test.cpp")
+  add_executable(test-${name} ${sources})
+  target_link_libraries(test-${name} PRIVATE ${ARGN} omnimapper-testing GTest::gtest_main)
+  omnimapper_compile_options(test-${name})
+  add_test(NAME ${name} COMMAND test-${name})
+endfunction()
+
+# omnimapper_bench(NAME <targets...>): benchmark program bench-NAME from NAME.cpp.
+function(omnimapper_bench name)
+  add_executable(bench-${name} ${name}.cpp)
+  target_link_libraries(bench-${name} PRIVATE ${ARGN} omnimapper-testing)
+  omnimapper_compile_options(bench-${name})
+endfunction()

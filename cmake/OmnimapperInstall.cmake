@@ -1,0 +1,10 @@
+# cmake --install, and the package that find_package(omnimapper) reads.
+include(CMakePackageConfigHelpers)
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/omnimapper")
+configure_package_config_file("${CMAKE_CURRENT_SOURCE_DIR}/cmake/omnimapperConfig.cmake.in"
+  "${CMAKE_CURRENT_BINARY_DIR}/omnimapperConfig.cmake" INSTALL_DESTINATION "${package_dir}")
+write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/omnimapperConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/omnimapperConfig.cmake"
+              "${CMAKE_CURRENT_BINARY_DIR}/omnimapperConfigVersion.cmake" DESTINATION "${package_dir}")
+install(EXPORT omnimapperTargets NAMESPACE omnimapper:: DESTINATION "${package_dir}")
+install(DIRECTORY ini/ DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/ini" FILES_MATCHING PATTERN "*.ini")
