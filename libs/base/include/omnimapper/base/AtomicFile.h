@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+namespace omnimapper::base {
+
+/// Makes the folder and its parents. Throws Error(unwritable_output) if that fails or nothing can be written in it.
+void makeWritableFolder(const std::string& folder);
+
+/// Writes a file so that at any moment `path` holds either its old content or the whole new one: `save` writes to
+/// the temporary name it is given (same folder, same extension), which is synced and renamed.
+/// Throws Error(disk_full) with the system's reason if anything of it fails; the temporary file is removed then.
+void replaceFile(const std::string& path, const std::function<void(const std::string& temporary_path)>& save);
+
+/// The same for text and bytes through a stream; a failed stream counts as a failed write.
+void writeFile(const std::string& path, const std::function<void(std::ostream&)>& write);
+
+}  // namespace omnimapper::base

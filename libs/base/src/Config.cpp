@@ -1,0 +1,169 @@
+#include <omnimapper/base/Config.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <sstream>
+
+namespace omnimapper::base {
+
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+// A comment starts with ';', '#' or "//" at the start of a line or after a blank.
+std::string withoutComment(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool starts = text[i] == ';' || text[i] == '#' || text.compare(i, 2, "//") == 0;
+    if (starts && (i == 0 || text[i - 1] == ' ' || text[i - 1] == '\t')) return trimmed(text.substr(0, i));
+  }
+  return trimmed(text);
+}
+
+// The INI reduced to "[section]" and "key = value" lines. MRPT's reader keeps the last of two equal keys in silence
+// and takes a line without '=' for nothing: both are refused here, with their line.
+std::string checkedText(const std::string& text, const std::string& file) {
+  std::istringstream in(text);
+  std::ostringstream out;
+  std::set<std::string> seen_sections, seen_keys;
+  std::string line, section;
+  for (int number = 1; std::getline(in, line); ++number) {
+    const std::string at = file + ":" + std::to_string(number) + ": ";
+    const std::string body = withoutComment(line);
+    if (body.empty()) continue;
+    if (body.front() == '[') {
+      if (body.back() != ']') throw Error(ExitCode::unknown_key, at + "a section is written [name], found '" + body + "'");
+      section = trimmed(body.substr(1, body.size() - 2));
+      if (!seen_sections.insert(section).second) {
+        throw Error(ExitCode::unknown_key, at + "section [" + section + "] stands twice; join the two");
+      }
+      seen_keys.clear();
+      out << "[" << section << "]\n";
+      continue;
+    }
+    const auto equals = body.find('=');
+    if (equals == std::string::npos || section.empty()) {
+      throw Error(ExitCode::unknown_key, at + "expected 'key = value' inside a [section], found '" + body + "'");
+    }
+    const std::string key = trimmed(body.substr(0, equals));
+    if (!seen_keys.insert(key).second) {
+      throw Error(ExitCode::unknown_key, at + "key '" + key + "' stands twice in [" + section + "]; remove one");
+    }
+    out << key << " = " << trimmed(body.substr(equals + 1)) << "\n";
+  }
+  return out.str();
+}
+
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (std::tolower(a[i - 1]) == std::tolower(b[j - 1]) ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string suggestion(const std::string& name, const std::vector<std::string>& candidates) {
+  const std::string near = nearestName(name, candidates);
+  if (!near.empty()) return "; did you mean '" + near + "'?";
+  return "; known: " + option_text::format(candidates);
+}
+
+}  // namespace
+
+std::string nearestName(const std::string& name, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 2) + 1;
+  for (const auto& candidate : candidates) {
+    const std::size_t distance = editDistance(name, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+Config Config::fromFile(const std::string& path) {
+  std::ifstream in(path);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) {
+    throw Error(ExitCode::unreadable_input, path + ": cannot read this INI file; is the path right?");
+  }
+  return fromText(text.str(), path);
+}
+
+Config Config::fromText(const std::string& text, const std::string& name_for_messages) {
+  Config config;
+  config.file_ = name_for_messages;
+  config.ini_.setContent(checkedText(text, name_for_messages));
+  return config;
+}
+
+void Config::set(const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  const auto dot = assignment.find('.');
+  if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals) {
+    throw Error(ExitCode::command_line,
+                "--set " + assignment + ": expected section.key=value, such as --set mapper.window_s=2");
+  }
+  ini_.write(trimmed(assignment.substr(0, dot)), trimmed(assignment.substr(dot + 1, equals - dot - 1)),
+             trimmed(assignment.substr(equals + 1)));
+}
+
+bool Config::has(const std::string& section) const { return ini_.sectionExists(section); }
+
+ConfigSection Config::section(const std::string& name) const {
+  asked_.insert(name);
+  return ConfigSection(*this, name);
+}
+
+void Config::refuseUnreadSections() const {
+  std::vector<std::string> sections;
+  ini_.getAllSections(sections);
+  const std::vector<std::string> known(asked_.begin(), asked_.end());
+  for (const auto& section : sections) {
+    if (asked_.count(section) || ini_.keyExists(section, "driver")) continue;
+    throw Error(ExitCode::unknown_key, file_ + ": nobody reads section [" + section + "]" + suggestion(section, known));
+  }
+}
+
+bool ConfigSection::find(const std::string& key, std::string& text) const {
+  if (!config_->ini_.keyExists(name_, key)) return false;
+  text = trimmed(config_->ini_.read_string(name_, key, ""));
+  return true;
+}
+
+void ConfigSection::refuseUnknownKeys(const std::vector<OptionSpec>& specs,
+                                      const std::vector<std::string>& also_known) const {
+  std::vector<std::string> known = also_known;
+  for (const auto& spec : specs) known.push_back(spec.key);
+  std::vector<std::string> keys;
+  if (config_->has(name_)) config_->ini_.getAllKeys(name_, keys);
+  for (const auto& key : keys) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    throw Error(ExitCode::unknown_key,
+                config_->file() + ": [" + name_ + "] has no key '" + key + "'" + suggestion(key, known));
+  }
+}
+
+void ConfigSection::throwBadValue(const OptionSpec& spec, const std::string& text, const BadValue& bad) const {
+  const std::string place = config_->file() + ": [" + name_ + "] " + spec.key + " = '" + text + "'";
+  const std::string remedy = " (default " + spec.default_value + ")";
+  if (bad.kind == BadValue::Kind::range) {
+    throw Error(ExitCode::out_of_range, place + " is out of range: must be " + bad.expected + remedy);
+  }
+  throw Error(ExitCode::wrong_type, place + " is not " + bad.expected + remedy);
+}
+
+}  // namespace omnimapper::base

@@ -1,0 +1,87 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Stamp.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace omnimapper::base {
+
+namespace {
+constexpr std::int64_t kTicksPerSecond = 10'000'000;
+// MRPT counts from 1601 (see its Clock): 116444736 * 10^9 ticks before 1970.
+constexpr std::int64_t kUnixEpochTicks = 116'444'736 * std::int64_t{1'000'000'000};
+
+std::int64_t ticksSinceUnixEpoch(Stamp stamp) { return stamp.time_since_epoch().count() - kUnixEpochTicks; }
+Stamp fromTicks(std::int64_t ticks) { return Stamp(Duration(ticks + kUnixEpochTicks)); }
+}  // namespace
+
+bool isValid(Stamp stamp) { return stamp != Stamp() && ticksSinceUnixEpoch(stamp) > 0; }
+
+Stamp stampFromUnix(double seconds) {
+  // Whole seconds apart from the fraction, so that the product stays exact.
+  const double whole = std::floor(seconds);
+  return fromTicks(static_cast<std::int64_t>(whole) * kTicksPerSecond +
+                   std::llround((seconds - whole) * static_cast<double>(kTicksPerSecond)));
+}
+
+double unixSeconds(Stamp stamp) {
+  const std::int64_t ticks = ticksSinceUnixEpoch(stamp);
+  return static_cast<double>(ticks / kTicksPerSecond) +
+         static_cast<double>(ticks % kTicksPerSecond) / static_cast<double>(kTicksPerSecond);
+}
+
+std::string formatUnix(Stamp stamp, int decimals) {
+  std::int64_t unit = 1;  // ticks in the last printed decimal
+  for (int i = decimals; i < 7; ++i) unit *= 10;
+  const std::int64_t ticks = ticksSinceUnixEpoch(stamp);
+  const bool negative = ticks < 0;
+  const std::int64_t units = ((negative ? -ticks : ticks) + unit / 2) / unit;
+  const std::int64_t units_per_second = kTicksPerSecond / unit;
+  char text[40];
+  if (decimals <= 0) {
+    std::snprintf(text, sizeof text, "%s%lld", negative ? "-" : "", static_cast<long long>(units));
+  } else {
+    std::snprintf(text, sizeof text, "%s%lld.%0*lld", negative ? "-" : "",
+                  static_cast<long long>(units / units_per_second), decimals < 7 ? decimals : 7,
+                  static_cast<long long>(units % units_per_second));
+  }
+  return text;
+}
+
+Stamp parseUnix(const std::string& text) {
+  std::size_t i = 0;
+  const bool negative = !text.empty() && text[0] == '-';
+  if (negative) ++i;
+  std::int64_t ticks = 0, digits = 0, decimals = -1;
+  for (; i < text.size(); ++i) {
+    if (text[i] == '.' && decimals < 0) {
+      decimals = 0;
+    } else if (text[i] >= '0' && text[i] <= '9' && digits < 18) {
+      ++digits;
+      if (decimals >= 7) {  // beyond the tick: the first such digit rounds
+        if (decimals == 7 && text[i] >= '5') ++ticks;
+        ++decimals;
+        continue;
+      }
+      ticks = ticks * 10 + (text[i] - '0');
+      if (decimals >= 0) ++decimals;
+    } else {
+      throw Error(ExitCode::unreadable_input, "'" + text + "' is not a time in seconds, such as 1137834225.973760");
+    }
+  }
+  if (digits == 0) throw Error(ExitCode::unreadable_input, "'" + text + "' is not a time in seconds");
+  for (std::int64_t d = decimals < 0 ? 0 : decimals; d < 7; ++d) ticks *= 10;
+  return fromTicks(negative ? -ticks : ticks);
+}
+
+Duration durationFromSeconds(double seconds) {
+  return Duration(std::llround(seconds * static_cast<double>(kTicksPerSecond)));
+}
+
+double toSeconds(Duration duration) {
+  return static_cast<double>(duration.count()) / static_cast<double>(kTicksPerSecond);
+}
+
+double secondsBetween(Stamp from, Stamp to) { return toSeconds(to - from); }
+
+}  // namespace omnimapper::base

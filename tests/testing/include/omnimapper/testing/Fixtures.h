@@ -1,0 +1,36 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+namespace omnimapper::testing {
+
+/// A folder of its own for one test, removed with its content at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::string& path() const { return path_; }
+  /// Path of a file in it.
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+/// A file of the project's source tree, such as "ini/laser2d.ini".
+std::string sourceFile(const std::string& relative);
+/// A recording kept beside the project (environment OMNIMAPPER_DATA, else ../shared/data), if it is there.
+std::optional<std::string> sharedData(const std::string& relative);
+/// A data set of the Debian package mrpt-common, if it is there.
+std::optional<std::string> mrptDataset(const std::string& relative);
+
+}  // namespace omnimapper::testing
+
+/// Leaves a test whose recording is not on this machine; scripts/test counts and prints these.
+#define OMNIMAPPER_NEEDS(optional_path) \
+  if (!(optional_path)) GTEST_SKIP() << "recording not on this machine; the simulated twin of this test has run"
