@@ -1,0 +1,41 @@
+#pragma once
+
+#include <omnimapper/map/Map.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace omnimapper::map {
+
+/// One named part of a map file. Who owns it knows what its bytes mean at its version.
+struct MapSection {
+  std::string name;
+  std::uint32_t version = 1;
+  std::string bytes;
+};
+
+/// The container `map.omnimap`: sections with a checksum each. Sections nobody knows are kept as they are.
+class MapFile {
+ public:
+  /// Throws Error(unreadable_input) if it is no map file, was written by a later format, or a checksum fails.
+  static MapFile read(const std::string& path);
+  /// Atomically: at any moment `path` holds a whole map. Throws Error(disk_full).
+  void write(const std::string& path) const;
+
+  /// Replaces the section of that name or appends it.
+  void set(MapSection section);
+  /// Null if the file has none of that name.
+  const MapSection* find(const std::string& name) const;
+  const std::vector<MapSection>& sections() const { return sections_; }
+
+ private:
+  std::vector<MapSection> sections_;
+};
+
+/// The "frames" section: every key frame with its observations.
+MapSection framesToSection(const Map& map);
+/// Throws Error(unreadable_input) if the bytes are not frames of a known version.
+Map framesFromSection(const MapSection& section);
+
+}  // namespace omnimapper::map

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <omnimapper/base/Id.h>
+#include <omnimapper/base/Stamp.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// One association or closure that was considered, and why it was taken or refused.
+struct Decision {
+  base::Stamp stamp;                            ///< of the key frame it was made at
+  std::string plugin;                           ///< INI section of who decided
+  std::string kind;                             ///< "sequential match", "loop closure", ...
+  base::KeyFrameId from;                        ///< the key frame it was made at
+  std::optional<base::KeyFrameId> to;           ///< the other one, of a closure
+  bool accepted = false;
+  std::string reason;                           ///< a few words a user understands
+  std::vector<std::pair<std::string, double>> numbers;  ///< what it was decided on: name with unit, value
+};
+
+using DecisionLog = std::vector<Decision>;
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <omnimapper/mapper/View.h>
+
+namespace omnimapper::mapper {
+
+/// Shows or writes the map (thesis 5.3.5).
+class OutputPlugin {
+ public:
+  virtual ~OutputPlugin() = default;
+  /// After each solve, for what is shown live.
+  virtual void update(const View& /*view*/) {}
+  /// Once, at the end of the run. Throws base::Error if an output cannot be written.
+  virtual void finish(const View& view) = 0;
+};
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+#include <omnimapper/base/Stamp.h>
+#include <omnimapper/mapper/RelativeMotion.h>
+
+#include <optional>
+
+namespace omnimapper::mapper {
+
+/// A continuous pose source: it can tell the motion over any span it covers (thesis 5.2.2.1, 5.3.4).
+class PosePlugin {
+ public:
+  virtual ~PosePlugin() = default;
+  /// Takes an observation into its history if it is of its kind; says whether it was. Called in order of arrival.
+  virtual bool add(const mrpt::obs::CObservation& observation) = 0;
+  /// Motion from `begin` to `end` (begin <= end), none if the span is not covered.
+  /// Additive: cov(a, c) = cov(a, b) transported + cov(b, c), so that a span may be split without gain or loss.
+  virtual std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const = 0;
+  /// Until when it can answer; none before it has data.
+  virtual std::optional<base::Stamp> coveredUntil() const = 0;
+  /// A fallback is asked only for a span that no other source covers, and never holds up the queue.
+  virtual bool isFallback() const { return false; }
+  /// Spans before `stamp` will not be asked for any more.
+  virtual void forgetBefore(base::Stamp /*stamp*/) {}
+};
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <omnimapper/graph/Graph.h>
+#include <omnimapper/map/Map.h>
+#include <omnimapper/mapper/DecisionLog.h>
+#include <omnimapper/mapper/StageTimes.h>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// What the engine counted of what it was given.
+struct RunCounts {
+  std::size_t observations = 0;       ///< handed to the engine
+  std::size_t unwanted = 0;           ///< no plugin or extractor takes them
+  std::size_t not_triggered = 0;      ///< taken, but the trigger gave them no pose of their own
+  std::size_t no_stamp = 0;           ///< refused: zero stamp
+  std::size_t repeated_stamp = 0;     ///< refused: the same sensor and stamp a second time
+  std::size_t too_late = 0;           ///< refused: older than what was already released
+  std::size_t not_finite = 0;         ///< refused: NaN or infinite where a pose is built from them
+  std::size_t empty = 0;              ///< scans or clouds without one valid point
+  std::size_t solves = 0;
+};
+
+/// One solve of the graph, for the curves of the report.
+struct SolveRecord {
+  std::size_t key_frames = 0;
+  std::size_t factors = 0;
+  double initial_cost = 0, final_cost = 0;
+  int iterations = 0;
+};
+
+/// Everything there is to see, const. Valid during the call it is given to.
+struct View {
+  const map::Map& map;
+  const graph::Graph& graph;
+  const DecisionLog& decisions;
+  const StageTimes& times;
+  const RunCounts& counts;
+  const std::vector<SolveRecord>& solves;
+};
+
+}  // namespace omnimapper::mapper
