@@ -30,7 +30,7 @@ enum class PluginKind { pose, measurement, output, extractor };
 /// An MRPT run-time class that stands for a plugin class and makes it: it has no state and exists without options.
 /// Derive from one of the four below; a plugin library registers its factories when it is loaded.
 class PluginFactory : public mrpt::rtti::CObject {
-  DEFINE_VIRTUAL_MRPT_OBJECT(PluginFactory, omnimapper::mapper)
+  DEFINE_VIRTUAL_MRPT_OBJECT(PluginFactory)
  public:
   virtual PluginKind kind() const = 0;
   /// What an INI writes after "class =".
@@ -42,14 +42,14 @@ class PluginFactory : public mrpt::rtti::CObject {
 
 /// make() reads the options from `section` and throws base::Error if they do not fit.
 class PosePluginFactory : public PluginFactory {
-  DEFINE_VIRTUAL_MRPT_OBJECT(PosePluginFactory, omnimapper::mapper)
+  DEFINE_VIRTUAL_MRPT_OBJECT(PosePluginFactory)
  public:
   PluginKind kind() const final { return PluginKind::pose; }
   virtual std::unique_ptr<PosePlugin> make(const base::ConfigSection& section, const PluginContext& context) const = 0;
 };
 
 class MeasurementPluginFactory : public PluginFactory {
-  DEFINE_VIRTUAL_MRPT_OBJECT(MeasurementPluginFactory, omnimapper::mapper)
+  DEFINE_VIRTUAL_MRPT_OBJECT(MeasurementPluginFactory)
  public:
   PluginKind kind() const final { return PluginKind::measurement; }
   virtual std::unique_ptr<MeasurementPlugin> make(const base::ConfigSection& section,
@@ -57,7 +57,7 @@ class MeasurementPluginFactory : public PluginFactory {
 };
 
 class OutputPluginFactory : public PluginFactory {
-  DEFINE_VIRTUAL_MRPT_OBJECT(OutputPluginFactory, omnimapper::mapper)
+  DEFINE_VIRTUAL_MRPT_OBJECT(OutputPluginFactory)
  public:
   PluginKind kind() const final { return PluginKind::output; }
   virtual std::unique_ptr<OutputPlugin> make(const base::ConfigSection& section,
@@ -65,7 +65,7 @@ class OutputPluginFactory : public PluginFactory {
 };
 
 class ExtractorFactory : public PluginFactory {
-  DEFINE_VIRTUAL_MRPT_OBJECT(ExtractorFactory, omnimapper::mapper)
+  DEFINE_VIRTUAL_MRPT_OBJECT(ExtractorFactory)
  public:
   PluginKind kind() const final { return PluginKind::extractor; }
   virtual std::unique_ptr<Extractor> make(const base::ConfigSection& section, const PluginContext& context) const = 0;

@@ -41,6 +41,8 @@ struct View {
   const StageTimes& times;
   const RunCounts& counts;
   const std::vector<SolveRecord>& solves;
+  /// What a user should know of this run: damaged input, interruption, observations left out.
+  const std::vector<std::string>& warnings;
 };
 
 }  // namespace omnimapper::mapper
