@@ -1,0 +1,22 @@
+#include <mrpt/core/initializer.h>
+#include <omnimapper/obs/CObservationRelativeMotion.h>
+#include <omnimapper/obs/registerClasses.h>
+
+namespace omnimapper::obs {
+
+const std::vector<const mrpt::rtti::TRuntimeClassId*>& allClasses() {
+  static const std::vector<const mrpt::rtti::TRuntimeClassId*> classes = {
+      CLASS_ID(CObservationRelativeMotion),
+  };
+  return classes;
+}
+
+void registerClasses() {
+  for (const auto* id : allClasses()) mrpt::rtti::registerClass(id);
+}
+
+}  // namespace omnimapper::obs
+
+MRPT_INITIALIZER(registerOmnimapperObservations) {
+  omnimapper::obs::registerClasses();
+}
