@@ -1,0 +1,56 @@
+# Counts what ran: test cases of GoogleTest binaries, and each other ctest test as one. Sourced, never run.
+# shellcheck shell=bash
+
+# Lines "state<TAB>case<TAB>message" of GoogleTest's XML files; state is passed, failed or skipped.
+list_cases() {
+  awk '
+    function attribute(name,   rest) {
+      if (!match($0, " " name "=\"[^\"]*\"")) return ""
+      rest = substr($0, RSTART + length(name) + 3, RLENGTH - length(name) - 4)
+      gsub(/&#x0A;/, " ", rest); gsub(/&quot;/, "\"", rest); gsub(/&apos;/, "\047", rest)
+      gsub(/&lt;/, "<", rest); gsub(/&gt;/, ">", rest); gsub(/&amp;/, "\\&", rest)
+      return rest
+    }
+    function flush_case() { if (state != "") print state "\t" test "\t" message; state = "" }
+    /<testcase / {
+      flush_case()
+      test = attribute("classname") "." attribute("name"); message = ""
+      result = attribute("result")
+      state = result == "skipped" ? "skipped" : (result == "completed" ? "passed" : "")
+    }
+    /<failure / { state = "failed"; message = attribute("message") }
+    /<skipped / { message = attribute("message"); sub(/^[^ ]*:[0-9]+ /, "", message) }
+    /<\/testsuites>/ { flush_case() }
+  ' "$@"
+}
+
+# The same lines from ctest's own JUnit file, one for each of its tests.
+list_ctest_tests() {
+  awk '
+    /<testcase / {
+      match($0, /name="[^"]*"/); name = substr($0, RSTART + 6, RLENGTH - 7)
+      match($0, /status="[^"]*"/); status = substr($0, RSTART + 8, RLENGTH - 9)
+      print (status == "run" ? "passed" : (status == "fail" ? "failed" : "skipped")) "\t" name "\t" status
+    }
+  ' "$1"
+}
+
+# collect_results FOLDER: every case of the run whose files are in FOLDER (ctest.xml, test-NAME.xml).
+# A binary that ended badly without a failed case (crash, sanitizer report) adds a failed case of its own.
+collect_results() {
+  local folder=$1 state name cases
+  list_ctest_tests "$folder/ctest.xml" | while IFS=$'\t' read -r state name _; do
+    cases=""
+    [ ! -e "$folder/test-$name.xml" ] || cases=$(list_cases "$folder/test-$name.xml")
+    if [ -z "$cases" ]; then
+      printf '%s\t%s\t\n' "$state" "$name"
+    else
+      printf '%s\n' "$cases"
+      if [ "$state" = failed ] && ! grep -q '^failed' <<<"$cases"; then
+        printf 'failed\t%s\tended badly after its last case\n' "$name"
+      fi
+    fi
+  done
+}
+
+count_state() { awk -F '\t' -v state="$1" '$1 == state { ++n } END { print n + 0 }' "$2"; }
