@@ -3,7 +3,6 @@
 # shellcheck shell=bash
 
 project_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-# shellcheck disable=SC2034  # read by the scripts that source this file
 readonly project_root
 
 say() { printf '\n== %s\n' "$*"; }

@@ -2,12 +2,9 @@
 # shellcheck shell=bash
 
 # Address and undefined behaviour: the libraries from the bottom up to the engine.
-# shellcheck disable=SC2034  # read by scripts/test
 readonly address_tests=(base geometry obs source perception matching graph map mapper)
 # Threads: what shares data between them.
-# shellcheck disable=SC2034
 readonly thread_tests=(mapper)
-# shellcheck disable=SC2034
 readonly thread_filter='*Queue*:*Pool*:*Engine*'
 
 # Those of the named tests that exist.
