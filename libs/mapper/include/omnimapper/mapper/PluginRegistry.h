@@ -1,0 +1,49 @@
+#pragma once
+
+#include <omnimapper/mapper/PluginFactory.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// Registers the four abstract factories with MRPT's run-time classes; call before registering any factory.
+void registerFactoryBases();
+
+/// Every factory that is registered with MRPT by now, by kind, then name.
+std::vector<std::shared_ptr<const PluginFactory>> registeredFactories();
+
+/// The factory an INI means by `class = name`. Throws Error(unknown_plugin) naming the nearest known class.
+std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::string& name, const std::string& place);
+
+/// Loads a shared library that registers factories (mrpt::system::loadPluginModule). Throws Error(plugin_library).
+void loadPluginLibrary(const std::string& path);
+
+/// A plugin with the name of its INI section, the owner of its factors and decisions.
+template <class Plugin>
+struct Named {
+  std::string section;
+  std::unique_ptr<Plugin> plugin;
+};
+
+/// The plugins of one run, in the order the INI lists them.
+struct PluginSet {
+  std::vector<Named<PosePlugin>> pose;
+  std::vector<Named<Extractor>> extractors;
+  std::vector<Named<MeasurementPlugin>> measurement;
+  std::vector<Named<OutputPlugin>> output;
+};
+
+/// Sections of plugins, as [mapper] and [perception] of an INI list them.
+struct PluginSections {
+  std::vector<std::string> pose, extractors, measurement, output;
+};
+
+/// Makes every plugin from its section. Throws base::Error as findFactory() and the factories do.
+PluginSet makePlugins(const PluginSections& sections, const base::Config& config, PluginContext context);
+
+/// "pose plugin" and so on, for messages.
+std::string toString(PluginKind kind);
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/base/Stamp.h>
+#include <omnimapper/mapper/RelativeMotion.h>
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace omnimapper::mapper {
+
+struct TriggerOptions {
+  bool every_observation = false;
+  double distance = 0.4;                                         ///< [m]
+  double angle = 20.0 * base::option_text::kRadiansPerDegree;    ///< [rad]
+  double period = 0;                                             ///< [s]; 0: time alone never triggers
+  double period_without_odometry = 0.2;                          ///< [s]
+
+  static const base::OptionTable<TriggerOptions>& table();
+};
+
+/// Decides which observations earn a pose of their own, from stamp and odometry alone (thesis 5.3.2.1): never from the
+/// estimate, so that the decision does not depend on what was matched. Each sensor label has its own state.
+class Trigger {
+ public:
+  explicit Trigger(const TriggerOptions& options) : options_(options) {}
+
+  /// Motion since the label's last triggered observation by the continuous sources; none if they do not cover it.
+  using MotionSince = std::function<std::optional<RelativeMotion>(base::Stamp begin, base::Stamp end)>;
+
+  /// Whether the observation of that label and stamp gets a pose. The first of a label does. Call in order of stamp.
+  bool fires(const std::string& label, base::Stamp stamp, const MotionSince& motion);
+
+ private:
+  TriggerOptions options_;
+  std::map<std::string, base::Stamp> last_;
+};
+
+}  // namespace omnimapper::mapper

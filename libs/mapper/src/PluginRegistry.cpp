@@ -1,0 +1,101 @@
+#include <mrpt/rtti/CObject.h>
+#include <mrpt/system/os.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <tuple>
+
+namespace omnimapper::mapper {
+
+void registerFactoryBases() {
+  mrpt::rtti::registerClass(CLASS_ID(PluginFactory));
+  mrpt::rtti::registerClass(CLASS_ID(PosePluginFactory));
+  mrpt::rtti::registerClass(CLASS_ID(MeasurementPluginFactory));
+  mrpt::rtti::registerClass(CLASS_ID(OutputPluginFactory));
+  mrpt::rtti::registerClass(CLASS_ID(ExtractorFactory));
+}
+
+std::string toString(PluginKind kind) {
+  switch (kind) {
+    case PluginKind::pose:
+      return "pose plugin";
+    case PluginKind::measurement:
+      return "measurement plugin";
+    case PluginKind::output:
+      return "output plugin";
+    case PluginKind::extractor:
+      return "extractor";
+  }
+  return "";
+}
+
+std::vector<std::shared_ptr<const PluginFactory>> registeredFactories() {
+  mrpt::rtti::registerAllPendingClasses();
+  std::vector<std::shared_ptr<const PluginFactory>> factories;
+  for (const auto* id : mrpt::rtti::getAllRegisteredClassesChildrenOf(CLASS_ID(PluginFactory))) {
+    if (id->ptrCreateObject == nullptr) continue;  // an abstract one
+    if (auto factory = std::dynamic_pointer_cast<const PluginFactory>(id->createObject())) factories.push_back(factory);
+  }
+  std::sort(factories.begin(), factories.end(), [](const auto& a, const auto& b) {
+    return std::make_tuple(a->kind(), a->name()) < std::make_tuple(b->kind(), b->name());
+  });
+  return factories;
+}
+
+std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::string& name, const std::string& place) {
+  std::vector<std::string> known;
+  for (const auto& factory : registeredFactories()) {
+    if (factory->kind() != kind) continue;
+    if (factory->name() == name) return factory;
+    known.push_back(factory->name());
+  }
+  const std::string near = base::nearestName(name, known);
+  throw base::Error(base::ExitCode::unknown_plugin,
+                    place + ": no " + toString(kind) + " is called '" + name + "'" +
+                        (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                        " (known: " + base::option_text::format(known) +
+                        "; others come from [mapper] plugin_libraries)");
+}
+
+void loadPluginLibrary(const std::string& path) {
+  std::string problem;
+  if (!mrpt::system::loadPluginModule(path, problem)) {
+    throw base::Error(base::ExitCode::plugin_library,
+                      "[mapper] plugin_libraries: cannot load '" + path + "' (" + problem +
+                          "); give its full path, or a name that the system's loader finds");
+  }
+}
+
+namespace {
+
+template <class Factory, class Plugin>
+void makeAll(const std::vector<std::string>& names, PluginKind kind, const base::Config& config, PluginContext context,
+             std::vector<Named<Plugin>>& plugins) {
+  for (const auto& name : names) {
+    const std::string place = config.file() + ": [" + name + "]";
+    const auto section = config.section(name);
+    std::string class_name;
+    if (!section.find("class", class_name)) {
+      throw base::Error(base::ExitCode::unknown_plugin,
+                        place + ": the section of a " + toString(kind) + " needs a line 'class = ...'" +
+                            (config.has(name) ? "" : "; the file has no such section"));
+    }
+    const auto factory = findFactory(kind, class_name, place + " class");
+    context.section = name;
+    plugins.push_back({name, dynamic_cast<const Factory&>(*factory).make(section, context)});
+  }
+}
+
+}  // namespace
+
+PluginSet makePlugins(const PluginSections& sections, const base::Config& config, PluginContext context) {
+  PluginSet set;
+  makeAll<PosePluginFactory>(sections.pose, PluginKind::pose, config, context, set.pose);
+  makeAll<ExtractorFactory>(sections.extractors, PluginKind::extractor, config, context, set.extractors);
+  makeAll<MeasurementPluginFactory>(sections.measurement, PluginKind::measurement, config, context, set.measurement);
+  makeAll<OutputPluginFactory>(sections.output, PluginKind::output, config, context, set.output);
+  return set;
+}
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,71 @@
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/Se3.h>
+#include <omnimapper/mapper/PoseTimeline.h>
+
+#include <algorithm>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+using geometry::Se3;
+
+// The pose after the share `f` of an even motion.
+Se3 share(const Se3& motion, double f) {
+  if (f <= 0) return Se3();
+  if (f >= 1) return motion;
+  return Se3().plus(f * motion.minus(Se3()));
+}
+
+// The part of a span's motion between two shares of its time.
+RelativeMotion part(const RelativeMotion& motion, double from, double to) {
+  if (from <= 0 && to >= 1) return motion;
+  const Se3 whole = geometry::toSe3(motion.begin_from_end);
+  const Se3 piece = share(whole, from).inverse() * share(whole, to);
+  return {geometry::toCPose3D(piece), motion.covariance * (to - from)};
+}
+
+}  // namespace
+
+RelativeMotion identityMotion() { return {mrpt::poses::CPose3D(), Eigen::Matrix<double, 6, 6>::Zero()}; }
+
+RelativeMotion compose(const RelativeMotion& a, const RelativeMotion& b) {
+  const Se3 b_motion = geometry::toSe3(b.begin_from_end);
+  return {a.begin_from_end + b.begin_from_end, geometry::composeCovariance(a.covariance, b_motion, b.covariance)};
+}
+
+bool PoseTimeline::append(base::Stamp begin, base::Stamp end, const RelativeMotion& motion) {
+  const bool finite = motion.begin_from_end.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite() &&
+                      motion.covariance.allFinite();
+  if (end <= begin || !finite || (!spans_.empty() && begin < spans_.back().end)) return false;
+  spans_.push_back({begin, end, motion});
+  return true;
+}
+
+std::optional<RelativeMotion> PoseTimeline::between(base::Stamp begin, base::Stamp end) const {
+  if (spans_.empty() || begin < spans_.front().begin || end > spans_.back().end || end < begin) return std::nullopt;
+  RelativeMotion sum = identityMotion();
+  auto span = std::upper_bound(spans_.begin(), spans_.end(), begin,
+                               [](base::Stamp stamp, const Span& s) { return stamp < s.end; });
+  base::Stamp reached = begin;
+  for (; reached < end; ++span) {
+    if (span == spans_.end() || span->begin > reached) return std::nullopt;
+    const double length = base::secondsBetween(span->begin, span->end);
+    const base::Stamp until = std::min(end, span->end);
+    sum = compose(sum, part(span->motion, base::secondsBetween(span->begin, reached) / length,
+                            until == span->end ? 1.0 : base::secondsBetween(span->begin, until) / length));
+    reached = until;
+  }
+  return sum;
+}
+
+std::optional<base::Stamp> PoseTimeline::end() const {
+  if (spans_.empty()) return std::nullopt;
+  return spans_.back().end;
+}
+
+void PoseTimeline::forgetBefore(base::Stamp stamp) {
+  while (!spans_.empty() && spans_.front().end <= stamp) spans_.pop_front();
+}
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,85 @@
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/Se3.h>
+#include <omnimapper/mapper/SensorPoses.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+// base_from_sensor over time, from lines "stamp x y z qx qy qz qw".
+std::map<base::Stamp, mrpt::poses::CPose3D> readTrack(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw base::Error(base::ExitCode::unreadable_input, path + ": cannot read this file of sensor poses");
+  std::map<base::Stamp, mrpt::poses::CPose3D> track;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream fields(line);
+    std::string stamp;
+    geometry::Se3 pose;
+    double qx, qy, qz, qw;
+    if (!(fields >> stamp >> pose.translation.x() >> pose.translation.y() >> pose.translation.z() >> qx >> qy >> qz >>
+          qw)) {
+      throw base::Error(base::ExitCode::unreadable_input,
+                        path + ":" + std::to_string(number) + ": expected 'stamp x y z qx qy qz qw'");
+    }
+    pose.rotation = Eigen::Quaterniond(qw, qx, qy, qz).normalized();
+    track[base::parseUnix(stamp)] = geometry::toCPose3D(pose);
+  }
+  if (track.empty()) throw base::Error(base::ExitCode::unreadable_input, path + ": holds no sensor pose");
+  return track;
+}
+
+}  // namespace
+
+const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
+  using Options = SensorPoseOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("label", &Options::label, "Sensor label of the observations this is about.")
+          .number("pose_x_m", &Options::x, {}, "Sensor on the base: forward.")
+          .number("pose_y_m", &Options::y, {}, "Sensor on the base: left.")
+          .number("pose_z_m", &Options::z, {}, "Sensor on the base: up.")
+          .number("pose_yaw_deg", &Options::yaw, {}, "Sensor on the base: turn about z.")
+          .number("pose_pitch_deg", &Options::pitch, {}, "Sensor on the base: turn about y.")
+          .number("pose_roll_deg", &Options::roll, {}, "Sensor on the base: turn about x; 180 for upside down.")
+          .text("pose_file", &Options::file, "TUM file of base_from_sensor for a sensor that moves on the base.");
+  return table;
+}
+
+SensorPoses::SensorPoses(const std::vector<std::string>& sections, const base::Config& config) {
+  for (const auto& name : sections) {
+    const auto options = config.section(name).read<SensorPoseOptions>();
+    tracks_[options.label] =
+        options.file.empty()
+            ? Track{{base::Stamp(), mrpt::poses::CPose3D(options.x, options.y, options.z, options.yaw, options.pitch,
+                                                         options.roll)}}
+            : readTrack(options.file);
+  }
+}
+
+std::optional<mrpt::poses::CPose3D> SensorPoses::find(const std::string& label, base::Stamp stamp) const {
+  const auto found = tracks_.find(label);
+  if (found == tracks_.end()) return std::nullopt;
+  const Track& track = found->second;
+  const auto after = track.lower_bound(stamp);
+  if (after == track.begin()) return after->second;
+  const auto before = std::prev(after);
+  if (after == track.end()) return before->second;
+  const double f = base::secondsBetween(before->first, stamp) / base::secondsBetween(before->first, after->first);
+  const auto from = geometry::toSe3(before->second), to = geometry::toSe3(after->second);
+  return geometry::toCPose3D(from.plus(f * to.minus(from)));
+}
+
+mrpt::obs::CObservation::Ptr SensorPoses::applied(const mrpt::obs::CObservation::Ptr& observation) const {
+  const auto pose = find(observation->sensorLabel, observation->timestamp);
+  if (!pose) return observation;
+  auto copy = std::dynamic_pointer_cast<mrpt::obs::CObservation>(observation->duplicateGetSmartPtr());
+  copy->setSensorPose(*pose);
+  return copy;
+}
+
+}  // namespace omnimapper::mapper

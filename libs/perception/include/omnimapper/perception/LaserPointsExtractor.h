@@ -1,0 +1,30 @@
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <omnimapper/base/OptionTable.h>
+
+namespace omnimapper::perception {
+
+struct LaserPointsOptions {
+  double min_range = 0.1;         ///< [m]
+  double max_range = 40.0;        ///< [m]; the sensor's own limit applies too
+  double spacing = 0.05;          ///< [m] between kept points along the scan; 0 keeps all
+  double isolated_distance = 0.5; ///< [m]; a point this far from both its neighbours is a mixed pixel; 0 keeps all
+
+  static const base::OptionTable<LaserPointsOptions>& table();
+};
+
+/// The valid beams of a 2D scan as points, evenly spaced along the walls: near walls would otherwise outweigh far ones.
+class LaserPointsExtractor {
+ public:
+  explicit LaserPointsExtractor(const LaserPointsOptions& options) : options_(options) {}
+
+  /// A CObservationPointCloud with the scan's stamp and sensorPose, points in the sensor frame [m], label
+  /// "<scan label>.points". Beams that are invalid, not finite or out of range give no point. Thread-safe.
+  mrpt::obs::CObservation::Ptr extract(const mrpt::obs::CObservation2DRangeScan& scan) const;
+
+ private:
+  LaserPointsOptions options_;
+};
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,87 @@
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/perception/LaserPointsExtractor.h>
+
+#include <cmath>
+#include <vector>
+
+namespace omnimapper::perception {
+
+namespace {
+
+struct Point {
+  float x, y;
+};
+
+float distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+std::vector<Point> validPoints(const mrpt::obs::CObservation2DRangeScan& scan, double min_range, double max_range) {
+  std::vector<Point> points;
+  const std::size_t beams = scan.getScanSize();
+  points.reserve(beams);
+  const double step = beams > 1 ? scan.aperture / static_cast<double>(beams - 1) : 0.0;
+  const double sign = scan.rightToLeft ? 1.0 : -1.0;
+  const double first = beams > 1 ? -0.5 * scan.aperture * sign : 0.0;
+  for (std::size_t i = 0; i < beams; ++i) {
+    const double range = scan.getScanRange(i);
+    if (!scan.getScanRangeValidity(i) || !std::isfinite(range) || range < min_range || range > max_range) continue;
+    const double angle = first + sign * step * static_cast<double>(i);
+    points.push_back({static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle))});
+  }
+  return points;
+}
+
+std::vector<Point> withoutIsolated(const std::vector<Point>& points, double isolated_distance) {
+  if (isolated_distance <= 0) return points;
+  std::vector<Point> kept;
+  kept.reserve(points.size());
+  const auto limit = static_cast<float>(isolated_distance);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool near_before = i > 0 && distance(points[i], points[i - 1]) < limit;
+    const bool near_after = i + 1 < points.size() && distance(points[i], points[i + 1]) < limit;
+    if (near_before || near_after) kept.push_back(points[i]);
+  }
+  // Far walls seen at coarse angular steps are not mixed pixels: if most would go, the scan is of that kind.
+  return 2 * kept.size() >= points.size() ? kept : points;
+}
+
+std::vector<Point> spaced(const std::vector<Point>& points, double spacing) {
+  if (spacing <= 0) return points;
+  std::vector<Point> kept;
+  for (const auto& point : points) {
+    if (kept.empty() || distance(point, kept.back()) >= static_cast<float>(spacing)) kept.push_back(point);
+  }
+  return kept;
+}
+
+}  // namespace
+
+const base::OptionTable<LaserPointsOptions>& LaserPointsOptions::table() {
+  using Options = LaserPointsOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("min_range_m", &Options::min_range, base::Range::notNegative(), "Nearer readings are dropped.")
+          .number("max_range_m", &Options::max_range, base::Range::positive(), "Farther readings are dropped.")
+          .number("spacing_m", &Options::spacing, base::Range::notNegative(),
+                  "Least distance between kept points along the scan; 0 keeps all.")
+          .number("isolated_distance_m", &Options::isolated_distance, base::Range::notNegative(),
+                  "A point this far from both neighbours is dropped as a mixed pixel; 0 keeps all.");
+  return table;
+}
+
+mrpt::obs::CObservation::Ptr LaserPointsExtractor::extract(const mrpt::obs::CObservation2DRangeScan& scan) const {
+  const double max_range = std::min<double>(options_.max_range, scan.maxRange);
+  const auto points = spaced(
+      withoutIsolated(validPoints(scan, options_.min_range, max_range), options_.isolated_distance), options_.spacing);
+  auto cloud = mrpt::maps::CSimplePointsMap::Create();
+  cloud->reserve(points.size());
+  for (const auto& point : points) cloud->insertPointFast(point.x, point.y, 0);
+  auto derived = mrpt::obs::CObservationPointCloud::Create();
+  derived->pointcloud = cloud;
+  derived->sensorPose = scan.sensorPose;
+  derived->timestamp = scan.timestamp;
+  derived->sensorLabel = scan.sensorLabel + ".points";
+  return derived;
+}
+
+}  // namespace omnimapper::perception
