@@ -15,6 +15,11 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
+std::string lowerCase(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 // A comment starts with ';', '#' or "//" at the start of a line or after a blank.
 std::string withoutComment(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -24,21 +29,26 @@ std::string withoutComment(const std::string& text) {
   return trimmed(text);
 }
 
-// The INI reduced to "[section]" and "key = value" lines. MRPT's reader keeps the last of two equal keys in silence
-// and takes a line without '=' for nothing: both are refused here, with their line.
+// The INI reduced to "[section]" and "key = value", each still on its line. MRPT's reader keeps the last of two equal
+// keys in silence and takes a line without '=' for nothing: both are refused here, with their line.
 std::string checkedText(const std::string& text, const std::string& file) {
-  std::istringstream in(text);
+  const bool has_byte_order_mark = text.compare(0, 3, "\xEF\xBB\xBF") == 0;
+  std::istringstream in(has_byte_order_mark ? text.substr(3) : text);
   std::ostringstream out;
   std::set<std::string> seen_sections, seen_keys;
   std::string line, section;
   for (int number = 1; std::getline(in, line); ++number) {
     const std::string at = file + ":" + std::to_string(number) + ": ";
     const std::string body = withoutComment(line);
-    if (body.empty()) continue;
+    if (body.empty()) {
+      out << "\n";
+      continue;
+    }
     if (body.front() == '[') {
-      if (body.back() != ']') throw Error(ExitCode::unknown_key, at + "a section is written [name], found '" + body + "'");
+      if (body.back() != ']')
+        throw Error(ExitCode::unknown_key, at + "a section is written [name], found '" + body + "'");
       section = trimmed(body.substr(1, body.size() - 2));
-      if (!seen_sections.insert(section).second) {
+      if (!seen_sections.insert(lowerCase(section)).second) {  // MRPT's reader tells no case apart
         throw Error(ExitCode::unknown_key, at + "section [" + section + "] stands twice; join the two");
       }
       seen_keys.clear();
@@ -46,10 +56,10 @@ std::string checkedText(const std::string& text, const std::string& file) {
       continue;
     }
     const auto equals = body.find('=');
-    if (equals == std::string::npos || section.empty()) {
+    const std::string key = trimmed(body.substr(0, equals));
+    if (equals == std::string::npos || key.empty() || section.empty()) {
       throw Error(ExitCode::unknown_key, at + "expected 'key = value' inside a [section], found '" + body + "'");
     }
-    const std::string key = trimmed(body.substr(0, equals));
     if (!seen_keys.insert(key).second) {
       throw Error(ExitCode::unknown_key, at + "key '" + key + "' stands twice in [" + section + "]; remove one");
     }
@@ -65,7 +75,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
     std::size_t diagonal = row[0];
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (std::tolower(a[i - 1]) == std::tolower(b[j - 1]) ? 0 : 1);
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
       diagonal = row[j];
       row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
     }
@@ -85,7 +95,7 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 2) + 1;
   for (const auto& candidate : candidates) {
-    const std::size_t distance = editDistance(name, candidate);
+    const std::size_t distance = editDistance(lowerCase(name), lowerCase(candidate));
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;
@@ -96,32 +106,42 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
 
 Config Config::fromFile(const std::string& path) {
   std::ifstream in(path);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) {
+  std::string text, line;
+  while (std::getline(in, line)) text += line + "\n";
+  if (!in.is_open() || in.bad()) {
     throw Error(ExitCode::unreadable_input, path + ": cannot read this INI file; is the path right?");
   }
-  return fromText(text.str(), path);
+  return fromText(text, path);
 }
 
 Config Config::fromText(const std::string& text, const std::string& name_for_messages) {
   Config config;
   config.file_ = name_for_messages;
-  config.ini_.setContent(checkedText(text, name_for_messages));
+  const std::string checked = checkedText(text, name_for_messages);
+  try {
+    config.ini_.setContent(checked);
+  } catch (const std::exception& error) {  // MRPT expands ${name}, $env{NAME} and $eval{expression} in values
+    throw Error(ExitCode::wrong_type, name_for_messages + ": " + error.what());
+  }
   return config;
 }
 
 void Config::set(const std::string& assignment) {
   const auto equals = assignment.find('=');
   const auto dot = assignment.find('.');
-  if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals) {
+  const bool has_parts = equals != std::string::npos && dot < equals;
+  const std::string section = has_parts ? trimmed(assignment.substr(0, dot)) : "";
+  const std::string key = has_parts ? trimmed(assignment.substr(dot + 1, equals - dot - 1)) : "";
+  if (section.empty() || key.empty()) {
     throw Error(ExitCode::command_line,
                 "--set " + assignment + ": expected section.key=value, such as --set mapper.window_s=2");
   }
-  ini_.write(trimmed(assignment.substr(0, dot)), trimmed(assignment.substr(dot + 1, equals - dot - 1)),
-             trimmed(assignment.substr(equals + 1)));
+  ini_.write(section, key, trimmed(assignment.substr(equals + 1)));
 }
 
-bool Config::has(const std::string& section) const { return ini_.sectionExists(section); }
+bool Config::has(const std::string& section) const {
+  return ini_.sectionExists(section);
+}
 
 ConfigSection Config::section(const std::string& name) const {
   asked_.insert(name);

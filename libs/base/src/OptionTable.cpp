@@ -13,7 +13,8 @@ bool endsWith(const std::string& text, const std::string& end) {
 
 template <class Number>
 bool parseWhole(const std::string& text, Number& value) {
-  const char* begin = text.data() + (!text.empty() && text[0] == '+' ? 1 : 0);
+  const bool skips_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  const char* begin = text.data() + (skips_plus ? 1 : 0);
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(begin, end, value);
   return result.ec == std::errc() && result.ptr == end && begin != end;
@@ -33,7 +34,9 @@ std::unique_ptr<BadValue> parseBounded(const std::string& text, const Range& ran
 }
 }  // namespace
 
-bool isAngleInDegrees(const std::string& key) { return endsWith(key, "_deg"); }
+bool isAngleInDegrees(const std::string& key) {
+  return endsWith(key, "_deg");
+}
 
 std::string format(double value) {
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";

@@ -1,6 +1,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Stamp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -11,11 +12,17 @@ constexpr std::int64_t kTicksPerSecond = 10'000'000;
 // MRPT counts from 1601 (see its Clock): 116444736 * 10^9 ticks before 1970.
 constexpr std::int64_t kUnixEpochTicks = 116'444'736 * std::int64_t{1'000'000'000};
 
-std::int64_t ticksSinceUnixEpoch(Stamp stamp) { return stamp.time_since_epoch().count() - kUnixEpochTicks; }
-Stamp fromTicks(std::int64_t ticks) { return Stamp(Duration(ticks + kUnixEpochTicks)); }
+std::int64_t ticksSinceUnixEpoch(Stamp stamp) {
+  return stamp.time_since_epoch().count() - kUnixEpochTicks;
+}
+Stamp fromTicks(std::int64_t ticks) {
+  return Stamp(Duration(ticks + kUnixEpochTicks));
+}
 }  // namespace
 
-bool isValid(Stamp stamp) { return stamp != Stamp() && ticksSinceUnixEpoch(stamp) > 0; }
+bool isValid(Stamp stamp) {
+  return stamp != Stamp() && ticksSinceUnixEpoch(stamp) > 0;
+}
 
 Stamp stampFromUnix(double seconds) {
   // Whole seconds apart from the fraction, so that the product stays exact.
@@ -49,29 +56,22 @@ std::string formatUnix(Stamp stamp, int decimals) {
 }
 
 Stamp parseUnix(const std::string& text) {
-  std::size_t i = 0;
-  const bool negative = !text.empty() && text[0] == '-';
-  if (negative) ++i;
-  std::int64_t ticks = 0, digits = 0, decimals = -1;
-  for (; i < text.size(); ++i) {
-    if (text[i] == '.' && decimals < 0) {
-      decimals = 0;
-    } else if (text[i] >= '0' && text[i] <= '9' && digits < 18) {
-      ++digits;
-      if (decimals >= 7) {  // beyond the tick: the first such digit rounds
-        if (decimals == 7 && text[i] >= '5') ++ticks;
-        ++decimals;
-        continue;
-      }
-      ticks = ticks * 10 + (text[i] - '0');
-      if (decimals >= 0) ++decimals;
-    } else {
-      throw Error(ExitCode::unreadable_input, "'" + text + "' is not a time in seconds, such as 1137834225.973760");
-    }
-  }
-  if (digits == 0) throw Error(ExitCode::unreadable_input, "'" + text + "' is not a time in seconds");
-  for (std::int64_t d = decimals < 0 ? 0 : decimals; d < 7; ++d) ticks *= 10;
-  return fromTicks(negative ? -ticks : ticks);
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ExitCode::unreadable_input, "'" + text + "' is not a time in seconds, such as 1137834225.973760" + why);
+  };
+  const std::size_t begin = text.rfind('-', 0) == 0 ? 1 : 0;
+  const std::size_t point = std::min(text.find('.'), text.size());
+  const std::string whole = text.substr(begin, point - begin);
+  const std::string fraction = point < text.size() ? text.substr(point + 1) : "";
+  if (whole.empty() && fraction.empty()) refuse("");
+  if ((whole + fraction).find_first_not_of("0123456789") != std::string::npos) refuse("");
+  if (whole.size() > 11) refuse(": it lies beyond the year 5000");
+
+  std::int64_t ticks = 0;
+  for (const char digit : whole) ticks = ticks * 10 + (digit - '0');
+  for (std::size_t i = 0; i < 7; ++i) ticks = ticks * 10 + (i < fraction.size() ? fraction[i] - '0' : 0);
+  if (fraction.size() > 7 && fraction[7] >= '5') ++ticks;  // beyond the tick: rounded
+  return fromTicks(begin == 1 ? -ticks : ticks);
 }
 
 Duration durationFromSeconds(double seconds) {
@@ -82,6 +82,8 @@ double toSeconds(Duration duration) {
   return static_cast<double>(duration.count()) / static_cast<double>(kTicksPerSecond);
 }
 
-double secondsBetween(Stamp from, Stamp to) { return toSeconds(to - from); }
+double secondsBetween(Stamp from, Stamp to) {
+  return toSeconds(to - from);
+}
 
 }  // namespace omnimapper::base

@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Config.h>
+#include <omnimapper/testing/Fixtures.h>
+
+#include <cmath>
+
+namespace omnimapper::base {
+namespace {
+
+struct TriggerOptions {
+  double distance = 0.5;
+  double angle = 0.5;
+  int every = 1;
+  std::string label;
+
+  static const OptionTable<TriggerOptions>& table() {
+    static const auto table = OptionTable<TriggerOptions>()
+                                  .number("distance_m", &TriggerOptions::distance, Range::positive(), "Way.")
+                                  .number("angle_deg", &TriggerOptions::angle, {0, 180}, "Turn.")
+                                  .integer("every", &TriggerOptions::every, {1, 10}, "Every n-th.")
+                                  .text("label", &TriggerOptions::label, "Sensor.");
+    return table;
+  }
+};
+
+Config parsed(const std::string& text) {
+  return Config::fromText(text, "test.ini");
+}
+TriggerOptions trigger(const std::string& text) {
+  return parsed(text).section("trigger").read<TriggerOptions>();
+}
+
+// Runs `act` and checks code of the error and that its message holds every one of `words`.
+void expectError(const std::function<void()>& act, ExitCode code, const std::vector<std::string>& words) {
+  try {
+    act();
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(static_cast<int>(error.code()), static_cast<int>(code)) << error.what();
+    for (const auto& word : words) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << "'" << word << "' not in: " << error.what();
+    }
+  }
+}
+
+TEST(Config, ReadsValuesAndKeepsDefaultsOfKeysThatAreNotThere) {
+  const auto options = trigger("[trigger]\ndistance_m = 1.5\nangle_deg=180\nlabel = front laser \n");
+  EXPECT_EQ(options.distance, 1.5);
+  EXPECT_DOUBLE_EQ(options.angle, 2 * std::acos(0.0));
+  EXPECT_EQ(options.every, 1);
+  EXPECT_EQ(options.label, "front laser");
+}
+
+TEST(Config, AMissingOrEmptySectionKeepsAllDefaults) {
+  EXPECT_EQ(trigger("").distance, 0.5);
+  EXPECT_EQ(trigger("[trigger]\n").distance, 0.5);
+  EXPECT_EQ(trigger("# nothing but a remark\n").distance, 0.5);
+}
+
+TEST(Config, KnowsWhichSectionsItHas) {
+  const Config config = parsed("[trigger]\n[mapper]\nwindow_s = 2\n");
+  EXPECT_TRUE(config.has("mapper"));
+  EXPECT_TRUE(config.has("trigger"));
+  EXPECT_FALSE(config.has("walls"));
+}
+
+TEST(Config, CommentsStartWithAnyOfThreeSignsAfterABlank) {
+  const auto options = trigger(
+      "; a\n# b\n// c\n[trigger] # the trigger\ndistance_m = 2 // way\nevery = 3 ; scans\n"
+      "label = file://a#b;c\n");
+  EXPECT_EQ(options.distance, 2);
+  EXPECT_EQ(options.every, 3);
+  EXPECT_EQ(options.label, "file://a#b;c");
+}
+
+TEST(Config, SignsInValuesStayAsTheyAre) {
+  for (const std::string value : {"100 % $HOME", "a\\b", "\"quoted\"", "[a] = b"}) {
+    const auto options = trigger("[trigger]\nlabel = " + value + "\nevery = 2\n");
+    EXPECT_EQ(options.label, value);
+    EXPECT_EQ(options.every, 2);
+  }
+}
+
+TEST(Config, MrptsExpansionsWorkAndOnesThatFailAreErrorsWithFileAndLine) {
+  ::setenv("OMNIMAPPER_CONFIG_TEST", "rear", 1);
+  EXPECT_EQ(trigger("[trigger]\nlabel = $env{OMNIMAPPER_CONFIG_TEST}\n").label, "rear");
+  EXPECT_EQ(trigger("[trigger]\ndistance_m = $eval{2*3}\n").distance, 6);
+  expectError([] { trigger("# remark\n\n[trigger]\nlabel = ${NOBODY}\n"); }, ExitCode::wrong_type,
+              {"test.ini", "Line 4", "NOBODY"});
+}
+
+TEST(Config, LinesOfWindowsAndAByteOrderMarkAreRead) {
+  EXPECT_EQ(trigger("\xEF\xBB\xBF[trigger]\r\nevery = 4\r\n").every, 4);
+}
+
+TEST(Config, AnUnknownKeyNamesFileSectionKeyAndTheNearestKnownOne) {
+  expectError([] { trigger("[trigger]\ndistence_m = 1\n"); }, ExitCode::unknown_key,
+              {"test.ini", "[trigger]", "'distence_m'", "'distance_m'"});
+  expectError([] { trigger("[trigger]\nDistance_m = 1\n"); }, ExitCode::unknown_key, {"'distance_m'"});
+  // Nothing is near: all that is known is listed.
+  expectError([] { trigger("[trigger]\nxyzzyq = 1\n"); }, ExitCode::unknown_key,
+              {"'xyzzyq'", "distance_m, angle_deg, every, label"});
+}
+
+TEST(Config, KeysThatSomebodyElseReadsArePassed) {
+  const Config config = parsed("[trigger]\nclass = Trigger\nevery = 2\n");
+  expectError([&] { config.section("trigger").read<TriggerOptions>(); }, ExitCode::unknown_key, {"'class'"});
+  EXPECT_EQ(config.section("trigger").read<TriggerOptions>({"class"}).every, 2);
+}
+
+TEST(Config, AWrongTypeNamesFileSectionKeyValueAndDefault) {
+  expectError([] { trigger("[trigger]\nevery = often\n"); }, ExitCode::wrong_type,
+              {"test.ini", "[trigger]", "every = 'often'", "whole number", "default 1"});
+  expectError([] { trigger("[trigger]\nevery = 2.5\n"); }, ExitCode::wrong_type, {"2.5"});
+  expectError([] { trigger("[trigger]\nevery =\n"); }, ExitCode::wrong_type, {"every = ''"});
+}
+
+TEST(Config, AValueOutOfRangeNamesTheRange) {
+  expectError([] { trigger("[trigger]\nangle_deg = 200\n"); }, ExitCode::out_of_range,
+              {"test.ini", "[trigger]", "angle_deg = '200'", "[0, 180]"});
+  expectError([] { trigger("[trigger]\ndistance_m = -2\n"); }, ExitCode::out_of_range, {"> 0"});
+}
+
+TEST(Config, ADoubledKeyIsRefusedWithItsLine) {
+  expectError([] { parsed("[trigger]\nevery = 1\n\nevery = 2\n"); }, ExitCode::unknown_key,
+              {"test.ini:4:", "'every'", "twice", "[trigger]"});
+  EXPECT_NO_THROW(parsed("[trigger]\nevery = 1\n[other]\nevery = 2\n"));
+}
+
+TEST(Config, ADoubledSectionIsRefusedWithItsLineInWhateverCase) {
+  expectError([] { parsed("[trigger]\n[mapper]\n[trigger]\n"); }, ExitCode::unknown_key,
+              {"test.ini:3:", "[trigger]", "twice"});
+  expectError([] { parsed("[trigger]\nevery = 1\n[Trigger]\nevery = 2\n"); }, ExitCode::unknown_key,
+              {"test.ini:3:", "twice"});
+}
+
+TEST(Config, ALineThatIsNeitherSectionNorKeyIsRefusedWithItsLine) {
+  expectError([] { parsed("[trigger]\nevery 3\n"); }, ExitCode::unknown_key, {"test.ini:2:", "every 3"});
+  expectError([] { parsed("every = 3\n[trigger]\n"); }, ExitCode::unknown_key, {"test.ini:1:"});
+  expectError([] { parsed("[trigger\nevery = 3\n"); }, ExitCode::unknown_key, {"test.ini:1:"});
+  expectError([] { parsed("[trigger]\n = 3\n"); }, ExitCode::unknown_key, {"test.ini:2:"});
+}
+
+TEST(Config, SettingsOfTheCommandLineReplaceAndAdd) {
+  Config config = parsed("[trigger]\nevery = 2\n");
+  config.set("trigger.every=5");
+  config.set("trigger.label = a.b=c");
+  config.set("mapper.window_s=2");
+  const auto options = config.section("trigger").read<TriggerOptions>();
+  EXPECT_EQ(options.every, 5);
+  EXPECT_EQ(options.label, "a.b=c");
+  EXPECT_TRUE(config.has("mapper"));
+  EXPECT_NE(config.text().find("window_s"), std::string::npos);
+}
+
+TEST(Config, SettingsOfTheCommandLineMeetTheSameChecks) {
+  Config config = parsed("[trigger]\n");
+  config.set("trigger.evry=5");
+  expectError([&] { config.section("trigger").read<TriggerOptions>(); }, ExitCode::unknown_key, {"'every'"});
+}
+
+TEST(Config, ASettingOfAnotherFormIsAnErrorOfTheCommandLine) {
+  Config config = parsed("[trigger]\n");
+  for (const char* text : {"", "every=3", "trigger.every", ".every=3", "trigger.=3", "trigger=a.b", "trigger. =3"}) {
+    expectError([&] { config.set(text); }, ExitCode::command_line, {"--set", "section.key=value"});
+  }
+}
+
+TEST(Config, ASectionThatNobodyReadIsRefusedWithTheNearestName) {
+  const Config config = parsed("[trigger]\n[triger2]\nevery = 2\n");
+  config.section("trigger");
+  expectError([&] { config.refuseUnreadSections(); }, ExitCode::unknown_key, {"test.ini", "[triger2]", "'trigger'"});
+  config.section("triger2");
+  EXPECT_NO_THROW(config.refuseUnreadSections());
+}
+
+TEST(Config, DriverSectionsOfRawlogGrabberPass) {
+  const Config config = parsed("[trigger]\n[LASER1]\ndriver = CHokuyoURG\nprocess_rate = 90\n");
+  config.section("trigger");
+  EXPECT_NO_THROW(config.refuseUnreadSections());
+}
+
+TEST(Config, ReadsFilesAndNamesTheOnesItCannotRead) {
+  testing::ScratchFolder folder;
+  writeFile(folder / "a.ini", [](std::ostream& out) { out << "[trigger]\nevery = 7\n"; });
+  writeFile(folder / "empty.ini", [](std::ostream&) {});
+  EXPECT_EQ(Config::fromFile(folder / "a.ini").section("trigger").read<TriggerOptions>().every, 7);
+  EXPECT_EQ(Config::fromFile(folder / "a.ini").file(), folder / "a.ini");
+  EXPECT_FALSE(Config::fromFile(folder / "empty.ini").has("trigger"));
+  expectError([&] { Config::fromFile(folder / "missing.ini"); }, ExitCode::unreadable_input, {"missing.ini"});
+  expectError([&] { Config::fromFile(folder.path()); }, ExitCode::unreadable_input, {folder.path()});
+}
+
+TEST(Config, NearestNameIsByEditDistanceOrNone) {
+  const std::vector<std::string> names = {"odometry", "no_motion", "scan_matching"};
+  EXPECT_EQ(nearestName("odometri", names), "odometry");
+  EXPECT_EQ(nearestName("scan_maching", names), "scan_matching");
+  EXPECT_EQ(nearestName("NoMotion", names), "no_motion");
+  EXPECT_EQ(nearestName("gps", names), "");
+  EXPECT_EQ(nearestName("anything", {}), "");
+}
+
+}  // namespace
+}  // namespace omnimapper::base
