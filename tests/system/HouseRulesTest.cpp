@@ -1,0 +1,186 @@
+// The rules of doc/architecture.md and CONTRIBUTING.md that a machine can check, checked on the source tree.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "SourceTree.h"
+
+namespace {
+
+using source_tree::codeOnly;
+using source_tree::files;
+using source_tree::folders;
+using source_tree::lines;
+using source_tree::matches;
+using source_tree::projectPath;
+using source_tree::read;
+using source_tree::fs::path;
+
+const std::vector<std::string> cpp_extensions{".h", ".cpp"};
+
+/// Libraries bottom to top, as libs/CMakeLists.txt lists them.
+std::vector<std::string> libraryOrder() {
+  const auto list = matches(read(omnimapper::testing::sourceFile("libs/CMakeLists.txt")), R"(foreach\(lib ([^)]*)\))");
+  return list.empty() ? std::vector<std::string>{} : matches(list.front(), R"((\w+))");
+}
+
+/// Reports each line of code (comments and strings blanked) below a folder that contains the pattern.
+void expectAbsent(const std::string& folder, const std::string& pattern, const std::string& why) {
+  const std::regex regex(pattern);
+  for (const path& file : files(folder, cpp_extensions)) {
+    const auto code = lines(codeOnly(read(file)));
+    for (std::size_t i = 0; i < code.size(); ++i) {
+      EXPECT_FALSE(std::regex_search(code[i], regex))
+          << projectPath(file) << ":" << i + 1 << ": " << code[i] << "\n  " << why;
+    }
+  }
+}
+
+/// Reports each text file of the project that contains the pattern anywhere.
+void expectAbsentFromText(const std::string& pattern, const std::string& why) {
+  const std::regex regex(pattern);
+  std::vector<path> all;
+  for (const char* folder : {"libs", "apps", "tests", "scripts", "cmake", "ini", "doc", ".ci"}) {
+    const auto below = files(folder, {".h", ".cpp", ".txt", ".cmake", ".in", ".ini", ".md", ".sh", ""});
+    all.insert(all.end(), below.begin(), below.end());
+  }
+  for (const char* file : {"CMakeLists.txt", "README.md", "CONTRIBUTING.md", "CHANGELOG.md"}) {
+    all.emplace_back(omnimapper::testing::sourceFile(file));
+  }
+  for (const path& file : all) {
+    const auto text = lines(read(file));
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      EXPECT_FALSE(std::regex_search(text[i], regex))
+          << projectPath(file) << ":" << i + 1 << ": " << text[i] << "\n  " << why;
+    }
+  }
+}
+
+void expectAtMostLines(const path& file, std::size_t limit) {
+  const std::size_t length = lines(read(file)).size();
+  EXPECT_LE(length, limit) << projectPath(file) << " has " << length << " lines; the limit is " << limit
+                           << ": split it along its concepts";
+}
+
+TEST(SourceText, commentsAndLiteralsAreBlankedAndLinesStay) {
+  EXPECT_EQ(codeOnly("a // b\nc /* d\ne */ f"), "a     \nc     \n     f");
+  EXPECT_EQ(codeOnly(R"(x = "a\"b"; y = '"'; z = 1'000;)"), "x =       ; y =    ; z = 1'000;");
+  EXPECT_EQ(codeOnly("r = R\"js(exit(1)\n\")js\" + s"), "r =             \n      + s");
+}
+
+TEST(HouseRules, librariesIncludeOnlyWhatStandsAboveThemAndTheirCMakeListsNames) {
+  const auto order = libraryOrder();
+  ASSERT_FALSE(order.empty()) << "no list of libraries found in libs/CMakeLists.txt";
+  const auto rank = [&](const std::string& lib) { return std::find(order.begin(), order.end(), lib) - order.begin(); };
+  for (const std::string& lib : order) {
+    const auto named =
+        matches(read(omnimapper::testing::sourceFile("libs/" + lib + "/CMakeLists.txt")), R"(omnimapper::(\w+))");
+    for (const path& file : files("libs/" + lib, cpp_extensions)) {
+      for (const std::string& used : matches(read(file), R"(#include\s*[<"]omnimapper/(\w+)/)")) {
+        if (used == lib) continue;
+        EXPECT_LT(rank(used), rank(lib)) << projectPath(file) << " includes omnimapper/" << used << ", but " << lib
+                                         << " stands below it in libs/CMakeLists.txt";
+        EXPECT_TRUE(std::count(named.begin(), named.end(), used) > 0)
+            << projectPath(file) << " includes omnimapper/" << used << ", but libs/" << lib
+            << "/CMakeLists.txt does not name omnimapper::" << used;
+      }
+    }
+  }
+}
+
+TEST(HouseRules, everyLibraryFolderIsListed) {
+  const auto order = libraryOrder();
+  for (const std::string& folder : folders("libs")) {
+    EXPECT_TRUE(std::count(order.begin(), order.end(), folder) > 0)
+        << "libs/" << folder << " is missing from the list in libs/CMakeLists.txt";
+  }
+}
+
+TEST(HouseRules, publicHeadersAreFreeOfPclOpenCvAndSolvers) {
+  const std::regex foreign(R"(#include\s*[<"](pcl/|opencv|ceres/|suitesparse/|cholmod|Cholmod|amd\.h))");
+  for (const path& file : files("libs", {".h"})) {
+    if (projectPath(file).find("/include/") == std::string::npos) continue;
+    for (const std::string& line : lines(read(file))) {
+      EXPECT_FALSE(std::regex_search(line, foreign))
+          << projectPath(file) << ": " << line << "\n  these libraries are PRIVATE: include them in .cpp files only";
+    }
+  }
+}
+
+TEST(HouseRules, publicHeadersAreGuardedByPragmaOnce) {
+  for (const path& file : files("libs", {".h"})) {
+    EXPECT_NE(read(file).find("#pragma once\n"), std::string::npos) << projectPath(file);
+  }
+}
+
+TEST(HouseRules, appsAreShort) {
+  for (const path& file : files("apps", cpp_extensions)) expectAtMostLines(file, 99);
+}
+
+TEST(HouseRules, filesAreShort) {
+  for (const char* folder : {"libs", "tests"}) {
+    for (const path& file : files(folder, cpp_extensions)) expectAtMostLines(file, 500);
+  }
+}
+
+TEST(HouseRules, librariesNeitherPrintNorExit) {
+  expectAbsent("libs", R"(\bstd::(cout|cerr|clog)\b|\b[fv]?printf\s*\(|\bputs\s*\()",
+               "libraries do not print: return it, throw base::Error or tell base::Progress");
+  expectAbsent("libs", R"((^|[^.\w>])(std::)?(_?exit|quick_exit|abort|terminate)\s*\()",
+               "libraries do not end the program: throw base::Error");
+}
+
+TEST(HouseRules, librariesReadNoWallClockAndSeedTheirRandomNumbers) {
+  expectAbsent("libs", R"(system_clock|mrpt::Clock::now\b|mrpt::system::now\b|getCurrentTime|\btime\s*\((nullptr|0)\))",
+               "time comes from the log: two runs must agree in every bit");
+  expectAbsent("libs", R"(random_device|\bs?rand\s*\(|randomize\s*\(\s*\))", "random numbers come from a seed");
+}
+
+TEST(HouseRules, nothingIsLeftForLaterOrSwitchedOff) {
+  const std::string to_do = std::string("TO") + "DO", fix_me = std::string("FIX") + "ME";
+  expectAbsentFromText("\\b(" + to_do + "|" + fix_me + "|XX" + "X)\\b", "finish it, or make it an issue");
+  expectAbsent("tests", R"(\bDISABLED_\w)", "a test runs or goes");
+  for (const char* folder : {"libs", "apps", "tests"}) {
+    expectAbsent(folder, R"(#\s*if\s+(0|false)\b)", "code that is switched off goes; git keeps it");
+  }
+}
+
+TEST(HouseRules, aSkippedTestSaysWhy) {
+  const std::regex bare(R"(\bGTEST_SKIP\s*\(\s*\)\s*;)");
+  for (const path& file : files("tests", cpp_extensions)) {
+    EXPECT_FALSE(std::regex_search(codeOnly(read(file)), bare))
+        << projectPath(file) << " skips without a reason: GTEST_SKIP() << \"...\", or OMNIMAPPER_NEEDS";
+  }
+}
+
+TEST(HouseRules, nothingNamesAPlaceOnOneMachine) {
+  const std::string slash = "/";
+  expectAbsentFromText("(^|[^\\w.])" + slash + "(work|home|root|Users)" + slash,
+                       "a path of one machine: take it from the command line, the INI or the source tree");
+}
+
+TEST(HouseRules, testFoldersMirrorTheLibraries) {
+  const auto libraries = folders("libs");
+  const std::vector<std::string> others{"bench", "system", "testing"};
+  for (const std::string& folder : folders("tests")) {
+    if (std::count(others.begin(), others.end(), folder) > 0) continue;
+    EXPECT_TRUE(std::count(libraries.begin(), libraries.end(), folder) > 0)
+        << "tests/" << folder << " has no library libs/" << folder;
+  }
+  for (const std::string& library : libraries) {
+    EXPECT_FALSE(files("tests/" + library, {".cpp"}).empty())
+        << "libs/" << library << " has no test in tests/" << library;
+  }
+  for (const path& file : files("tests", {".cpp"})) {
+    const std::string name = file.stem();
+    if (projectPath(file).rfind("tests/bench/", 0) == 0 || projectPath(file).rfind("tests/testing/", 0) == 0 ||
+        projectPath(file).rfind("tests/system/package/", 0) == 0) {
+      continue;
+    }
+    EXPECT_TRUE(name.size() > 4 && name.compare(name.size() - 4, 4, "Test") == 0)
+        << projectPath(file) << " is not built: tests are named XTest.cpp";
+  }
+}
+
+}  // namespace
