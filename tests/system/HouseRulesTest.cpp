@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include "SourceTree.h"
 
@@ -77,7 +77,8 @@ TEST(HouseRules, librariesIncludeOnlyWhatStandsAboveThemAndTheirCMakeListsNames)
     const auto named =
         matches(read(omnimapper::testing::sourceFile("libs/" + lib + "/CMakeLists.txt")), R"(omnimapper::(\w+))");
     for (const path& file : files("libs/" + lib, cpp_extensions)) {
-      for (const std::string& used : matches(read(file), R"(#include\s*[<"]omnimapper/(\w+)/)")) {
+      const auto includes = matches(read(file), R"(#include\s*[<"]omnimapper/(\w+)/)");
+      for (const std::string& used : std::set<std::string>(includes.begin(), includes.end())) {
         if (used == lib) continue;
         EXPECT_LT(rank(used), rank(lib)) << projectPath(file) << " includes omnimapper/" << used << ", but " << lib
                                          << " stands below it in libs/CMakeLists.txt";
