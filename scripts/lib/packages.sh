@@ -27,7 +27,7 @@ install_packages() {
 # CHOLMOD is linked against "some BLAS"; Debian's alternatives decide which, and OpenBLAS wins unless somebody chose.
 check_blas() {
   local blas
-  blas=$(/sbin/ldconfig -p | awk '/libblas\.so\.3/ { print $NF; exit }')
+  blas=$(/sbin/ldconfig -p | awk '/libblas\.so\.3/ && !found++ { print $NF }')
   case "$(readlink -f "$blas")" in
     *openblas*) ;;
     *) printf 'warning: %s is not OpenBLAS, solving will be slow; as root run: update-alternatives --config %s\n' \
