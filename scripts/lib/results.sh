@@ -43,7 +43,7 @@ collect_results() {
     cases=""
     [ ! -e "$folder/test-$name.xml" ] || cases=$(list_cases "$folder/test-$name.xml")
     if [ -z "$cases" ]; then
-      printf '%s\t%s\t\n' "$state" "$name"
+      printf '%s\t%s\t%s\n' "$state" "$name" "$([ "$state" = passed ] || echo 'ended without a count of its cases')"
     else
       printf '%s\n' "$cases"
       if [ "$state" = failed ] && ! grep -q '^failed' <<<"$cases"; then
