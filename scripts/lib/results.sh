@@ -40,15 +40,14 @@ list_ctest_tests() {
 collect_results() {
   local folder=$1 state name cases
   list_ctest_tests "$folder/ctest.xml" | while IFS=$'\t' read -r state name _; do
-    cases=""
-    [ ! -e "$folder/test-$name.xml" ] || cases=$(list_cases "$folder/test-$name.xml")
-    if [ -z "$cases" ]; then
+    if [ ! -e "$folder/test-$name.xml" ]; then
       printf '%s\t%s\t%s\n' "$state" "$name" "$([ "$state" = passed ] || echo 'ended without a count of its cases')"
-    else
-      printf '%s\n' "$cases"
-      if [ "$state" = failed ] && ! grep -q '^failed' <<<"$cases"; then
-        printf 'failed\t%s\tended badly after its last case\n' "$name"
-      fi
+      continue
+    fi
+    cases=$(list_cases "$folder/test-$name.xml")
+    [ -z "$cases" ] || printf '%s\n' "$cases"
+    if [ "$state" = failed ] && ! grep -q '^failed' <<<"$cases"; then
+      printf 'failed\t%s\tended badly after its last case\n' "$name"
     fi
   done
 }
