@@ -44,12 +44,13 @@ function(omnimapper_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
-# omnimapper_app(NAME <targets...>): program NAME from main.cpp.
+# omnimapper_app(NAME <targets...>): program NAME from main.cpp, target app-NAME (a library may be called NAME too).
 function(omnimapper_app name)
-  add_executable(${name} main.cpp)
-  target_link_libraries(${name} PRIVATE ${ARGN})
-  omnimapper_compile_options(${name})
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  add_executable(app-${name} main.cpp)
+  set_target_properties(app-${name} PROPERTIES OUTPUT_NAME ${name})
+  target_link_libraries(app-${name} PRIVATE ${ARGN})
+  omnimapper_compile_options(app-${name})
+  install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
 # omnimapper_test(NAME <targets...>): one test binary for the folder's *Test.cpp files, named test-NAME.
