@@ -20,10 +20,10 @@ struct HangingFrame {
 struct KeyFrame {
   base::KeyFrameId id;
   base::Stamp stamp;
-  base::VariableId pose;                 ///< its variable in the graph
-  mrpt::poses::CPose3D map_from_base;    ///< latest estimate
+  base::VariableId pose;                                        ///< its variable in the graph
+  mrpt::poses::CPose3D map_from_base;                           ///< latest estimate
   std::vector<mrpt::obs::CObservation::ConstPtr> observations;  ///< raw and derived, all of `stamp`; sensor frames
-  std::vector<HangingFrame> hanging;     ///< in order of stamp, before the next key frame
+  std::vector<HangingFrame> hanging;                            ///< in order of stamp, before the next key frame
   /// Motion to the next key frame by the source that gave `hanging`; identity for the newest.
   mrpt::poses::CPose3D keyframe_from_next;
 };

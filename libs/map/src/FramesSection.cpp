@@ -1,0 +1,133 @@
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/map/MapFile.h>
+
+#include "Bytes.h"
+
+namespace omnimapper::map {
+
+namespace {
+
+const std::string kName = "frames";
+constexpr std::uint32_t kVersion = 1;
+
+template <class Tag>
+void writeId(ByteWriter& out, base::Id<Tag> id) {
+  out.uint(id.session, 2);
+  out.uint(id.index, 4);
+}
+
+template <class Tag>
+base::Id<Tag> readId(ByteReader& in) {
+  base::Id<Tag> id;
+  id.session = static_cast<std::uint16_t>(in.uint(2));
+  id.index = static_cast<std::uint32_t>(in.uint(4));
+  return id;
+}
+
+void writeStamp(ByteWriter& out, base::Stamp stamp) {
+  out.uint(static_cast<std::uint64_t>(stamp.time_since_epoch().count()), 8);
+}
+
+base::Stamp readStamp(ByteReader& in) {
+  return base::Stamp(base::Duration(static_cast<std::int64_t>(in.uint(8))));
+}
+
+// The rotation matrix is what CPose3D keeps: angles or a quaternion would round, and a map saved twice would differ.
+void writePose(ByteWriter& out, const mrpt::poses::CPose3D& pose) {
+  for (int i = 0; i < 3; ++i) out.real(pose[i]);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) out.real(pose.getRotationMatrix()(row, column));
+  }
+}
+
+mrpt::poses::CPose3D readPose(ByteReader& in) {
+  mrpt::math::CVectorFixedDouble<3> translation;
+  for (int i = 0; i < 3; ++i) translation[i] = in.real();
+  mrpt::math::CMatrixDouble33 rotation;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rotation(row, column) = in.real();
+  }
+  return mrpt::poses::CPose3D(rotation, translation);
+}
+
+void writeObservation(ByteWriter& out, const mrpt::obs::CObservation& observation) {
+  mrpt::io::CMemoryStream memory;
+  mrpt::serialization::archiveFrom(memory) << observation;
+  out.block({static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()});
+}
+
+[[noreturn]] void refuse(const std::string& reason) {
+  throw base::Error(base::ExitCode::unreadable_input, "map file, section \"" + kName + "\": " + reason);
+}
+
+mrpt::obs::CObservation::ConstPtr readObservation(ByteReader& in) {
+  const std::string_view bytes = in.block();
+  mrpt::serialization::CSerializable::Ptr object;
+  try {
+    mrpt::io::CMemoryStream memory;
+    memory.assignMemoryNotOwn(bytes.data(), bytes.size());
+    object = mrpt::serialization::archiveFrom(memory).ReadObject();
+  } catch (const std::exception& error) {
+    refuse(std::string("an observation cannot be read; load the library that has its class. MRPT says: ") +
+           error.what());
+  }
+  auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
+  if (!observation) refuse("holds something that is no observation where one should be");
+  return observation;
+}
+
+void writeFrame(ByteWriter& out, const KeyFrame& frame) {
+  writeId(out, frame.id);
+  writeStamp(out, frame.stamp);
+  writeId(out, frame.pose);
+  writePose(out, frame.map_from_base);
+  writePose(out, frame.keyframe_from_next);
+  out.uint(frame.hanging.size(), 4);
+  for (const HangingFrame& hanging : frame.hanging) {
+    writeStamp(out, hanging.stamp);
+    writePose(out, hanging.keyframe_from_base);
+  }
+  out.uint(frame.observations.size(), 4);
+  for (const auto& observation : frame.observations) writeObservation(out, *observation);
+}
+
+KeyFrame readFrame(ByteReader& in) {
+  KeyFrame frame;
+  frame.id = readId<base::KeyFrameTag>(in);
+  frame.stamp = readStamp(in);
+  frame.pose = readId<base::VariableTag>(in);
+  frame.map_from_base = readPose(in);
+  frame.keyframe_from_next = readPose(in);
+  for (std::uint64_t left = in.uint(4); left > 0; --left) {
+    const base::Stamp stamp = readStamp(in);
+    frame.hanging.push_back({stamp, readPose(in)});
+  }
+  for (std::uint64_t left = in.uint(4); left > 0; --left) frame.observations.push_back(readObservation(in));
+  return frame;
+}
+
+}  // namespace
+
+MapSection framesToSection(const Map& map) {
+  ByteWriter out;
+  out.uint(map.key_frames.size(), 4);
+  for (const KeyFrame& frame : map.key_frames) writeFrame(out, frame);
+  return {kName, kVersion, out.take()};
+}
+
+Map framesFromSection(const MapSection& section) {
+  if (section.name != kName) refuse("is asked for, but \"" + section.name + "\" is given");
+  if (section.version != kVersion) {
+    refuse("is of version " + std::to_string(section.version) + ", and this program reads version " +
+           std::to_string(kVersion) + ". Use the OmniMapper that wrote it, or a later one.");
+  }
+  ByteReader in(section.bytes, "map file, section \"" + kName + "\"");
+  Map map;
+  for (std::uint64_t left = in.uint(4); left > 0; --left) map.key_frames.push_back(readFrame(in));
+  if (!in.atEnd()) refuse("goes on after its last key frame: the file is damaged");
+  return map;
+}
+
+}  // namespace omnimapper::map

@@ -1,0 +1,133 @@
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/map/MapFile.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "Bytes.h"
+
+namespace omnimapper::map {
+
+namespace {
+
+// File: magic, format version (4), number of sections (4); then each section: checksum (4), its header, its bytes.
+// Header: length of the name (4), name, version (4), length of the bytes (8). All little-endian.
+const std::string kMagic = "OMNIMAP\n";
+constexpr std::uint32_t kFormatVersion = 1;
+
+[[noreturn]] void refuse(const std::string& what, const std::string& reason) {
+  throw base::Error(base::ExitCode::unreadable_input, what + ": " + reason);
+}
+
+std::string headerOf(const MapSection& section) {
+  ByteWriter out;
+  out.uint(section.name.size(), 4);
+  out.raw(section.name);
+  out.uint(section.version, 4);
+  out.uint(section.bytes.size(), 8);
+  return out.take();
+}
+
+// crc32 by zlib takes lengths of 32 bits: longer bytes go in parts.
+std::uint32_t checksumOf(const std::string& header, std::string_view bytes) {
+  uLong crc = crc32(0, reinterpret_cast<const Bytef*>(header.data()), static_cast<uInt>(header.size()));
+  while (!bytes.empty()) {
+    const std::size_t part = std::min<std::size_t>(bytes.size(), std::numeric_limits<std::int32_t>::max());
+    crc = crc32(crc, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(part));
+    bytes.remove_prefix(part);
+  }
+  return static_cast<std::uint32_t>(crc);
+}
+
+std::string contentOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    refuse(path, std::string("cannot be opened (") + std::strerror(errno) + "). Check the name of the map file.");
+  std::ostringstream content;
+  content << in.rdbuf();
+  if (in.bad()) refuse(path, "cannot be read to its end. Check the disk.");
+  return std::move(content).str();
+}
+
+MapSection readSection(ByteReader& in, const std::string& path, std::uint32_t number) {
+  in.setWhat(path + ", section number " + std::to_string(number));
+  const auto checksum = static_cast<std::uint32_t>(in.uint(4));
+  MapSection section;
+  section.name = in.raw(in.uint(4));
+  const std::string what = path + ", section \"" + section.name + "\"";
+  in.setWhat(what);
+  section.version = static_cast<std::uint32_t>(in.uint(4));
+  section.bytes = in.block();
+  if (checksumOf(headerOf(section), section.bytes) != checksum) {
+    refuse(what, "its checksum does not fit: the file is damaged. Take another copy of it.");
+  }
+  return section;
+}
+
+}  // namespace
+
+MapFile MapFile::read(const std::string& path) {
+  const std::string content = contentOf(path);
+  if (content.compare(0, kMagic.size(), kMagic) != 0) {
+    refuse(path, "is no map file of OmniMapper: it does not begin with \"OMNIMAP\".");
+  }
+  ByteReader in(content, path);
+  in.raw(kMagic.size());
+  const std::uint64_t format = in.uint(4);
+  if (format != kFormatVersion) {
+    refuse(path, "was written in format " + std::to_string(format) + ", and this program reads format " +
+                     std::to_string(kFormatVersion) + ". Use the OmniMapper that wrote it, or a later one.");
+  }
+  const std::uint64_t count = in.uint(4);
+  MapFile file;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    MapSection section = readSection(in, path, static_cast<std::uint32_t>(i + 1));
+    if (file.find(section.name)) refuse(path, "has two sections \"" + section.name + "\": the file is damaged.");
+    file.sections_.push_back(std::move(section));
+  }
+  if (!in.atEnd()) {
+    refuse(path, "goes on after the last of its " + std::to_string(count) + " sections: the file is damaged.");
+  }
+  return file;
+}
+
+void MapFile::write(const std::string& path) const {
+  base::writeFile(path, [&](std::ostream& out) {
+    ByteWriter head;
+    head.raw(kMagic);
+    head.uint(kFormatVersion, 4);
+    head.uint(sections_.size(), 4);
+    out << head.bytes();
+    for (const MapSection& section : sections_) {
+      ByteWriter start;
+      const std::string header = headerOf(section);
+      start.uint(checksumOf(header, section.bytes), 4);
+      start.raw(header);
+      out << start.bytes() << section.bytes;
+    }
+  });
+}
+
+void MapFile::set(MapSection section) {
+  const auto place =
+      std::find_if(sections_.begin(), sections_.end(), [&](const MapSection& s) { return s.name == section.name; });
+  if (place == sections_.end()) {
+    sections_.push_back(std::move(section));
+  } else {
+    *place = std::move(section);
+  }
+}
+
+const MapSection* MapFile::find(const std::string& name) const {
+  const auto place =
+      std::find_if(sections_.begin(), sections_.end(), [&](const MapSection& section) { return section.name == name; });
+  return place == sections_.end() ? nullptr : &*place;
+}
+
+}  // namespace omnimapper::map

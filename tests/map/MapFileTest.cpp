@@ -1,0 +1,235 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/map/MapFile.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+namespace {
+
+using mrpt::poses::CPose3D;
+using namespace omnimapper;
+
+std::string contentOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+void overwrite(const std::string& path, const std::string& content) {
+  std::filesystem::remove(path);
+  std::ofstream(path, std::ios::binary) << content;
+}
+
+/// The error of reading `path`, as text; empty if it reads.
+std::string refusal(const std::string& path) {
+  try {
+    map::MapFile::read(path);
+    return {};
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::unreadable_input) << error.what();
+    return error.what();
+  }
+}
+
+map::MapFile smallFile() {
+  map::MapFile file;
+  file.set({"graph", 3, std::string("\0\1\2 bytes", 9)});
+  file.set({"frames", 1, ""});
+  file.set({"walls", 7, "of a plugin that is not there"});
+  return file;
+}
+
+/// Poses whose bits come from long products: no angle or quaternion gives them back exactly.
+map::Map awkwardMap() {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const auto pose = [&] {
+    CPose3D result;
+    for (int i = 0; i < 20; ++i) {
+      result = result + CPose3D(any(random), any(random), any(random), 3 * any(random), any(random), 3 * any(random));
+    }
+    return result;
+  };
+  map::Map map;
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    map::KeyFrame frame;
+    frame.id = {1, i};
+    frame.stamp = base::stampFromUnix(1.1e9 + 0.1234567 * i);
+    frame.pose = {1, 10 + i};
+    frame.map_from_base = pose();
+    frame.keyframe_from_next = pose();
+    for (int h = 0; h < 3; ++h) frame.hanging.push_back({frame.stamp + base::Duration(h + 1), pose()});
+    auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+    scan->sensorLabel = "LASER";
+    scan->timestamp = frame.stamp;
+    scan->sensorPose = pose();
+    scan->resizeScan(4);
+    for (std::size_t beam = 0; beam < 4; ++beam) {
+      scan->setScanRange(beam, static_cast<float>(1.1 + any(random)));
+      scan->setScanRangeValidity(beam, beam != 2);
+    }
+    frame.observations.push_back(scan);
+    auto fix = mrpt::obs::CObservationRobotPose::Create();
+    fix->pose.mean = pose();
+    frame.observations.push_back(fix);
+    map.key_frames.push_back(frame);
+  }
+  return map;
+}
+
+TEST(MapFile, readsBackWhatWasWrittenInOrder) {
+  omnimapper::testing::ScratchFolder folder;
+  smallFile().write(folder / "map.omnimap");
+  const auto file = map::MapFile::read(folder / "map.omnimap");
+  ASSERT_EQ(file.sections().size(), 3u);
+  EXPECT_EQ(file.sections()[0].name, "graph");
+  EXPECT_EQ(file.sections()[0].bytes, std::string("\0\1\2 bytes", 9));
+  ASSERT_NE(file.find("walls"), nullptr);
+  EXPECT_EQ(file.find("walls")->version, 7u);
+  EXPECT_EQ(file.find("signs"), nullptr);
+}
+
+TEST(MapFile, settingASectionReplacesItInItsPlaceAndKeepsStrangers) {
+  omnimapper::testing::ScratchFolder folder;
+  smallFile().write(folder / "a.omnimap");
+  auto file = map::MapFile::read(folder / "a.omnimap");
+  file.set({"graph", 4, "new"});
+  file.write(folder / "b.omnimap");
+  const auto again = map::MapFile::read(folder / "b.omnimap");
+  ASSERT_EQ(again.sections().size(), 3u);
+  EXPECT_EQ(again.sections()[0].bytes, "new");
+  EXPECT_EQ(again.find("walls")->bytes, "of a plugin that is not there");
+}
+
+TEST(MapFile, saveLoadSaveIsTheSameFile) {
+  omnimapper::testing::ScratchFolder folder;
+  map::MapFile file = smallFile();
+  file.set(map::framesToSection(awkwardMap()));
+  file.write(folder / "a.omnimap");
+  auto loaded = map::MapFile::read(folder / "a.omnimap");
+  loaded.set(map::framesToSection(map::framesFromSection(*loaded.find("frames"))));
+  loaded.write(folder / "b.omnimap");
+  EXPECT_EQ(contentOf(folder / "a.omnimap"), contentOf(folder / "b.omnimap"));
+}
+
+TEST(MapFile, anyCutIsNoticed) {
+  omnimapper::testing::ScratchFolder folder;
+  smallFile().write(folder / "map.omnimap");
+  const std::string content = contentOf(folder / "map.omnimap");
+  for (std::size_t length = 0; length < content.size(); ++length) {
+    overwrite(folder / "cut.omnimap", content.substr(0, length));
+    EXPECT_NE(refusal(folder / "cut.omnimap"), "") << "cut to " << length << " bytes";
+  }
+  overwrite(folder / "cut.omnimap", content.substr(0, content.size() - 1));
+  EXPECT_NE(refusal(folder / "cut.omnimap").find("section \"walls\": truncated"), std::string::npos);
+  overwrite(folder / "long.omnimap", content + "x");
+  EXPECT_NE(refusal(folder / "long.omnimap").find("goes on"), std::string::npos);
+}
+
+TEST(MapFile, anyFlippedBitIsNoticed) {
+  omnimapper::testing::ScratchFolder folder;
+  smallFile().write(folder / "map.omnimap");
+  const std::string content = contentOf(folder / "map.omnimap");
+  for (std::size_t i = 0; i < content.size() * 8; ++i) {
+    std::string damaged = content;
+    damaged[i / 8] = static_cast<char>(damaged[i / 8] ^ (1 << (i % 8)));
+    overwrite(folder / "flipped.omnimap", damaged);
+    EXPECT_NE(refusal(folder / "flipped.omnimap"), "") << "bit " << i;
+  }
+  std::string damaged = content;
+  damaged[content.find(" bytes")] = '!';
+  overwrite(folder / "flipped.omnimap", damaged);
+  EXPECT_NE(refusal(folder / "flipped.omnimap").find("section \"graph\": its checksum"), std::string::npos);
+}
+
+TEST(MapFile, whatIsNoMapOrNotThereIsRefusedByName) {
+  omnimapper::testing::ScratchFolder folder;
+  EXPECT_NE(refusal(folder / "absent.omnimap").find("absent.omnimap: cannot be opened"), std::string::npos);
+  overwrite(folder / "text.omnimap", "VERTEX_SE2 0 0 0 0\n");
+  EXPECT_NE(refusal(folder / "text.omnimap").find("is no map file"), std::string::npos);
+}
+
+TEST(MapFile, aLaterFormatIsRefusedWithARemedy) {
+  omnimapper::testing::ScratchFolder folder;
+  smallFile().write(folder / "map.omnimap");
+  std::string content = contentOf(folder / "map.omnimap");
+  content[8] = 2;  // the format version follows the magic of 8 bytes
+  overwrite(folder / "map.omnimap", content);
+  EXPECT_NE(refusal(folder / "map.omnimap").find("written in format 2, and this program reads format 1"),
+            std::string::npos);
+}
+
+TEST(MapFile, aFullDiskIsAnErrorAndKeepsTheOldMap) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "/dev/full is not on this machine";
+  EXPECT_THROW(smallFile().write("/dev/full/map.omnimap"), base::Error);
+  omnimapper::testing::ScratchFolder folder;
+  smallFile().write(folder / "map.omnimap");
+  const std::string before = contentOf(folder / "map.omnimap");
+  // The temporary file is a way to the full device: the write fails, the map stays.
+  const std::string temporary = folder / ("map.tmp" + std::to_string(::getpid()) + ".omnimap");
+  std::filesystem::create_symlink("/dev/full", temporary);
+  try {
+    smallFile().write(folder / "map.omnimap");
+    FAIL() << "no error";
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::disk_full);
+    EXPECT_NE(std::string(error.what()).find("map.omnimap"), std::string::npos);
+  }
+  EXPECT_EQ(contentOf(folder / "map.omnimap"), before);
+}
+
+TEST(FramesSection, keepsEveryBitOfPosesStampsAndObservations) {
+  const map::Map map = awkwardMap();
+  const map::Map loaded = map::framesFromSection(map::framesToSection(map));
+  ASSERT_EQ(loaded.key_frames.size(), map.key_frames.size());
+  for (std::size_t i = 0; i < map.key_frames.size(); ++i) {
+    const map::KeyFrame &a = map.key_frames[i], &b = loaded.key_frames[i];
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.pose, b.pose);
+    EXPECT_EQ(a.stamp, b.stamp);
+    EXPECT_EQ(a.map_from_base.getRotationMatrix(), b.map_from_base.getRotationMatrix());
+    EXPECT_EQ(a.keyframe_from_next.m_coords, b.keyframe_from_next.m_coords);
+    ASSERT_EQ(b.hanging.size(), 3u);
+    EXPECT_EQ(a.hanging[2].stamp, b.hanging[2].stamp);
+    EXPECT_EQ(a.hanging[2].keyframe_from_base.getRotationMatrix(), b.hanging[2].keyframe_from_base.getRotationMatrix());
+    ASSERT_EQ(b.observations.size(), 2u);
+    const auto scan = std::dynamic_pointer_cast<const mrpt::obs::CObservation2DRangeScan>(b.observations[0]);
+    ASSERT_TRUE(scan);
+    const auto& original = dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(*a.observations[0]);
+    EXPECT_EQ(scan->sensorPose.getRotationMatrix(), original.sensorPose.getRotationMatrix());
+    EXPECT_FALSE(scan->getScanRangeValidity(2));
+    EXPECT_EQ(scan->timestamp, a.stamp);
+  }
+}
+
+TEST(FramesSection, laterVersionsAndStrangeBytesAreRefused) {
+  map::MapSection section = map::framesToSection(awkwardMap());
+  section.version = 2;
+  EXPECT_THROW(map::framesFromSection(section), base::Error);
+  section.version = 1;
+  section.bytes.pop_back();
+  EXPECT_THROW(map::framesFromSection(section), base::Error);
+  EXPECT_THROW(map::framesFromSection({"frames", 1, "??"}), base::Error);
+  EXPECT_THROW(map::framesFromSection({"graph", 1, ""}), base::Error);
+  // An observation of a class that nobody registered.
+  section = map::framesToSection(awkwardMap());
+  section.bytes.replace(section.bytes.find("CObservationRobotPose"), 21, "CObservationRobotPast");
+  try {
+    map::framesFromSection(section);
+    FAIL() << "no error";
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("frames"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("CObservationRobotPast"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/map/Map.h>
+
+#include <random>
+
+namespace {
+
+using mrpt::poses::CPose3D;
+using namespace omnimapper;
+
+base::Stamp at(double seconds) {
+  return base::stampFromUnix(1e9 + seconds);
+}
+
+map::KeyFrame keyFrame(std::uint32_t index, double seconds, const CPose3D& map_from_base) {
+  map::KeyFrame frame;
+  frame.id = {0, index};
+  frame.stamp = at(seconds);
+  frame.map_from_base = map_from_base;
+  return frame;
+}
+
+void expectNear(const CPose3D& a, const CPose3D& b, double tolerance) {
+  const geometry::Vector6d difference = geometry::minus(geometry::fromMrpt(a), geometry::fromMrpt(b));
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), tolerance) << a.asString() << " is not " << b.asString();
+}
+
+TEST(Map, findsAKeyFrameByIdWhateverTheOrderOfIds) {
+  map::Map map;
+  map.key_frames = {keyFrame(0, 0, {}), keyFrame(3, 1, {}), keyFrame(1, 2, {}), keyFrame(2, 3, {})};
+  for (std::uint32_t index : {0u, 1u, 2u, 3u}) EXPECT_EQ(map.keyFrame({0, index}).id.index, index);
+}
+
+TEST(Map, aKeyFrameThatIsNotThereIsAnErrorNamingIt) {
+  const map::Map map{{keyFrame(0, 0, {})}};
+  try {
+    map.keyFrame({2, 7});
+    FAIL() << "no error";
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::internal);
+    EXPECT_NE(std::string(error.what()).find("2:7"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Map, indexAtIsTheLastKeyFrameAtOrBefore) {
+  const map::Map map{{keyFrame(0, 1, {}), keyFrame(1, 2, {}), keyFrame(2, 3, {})}};
+  EXPECT_EQ(map.indexAt(at(0.5)), -1);
+  EXPECT_EQ(map.indexAt(at(1)), 0);
+  EXPECT_EQ(map.indexAt(at(1.9)), 0);
+  EXPECT_EQ(map.indexAt(at(2)), 1);
+  EXPECT_EQ(map.indexAt(at(99)), 2);
+  EXPECT_EQ(map::Map{}.indexAt(at(0)), -1);
+}
+
+TEST(DenseTrajectory, spreadsADriftEvenlyInTime) {
+  // The source told 1 m straight ahead in 1 s, seen at 0.25 s and 0.5 s; the graph says 1.2 m ahead and 0.4 m left.
+  map::KeyFrame first = keyFrame(0, 0, {});
+  first.hanging = {{at(0.25), CPose3D(0.25, 0, 0, 0, 0, 0)}, {at(0.5), CPose3D(0.5, 0, 0, 0, 0, 0)}};
+  first.keyframe_from_next = CPose3D(1, 0, 0, 0, 0, 0);
+  const auto path = map::denseTrajectory({{first, keyFrame(1, 1, CPose3D(1.2, 0.4, 0, 0, 0, 0))}});
+  ASSERT_EQ(path.size(), 4u);
+  expectNear(path[0].map_from_base, {}, 1e-12);
+  expectNear(path[1].map_from_base, CPose3D(0.3, 0.1, 0, 0, 0, 0), 1e-12);
+  expectNear(path[2].map_from_base, CPose3D(0.6, 0.2, 0, 0, 0, 0), 1e-12);
+  expectNear(path[3].map_from_base, CPose3D(1.2, 0.4, 0, 0, 0, 0), 1e-12);
+  EXPECT_EQ(path[2].stamp, at(0.5));
+}
+
+TEST(DenseTrajectory, aDriftKeepsItsDirectionInTheMapWhileTheRobotTurns) {
+  // The robot turns a half circle on the spot while the optimised end lies 0.2 m along the map's x.
+  map::KeyFrame first = keyFrame(0, 0, {});
+  first.hanging = {{at(0.5), CPose3D(0, 0, 0, M_PI / 2, 0, 0)}};
+  first.keyframe_from_next = CPose3D(0, 0, 0, M_PI, 0, 0);
+  const auto path = map::denseTrajectory({{first, keyFrame(1, 1, CPose3D(0.2, 0, 0, M_PI, 0, 0))}});
+  expectNear(path[1].map_from_base, CPose3D(0.1, 0, 0, M_PI / 2, 0, 0), 1e-12);
+}
+
+TEST(DenseTrajectory, spreadsATurnEvenlyInTime) {
+  map::KeyFrame first = keyFrame(0, 0, {});
+  first.hanging = {{at(1), CPose3D(0, 0, 0, 0.1, 0, 0)}};
+  first.keyframe_from_next = CPose3D(0, 0, 0, 0.4, 0, 0);
+  const auto path = map::denseTrajectory({{first, keyFrame(1, 4, CPose3D(0, 0, 0, 0.8, 0, 0))}});
+  expectNear(path[1].map_from_base, CPose3D(0, 0, 0, 0.2, 0, 0), 1e-12);
+}
+
+TEST(DenseTrajectory, aHangingFrameAtTheEndIsTheNextKeyFrameInSpace) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const auto pose = [&] {
+    return CPose3D(any(random), any(random), any(random), 3 * any(random), any(random), any(random));
+  };
+  for (int trial = 0; trial < 100; ++trial) {
+    map::KeyFrame first = keyFrame(0, 0, pose());
+    first.keyframe_from_next = pose();
+    first.hanging = {{at(0), CPose3D()}, {at(2), first.keyframe_from_next}};
+    const map::KeyFrame second = keyFrame(1, 2, pose());
+    const auto path = map::denseTrajectory({{first, second}});
+    expectNear(path[1].map_from_base, first.map_from_base, 1e-9);
+    expectNear(path[2].map_from_base, second.map_from_base, 1e-9);
+  }
+}
+
+TEST(DenseTrajectory, withoutDisagreementItIsTheToldPath) {
+  map::KeyFrame first = keyFrame(0, 0, CPose3D(1, 2, 3, 0.4, 0.1, -0.2));
+  first.hanging = {{at(0.3), CPose3D(0.1, 0.2, 0, 0.3, 0, 0)}};
+  first.keyframe_from_next = CPose3D(0.5, 0.1, 0.2, 0.6, 0.1, 0);
+  const auto path = map::denseTrajectory({{first, keyFrame(1, 1, first.map_from_base + first.keyframe_from_next)}});
+  expectNear(path[1].map_from_base, first.map_from_base + first.hanging[0].keyframe_from_base, 1e-12);
+}
+
+TEST(DenseTrajectory, afterTheNewestKeyFrameTheSourceAloneSpeaks) {
+  map::KeyFrame only = keyFrame(0, 0, CPose3D(1, 0, 0, M_PI / 2, 0, 0));
+  only.hanging = {{at(1), CPose3D(2, 0, 0, 0, 0, 0)}};
+  const auto path = map::denseTrajectory({{only}});
+  ASSERT_EQ(path.size(), 2u);
+  expectNear(path[1].map_from_base, CPose3D(1, 2, 0, M_PI / 2, 0, 0), 1e-12);
+  EXPECT_TRUE(map::denseTrajectory({}).empty());
+}
+
+}  // namespace
