@@ -1,0 +1,43 @@
+#pragma once
+
+#include <omnimapper/source/ObservationSource.h>
+#include <omnimapper/source/SourceOptions.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace omnimapper::source {
+
+/// Streams one rawlog, plain or gzip, in either of MRPT's formats or a mixture of both: observations one by one, or
+/// pairs of actions and sensory frames. Memory does not grow with the file.
+///
+/// An action becomes a CObservationRelativeMotion handed out right before the frame at the end of its span. Its span
+/// is made as SourceOptions says. A frame's stamp is the latest of its observations'; an observation without a stamp
+/// in a frame with one gets the frame's. The motion of a frame that has no stamp at all is joined to the motion of the
+/// next one that has; if no frame before it had one either, everything is handed out without stamps.
+class RawlogSource : public ObservationSource {
+ public:
+  /// Throws Error(unreadable_input) if the file cannot be opened or is no rawlog.
+  explicit RawlogSource(const std::string& path, const SourceOptions& options = {});
+  ~RawlogSource() override;
+
+  mrpt::obs::CObservation::Ptr next() override;
+  double progress() const override;
+  SourceReport report() const override;
+
+  /// The first stamp of the log, if one of its first objects has a stamp.
+  std::optional<base::Stamp> firstStamp() const;
+  /// What start_s and end_s count from if not 1970; by default the log's own first stamp.
+  void setLogStart(base::Stamp log_start);
+
+ private:
+  class Stream;
+  std::unique_ptr<Stream> stream_;
+};
+
+/// One rawlog or several merged by stamp, with start_s and end_s counted from the earliest first stamp of all.
+/// Throws as RawlogSource; Error(command_line) if there is no path.
+std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options);
+
+}  // namespace omnimapper::source

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::source {
+
+/// The span of time that an action of MRPT's action / sensory-frame format is taken for.
+enum class ActionSpan {
+  frames,  ///< from the stamp of the frame before it to that of the frame after it
+  own,     ///< from the stamp of the previous action to its own
+};
+
+/// What start_s and end_s count from.
+enum class TimeReference {
+  log_start,  ///< the first stamp of the earliest log
+  unix_epoch  ///< 1970
+};
+
+/// Section [source] of an INI file.
+struct SourceOptions {
+  std::vector<std::string> labels;  ///< sensor labels to hand out; empty: all
+  double start = 0;                 ///< [s] observations before it are left out
+  double end = 0;                   ///< [s] observations after it are left out; 0: none
+  TimeReference time_reference = TimeReference::log_start;
+  ActionSpan action_span = ActionSpan::frames;
+  std::string action_label = "odometry";  ///< label of the motions that actions become
+  std::string images_folder;              ///< empty: <rawlog without extension>_Images beside the rawlog
+
+  static const base::OptionTable<SourceOptions>& table();
+};
+
+}  // namespace omnimapper::source

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <mrpt/obs/CActionCollection.h>
+#include <omnimapper/obs/CObservationRelativeMotion.h>
+#include <omnimapper/source/SourceOptions.h>
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "ActionMotion.h"
+
+namespace omnimapper::source {
+
+/// Gives actions, which have no span of time of their own, the span they belong to (RawlogSource says which).
+class ActionSpans {
+ public:
+  using Motions = std::vector<obs::CObservationRelativeMotion::Ptr>;
+
+  ActionSpans(ActionSpan mode, std::string label) : mode_(mode), label_(std::move(label)) {}
+
+  /// The motions that are complete with this action.
+  Motions addAction(const mrpt::obs::CActionCollection& actions);
+  /// The motions that end with this frame. `stamp` may be "no stamp".
+  Motions addFrame(base::Stamp stamp);
+  /// The stamp of the last action since the last frame, if it has one.
+  base::Stamp pendingStamp() const { return pending_stamp_; }
+  /// Motions that have come to no span so far.
+  std::uint64_t dropped() const { return dropped_; }
+  /// To be called at the end: what is still waiting for a frame has none.
+  void finish();
+
+ private:
+  Motions spanning(base::Stamp begin, base::Stamp end);
+
+  ActionSpan mode_;
+  std::string label_;
+  std::map<std::string, ActionMotion> pending_;  // by origin
+  base::Stamp pending_stamp_;
+  bool any_begin_ = false;  // whether there is something a span can begin at
+  base::Stamp begin_;       // where; "no stamp" as long as nothing had one
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace omnimapper::source

@@ -1,0 +1,219 @@
+#include <mrpt/maps/registerAllClasses.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/obs/registerAllClasses.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/obs/registerClasses.h>
+#include <omnimapper/source/MergedSource.h>
+#include <omnimapper/source/RawlogSource.h>
+
+#include <algorithm>
+#include <deque>
+
+#include "ActionSpans.h"
+#include "ExternalFiles.h"
+#include "ForeignFile.h"
+#include "ObjectReader.h"
+#include "Selection.h"
+
+namespace omnimapper::source {
+
+using mrpt::obs::CObservation;
+
+namespace {
+
+// With so many observations in a row after the wanted time, nothing wanted follows.
+constexpr int kEnoughAfterTheEnd = 1000;
+
+std::string registeringClasses(const std::string& path) {
+  mrpt::obs::registerAllClasses_mrpt_obs();
+  mrpt::maps::registerAllClasses_mrpt_maps();
+  obs::registerClasses();
+  return path;
+}
+
+// Latest stamp of a frame's observations; "no stamp" if none has one.
+base::Stamp stampOf(const mrpt::obs::CSensoryFrame& frame) {
+  base::Stamp latest;
+  for (const auto& observation : frame)
+    if (observation && base::isValid(observation->timestamp)) latest = std::max(latest, observation->timestamp);
+  return latest;
+}
+
+SourceReport::Ending endingOf(ObjectReader::Ending ending) {
+  switch (ending) {
+    case ObjectReader::Ending::open:
+      return SourceReport::Ending::open;
+    case ObjectReader::Ending::complete:
+      return SourceReport::Ending::complete;
+    case ObjectReader::Ending::truncated:
+      return SourceReport::Ending::truncated;
+    case ObjectReader::Ending::corrupt:
+      return SourceReport::Ending::corrupt;
+    case ObjectReader::Ending::unregistered_class:
+      return SourceReport::Ending::unregistered_class;
+  }
+  return SourceReport::Ending::corrupt;
+}
+
+}  // namespace
+
+class RawlogSource::Stream {
+ public:
+  Stream(const std::string& path, const SourceOptions& options)
+      : reader_(registeringClasses(path)),
+        spans_(options.action_span, options.action_label),
+        selection_(options),
+        images_folder_(options.images_folder.empty() ? externalFolderOf(path) : options.images_folder) {
+    while (waiting_.empty() && readObject()) {
+    }
+    if (reader_.objects() == 0 && !reader_.sawHeader() && reader_.ending() != ObjectReader::Ending::complete)
+      refuse(describeForeignFile(path));
+    if (waiting_.empty() && reader_.objects() > 0 && rawlog_objects_ == 0)
+      refuse("holds an object of class " + report_.other_objects.begin()->first + " and nothing a rawlog is made of.");
+  }
+
+  CObservation::Ptr next() {
+    while (!is_over_) {
+      while (waiting_.empty() && readObject()) {
+      }
+      if (waiting_.empty()) break;
+      const auto observation = waiting_.front();
+      waiting_.pop_front();
+      if (!passes(*observation)) continue;
+      report_.count(observation->sensorLabel, observation->GetRuntimeClass()->className, observation->timestamp);
+      return observation;
+    }
+    return nullptr;
+  }
+
+  double progress() const { return is_over_ ? 1.0 : reader_.file().fraction(); }
+
+  SourceReport report() const {
+    SourceReport report = report_;
+    report.ending = is_over_           ? SourceReport::Ending::complete
+                    : waiting_.empty() ? endingOf(reader_.ending())
+                                       : SourceReport::Ending::open;
+    report.message = reader_.message();
+    report.unregistered_class = reader_.unregisteredClass();
+    report.objects = reader_.objects();
+    report.bytes = reader_.bytes();
+    report.dropped_actions = spans_.dropped();
+    return report;
+  }
+
+  std::optional<base::Stamp> firstStamp() const {
+    for (const auto& observation : waiting_)
+      if (base::isValid(observation->timestamp)) return observation->timestamp;
+    return std::nullopt;
+  }
+
+  void setLogStart(base::Stamp log_start) { selection_.setLogStart(log_start); }
+
+ private:
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw base::Error(base::ExitCode::unreadable_input, reader_.file().path() + ": " + reason);
+  }
+
+  // Puts what the next object holds into waiting_. False at the end.
+  bool readObject() {
+    const auto object = reader_.next();
+    if (!object) {
+      spans_.finish();
+      return false;
+    }
+    ++rawlog_objects_;
+    if (const auto actions = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
+      for (const auto& motion : spans_.addAction(*actions)) waiting_.push_back(motion);
+    } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
+      addFrame(*frame);
+    } else if (std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object)) {
+      ++report_.other_objects[object->GetRuntimeClass()->className];
+    } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
+      waiting_.push_back(observation);
+    } else {
+      --rawlog_objects_;
+      ++report_.other_objects[object->GetRuntimeClass()->className];
+    }
+    return true;
+  }
+
+  void addFrame(const mrpt::obs::CSensoryFrame& frame) {
+    base::Stamp stamp = stampOf(frame);
+    if (!base::isValid(stamp)) stamp = spans_.pendingStamp();
+    for (const auto& motion : spans_.addFrame(stamp)) waiting_.push_back(motion);
+    for (const auto& observation : frame) {
+      if (!observation) continue;
+      if (!base::isValid(observation->timestamp) && base::isValid(stamp)) {
+        observation->timestamp = stamp;
+        ++report_.repaired_stamps;
+      }
+      waiting_.push_back(observation);
+    }
+  }
+
+  bool passes(const CObservation& observation) {
+    if (!selection_.knowsLogStart() && base::isValid(observation.timestamp))
+      selection_.setLogStart(observation.timestamp);
+    after_the_end_ = selection_.isAfterTheEnd(observation) ? after_the_end_ + 1 : 0;
+    if (after_the_end_ >= kEnoughAfterTheEnd) is_over_ = true;
+    if (!selection_.wants(observation)) {
+      ++report_.filtered_out;
+      return false;
+    }
+    if (const auto missing = loadExternalFiles(observation, images_folder_)) {
+      if (report_.missing_images++ == 0) report_.first_missing_image = *missing;
+      return false;
+    }
+    return true;
+  }
+
+  ObjectReader reader_;
+  ActionSpans spans_;
+  Selection selection_;
+  std::string images_folder_;
+  std::deque<CObservation::Ptr> waiting_;
+  SourceReport report_;
+  std::uint64_t rawlog_objects_ = 0;
+  int after_the_end_ = 0;  // observations in a row that were after the wanted time
+  bool is_over_ = false;   // everything wanted has been read
+};
+
+RawlogSource::RawlogSource(const std::string& path, const SourceOptions& options)
+    : stream_(std::make_unique<Stream>(path, options)) {}
+RawlogSource::~RawlogSource() = default;
+
+CObservation::Ptr RawlogSource::next() {
+  return stream_->next();
+}
+double RawlogSource::progress() const {
+  return stream_->progress();
+}
+SourceReport RawlogSource::report() const {
+  return stream_->report();
+}
+std::optional<base::Stamp> RawlogSource::firstStamp() const {
+  return stream_->firstStamp();
+}
+void RawlogSource::setLogStart(base::Stamp log_start) {
+  stream_->setLogStart(log_start);
+}
+
+std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options) {
+  if (paths.empty()) throw base::Error(base::ExitCode::command_line, "no rawlog is named; give one with -r.");
+  std::vector<std::unique_ptr<RawlogSource>> logs;
+  std::optional<base::Stamp> start;
+  for (const auto& path : paths) {
+    logs.push_back(std::make_unique<RawlogSource>(path, options));
+    const auto first = logs.back()->firstStamp();
+    if (first && (!start || *first < *start)) start = first;
+  }
+  if (start && options.time_reference == TimeReference::log_start)
+    for (auto& log : logs) log->setLogStart(*start);
+  if (logs.size() == 1) return std::move(logs.front());
+  return std::make_unique<MergedSource>(std::vector<std::unique_ptr<ObservationSource>>(
+      std::make_move_iterator(logs.begin()), std::make_move_iterator(logs.end())));
+}
+
+}  // namespace omnimapper::source

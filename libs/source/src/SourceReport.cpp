@@ -1,0 +1,135 @@
+#include <omnimapper/source/SourceReport.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace omnimapper::source {
+
+namespace {
+
+template <class Member>
+std::uint64_t sum(const SourceReport& report, Member member) {
+  std::uint64_t total = 0;
+  for (const auto& [sensor, counts] : report.sensors) total += counts.*member;
+  return total;
+}
+
+void appendCount(std::string& text, const char* what, std::uint64_t count) {
+  if (count > 0) text += std::string(what) + ": " + std::to_string(count) + "\n";
+}
+
+std::string stampText(base::Stamp stamp) {
+  return base::isValid(stamp) ? base::formatUnix(stamp, 6) : "none";
+}
+
+}  // namespace
+
+std::string toString(SourceReport::Ending ending) {
+  switch (ending) {
+    case SourceReport::Ending::open:
+      return "not read to its end";
+    case SourceReport::Ending::complete:
+      return "complete";
+    case SourceReport::Ending::truncated:
+      return "truncated";
+    case SourceReport::Ending::corrupt:
+      return "corrupt";
+    case SourceReport::Ending::unregistered_class:
+      return "unregistered class";
+  }
+  return "?";
+}
+
+std::uint64_t SourceReport::observations() const {
+  return sum(*this, &SensorCounts::observations);
+}
+std::uint64_t SourceReport::zeroStamps() const {
+  return sum(*this, &SensorCounts::zero_stamps);
+}
+std::uint64_t SourceReport::backwardStamps() const {
+  return sum(*this, &SensorCounts::backward_stamps);
+}
+
+base::ExitCode SourceReport::exitCode() const {
+  switch (ending) {
+    case Ending::truncated:
+    case Ending::corrupt:
+      return base::ExitCode::damaged_input;
+    case Ending::unregistered_class:
+      return base::ExitCode::unregistered_class;
+    case Ending::open:
+    case Ending::complete:
+      break;
+  }
+  return missing_images > 0 ? base::ExitCode::missing_images : base::ExitCode::ok;
+}
+
+std::string SourceReport::text() const {
+  std::string text = toString(ending) + ": " + std::to_string(objects) + " objects, " + std::to_string(bytes) +
+                     " bytes uncompressed, " + std::to_string(observations()) + " observations\n";
+  if (!message.empty()) text += message + "\n";
+  if (!sensors.empty()) {
+    char row[400];
+    std::snprintf(row, sizeof row, "%-20s %-40s %9s %8s %8s  %-18s %-18s\n", "label", "class", "count", "no stamp",
+                  "backward", "first stamp [s]", "last stamp [s]");
+    text += row;
+    for (const auto& [sensor, counts] : sensors) {
+      std::snprintf(row, sizeof row, "%-20s %-40s %9llu %8llu %8llu  %-18s %-18s\n",
+                    sensor.first.empty() ? "(none)" : sensor.first.c_str(), sensor.second.c_str(),
+                    static_cast<unsigned long long>(counts.observations),
+                    static_cast<unsigned long long>(counts.zero_stamps),
+                    static_cast<unsigned long long>(counts.backward_stamps), stampText(counts.first_stamp).c_str(),
+                    stampText(counts.last_stamp).c_str());
+      text += row;
+    }
+  }
+  appendCount(text, "stamps repaired", repaired_stamps);
+  appendCount(text, "observations outside of the wanted labels and times", filtered_out);
+  appendCount(text, "actions that span nothing", dropped_actions);
+  for (const auto& [name, count] : other_objects) appendCount(text, (name + " (no observation)").c_str(), count);
+  if (missing_images > 0) {
+    text += "observations left out because an external file cannot be read: " + std::to_string(missing_images) +
+            ", first " + first_missing_image + "\n";
+  }
+  return text;
+}
+
+void SourceReport::count(const std::string& label, const std::string& class_name, base::Stamp stamp) {
+  auto& counts = sensors[{label, class_name}];
+  ++counts.observations;
+  if (!base::isValid(stamp)) {
+    ++counts.zero_stamps;
+    return;
+  }
+  if (base::isValid(counts.last_stamp) && stamp < counts.last_stamp) ++counts.backward_stamps;
+  if (!base::isValid(counts.first_stamp)) counts.first_stamp = stamp;
+  counts.last_stamp = stamp;
+}
+
+void SourceReport::add(const SourceReport& other) {
+  const Ending worse = std::max(ending, other.ending);
+  const bool one_is_open = ending == Ending::open || other.ending == Ending::open;
+  ending = worse <= Ending::complete && one_is_open ? Ending::open : worse;
+  if (!other.message.empty()) message += (message.empty() ? "" : "\n") + other.message;
+  if (unregistered_class.empty()) unregistered_class = other.unregistered_class;
+  objects += other.objects;
+  bytes += other.bytes;
+  for (const auto& [sensor, counts] : other.sensors) {
+    auto& mine = sensors[sensor];
+    mine.observations += counts.observations;
+    mine.zero_stamps += counts.zero_stamps;
+    mine.backward_stamps += counts.backward_stamps;
+    if (!base::isValid(mine.first_stamp) ||
+        (base::isValid(counts.first_stamp) && counts.first_stamp < mine.first_stamp))
+      mine.first_stamp = counts.first_stamp;
+    mine.last_stamp = std::max(mine.last_stamp, counts.last_stamp);
+  }
+  for (const auto& [name, count] : other.other_objects) other_objects[name] += count;
+  repaired_stamps += other.repaired_stamps;
+  filtered_out += other.filtered_out;
+  dropped_actions += other.dropped_actions;
+  missing_images += other.missing_images;
+  if (first_missing_image.empty()) first_missing_image = other.first_missing_image;
+}
+
+}  // namespace omnimapper::source
