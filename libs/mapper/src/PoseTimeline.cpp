@@ -1,5 +1,5 @@
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/geometry/Se3.h>
+#include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/mapper/PoseTimeline.h>
 
 #include <algorithm>
@@ -14,15 +14,15 @@ using geometry::Se3;
 Se3 share(const Se3& motion, double f) {
   if (f <= 0) return Se3();
   if (f >= 1) return motion;
-  return Se3().plus(f * motion.minus(Se3()));
+  return plus(Se3(), f * minus(motion, Se3()));
 }
 
 // The part of a span's motion between two shares of its time.
 RelativeMotion part(const RelativeMotion& motion, double from, double to) {
   if (from <= 0 && to >= 1) return motion;
-  const Se3 whole = geometry::toSe3(motion.begin_from_end);
-  const Se3 piece = share(whole, from).inverse() * share(whole, to);
-  return {geometry::toCPose3D(piece), motion.covariance * (to - from)};
+  const Se3 whole = geometry::fromMrpt(motion.begin_from_end);
+  const Se3 piece = inverse(share(whole, from)) * share(whole, to);
+  return {geometry::toMrpt(piece), motion.covariance * (to - from)};
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ RelativeMotion part(const RelativeMotion& motion, double from, double to) {
 RelativeMotion identityMotion() { return {mrpt::poses::CPose3D(), Eigen::Matrix<double, 6, 6>::Zero()}; }
 
 RelativeMotion compose(const RelativeMotion& a, const RelativeMotion& b) {
-  const Se3 b_motion = geometry::toSe3(b.begin_from_end);
+  const Se3 b_motion = geometry::fromMrpt(b.begin_from_end);
   return {a.begin_from_end + b.begin_from_end, geometry::composeCovariance(a.covariance, b_motion, b.covariance)};
 }
 

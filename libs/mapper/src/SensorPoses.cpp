@@ -1,5 +1,4 @@
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/geometry/Se3.h>
 #include <omnimapper/mapper/SensorPoses.h>
 
 #include <fstream>
@@ -27,7 +26,7 @@ std::map<base::Stamp, mrpt::poses::CPose3D> readTrack(const std::string& path) {
                         path + ":" + std::to_string(number) + ": expected 'stamp x y z qx qy qz qw'");
     }
     pose.rotation = Eigen::Quaterniond(qw, qx, qy, qz).normalized();
-    track[base::parseUnix(stamp)] = geometry::toCPose3D(pose);
+    track[base::parseUnix(stamp)] = geometry::toMrpt(pose);
   }
   if (track.empty()) throw base::Error(base::ExitCode::unreadable_input, path + ": holds no sensor pose");
   return track;
@@ -70,8 +69,8 @@ std::optional<mrpt::poses::CPose3D> SensorPoses::find(const std::string& label, 
   const auto before = std::prev(after);
   if (after == track.end()) return before->second;
   const double f = base::secondsBetween(before->first, stamp) / base::secondsBetween(before->first, after->first);
-  const auto from = geometry::toSe3(before->second), to = geometry::toSe3(after->second);
-  return geometry::toCPose3D(from.plus(f * to.minus(from)));
+  const auto from = geometry::fromMrpt(before->second), to = geometry::fromMrpt(after->second);
+  return geometry::toMrpt(plus(from, f * minus(to, from)));
 }
 
 mrpt::obs::CObservation::Ptr SensorPoses::applied(const mrpt::obs::CObservation::Ptr& observation) const {

@@ -27,21 +27,24 @@ double rotationAngle(const mrpt::poses::CPose3D& pose) {
 }
 }  // namespace
 
-bool Trigger::fires(const std::string& label, base::Stamp stamp, const MotionSince& motion) {
-  const auto [last, first] = last_.try_emplace(label, stamp);
+bool Trigger::isDue(const Since& since) const {
+  const double elapsed = base::secondsBetween(since.fired, since.seen);
+  if (options_.every_observation || (options_.period > 0 && elapsed >= options_.period)) return true;
+  if (!since.motion) return elapsed >= options_.period_without_odometry;
+  return since.motion->translation().norm() >= options_.distance || rotationAngle(*since.motion) >= options_.angle;
+}
+
+bool Trigger::fires(const std::string& label, base::Stamp stamp, const MotionBetween& motion) {
+  const auto [entry, first] = labels_.try_emplace(label, Since{stamp, stamp, mrpt::poses::CPose3D()});
   if (first) return true;
-  const double elapsed = base::secondsBetween(last->second, stamp);
-  bool fired = options_.every_observation || (options_.period > 0 && elapsed >= options_.period);
-  if (!fired) {
-    if (const auto moved = motion(last->second, stamp)) {
-      fired = moved->begin_from_end.translation().norm() >= options_.distance ||
-              rotationAngle(moved->begin_from_end) >= options_.angle;
-    } else {
-      fired = elapsed >= options_.period_without_odometry;
-    }
-  }
-  if (fired) last->second = stamp;
-  return fired;
+  Since& since = entry->second;
+  // Motion is summed step by step: asking for all of it each time would cost ever more while the robot rests.
+  const auto step = motion(since.seen, stamp);
+  since.motion = step && since.motion ? std::make_optional(*since.motion + step->begin_from_end) : std::nullopt;
+  since.seen = stamp;
+  if (!isDue(since)) return false;
+  since = {stamp, stamp, mrpt::poses::CPose3D()};
+  return true;
 }
 
 }  // namespace omnimapper::mapper

@@ -13,6 +13,8 @@ class MeasurementPlugin {
   virtual ~MeasurementPlugin() = default;
   /// Whether this observation, raw or derived, is of its kind. Depends on nothing but the observation.
   virtual bool wants(const mrpt::obs::CObservation& observation) const = 0;
+  /// Whether its factors say where in the map the base is. The first pose is then not held at the origin.
+  virtual bool givesAbsolutePoses() const { return false; }
   /// `frame` is the newest key frame, already linked to the one before; `observation` is one of its observations.
   virtual Batch measure(const map::KeyFrame& frame, const mrpt::obs::CObservation& observation, const View& view) = 0;
   /// After all batches of `frame` were applied, and after the solve if there was one.

@@ -4,6 +4,7 @@
 #include <omnimapper/base/Config.h>
 #include <omnimapper/mapper/Extractor.h>
 #include <omnimapper/mapper/MeasurementPlugin.h>
+#include <omnimapper/mapper/Motion.h>
 #include <omnimapper/mapper/OutputPlugin.h>
 #include <omnimapper/mapper/PosePlugin.h>
 
@@ -12,9 +13,6 @@
 #include <vector>
 
 namespace omnimapper::mapper {
-
-/// How the base moves: SE(2) poses for a robot on a floor, SE(3) otherwise.
-enum class Motion { planar, spatial };
 
 /// What every plugin may know of the run when it is made.
 struct PluginContext {

@@ -12,8 +12,13 @@ namespace omnimapper::mapper {
 class PosePlugin {
  public:
   virtual ~PosePlugin() = default;
-  /// Takes an observation into its history if it is of its kind; says whether it was. Called in order of arrival.
-  virtual bool add(const mrpt::obs::CObservation& observation) = 0;
+  enum class Taken {
+    not_mine,  ///< of another kind or sensor
+    taken,
+    unusable,  ///< of its kind, but not finite, or its time runs backwards
+  };
+  /// Takes an observation into its history if it is of its kind. Called in order of arrival.
+  virtual Taken add(const mrpt::obs::CObservation& observation) = 0;
   /// Motion from `begin` to `end` (begin <= end), none if the span is not covered.
   /// Additive: cov(a, c) = cov(a, b) transported + cov(b, c), so that a span may be split without gain or loss.
   virtual std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const = 0;

@@ -27,15 +27,22 @@ class Trigger {
  public:
   explicit Trigger(const TriggerOptions& options) : options_(options) {}
 
-  /// Motion since the label's last triggered observation by the continuous sources; none if they do not cover it.
-  using MotionSince = std::function<std::optional<RelativeMotion>(base::Stamp begin, base::Stamp end)>;
+  /// Motion over a span by the continuous sources; none if they do not cover it.
+  using MotionBetween = std::function<std::optional<RelativeMotion>(base::Stamp begin, base::Stamp end)>;
 
   /// Whether the observation of that label and stamp gets a pose. The first of a label does. Call in order of stamp.
-  bool fires(const std::string& label, base::Stamp stamp, const MotionSince& motion);
+  bool fires(const std::string& label, base::Stamp stamp, const MotionBetween& motion);
 
  private:
+  /// What happened to a label since its last triggered observation.
+  struct Since {
+    base::Stamp fired, seen;
+    std::optional<mrpt::poses::CPose3D> motion;  // from fired to seen; none if a part of it is not covered
+  };
+  bool isDue(const Since& since) const;
+
   TriggerOptions options_;
-  std::map<std::string, base::Stamp> last_;
+  std::map<std::string, Since> labels_;
 };
 
 }  // namespace omnimapper::mapper

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/graph/Solver.h>
+#include <omnimapper/mapper/Motion.h>
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// Section [mapper] of an INI.
+struct EngineOptions {
+  Motion motion = Motion::planar;
+  std::vector<std::string> pose_plugins, measurement_plugins, output_plugins;
+  std::vector<std::string> sensors;
+  std::vector<std::string> plugin_libraries;
+  std::string reference_sensor;  ///< label; empty: the first sensor that earns a key frame
+  double window = 0.5;           ///< [s]
+  int solve_every = 100;         ///< key frames
+  int solve_after_closure = 10;  ///< key frames
+
+  static const base::OptionTable<EngineOptions>& table();
+};
+
+/// Section [perception] of an INI.
+struct PerceptionOptions {
+  std::vector<std::string> extractors;
+
+  static const base::OptionTable<PerceptionOptions>& table();
+};
+
+/// Section [solver] of an INI.
+struct SolverOptions {
+  graph::SolveOptions::Method method = graph::SolveOptions::Method::levenberg_marquardt;
+  int max_iterations = 20;
+  double tolerance = 1e-4;
+  int final_max_iterations = 100;
+  double final_tolerance = 1e-9;
+
+  static const base::OptionTable<SolverOptions>& table();
+  /// While the map grows, and at its end.
+  graph::SolveOptions running() const { return {method, max_iterations, tolerance, {}}; }
+  graph::SolveOptions final() const { return {method, final_max_iterations, final_tolerance, {}}; }
+};
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Progress.h>
+#include <omnimapper/mapper/PluginHelp.h>
+#include <omnimapper/source/SourceReport.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// What a user asks of one run.
+struct RunRequest {
+  std::vector<std::string> logs;        ///< rawlogs, merged by stamp
+  std::string output_folder;
+  std::vector<std::string> more_outputs;  ///< sections of outputs beside those of the INI, such as the live window
+  int threads = 1;                      ///< workers of the perception pool
+  double speed = 0;                     ///< times the log's own pace; 0: as fast as possible
+};
+
+/// How a run went.
+struct RunResult {
+  base::ExitCode code = base::ExitCode::ok;
+  std::vector<std::string> warnings;
+  source::SourceReport source;
+  std::size_t key_frames = 0, factors = 0, closures = 0, refused_closures = 0;
+  double log_seconds = 0;   ///< from first to last stamp
+  double wall_seconds = 0;  ///< of the whole run
+  double way = 0;           ///< [m] of the trajectory
+};
+
+/// Log in, map out: opens the logs, makes the plugins, feeds the engine, writes the outputs. Damaged input and `stop`
+/// still give the map of what was read, with their own code. Throws base::Error for everything that keeps a map from
+/// being written. `stop` is asked between observations.
+RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
+                     const std::function<bool()>& stop);
+
+/// The summary for a screen.
+std::string toText(const RunResult& result, const std::string& output_folder);
+
+/// The sections of an INI that runMapping() reads beside those of the plugins.
+const FixedSections& fixedSections();
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/mapper/PluginFactory.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// Every registered plugin class with its sentence, for --list-plugins.
+std::string listPlugins();
+
+/// An INI section of that plugin class with every option at its default and what it means, for --print-ini.
+/// Throws Error(unknown_plugin).
+std::string printIni(const std::string& class_name);
+
+/// The sections that are no plugin's, with their options.
+using FixedSections = std::vector<std::pair<std::string, std::vector<base::OptionSpec>>>;
+
+/// Markdown tables of all sections and plugin classes: ini/README.md is this text.
+std::string iniReference(const FixedSections& fixed);
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,52 @@
+#include <omnimapper/mapper/EngineOptions.h>
+
+namespace omnimapper::mapper {
+
+const base::OptionTable<EngineOptions>& EngineOptions::table() {
+  using Options = EngineOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .choice("motion", &Options::motion, {{"planar", Motion::planar}, {"spatial", Motion::spatial}},
+                  "How the base moves: on a floor, or freely.")
+          .list("pose_plugins", &Options::pose_plugins, "Sections of the continuous pose sources.")
+          .list("measurement_plugins", &Options::measurement_plugins, "Sections of the measurement plugins, in order.")
+          .list("output_plugins", &Options::output_plugins, "Sections of the outputs.")
+          .list("sensors", &Options::sensors, "Sections that tell where a sensor is on the base.")
+          .list("plugin_libraries", &Options::plugin_libraries, "Shared libraries with further plugin classes.")
+          .text("reference_sensor", &Options::reference_sensor,
+                "Label of the sensor whose every observation gets a line in the trajectory; empty for the first that "
+                "earns a key frame.")
+          .number("window_s", &Options::window, base::Range::notNegative(),
+                  "Observations wait so long for slower sensors before they are worked on.")
+          .integer("solve_every", &Options::solve_every, base::Range{1, 1e9}, "Solve after so many key frames.")
+          .integer("solve_after_closure", &Options::solve_after_closure, base::Range{1, 1e9},
+                   "Solve after a loop closure, but not before so many key frames have passed since the last solve.");
+  return table;
+}
+
+const base::OptionTable<PerceptionOptions>& PerceptionOptions::table() {
+  static const auto table = base::OptionTable<PerceptionOptions>().list(
+      "extractors", &PerceptionOptions::extractors, "Sections of the extractors, in order.");
+  return table;
+}
+
+const base::OptionTable<SolverOptions>& SolverOptions::table() {
+  using Options = SolverOptions;
+  using Method = graph::SolveOptions::Method;
+  static const auto table =
+      base::OptionTable<Options>()
+          .choice("method", &Options::method,
+                  {{"levenberg_marquardt", Method::levenberg_marquardt}, {"dogleg", Method::dogleg}},
+                  "How the graph is solved.")
+          .integer("max_iterations", &Options::max_iterations, base::Range{1, 1e6},
+                   "Iterations at most of a solve while the map grows.")
+          .number("tolerance", &Options::tolerance, base::Range{0, 1},
+                  "A solve while the map grows ends when a step lowers the cost by less than this part.")
+          .integer("final_max_iterations", &Options::final_max_iterations, base::Range{1, 1e6},
+                   "Iterations at most of the last solve.")
+          .number("final_tolerance", &Options::final_tolerance, base::Range{0, 1},
+                  "The last solve ends when a step lowers the cost by less than this part.");
+  return table;
+}
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,163 @@
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/mapper/Engine.h>
+#include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/source/RawlogSource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+// Sleeps so that the log's time runs `speed` times as fast as the clock on the wall.
+class Pace {
+ public:
+  explicit Pace(double speed) : speed_(speed) {}
+  void waitFor(base::Stamp stamp) {
+    if (speed_ <= 0 || !base::isValid(stamp)) return;
+    if (!first_) first_ = stamp;
+    const double ahead = base::secondsBetween(*first_, stamp) / speed_ - watch_.seconds();
+    if (ahead > 0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead, 1.0)));
+  }
+
+ private:
+  double speed_;
+  std::optional<base::Stamp> first_;
+  StopWatch watch_;
+};
+
+std::string titleOf(const std::vector<std::string>& logs) {
+  std::string title;
+  for (const auto& log : logs) title += (title.empty() ? "" : " + ") + std::filesystem::path(log).stem().string();
+  return title;
+}
+
+// Reads the log into the engine until its end, or until `stop`. True if it was stopped.
+bool feed(source::ObservationSource& log, Engine& engine, double speed, base::Progress& progress,
+          const std::function<bool()>& stop) {
+  Pace pace(speed);
+  double reading = 0;
+  bool stopped = false;
+  for (;;) {
+    if ((stopped = stop())) break;
+    const StopWatch watch;
+    const auto observation = log.next();
+    reading += watch.seconds();
+    if (!observation) break;
+    pace.waitFor(observation->timestamp);
+    engine.add(observation);
+    progress.report(log.progress(), std::to_string(engine.view().map.key_frames.size()) + " key frames");
+  }
+  engine.addTime("source", reading);
+  return stopped;
+}
+
+void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
+  const auto warn = [&](std::size_t count, const std::string& what) {
+    if (count > 0) engine.warn(std::to_string(count) + " observations " + what);
+  };
+  warn(counts.no_stamp, "have no stamp and were left out");
+  warn(counts.repeated_stamp, "repeat the stamp of the one before and were left out");
+  warn(counts.too_late, "came later than [mapper] window_s and were left out");
+  warn(counts.unusable, "of the odometry are not finite or run backwards in time and were left out");
+  warn(counts.unconnected, "have no pose: no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
+  if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
+}
+
+RunResult resultOf(const View& view) {
+  RunResult result;
+  const auto& frames = view.map.key_frames;
+  result.key_frames = frames.size();
+  result.factors = view.graph.factors().size();
+  for (const auto& decision : view.decisions) {
+    if (decision.kind != "loop closure") continue;
+    ++(decision.accepted ? result.closures : result.refused_closures);
+  }
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    result.way += (frames[i].map_from_base.translation() - frames[i - 1].map_from_base.translation()).norm();
+  }
+  if (!frames.empty()) result.log_seconds = base::secondsBetween(frames.front().stamp, frames.back().stamp);
+  result.warnings = view.warnings;
+  return result;
+}
+
+}  // namespace
+
+const FixedSections& fixedSections() {
+  static const FixedSections sections{{"mapper", EngineOptions::table().specs()},
+                                      {"perception", PerceptionOptions::table().specs()},
+                                      {"trigger", TriggerOptions::table().specs()},
+                                      {"solver", SolverOptions::table().specs()},
+                                      {"source", source::SourceOptions::table().specs()},
+                                      {"<name of a sensor>", SensorPoseOptions::table().specs()}};
+  return sections;
+}
+
+RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
+                     const std::function<bool()>& stop) {
+  const StopWatch watch;
+  const auto options = config.section("mapper").read<EngineOptions>();
+  const auto perception = config.section("perception").read<PerceptionOptions>();
+  const auto trigger = config.section("trigger").read<TriggerOptions>();
+  const auto solver = config.section("solver").read<SolverOptions>();
+  const auto source_options = config.section("source").read<source::SourceOptions>();
+  for (const auto& library : options.plugin_libraries) loadPluginLibrary(library);
+  SensorPoses sensor_poses(options.sensors, config);
+  auto outputs = options.output_plugins;
+  outputs.insert(outputs.begin(), request.more_outputs.begin(), request.more_outputs.end());
+
+  const auto log = source::openRawlogs(request.logs, source_options);
+  base::makeWritableFolder(request.output_folder);
+  PluginContext context;
+  context.motion = options.motion;
+  context.output_folder = request.output_folder;
+  context.title = titleOf(request.logs);
+  context.config_text = config.text();
+  auto plugins =
+      makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, outputs}, config, context);
+  config.refuseUnreadSections();
+
+  Engine engine(options, trigger, solver, std::move(sensor_poses), std::move(plugins), request.threads);
+  const bool stopped = feed(*log, engine, request.speed, progress, stop);
+  engine.finish();
+
+  const auto report = log->report();
+  if (!report.message.empty()) engine.warn(report.message);
+  if (stopped) engine.warn("interrupted: this is the map of what was read until then");
+  warnOf(engine.view().counts, engine.view().map.key_frames.size(), engine);
+  auto result = resultOf(engine.view());
+  result.source = report;
+  result.code = stopped ? base::ExitCode::interrupted : report.exitCode();
+  if (result.key_frames == 0 && result.code == base::ExitCode::ok) {
+    throw base::Error(base::ExitCode::nothing_to_map,
+                      titleOf(request.logs) + ": no observation that a measurement plugin of " + config.file() +
+                          " wants; the log holds:\n" + report.text());
+  }
+  progress.report(1.0, "writing the outputs");
+  engine.writeOutputs();
+  result.wall_seconds = watch.seconds();
+  return result;
+}
+
+std::string toText(const RunResult& result, const std::string& output_folder) {
+  char text[1024];
+  std::snprintf(text, sizeof text,
+                "key frames        %zu\n"
+                "factors           %zu\n"
+                "loop closures     %zu accepted, %zu refused (reasons: report.html)\n"
+                "way               %.1f m in %.1f s\n"
+                "wall time         %.2f s (%.0f times the log's own pace)\n"
+                "outputs           %s\n",
+                result.key_frames, result.factors, result.closures, result.refused_closures, result.way,
+                result.log_seconds, result.wall_seconds,
+                result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0, output_folder.c_str());
+  std::string all = text;
+  for (const auto& warning : result.warnings) all += "warning: " + warning + "\n";
+  return all;
+}
+
+}  // namespace omnimapper::mapper

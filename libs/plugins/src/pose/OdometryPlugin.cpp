@@ -1,0 +1,90 @@
+#include <omnimapper/plugins/OdometryPlugin.h>
+
+#include <cmath>
+
+IMPLEMENTS_MRPT_OBJECT(OdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<OdometryOptions>& OdometryOptions::table() {
+  using Options = OdometryOptions;
+  const auto zero_or_more = base::Range::notNegative();
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("label", &Options::label, "Sensor label of the odometry; empty for the first that comes.")
+          .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
+                  "Standard deviation of the position after 1 m of way [m]; grows with its root.")
+          .number("yaw_noise_per_root_turn", &Options::yaw_noise_per_root_turn, zero_or_more,
+                  "Standard deviation of the heading after 1 rad of turning [rad]; grows with its root.")
+          .number("yaw_noise_per_root_m_deg", &Options::yaw_noise_per_root_m, zero_or_more,
+                  "Standard deviation of the heading after 1 m of way; grows with its root.")
+          .number("position_noise_per_root_s", &Options::position_noise_per_root_s, zero_or_more,
+                  "Standard deviation of the position after 1 s [m]; grows with its root.")
+          .number("yaw_noise_per_root_s_deg", &Options::yaw_noise_per_root_s, zero_or_more,
+                  "Standard deviation of the heading after 1 s; grows with its root.")
+          .flag("use_reported_covariance", &Options::use_reported_covariance,
+                "Trust the covariance that MRPT's actions carry instead of the noise above.");
+  return table;
+}
+
+bool OdometryPlugin::isOurs(const mrpt::obs::CObservation& observation) {
+  if (!options_.label.empty()) return observation.sensorLabel == options_.label;
+  if (!label_) label_ = observation.sensorLabel;
+  return observation.sensorLabel == *label_;
+}
+
+Eigen::Matrix<double, 6, 6> OdometryPlugin::covarianceOf(const mrpt::poses::CPose3D& motion, double seconds) const {
+  const double way = motion.translation().norm();
+  const double turn = std::abs(motion.yaw());
+  const auto squared = [](double value) { return value * value; };
+  const double position = squared(options_.position_noise_per_root_m) * way +
+                          squared(options_.position_noise_per_root_s) * seconds;
+  const double yaw = squared(options_.yaw_noise_per_root_turn) * turn + squared(options_.yaw_noise_per_root_m) * way +
+                     squared(options_.yaw_noise_per_root_s) * seconds;
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  covariance.diagonal() << position, position, position, yaw, yaw, yaw;
+  return covariance;
+}
+
+OdometryPlugin::Taken OdometryPlugin::add(const mrpt::obs::CObservation& observation) {
+  if (const auto* motion = dynamic_cast<const obs::CObservationRelativeMotion*>(&observation)) {
+    return isOurs(observation) ? addMotion(*motion) : Taken::not_mine;
+  }
+  if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
+    return isOurs(observation) ? addPose(*odometry) : Taken::not_mine;
+  }
+  return Taken::not_mine;
+}
+
+OdometryPlugin::Taken OdometryPlugin::addMotion(const obs::CObservationRelativeMotion& motion) {
+  const double seconds = base::secondsBetween(motion.begin, motion.timestamp);
+  const auto covariance =
+      options_.use_reported_covariance ? motion.covariance : covarianceOf(motion.begin_from_end, seconds);
+  const bool fits = timeline_.append(motion.begin, motion.timestamp, {motion.begin_from_end, covariance});
+  return fits ? Taken::taken : Taken::unusable;
+}
+
+OdometryPlugin::Taken OdometryPlugin::addPose(const mrpt::obs::CObservationOdometry& odometry) {
+  const auto& pose = odometry.odometry;
+  if (!std::isfinite(pose.x()) || !std::isfinite(pose.y()) || !std::isfinite(pose.phi())) return Taken::unusable;
+  if (last_ && odometry.timestamp <= last_->first) return Taken::unusable;
+  const mrpt::poses::CPose3D odom_from_base(pose);
+  if (last_) {
+    const mrpt::poses::CPose3D motion = odom_from_base - last_->second;
+    const double seconds = base::secondsBetween(last_->first, odometry.timestamp);
+    timeline_.append(last_->first, odometry.timestamp, {motion, covarianceOf(motion, seconds)});
+  }
+  last_ = {odometry.timestamp, odom_from_base};
+  return Taken::taken;
+}
+
+std::optional<mapper::RelativeMotion> OdometryPlugin::between(base::Stamp begin, base::Stamp end) const {
+  return timeline_.between(begin, end);
+}
+
+std::unique_ptr<mapper::PosePlugin> OdometryPluginFactory::make(const base::ConfigSection& section,
+                                                                const mapper::PluginContext&) const {
+  return std::make_unique<OdometryPlugin>(section.read<OdometryOptions>(mapper::sectionKeysOfEngine()));
+}
+
+}  // namespace omnimapper::plugins

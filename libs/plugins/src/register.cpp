@@ -1,0 +1,24 @@
+#include <mrpt/core/initializer.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/obs/registerClasses.h>
+#include <omnimapper/plugins/LaserPointsPlugin.h>
+#include <omnimapper/plugins/NoMotionPlugin.h>
+#include <omnimapper/plugins/OdometryPlugin.h>
+#include <omnimapper/plugins/ScanMatchingPlugin.h>
+#include <omnimapper/plugins/registerPlugins.h>
+
+namespace omnimapper::plugins {
+
+void registerPlugins() {
+  obs::registerClasses();
+  mapper::registerFactoryBases();
+  using mrpt::rtti::registerClass;
+  registerClass(CLASS_ID(OdometryPluginFactory));
+  registerClass(CLASS_ID(NoMotionPluginFactory));
+  registerClass(CLASS_ID(LaserPointsPluginFactory));
+  registerClass(CLASS_ID(ScanMatchingPluginFactory));
+}
+
+}  // namespace omnimapper::plugins
+
+MRPT_INITIALIZER(registerOmnimapperPlugins) { omnimapper::plugins::registerPlugins(); }
