@@ -1,0 +1,22 @@
+#pragma once
+
+#include <omnimapper/eval/Pairing.h>
+#include <omnimapper/eval/Statistics.h>
+
+namespace omnimapper::eval {
+
+struct AbsoluteTrajectoryError {
+  Statistics translation;                  ///< [m]
+  Statistics rotation;                     ///< [rad]
+  std::vector<double> translation_errors;  ///< of each pair [m]
+  std::vector<double> rotation_errors;     ///< of each pair [rad], in [0, pi]
+  PairedTrajectories paired;
+};
+
+/// Distance and angle between each pose of the estimate and its partner in the reference.
+/// Source: Sturm et al., A Benchmark for the Evaluation of RGB-D SLAM Systems, IROS 2012; the angle is its sibling.
+/// Throws as pairTrajectories().
+AbsoluteTrajectoryError absoluteTrajectoryError(const Trajectory& estimate, const Trajectory& reference,
+                                                const PairingOptions& options = {});
+
+}  // namespace omnimapper::eval
