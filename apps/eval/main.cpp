@@ -14,18 +14,9 @@ struct Arguments {
   std::string estimate, reference, output_folder, json_file;
   double tolerance = 0.01, interpolate = 0;          // [s]
   std::vector<double> base_from_sensor = {0, 0, 0};  // x y [m] yaw [deg]
-  eval::Alignment alignment = eval::Alignment::none;
-  eval::Delta delta;
+  std::string alignment = "none", unit = "frames";
+  double delta = 1;
 };
-
-using eval::Alignment;
-const std::map<std::string, Alignment> kAlignments = {{"none", Alignment::none},
-                                                      {"first", Alignment::first},
-                                                      {"yaw", Alignment::yaw},
-                                                      {"se3", Alignment::se3},
-                                                      {"sim3", Alignment::sim3}};
-const std::map<std::string, eval::DeltaUnit> kUnits = {
-    {"frames", eval::DeltaUnit::frames}, {"s", eval::DeltaUnit::seconds}, {"m", eval::DeltaUnit::metres}};
 
 CLI::App* addVerb(CLI::App& app, const std::string& name, const std::string& help, Arguments& arguments) {
   CLI::App* verb = app.add_subcommand(name, help);
@@ -39,8 +30,7 @@ CLI::App* addVerb(CLI::App& app, const std::string& name, const std::string& hel
 }
 
 void addPairing(CLI::App* verb, Arguments& arguments) {
-  verb->add_option("--align", arguments.alignment, "none, first, yaw, se3 or sim3; default none")
-      ->transform(CLI::CheckedTransformer(kAlignments));
+  verb->add_option("--align", arguments.alignment, "none, first, yaw, se3 or sim3; default none");
   verb->add_option("--interpolate", arguments.interpolate, "interpolate the reference over gaps up to this [s]")
       ->check(CLI::PositiveNumber);
 }
@@ -66,9 +56,11 @@ int run(const std::string& verb, const Arguments& arguments) {
     return report(arguments, eval::relationError(estimate, eval::readRelations(arguments.reference), options));
   }
   const auto reference = eval::readTrajectory(arguments.reference);
-  const eval::PairingOptions pairing{tolerance, base::durationFromSeconds(arguments.interpolate), arguments.alignment};
+  const eval::PairingOptions pairing{tolerance, base::durationFromSeconds(arguments.interpolate),
+                                     eval::alignmentNamed(arguments.alignment)};
   if (verb == "ate") return report(arguments, eval::absoluteTrajectoryError(estimate, reference, pairing), reference);
-  return report(arguments, eval::relativePoseError(estimate, reference, pairing, arguments.delta));
+  return report(arguments, eval::relativePoseError(estimate, reference, pairing,
+                                                   {arguments.delta, eval::deltaUnitNamed(arguments.unit)}));
 }
 
 }  // namespace
@@ -79,9 +71,8 @@ int main(int argc, char** argv) {
   addPairing(addVerb(app, "ate", "absolute trajectory error", arguments), arguments);
   CLI::App* rpe = addVerb(app, "rpe", "relative pose error", arguments);
   addPairing(rpe, arguments);
-  rpe->add_option("--delta", arguments.delta.value, "span over which motion is compared, default 1");
-  rpe->add_option("--unit", arguments.delta.unit, "of the delta: frames, s or m; default frames")
-      ->transform(CLI::CheckedTransformer(kUnits));
+  rpe->add_option("--delta", arguments.delta, "span over which motion is compared, default 1");
+  rpe->add_option("--unit", arguments.unit, "of the delta: frames, s or m; default frames");
   addVerb(app, "relations", "metric of Kuemmerle et al. 2009 over relations checked by hand", arguments)
       ->add_option("--base-from-sensor", arguments.base_from_sensor, "x y [m] yaw [deg] of the relations' sensor")
       ->expected(3);

@@ -3,6 +3,8 @@
 
 #include <Eigen/SVD>
 
+#include "NamedChoice.h"
+
 namespace omnimapper::eval {
 
 namespace {
@@ -76,6 +78,15 @@ Eigen::Vector3d operator*(const Similarity& reference_from_estimate, const Eigen
 geometry::Se3 operator*(const Similarity& reference_from_estimate, const geometry::Se3& estimate_from_body) {
   return {(reference_from_estimate.motion.rotation * estimate_from_body.rotation).normalized(),
           reference_from_estimate * estimate_from_body.translation};
+}
+
+Alignment alignmentNamed(const std::string& name) {
+  return namedChoice<Alignment>(name, "alignment",
+                                {{"none", Alignment::none},
+                                 {"first", Alignment::first},
+                                 {"yaw", Alignment::yaw},
+                                 {"se3", Alignment::se3},
+                                 {"sim3", Alignment::sim3}});
 }
 
 Similarity fitAlignment(const std::vector<PosePair>& pairs, Alignment alignment) {

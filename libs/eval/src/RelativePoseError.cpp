@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "NamedChoice.h"
+
 namespace omnimapper::eval {
 
 namespace {
@@ -47,6 +49,11 @@ void refuseBadDelta(const Delta& delta) {
 }
 
 }  // namespace
+
+DeltaUnit deltaUnitNamed(const std::string& name) {
+  return namedChoice<DeltaUnit>(name, "unit",
+                                {{"frames", DeltaUnit::frames}, {"s", DeltaUnit::seconds}, {"m", DeltaUnit::metres}});
+}
 
 RelativePoseError relativePoseError(const Trajectory& estimate, const Trajectory& reference,
                                     const PairingOptions& options, const Delta& delta) {

@@ -3,6 +3,7 @@
 #include <omnimapper/eval/Association.h>
 
 #include <Eigen/Core>
+#include <string>
 
 namespace omnimapper::eval {
 
@@ -14,6 +15,9 @@ enum class Alignment {
   se3,    ///< translation and rotation, least squares over positions
   sim3,   ///< the same and scale
 };
+
+/// By its name above. Throws Error(command_line) that lists the names.
+Alignment alignmentNamed(const std::string& name);
 
 /// reference_from_estimate: p_in_reference = scale * R p_in_estimate + t; orientations turn by R.
 struct Similarity {

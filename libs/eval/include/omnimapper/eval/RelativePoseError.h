@@ -3,9 +3,14 @@
 #include <omnimapper/eval/Pairing.h>
 #include <omnimapper/eval/Statistics.h>
 
+#include <string>
+
 namespace omnimapper::eval {
 
 enum class DeltaUnit { frames, seconds, metres };
+
+/// "frames", "s" or "m". Throws Error(command_line) that lists them.
+DeltaUnit deltaUnitNamed(const std::string& name);
 
 /// The span over which motion is compared.
 struct Delta {
