@@ -15,7 +15,7 @@ configure() {
   local folder=$1
   shift
   say "Configuring build/$folder"
-  cmake -S "$project_root" -B "$project_root/build/$folder" -G Ninja "$@"
+  cmake -S "$project_root" -B "$project_root/build/$folder" -G Ninja --log-level=NOTICE "$@"
 }
 
 # build FOLDER [TARGET...]: all of it, or the targets named.
