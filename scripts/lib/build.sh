@@ -1,6 +1,9 @@
 # Configures and builds. Sourced, never run.
 # shellcheck shell=bash
 
+# What one checkout has compiled serves the next one too.
+export CCACHE_BASEDIR=$project_root CCACHE_NOHASHDIR=yes
+
 # Compilers at once: one for each core, as far as 1.5 GiB for each goes. OMNIMAPPER_JOBS overrides.
 build_jobs() {
   local cores memory

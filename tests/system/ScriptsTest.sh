@@ -1,0 +1,72 @@
+#!/bin/bash
+# ScriptsTest.sh PROJECT-FOLDER: the parts of scripts/ that can be tried without installing or building anything.
+set -euo pipefail
+cd "$1"
+source scripts/lib/results.sh
+source scripts/lib/packages.sh
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+failures=0
+
+# expect WHAT EXPECTED ACTUAL
+expect() {
+  [ "$2" = "$3" ] && return
+  printf '%s\n  expected: %s\n  actual:   %s\n' "$1" "$2" "$3"
+  failures=$((failures + 1))
+}
+
+# A binary with one passed, one skipped and one twice failed case, a script that passed, a binary that crashed before
+# it could count, and one that reported a leak after its only case had passed.
+cat >"$scratch/test-mixed.xml" <<'XML'
+<testsuites tests="4" failures="1" disabled="1">
+    <testcase name="stands" status="run" result="completed" time="0" classname="Mixed" />
+    <testcase name="lacksItsLog" status="run" result="skipped" time="0" classname="Mixed">
+      <skipped message="MixedTest.cpp:7&#x0A;no &quot;aces&quot; here"><![CDATA[MixedTest.cpp:7
+no "aces" here]]></skipped>
+    </testcase>
+    <testcase name="falls" status="run" result="completed" time="0" classname="Mixed">
+      <failure message="MixedTest.cpp:9&#x0A;1 is not 2" type=""><![CDATA[1 is not 2]]></failure>
+      <failure message="MixedTest.cpp:10&#x0A;2 is not 3" type=""><![CDATA[2 is not 3]]></failure>
+    </testcase>
+    <testcase name="DISABLED_sleeps" status="notrun" result="suppressed" time="0" classname="Mixed" />
+</testsuites>
+XML
+cat >"$scratch/test-leaking.xml" <<'XML'
+<testsuites tests="1" failures="0">
+    <testcase name="holdsOn" status="run" result="completed" time="0" classname="Leaking" />
+</testsuites>
+XML
+cat >"$scratch/ctest.xml" <<'XML'
+<testsuite name="x">
+	<testcase name="mixed" classname="mixed" time="0.1" status="fail"/>
+	<testcase name="package" classname="package" time="0.1" status="run"/>
+	<testcase name="crashed" classname="crashed" time="0.1" status="fail"/>
+	<testcase name="leaking" classname="leaking" time="0.1" status="fail"/>
+</testsuite>
+XML
+collect_results "$scratch" >"$scratch/cases"
+expect "passed cases" 3 "$(count_state passed "$scratch/cases")"
+expect "failed cases" 3 "$(count_state failed "$scratch/cases")"
+expect "skipped cases" 1 "$(count_state skipped "$scratch/cases")"
+expect "why a case was skipped" 'Mixed.lacksItsLog no "aces" here' \
+  "$(awk -F '\t' '$1 == "skipped" { print $2, $3 }' "$scratch/cases")"
+expect "what failed" "Mixed.falls crashed leaking" \
+  "$(awk -F '\t' '$1 == "failed" { printf "%s%s", s, $2; s = " " }' "$scratch/cases")"
+
+# Package lists: one name in a line, and what it is for.
+printf '# heading\n\ncmake   # configures\nzlib1g-dev # .gz\n' >"$scratch/packages.txt"
+expect "names in a package list" "cmake zlib1g-dev" "$(list_packages "$scratch/packages.txt" | xargs)"
+for list in scripts/packages.txt scripts/packages-test.txt; do
+  expect "lines of $list without a reason" "" "$(grep -vE '^#|^[a-z0-9.+-]+ +# .+' "$list" || true)"
+done
+expect "an installed package" yes "$(is_installed bash && echo yes)"
+expect "a package nobody has" no "$(is_installed no-such-package-anywhere || echo no)"
+
+# Every script explains itself and refuses what it does not know.
+for script in scripts/demo scripts/test scripts/format scripts/ini-reference .ci/run; do
+  expect "$script --help" "0 Usage" "$("$script" --help >"$scratch/help" && echo "$? $(grep -o Usage "$scratch/help")")"
+  expect "$script --no-such-flag" refused "$("$script" --no-such-flag >/dev/null 2>&1 || echo refused)"
+done
+
+[ "$failures" -eq 0 ]
