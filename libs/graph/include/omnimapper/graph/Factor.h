@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <string_view>
 #include <vector>
 
@@ -14,12 +15,15 @@ class Factor {
   virtual std::string_view kind() const = 0;
   /// Rows of the residual.
   virtual int residualSize() const = 0;
-  /// Kinds of the variables it takes, in order (Variable::kind()).
+  /// Kinds of the variables it takes, in order (Variable::kind()). An "se3" slot takes an "se2" variable too: the graph
+  /// lifts it into space and keeps the Jacobian's columns x, y and yaw.
   virtual const std::vector<std::string_view>& variableKinds() const = 0;
   /// values[i]: ambient value of variable i. residual [residualSize].
   /// jacobians may be null; jacobians[i], where not null, is [residualSize x tangentSize of variable i], row-major:
   /// the derivative of the residual by the tangent (delta of Variable::plus) at zero.
   virtual void evaluate(const double* const* values, double* residual, double* const* jacobians) const = 0;
+  /// Writes what it measured with ByteIo.h, for the reader that a FactorRegistry holds under its kind.
+  virtual void write(std::ostream& out) const = 0;
 };
 
 }  // namespace omnimapper::graph

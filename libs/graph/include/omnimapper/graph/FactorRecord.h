@@ -1,0 +1,35 @@
+#pragma once
+
+#include <omnimapper/base/Id.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "omnimapper/graph/Factor.h"
+#include "omnimapper/graph/Loss.h"
+#include "omnimapper/graph/Noise.h"
+
+namespace omnimapper::graph {
+
+/// What the makers of a factor want to know of it later; the solver looks at none of it.
+struct Tags {
+  std::string owner;                         ///< name of the plugin that added it
+  std::optional<base::LandmarkId> landmark;  ///< the landmark it speaks of
+  bool hypothesis = false;                   ///< could be wrong in a way that bends the map
+  std::string note;                          ///< for reports
+};
+
+/// A factor in a graph: which variables it binds and how much it counts.
+/// Its share of the cost is 1/2 weight loss(|noise * residual|^2).
+struct FactorRecord {
+  std::vector<base::VariableId> variables;
+  std::shared_ptr<const Factor> factor;
+  SquareRootInformation noise;
+  Loss loss;
+  double weight = 1;  ///< >= 0; 0 takes it out of the solution without removing it
+  Tags tags;
+};
+
+}  // namespace omnimapper::graph

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <omnimapper/base/Id.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "omnimapper/graph/FactorRecord.h"
+#include "omnimapper/graph/IdTable.h"
+#include "omnimapper/graph/Variable.h"
+
+namespace omnimapper::graph {
+
+/// A variable in a graph.
+struct VariableRecord {
+  std::shared_ptr<const Variable> kind;
+  Eigen::VectorXd value;                ///< [ambientSize]
+  bool fixed = false;                   ///< held at its value by every solution
+  std::vector<base::FactorId> factors;  ///< those that bind it, in the order of ids
+};
+
+/// Variables and the factors between them. Every edit takes a time that does not grow with the graph. Copies are
+/// independent and share the immutable factors. Every method that is given an id throws Error(internal), naming it, if
+/// the graph has no such thing.
+class Graph {
+ public:
+  /// New ids carry the number of the session.
+  explicit Graph(std::uint16_t session = 0) : session_(session) {}
+  std::uint16_t session() const { return session_; }
+  /// From here on, new ids carry this number.
+  void setSession(std::uint16_t session) { session_ = session; }
+
+  /// Throws Error(internal) if the value's size is not the kind's or it is not finite.
+  base::VariableId addVariable(std::shared_ptr<const Variable> kind, const Eigen::VectorXd& value, bool fixed = false);
+  /// Throws Error(internal) while a factor binds it.
+  void removeVariable(base::VariableId id);
+  /// Throws Error(internal) if a variable does not exist, is bound twice or is not of the kind that the factor takes,
+  /// if the noise is not of the residual's size, or if the weight is negative or not finite.
+  base::FactorId addFactor(FactorRecord record);
+  void removeFactor(base::FactorId id);
+
+  bool contains(base::VariableId id) const { return variables_.find(id) != nullptr; }
+  bool contains(base::FactorId id) const { return factors_.find(id) != nullptr; }
+  const VariableRecord& variable(base::VariableId id) const;
+  const FactorRecord& factor(base::FactorId id) const;
+  /// Iteration in the order of ids: for (const auto& [id, record] : graph.variables()).
+  const IdTable<base::VariableId, VariableRecord>& variables() const { return variables_; }
+  const IdTable<base::FactorId, FactorRecord>& factors() const { return factors_; }
+  const std::vector<base::FactorId>& factorsOf(base::VariableId id) const { return variable(id).factors; }
+
+  const Eigen::VectorXd& value(base::VariableId id) const { return variable(id).value; }
+  /// Throws Error(internal) if the value's size is not the kind's or it is not finite.
+  void setValue(base::VariableId id, const Eigen::VectorXd& value);
+  void setFixed(base::VariableId id, bool fixed);
+  /// Throws Error(internal) if it is negative or not finite.
+  void setWeight(base::FactorId id, double weight);
+  void setLoss(base::FactorId id, const Loss& loss);
+
+  /// noise * residual at the current values; weight and loss do not enter.
+  Eigen::VectorXd whitenedResidual(base::FactorId id) const;
+  /// Sum of weight |whitened residual|^2, losses left out.
+  double chi2() const;
+  /// Sum of 1/2 weight loss(|whitened residual|^2): what solve() minimises.
+  double cost() const;
+
+ private:
+  friend class GraphArchiveReader;
+  VariableRecord& mutableVariable(base::VariableId id);
+  FactorRecord& mutableFactor(base::FactorId id);
+  void checkBinding(const FactorRecord& record) const;
+
+  std::uint16_t session_;
+  IdTable<base::VariableId, VariableRecord> variables_;
+  IdTable<base::FactorId, FactorRecord> factors_;
+};
+
+}  // namespace omnimapper::graph

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace omnimapper::graph {
+
+/// How much a residual is trusted: a square matrix W with W^T W = information = covariance^-1. W * residual is the
+/// whitened residual, whose unit is one sigma. Born valid; the rows and columns are those of the residual.
+class SquareRootInformation {
+ public:
+  /// Each throws Error(internal) if the matrix is not square, not symmetric, not positive definite or not finite.
+  static SquareRootInformation fromCovariance(const Eigen::MatrixXd& covariance);
+  static SquareRootInformation fromInformation(const Eigen::MatrixXd& information);
+  /// Standard deviations, in the unit of each row.
+  static SquareRootInformation fromSigmas(const Eigen::VectorXd& sigmas);
+  /// W itself, as matrix() gave it. Throws if it is not square, not finite or singular.
+  static SquareRootInformation fromMatrix(const Eigen::MatrixXd& matrix);
+  /// Every row has sigma 1.
+  static SquareRootInformation identity(int size);
+
+  int size() const { return static_cast<int>(matrix_.rows()); }
+  const Eigen::MatrixXd& matrix() const { return matrix_; }
+  Eigen::MatrixXd information() const { return matrix_.transpose() * matrix_; }
+  Eigen::MatrixXd covariance() const;
+
+ private:
+  explicit SquareRootInformation(Eigen::MatrixXd matrix) : matrix_(std::move(matrix)) {}
+  Eigen::MatrixXd matrix_;
+};
+
+}  // namespace omnimapper::graph

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <omnimapper/geometry/Se3.h>
+
+#include <memory>
+
+#include "omnimapper/graph/Variable.h"
+
+namespace omnimapper::graph {
+
+/// The kinds of variables that the library brings. Lengths in m, angles in rad.
+
+/// "se2": x y yaw; tangent of geometry::Se2.
+const std::shared_ptr<const Variable>& se2();
+/// "se3": x y z qx qy qz qw, unit quaternion; tangent of geometry::Se3.
+const std::shared_ptr<const Variable>& se3();
+/// "point2": x y.
+const std::shared_ptr<const Variable>& point2();
+/// "point3": x y z.
+const std::shared_ptr<const Variable>& point3();
+
+/// Values of poses as the graph stores them, and back. The pointers are to a whole ambient value.
+Eigen::Vector3d toValue(const geometry::Se2& pose);
+Eigen::Matrix<double, 7, 1> toValue(const geometry::Se3& pose);
+inline geometry::Se2 se2FromValue(const double* value) {
+  return {value[0], value[1], value[2]};
+}
+inline geometry::Se3 se3FromValue(const double* value) {
+  return {Eigen::Quaterniond(value[6], value[3], value[4], value[5]), {value[0], value[1], value[2]}};
+}
+
+}  // namespace omnimapper::graph

@@ -1,0 +1,66 @@
+#include "omnimapper/graph/ByteIo.h"
+
+#include <omnimapper/base/Error.h>
+
+#include <cstring>
+#include <istream>
+#include <ostream>
+
+namespace omnimapper::graph {
+
+namespace {
+
+void readBytes(std::istream& in, char* bytes, std::size_t count) {
+  if (!in.read(bytes, static_cast<std::streamsize>(count)))
+    throw base::Error(base::ExitCode::damaged_input,
+                      "graph: the data ends in the middle of a record: the file was cut short; use an intact copy");
+}
+
+}  // namespace
+
+void writeUint(std::ostream& out, std::uint64_t value, int bytes) {
+  char buffer[8];
+  for (int i = 0; i < bytes; ++i) buffer[i] = static_cast<char>((value >> (8 * i)) & 0xff);
+  out.write(buffer, bytes);
+}
+
+void writeDouble(std::ostream& out, double value) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  writeUint(out, bits, 8);
+}
+
+void writeText(std::ostream& out, const std::string& text) {
+  writeUint(out, text.size(), 4);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+std::uint64_t readUint(std::istream& in, int bytes) {
+  unsigned char buffer[8];
+  readBytes(in, reinterpret_cast<char*>(buffer), static_cast<std::size_t>(bytes));
+  std::uint64_t value = 0;
+  for (int i = 0; i < bytes; ++i) value |= std::uint64_t{buffer[i]} << (8 * i);
+  return value;
+}
+
+double readDouble(std::istream& in) {
+  const std::uint64_t bits = readUint(in, 8);
+  double value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+std::string readText(std::istream& in) {
+  // In pieces, so that a damaged length ends at the end of the stream and not of the memory.
+  std::uint64_t left = readUint(in, 4);
+  std::string text;
+  while (left > 0) {
+    const std::size_t piece = left < 65536 ? left : 65536, start = text.size();
+    text.resize(start + piece);
+    readBytes(in, text.data() + start, piece);
+    left -= piece;
+  }
+  return text;
+}
+
+}  // namespace omnimapper::graph

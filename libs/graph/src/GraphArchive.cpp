@@ -1,0 +1,197 @@
+#include "omnimapper/graph/GraphArchive.h"
+
+#include <omnimapper/base/Error.h>
+
+#include <sstream>
+
+#include "omnimapper/graph/ByteIo.h"
+
+namespace omnimapper::graph {
+
+namespace {
+
+// Layout, all little-endian: magic, version, session; then the variables and the factors, each as a table: number of
+// sessions, (session, next index) each, number of entries, entries in the order of ids, each headed by its id.
+constexpr char kMagic[] = "omnimapper.graph";
+constexpr std::uint64_t kVersion = 1;
+// More ids than any session can give; keeps a damaged number from asking for all the memory there is.
+constexpr std::uint32_t kMaxIndex = 50'000'000;
+
+template <class IdType>
+void writeId(std::ostream& out, IdType id) {
+  writeUint(out, id.session, 2);
+  writeUint(out, id.index, 4);
+}
+
+template <class IdType>
+IdType readId(std::istream& in) {
+  IdType id;
+  id.session = static_cast<std::uint16_t>(readUint(in, 2));
+  id.index = static_cast<std::uint32_t>(readUint(in, 4));
+  return id;
+}
+
+[[noreturn]] void failDamaged(const std::string& what) {
+  throw base::Error(base::ExitCode::damaged_input, "graph: " + what + ": the file is damaged; use an intact copy");
+}
+
+void writeEntry(std::ostream& out, const VariableRecord& record) {
+  writeText(out, std::string(record.kind->kind()));
+  writeUint(out, record.fixed, 1);
+  for (const double number : record.value) writeDouble(out, number);
+}
+
+VariableRecord readVariable(std::istream& in, const FactorRegistry& registry) {
+  VariableRecord record;
+  record.kind = registry.variable(readText(in));
+  record.fixed = readUint(in, 1) != 0;
+  record.value.resize(record.kind->ambientSize());
+  for (double& number : record.value) number = readDouble(in);
+  return record;
+}
+
+void writeTags(std::ostream& out, const Tags& tags) {
+  writeText(out, tags.owner);
+  writeUint(out, tags.landmark.has_value(), 1);
+  if (tags.landmark) writeId(out, *tags.landmark);
+  writeUint(out, tags.hypothesis, 1);
+  writeText(out, tags.note);
+}
+
+Tags readTags(std::istream& in) {
+  Tags tags;
+  tags.owner = readText(in);
+  if (readUint(in, 1) != 0) tags.landmark = readId<base::LandmarkId>(in);
+  tags.hypothesis = readUint(in, 1) != 0;
+  tags.note = readText(in);
+  return tags;
+}
+
+void writeEntry(std::ostream& out, const FactorRecord& record) {
+  writeText(out, std::string(record.factor->kind()));
+  // As text, so that its length stands before it and a reader that takes too much or too little is found out.
+  std::ostringstream factor;
+  record.factor->write(factor);
+  writeText(out, factor.str());
+  writeUint(out, record.variables.size(), 2);
+  for (const base::VariableId id : record.variables) writeId(out, id);
+  writeUint(out, static_cast<std::uint64_t>(record.noise.size()), 2);
+  for (const double number : record.noise.matrix().reshaped()) writeDouble(out, number);
+  writeUint(out, static_cast<std::uint64_t>(record.loss.kind()), 1);
+  writeDouble(out, record.loss.scale());
+  writeDouble(out, record.weight);
+  writeTags(out, record.tags);
+}
+
+FactorRecord readFactor(std::istream& in, const FactorRegistry& registry) {
+  const std::string kind = readText(in);
+  std::istringstream factor_bytes(readText(in));
+  std::shared_ptr<const Factor> factor = registry.readFactor(kind, factor_bytes);
+  if (factor_bytes.peek() != std::istringstream::traits_type::eof())
+    failDamaged("a factor of kind " + kind + " has more bytes than its reader takes");
+  std::vector<base::VariableId> variables(readUint(in, 2));
+  for (base::VariableId& id : variables) id = readId<base::VariableId>(in);
+  const auto size = static_cast<Eigen::Index>(readUint(in, 2));
+  if (size != factor->residualSize()) failDamaged("a factor of kind " + kind + " has noise of the wrong size");
+  Eigen::MatrixXd noise(size, size);
+  for (double& number : noise.reshaped()) number = readDouble(in);
+  const auto loss_kind = static_cast<Loss::Kind>(readUint(in, 1));
+  const double scale = readDouble(in);
+  FactorRecord record{std::move(variables),   std::move(factor), SquareRootInformation::fromMatrix(noise),
+                      Loss(loss_kind, scale), readDouble(in),    {}};
+  record.tags = readTags(in);
+  return record;
+}
+
+template <class Table>
+void writeTable(std::ostream& out, const Table& table) {
+  const std::map<std::uint16_t, std::uint32_t> next = table.nextIndices();
+  writeUint(out, next.size(), 4);
+  for (const auto& [session, index] : next) {
+    writeUint(out, session, 2);
+    writeUint(out, index, 4);
+  }
+  writeUint(out, table.size(), 4);
+  for (const auto& [id, record] : table) {
+    writeId(out, id);
+    writeEntry(out, record);
+  }
+}
+
+std::map<std::uint16_t, std::uint32_t> readNextIndices(std::istream& in) {
+  std::map<std::uint16_t, std::uint32_t> next;
+  for (std::uint64_t left = readUint(in, 4); left > 0; --left) {
+    const auto session = static_cast<std::uint16_t>(readUint(in, 2));
+    next[session] = static_cast<std::uint32_t>(readUint(in, 4));
+    if (next[session] > kMaxIndex) failDamaged("a session says it gave " + std::to_string(next[session]) + " ids");
+  }
+  return next;
+}
+
+}  // namespace
+
+/// Rebuilds a graph with the ids it had: holes are skipped over, and what is added lands on its own index.
+class GraphArchiveReader {
+ public:
+  GraphArchiveReader(std::istream& in, const FactorRegistry& registry) : in_(in), registry_(registry) {}
+
+  Graph read(std::uint16_t session) {
+    readTable<base::VariableId>(graph_.variables_, [&](base::VariableId) {
+      VariableRecord record = readVariable(in_, registry_);
+      graph_.addVariable(record.kind, record.value, record.fixed);
+    });
+    readTable<base::FactorId>(graph_.factors_, [&](base::FactorId) { graph_.addFactor(readFactor(in_, registry_)); });
+    graph_.setSession(session);
+    return std::move(graph_);
+  }
+
+ private:
+  template <class IdType, class Table, class Add>
+  void readTable(Table& table, const Add& add) {
+    const std::map<std::uint16_t, std::uint32_t> end = readNextIndices(in_);
+    std::map<std::uint16_t, std::uint32_t> next;
+    for (std::uint64_t left = readUint(in_, 4); left > 0; --left) {
+      const IdType id = readId<IdType>(in_);
+      const auto limit = end.find(id.session);
+      if (limit == end.end() || id.index >= limit->second || id.index < next[id.session])
+        failDamaged("id " + toString(id) + " is out of order");
+      for (; next[id.session] < id.index; ++next[id.session]) table.skip(id.session);
+      graph_.setSession(id.session);
+      add(id);
+      ++next[id.session];
+    }
+    for (const auto& [session, limit] : end)
+      for (; next[session] < limit; ++next[session]) table.skip(session);
+  }
+
+  std::istream& in_;
+  const FactorRegistry& registry_;
+  Graph graph_;
+};
+
+void writeGraph(const Graph& graph, std::ostream& out) {
+  writeText(out, kMagic);
+  writeUint(out, kVersion, 4);
+  writeUint(out, graph.session(), 2);
+  writeTable(out, graph.variables());
+  writeTable(out, graph.factors());
+}
+
+Graph readGraph(std::istream& in, const FactorRegistry& registry) {
+  if (readText(in) != kMagic) failDamaged("this is no graph");
+  const std::uint64_t version = readUint(in, 4);
+  if (version > kVersion)
+    throw base::Error(base::ExitCode::unreadable_input, "graph: version " + std::to_string(version) +
+                                                            " is newer than this program knows (" +
+                                                            std::to_string(kVersion) + "): use a newer program");
+  const auto session = static_cast<std::uint16_t>(readUint(in, 2));
+  try {
+    return GraphArchiveReader(in, registry).read(session);
+  } catch (const base::Error& error) {
+    // What a defect of ours would be on data of our own making is damage on data from a file.
+    if (error.code() != base::ExitCode::internal) throw;
+    failDamaged(error.what());
+  }
+}
+
+}  // namespace omnimapper::graph

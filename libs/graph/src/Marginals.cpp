@@ -1,0 +1,116 @@
+#include "omnimapper/graph/Marginals.h"
+
+#include <omnimapper/base/Error.h>
+
+#include <unordered_map>
+
+#include "Anchors.h"
+#include "NormalEquations.h"
+#include "SparseCholesky.h"
+
+namespace omnimapper::graph {
+
+struct Marginals::State {
+  struct Span {
+    int offset;  // in the information matrix, -1 for a fixed variable
+    int size;
+  };
+  std::unordered_map<base::VariableId, Span> spans;
+  std::unique_ptr<SparseCholesky> cholesky;
+
+  Span span(base::VariableId id) const {
+    const auto found = spans.find(id);
+    if (found == spans.end())
+      throw base::Error(base::ExitCode::internal, "marginals: variable " + toString(id) +
+                                                      " is bound by no factor of positive weight, or not here");
+    return found->second;
+  }
+  /// The half-solved columns of a variable, none for a fixed one.
+  std::vector<SparseVector> halves(Span span) const {
+    std::vector<SparseVector> columns;
+    for (int i = 0; span.offset >= 0 && i < span.size; ++i) columns.push_back(cholesky->halfSolve(span.offset + i));
+    return columns;
+  }
+};
+
+namespace {
+
+double dot(const SparseVector& a, const SparseVector& b) {
+  double sum = 0;
+  for (std::size_t i = 0, j = 0; i < a.rows.size() && j < b.rows.size();) {
+    if (a.rows[i] == b.rows[j])
+      sum += a.values[i++] * b.values[j++];
+    else if (a.rows[i] < b.rows[j])
+      ++i;
+    else
+      ++j;
+  }
+  return sum;
+}
+
+Eigen::MatrixXd block(const std::vector<SparseVector>& rows, const std::vector<SparseVector>& columns) {
+  Eigen::MatrixXd product(rows.size(), columns.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      product(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = dot(rows[i], columns[j]);
+  return product;
+}
+
+}  // namespace
+
+Marginals::Marginals(const Graph& graph) : state_(std::make_unique<State>()) {
+  checkAnchored(graph);
+  NormalEquations equations(graph);
+  equations.linearise(equations.values(graph));
+  for (const auto& [id, record] : graph.variables())
+    if (equations.contains(id)) state_->spans[id] = {equations.offset(id), record.kind->tangentSize()};
+  if (equations.information().size == 0) return;
+  state_->cholesky = std::make_unique<SparseCholesky>(equations.information(), equations.groups());
+  if (!state_->cholesky->factorize(equations.information(), SparseCholesky::Storage::columns))
+    throw base::Error(base::ExitCode::internal,
+                      "marginals: the information matrix is singular: a direction of some variable is determined by "
+                      "nothing; add a prior or another factor there");
+}
+
+Marginals::~Marginals() = default;
+Marginals::Marginals(Marginals&&) noexcept = default;
+Marginals& Marginals::operator=(Marginals&&) noexcept = default;
+
+Eigen::MatrixXd Marginals::covariance(base::VariableId id) const {
+  return jointCovariance({id});
+}
+
+Eigen::MatrixXd Marginals::jointCovariance(const std::vector<base::VariableId>& ids) const {
+  std::vector<std::vector<SparseVector>> halves;
+  std::vector<int> offsets = {0};
+  for (const base::VariableId id : ids) {
+    const State::Span span = state_->span(id);
+    halves.push_back(state_->halves(span));
+    offsets.push_back(offsets.back() + span.size);
+  }
+  Eigen::MatrixXd joint = Eigen::MatrixXd::Zero(offsets.back(), offsets.back());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (halves[i].empty() || halves[j].empty()) continue;
+      const Eigen::MatrixXd part = block(halves[i], halves[j]);
+      joint.block(offsets[i], offsets[j], part.rows(), part.cols()) = part;
+      joint.block(offsets[j], offsets[i], part.cols(), part.rows()) = part.transpose();
+    }
+  return joint;
+}
+
+std::vector<Eigen::MatrixXd> Marginals::crossCovariances(base::VariableId id,
+                                                         const std::vector<base::VariableId>& others) const {
+  const State::Span span = state_->span(id);
+  const std::vector<SparseVector> columns = state_->halves(span);
+  std::vector<Eigen::MatrixXd> blocks;
+  for (const base::VariableId other : others) {
+    const State::Span other_span = state_->span(other);
+    const std::vector<SparseVector> rows = state_->halves(other_span);
+    blocks.push_back(rows.empty() || columns.empty() ? Eigen::MatrixXd::Zero(other_span.size, span.size).eval()
+                                                     : block(rows, columns));
+  }
+  return blocks;
+}
+
+}  // namespace omnimapper::graph
