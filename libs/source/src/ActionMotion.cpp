@@ -51,12 +51,13 @@ ActionMotion planarMotion(const CActionRobotMovement2D& action) {
     covariance = gaussian.cov.asEigen();
   }
   return {is_odometry ? "" : "scan_matching", geometry::lift(geometry::fromMrpt(mean)),
-          geometry::embedPlanar(geometry::covarianceFromMrpt(mean, covariance))};
+          geometry::embedPlanar(geometry::covarianceFromMrpt(mean, covariance)), 1};
 }
 
 ActionMotion spatialMotion(const CActionRobotMovement3D& action) {
   const auto gaussian = geometry::fromMrpt(action.poseChange);
-  return {action.estimationMethod == CActionRobotMovement3D::emOdometry ? "" : "visual", gaussian.mean, gaussian.cov};
+  return {action.estimationMethod == CActionRobotMovement3D::emOdometry ? "" : "visual", gaussian.mean, gaussian.cov,
+          1};
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ std::optional<ActionMotion> motionOf(const mrpt::obs::CAction& action) {
 
 ActionMotion join(const ActionMotion& a, const ActionMotion& b) {
   return {b.origin, a.begin_from_end * b.begin_from_end,
-          geometry::composeCovariance(a.covariance, b.begin_from_end, b.covariance)};
+          geometry::composeCovariance(a.covariance, b.begin_from_end, b.covariance), a.actions + b.actions};
 }
 
 }  // namespace omnimapper::source

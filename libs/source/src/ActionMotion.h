@@ -4,6 +4,7 @@
 #include <mrpt/poses/CPose3D.h>
 #include <omnimapper/geometry/Se3.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,7 @@ struct ActionMotion {
   std::string origin;  ///< how it was estimated: "" for odometry, "scan_matching" or "visual"
   geometry::Se3 begin_from_end;
   geometry::Matrix6d covariance = geometry::Matrix6d::Zero();  ///< tangent of Se3
+  std::uint64_t actions = 1;                                   ///< how many are joined in it
 };
 
 /// Empty for an action that is no movement of the base. The same bits at every reading: where MRPT draws its

@@ -13,40 +13,61 @@ ActionSpans::Motions ActionSpans::addAction(const mrpt::obs::CActionCollection& 
     if (!is_new) place->second = join(place->second, *motion);
     if (base::isValid(action->timestamp)) stamp = action->timestamp;
   }
-  if (base::isValid(stamp)) pending_stamp_ = stamp;
-  return mode_ == ActionSpan::own && !pending_.empty() ? spanning(begin_, stamp) : Motions();
+  if (pending_.empty()) return {};
+  if (base::isValid(stamp)) {
+    pending_stamp_ = stamp;
+    if (mode_ == ActionSpan::automatic) mode_ = ActionSpan::own;
+  }
+  if (mode_ != ActionSpan::own) return {};
+  // A first action from before the first frame only says where the next one begins.
+  if (!has_motion_ && base::isValid(stamp) && stamp <= begin_) has_begin_ = false;
+  return spanUntil(stamp);
 }
 
 ActionSpans::Motions ActionSpans::addFrame(base::Stamp stamp) {
   pending_stamp_ = base::Stamp();
-  return mode_ == ActionSpan::frames ? spanning(begin_, stamp) : Motions();
+  if (mode_ == ActionSpan::automatic && has_begin_ && !pending_.empty()) mode_ = ActionSpan::frames;
+  if (mode_ == ActionSpan::own && has_begin_ && base::isValid(begin_)) return {};
+  return spanUntil(stamp);
 }
 
-ActionSpans::Motions ActionSpans::spanning(base::Stamp begin, base::Stamp end) {
-  const bool joins_next = base::isValid(begin) && !base::isValid(end);
-  if (joins_next) return {};
-  Motions motions;
-  if (any_begin_) {
-    for (const auto& [origin, motion] : pending_) {
-      auto observation = obs::CObservationRelativeMotion::Create();
-      observation->begin = begin;
-      observation->timestamp = base::isValid(begin) ? end : base::Stamp();
-      observation->sensorLabel = origin.empty() ? label_ : label_ + "_" + origin;
-      observation->begin_from_end = geometry::toMrpt(motion.begin_from_end);
-      observation->covariance = motion.covariance;
-      motions.push_back(observation);
-    }
-  } else {
-    dropped_ += pending_.size();
+ActionSpans::Motions ActionSpans::spanUntil(base::Stamp end) {
+  if (!has_begin_) {
+    dropPending();
+    has_begin_ = true;
+    begin_ = end;
+    return {};
   }
-  pending_.clear();
-  any_begin_ = true;
+  if (!base::isValid(begin_)) {
+    // Nothing had a stamp so far: what spans until here has none either.
+    auto motions = takePending(base::Stamp(), base::Stamp());
+    begin_ = end;
+    return motions;
+  }
+  if (pending_.empty() || !base::isValid(end) || end <= begin_) return {};
+  auto motions = takePending(begin_, end);
   begin_ = end;
   return motions;
 }
 
-void ActionSpans::finish() {
-  dropped_ += pending_.size();
+ActionSpans::Motions ActionSpans::takePending(base::Stamp begin, base::Stamp end) {
+  Motions motions;
+  for (const auto& [origin, motion] : pending_) {
+    auto observation = obs::CObservationRelativeMotion::Create();
+    observation->begin = begin;
+    observation->timestamp = end;
+    observation->sensorLabel = origin.empty() ? label_ : label_ + "_" + origin;
+    observation->begin_from_end = geometry::toMrpt(motion.begin_from_end);
+    observation->covariance = motion.covariance;
+    motions.push_back(observation);
+  }
+  pending_.clear();
+  has_motion_ = true;
+  return motions;
+}
+
+void ActionSpans::dropPending() {
+  for (const auto& [origin, motion] : pending_) dropped_ += motion.actions;
   pending_.clear();
 }
 

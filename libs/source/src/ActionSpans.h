@@ -12,7 +12,8 @@
 
 namespace omnimapper::source {
 
-/// Gives actions, which have no span of time of their own, the span they belong to (RawlogSource says which).
+/// Gives actions, which have no span of time of their own, the span they belong to (see ActionSpan). The spans follow
+/// each other without a gap: a motion whose end is not after its begin, or has no stamp, is joined to the next one.
 class ActionSpans {
  public:
   using Motions = std::vector<obs::CObservationRelativeMotion::Ptr>;
@@ -27,18 +28,21 @@ class ActionSpans {
   base::Stamp pendingStamp() const { return pending_stamp_; }
   /// Motions that have come to no span so far.
   std::uint64_t dropped() const { return dropped_; }
-  /// To be called at the end: what is still waiting for a frame has none.
-  void finish();
+  /// To be called at the end: what is still waiting for its end has none.
+  void finish() { dropPending(); }
 
  private:
-  Motions spanning(base::Stamp begin, base::Stamp end);
+  Motions spanUntil(base::Stamp end);
+  Motions takePending(base::Stamp begin, base::Stamp end);
+  void dropPending();
 
   ActionSpan mode_;
   std::string label_;
   std::map<std::string, ActionMotion> pending_;  // by origin
   base::Stamp pending_stamp_;
-  bool any_begin_ = false;  // whether there is something a span can begin at
-  base::Stamp begin_;       // where; "no stamp" as long as nothing had one
+  bool has_begin_ = false;   // whether there is something a span can begin at
+  bool has_motion_ = false;  // whether a motion was ever handed out
+  base::Stamp begin_;        // where; "no stamp" as long as nothing had one
   std::uint64_t dropped_ = 0;
 };
 

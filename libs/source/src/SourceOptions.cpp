@@ -14,8 +14,9 @@ const base::OptionTable<SourceOptions>& SourceOptions::table() {
                   {{"log_start", TimeReference::log_start}, {"unix", TimeReference::unix_epoch}},
                   "What start_s and end_s count from: the first stamp of the earliest log, or 1970.")
           .choice("action_span", &SourceOptions::action_span,
-                  {{"frames", ActionSpan::frames}, {"own", ActionSpan::own}},
-                  "Time an action of a rawlog spans: between the frames around it, or between stamps of actions.")
+                  {{"automatic", ActionSpan::automatic}, {"frames", ActionSpan::frames}, {"own", ActionSpan::own}},
+                  "Time an action of a rawlog spans: between the frames around it, or between stamps of actions; "
+                  "automatic is own for actions that have stamps.")
           .text("action_label", &SourceOptions::action_label, "Sensor label of the motions that actions become.")
           .text("images_folder", &SourceOptions::images_folder,
                 "Folder of external images; empty: <rawlog>_Images beside the rawlog.");

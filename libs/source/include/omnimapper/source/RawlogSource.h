@@ -12,10 +12,11 @@ namespace omnimapper::source {
 /// Streams one rawlog, plain or gzip, in either of MRPT's formats or a mixture of both: observations one by one, or
 /// pairs of actions and sensory frames. Memory does not grow with the file.
 ///
-/// An action becomes a CObservationRelativeMotion handed out right before the frame at the end of its span. Its span
-/// is made as SourceOptions says. A frame's stamp is the latest of its observations'; an observation without a stamp
-/// in a frame with one gets the frame's. The motion of a frame that has no stamp at all is joined to the motion of the
-/// next one that has; if no frame before it had one either, everything is handed out without stamps.
+/// An action becomes a CObservationRelativeMotion; SourceOptions say which span of time it is taken for. It is handed
+/// out as soon as the end of the span is known: with its action, or right before the frame that ends it. The spans
+/// follow each other without a gap. A frame's stamp is the latest of its observations', or else its action's; an
+/// observation without a stamp in a frame with one gets the frame's. What comes before anything has a stamp is handed
+/// out without one.
 class RawlogSource : public ObservationSource {
  public:
   /// Throws Error(unreadable_input) if the file cannot be opened or is no rawlog.

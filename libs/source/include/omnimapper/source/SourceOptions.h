@@ -9,8 +9,9 @@ namespace omnimapper::source {
 
 /// The span of time that an action of MRPT's action / sensory-frame format is taken for.
 enum class ActionSpan {
-  frames,  ///< from the stamp of the frame before it to that of the frame after it
-  own,     ///< from the stamp of the previous action to its own
+  automatic,  ///< own if the first actions have stamps, else frames
+  frames,     ///< from the stamp of the frame before it to that of the frame after it
+  own,        ///< from the stamp of the previous action, or of the first frame, to its own
 };
 
 /// What start_s and end_s count from.
@@ -25,7 +26,7 @@ struct SourceOptions {
   double start = 0;                 ///< [s] observations before it are left out
   double end = 0;                   ///< [s] observations after it are left out; 0: none
   TimeReference time_reference = TimeReference::log_start;
-  ActionSpan action_span = ActionSpan::frames;
+  ActionSpan action_span = ActionSpan::automatic;
   std::string action_label = "odometry";  ///< label of the motions that actions become
   std::string images_folder;              ///< empty: <rawlog without extension>_Images beside the rawlog
 
