@@ -12,7 +12,9 @@ namespace {
 using namespace omnimapper;
 
 volatile std::sig_atomic_t g_interrupted = 0;
-void onInterrupt(int) { g_interrupted = 1; }
+void onInterrupt(int) {
+  g_interrupted = 1;
+}
 
 struct Arguments {
   mapper::RunRequest run;
@@ -21,7 +23,9 @@ struct Arguments {
   bool list_plugins = false, ini_reference = false, gui = false, quiet = false, verbose = false;
 };
 
-int exitCode(base::ExitCode code) { return static_cast<int>(code); }
+int exitCode(base::ExitCode code) {
+  return static_cast<int>(code);
+}
 
 int run(Arguments& arguments) {
   plugins::registerPlugins();

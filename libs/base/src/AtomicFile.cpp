@@ -47,9 +47,9 @@ void makeWritableFolder(const std::string& folder) {
 void replaceFile(const std::string& path, const std::function<void(const std::string&)>& save) {
   const fs::path target(path);
   // The extension stays last: several writers choose their format by it.
-  const std::string temporary =
-      (target.parent_path() / (target.stem().string() + ".tmp" + std::to_string(::getpid()) + target.extension().string()))
-          .string();
+  const std::string temporary = (target.parent_path() / (target.stem().string() + ".tmp" + std::to_string(::getpid()) +
+                                                         target.extension().string()))
+                                    .string();
   try {
     errno = 0;
     save(temporary);

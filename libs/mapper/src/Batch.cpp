@@ -12,7 +12,8 @@ void refuse(const std::string& edit, const std::string& why) {
 graph::FactorRecord bound(graph::FactorRecord record, const std::vector<base::VariableId>& final_ids) {
   for (auto& id : record.variables) {
     if (!Batch::isProvisional(id)) continue;
-    if (id.index >= final_ids.size()) refuse("added factor", "binds a provisional variable that the batch does not add");
+    if (id.index >= final_ids.size())
+      refuse("added factor", "binds a provisional variable that the batch does not add");
     id = final_ids[id.index];
   }
   return record;
@@ -31,8 +32,14 @@ void check(const Batch& batch, const graph::Graph& graph) {
 
 }  // namespace
 
-base::VariableId Batch::addVariable(std::shared_ptr<const graph::Variable> kind, const Eigen::VectorXd& value) {
-  added_variables_.push_back({std::move(kind), value});
+bool Batch::empty() const {
+  return added_variables_.empty() && added_factors_.empty() && removed_factors_.empty() && weights_.empty() &&
+         decisions_.empty();
+}
+
+base::VariableId Batch::addVariable(std::shared_ptr<const graph::Variable> kind, const Eigen::VectorXd& value,
+                                    bool fixed) {
+  added_variables_.push_back({std::move(kind), value, fixed});
   return {kProvisionalSession, static_cast<std::uint32_t>(added_variables_.size() - 1)};
 }
 
@@ -41,7 +48,7 @@ AppliedBatch apply(const Batch& batch, graph::Graph& graph) {
   AppliedBatch applied;
   try {
     for (const auto& variable : batch.addedVariables()) {
-      applied.variables.push_back(graph.addVariable(variable.kind, variable.value));
+      applied.variables.push_back(graph.addVariable(variable.kind, variable.value, variable.fixed));
     }
     for (const auto& record : batch.addedFactors()) {
       applied.factors.push_back(graph.addFactor(bound(record, applied.variables)));

@@ -46,7 +46,8 @@ Engine::Engine(const EngineOptions& options, const TriggerOptions& trigger, cons
       reference_sensor_(options.reference_sensor) {
   if (plugins_.pose.empty() || plugins_.measurement.empty()) {
     throw base::Error(base::ExitCode::unknown_plugin,
-                      "[mapper] names no " + std::string(plugins_.pose.empty() ? "pose_plugins" : "measurement_plugins") +
+                      "[mapper] names no " +
+                          std::string(plugins_.pose.empty() ? "pose_plugins" : "measurement_plugins") +
                           ": a map needs at least one of each; see --list-plugins");
   }
 }
@@ -97,9 +98,8 @@ bool Engine::accepts(const mrpt::obs::CObservation& observation) {
 }
 
 bool Engine::isWanted(const mrpt::obs::CObservation& observation) const {
-  return pool_.wants(observation) ||
-         std::any_of(plugins_.measurement.begin(), plugins_.measurement.end(),
-                     [&](const auto& named) { return named.plugin->wants(observation); });
+  return pool_.wants(observation) || std::any_of(plugins_.measurement.begin(), plugins_.measurement.end(),
+                                                 [&](const auto& named) { return named.plugin->wants(observation); });
 }
 
 // Past the trigger, perception starts at once; the moment itself is worked on when those before it are.
@@ -203,14 +203,14 @@ void Engine::gather(Moment& moment, map::KeyFrame& frame) {
 
 void Engine::measure(map::KeyFrame& frame) {
   for (auto& [section, plugin] : plugins_.measurement) {
-    const StopWatch watch;
-    std::vector<Batch> batches;
     for (const auto& observation : frame.observations) {
-      if (plugin->wants(*observation)) batches.push_back(plugin->measure(frame, *observation, view()));
+      if (!plugin->wants(*observation)) continue;
+      const StopWatch watch;
+      const Batch batch = plugin->measure(frame, *observation, view());
+      times_.add("plugin " + section, watch.seconds());
+      busy_.plugins += watch.seconds();
+      plugin->applied(applyBatch(batch));
     }
-    times_.add("plugin " + section, watch.seconds());
-    busy_.plugins += watch.seconds();
-    for (const auto& batch : batches) applyBatch(batch);
   }
   refineNewest();
   const std::size_t since_solve = map_.key_frames.size() - key_frames_at_solve_;
@@ -218,7 +218,8 @@ void Engine::measure(map::KeyFrame& frame) {
   if (since_solve >= due) solveNow(solver_.running());
   for (auto& [section, plugin] : plugins_.measurement) {
     const Timed timed(busy_.plugins);
-    applyBatch(plugin->afterCommit(frame, view()));
+    const Batch batch = plugin->afterCommit(frame, view());
+    if (!batch.empty()) plugin->applied(applyBatch(batch));
   }
 }
 
@@ -246,12 +247,12 @@ std::vector<std::pair<std::string, RelativeMotion>> Engine::motionBetween(base::
   return told;
 }
 
-void Engine::applyBatch(const Batch& batch) {
-  apply(batch, graph_);
+AppliedBatch Engine::applyBatch(const Batch& batch) {
+  auto ids = apply(batch, graph_);
   decisions_.insert(decisions_.end(), batch.decisions().begin(), batch.decisions().end());
-  closed_since_solve_ = closed_since_solve_ ||
-                        std::any_of(batch.addedFactors().begin(), batch.addedFactors().end(),
-                                    [](const auto& record) { return record.tags.hypothesis; });
+  closed_since_solve_ = closed_since_solve_ || std::any_of(batch.addedFactors().begin(), batch.addedFactors().end(),
+                                                           [](const auto& record) { return record.tags.hypothesis; });
+  return ids;
 }
 
 // The newest pose by all factors that bind it to the poses before, which stay: what a solve would do first.
@@ -268,8 +269,8 @@ void Engine::solveNow(const graph::SolveOptions& options) {
   busy_.solve += watch.seconds();
   times_.add("solve", watch.seconds());
   ++counts_.solves;
-  solves_.push_back({map_.key_frames.size(), graph_.factors().size(), summary.initial_cost, summary.final_cost,
-                     summary.iterations});
+  solves_.push_back(
+      {map_.key_frames.size(), graph_.factors().size(), summary.initial_cost, summary.final_cost, summary.iterations});
   key_frames_at_solve_ = map_.key_frames.size();
   closed_since_solve_ = false;
   for (auto& [section, plugin] : plugins_.output) {

@@ -25,8 +25,8 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
 }
 
 const base::OptionTable<PerceptionOptions>& PerceptionOptions::table() {
-  static const auto table = base::OptionTable<PerceptionOptions>().list(
-      "extractors", &PerceptionOptions::extractors, "Sections of the extractors, in order.");
+  static const auto table = base::OptionTable<PerceptionOptions>().list("extractors", &PerceptionOptions::extractors,
+                                                                        "Sections of the extractors, in order.");
   return table;
 }
 

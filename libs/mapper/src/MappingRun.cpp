@@ -88,12 +88,10 @@ RunResult resultOf(const View& view) {
 }  // namespace
 
 const FixedSections& fixedSections() {
-  static const FixedSections sections{{"mapper", EngineOptions::table().specs()},
-                                      {"perception", PerceptionOptions::table().specs()},
-                                      {"trigger", TriggerOptions::table().specs()},
-                                      {"solver", SolverOptions::table().specs()},
-                                      {"source", source::SourceOptions::table().specs()},
-                                      {"<name of a sensor>", SensorPoseOptions::table().specs()}};
+  static const FixedSections sections{
+      {"mapper", EngineOptions::table().specs()},         {"perception", PerceptionOptions::table().specs()},
+      {"trigger", TriggerOptions::table().specs()},       {"solver", SolverOptions::table().specs()},
+      {"source", source::SourceOptions::table().specs()}, {"<name of a sensor>", SensorPoseOptions::table().specs()}};
   return sections;
 }
 
@@ -133,9 +131,9 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   result.source = report;
   result.code = stopped ? base::ExitCode::interrupted : report.exitCode();
   if (result.key_frames == 0 && result.code == base::ExitCode::ok) {
-    throw base::Error(base::ExitCode::nothing_to_map,
-                      titleOf(request.logs) + ": no observation that a measurement plugin of " + config.file() +
-                          " wants; the log holds:\n" + report.text());
+    throw base::Error(base::ExitCode::nothing_to_map, titleOf(request.logs) +
+                                                          ": no observation that a measurement plugin of " +
+                                                          config.file() + " wants; the log holds:\n" + report.text());
   }
   progress.report(1.0, "writing the outputs");
   engine.writeOutputs();

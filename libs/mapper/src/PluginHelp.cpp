@@ -56,7 +56,8 @@ std::string listPlugins() {
       heading = toString(factory->kind());
       out << heading << "s\n";
     }
-    out << "  " << factory->name() << std::string(width + 2 - factory->name().size(), ' ') << factory->summary() << "\n";
+    out << "  " << factory->name() << std::string(width + 2 - factory->name().size(), ' ') << factory->summary()
+        << "\n";
   }
   return out.str();
 }

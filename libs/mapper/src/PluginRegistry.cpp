@@ -51,11 +51,10 @@ std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::str
     known.push_back(factory->name());
   }
   const std::string near = base::nearestName(name, known);
-  throw base::Error(base::ExitCode::unknown_plugin,
-                    place + ": no " + toString(kind) + " is called '" + name + "'" +
-                        (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                        " (known: " + base::option_text::format(known) +
-                        "; others come from [mapper] plugin_libraries)");
+  throw base::Error(base::ExitCode::unknown_plugin, place + ": no " + toString(kind) + " is called '" + name + "'" +
+                                                        (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                                        " (known: " + base::option_text::format(known) +
+                                                        "; others come from [mapper] plugin_libraries)");
 }
 
 void loadPluginLibrary(const std::string& path) {
@@ -77,9 +76,9 @@ void makeAll(const std::vector<std::string>& names, PluginKind kind, const base:
     const auto section = config.section(name);
     std::string class_name;
     if (!section.find("class", class_name)) {
-      throw base::Error(base::ExitCode::unknown_plugin,
-                        place + ": the section of a " + toString(kind) + " needs a line 'class = ...'" +
-                            (config.has(name) ? "" : "; the file has no such section"));
+      throw base::Error(base::ExitCode::unknown_plugin, place + ": the section of a " + toString(kind) +
+                                                            " needs a line 'class = ...'" +
+                                                            (config.has(name) ? "" : "; the file has no such section"));
     }
     const auto factory = findFactory(kind, class_name, place + " class");
     context.section = name;

@@ -27,7 +27,9 @@ RelativeMotion part(const RelativeMotion& motion, double from, double to) {
 
 }  // namespace
 
-RelativeMotion identityMotion() { return {mrpt::poses::CPose3D(), Eigen::Matrix<double, 6, 6>::Zero()}; }
+RelativeMotion identityMotion() {
+  return {mrpt::poses::CPose3D(), Eigen::Matrix<double, 6, 6>::Zero()};
+}
 
 RelativeMotion compose(const RelativeMotion& a, const RelativeMotion& b) {
   const Se3 b_motion = geometry::fromMrpt(b.begin_from_end);
@@ -35,8 +37,9 @@ RelativeMotion compose(const RelativeMotion& a, const RelativeMotion& b) {
 }
 
 bool PoseTimeline::append(base::Stamp begin, base::Stamp end, const RelativeMotion& motion) {
-  const bool finite = motion.begin_from_end.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite() &&
-                      motion.covariance.allFinite();
+  const bool finite =
+      motion.begin_from_end.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite() &&
+      motion.covariance.allFinite();
   if (end <= begin || !finite || (!spans_.empty() && begin < spans_.back().end)) return false;
   spans_.push_back({begin, end, motion});
   return true;

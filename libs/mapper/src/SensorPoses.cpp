@@ -53,10 +53,9 @@ SensorPoses::SensorPoses(const std::vector<std::string>& sections, const base::C
   for (const auto& name : sections) {
     const auto options = config.section(name).read<SensorPoseOptions>();
     tracks_[options.label] =
-        options.file.empty()
-            ? Track{{base::Stamp(), mrpt::poses::CPose3D(options.x, options.y, options.z, options.yaw, options.pitch,
-                                                         options.roll)}}
-            : readTrack(options.file);
+        options.file.empty() ? Track{{base::Stamp(), mrpt::poses::CPose3D(options.x, options.y, options.z, options.yaw,
+                                                                          options.pitch, options.roll)}}
+                             : readTrack(options.file);
   }
 }
 

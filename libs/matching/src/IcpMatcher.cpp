@@ -96,8 +96,7 @@ ScanMatch IcpMatcher::match(const mrpt::maps::CSimplePointsMap& reference, const
     distances += partner.distance;
     const Eigen::Vector2d normal_in_scan(c * partner.normal.x() + s * partner.normal.y(),
                                          -s * partner.normal.x() + c * partner.normal.y());
-    const Eigen::Vector3d row(normal_in_scan.x(), normal_in_scan.y(),
-                              normal_in_scan.dot(Eigen::Vector2d(-py, px)));
+    const Eigen::Vector3d row(normal_in_scan.x(), normal_in_scan.y(), normal_in_scan.dot(Eigen::Vector2d(-py, px)));
     information += row * row.transpose();
   }
   if (partners == 0) return result;

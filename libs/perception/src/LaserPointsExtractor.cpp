@@ -13,7 +13,9 @@ struct Point {
   float x, y;
 };
 
-float distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+float distance(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
 
 std::vector<Point> validPoints(const mrpt::obs::CObservation2DRangeScan& scan, double min_range, double max_range) {
   std::vector<Point> points;

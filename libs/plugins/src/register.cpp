@@ -1,9 +1,11 @@
 #include <mrpt/core/initializer.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/obs/registerClasses.h>
+#include <omnimapper/plugins/GpsPlugin.h>
 #include <omnimapper/plugins/LaserPointsPlugin.h>
 #include <omnimapper/plugins/NoMotionPlugin.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
+#include <omnimapper/plugins/RobotPosePlugin.h>
 #include <omnimapper/plugins/ScanMatchingPlugin.h>
 #include <omnimapper/plugins/registerPlugins.h>
 
@@ -17,8 +19,12 @@ void registerPlugins() {
   registerClass(CLASS_ID(NoMotionPluginFactory));
   registerClass(CLASS_ID(LaserPointsPluginFactory));
   registerClass(CLASS_ID(ScanMatchingPluginFactory));
+  registerClass(CLASS_ID(RobotPosePluginFactory));
+  registerClass(CLASS_ID(GpsPluginFactory));
 }
 
 }  // namespace omnimapper::plugins
 
-MRPT_INITIALIZER(registerOmnimapperPlugins) { omnimapper::plugins::registerPlugins(); }
+MRPT_INITIALIZER(registerOmnimapperPlugins) {
+  omnimapper::plugins::registerPlugins();
+}

@@ -17,7 +17,9 @@ using mrpt::math::TPose2D;
 
 constexpr const char* kCloudSuffix = ".points";
 
-TPose2D planar(const mrpt::poses::CPose3D& pose) { return {pose.x(), pose.y(), pose.yaw()}; }
+TPose2D planar(const mrpt::poses::CPose3D& pose) {
+  return {pose.x(), pose.y(), pose.yaw()};
+}
 
 // The cloud in the plane of the base.
 mrpt::maps::CSimplePointsMap pointsInBase(const mrpt::obs::CObservationPointCloud& cloud) {
@@ -44,7 +46,8 @@ const base::OptionTable<ScanMatchingOptions>& ScanMatchingOptions::table() {
           .list("labels", &Options::labels, "Labels of the clouds to match; empty for all made from 2D scans.")
           .integer("local_frames", &Options::local_frames, base::Range{1, 1000},
                    "A scan is matched against the scans of so many key frames before it.")
-          .number("min_overlap", &Options::min_overlap, base::Range{0, 1}, "Share of the points that must find a partner.")
+          .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
+                  "Share of the points that must find a partner.")
           .number("max_correction_m", &Options::max_correction, base::Range::positive(),
                   "A match farther from the prediction is refused.")
           .number("max_turn_correction_deg", &Options::max_turn_correction, base::Range{0, 180},
@@ -121,8 +124,7 @@ void ScanMatchingPlugin::matchSequential(const map::KeyFrame& frame, const Histo
   const TPose2D guess = planar(frame.map_from_base - before.map_from_base);
   const auto match = sequential_matcher_.match(reference, history.back().points_in_base, guess);
 
-  auto decision =
-      judge(match, guess, {options_.min_overlap, options_.max_correction, options_.max_turn_correction});
+  auto decision = judge(match, guess, {options_.min_overlap, options_.max_correction, options_.max_turn_correction});
   decision.stamp = frame.stamp;
   decision.kind = "sequential match";
   decision.from = frame.id;
@@ -142,8 +144,8 @@ void ScanMatchingPlugin::closeLoops(const map::KeyFrame& frame, const History& h
     const TPose2D guess = planar(frame.map_from_base - place.map_from_base);
     const auto match = loop_matcher_.match(reference, history.back().points_in_base, guess);
 
-    auto decision = judge(
-        match, guess, {options_.loop_min_overlap, options_.loop_max_correction, options_.loop_max_turn_correction});
+    auto decision = judge(match, guess,
+                          {options_.loop_min_overlap, options_.loop_max_correction, options_.loop_max_turn_correction});
     decision.stamp = frame.stamp;
     decision.kind = "loop closure";
     decision.from = frame.id;
@@ -227,9 +229,9 @@ graph::FactorRecord ScanMatchingPlugin::factor(base::VariableId reference, base:
                                                const matching::ScanMatch& match) const {
   const auto squared = [](double value) { return value * value; };
   Eigen::Matrix3d planar_covariance = match.unit_covariance * squared(options_.point_sigma);
-  planar_covariance.diagonal() += Eigen::Vector3d(squared(options_.position_sigma_floor),
-                                                  squared(options_.position_sigma_floor),
-                                                  squared(options_.angle_sigma_floor));
+  planar_covariance.diagonal() +=
+      Eigen::Vector3d(squared(options_.position_sigma_floor), squared(options_.position_sigma_floor),
+                      squared(options_.angle_sigma_floor));
   mapper::RelativeMotion motion;
   motion.begin_from_end = mrpt::poses::CPose3D(mrpt::poses::CPose2D(match.reference_from_scan));
   // A scan says nothing of height and tilt: a metre and half a radian, in a spatial map.

@@ -37,8 +37,8 @@ Eigen::Matrix<double, 6, 6> OdometryPlugin::covarianceOf(const mrpt::poses::CPos
   const double way = motion.translation().norm();
   const double turn = std::abs(motion.yaw());
   const auto squared = [](double value) { return value * value; };
-  const double position = squared(options_.position_noise_per_root_m) * way +
-                          squared(options_.position_noise_per_root_s) * seconds;
+  const double position =
+      squared(options_.position_noise_per_root_m) * way + squared(options_.position_noise_per_root_s) * seconds;
   const double yaw = squared(options_.yaw_noise_per_root_turn) * turn + squared(options_.yaw_noise_per_root_m) * way +
                      squared(options_.yaw_noise_per_root_s) * seconds;
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();

@@ -14,7 +14,9 @@ namespace omnimapper::mapper {
 class Batch {
  public:
   /// Adds a variable. The id is provisional (see isProvisional): usable in factors of this batch, replaced on applying.
-  base::VariableId addVariable(std::shared_ptr<const graph::Variable> kind, const Eigen::VectorXd& value);
+  /// A fixed variable keeps its value.
+  base::VariableId addVariable(std::shared_ptr<const graph::Variable> kind, const Eigen::VectorXd& value,
+                               bool fixed = false);
   void addFactor(graph::FactorRecord record) { added_factors_.push_back(std::move(record)); }
   void removeFactor(base::FactorId id) { removed_factors_.push_back(id); }
   void setWeight(base::FactorId id, double weight) { weights_.emplace_back(id, weight); }
@@ -23,7 +25,10 @@ class Batch {
   struct NewVariable {
     std::shared_ptr<const graph::Variable> kind;
     Eigen::VectorXd value;
+    bool fixed;
   };
+  /// No edit and no decision.
+  bool empty() const;
   const std::vector<NewVariable>& addedVariables() const { return added_variables_; }
   const std::vector<graph::FactorRecord>& addedFactors() const { return added_factors_; }
   const std::vector<base::FactorId>& removedFactors() const { return removed_factors_; }

@@ -65,7 +65,7 @@ class Engine {
   /// What each source that covers the span says, by section; the fallbacks if none does and they are asked for.
   std::vector<std::pair<std::string, RelativeMotion>> motionBetween(base::Stamp begin, base::Stamp end,
                                                                     bool or_fallback) const;
-  void applyBatch(const Batch& batch);
+  AppliedBatch applyBatch(const Batch& batch);
   void refineNewest();
   void solveNow(const graph::SolveOptions& options);
 

@@ -14,11 +14,11 @@ namespace omnimapper::mapper {
 
 /// What a user asks of one run.
 struct RunRequest {
-  std::vector<std::string> logs;        ///< rawlogs, merged by stamp
+  std::vector<std::string> logs;  ///< rawlogs, merged by stamp
   std::string output_folder;
   std::vector<std::string> more_outputs;  ///< sections of outputs beside those of the INI, such as the live window
-  int threads = 1;                      ///< workers of the perception pool
-  double speed = 0;                     ///< times the log's own pace; 0: as fast as possible
+  int threads = 1;                        ///< workers of the perception pool
+  double speed = 0;                       ///< times the log's own pace; 0: as fast as possible
 };
 
 /// How a run went.

@@ -17,6 +17,8 @@ class MeasurementPlugin {
   virtual bool givesAbsolutePoses() const { return false; }
   /// `frame` is the newest key frame, already linked to the one before; `observation` is one of its observations.
   virtual Batch measure(const map::KeyFrame& frame, const mrpt::obs::CObservation& observation, const View& view) = 0;
+  /// The final ids of what its last batch added, in the order it was added.
+  virtual void applied(const AppliedBatch& /*ids*/) {}
   /// After all batches of `frame` were applied, and after the solve if there was one.
   virtual Batch afterCommit(const map::KeyFrame& /*frame*/, const View& /*view*/) { return {}; }
 };

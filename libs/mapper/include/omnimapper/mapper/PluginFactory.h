@@ -16,7 +16,7 @@ namespace omnimapper::mapper {
 
 /// What every plugin may know of the run when it is made.
 struct PluginContext {
-  std::string section;        ///< its section of the INI; owner of its factors and decisions
+  std::string section;  ///< its section of the INI; owner of its factors and decisions
   Motion motion = Motion::planar;
   std::string output_folder;  ///< exists; empty in a run without outputs
   std::string title;          ///< of the run, for reports: the log's name

@@ -14,7 +14,7 @@ namespace omnimapper::mapper {
 
 /// One sensor whose place on the base the INI tells, because its observations do not or tell it wrong.
 struct SensorPoseOptions {
-  std::string label;  ///< of the observations
+  std::string label;                    ///< of the observations
   double x = 0, y = 0, z = 0;           ///< [m] base_from_sensor
   double yaw = 0, pitch = 0, roll = 0;  ///< [rad] MRPT's order: about z, then y, then x
   std::string file;  ///< a TUM file of base_from_sensor over time, for a sensor that moves; overrides the rest

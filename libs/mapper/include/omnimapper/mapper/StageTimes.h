@@ -18,7 +18,7 @@ class StageTimes {
   struct PerKeyFrame {
     double matching_ms = 0;  ///< measurement plugins
     double solve_ms = 0;
-    double engine_ms = 0;    ///< everything else in the engine's thread
+    double engine_ms = 0;  ///< everything else in the engine's thread
   };
 
   void add(const std::string& stage, double seconds);

@@ -13,10 +13,10 @@ namespace omnimapper::mapper {
 
 struct TriggerOptions {
   bool every_observation = false;
-  double distance = 0.4;                                         ///< [m]
-  double angle = 20.0 * base::option_text::kRadiansPerDegree;    ///< [rad]
-  double period = 0;                                             ///< [s]; 0: time alone never triggers
-  double period_without_odometry = 0.2;                          ///< [s]
+  double distance = 0.4;                                       ///< [m]
+  double angle = 20.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
+  double period = 0;                                           ///< [s]; 0: time alone never triggers
+  double period_without_odometry = 0.2;                        ///< [s]
 
   static const base::OptionTable<TriggerOptions>& table();
 };

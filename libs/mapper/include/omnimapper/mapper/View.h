@@ -14,14 +14,14 @@ namespace omnimapper::mapper {
 
 /// What the engine counted of what it was given.
 struct RunCounts {
-  std::size_t observations = 0;       ///< handed to the engine
-  std::size_t unwanted = 0;           ///< no plugin or extractor takes them
-  std::size_t not_triggered = 0;      ///< taken, but the trigger gave them no pose of their own
-  std::size_t no_stamp = 0;           ///< refused: zero stamp
-  std::size_t repeated_stamp = 0;     ///< refused: the same sensor and stamp a second time
-  std::size_t too_late = 0;           ///< refused: older than what was already released
-  std::size_t unusable = 0;           ///< refused by the pose plugin they are for: not finite, or time runs backwards
-  std::size_t unconnected = 0;        ///< refused: no pose plugin tells the motion since the key frame before
+  std::size_t observations = 0;    ///< handed to the engine
+  std::size_t unwanted = 0;        ///< no plugin or extractor takes them
+  std::size_t not_triggered = 0;   ///< taken, but the trigger gave them no pose of their own
+  std::size_t no_stamp = 0;        ///< refused: zero stamp
+  std::size_t repeated_stamp = 0;  ///< refused: the same sensor and stamp a second time
+  std::size_t too_late = 0;        ///< refused: older than what was already released
+  std::size_t unusable = 0;        ///< refused by the pose plugin they are for: not finite, or time runs backwards
+  std::size_t unconnected = 0;     ///< refused: no pose plugin tells the motion since the key frame before
   std::size_t solves = 0;
 };
 

@@ -18,7 +18,7 @@ struct IcpOptions {
   double min_distance = 0.1;                                      ///< [m] of a pair in the last iterations
   double max_angle = 2.0 * base::option_text::kRadiansPerDegree;  ///< [rad]; widens the distance far from the sensor
   int max_iterations = 60;
-  int decimation = 1;                                             ///< every n-th point is paired
+  int decimation = 1;  ///< every n-th point is paired
 
   static const base::OptionTable<IcpOptions>& table();
 };
@@ -26,8 +26,8 @@ struct IcpOptions {
 /// What a match found.
 struct ScanMatch {
   mrpt::math::TPose2D reference_from_scan;  ///< [m] [rad]
-  double overlap = 0;        ///< share of the scan's points that have a partner, [0, 1]
-  double mean_distance = 0;  ///< [m] of the partners' distances
+  double overlap = 0;                       ///< share of the scan's points that have a partner, [0, 1]
+  double mean_distance = 0;                 ///< [m] of the partners' distances
   /// Of the pose, in the scan's frame (x y yaw), were each partner good to 1 m: scale by the variance of a point [m2].
   /// Directions the walls do not fix have large entries.
   Eigen::Matrix3d unit_covariance;

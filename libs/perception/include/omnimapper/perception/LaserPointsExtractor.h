@@ -6,10 +6,10 @@
 namespace omnimapper::perception {
 
 struct LaserPointsOptions {
-  double min_range = 0.1;         ///< [m]
-  double max_range = 40.0;        ///< [m]; the sensor's own limit applies too
-  double spacing = 0.05;          ///< [m] between kept points along the scan; 0 keeps all
-  double isolated_distance = 0.5; ///< [m]; a point this far from both its neighbours is a mixed pixel; 0 keeps all
+  double min_range = 0.1;          ///< [m]
+  double max_range = 40.0;         ///< [m]; the sensor's own limit applies too
+  double spacing = 0.05;           ///< [m] between kept points along the scan; 0 keeps all
+  double isolated_distance = 0.5;  ///< [m]; a point this far from both its neighbours is a mixed pixel; 0 keeps all
 
   static const base::OptionTable<LaserPointsOptions>& table();
 };

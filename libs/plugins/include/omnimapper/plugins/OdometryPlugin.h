@@ -13,12 +13,12 @@
 namespace omnimapper::plugins {
 
 struct OdometryOptions {
-  std::string label;                                                           ///< empty: the first that comes
-  double position_noise_per_root_m = 0.05;                                     ///< [m / sqrt(m)]
-  double yaw_noise_per_root_turn = 0.06;                                       ///< [rad / sqrt(rad)]
-  double yaw_noise_per_root_m = 2.0 * base::option_text::kRadiansPerDegree;    ///< [rad / sqrt(m)]
-  double position_noise_per_root_s = 0.002;                                    ///< [m / sqrt(s)]
-  double yaw_noise_per_root_s = 0.1 * base::option_text::kRadiansPerDegree;    ///< [rad / sqrt(s)]
+  std::string label;                                                         ///< empty: the first that comes
+  double position_noise_per_root_m = 0.05;                                   ///< [m / sqrt(m)]
+  double yaw_noise_per_root_turn = 0.06;                                     ///< [rad / sqrt(rad)]
+  double yaw_noise_per_root_m = 2.0 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(m)]
+  double position_noise_per_root_s = 0.002;                                  ///< [m / sqrt(s)]
+  double yaw_noise_per_root_s = 0.1 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(s)]
   bool use_reported_covariance = false;
 
   static const base::OptionTable<OdometryOptions>& table();
@@ -42,7 +42,7 @@ class OdometryPlugin : public mapper::PosePlugin {
   Eigen::Matrix<double, 6, 6> covarianceOf(const mrpt::poses::CPose3D& motion, double seconds) const;
 
   OdometryOptions options_;
-  std::optional<std::string> label_;  // of the first that came
+  std::optional<std::string> label_;                                  // of the first that came
   std::optional<std::pair<base::Stamp, mrpt::poses::CPose3D>> last_;  // odom_from_base
   mapper::PoseTimeline timeline_;
 };

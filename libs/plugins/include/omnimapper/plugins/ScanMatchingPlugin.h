@@ -16,22 +16,22 @@ struct ScanMatchingOptions {
   std::vector<std::string> labels;  ///< of the clouds; empty: every cloud made from a 2D scan
   int local_frames = 8;
   double min_overlap = 0.6;
-  double max_correction = 0.5;                                           ///< [m]
+  double max_correction = 0.5;                                               ///< [m]
   double max_turn_correction = 20.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double point_sigma = 0.05;                                             ///< [m]
-  double position_sigma_floor = 0.01;                                    ///< [m]
-  double angle_sigma_floor = 0.2 * base::option_text::kRadiansPerDegree; ///< [rad]
+  double point_sigma = 0.05;                                                 ///< [m]
+  double position_sigma_floor = 0.01;                                        ///< [m]
+  double angle_sigma_floor = 0.2 * base::option_text::kRadiansPerDegree;     ///< [rad]
 
   bool close_loops = true;
-  double loop_radius = 3.0;        ///< [m]
-  double loop_min_way = 8.0;       ///< [m]
+  double loop_radius = 3.0;   ///< [m]
+  double loop_min_way = 8.0;  ///< [m]
   int loop_frames = 4;
   int loop_candidates = 2;
   double loop_min_overlap = 0.75;
-  double loop_max_distance = 1.0;  ///< [m]
-  double loop_max_correction = 2.0;                                           ///< [m]
+  double loop_max_distance = 1.0;                                                 ///< [m]
+  double loop_max_correction = 2.0;                                               ///< [m]
   double loop_max_turn_correction = 30.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double loop_loss_scale = 2.0;    ///< [sigma] of the Cauchy loss
+  double loop_loss_scale = 2.0;                                                   ///< [sigma] of the Cauchy loss
 
   static const base::OptionTable<ScanMatchingOptions>& table();
 };
@@ -62,8 +62,8 @@ class ScanMatchingPlugin : public mapper::MeasurementPlugin {
                   mapper::Batch& batch) const;
   std::vector<std::size_t> loopCandidates(const map::KeyFrame& frame, const History& history,
                                           const mapper::View& view) const;
-  mrpt::maps::CSimplePointsMap localMap(const History& history, std::size_t first, std::size_t last,
-                                        std::size_t centre, const mapper::View& view) const;
+  mrpt::maps::CSimplePointsMap localMap(const History& history, std::size_t first, std::size_t last, std::size_t centre,
+                                        const mapper::View& view) const;
 
   /// Limits a match has to keep.
   struct Gate {

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <mrpt/obs/CObservationGPS.h>
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/mapper/PluginFactory.h>
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::plugins {
+
+struct GpsOptions {
+  std::string label;             ///< empty: every GPS observation
+  double sigma = 3.0;            ///< [m] horizontal, of a plain fix at HDOP 1
+  double sigma_rtk_float = 0.4;  ///< [m]
+  double sigma_rtk = 0.03;       ///< [m]
+  double up_factor = 2.0;        ///< vertical sigma over horizontal
+  double max_hdop = 10;
+  double min_spread = 5.0;  ///< [m]
+  double loss_scale = 3;    ///< [sigma] of the Cauchy loss
+  bool map_is_enu = false;
+  double origin_latitude = 0, origin_longitude = 0;  ///< [deg] of the given origin
+  double origin_altitude = 0;                        ///< [m] above the ellipsoid
+
+  static const base::OptionTable<GpsOptions>& table();
+};
+
+/// GPS fixes (thesis 5.2.2.2) of an antenna whose place on the base (the lever arm) is the observation's sensorPose.
+/// Where the map is in the local east-north-up frame is a variable, born once the fixes spread wide enough to tell its
+/// heading; or given: the map is that frame, around a given origin.
+class GpsPlugin : public mapper::MeasurementPlugin {
+ public:
+  GpsPlugin(const GpsOptions& options, const mapper::PluginContext& context);
+
+  bool wants(const mrpt::obs::CObservation& observation) const override;
+  bool givesAbsolutePoses() const override { return options_.map_is_enu; }
+  mapper::Batch measure(const map::KeyFrame& frame, const mrpt::obs::CObservation& observation,
+                        const mapper::View& view) override;
+  void applied(const mapper::AppliedBatch& ids) override;
+
+ private:
+  struct Origin {
+    double latitude, longitude;  // [deg] WGS84
+    double altitude;             // [m] above the ellipsoid
+  };
+  struct Fix {
+    base::KeyFrameId frame;
+    Eigen::Vector3d antenna_in_base, antenna_in_enu;  // [m]
+    double sigma;                                     // [m] horizontal
+  };
+
+  std::optional<Fix> read(const mrpt::obs::CObservationGPS& gps, mapper::Decision& decision);
+  graph::FactorRecord factor(const Fix& fix, const mapper::View& view) const;
+  std::optional<mrpt::poses::CPose3D> alignment(const mapper::View& view) const;
+
+  GpsOptions options_;
+  mapper::PluginContext context_;
+  std::optional<Origin> origin_;
+  std::vector<Fix> waiting_;  // until map_from_enu exists
+  std::optional<base::VariableId> map_from_enu_;
+};
+
+class GpsPluginFactory : public mapper::MeasurementPluginFactory {
+  DEFINE_MRPT_OBJECT(GpsPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "GpsPlugin"; }
+  std::string summary() const override { return "GPS fixes; finds where the map is on the earth, or is told."; }
+  const std::vector<base::OptionSpec>& options() const override { return GpsOptions::table().specs(); }
+  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
+                                                  const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins

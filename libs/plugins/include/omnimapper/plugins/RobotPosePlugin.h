@@ -1,0 +1,51 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/mapper/PluginFactory.h>
+
+#include <optional>
+#include <string>
+
+namespace omnimapper::plugins {
+
+struct RobotPoseOptions {
+  std::string label;  ///< empty: every such observation
+  bool reference_is_map = true;
+  double position_sigma = 0.02;                                     ///< [m]
+  double angle_sigma = 1.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
+  double loss_scale = 3;                                            ///< [sigma] of the Cauchy loss
+
+  static const base::OptionTable<RobotPoseOptions>& table();
+};
+
+/// Absolute poses from outside, such as motion capture (thesis 5.2.2.2), as CObservationRobotPose. The pose is that of
+/// the tracked body, whose place on the base is the observation's sensorPose. Its own frame is the map's, or a frame
+/// whose place in the map is a variable.
+class RobotPosePlugin : public mapper::MeasurementPlugin {
+ public:
+  RobotPosePlugin(const RobotPoseOptions& options, const mapper::PluginContext& context)
+      : options_(options), context_(context) {}
+
+  bool wants(const mrpt::obs::CObservation& observation) const override;
+  bool givesAbsolutePoses() const override { return options_.reference_is_map; }
+  mapper::Batch measure(const map::KeyFrame& frame, const mrpt::obs::CObservation& observation,
+                        const mapper::View& view) override;
+  void applied(const mapper::AppliedBatch& ids) override;
+
+ private:
+  RobotPoseOptions options_;
+  mapper::PluginContext context_;
+  std::optional<base::VariableId> map_from_reference_;
+};
+
+class RobotPosePluginFactory : public mapper::MeasurementPluginFactory {
+  DEFINE_MRPT_OBJECT(RobotPosePluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "RobotPosePlugin"; }
+  std::string summary() const override { return "Absolute poses from outside (CObservationRobotPose)."; }
+  const std::vector<base::OptionSpec>& options() const override { return RobotPoseOptions::table().specs(); }
+  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
+                                                  const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins
