@@ -32,13 +32,15 @@ std::vector<double> placesOnAxis(const std::vector<PosePair>& pairs, DeltaUnit u
   return places;
 }
 
-// Index after `from` whose place is nearest to one delta later; `from` itself if none is within a tenth of it.
-std::size_t oneDeltaLater(const std::vector<double>& places, std::size_t from, double delta) {
-  const double wanted = places[from] + delta;
+// Index after `from` whose place is nearest to one delta later; `from` itself if that misses it by more than a tenth,
+// or at all if frames are counted.
+std::size_t oneDeltaLater(const std::vector<double>& places, std::size_t from, const Delta& delta) {
+  const double wanted = places[from] + delta.value;
+  const double tolerance = delta.unit == DeltaUnit::frames ? 0 : 0.1 * delta.value;
   const auto begin = places.begin() + static_cast<std::ptrdiff_t>(from);
   auto found = std::lower_bound(begin, places.end(), wanted);
   if (found == places.end() || (found != begin && wanted - *std::prev(found) <= *found - wanted)) --found;
-  return std::abs(*found - wanted) <= 0.1 * delta ? static_cast<std::size_t>(found - places.begin()) : from;
+  return std::abs(*found - wanted) <= tolerance ? static_cast<std::size_t>(found - places.begin()) : from;
 }
 
 void refuseBadDelta(const Delta& delta) {
@@ -64,7 +66,7 @@ RelativePoseError relativePoseError(const Trajectory& estimate, const Trajectory
   RelativePoseError result;
   result.unpaired = paired.unpaired;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const std::size_t j = oneDeltaLater(places, i, delta.value);
+    const std::size_t j = oneDeltaLater(places, i, delta);
     if (j == i) continue;
     const geometry::Vector6d error =
         minus(inverse(pairs[i].estimate) * pairs[j].estimate, inverse(pairs[i].reference) * pairs[j].reference);

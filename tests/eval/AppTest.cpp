@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/eval/TumFile.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "Trajectories.h"
+
+namespace omnimapper::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+// omnimapper-eval with two trajectories at hand: the reference, and an estimate 0.1 m beside it in another world.
+class EvalApp : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    reference_ = folder_ / "reference.tum";
+    estimate_ = folder_ / "estimate.tum";
+    const Trajectory walk = randomWalk(50, 1);
+    writeTum(reference_, walk);
+    writeTum(estimate_, inOtherWorld(someMotion(), walk));
+  }
+  // Exit code; what it printed is in text_.
+  int run(const std::string& arguments) {
+    const auto program = fs::read_symlink("/proc/self/exe").parent_path() / "omnimapper-eval";
+    const std::string out = folder_ / "printed.txt";
+    const int status = std::system((program.string() + " " + arguments + " > " + out + " 2>&1").c_str());
+    text_ = contentOf(out);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  static std::string contentOf(const std::string& path) {
+    std::ifstream in(path);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  bool printed(const std::string& words) const { return text_.find(words) != std::string::npos; }
+
+  testing::ScratchFolder folder_;
+  std::string reference_, estimate_, text_;
+};
+
+TEST_F(EvalApp, PrintsATableAndLeavesNumbersAndPlots) {
+  const std::string out = folder_ / "results/ate";
+  ASSERT_EQ(run("ate " + estimate_ + " " + reference_ + " --align se3 -o " + out + " --json " + folder_ / "n.json"), 0)
+      << text_;
+  EXPECT_TRUE(printed("50 pairs, 0 poses without partner")) << text_;
+  EXPECT_TRUE(printed("translation        0.0000")) << text_;
+  for (const char* name : {"numbers.json", "errors.svg", "trajectory.svg"}) EXPECT_TRUE(fs::exists(out + "/" + name));
+  EXPECT_EQ(contentOf(folder_ / "n.json"), contentOf(out + "/numbers.json"));
+  EXPECT_NE(contentOf(folder_ / "n.json").find("\"translation_m\""), std::string::npos);
+}
+
+TEST_F(EvalApp, KnowsRelativeErrorAndRelations) {
+  EXPECT_EQ(run("rpe " + estimate_ + " " + reference_ + " --delta 2 --unit s"), 0) << text_;
+  EXPECT_TRUE(printed("48 spans")) << text_;
+  std::ofstream(folder_ / "r.relations") << "1000000000 1000000001 0 0 0 0 0 0\n";
+  EXPECT_EQ(run("relations " + estimate_ + " " + folder_ / "r.relations" + " -o " + folder_ / "r"), 0) << text_;
+  EXPECT_TRUE(printed("1 relations judged, 0 missed")) << text_;
+}
+
+TEST_F(EvalApp, HelpShowsExamples) {
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_TRUE(printed("omnimapper-eval ate ")) << text_;
+}
+
+TEST_F(EvalApp, ExitCodesTellWhatIsWrong) {
+  const auto code = [](base::ExitCode exit_code) { return static_cast<int>(exit_code); };
+  const std::string files = estimate_ + " " + reference_;
+  EXPECT_EQ(run(""), code(base::ExitCode::command_line));
+  EXPECT_EQ(run("ate " + estimate_), code(base::ExitCode::command_line));
+  EXPECT_EQ(run("ate " + files + " --algin se3"), code(base::ExitCode::command_line));
+  EXPECT_EQ(run("ate " + files + " --align se4"), code(base::ExitCode::command_line));
+  EXPECT_TRUE(printed("none | first | yaw | se3 | sim3")) << text_;
+  EXPECT_EQ(run("rpe " + files + " --delta 0"), code(base::ExitCode::out_of_range));
+  EXPECT_EQ(run("ate " + estimate_ + " " + folder_ / "missing.tum"), code(base::ExitCode::unreadable_input));
+  EXPECT_TRUE(printed("missing.tum")) << text_;
+  EXPECT_EQ(run("ate " + files + " -o " + reference_ + "/below"), code(base::ExitCode::unwritable_output));
+}
+
+}  // namespace
+}  // namespace omnimapper::eval
