@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "CompressedFile.h"
+
+namespace omnimapper::source {
+
+/// Lines of a text file, compressed or not.
+class LineReader {
+ public:
+  /// Throws as CompressedFile.
+  explicit LineReader(const std::string& path) : file_(path) {}
+
+  /// The next line without its end. False at the end of the file, of whatever kind.
+  bool next(std::string& line);
+  /// Whether the last line was whole: ended by a line feed and shorter than a megabyte, which no text line is.
+  bool isWhole() const { return is_whole_; }
+  /// From 1.
+  std::uint64_t number() const { return number_; }
+  const CompressedFile& file() const { return file_; }
+
+ private:
+  bool refill();
+
+  CompressedFile file_;
+  std::string buffer_;
+  std::size_t next_ = 0;
+  std::uint64_t number_ = 0;
+  bool is_whole_ = true;
+};
+
+}  // namespace omnimapper::source
