@@ -27,9 +27,9 @@ struct FactorRecord {
   std::vector<base::VariableId> variables;
   std::shared_ptr<const Factor> factor;
   SquareRootInformation noise;
-  Loss loss;
+  Loss loss = {};
   double weight = 1;  ///< >= 0; 0 takes it out of the solution without removing it
-  Tags tags;
+  Tags tags = {};
 };
 
 }  // namespace omnimapper::graph
