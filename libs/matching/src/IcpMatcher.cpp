@@ -2,6 +2,7 @@
 #include <mrpt/slam/CICP.h>
 #include <omnimapper/matching/IcpMatcher.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -13,23 +14,49 @@ struct IcpMatcher::Icp {
 
 namespace {
 
-// Normal of the reference near a point, from the two nearest reference points; none if they coincide.
-struct Partner {
-  double distance;
-  Eigen::Vector2d normal;
+using mrpt::math::TPose2D;
+
+// Point-to-line normal equations of all points of a scan that have a partner on a wall, at one pose.
+struct WallPartners {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // of x y yaw in the scan's frame, unit variance a point
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double squared_distance = 0, weight = 0;
+  std::size_t count = 0;
 };
 
-bool findPartner(const mrpt::maps::CSimplePointsMap& reference, float x, float y, double max_distance,
-                 Partner& partner) {
-  float x1, y1, x2, y2, squared1, squared2;
-  reference.kdTreeTwoClosestPoint2D(x, y, x1, y1, x2, y2, squared1, squared2);
-  partner.distance = std::sqrt(squared1);
-  if (partner.distance > max_distance) return false;
-  const Eigen::Vector2d along(x2 - x1, y2 - y1);
-  const double length = along.norm();
-  if (length < 1e-3) return false;
-  partner.normal = Eigen::Vector2d(-along.y(), along.x()) / length;
-  return true;
+WallPartners findWallPartners(const PlanarScan& reference, const PlanarScan& scan, const TPose2D& pose,
+                              double max_distance, double loss_scale) {
+  WallPartners partners;
+  const double c = std::cos(pose.phi), s = std::sin(pose.phi);
+  const auto& xs = scan.points.getPointsBufferRef_x();
+  const auto& ys = scan.points.getPointsBufferRef_y();
+  const auto& reference_xs = reference.points.getPointsBufferRef_x();
+  const auto& reference_ys = reference.points.getPointsBufferRef_y();
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double x = pose.x + c * xs[i] - s * ys[i], y = pose.y + s * xs[i] + c * ys[i];
+    float squared;
+    const std::size_t nearest =
+        reference.points.kdTreeClosestPoint2D(static_cast<float>(x), static_cast<float>(y), squared);
+    const Eigen::Vector2d normal = reference.normals[nearest].cast<double>();
+    if (squared > max_distance * max_distance || normal.isZero()) continue;
+    const double across = normal.x() * (x - reference_xs[nearest]) + normal.y() * (y - reference_ys[nearest]);
+    const double weight = 1 / (1 + across * across / (loss_scale * loss_scale));
+    const Eigen::Vector2d normal_in_scan(c * normal.x() + s * normal.y(), -s * normal.x() + c * normal.y());
+    const Eigen::Vector3d row(normal_in_scan.x(), normal_in_scan.y(),
+                              -ys[i] * normal_in_scan.x() + xs[i] * normal_in_scan.y());
+    partners.information += weight * row * row.transpose();
+    partners.gradient += weight * across * row;
+    partners.squared_distance += weight * across * across;
+    partners.weight += weight;
+    ++partners.count;
+  }
+  // A direction that no wall fixes stays where the guess has it.
+  partners.information.diagonal() += Eigen::Vector3d::Constant(1e-3);
+  return partners;
+}
+
+TPose2D moved(const TPose2D& pose, const Eigen::Vector3d& step) {
+  return pose + TPose2D(step.x(), step.y(), step.z());
 }
 
 }  // namespace
@@ -48,7 +75,11 @@ const base::OptionTable<IcpOptions>& IcpOptions::table() {
           .number("icp_max_angle_deg", &Options::max_angle, base::Range{0, 45},
                   "Widens the pairing distance with the distance from the sensor.")
           .integer("icp_max_iterations", &Options::max_iterations, base::Range{1, 10000}, "Iterations at most.")
-          .integer("icp_decimation", &Options::decimation, base::Range{1, 1000}, "Pairs every n-th point only.");
+          .integer("icp_decimation", &Options::decimation, base::Range{1, 1000}, "Pairs every n-th point only.")
+          .integer("icp_refinements", &Options::refinements, base::Range{0, 1000},
+                   "Point-to-line iterations after MRPT's ICP; 0 for none.")
+          .number("icp_refinement_distance_m", &Options::refinement_distance, base::Range::positive(),
+                  "Largest distance of a point from its wall in them.");
   return table;
 }
 
@@ -69,40 +100,31 @@ IcpMatcher::IcpMatcher(const IcpOptions& options) : icp_(std::make_unique<Icp>()
 
 IcpMatcher::~IcpMatcher() = default;
 
-ScanMatch IcpMatcher::match(const mrpt::maps::CSimplePointsMap& reference, const mrpt::maps::CSimplePointsMap& scan,
-                            const mrpt::math::TPose2D& guess) const {
+ScanMatch IcpMatcher::match(const PlanarScan& reference, const PlanarScan& scan, const TPose2D& guess) const {
   ScanMatch result;
   result.reference_from_scan = guess;
   result.unit_covariance = Eigen::Matrix3d::Identity() * 1e6;
   if (reference.size() < 2 || scan.empty()) return result;
 
-  const auto found = icp_->algorithm.Align(&reference, &scan, mrpt::poses::CPose2D(guess));
-  const mrpt::math::TPose2D pose = found->getMeanVal().asTPose();
+  const auto found = icp_->algorithm.Align(&reference.points, &scan.points, mrpt::poses::CPose2D(guess));
+  TPose2D pose = found->getMeanVal().asTPose();
   if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.phi)) return result;
-  result.reference_from_scan = pose;
 
-  // Point-to-line information of the partners at the solution, in the scan's frame.
-  const double c = std::cos(pose.phi), s = std::sin(pose.phi);
-  Eigen::Matrix3d information = Eigen::Matrix3d::Identity() * 1e-6;
-  std::size_t partners = 0;
-  double distances = 0;
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    float px, py, pz;
-    scan.getPointFast(i, px, py, pz);
-    const auto x = static_cast<float>(pose.x + c * px - s * py), y = static_cast<float>(pose.y + s * px + c * py);
-    Partner partner;
-    if (!findPartner(reference, x, y, 2 * options_.min_distance, partner)) continue;
-    ++partners;
-    distances += partner.distance;
-    const Eigen::Vector2d normal_in_scan(c * partner.normal.x() + s * partner.normal.y(),
-                                         -s * partner.normal.x() + c * partner.normal.y());
-    const Eigen::Vector3d row(normal_in_scan.x(), normal_in_scan.y(), normal_in_scan.dot(Eigen::Vector2d(-py, px)));
-    information += row * row.transpose();
+  // Wide at first, then only what surely lies on the same wall counts.
+  const double tight = options_.min_distance;
+  for (int i = 0; i < options_.refinements; ++i) {
+    const double loss_scale = i < options_.refinements / 2 ? options_.refinement_distance : tight;
+    const auto partners = findWallPartners(reference, scan, pose, options_.refinement_distance, loss_scale);
+    const Eigen::Vector3d step = partners.information.ldlt().solve(-partners.gradient);
+    pose = moved(pose, step);
+    if (i >= options_.refinements / 2 && step.head<2>().norm() < 1e-4 && std::abs(step.z()) < 1e-5) break;
   }
-  if (partners == 0) return result;
-  result.overlap = static_cast<double>(partners) / static_cast<double>(scan.size());
-  result.mean_distance = distances / static_cast<double>(partners);
-  result.unit_covariance = information.inverse();
+  const auto partners = findWallPartners(reference, scan, pose, options_.refinement_distance, tight);
+  result.reference_from_scan = pose;
+  if (partners.count == 0) return result;
+  result.overlap = partners.weight / static_cast<double>(scan.size());
+  result.wall_distance = std::sqrt(partners.squared_distance / partners.weight);
+  result.unit_covariance = partners.information.inverse();
   return result;
 }
 

@@ -22,19 +22,17 @@ TPose2D planar(const mrpt::poses::CPose3D& pose) {
 }
 
 // The cloud in the plane of the base.
-mrpt::maps::CSimplePointsMap pointsInBase(const mrpt::obs::CObservationPointCloud& cloud) {
-  mrpt::maps::CSimplePointsMap points;
+matching::PlanarScan scanInBase(const mrpt::obs::CObservationPointCloud& cloud) {
+  std::vector<Eigen::Vector2f> points;
   points.reserve(cloud.pointcloud->size());
   for (std::size_t i = 0; i < cloud.pointcloud->size(); ++i) {
     float x, y, z;
     cloud.pointcloud->getPointFast(i, x, y, z);
     double bx, by, bz;
     cloud.sensorPose.composePoint(x, y, z, bx, by, bz);
-    if (std::isfinite(bx) && std::isfinite(by)) {
-      points.insertPointFast(static_cast<float>(bx), static_cast<float>(by), 0);
-    }
+    if (std::isfinite(bx) && std::isfinite(by)) points.emplace_back(bx, by);
   }
-  return points;
+  return matching::fitLines(points);
 }
 
 }  // namespace
@@ -106,9 +104,9 @@ mapper::Batch ScanMatchingPlugin::measure(const map::KeyFrame& frame, const mrpt
     const auto& before = view.map.keyFrame(history.back().id).map_from_base;
     way = history.back().way + (frame.map_from_base - before).translation().norm();
   }
-  history.push_back({frame.id, pointsInBase(cloud), way});
+  history.push_back({frame.id, scanInBase(cloud), way});
   mapper::Batch batch;
-  if (history.size() < 2 || history.back().points_in_base.empty()) return batch;
+  if (history.size() < 2 || history.back().scan_in_base.empty()) return batch;
   matchSequential(frame, history, view, batch);
   if (options_.close_loops) closeLoops(frame, history, view, batch);
   return batch;
@@ -122,7 +120,7 @@ void ScanMatchingPlugin::matchSequential(const map::KeyFrame& frame, const Histo
   const auto reference = localMap(history, first, previous, previous, view);
   const auto& before = view.map.keyFrame(history[previous].id);
   const TPose2D guess = planar(frame.map_from_base - before.map_from_base);
-  const auto match = sequential_matcher_.match(reference, history.back().points_in_base, guess);
+  const auto match = sequential_matcher_.match(reference, history.back().scan_in_base, guess);
 
   auto decision = judge(match, guess, {options_.min_overlap, options_.max_correction, options_.max_turn_correction});
   decision.stamp = frame.stamp;
@@ -142,7 +140,7 @@ void ScanMatchingPlugin::closeLoops(const map::KeyFrame& frame, const History& h
     const auto reference = localMap(history, first, last, candidate, view);
     const auto& place = view.map.keyFrame(history[candidate].id);
     const TPose2D guess = planar(frame.map_from_base - place.map_from_base);
-    const auto match = loop_matcher_.match(reference, history.back().points_in_base, guess);
+    const auto match = loop_matcher_.match(reference, history.back().scan_in_base, guess);
 
     auto decision = judge(match, guess,
                           {options_.loop_min_overlap, options_.loop_max_correction, options_.loop_max_turn_correction});
@@ -182,21 +180,13 @@ std::vector<std::size_t> ScanMatchingPlugin::loopCandidates(const map::KeyFrame&
   return chosen;
 }
 
-mrpt::maps::CSimplePointsMap ScanMatchingPlugin::localMap(const History& history, std::size_t first, std::size_t last,
-                                                          std::size_t centre, const mapper::View& view) const {
+matching::PlanarScan ScanMatchingPlugin::localMap(const History& history, std::size_t first, std::size_t last,
+                                                  std::size_t centre, const mapper::View& view) const {
   const auto& map_from_centre = view.map.keyFrame(history[centre].id).map_from_base;
-  mrpt::maps::CSimplePointsMap local;
+  matching::PlanarScan local;
   for (std::size_t i = first; i <= last; ++i) {
-    const auto centre_from_frame =
-        mrpt::poses::CPose2D(planar(view.map.keyFrame(history[i].id).map_from_base - map_from_centre));
-    const auto& points = history[i].points_in_base;
-    const double c = std::cos(centre_from_frame.phi()), s = std::sin(centre_from_frame.phi());
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      float x, y, z;
-      points.getPointFast(k, x, y, z);
-      local.insertPointFast(static_cast<float>(centre_from_frame.x() + c * x - s * y),
-                            static_cast<float>(centre_from_frame.y() + s * x + c * y), 0);
-    }
+    const auto centre_from_frame = planar(view.map.keyFrame(history[i].id).map_from_base - map_from_centre);
+    matching::append(history[i].scan_in_base, centre_from_frame, local);
   }
   return local;
 }
@@ -209,7 +199,7 @@ mapper::Decision ScanMatchingPlugin::judge(const matching::ScanMatch& match, con
   mapper::Decision decision;
   decision.plugin = context_.section;
   decision.numbers = {{"overlap", match.overlap},
-                      {"mean distance [m]", match.mean_distance},
+                      {"distance from walls [m]", match.wall_distance},
                       {"correction [m]", moved},
                       {"correction [deg]", turned / base::option_text::kRadiansPerDegree}};
   if (match.overlap < gate.min_overlap) {

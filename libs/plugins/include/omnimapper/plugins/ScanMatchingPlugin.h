@@ -1,6 +1,5 @@
 #pragma once
 
-#include <mrpt/maps/CSimplePointsMap.h>
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/matching/IcpMatcher.h>
@@ -51,8 +50,8 @@ class ScanMatchingPlugin : public mapper::MeasurementPlugin {
   /// What one sensor saw at one key frame.
   struct Seen {
     base::KeyFrameId id;
-    mrpt::maps::CSimplePointsMap points_in_base;  // z = 0
-    double way;                                   // [m] driven until here
+    matching::PlanarScan scan_in_base;
+    double way;  // [m] driven until here
   };
   using History = std::vector<Seen>;
 
@@ -62,8 +61,8 @@ class ScanMatchingPlugin : public mapper::MeasurementPlugin {
                   mapper::Batch& batch) const;
   std::vector<std::size_t> loopCandidates(const map::KeyFrame& frame, const History& history,
                                           const mapper::View& view) const;
-  mrpt::maps::CSimplePointsMap localMap(const History& history, std::size_t first, std::size_t last, std::size_t centre,
-                                        const mapper::View& view) const;
+  matching::PlanarScan localMap(const History& history, std::size_t first, std::size_t last, std::size_t centre,
+                                const mapper::View& view) const;
 
   /// Limits a match has to keep.
   struct Gate {

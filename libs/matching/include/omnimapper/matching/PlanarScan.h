@@ -1,0 +1,28 @@
+#pragma once
+
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/math/TPose2D.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace omnimapper::matching {
+
+/// Points of a 2D scan, or of several, with the directions of the walls they lie on. Points lie on the line fitted to
+/// their neighbours, so that a noisy wall is as thin as a clean one. z = 0 [m].
+struct PlanarScan {
+  mrpt::maps::CSimplePointsMap points;
+  std::vector<Eigen::Vector2f> normals;  ///< unit, sign open; zero where no line fits
+
+  std::size_t size() const { return normals.size(); }
+  bool empty() const { return normals.empty(); }
+};
+
+/// Fits the lines. `points` in the order of the beams; each point's window of neighbours grows until a line fits, so
+/// that clean corners stay sharp and noisy walls become straight.
+PlanarScan fitLines(const std::vector<Eigen::Vector2f>& points);
+
+/// Appends `scan`, moved by target_from_scan, to `target`.
+void append(const PlanarScan& scan, const mrpt::math::TPose2D& target_from_scan, PlanarScan& target);
+
+}  // namespace omnimapper::matching
