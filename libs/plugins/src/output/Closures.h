@@ -1,0 +1,20 @@
+#pragma once
+
+#include <mrpt/math/TPoint3D.h>
+#include <omnimapper/map/Map.h>
+#include <omnimapper/mapper/DecisionLog.h>
+
+#include <vector>
+
+namespace omnimapper::plugins {
+
+/// A decision about two key frames, with where they are in the map now.
+struct Closure {
+  const mapper::Decision* decision;  ///< in the log it came from
+  mrpt::math::TPoint3D from, to;     ///< [m] in the map
+};
+
+/// Every decision between two key frames that do not follow one another, in the order of the log.
+std::vector<Closure> closuresOf(const map::Map& map, const mapper::DecisionLog& decisions);
+
+}  // namespace omnimapper::plugins

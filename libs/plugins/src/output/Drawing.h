@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "Image.h"
+
+namespace omnimapper::plugins {
+
+/// A place in a picture [pixels], right and down from its upper left corner; (0.5, 0.5) is the middle of a pixel.
+struct PixelPoint {
+  double x = 0, y = 0;
+};
+
+/// How ink lies on a picture.
+struct Pen {
+  Rgb colour;
+  double width = 1;    ///< [pixels]
+  double opacity = 1;  ///< 0 to 1
+};
+
+/// Draws with smooth edges; what lies outside is cut off. A path is inked once where it crosses itself.
+void drawPath(Image& image, const std::vector<PixelPoint>& path, const Pen& pen);
+void drawLine(Image& image, PixelPoint from, PixelPoint to, const Pen& pen);
+/// A disc of the pen's width around `centre`.
+void drawDot(Image& image, PixelPoint centre, const Pen& pen);
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,41 @@
+#include <omnimapper/plugins/GridOutput.h>
+
+#include "GridPicture.h"
+#include "MapServer.h"
+#include "OutputFile.h"
+#include "ScanGrid.h"
+
+IMPLEMENTS_MRPT_OBJECT(GridOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<GridOptions>& GridOptions::table() {
+  using Options = GridOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("resolution_m", &Options::resolution, {0.005, 10}, "Side of a cell.")
+          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Beams are entered up to this length.")
+          .number("margin_m", &Options::margin, {0, 1000}, "Unknown cells around what was seen.")
+          .integer("max_megacells", &Options::max_megacells, {1, 2000},
+                   "Bound of memory in millions of cells: a larger map gets coarser cells, as grid.yaml then says.");
+  return table;
+}
+
+GridOutput::GridOutput(const GridOptions& options, const mapper::PluginContext& context)
+    : options_(options), path_(outputPath(context, "grid")) {}
+
+void GridOutput::finish(const mapper::View& view) {
+  const auto grid =
+      buildScanGrid(view.map, {options_.resolution, options_.max_range, options_.margin, 1e6 * options_.max_megacells});
+  if (!grid) return;
+  writeBytes(path_ + ".pgm", encodePgm(*grid));
+  writeBytes(path_ + ".yaml", encodeMapServerYaml(*grid, "grid.pgm", options_.resolution));
+  writeBytes(path_ + ".png", encodePng(drawGrid(*grid).image));
+}
+
+std::unique_ptr<mapper::OutputPlugin> GridOutputFactory::make(const base::ConfigSection& section,
+                                                              const mapper::PluginContext& context) const {
+  return std::make_unique<GridOutput>(section.read<GridOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "Drawing.h"
+#include "Image.h"
+#include "ScanGrid.h"
+
+namespace omnimapper::plugins {
+
+/// A grid as a picture, north (+y) up, in the colours of the project: free light, walls dark.
+struct GridPicture {
+  PaletteImage image;
+  double metres_per_pixel = 0;
+  double min_x = 0, max_y = 0;  ///< [m] outer corner of the upper left pixel
+
+  PixelPoint pixelOf(double x, double y) const {
+    return {(x - min_x) / metres_per_pixel, (max_y - y) / metres_per_pixel};
+  }
+  double maxX() const { return min_x + image.width * metres_per_pixel; }
+  double minY() const { return max_y - image.height * metres_per_pixel; }
+};
+
+/// One pixel for each cell.
+GridPicture drawGrid(const ScanGrid& grid);
+/// Scaled by whole numbers so that the longer side comes near `side` pixels; where several cells fall on one pixel, a
+/// wall among them wins, so that walls stay closed.
+GridPicture drawGridToSize(const ScanGrid& grid, int side);
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace omnimapper::plugins {
+
+/// Text as it may stand between tags and in attributes; bytes that are no UTF-8 become question marks.
+std::string escapeHtml(std::string_view text);
+std::string encodeBase64(std::string_view bytes);
+/// A number with thin blanks between thousands.
+std::string grouped(std::size_t number);
+
+}  // namespace omnimapper::plugins

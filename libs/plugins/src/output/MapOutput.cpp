@@ -1,0 +1,35 @@
+#include <omnimapper/graph/GraphArchive.h>
+#include <omnimapper/map/MapFile.h>
+#include <omnimapper/plugins/MapOutput.h>
+
+#include <sstream>
+
+#include "OutputFile.h"
+
+IMPLEMENTS_MRPT_OBJECT(MapOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<MapOutputOptions>& MapOutputOptions::table() {
+  static const base::OptionTable<MapOutputOptions> table;
+  return table;
+}
+
+MapOutput::MapOutput(const MapOutputOptions&, const mapper::PluginContext& context)
+    : path_(outputPath(context, "map.omnimap")) {}
+
+void MapOutput::finish(const mapper::View& view) {
+  std::ostringstream graph;
+  graph::writeGraph(view.graph, graph);
+  map::MapFile file;
+  file.set({"graph", 1, std::move(graph).str()});
+  file.set(map::framesToSection(view.map));
+  file.write(path_);
+}
+
+std::unique_ptr<mapper::OutputPlugin> MapOutputFactory::make(const base::ConfigSection& section,
+                                                             const mapper::PluginContext& context) const {
+  return std::make_unique<MapOutput>(section.read<MapOutputOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,100 @@
+#include "ReportMap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "DecisionText.h"
+#include "Html.h"
+#include "MapPicture.h"
+#include "Numbers.h"
+
+namespace omnimapper::plugins {
+
+namespace {
+
+std::string closureLine(const GridPicture& grid, const Closure& closure) {
+  const PixelPoint from = grid.pixelOf(closure.from.x, closure.from.y), to = grid.pixelOf(closure.to.x, closure.to.y);
+  const mapper::Decision& d = *closure.decision;
+  return "<line x1=\"" + fixed(from.x, 1) + "\" y1=\"" + fixed(from.y, 1) + "\" x2=\"" + fixed(to.x, 1) + "\" y2=\"" +
+         fixed(to.y, 1) + "\"><title>" +
+         escapeHtml(d.kind + " " + toString(d.from) + " to " + toString(*d.to) + ": " + verdictText(d) + "\n" +
+                    numbersText(d)) +
+         "</title></line>\n";
+}
+
+std::string closureGroup(const GridPicture& grid, const std::vector<Closure>& closures, bool accepted,
+                         std::size_t most) {
+  std::string lines;
+  for (const Closure& closure : closures) {
+    if (closure.decision->accepted != accepted) continue;
+    if (most-- == 0) break;
+    lines += closureLine(grid, closure);
+  }
+  return "<g class=\"" + std::string(accepted ? "accepted" : "refused") + "\">\n" + lines + "</g>\n";
+}
+
+std::string pathData(const std::vector<PixelPoint>& path) {
+  std::string data;
+  for (const PixelPoint& point : path) data += (data.empty() ? "M" : "L") + fixed(point.x, 1) + " " + fixed(point.y, 1);
+  return data;
+}
+
+std::string dot(const char* kind, PixelPoint at, double radius) {
+  return "<circle class=\"" + std::string(kind) + "\" cx=\"" + fixed(at.x, 1) + "\" cy=\"" + fixed(at.y, 1) +
+         "\" r=\"" + fixed(radius, 1) + "\"><title>" + kind + "</title></circle>\n";
+}
+
+/// A bar of a round length, about a sixth of the picture, in its lower left corner.
+std::string scaleBar(const GridPicture& grid) {
+  const double width = grid.image.width * grid.metres_per_pixel,
+               power = std::pow(10, std::floor(std::log10(width / 6)));
+  const double mantissa = width / 6 / power;
+  const double length = power * (mantissa < 2 ? 1 : mantissa < 5 ? 2 : 5);
+  const double size = std::max(grid.image.width, grid.image.height) / 50.0;
+  const double x = size, y = grid.image.height - size, end = x + length / grid.metres_per_pixel;
+  return "<path class=\"scale\" d=\"M" + fixed(x, 1) + " " + fixed(y - 0.4 * size, 1) + "V" + fixed(y, 1) + "H" +
+         fixed(end, 1) + "V" + fixed(y - 0.4 * size, 1) + "\"/><text class=\"scale\" font-size=\"" + fixed(size, 1) +
+         "\" text-anchor=\"middle\" x=\"" + fixed(0.5 * (x + end), 1) + "\" y=\"" + fixed(y - 0.5 * size, 1) + "\">" +
+         brief(length) + " m</text>\n";
+}
+
+std::string toggle(const char* layer, const char* key, const std::string& label, bool on) {
+  return "<label><input type=\"checkbox\" data-layer=\"" + std::string(layer) + "\"" + (on ? " checked=\"\"" : "") +
+         "/><i class=\"" + key + "\"></i>" + label + "</label>";
+}
+
+std::string legend(const std::vector<Closure>& closures, std::size_t max_refused) {
+  const auto accepted = static_cast<std::size_t>(
+      std::count_if(closures.begin(), closures.end(), [](const Closure& c) { return c.decision->accepted; }));
+  const std::size_t refused = closures.size() - accepted;
+  std::string refused_label = grouped(refused) + " closures refused";
+  if (refused > max_refused) refused_label += " (" + grouped(max_refused) + " drawn)";
+  return "<div class=\"toggles\">" + toggle("track", "kt", "trajectory", true) +
+         toggle("accepted", "ka", grouped(accepted) + " closures accepted", true) +
+         toggle("refused", "kr", refused_label, true) +
+         "<span class=\"zoom\"><button data-zoom=\"0.7\" aria-label=\"closer\">+</button><button data-zoom=\"1.43\" "
+         "aria-label=\"further\">&#8722;</button><button data-zoom=\"0\">whole map</button></span></div>";
+}
+
+}  // namespace
+
+std::string drawReportMap(const GridPicture& grid, const std::vector<map::StampedPose>& trajectory,
+                          const std::vector<Closure>& closures, std::size_t max_refused) {
+  const std::string width = std::to_string(grid.image.width), height = std::to_string(grid.image.height);
+  const auto path = simplifiedPath(grid, trajectory, 0.3);
+  const double radius = std::max(grid.image.width, grid.image.height) / 160.0;
+  std::string svg = "<svg id=\"map\" viewBox=\"0 0 " + width + " " + height + "\" data-metres-per-pixel=\"" +
+                    brief(grid.metres_per_pixel, 9) + "\" data-min-x=\"" + brief(grid.min_x, 9) + "\" data-max-y=\"" +
+                    brief(grid.max_y, 9) + "\" role=\"img\" aria-label=\"map from above\">\n<image width=\"" + width +
+                    "\" height=\"" + height + "\" href=\"data:image/png;base64," + encodeBase64(encodePng(grid.image)) +
+                    "\"/>\n";
+  svg += closureGroup(grid, closures, false, max_refused) + closureGroup(grid, closures, true, closures.size());
+  svg += "<g class=\"track\"><path class=\"track\" d=\"" + pathData(path) + "\"/>\n";
+  if (!path.empty()) svg += dot("start", path.front(), radius) + dot("end", path.back(), radius);
+  svg += "</g>\n" + scaleBar(grid) + "</svg>\n";
+  return "<section class=\"card map\">" + legend(closures, max_refused) + svg +
+         "<p class=\"note\">x points right, y up. Ring: start; dot: end. Hold the pointer over a closure for its reason. "
+         "To look closer: the buttons, or Ctrl and the wheel; then drag.</p></section>\n";
+}
+
+}  // namespace omnimapper::plugins

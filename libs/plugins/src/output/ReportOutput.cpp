@@ -1,0 +1,49 @@
+#include <omnimapper/plugins/ReportOutput.h>
+
+#include "MapPicture.h"
+#include "OutputFile.h"
+#include "ReportPage.h"
+#include "ScanGrid.h"
+
+IMPLEMENTS_MRPT_OBJECT(ReportOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<ReportOptions>& ReportOptions::table() {
+  using Options = ReportOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("resolution_m", &Options::resolution, {0.005, 10}, "Side of a cell of the grid behind the map.")
+          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Beams are entered up to this length.")
+          .integer("picture_side_pixels", &Options::picture_side, {200, 8000}, "Longer side of the pictures, about.")
+          .integer("max_rows", &Options::max_rows, {0, 1000000}, "Rows of the decision log that the report lists.");
+  return table;
+}
+
+ReportOutput::ReportOutput(const ReportOptions& options, const mapper::PluginContext& context)
+    : options_(options), context_(context) {
+  outputPath(context_, "report.html");
+}
+
+void ReportOutput::finish(const mapper::View& view) {
+  const auto trajectory = map::denseTrajectory(view.map);
+  const auto closures = closuresOf(view.map, view.decisions);
+  ScanGridOptions grid_options;
+  grid_options.resolution = options_.resolution;
+  grid_options.max_range = options_.max_range;
+  const auto grid = buildScanGrid(view.map, grid_options);
+  const auto picture = grid ? std::optional(drawGridToSize(*grid, options_.picture_side))
+                            : emptyPicture(trajectory, 1.0, options_.picture_side);
+  if (picture) {
+    writeBytes(outputPath(context_, "map.png"), encodePng(drawMap(*picture, trajectory, closures)));
+  }
+  writeBytes(outputPath(context_, "report.html"), drawReport({view, context_, picture ? &*picture : nullptr, trajectory,
+                                                              closures, static_cast<std::size_t>(options_.max_rows)}));
+}
+
+std::unique_ptr<mapper::OutputPlugin> ReportOutputFactory::make(const base::ConfigSection& section,
+                                                                const mapper::PluginContext& context) const {
+  return std::make_unique<ReportOutput>(section.read<ReportOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,89 @@
+#include "ReportPage.h"
+
+#include <cmath>
+
+#include "Html.h"
+#include "Numbers.h"
+#include "ReportCurves.h"
+#include "ReportMap.h"
+#include "ReportStyle.h"
+#include "ReportTables.h"
+#include "RunFigures.h"
+
+namespace omnimapper::plugins {
+
+namespace {
+
+constexpr std::size_t kMostRefusedClosures = 1500;
+
+std::string figure(const std::string& value, const std::string& name) {
+  return "<div><b>" + value + "</b><span>" + name + "</span></div>";
+}
+
+std::string duration(double seconds) {
+  if (seconds < 120) return fixed(seconds, seconds < 10 ? 2 : 1) + " s";
+  const auto minutes = static_cast<long>(std::lround(seconds / 60));
+  if (minutes < 120) return std::to_string(minutes) + " min";
+  return fixed(seconds / 3600, 1) + " h";
+}
+
+std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
+  const mapper::View& view = input.view;
+  std::string html = figure(grouped(view.map.key_frames.size()), "key frames") +
+                     figure(fixed(figures.way, figures.way < 100 ? 1 : 0) + " m", "way driven") +
+                     figure(duration(figures.log_seconds), "recorded");
+  if (input.picture) {
+    html += figure(fixed(input.picture->maxX() - input.picture->min_x, 0) + " &#215; " +
+                       fixed(input.picture->max_y - input.picture->minY(), 0) + " m",
+                   "mapped");
+  }
+  html += figure(grouped(figures.closures), "loop closures") + figure(grouped(figures.refused_closures), "refused") +
+          figure(grouped(view.graph.factors().size()), "factors") + figure(brief(view.graph.chi2(), 4), "chi-square") +
+          figure(duration(figures.wall_seconds), "computed");
+  if (figures.wall_seconds > 0 && figures.log_seconds > 0) {
+    const double speed = figures.log_seconds / figures.wall_seconds;
+    html += figure(fixed(speed, speed < 10 ? 1 : 0) + " &#215;", "of real time");
+  }
+  return "<div class=\"figures\">" + html + "</div>\n";
+}
+
+std::string drawWarnings(const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return {};
+  std::string items;
+  for (const std::string& warning : warnings) items += "<li>" + escapeHtml(warning) + "</li>";
+  return "<section class=\"card warnings\"><h2>Warnings</h2><ul>" + items + "</ul></section>\n";
+}
+
+std::string drawConfig(const std::string& text) {
+  if (text.empty()) return {};
+  return "<details class=\"card\"><summary>Settings of this run (INI)</summary><pre>" + escapeHtml(text) +
+         "</pre></details>\n";
+}
+
+std::string charts(const std::string& title, const std::string& html) {
+  return html.empty() ? "" : "<h2>" + title + "</h2>\n<div class=\"charts\">\n" + html + "</div>\n";
+}
+
+}  // namespace
+
+std::string drawReport(const ReportInput& input) {
+  const mapper::View& view = input.view;
+  const std::string title = escapeHtml(input.context.title.empty() ? "Map" : input.context.title);
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\"/>\n<title>" +
+      title + " - OmniMapper</title>\n<style>";
+  html += kReportStyle;
+  html +=
+      "</style>\n</head>\n<body>\n<main>\n<header><h1>" + title + "</h1><p>Mapping report of OmniMapper</p></header>\n";
+  html += drawWarnings(view.warnings) + drawFigures(input, figuresOf(view, input.trajectory));
+  if (input.picture) html += drawReportMap(*input.picture, input.trajectory, input.closures, kMostRefusedClosures);
+  html += charts("Error", drawErrorCurves(view)) + charts("Time", drawTimeCurves(view));
+  html += drawReasonTable(view.decisions) + drawDecisionTable(view.map, view.decisions, input.max_rows);
+  html += drawCountTables(view) + drawConfig(input.context.config_text);
+  html += "</main>\n<script>";
+  html += kReportScript;
+  return html + "</script>\n</body>\n</html>\n";
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/mapper/View.h>
+
+#include <string>
+#include <vector>
+
+#include "Closures.h"
+#include "GridPicture.h"
+
+namespace omnimapper::plugins {
+
+/// What the report shows beside the view itself.
+struct ReportInput {
+  const mapper::View& view;
+  const mapper::PluginContext& context;
+  const GridPicture* picture;  ///< null for a map that is empty
+  const std::vector<map::StampedPose>& trajectory;
+  const std::vector<Closure>& closures;
+  std::size_t max_rows;  ///< of the decision log
+};
+
+/// The whole page, which refers to nothing outside of it.
+std::string drawReport(const ReportInput& input);
+
+}  // namespace omnimapper::plugins

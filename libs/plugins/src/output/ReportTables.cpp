@@ -1,0 +1,116 @@
+#include "ReportTables.h"
+
+#include <algorithm>
+#include <set>
+
+#include "DecisionText.h"
+#include "Html.h"
+#include "Numbers.h"
+
+namespace omnimapper::plugins {
+
+namespace {
+
+std::string cell(const std::string& html) {
+  return "<td>" + html + "</td>";
+}
+std::string number(const std::string& html) {
+  return "<td class=\"num\">" + html + "</td>";
+}
+std::string verdict(bool accepted) {
+  return accepted ? "<td><span class=\"yes\">accepted</span></td>" : "<td><span class=\"no\">refused</span></td>";
+}
+
+std::string row(const mapper::Decision& d, base::Stamp start) {
+  return "<tr data-verdict=\"" + std::string(d.accepted ? "accepted" : "refused") + "\" data-kind=\"" +
+         escapeHtml(d.kind) + "\">" + number(toString(d.from)) +
+         number(fixed(base::secondsBetween(start, d.stamp), 1)) + cell(escapeHtml(d.plugin)) +
+         cell(escapeHtml(d.kind)) + number(d.to ? toString(*d.to) : "") + verdict(d.accepted) +
+         cell(escapeHtml(d.reason)) + cell(escapeHtml(numbersText(d))) + "</tr>\n";
+}
+
+/// Which decisions are listed: all, or the refusals and those about two key frames first.
+std::vector<const mapper::Decision*> listed(const mapper::DecisionLog& decisions, std::size_t max_rows) {
+  std::vector<const mapper::Decision*> rows;
+  for (const bool telling : {true, false}) {
+    for (const mapper::Decision& d : decisions) {
+      if (rows.size() < max_rows && telling == (!d.accepted || d.to.has_value())) rows.push_back(&d);
+    }
+  }
+  std::sort(rows.begin(), rows.end());  // back in the order of the log, which is contiguous
+  return rows;
+}
+
+std::string options(const mapper::DecisionLog& decisions) {
+  std::set<std::string> kinds;
+  for (const mapper::Decision& d : decisions) kinds.insert(d.kind);
+  std::string html = "<option value=\"\">every kind</option>";
+  for (const std::string& kind : kinds) {
+    html += "<option value=\"" + escapeHtml(kind) + "\">" + escapeHtml(kind) + "</option>";
+  }
+  return html;
+}
+
+template <class Counts>
+std::string countTable(const std::string& title, const Counts& counts) {
+  std::string rows;
+  for (const auto& [name, count] : counts) {
+    std::string words = name;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    rows += "<tr>" + cell(escapeHtml(words)) + number(grouped(count)) + "</tr>";
+  }
+  return rows.empty() ? ""
+                      : "<section class=\"card\"><h3>" + title + "</h3><table class=\"plain\"><tbody>" + rows +
+                            "</tbody></table></section>\n";
+}
+
+}  // namespace
+
+std::string drawReasonTable(const mapper::DecisionLog& decisions) {
+  if (decisions.empty()) return {};
+  std::string rows;
+  for (const ReasonCount& count : countReasons(decisions)) {
+    rows += "<tr>" + cell(escapeHtml(count.plugin)) + cell(escapeHtml(count.kind)) + verdict(count.accepted) +
+            cell(escapeHtml(count.reason)) + number(grouped(count.count)) + "</tr>\n";
+  }
+  return "<section class=\"card\"><h2>Decisions by reason</h2><div class=\"scroll\"><table "
+         "class=\"sortable\"><thead><tr>"
+         "<th>plugin</th><th>kind</th><th>verdict</th><th>reason</th><th "
+         "class=\"num\">count</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div></section>\n";
+}
+
+std::string drawDecisionTable(const map::Map& map, const mapper::DecisionLog& decisions, std::size_t max_rows) {
+  if (decisions.empty()) return {};
+  const base::Stamp start = map.key_frames.empty() ? decisions.front().stamp : map.key_frames.front().stamp;
+  const auto rows = listed(decisions, max_rows);
+  std::string note;
+  if (rows.size() < decisions.size()) {
+    note = "<p class=\"note\">" + grouped(rows.size()) + " of " + grouped(decisions.size()) +
+           " decisions are listed, refusals and closures first; the table above counts all of them.</p>";
+  }
+  std::string html =
+      "<section class=\"card\"><h2>Decision log</h2>" + note +
+      "<div class=\"filters\"><select id=\"verdict\" aria-label=\"verdict\"><option value=\"\">accepted and "
+      "refused</option>"
+      "<option value=\"accepted\">accepted</option><option value=\"refused\">refused</option></select>"
+      "<select id=\"kind\" aria-label=\"kind\">" +
+      options(decisions) +
+      "</select><input id=\"words\" type=\"search\" placeholder=\"words in a row\" aria-label=\"words\"/>"
+      "<span id=\"shown\"></span></div><div class=\"scroll tall\"><table class=\"sortable\" id=\"log\"><thead><tr>"
+      "<th class=\"num\">key frame</th><th class=\"num\">time [s]</th><th>plugin</th><th>kind</th><th "
+      "class=\"num\">to</th>"
+      "<th>verdict</th><th>reason</th><th>numbers</th></tr></thead><tbody>\n";
+  for (const mapper::Decision* decision : rows) html += row(*decision, start);
+  return html + "</tbody></table></div></section>\n";
+}
+
+std::string drawCountTables(const mapper::View& view) {
+  const GraphFigures graph = figuresOf(view.graph);
+  return "<div class=\"columns\">" + countTable("Observations", namedCounts(view.counts)) +
+         countTable("Variables by kind", graph.variables_by_kind) +
+         countTable("Factors by kind", graph.factors_by_kind) +
+         countTable("Factors by plugin", graph.factors_by_owner) + "</div>\n";
+}
+
+}  // namespace omnimapper::plugins

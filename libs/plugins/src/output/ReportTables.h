@@ -1,0 +1,18 @@
+#pragma once
+
+#include <omnimapper/mapper/View.h>
+
+#include <string>
+
+#include "RunFigures.h"
+
+namespace omnimapper::plugins {
+
+/// Counts of decisions by plugin, kind, verdict and reason.
+std::string drawReasonTable(const mapper::DecisionLog& decisions);
+/// The decision log with filters, at most `max_rows` rows: where it is longer, refusals and closures go first.
+std::string drawDecisionTable(const map::Map& map, const mapper::DecisionLog& decisions, std::size_t max_rows);
+/// What became of the observations, and what the graph holds.
+std::string drawCountTables(const mapper::View& view);
+
+}  // namespace omnimapper::plugins

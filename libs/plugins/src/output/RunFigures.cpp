@@ -1,0 +1,67 @@
+#include "RunFigures.h"
+
+#include <algorithm>
+
+#include "Closures.h"
+
+namespace omnimapper::plugins {
+
+RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPose>& trajectory) {
+  RunFigures figures;
+  figures.trajectory_poses = trajectory.size();
+  if (!trajectory.empty()) {
+    figures.log_seconds = base::secondsBetween(trajectory.front().stamp, trajectory.back().stamp);
+  }
+  const auto& frames = view.map.key_frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto p = frames[i].map_from_base.translation();
+    const bool first = i == 0;
+    figures.min_x = first ? p.x : std::min(figures.min_x, p.x);
+    figures.max_x = first ? p.x : std::max(figures.max_x, p.x);
+    figures.min_y = first ? p.y : std::min(figures.min_y, p.y);
+    figures.max_y = first ? p.y : std::max(figures.max_y, p.y);
+    figures.min_z = first ? p.z : std::min(figures.min_z, p.z);
+    figures.max_z = first ? p.z : std::max(figures.max_z, p.z);
+    if (!first) figures.way += (p - frames[i - 1].map_from_base.translation()).norm();
+  }
+  for (const Closure& closure : closuresOf(view.map, view.decisions)) {
+    ++(closure.decision->accepted ? figures.closures : figures.refused_closures);
+  }
+  for (const auto& [stage, total] : view.times.totals()) figures.wall_seconds += total.seconds;
+  return figures;
+}
+
+std::vector<ReasonCount> countReasons(const mapper::DecisionLog& decisions) {
+  std::map<std::tuple<std::string, std::string, bool, std::string>, std::size_t> counts;
+  for (const mapper::Decision& d : decisions) ++counts[{d.plugin, d.kind, !d.accepted, d.reason}];
+  std::vector<ReasonCount> result;
+  for (const auto& [key, count] : counts) {
+    const auto& [plugin, kind, refused, reason] = key;
+    result.push_back({plugin, kind, !refused, reason, count});
+  }
+  return result;
+}
+
+GraphFigures figuresOf(const graph::Graph& graph) {
+  GraphFigures figures;
+  for (const auto& [id, record] : graph.variables()) ++figures.variables_by_kind[std::string(record.kind->kind())];
+  for (const auto& [id, record] : graph.factors()) {
+    ++figures.factors_by_kind[std::string(record.factor->kind())];
+    ++figures.factors_by_owner[record.tags.owner];
+  }
+  return figures;
+}
+
+std::vector<std::pair<std::string, std::size_t>> namedCounts(const mapper::RunCounts& counts) {
+  return {{"observations", counts.observations},
+          {"unwanted", counts.unwanted},
+          {"not_triggered", counts.not_triggered},
+          {"no_stamp", counts.no_stamp},
+          {"repeated_stamp", counts.repeated_stamp},
+          {"too_late", counts.too_late},
+          {"unusable", counts.unusable},
+          {"unconnected", counts.unconnected},
+          {"solves", counts.solves}};
+}
+
+}  // namespace omnimapper::plugins

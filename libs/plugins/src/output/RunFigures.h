@@ -1,0 +1,41 @@
+#pragma once
+
+#include <omnimapper/mapper/View.h>
+
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace omnimapper::plugins {
+
+/// Figures of a run that several outputs show.
+struct RunFigures {
+  std::size_t trajectory_poses = 0;
+  double log_seconds = 0;                                                   ///< from the first to the last pose
+  double way = 0;                                                           ///< [m] along the key frames
+  double min_x = 0, max_x = 0, min_y = 0, max_y = 0, min_z = 0, max_z = 0;  ///< [m] of the key frames
+  std::size_t closures = 0, refused_closures = 0;
+  double wall_seconds = 0;  ///< sum of all stages
+};
+RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPose>& trajectory);
+
+/// How often each decision was made for each reason, by plugin, kind, accepted first, reason.
+struct ReasonCount {
+  std::string plugin, kind;
+  bool accepted = false;
+  std::string reason;
+  std::size_t count = 0;
+};
+std::vector<ReasonCount> countReasons(const mapper::DecisionLog& decisions);
+
+/// Numbers of the graph's variables and factors.
+struct GraphFigures {
+  std::map<std::string, std::size_t> variables_by_kind, factors_by_kind, factors_by_owner;
+};
+GraphFigures figuresOf(const graph::Graph& graph);
+
+/// The counters of the engine with their names, in the order they are met.
+std::vector<std::pair<std::string, std::size_t>> namedCounts(const mapper::RunCounts& counts);
+
+}  // namespace omnimapper::plugins

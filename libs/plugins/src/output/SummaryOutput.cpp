@@ -1,0 +1,103 @@
+#include <omnimapper/plugins/SummaryOutput.h>
+
+#include <nlohmann/json.hpp>
+
+#include "OutputFile.h"
+#include "RunFigures.h"
+
+IMPLEMENTS_MRPT_OBJECT(SummaryOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json graphOf(const mapper::View& view) {
+  const GraphFigures figures = figuresOf(view.graph);
+  return {{"variables", view.graph.variables().size()},
+          {"variables_by_kind", figures.variables_by_kind},
+          {"factors", view.graph.factors().size()},
+          {"factors_by_kind", figures.factors_by_kind},
+          {"factors_by_owner", figures.factors_by_owner},
+          {"chi2", view.graph.chi2()},
+          {"final_cost", view.graph.cost()}};
+}
+
+Json decisionsOf(const mapper::DecisionLog& decisions) {
+  Json list = Json::array();
+  for (const ReasonCount& count : countReasons(decisions)) {
+    list.push_back({{"plugin", count.plugin},
+                    {"kind", count.kind},
+                    {"accepted", count.accepted},
+                    {"reason", count.reason},
+                    {"count", count.count}});
+  }
+  return list;
+}
+
+Json solvesOf(const std::vector<mapper::SolveRecord>& solves) {
+  Json list = Json::array();
+  for (const mapper::SolveRecord& solve : solves) {
+    list.push_back({{"key_frames", solve.key_frames},
+                    {"factors", solve.factors},
+                    {"initial_cost", solve.initial_cost},
+                    {"final_cost", solve.final_cost},
+                    {"iterations", solve.iterations}});
+  }
+  return list;
+}
+
+Json timesOf(const mapper::StageTimes& times) {
+  Json stages = Json::object();
+  for (const auto& [stage, total] : times.totals())
+    stages[stage] = {{"seconds", total.seconds}, {"calls", total.calls}};
+  return stages;
+}
+
+Json summaryOf(const mapper::View& view, const std::string& title) {
+  const auto trajectory = map::denseTrajectory(view.map);
+  const RunFigures figures = figuresOf(view, trajectory);
+  Json counts = Json::object();
+  for (const auto& [name, count] : namedCounts(view.counts)) counts[name] = count;
+  Json summary = {
+      {"title", title}, {"key_frames", view.map.key_frames.size()}, {"trajectory_poses", figures.trajectory_poses}};
+  if (!trajectory.empty()) {
+    summary["first_stamp"] = base::formatUnix(trajectory.front().stamp);
+    summary["last_stamp"] = base::formatUnix(trajectory.back().stamp);
+  }
+  summary["log_s"] = figures.log_seconds;
+  summary["way_m"] = figures.way;
+  summary["extent_m"] = {{"min", {figures.min_x, figures.min_y, figures.min_z}},
+                         {"max", {figures.max_x, figures.max_y, figures.max_z}}};
+  summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
+  summary["counts"] = counts;
+  summary["graph"] = graphOf(view);
+  summary["decisions"] = decisionsOf(view.decisions);
+  summary["solves"] = solvesOf(view.solves);
+  summary["stage_times"] = timesOf(view.times);
+  summary["warnings"] = view.warnings;
+  return summary;
+}
+
+}  // namespace
+
+const base::OptionTable<SummaryOptions>& SummaryOptions::table() {
+  static const base::OptionTable<SummaryOptions> table;
+  return table;
+}
+
+SummaryOutput::SummaryOutput(const SummaryOptions&, const mapper::PluginContext& context)
+    : path_(outputPath(context, "summary.json")), title_(context.title) {}
+
+void SummaryOutput::finish(const mapper::View& view) {
+  // Names from a log may be no UTF-8: those bytes are replaced.
+  writeBytes(path_, summaryOf(view, title_).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+std::unique_ptr<mapper::OutputPlugin> SummaryOutputFactory::make(const base::ConfigSection& section,
+                                                                 const mapper::PluginContext& context) const {
+  return std::make_unique<SummaryOutput>(section.read<SummaryOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,34 @@
+#include <omnimapper/plugins/TrajectoryOutput.h>
+
+#include "OutputFile.h"
+#include "Tum.h"
+
+IMPLEMENTS_MRPT_OBJECT(TrajectoryOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<TrajectoryOptions>& TrajectoryOptions::table() {
+  static const auto table = base::OptionTable<TrajectoryOptions>().flag(
+      "key_frames_only", &TrajectoryOptions::key_frames_only, "Leave out the observations between key frames.");
+  return table;
+}
+
+TrajectoryOutput::TrajectoryOutput(const TrajectoryOptions& options, const mapper::PluginContext& context)
+    : options_(options), path_(outputPath(context, "trajectory.tum")) {}
+
+void TrajectoryOutput::finish(const mapper::View& view) {
+  std::vector<map::StampedPose> trajectory;
+  if (options_.key_frames_only) {
+    for (const auto& frame : view.map.key_frames) trajectory.push_back({frame.stamp, frame.map_from_base});
+  } else {
+    trajectory = map::denseTrajectory(view.map);
+  }
+  writeBytes(path_, encodeTum(trajectory));
+}
+
+std::unique_ptr<mapper::OutputPlugin> TrajectoryOutputFactory::make(const base::ConfigSection& section,
+                                                                    const mapper::PluginContext& context) const {
+  return std::make_unique<TrajectoryOutput>(section.read<TrajectoryOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::plugins
