@@ -62,10 +62,10 @@ ActionMotion spatialMotion(const CActionRobotMovement3D& action) {
 
 }  // namespace
 
-std::optional<ActionMotion> motionOf(const mrpt::obs::CAction& action) {
-  if (const auto* planar = dynamic_cast<const CActionRobotMovement2D*>(&action)) {
+std::optional<ActionMotion> motionOf(const mrpt::obs::CAction::ConstPtr& action) {
+  if (const auto* planar = dynamic_cast<const CActionRobotMovement2D*>(action.get())) {
     if (planar->poseChange) return planarMotion(*planar);
-  } else if (const auto* spatial = dynamic_cast<const CActionRobotMovement3D*>(&action)) {
+  } else if (const auto* spatial = dynamic_cast<const CActionRobotMovement3D*>(action.get())) {
     return spatialMotion(*spatial);
   }
   return std::nullopt;

@@ -18,9 +18,9 @@ struct ActionMotion {
   std::uint64_t actions = 1;                                   ///< how many are joined in it
 };
 
-/// Empty for an action that is no movement of the base. The same bits at every reading: where MRPT draws its
+/// Empty for no action or one that is no movement of the base. The same bits at every reading: where MRPT draws its
 /// particles anew (Thrun's motion model), the model's own covariance is taken instead of the particles'.
-std::optional<ActionMotion> motionOf(const mrpt::obs::CAction& action);
+std::optional<ActionMotion> motionOf(const mrpt::obs::CAction::ConstPtr& action);
 
 /// First a, then b.
 ActionMotion join(const ActionMotion& a, const ActionMotion& b);

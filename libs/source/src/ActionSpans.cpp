@@ -7,7 +7,7 @@ namespace omnimapper::source {
 ActionSpans::Motions ActionSpans::addAction(const mrpt::obs::CActionCollection& actions) {
   base::Stamp stamp;
   for (const auto& action : actions) {
-    const auto motion = motionOf(*action);
+    const auto motion = motionOf(action.get_ptr());
     if (!motion) continue;
     const auto [place, is_new] = pending_.emplace(motion->origin, *motion);
     if (!is_new) place->second = join(place->second, *motion);

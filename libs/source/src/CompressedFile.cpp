@@ -209,6 +209,9 @@ CompressedFile::Ending CompressedFile::ending() const {
 const std::string& CompressedFile::problem() const {
   return state_->problem;
 }
+bool CompressedFile::isCompressed() const {
+  return state_->decoder != nullptr;
+}
 std::uint64_t CompressedFile::position() const {
   return state_->position;
 }

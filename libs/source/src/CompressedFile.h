@@ -22,6 +22,7 @@ class CompressedFile {
   Ending ending() const;
   /// What is wrong, where it is compressed: "gzip: incorrect data check". Empty if the ending is good.
   const std::string& problem() const;
+  bool isCompressed() const;
   /// Uncompressed bytes handed out.
   std::uint64_t position() const;
   /// Part of the file on disk that has been read, in [0, 1].

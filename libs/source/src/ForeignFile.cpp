@@ -40,7 +40,7 @@ std::string describeForeignFile(const std::string& path) {
     return isCarmen(head) ? "is a CARMEN log; make it a rawlog with: omnimapper-import carmen " + path + " OUT.rawlog"
                           : "is a text file, no rawlog; CARMEN logs are imported with omnimapper-import carmen.";
   }
-  return "is no rawlog: it does not begin with an object of MRPT.";
+  return "is no rawlog, or damaged from its first object on.";
 }
 
 }  // namespace omnimapper::source

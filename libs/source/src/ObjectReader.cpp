@@ -58,6 +58,10 @@ void ObjectReader::Archive::readBody(CSerializable* object, const Header& header
 
 CSerializable::Ptr ObjectReader::next() {
   while (ending_ == Ending::open) {
+    if (objects_ >= most_objects_) {
+      end(Ending::corrupt, "has an object that cannot be read");
+      break;
+    }
     if (in_rawlog_ && rawlog_left_ == 0) {
       leaveRawlog();
       continue;

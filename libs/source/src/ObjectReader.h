@@ -2,6 +2,7 @@
 
 #include <mrpt/serialization/CArchive.h>
 
+#include <limits>
 #include <string>
 
 #include "CompressedFile.h"
@@ -17,6 +18,9 @@ class ObjectReader {
 
   /// Throws as CompressedFile.
   explicit ObjectReader(const std::string& path) : file_(path), archive_(file_) {}
+
+  /// After so many objects the reading ends as corrupt.
+  void refuseAfter(std::uint64_t objects) { most_objects_ = objects; }
 
   /// Null at the end, of whatever kind.
   mrpt::serialization::CSerializable::Ptr next();
@@ -72,6 +76,7 @@ class ObjectReader {
   bool in_rawlog_ = false;          // inside a CRawlog saved as one object
   bool rawlog_old_format_ = false;  // no end flag after it
   std::uint32_t rawlog_left_ = 0;   // objects left in it
+  std::uint64_t most_objects_ = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t objects_ = 0;
   std::uint64_t bytes_ = 0;
 };

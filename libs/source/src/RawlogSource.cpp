@@ -16,6 +16,7 @@
 #include "ForeignFile.h"
 #include "ObjectReader.h"
 #include "Selection.h"
+#include "Trial.h"
 
 namespace omnimapper::source {
 
@@ -39,6 +40,12 @@ base::Stamp stampOf(const mrpt::obs::CSensoryFrame& frame) {
   for (const auto& observation : frame)
     if (observation && base::isValid(observation->timestamp)) latest = std::max(latest, observation->timestamp);
   return latest;
+}
+
+// What will be done with each object, as far as it depends on what is in it.
+void useOnce(mrpt::serialization::CSerializable& object) {
+  if (const auto* actions = dynamic_cast<const mrpt::obs::CActionCollection*>(&object))
+    for (const auto& action : *actions) motionOf(action.get_ptr());
 }
 
 SourceReport::Ending endingOf(ObjectReader::Ending ending) {
@@ -66,6 +73,10 @@ class RawlogSource::Stream {
         spans_(options.action_span, options.action_label),
         selection_(options),
         images_folder_(options.images_folder.empty() ? externalFolderOf(path) : options.images_folder) {
+    if (!isVerified(path)) {
+      const Trial trial = tryReading(path, useOnce);
+      if (!trial.may_read_next) reader_.refuseAfter(trial.objects);
+    }
     while (waiting_.empty() && readObject()) {
     }
     if (reader_.objects() == 0 && !reader_.sawHeader() && reader_.ending() != ObjectReader::Ending::complete)
