@@ -1,6 +1,9 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/mapper/Batch.h>
 
+#include <cmath>
+#include <set>
+
 namespace omnimapper::mapper {
 
 namespace {
@@ -21,12 +24,15 @@ graph::FactorRecord bound(graph::FactorRecord record, const std::vector<base::Va
 
 // What can be seen to fail before anything is touched.
 void check(const Batch& batch, const graph::Graph& graph) {
+  std::set<base::FactorId> removed;
   for (const auto id : batch.removedFactors()) {
     if (!graph.contains(id)) refuse("removed factor " + base::toString(id), "the graph has none of that id");
+    if (!removed.insert(id).second) refuse("removed factor " + base::toString(id), "is removed twice");
   }
   for (const auto& [id, weight] : batch.weights()) {
     if (!graph.contains(id)) refuse("weight of factor " + base::toString(id), "the graph has none of that id");
-    if (!(weight >= 0)) refuse("weight of factor " + base::toString(id), "is negative or not a number");
+    if (!(weight >= 0) || std::isinf(weight))
+      refuse("weight of factor " + base::toString(id), "is negative or not finite");
   }
 }
 

@@ -17,12 +17,15 @@ Se3 share(const Se3& motion, double f) {
   return plus(Se3(), f * minus(motion, Se3()));
 }
 
-// The part of a span's motion between two shares of its time.
+// The part of a span's motion between two shares of its time. What makes the covariances of parts add up to the span's:
+// each is a share of the span's own covariance, seen from the end of the part instead of the end of the span.
 RelativeMotion part(const RelativeMotion& motion, double from, double to) {
   if (from <= 0 && to >= 1) return motion;
   const Se3 whole = geometry::fromMrpt(motion.begin_from_end);
-  const Se3 piece = inverse(share(whole, from)) * share(whole, to);
-  return {geometry::toMrpt(piece), motion.covariance * (to - from)};
+  const Se3 begin_from_part_end = share(whole, to);
+  const Se3 end_from_part_end = inverse(whole) * begin_from_part_end;
+  return {geometry::toMrpt(inverse(share(whole, from)) * begin_from_part_end),
+          geometry::composeCovariance(motion.covariance * (to - from), end_from_part_end, geometry::Matrix6d::Zero())};
 }
 
 }  // namespace
