@@ -39,8 +39,8 @@ class G2oReader {
       for (const std::int64_t number : edge.vertices) edge.record.variables.push_back(content.ids.at(number));
       content.graph.addFactor(std::move(edge.record));
     }
-    if (fixed_.empty() && !has_prior_) fixFirstPose(content);
     fillValues(content);
+    if (fixed_.empty() && !has_prior_) fixFirstPose(content);
     return content;
   }
 

@@ -14,8 +14,9 @@ namespace {
 // sessions, (session, next index) each, number of entries, entries in the order of ids, each headed by its id.
 constexpr char kMagic[] = "omnimapper.graph";
 constexpr std::uint64_t kVersion = 1;
-// More ids than any session can give; keeps a damaged number from asking for all the memory there is.
-constexpr std::uint32_t kMaxIndex = 50'000'000;
+// Holes of removed ids take memory: beyond this many, and this many for each thing that is there, the number is
+// damaged.
+constexpr std::uint64_t kMaxHoles = 1'000'000, kMaxHolesPerEntry = 1000;
 
 template <class IdType>
 void writeId(std::ostream& out, IdType id) {
@@ -123,7 +124,6 @@ std::map<std::uint16_t, std::uint32_t> readNextIndices(std::istream& in) {
   for (std::uint64_t left = readUint(in, 4); left > 0; --left) {
     const auto session = static_cast<std::uint16_t>(readUint(in, 2));
     next[session] = static_cast<std::uint32_t>(readUint(in, 4));
-    if (next[session] > kMaxIndex) failDamaged("a session says it gave " + std::to_string(next[session]) + " ids");
   }
   return next;
 }
@@ -149,8 +149,12 @@ class GraphArchiveReader {
   template <class IdType, class Table, class Add>
   void readTable(Table& table, const Add& add) {
     const std::map<std::uint16_t, std::uint32_t> end = readNextIndices(in_);
+    std::uint64_t left = readUint(in_, 4);
+    for (const auto& [session, limit] : end)
+      if (limit > kMaxHoles + kMaxHolesPerEntry * left)
+        failDamaged("session " + std::to_string(session) + " says it gave " + std::to_string(limit) + " ids");
     std::map<std::uint16_t, std::uint32_t> next;
-    for (std::uint64_t left = readUint(in_, 4); left > 0; --left) {
+    for (; left > 0; --left) {
       const IdType id = readId<IdType>(in_);
       const auto limit = end.find(id.session);
       if (limit == end.end() || id.index >= limit->second || id.index < next[id.session])

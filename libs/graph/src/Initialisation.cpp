@@ -18,8 +18,9 @@ using Matrix = Eigen::Matrix<double, n, n>;
 template <int n>
 using Vector = Eigen::Matrix<double, n, 1>;
 
-/// Poses with nothing that ties them to the map are tied where they are: the first of each connected part.
-std::vector<bool> heldPoses(const PoseEdges& edges) {
+/// One pose of each connected part without a fixed one is held, so that the systems have one solution and a good
+/// condition: the first of a prior, where that says it is, else the first, where it stands. Fixed ones are held anyway.
+std::vector<bool> holdPoses(PoseEdges& edges) {
   std::vector<int> parent(edges.poses.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
@@ -30,12 +31,17 @@ std::vector<bool> heldPoses(const PoseEdges& edges) {
     const int a = root(edge.a), b = root(edge.b);
     parent[std::max(a, b)] = std::min(a, b);
   }
+  const int count = static_cast<int>(edges.poses.size());
   std::vector<bool> held(edges.poses.size(), false), tied(edges.poses.size(), false);
-  for (std::size_t i = 0; i < edges.poses.size(); ++i)
-    if (edges.poses[i].fixed) held[i] = tied[root(static_cast<int>(i))] = true;
-  for (const PoseEdges::Prior& prior : edges.priors) tied[root(prior.pose)] = true;
-  for (std::size_t i = 0; i < edges.poses.size(); ++i)
-    if (root(static_cast<int>(i)) == static_cast<int>(i) && !tied[i]) held[i] = true;
+  for (int i = 0; i < count; ++i)
+    if (edges.poses[i].fixed) held[i] = tied[root(i)] = true;
+  for (const PoseEdges::Prior& prior : edges.priors) {
+    if (tied[root(prior.pose)]) continue;
+    edges.poses[prior.pose].map_from_pose = prior.map_from_pose;
+    held[prior.pose] = tied[root(prior.pose)] = true;
+  }
+  for (int i = 0; i < count; ++i)
+    if (root(i) == i && !tied[i]) held[i] = true;
   return held;
 }
 
@@ -200,7 +206,7 @@ void solveTranslations(const std::vector<bool>& held, PoseEdges& edges) {
 
 void initialiseRotationsFirst(Graph& graph) {
   PoseEdges edges = poseEdges(graph);
-  const std::vector<bool> held = heldPoses(edges);
+  const std::vector<bool> held = holdPoses(edges);
   const bool planar =
       std::all_of(edges.poses.begin(), edges.poses.end(), [](const PoseEdges::Pose& pose) { return pose.planar; });
   if (planar) {
