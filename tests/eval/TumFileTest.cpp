@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
-#include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/testing/Fixtures.h>
+
+#include <fstream>
 
 #include "Trajectories.h"
 
@@ -15,7 +16,7 @@ class TumFile : public ::testing::Test {
  protected:
   std::string file(const std::string& text) {
     const std::string path = folder_ / "trajectory.txt";
-    base::writeFile(path, [&](std::ostream& out) { out << text; });
+    std::ofstream(path) << text;
     return path;
   }
   // The reader must refuse the text, naming the file, the line and these words.
@@ -98,6 +99,29 @@ TEST_F(TumFile, AMissingFileAndAFolderAreRefusedByName) {
       EXPECT_EQ(std::string(error.what()).find(path), 0u);
     }
   }
+}
+
+TEST_F(TumFile, RandomTextIsReadOrRefusedButNeverAnythingElse) {
+  std::mt19937 random(11);
+  const std::string signs = "0123456789.eE+-naif #\t\n";
+  std::uniform_int_distribution<std::size_t> sign(0, signs.size() - 1), column(0, 7);
+  int refused = 0;
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<std::string> columns = {"1", "0", "0", "0", "0", "0", "0", "1"};
+    std::string& text = columns[column(random)];
+    text.clear();
+    for (int i = 0; i < 6; ++i) text += signs[sign(random)];
+    std::string line;
+    for (const auto& word : columns) line += word + " ";
+    try {
+      readTum(file(line + "\n"));
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::unreadable_input);
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_LT(refused, 2000);
 }
 
 TEST_F(TumFile, ReadsGroundTruthOfMrptsSimulatedLogs) {
