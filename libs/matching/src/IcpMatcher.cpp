@@ -21,7 +21,9 @@ struct WallPartners {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // of x y yaw in the scan's frame, unit variance a point
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double squared_distance = 0, weight = 0;
-  std::size_t count = 0;
+  std::size_t near = 0;  // points with any partner
+
+  double wallDistance() const { return weight > 0 ? std::sqrt(squared_distance / weight) : 0; }
 };
 
 WallPartners findWallPartners(const PlanarScan& reference, const PlanarScan& scan, const TPose2D& pose,
@@ -37,8 +39,10 @@ WallPartners findWallPartners(const PlanarScan& reference, const PlanarScan& sca
     float squared;
     const std::size_t nearest =
         reference.points.kdTreeClosestPoint2D(static_cast<float>(x), static_cast<float>(y), squared);
+    if (squared > max_distance * max_distance) continue;
+    ++partners.near;
     const Eigen::Vector2d normal = reference.normals[nearest].cast<double>();
-    if (squared > max_distance * max_distance || normal.isZero()) continue;
+    if (normal.isZero()) continue;
     const double across = normal.x() * (x - reference_xs[nearest]) + normal.y() * (y - reference_ys[nearest]);
     const double weight = 1 / (1 + across * across / (loss_scale * loss_scale));
     const Eigen::Vector2d normal_in_scan(c * normal.x() + s * normal.y(), -s * normal.x() + c * normal.y());
@@ -48,7 +52,6 @@ WallPartners findWallPartners(const PlanarScan& reference, const PlanarScan& sca
     partners.gradient += weight * across * row;
     partners.squared_distance += weight * across * across;
     partners.weight += weight;
-    ++partners.count;
   }
   // A direction that no wall fixes stays where the guess has it.
   partners.information.diagonal() += Eigen::Vector3d::Constant(1e-3);
@@ -110,20 +113,19 @@ ScanMatch IcpMatcher::match(const PlanarScan& reference, const PlanarScan& scan,
   TPose2D pose = found->getMeanVal().asTPose();
   if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.phi)) return result;
 
-  // Wide at first, then only what surely lies on the same wall counts.
-  const double tight = options_.min_distance;
+  // Wide at first, then only what lies on the same wall as well as most points do.
+  double loss_scale = options_.refinement_distance;
   for (int i = 0; i < options_.refinements; ++i) {
-    const double loss_scale = i < options_.refinements / 2 ? options_.refinement_distance : tight;
     const auto partners = findWallPartners(reference, scan, pose, options_.refinement_distance, loss_scale);
     const Eigen::Vector3d step = partners.information.ldlt().solve(-partners.gradient);
     pose = moved(pose, step);
-    if (i >= options_.refinements / 2 && step.head<2>().norm() < 1e-4 && std::abs(step.z()) < 1e-5) break;
+    loss_scale = std::max(options_.min_distance, 2 * partners.wallDistance());
+    if (i >= 2 && step.head<2>().norm() < 1e-4 && std::abs(step.z()) < 1e-5) break;
   }
-  const auto partners = findWallPartners(reference, scan, pose, options_.refinement_distance, tight);
+  const auto partners = findWallPartners(reference, scan, pose, options_.refinement_distance, loss_scale);
   result.reference_from_scan = pose;
-  if (partners.count == 0) return result;
-  result.overlap = partners.weight / static_cast<double>(scan.size());
-  result.wall_distance = std::sqrt(partners.squared_distance / partners.weight);
+  result.overlap = static_cast<double>(partners.near) / static_cast<double>(scan.size());
+  result.wall_distance = partners.wallDistance();
   result.unit_covariance = partners.information.inverse();
   return result;
 }

@@ -7,10 +7,16 @@ namespace omnimapper::matching {
 
 namespace {
 
-constexpr float kLargestGap = 0.6F;        // [m] between neighbours on one wall
-constexpr float kLongestReach = 1.5F;      // [m] from a point to the end of its window
-constexpr float kThinness = 0.01F;         // of a line: squared width over squared length
-constexpr int kWindows[] = {2, 4, 8, 16};  // neighbours on each side
+constexpr float kLargestGap = 0.6F;    // [m] between neighbours on one wall
+constexpr float kLongestReach = 2.0F;  // [m] from a point to the end of its window
+
+// Neighbours on each side, and how thin they have to lie for a line: squared width over squared length. The widest
+// window takes what a noisy sensor gives.
+struct WindowLimit {
+  int half;
+  float thinness;
+};
+constexpr WindowLimit kWindows[] = {{2, 0.01F}, {4, 0.01F}, {8, 0.02F}, {16, 0.04F}, {32, 0.15F}};
 
 // Mean and scatter of the neighbours of point `centre`, at most `half` on each side and none beyond a gap.
 struct Window {
@@ -49,14 +55,14 @@ PlanarScan fitLines(const std::vector<Eigen::Vector2f>& points) {
   for (int i = 0; i < static_cast<int>(points.size()); ++i) {
     Eigen::Vector2f point = points[i], normal = Eigen::Vector2f::Zero();
     int previous_count = 0;
-    for (const int half : kWindows) {
+    for (const auto& [half, thinness] : kWindows) {
       const Window window = gather(points, i, half);
       if (window.count < 4 || window.count == previous_count) continue;
       previous_count = window.count;
       // Eigenvalues of the scatter: the larger along the wall, the smaller across.
       const float mean = 0.5F * (window.xx + window.yy), half_difference = 0.5F * (window.xx - window.yy);
       const float root = std::hypot(half_difference, window.xy);
-      if (!(mean - root < kThinness * (mean + root))) continue;
+      if (!(mean - root < thinness * (mean + root))) continue;
       const float along = 0.5F * std::atan2(window.xy, half_difference);
       normal = {-std::sin(along), std::cos(along)};
       point -= normal * normal.dot(point - window.mean);

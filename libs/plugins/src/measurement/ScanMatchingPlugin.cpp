@@ -52,6 +52,9 @@ const base::OptionTable<ScanMatchingOptions>& ScanMatchingOptions::table() {
                   "A match turned farther from the prediction is refused.")
           .number("point_sigma_m", &Options::point_sigma, base::Range::positive(),
                   "Standard deviation of a point from the wall it lies on.")
+          .number("wall_sigma_factor", &Options::wall_sigma_factor, base::Range::notNegative(),
+                  "The same as a multiple of the distance that the points of a match have from the walls; the larger "
+                  "counts.")
           .number("position_sigma_floor_m", &Options::position_sigma_floor, base::Range::positive(),
                   "No match is trusted more than this.")
           .number("angle_sigma_floor_deg", &Options::angle_sigma_floor, base::Range::positive(),
@@ -218,7 +221,9 @@ mapper::Decision ScanMatchingPlugin::judge(const matching::ScanMatch& match, con
 graph::FactorRecord ScanMatchingPlugin::factor(base::VariableId reference, base::VariableId scan,
                                                const matching::ScanMatch& match) const {
   const auto squared = [](double value) { return value * value; };
-  Eigen::Matrix3d planar_covariance = match.unit_covariance * squared(options_.point_sigma);
+  Eigen::Matrix3d planar_covariance =
+      match.unit_covariance *
+      std::max(squared(options_.point_sigma), squared(options_.wall_sigma_factor * match.wall_distance));
   planar_covariance.diagonal() +=
       Eigen::Vector3d(squared(options_.position_sigma_floor), squared(options_.position_sigma_floor),
                       squared(options_.angle_sigma_floor));

@@ -18,8 +18,9 @@ struct ScanMatchingOptions {
   double max_correction = 0.5;                                               ///< [m]
   double max_turn_correction = 20.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double point_sigma = 0.05;                                                 ///< [m]
-  double position_sigma_floor = 0.01;                                        ///< [m]
-  double angle_sigma_floor = 0.2 * base::option_text::kRadiansPerDegree;     ///< [rad]
+  double wall_sigma_factor = 4;
+  double position_sigma_floor = 0.01;                                     ///< [m]
+  double angle_sigma_floor = 0.2 * base::option_text::kRadiansPerDegree;  ///< [rad]
 
   bool close_loops = true;
   double loop_radius = 3.0;   ///< [m]
