@@ -3,6 +3,7 @@
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/testing/Fixtures.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "Trajectories.h"
@@ -16,6 +17,7 @@ class TumFile : public ::testing::Test {
  protected:
   std::string file(const std::string& text) {
     const std::string path = folder_ / "trajectory.txt";
+    std::filesystem::remove(path);  // a new file is not flushed to the disk, one cut to nothing is
     std::ofstream(path) << text;
     return path;
   }
