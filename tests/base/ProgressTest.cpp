@@ -41,7 +41,7 @@ TEST(Progress, OnATerminalLongWorkShowsOneLineAndErasesItAtTheEnd) {
   std::size_t redrawn = 0;
   for (auto at = shown.find(erase); at != std::string::npos; at = shown.find(erase, at + 1)) ++redrawn;
   EXPECT_GE(redrawn, 2u);
-  EXPECT_LE(redrawn, 5u);  // 0.35 s at ten a second, and the final erasing
+  EXPECT_LE(redrawn, 6u);  // 0.35 s at ten a second, the final erasing, and one for a late machine
 }
 
 TEST(Progress, TheDefaultSaysNothingAnywhere) {
