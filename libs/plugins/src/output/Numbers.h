@@ -2,14 +2,16 @@
 
 #include <charconv>
 #include <string>
+#include <string_view>
 
 namespace omnimapper::plugins {
 
-/// Decimal text with that many decimals, whatever the locale.
+/// Decimal text with that many decimals, whatever the locale; nothing but zeros has no sign.
 inline std::string fixed(double value, int decimals) {
   char text[512];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals).ptr;
-  return {text, end};
+  const bool zero = std::string_view(text, end - text).find_first_not_of("-0.") == std::string_view::npos;
+  return {zero && text[0] == '-' ? text + 1 : text, end};
 }
 
 /// Decimal text with so many significant digits, as short as that allows.

@@ -93,7 +93,8 @@ std::string drawReportMap(const GridPicture& grid, const std::vector<map::Stampe
   if (!path.empty()) svg += dot("start", path.front(), radius) + dot("end", path.back(), radius);
   svg += "</g>\n" + scaleBar(grid) + "</svg>\n";
   return "<section class=\"card map\">" + legend(closures, max_refused) + svg +
-         "<p class=\"note\">x points right, y up. Ring: start; dot: end. Hold the pointer over a closure for its reason. "
+         "<p class=\"note\">x points right, y up. Ring: start; dot: end. Hold the pointer over a closure for its "
+         "reason. "
          "To look closer: the buttons, or Ctrl and the wheel; then drag.</p></section>\n";
 }
 

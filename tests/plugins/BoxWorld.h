@@ -1,0 +1,177 @@
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <omnimapper/graph/Between.h>
+#include <omnimapper/graph/Graph.h>
+#include <omnimapper/graph/Prior.h>
+#include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/mapper/View.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace box_world {
+
+using namespace omnimapper;
+using mrpt::poses::CPose3D;
+
+/// A room of 4 x 3 m with a pillar in its upper right part: nothing of it is symmetric. Map frame, [m].
+struct Wall {
+  double x1, y1, x2, y2;
+};
+inline const std::vector<Wall>& walls() {
+  static const std::vector<Wall> walls{{-1, -1, 3, -1},      {3, -1, 3, 2},        {3, 2, -1, 2},
+                                       {-1, 2, -1, -1},      {2.0, 1.0, 2.4, 1.0}, {2.4, 1.0, 2.4, 1.4},
+                                       {2.4, 1.4, 2.0, 1.4}, {2.0, 1.4, 2.0, 1.0}};
+  return walls;
+}
+
+inline double distanceToWalls(double x, double y) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Wall& w : walls()) {
+    const double dx = w.x2 - w.x1, dy = w.y2 - w.y1;
+    const double along = std::clamp(((x - w.x1) * dx + (y - w.y1) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+    nearest = std::min(nearest, std::hypot(x - w.x1 - along * dx, y - w.y1 - along * dy));
+  }
+  return nearest;
+}
+
+/// Way from (x, y) along `angle` to the first wall; infinite if there is none.
+inline double castRay(double x, double y, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Wall& w : walls()) {
+    const double dx = w.x2 - w.x1, dy = w.y2 - w.y1, det = c * dy - s * dx;
+    if (std::abs(det) < 1e-12) continue;
+    const double range = ((w.x1 - x) * dy - (w.y1 - y) * dx) / det;
+    const double along = ((w.x1 - x) * s - (w.y1 - y) * c) / det;
+    if (range > 1e-9 && along >= 0 && along <= 1) nearest = std::min(nearest, range);
+  }
+  return nearest;
+}
+
+/// An exact scan of 270 deg by 1 deg from a sensor that looks along the floor; upside down where its roll is pi.
+inline mrpt::obs::CObservation2DRangeScan::Ptr scanFrom(const CPose3D& map_from_base, const CPose3D& base_from_sensor,
+                                                        base::Stamp stamp) {
+  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+  scan->sensorLabel = "LASER";
+  scan->timestamp = stamp;
+  scan->sensorPose = base_from_sensor;
+  scan->aperture = static_cast<float>(1.5 * M_PI);
+  scan->rightToLeft = true;
+  scan->maxRange = 20;
+  constexpr std::size_t kBeams = 271;
+  scan->resizeScan(kBeams);
+  const CPose3D map_from_sensor = map_from_base + base_from_sensor;
+  for (std::size_t i = 0; i < kBeams; ++i) {
+    const double angle = -0.5 * scan->aperture + scan->aperture * static_cast<double>(i) / (kBeams - 1);
+    const auto ahead = map_from_sensor.composePoint({std::cos(angle), std::sin(angle), 0});
+    const double range = castRay(map_from_sensor.x(), map_from_sensor.y(),
+                                 std::atan2(ahead.y - map_from_sensor.y(), ahead.x - map_from_sensor.x()));
+    scan->setScanRange(i, static_cast<float>(range));
+    scan->setScanRangeValidity(i, std::isfinite(range));
+  }
+  return scan;
+}
+
+inline base::Stamp at(double seconds) {
+  return base::stampFromUnix(1e9) + base::durationFromSeconds(seconds);
+}
+
+/// Everything an output plugin sees of a run that ended.
+struct RunRecord {
+  map::Map map;
+  graph::Graph graph;
+  mapper::DecisionLog decisions;
+  mapper::StageTimes times;
+  mapper::RunCounts counts;
+  std::vector<mapper::SolveRecord> solves;
+  std::vector<std::string> warnings;
+
+  mapper::View view() const { return {map, graph, decisions, times, counts, solves, warnings}; }
+};
+
+inline map::KeyFrame keyFrame(std::uint32_t index, double seconds, const CPose3D& map_from_base,
+                              const CPose3D& base_from_sensor) {
+  map::KeyFrame frame;
+  frame.id = {0, index};
+  frame.stamp = at(seconds);
+  frame.map_from_base = map_from_base;
+  frame.observations.push_back(scanFrom(map_from_base, base_from_sensor, frame.stamp));
+  return frame;
+}
+
+/// Three key frames in the room, a hanging frame after the first, a small graph, and decisions of both verdicts.
+inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0.1, 0, 0)) {
+  RunRecord run;
+  const std::vector<CPose3D> poses{{0, 0, 0, 0, 0, 0}, {1, 0.25, 0, 0.5, 0, 0}, {0.5, 1.25, 0, 2.5, 0, 0}};
+  for (std::uint32_t i = 0; i < poses.size(); ++i) {
+    run.map.key_frames.push_back(keyFrame(i, i, poses[i], base_from_sensor));
+  }
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) run.map.key_frames[i].keyframe_from_next = poses[i + 1] - poses[i];
+  run.map.key_frames[0].hanging.push_back({at(0.5), CPose3D(0.5, 0.1, 0, 0.2, 0, 0)});
+  const auto noise3 = graph::SquareRootInformation::fromSigmas(Eigen::Vector3d(0.1, 0.1, 0.05));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const geometry::Se2 pose{poses[i].x(), poses[i].y(), poses[i].yaw()};
+    run.map.key_frames[i].pose = run.graph.addVariable(graph::se2(), graph::toValue(pose));
+  }
+  const auto poseId = [&](std::size_t i) { return run.map.key_frames[i].pose; };
+  const auto addFactor = [&](std::vector<base::VariableId> ids, std::shared_ptr<const graph::Factor> factor,
+                             const std::string& owner) {
+    graph::Tags tags;
+    tags.owner = owner;
+    run.graph.addFactor({std::move(ids), std::move(factor), noise3, {}, 1, tags});
+  };
+  addFactor({poseId(0)}, std::make_shared<graph::PriorSe2>(geometry::Se2{}), "mapper");
+  addFactor({poseId(0), poseId(1)}, std::make_shared<graph::BetweenSe2>(geometry::Se2{1, 0.25, 0.5}), "odometry");
+  addFactor({poseId(1), poseId(2)}, std::make_shared<graph::BetweenSe2>(geometry::Se2{0, 1.1, 2.0}), "odometry");
+  run.decisions = {
+      {at(1), "laser", "sequential match", {0, 1}, base::KeyFrameId{0, 0}, true, "", {{"overlap", 0.9}}},
+      {at(2),
+       "laser",
+       "sequential match",
+       {0, 2},
+       base::KeyFrameId{0, 1},
+       false,
+       "too little overlap",
+       {{"overlap", 0.1}}},
+      {at(2), "laser", "loop closure", {0, 2}, base::KeyFrameId{0, 0}, true, "", {{"correction [m]", 0.125}}},
+      {at(2),
+       "laser",
+       "loop closure",
+       {0, 2},
+       base::KeyFrameId{0, 0},
+       false,
+       "turned <too> far",
+       {{"correction [m]", 2}}}};
+  run.times.add("solve", 0.01);
+  run.times.add("plugin laser", 0.02);
+  run.times.keyFrames() = {{1, 0, 0.1}, {2, 0.5, 0.1}, {3, 0.5, 0.1}};
+  run.counts.observations = 12;
+  run.counts.solves = 1;
+  run.solves = {{3, 3, 40.0, 20.0, 5}};
+  return run;
+}
+
+inline std::string contentOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+inline mapper::PluginContext contextFor(const std::string& folder) {
+  mapper::PluginContext context;
+  context.section = "output";
+  context.output_folder = folder;
+  context.title = "box <world>";
+  context.config_text = "[mapper]\nmotion = planar & flat\n";
+  return context;
+}
+
+}  // namespace box_world

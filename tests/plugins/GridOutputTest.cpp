@@ -1,0 +1,207 @@
+#include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+#include <omnimapper/plugins/GridOutput.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <output/GridPicture.h>
+#include <output/MapServer.h>
+#include <output/ScanGrid.h>
+
+#include <filesystem>
+#include <regex>
+
+#include "BoxWorld.h"
+
+namespace {
+
+using namespace box_world;
+using plugins::Cell;
+using plugins::ScanGrid;
+
+constexpr double kResolution = 0.05;
+
+Cell cellAt(const ScanGrid& grid, double x, double y) {
+  return grid.at(static_cast<int>(std::floor((x - grid.min_x) / grid.resolution)),
+                 static_cast<int>(std::floor((y - grid.min_y) / grid.resolution)));
+}
+
+void expectRoom(const ScanGrid& grid) {
+  int occupied = 0, free = 0;
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const double x = grid.min_x + (column + 0.5) * grid.resolution, y = grid.min_y + (row + 0.5) * grid.resolution;
+      if (grid.at(column, row) == Cell::occupied) {
+        ++occupied;
+        EXPECT_LT(distanceToWalls(x, y), 0.75 * grid.resolution) << "occupied at " << x << " " << y;
+      } else if (grid.at(column, row) == Cell::free) {
+        ++free;
+        EXPECT_TRUE(x > -1 - grid.resolution && x < 3 + grid.resolution && y > -1 - grid.resolution &&
+                    y < 2 + grid.resolution)
+            << "free outside of the room at " << x << " " << y;
+      }
+    }
+  }
+  // The walls are 14 m and 1.6 m long, the floor is 12 m^2 less the pillar.
+  EXPECT_GT(occupied * grid.resolution, 0.8 * 14);
+  EXPECT_GT(free * grid.resolution * grid.resolution, 0.9 * 11.84);
+  EXPECT_EQ(cellAt(grid, 1, 0), Cell::free);
+  EXPECT_EQ(cellAt(grid, 2.2, 1.2), Cell::unknown) << "inside of the pillar";
+  EXPECT_EQ(cellAt(grid, 2.2, -0.2), Cell::free) << "the pillar's mirror image";
+}
+
+TEST(ScanGrid, occupiedCellsLieOnTheWallsAndTheFloorIsFree) {
+  const auto grid = plugins::buildScanGrid(boxRun().map, {});
+  ASSERT_TRUE(grid);
+  EXPECT_DOUBLE_EQ(grid->resolution, kResolution);
+  expectRoom(*grid);
+}
+
+TEST(ScanGrid, aScannerUpsideDownSeesTheSameRoom) {
+  const auto grid = plugins::buildScanGrid(boxRun(CPose3D(0.2, 0.1, 0.3, -0.3, 0, M_PI)).map, {});
+  ASSERT_TRUE(grid);
+  expectRoom(*grid);
+}
+
+TEST(ScanGrid, marginIsUnknownAndAsWideAsAsked) {
+  plugins::ScanGridOptions options;
+  options.margin = 0.3;
+  const auto grid = plugins::buildScanGrid(boxRun().map, options);
+  ASSERT_TRUE(grid);
+  EXPECT_NEAR(grid->min_x, -1.3, 2 * kResolution);
+  EXPECT_NEAR(grid->maxX(), 3.3, 2 * kResolution);
+  EXPECT_NEAR(grid->min_y, -1.3, 2 * kResolution);
+  EXPECT_NEAR(grid->maxY(), 2.3, 2 * kResolution);
+  for (int column = 0; column < grid->columns; ++column) {
+    for (int row = 0; row < 6; ++row) EXPECT_EQ(grid->at(column, row), Cell::unknown);
+  }
+}
+
+TEST(ScanGrid, aBeamBeyondTheRangeLimitClearsButMarksNoWall) {
+  plugins::ScanGridOptions options;
+  options.max_range = 0.7;
+  const auto grid = plugins::buildScanGrid(boxRun().map, options);
+  ASSERT_TRUE(grid);
+  EXPECT_LT(grid->maxX(), 2.6);
+  int free = 0;
+  for (const Cell cell : grid->cells) free += cell == Cell::free;
+  EXPECT_GT(free, 100);
+}
+
+TEST(ScanGrid, aTooLargeExtentGetsCoarserCells) {
+  plugins::ScanGridOptions options;
+  options.max_cells = 2000;  // 4 x 3 m in cells of 0.05 m are 4800
+  const auto grid = plugins::buildScanGrid(boxRun().map, options);
+  ASSERT_TRUE(grid);
+  EXPECT_DOUBLE_EQ(grid->resolution, 0.1);
+  const std::string yaml = plugins::encodeMapServerYaml(*grid, "grid.pgm", kResolution);
+  EXPECT_NE(yaml.find("# Warning: cells of 0.05 m were asked for"), std::string::npos) << yaml;
+  EXPECT_NE(yaml.find("resolution: 0.1\n"), std::string::npos) << yaml;
+}
+
+TEST(ScanGrid, withoutAValidBeamThereIsNoGrid) {
+  EXPECT_FALSE(plugins::buildScanGrid({}, {}));
+  RunRecord run = boxRun();
+  for (auto& frame : run.map.key_frames) frame.observations.clear();
+  EXPECT_FALSE(plugins::buildScanGrid(run.map, {}));
+  auto blind = mrpt::obs::CObservation2DRangeScan::Create();
+  blind->resizeScan(3);
+  for (std::size_t i = 0; i < 3; ++i) blind->setScanRangeValidity(i, false);
+  run.map.key_frames[0].observations.push_back(blind);
+  EXPECT_FALSE(plugins::buildScanGrid(run.map, {}));
+}
+
+TEST(ScanGrid, aScanThatLooksAtTheFloorIsLeftOut) {
+  EXPECT_FALSE(plugins::buildScanGrid(boxRun(CPose3D(0.2, 0, 0.3, 0, 0.6, 0)).map, {}));
+}
+
+/// What map_server makes of the two files: the value of the pixel over a place of the map.
+struct MapServerMap {
+  int columns = 0, rows = 0;
+  double resolution = 0, origin_x = 0, origin_y = 0;
+  std::string pixels;
+
+  explicit MapServerMap(const std::string& folder) {
+    const std::string yaml = contentOf(folder + "/grid.yaml"), pgm = contentOf(folder + "/grid.pgm");
+    std::smatch match;
+    const std::string text = yaml;
+    if (std::regex_search(text, match, std::regex(R"(resolution: ([0-9.e-]+))"))) resolution = std::stod(match[1]);
+    if (std::regex_search(text, match, std::regex(R"(origin: \[([0-9.e-]+), ([0-9.e-]+), 0.0\])"))) {
+      origin_x = std::stod(match[1]), origin_y = std::stod(match[2]);
+    }
+    std::istringstream header(pgm);
+    std::string magic;
+    int levels;
+    header >> magic >> columns >> rows >> levels;
+    EXPECT_EQ(magic, "P5");
+    EXPECT_EQ(levels, 255);
+    pixels = pgm.substr(static_cast<std::size_t>(header.tellg()) + 1);
+    EXPECT_EQ(pixels.size(), static_cast<std::size_t>(columns) * rows);
+  }
+  int at(double x, double y) const {
+    const int column = static_cast<int>((x - origin_x) / resolution),
+              row_up = static_cast<int>((y - origin_y) / resolution);
+    return static_cast<unsigned char>(pixels[static_cast<std::size_t>(rows - 1 - row_up) * columns + column]);
+  }
+};
+
+TEST(GridOutput, mapServerFindsFreeWallAndUnknownWhereTheyAre) {
+  omnimapper::testing::ScratchFolder folder;
+  plugins::GridOutput({}, contextFor(folder.path())).finish(boxRun().view());
+  const MapServerMap map(folder.path());
+  EXPECT_DOUBLE_EQ(map.resolution, kResolution);
+  EXPECT_EQ(map.at(1, 0), 254);
+  EXPECT_EQ(map.at(2.2, 1.2), 205) << "the pillar is in the upper part";
+  EXPECT_EQ(map.at(2.2, -0.2), 254) << "and not in the lower";
+  EXPECT_EQ(map.at(-1.3, -1.3), 205);
+  int walls = 0;
+  for (double x = -0.9; x < 2.9; x += 0.1) walls += std::min(map.at(x, -1.02), map.at(x, -0.98)) == 0;
+  EXPECT_GT(walls, 30);
+  const std::string yaml = contentOf(folder / "grid.yaml");
+  for (const char* line :
+       {"image: grid.pgm\n", "negate: 0\n", "occupied_thresh: 0.65\n", "free_thresh: 0.196\n", "mode: trinary\n"}) {
+    EXPECT_NE(yaml.find(line), std::string::npos) << line << " is missing in\n" << yaml;
+  }
+}
+
+TEST(GridOutput, thePngIsTheSamePictureInCrispColours) {
+  omnimapper::testing::ScratchFolder folder;
+  plugins::GridOutput({}, contextFor(folder.path())).finish(boxRun().view());
+  const MapServerMap map(folder.path());
+  mrpt::img::CImage png;
+  ASSERT_TRUE(png.loadFromFile(folder / "grid.png", 0));
+  ASSERT_EQ(static_cast<int>(png.getWidth()), map.columns);
+  ASSERT_EQ(static_cast<int>(png.getHeight()), map.rows);
+  for (int y = 0; y < map.rows; ++y) {
+    for (int x = 0; x < map.columns; ++x) {
+      const int grey = png.at<std::uint8_t>(static_cast<unsigned>(x), static_cast<unsigned>(y));
+      const int level = static_cast<unsigned char>(map.pixels[static_cast<std::size_t>(y) * map.columns + x]);
+      EXPECT_TRUE(level == 254 ? grey == 255
+                  : level == 0 ? grey < 64
+                               : grey > 200 && grey < 250)
+          << "pixel " << x << " " << y << " is " << grey << " for " << level;
+    }
+  }
+}
+
+TEST(GridOutput, aMapWithoutScansGivesNoFileAndNoError) {
+  omnimapper::testing::ScratchFolder folder;
+  RunRecord run = boxRun();
+  for (auto& frame : run.map.key_frames) frame.observations.clear();
+  plugins::GridOutput({}, contextFor(folder.path())).finish(run.view());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(GridPicture, pixelsAreRegisteredWithTheMapAtEveryScale) {
+  const auto grid = plugins::buildScanGrid(boxRun().map, {});
+  ASSERT_TRUE(grid);
+  for (const int side : {30, 100, 700}) {
+    const auto picture = plugins::drawGridToSize(*grid, side);
+    EXPECT_NEAR(std::max(picture.image.width, picture.image.height), side, 0.45 * side);
+    for (const auto& [x, y, colour] : {std::tuple{1.0, 0.0, 1}, std::tuple{2.2, -0.2, 1}, std::tuple{-1.4, 2.4, 0}}) {
+      const auto pixel = picture.pixelOf(x, y);
+      const auto index = static_cast<std::size_t>(pixel.y) * picture.image.width + static_cast<std::size_t>(pixel.x);
+      EXPECT_EQ(picture.image.pixels[index], colour) << x << " " << y << " at side " << side;
+    }
+  }
+}
+
+}  // namespace
