@@ -97,8 +97,9 @@ inline std::string writeGzip(const std::string& path, const std::string& bytes) 
   return path;
 }
 
+/// In blocks of 100 kB.
 inline std::string writeBzip2(const std::string& path, const std::string& bytes) {
-  BZFILE* file = BZ2_bzopen(path.c_str(), "wb");
+  BZFILE* file = BZ2_bzopen(path.c_str(), "wb1");
   EXPECT_EQ(BZ2_bzwrite(file, const_cast<char*>(bytes.data()), static_cast<int>(bytes.size())),
             static_cast<int>(bytes.size()));
   BZ2_bzclose(file);

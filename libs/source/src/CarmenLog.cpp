@@ -31,6 +31,7 @@ void checkKind(const std::string& path) {
     if (line.find('\0') != std::string::npos) break;
     if (isCarmenWord(line.substr(0, line.find(' ')))) return;
   }
+  if (!lines.file().problem().empty()) refuse(path, "cannot be decompressed (" + lines.file().problem() + ").");
   refuse(path, "is no CARMEN log: none of its first lines begins with ODOM, FLASER or another word of CARMEN.");
 }
 
