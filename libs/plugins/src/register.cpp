@@ -2,11 +2,19 @@
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/obs/registerClasses.h>
 #include <omnimapper/plugins/GpsPlugin.h>
+#include <omnimapper/plugins/GraphOutput.h>
+#include <omnimapper/plugins/GridOutput.h>
 #include <omnimapper/plugins/LaserPointsPlugin.h>
+#include <omnimapper/plugins/MapOutput.h>
 #include <omnimapper/plugins/NoMotionPlugin.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
+#include <omnimapper/plugins/PointsOutput.h>
+#include <omnimapper/plugins/ReportOutput.h>
 #include <omnimapper/plugins/RobotPosePlugin.h>
 #include <omnimapper/plugins/ScanMatchingPlugin.h>
+#include <omnimapper/plugins/SceneOutput.h>
+#include <omnimapper/plugins/SummaryOutput.h>
+#include <omnimapper/plugins/TrajectoryOutput.h>
 #include <omnimapper/plugins/registerPlugins.h>
 
 namespace omnimapper::plugins {
@@ -21,6 +29,14 @@ void registerPlugins() {
   registerClass(CLASS_ID(ScanMatchingPluginFactory));
   registerClass(CLASS_ID(RobotPosePluginFactory));
   registerClass(CLASS_ID(GpsPluginFactory));
+  registerClass(CLASS_ID(GraphOutputFactory));
+  registerClass(CLASS_ID(GridOutputFactory));
+  registerClass(CLASS_ID(MapOutputFactory));
+  registerClass(CLASS_ID(PointsOutputFactory));
+  registerClass(CLASS_ID(ReportOutputFactory));
+  registerClass(CLASS_ID(SceneOutputFactory));
+  registerClass(CLASS_ID(SummaryOutputFactory));
+  registerClass(CLASS_ID(TrajectoryOutputFactory));
 }
 
 }  // namespace omnimapper::plugins

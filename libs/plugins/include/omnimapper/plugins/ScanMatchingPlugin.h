@@ -23,13 +23,13 @@ struct ScanMatchingOptions {
   double angle_sigma_floor = 0.2 * base::option_text::kRadiansPerDegree;  ///< [rad]
 
   bool close_loops = true;
-  double loop_radius = 3.0;   ///< [m]
+  double loop_radius = 6.0;   ///< [m]
   double loop_min_way = 8.0;  ///< [m]
   int loop_frames = 4;
   int loop_candidates = 2;
   double loop_min_overlap = 0.75;
-  double loop_max_distance = 1.0;                                                 ///< [m]
-  double loop_max_correction = 2.0;                                               ///< [m]
+  double loop_max_distance = 2.0;                                                 ///< [m]
+  double loop_max_correction = 4.0;                                               ///< [m]
   double loop_max_turn_correction = 30.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double loop_loss_scale = 2.0;                                                   ///< [sigma] of the Cauchy loss
 
