@@ -48,14 +48,15 @@ class Axes {
   std::vector<double> xTicks() const { return niceTicks(x_.low, x_.high, 7); }
   std::vector<double> yTicks() const {
     if (!logarithmic_) return niceTicks(y_.low, y_.high, 5);
-    std::vector<double> ticks;
+    // Powers of ten; over few decades also their doubles and fives; within less than one, plain round numbers.
+    if (y_.high - y_.low < 0.7) return niceTicks(std::pow(10, y_.low), std::pow(10, y_.high), 4);
     const double step = std::max(1.0, std::ceil((y_.high - y_.low) / 6));
-    for (double power = std::ceil(y_.low); power <= y_.high; power += step) ticks.push_back(std::pow(10, power));
-    // Within one decade there may be no power of ten at all.
-    if (ticks.size() < 2) {
-      ticks.clear();
-      for (const double tick : niceTicks(std::pow(10, y_.low), std::pow(10, y_.high), 4)) {
-        if (tick > 0) ticks.push_back(tick);
+    const bool few = y_.high - y_.low < 2.5;
+    std::vector<double> ticks;
+    for (double power = std::floor(y_.low); power <= y_.high; power += step) {
+      for (const double factor : {1, 2, 5}) {
+        const double tick = factor * std::pow(10, power);
+        if ((factor == 1 || few) && std::log10(tick) >= y_.low && std::log10(tick) <= y_.high) ticks.push_back(tick);
       }
     }
     return ticks;

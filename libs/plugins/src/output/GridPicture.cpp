@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace omnimapper::plugins {
 
 namespace {
 
-const std::vector<Rgb> kColours{
-    {226, 231, 237}, {255, 255, 255}, {24, 33, 47}};  // as Cell counts: unknown, free, occupied
+// As Cell counts: unknown, free, occupied; then the soft edge of what is occupied.
+const std::vector<Rgb> kColours{{226, 231, 237}, {255, 255, 255}, {24, 33, 47}, {134, 143, 156}};
+constexpr auto kWall = static_cast<std::uint8_t>(Cell::occupied);
+constexpr std::uint8_t kEdge = 3;
 
 std::uint8_t strongestOf(const ScanGrid& grid, int column, int row, int block) {
   const int end_column = std::min(column + block, grid.columns), end_row = std::min(row + block, grid.rows);
@@ -43,6 +47,29 @@ GridPicture draw(const ScanGrid& grid, int block, int zoom) {
   return picture;
 }
 
+void softenWalls(PaletteImage& image) {
+  const std::vector<std::uint8_t> sharp = image.pixels;
+  const auto isWall = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < image.width && y < image.height &&
+           sharp[static_cast<std::size_t>(y) * image.width + x] == kWall;
+  };
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const bool beside = isWall(x - 1, y) || isWall(x + 1, y) || isWall(x, y - 1) || isWall(x, y + 1);
+      if (beside && !isWall(x, y)) image.pixels[static_cast<std::size_t>(y) * image.width + x] = kEdge;
+    }
+  }
+}
+
+/// First and last index that are left when `share` of the sum of `counts` is cut off at each end.
+std::pair<int, int> trimmed(const std::vector<double>& counts, double share) {
+  const double most = share * std::accumulate(counts.begin(), counts.end(), 0.0);
+  int first = 0, last = static_cast<int>(counts.size()) - 1;
+  for (double cut = 0; first < last && cut + counts[first] <= most; ++first) cut += counts[first];
+  for (double cut = 0; last > first && cut + counts[last] <= most; --last) cut += counts[last];
+  return {first, last};
+}
+
 }  // namespace
 
 GridPicture drawGrid(const ScanGrid& grid) {
@@ -51,8 +78,48 @@ GridPicture drawGrid(const ScanGrid& grid) {
 
 GridPicture drawGridToSize(const ScanGrid& grid, int side) {
   const int longer = std::max(grid.columns, grid.rows);
-  if (longer >= side) return draw(grid, static_cast<int>(std::lround(static_cast<double>(longer) / side)), 1);
-  return draw(grid, 1, std::max(1, static_cast<int>(std::lround(static_cast<double>(side) / longer))));
+  const auto times = [](int a, int b) {
+    return std::max(1, static_cast<int>(std::lround(static_cast<double>(a) / b)));
+  };
+  const int zoom = times(side, longer);
+  GridPicture picture = draw(grid, times(longer, side), zoom);
+  if (zoom == 1) softenWalls(picture.image);
+  return picture;
+}
+
+ScanGrid focused(const ScanGrid& grid, const std::vector<mrpt::math::TPoint3D>& places) {
+  constexpr double kCut = 0.002;
+  std::vector<double> columns(static_cast<std::size_t>(grid.columns)), rows(static_cast<std::size_t>(grid.rows));
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      if (grid.at(column, row) == Cell::unknown) continue;
+      ++columns[column];
+      ++rows[row];
+    }
+  }
+  auto [left, right] = trimmed(columns, kCut);
+  auto [low, high] = trimmed(rows, kCut);
+  for (const auto& place : places) {
+    const int column = static_cast<int>((place.x - grid.min_x) / grid.resolution);
+    const int row = static_cast<int>((place.y - grid.min_y) / grid.resolution);
+    left = std::min(left, column), right = std::max(right, column);
+    low = std::min(low, row), high = std::max(high, row);
+  }
+  const int margin = static_cast<int>(std::ceil(0.03 * std::max(right - left, high - low)));
+  left = std::max(0, left - margin), right = std::min(grid.columns - 1, right + margin);
+  low = std::max(0, low - margin), high = std::min(grid.rows - 1, high + margin);
+  ScanGrid part;
+  part.columns = right - left + 1;
+  part.rows = high - low + 1;
+  part.resolution = grid.resolution;
+  part.min_x = grid.min_x + left * grid.resolution;
+  part.min_y = grid.min_y + low * grid.resolution;
+  part.cells.reserve(static_cast<std::size_t>(part.columns) * part.rows);
+  for (int row = low; row <= high; ++row) {
+    const auto begin = grid.cells.begin() + static_cast<std::ptrdiff_t>(row) * grid.columns;
+    part.cells.insert(part.cells.end(), begin + left, begin + right + 1);
+  }
+  return part;
 }
 
 }  // namespace omnimapper::plugins

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <mrpt/math/TPoint3D.h>
+
+#include <vector>
+
 #include "Drawing.h"
 #include "Image.h"
 #include "ScanGrid.h"
 
 namespace omnimapper::plugins {
 
-/// A grid as a picture, north (+y) up, in the colours of the project: free light, walls dark.
+/// A grid as a picture, +y up, in the colours of the project: free light, walls dark.
 struct GridPicture {
   PaletteImage image;
   double metres_per_pixel = 0;
@@ -22,7 +26,11 @@ struct GridPicture {
 /// One pixel for each cell.
 GridPicture drawGrid(const ScanGrid& grid);
 /// Scaled by whole numbers so that the longer side comes near `side` pixels; where several cells fall on one pixel, a
-/// wall among them wins, so that walls stay closed.
+/// wall among them wins, so that walls stay closed. Walls one pixel thin get soft edges, so that they are seen.
 GridPicture drawGridToSize(const ScanGrid& grid, int side);
+
+/// The part of a grid that holds all but the outermost 0.2 % of what is known, to each of the four sides, and the given
+/// places [m] too: a few beams through windows do not make a picture of a building small.
+ScanGrid focused(const ScanGrid& grid, const std::vector<mrpt::math::TPoint3D>& places);
 
 }  // namespace omnimapper::plugins

@@ -67,10 +67,10 @@ std::string legend(const std::vector<Closure>& closures, std::size_t max_refused
   const auto accepted = static_cast<std::size_t>(
       std::count_if(closures.begin(), closures.end(), [](const Closure& c) { return c.decision->accepted; }));
   const std::size_t refused = closures.size() - accepted;
-  std::string refused_label = grouped(refused) + " closures refused";
+  std::string refused_label = "closures refused: " + grouped(refused);
   if (refused > max_refused) refused_label += " (" + grouped(max_refused) + " drawn)";
   return "<div class=\"toggles\">" + toggle("track", "kt", "trajectory", true) +
-         toggle("accepted", "ka", grouped(accepted) + " closures accepted", true) +
+         toggle("accepted", "ka", "closures accepted: " + grouped(accepted), true) +
          toggle("refused", "kr", refused_label, true) +
          "<span class=\"zoom\"><button data-zoom=\"0.7\" aria-label=\"closer\">+</button><button data-zoom=\"1.43\" "
          "aria-label=\"further\">&#8722;</button><button data-zoom=\"0\">whole map</button></span></div>";

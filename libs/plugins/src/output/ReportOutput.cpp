@@ -32,7 +32,9 @@ void ReportOutput::finish(const mapper::View& view) {
   grid_options.resolution = options_.resolution;
   grid_options.max_range = options_.max_range;
   const auto grid = buildScanGrid(view.map, grid_options);
-  const auto picture = grid ? std::optional(drawGridToSize(*grid, options_.picture_side))
+  std::vector<mrpt::math::TPoint3D> places;
+  for (const auto& pose : trajectory) places.push_back(pose.map_from_base.translation());
+  const auto picture = grid ? std::optional(drawGridToSize(focused(*grid, places), options_.picture_side))
                             : emptyPicture(trajectory, 1.0, options_.picture_side);
   if (picture) {
     writeBytes(outputPath(context_, "map.png"), encodePng(drawMap(*picture, trajectory, closures)));

@@ -27,6 +27,10 @@ std::string duration(double seconds) {
   return fixed(seconds / 3600, 1) + " h";
 }
 
+std::string large(double value) {
+  return value < 1000 || value > 1e15 ? brief(value, 4) : grouped(static_cast<std::size_t>(std::llround(value)));
+}
+
 std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
   const mapper::View& view = input.view;
   std::string html = figure(grouped(view.map.key_frames.size()), "key frames") +
@@ -37,8 +41,8 @@ std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
                        fixed(input.picture->max_y - input.picture->minY(), 0) + " m",
                    "mapped");
   }
-  html += figure(grouped(figures.closures), "loop closures") + figure(grouped(figures.refused_closures), "refused") +
-          figure(grouped(view.graph.factors().size()), "factors") + figure(brief(view.graph.chi2(), 4), "chi-square") +
+  html += figure(grouped(figures.closures), "loop closures") + figure(grouped(figures.refused_closures), "closures refused") +
+          figure(grouped(view.graph.factors().size()), "factors") + figure(large(view.graph.chi2()), "chi-square") +
           figure(duration(figures.wall_seconds), "computed");
   if (figures.wall_seconds > 0 && figures.log_seconds > 0) {
     const double speed = figures.log_seconds / figures.wall_seconds;

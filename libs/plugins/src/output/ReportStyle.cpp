@@ -4,7 +4,7 @@ namespace omnimapper::plugins {
 
 const std::string_view kReportStyle = R"css(
 :root { color-scheme: light dark; --page: #f4f6f8; --card: #ffffff; --text: #18212f; --soft: #5b6878; --line: #dde3ea;
-  --track: #2563eb; --yes: #15803d; --no: #c2352b; --warn: #fff6e0; --warn-line: #e5b84b;
+  --yes: #15803d; --no: #c2352b; --warn: #fff6e0; --warn-line: #e5b84b;
   --s1: #2563eb; --s2: #d97706; --s3: #15803d; --s4: #9333ea; }
 @media (prefers-color-scheme: dark) {
   :root { --page: #10151c; --card: #1a212b; --text: #e4e9ef; --soft: #97a4b4; --line: #2d3743;
@@ -20,7 +20,7 @@ h2 { font-size: 18px; margin: 0 0 10px; }
 h3 { font-size: 15px; margin: 0 0 6px; }
 header p, .note { color: var(--soft); margin: 4px 0 0; font-size: 13.5px; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: 16px 18px; margin: 0 0 18px; }
-.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(128px, 1fr)); gap: 12px; margin-bottom: 18px; }
+.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(max(140px, 16%), 1fr)); gap: 12px; margin-bottom: 18px; }
 .figures div { background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: 12px 14px; }
 .figures b { display: block; font-size: 22px; line-height: 1.2; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .figures span { color: var(--soft); font-size: 13px; }
@@ -28,8 +28,8 @@ header p, .note { color: var(--soft); margin: 4px 0 0; font-size: 13.5px; }
 .warnings ul { margin: 0; padding-left: 20px; }
 .map { padding: 12px; }
 #map { display: block; width: 100%; max-height: 82vh; background: #e2e7ed; border-radius: 6px; touch-action: pan-y; cursor: grab; }
-#map image { image-rendering: pixelated; }
-#map path.track { fill: none; stroke: var(--track); stroke: #2563eb; stroke-width: 2; stroke-linejoin: round; vector-effect: non-scaling-stroke; }
+#map.close image { image-rendering: pixelated; }
+#map path.track { fill: none; stroke: #2563eb; stroke-width: 2; stroke-linejoin: round; vector-effect: non-scaling-stroke; }
 #map circle { stroke: #2563eb; stroke-width: 2.5; vector-effect: non-scaling-stroke; }
 #map circle.start { fill: #ffffff; } #map circle.end { fill: #2563eb; }
 #map g.accepted line { stroke: #16a34a; stroke-width: 2; vector-effect: non-scaling-stroke; }
@@ -44,13 +44,13 @@ header p, .note { color: var(--soft); margin: 4px 0 0; font-size: 13.5px; }
 .zoom { margin-left: auto; display: inline-flex; gap: 6px; }
 button, select, input[type=search] { font: inherit; font-size: 14px; color: inherit; background: var(--card); border: 1px solid var(--line); border-radius: 6px; padding: 4px 10px; }
 .columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 0 18px; align-items: start; }
-.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 0 18px; }
+.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 0 18px; align-items: start; }
 figure { margin: 0 0 18px; } figcaption { font-size: 14px; margin-bottom: 6px; }
 figcaption small { color: var(--soft); } .legend { float: right; font-size: 13px; color: var(--soft); }
 .key { margin-left: 12px; white-space: nowrap; } .key i { display: inline-block; width: 10px; height: 10px; border-radius: 3px; margin-right: 5px; background: currentColor; }
 .chart svg { display: block; width: 100%; height: auto; } .chart text { fill: var(--soft); font-size: 12px; }
 .grid { stroke: var(--line); stroke-width: 1; } .axis { stroke: var(--soft); stroke-width: 1; }
-.curve { fill: none; stroke-width: 1.6; stroke-linejoin: round; } .dots { stroke-width: 3; stroke-linecap: round; stroke-opacity: 0.55; }
+.curve { fill: none; stroke-width: 1.6; stroke-linejoin: round; } .dots { stroke-width: 4; stroke-linecap: round; stroke-opacity: 0.55; }
 path.s1 { stroke: var(--s1); } path.s2 { stroke: var(--s2); } path.s3 { stroke: var(--s3); } path.s4 { stroke: var(--s4); }
 i.s1 { color: var(--s1); } i.s2 { color: var(--s2); } i.s3 { color: var(--s3); } i.s4 { color: var(--s4); }
 .bars { display: grid; grid-template-columns: auto 1fr auto; gap: 5px 12px; align-items: center; font-size: 13.5px; }
@@ -110,7 +110,10 @@ const std::string_view kReportScript = R"js(
     });
   });
   var view = map.viewBox.baseVal, whole = [view.x, view.y, view.width, view.height];
-  var show = function (x, y, w, h) { map.setAttribute('viewBox', x + ' ' + y + ' ' + w + ' ' + h); };
+  var show = function (x, y, w, h) {
+    map.setAttribute('viewBox', x + ' ' + y + ' ' + w + ' ' + h);
+    map.classList.toggle('close', w < map.clientWidth / 2);
+  };
   var place = function (event) {
     var point = map.createSVGPoint();
     point.x = event.clientX; point.y = event.clientY;

@@ -55,6 +55,7 @@ template <class Counts>
 std::string countTable(const std::string& title, const Counts& counts) {
   std::string rows;
   for (const auto& [name, count] : counts) {
+    if (count == 0) continue;
     std::string words = name;
     std::replace(words.begin(), words.end(), '_', ' ');
     rows += "<tr>" + cell(escapeHtml(words)) + number(grouped(count)) + "</tr>";
