@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/mapper/ReleaseQueue.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
@@ -25,13 +26,13 @@ CObservation::Ptr observation(double seconds, const std::string& label = "a") {
 
 // Adds it as the engine does; whether it was taken.
 bool give(ReleaseQueue& queue, const CObservation::Ptr& observation) {
-  queue.advanceTo(observation->timestamp);
+  queue.arrived(observation->timestamp);
   return queue.add(observation);
 }
 
 std::vector<base::Stamp> released(ReleaseQueue& queue, bool drain) {
   std::vector<base::Stamp> stamps;
-  while (auto group = queue.next(drain)) stamps.push_back(group->stamp);
+  while (drain ? queue.size() > 0 : queue.due().has_value()) stamps.push_back(queue.next()->stamp);
   return stamps;
 }
 
@@ -41,10 +42,10 @@ TEST(Queue, HoldsAnObservationUntilTheNewestIsAWindowLater) {
   EXPECT_TRUE(released(queue, false).empty());
   EXPECT_TRUE(give(queue, observation(0.4)));
   EXPECT_TRUE(released(queue, false).empty());
-  queue.advanceTo(at(0.5));
+  queue.arrived(at(0.5));
   EXPECT_EQ(released(queue, false), std::vector{at(0)});
-  queue.advanceTo(at(0.2));
-  EXPECT_TRUE(released(queue, false).empty()) << "time does not run backwards";
+  queue.arrived(at(0.2));
+  EXPECT_TRUE(released(queue, false).empty()) << "a late one releases nothing";
   EXPECT_EQ(released(queue, true), std::vector{at(0.4)});
   EXPECT_EQ(queue.size(), 0U);
 }
@@ -84,13 +85,35 @@ TEST(Queue, ObservationsOfOneStampLeaveTogetherInOrderOfArrival) {
   give(queue, observation(1, "rear"));
   give(queue, observation(1, "front"));
   give(queue, observation(1, "gps"));
-  const auto group = queue.next(false);
+  ASSERT_EQ(queue.due(), at(1));
+  const auto group = queue.next();
   ASSERT_TRUE(group);
   ASSERT_EQ(group->observations.size(), 3U);
   EXPECT_EQ(group->observations[0]->sensorLabel, "rear");
   EXPECT_EQ(group->observations[1]->sensorLabel, "front");
   EXPECT_EQ(group->observations[2]->sensorLabel, "gps");
-  EXPECT_FALSE(queue.next(true));
+  EXPECT_FALSE(queue.next());
+}
+
+TEST(Queue, AStampFromTheFarFutureReleasesNothingOnceItHasPassed) {
+  ReleaseQueue queue(base::durationFromSeconds(0.5));
+  give(queue, observation(1e8));
+  give(queue, observation(1));
+  EXPECT_TRUE(released(queue, false).empty());
+  give(queue, observation(1.5));
+  EXPECT_EQ(released(queue, false), std::vector{at(1)});
+}
+
+TEST(Queue, KnowsWhatWaitsByLabelClassAndStamp) {
+  ReleaseQueue queue(base::durationFromSeconds(0.5));
+  give(queue, observation(1, "a"));
+  EXPECT_TRUE(queue.holds(*observation(1, "a")));
+  EXPECT_FALSE(queue.holds(*observation(1, "b")));
+  EXPECT_FALSE(queue.holds(*observation(1.1, "a")));
+  mrpt::obs::CObservationOdometry other_class;
+  other_class.timestamp = at(1);
+  other_class.sensorLabel = "a";
+  EXPECT_FALSE(queue.holds(other_class));
 }
 
 }  // namespace

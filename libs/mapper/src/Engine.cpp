@@ -11,6 +11,8 @@ namespace {
 
 // How long pose plugins keep motion before the newest key frame: sensors slower than this count as without odometry.
 constexpr double kHistorySeconds = 30;
+// How long beyond the window an observation waits for a pose source that lags behind.
+constexpr double kPatienceSeconds = 3;
 
 template <class Plugin>
 std::vector<const Plugin*> pointers(const std::vector<Named<Plugin>>& plugins) {
@@ -56,7 +58,7 @@ void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
   const Timed timed(busy_.total);
   ++counts_.observations;
   if (!accepts(*observation)) return;
-  queue_.advanceTo(observation->timestamp);
+  queue_.arrived(observation->timestamp);
   bool taken = false;
   for (auto& [section, plugin] : plugins_.pose) {
     const auto answer = plugin->add(*observation);
@@ -68,13 +70,13 @@ void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
   } else if (!taken) {
     ++counts_.unwanted;
   }
-  while (auto group = queue_.next(false)) release(std::move(*group));
+  for (auto due = queue_.due(); due && isCovered(*due); due = queue_.due()) release(*queue_.next());
 }
 
 void Engine::finish() {
   {
     const Timed timed(busy_.total);
-    while (auto group = queue_.next(true)) release(std::move(*group));
+    while (auto group = queue_.next()) release(std::move(*group));
     for (; !moments_.empty(); moments_.pop_front()) process(moments_.front());
     if (!map_.key_frames.empty()) solveNow(solver_.final());
   }
@@ -89,7 +91,7 @@ bool Engine::accepts(const mrpt::obs::CObservation& observation) {
   }
   const auto key = std::make_pair(observation.sensorLabel, std::string(observation.GetRuntimeClass()->className));
   const auto [last, first] = last_stamps_.try_emplace(key, observation.timestamp);
-  if (!first && last->second == observation.timestamp) {
+  if ((!first && last->second == observation.timestamp) || queue_.holds(observation)) {
     ++counts_.repeated_stamp;
     return false;
   }
@@ -100,6 +102,15 @@ bool Engine::accepts(const mrpt::obs::CObservation& observation) {
 bool Engine::isWanted(const mrpt::obs::CObservation& observation) const {
   return pool_.wants(observation) || std::any_of(plugins_.measurement.begin(), plugins_.measurement.end(),
                                                  [&](const auto& named) { return named.plugin->wants(observation); });
+}
+
+// Whether every continuous source can tell the motion until then. One that has fallen silent is waited for no more.
+bool Engine::isCovered(base::Stamp stamp) const {
+  const auto patience = base::durationFromSeconds(options_.window + kPatienceSeconds);
+  return std::all_of(plugins_.pose.begin(), plugins_.pose.end(), [&](const auto& named) {
+    const auto until = named.plugin->coveredUntil();
+    return named.plugin->isFallback() || !until || *until >= stamp || *until + patience < *queue_.now();
+  });
 }
 
 // Past the trigger, perception starts at once; the moment itself is worked on when those before it are.

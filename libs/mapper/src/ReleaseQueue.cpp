@@ -1,5 +1,6 @@
 #include <omnimapper/mapper/ReleaseQueue.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace omnimapper::mapper {
@@ -10,14 +11,22 @@ bool ReleaseQueue::add(const mrpt::obs::CObservation::Ptr& observation) {
   return true;
 }
 
-void ReleaseQueue::advanceTo(base::Stamp stamp) {
-  if (!newest_ || stamp > *newest_) newest_ = stamp;
+bool ReleaseQueue::holds(const mrpt::obs::CObservation& observation) const {
+  const auto group = groups_.find(observation.timestamp);
+  return group != groups_.end() && std::any_of(group->second.begin(), group->second.end(), [&](const auto& other) {
+           return other->sensorLabel == observation.sensorLabel &&
+                  other->GetRuntimeClass() == observation.GetRuntimeClass();
+         });
 }
 
-std::optional<ReleaseQueue::Group> ReleaseQueue::next(bool drain) {
+std::optional<base::Stamp> ReleaseQueue::due() const {
+  if (groups_.empty() || !now_ || groups_.begin()->first + window_ > *now_) return std::nullopt;
+  return groups_.begin()->first;
+}
+
+std::optional<ReleaseQueue::Group> ReleaseQueue::next() {
   if (groups_.empty()) return std::nullopt;
   const auto first = groups_.begin();
-  if (!drain && (!newest_ || first->first + window_ > *newest_)) return std::nullopt;
   released_ = first->first;
   Group group{first->first, std::move(first->second)};
   groups_.erase(first);

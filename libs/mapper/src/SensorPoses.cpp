@@ -1,6 +1,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/mapper/SensorPoses.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -8,25 +9,36 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// base_from_sensor over time, from lines "stamp x y z qx qy qz qw".
-std::map<base::Stamp, mrpt::poses::CPose3D> readTrack(const std::string& path) {
+using Track = std::map<base::Stamp, mrpt::poses::CPose3D>;
+
+// Adds the pose of a line "stamp x y z qx qy qz qw". What is wrong with it, if anything.
+std::string addLine(const std::string& line, Track& track) {
+  std::istringstream fields(line);
+  std::string stamp;
+  double x, y, z, qx, qy, qz, qw;
+  if (!(fields >> stamp >> x >> y >> z >> qx >> qy >> qz >> qw)) return "expected 'stamp x y z qx qy qz qw'";
+  const Eigen::Quaterniond rotation(qw, qx, qy, qz);
+  if (!(std::abs(rotation.norm() - 1) < 0.01)) return "the quaternion's length is not 1";
+  const geometry::Se3 pose{rotation.normalized(), {x, y, z}};
+  try {
+    const bool is_new = track.emplace(base::parseUnix(stamp), geometry::toMrpt(pose)).second;
+    return is_new ? "" : "this stamp stands twice";
+  } catch (const base::Error& error) {
+    return error.what();
+  }
+}
+
+// base_from_sensor over time.
+Track readTrack(const std::string& path) {
   std::ifstream in(path);
   if (!in) throw base::Error(base::ExitCode::unreadable_input, path + ": cannot read this file of sensor poses");
-  std::map<base::Stamp, mrpt::poses::CPose3D> track;
+  Track track;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.empty() || line[0] == '#') continue;
-    std::istringstream fields(line);
-    std::string stamp;
-    geometry::Se3 pose;
-    double qx, qy, qz, qw;
-    if (!(fields >> stamp >> pose.translation.x() >> pose.translation.y() >> pose.translation.z() >> qx >> qy >> qz >>
-          qw)) {
-      throw base::Error(base::ExitCode::unreadable_input,
-                        path + ":" + std::to_string(number) + ": expected 'stamp x y z qx qy qz qw'");
-    }
-    pose.rotation = Eigen::Quaterniond(qw, qx, qy, qz).normalized();
-    track[base::parseUnix(stamp)] = geometry::toMrpt(pose);
+    const std::string problem = addLine(line, track);
+    if (problem.empty()) continue;
+    throw base::Error(base::ExitCode::unreadable_input, path + ":" + std::to_string(number) + ": " + problem);
   }
   if (track.empty()) throw base::Error(base::ExitCode::unreadable_input, path + ": holds no sensor pose");
   return track;
@@ -52,6 +64,10 @@ const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
 SensorPoses::SensorPoses(const std::vector<std::string>& sections, const base::Config& config) {
   for (const auto& name : sections) {
     const auto options = config.section(name).read<SensorPoseOptions>();
+    if (options.label.empty()) {
+      throw base::Error(base::ExitCode::wrong_type,
+                        config.file() + ": [" + name + "] needs 'label = ...': whose place on the base is this?");
+    }
     tracks_[options.label] =
         options.file.empty() ? Track{{base::Stamp(), mrpt::poses::CPose3D(options.x, options.y, options.z, options.yaw,
                                                                           options.pitch, options.roll)}}

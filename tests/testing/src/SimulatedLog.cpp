@@ -105,7 +105,10 @@ std::vector<SimulatedLog::Odometry> SimulatedLog::odometry() const {
   Dice dice(options_.seed);
   std::vector<Odometry> all;
   CPose2D odom_from_base;
-  for (const auto stamp : stampsOf(*this, options_.odometry_rate, 0)) {
+  // One reading beyond the end, so that it covers every other observation.
+  auto stamps = stampsOf(*this, options_.odometry_rate, 0);
+  stamps.push_back(stamps.back() + base::durationFromSeconds(1 / options_.odometry_rate));
+  for (const auto stamp : stamps) {
     if (!all.empty()) {
       const CPose2D motion = truthAt(stamp) - truthAt(all.back().stamp);
       const double way = motion.norm();

@@ -56,6 +56,7 @@ class Engine {
 
   bool accepts(const mrpt::obs::CObservation& observation);
   bool isWanted(const mrpt::obs::CObservation& observation) const;
+  bool isCovered(base::Stamp stamp) const;
   void release(ReleaseQueue::Group group);
   void process(Moment& moment);
   bool beginKeyFrame(base::Stamp stamp);

@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/geometry/Angle.h>
+#include <omnimapper/testing/MapperRun.h>
+
+#include <algorithm>
+
+// Whole maps of simulated logs against the truth. The bounds are about twice what was measured.
+namespace omnimapper::mapper {
+namespace {
+
+using mrpt::poses::CPose3D;
+using testing::kLaserIni;
+using testing::makeEngine;
+using testing::SimulatedLog;
+using testing::SimulatedLogOptions;
+using testing::trajectoryError;
+
+SimulatedLogOptions ring(double laps) {
+  SimulatedLogOptions options;
+  options.laps = laps;
+  return options;
+}
+
+std::size_t closures(const View& view, bool accepted) {
+  return static_cast<std::size_t>(std::count_if(view.decisions.begin(), view.decisions.end(), [&](const auto& d) {
+    return d.kind == "loop closure" && d.accepted == accepted;
+  }));
+}
+
+// What odometry alone makes of the log [m].
+double odometryError(const SimulatedLog& log) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const auto& observation : log.observations()) {
+    const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(observation.get());
+    if (!odometry) continue;
+    const auto truth = log.truthAt(odometry->timestamp);
+    sum += std::pow(odometry->odometry.x() - truth.x(), 2) + std::pow(odometry->odometry.y() - truth.y(), 2);
+    ++count;
+  }
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+TEST(EngineSimulated, TwoLapsOfTheRingCloseAndLieOnTheTruth) {
+  const SimulatedLog log(ring(2));
+  const auto engine = makeEngine(kLaserIni);
+  testing::run(*engine, log.observations());
+  const double error = trajectoryError(engine->view(), log);
+  RecordProperty("trajectory_error_m", std::to_string(error));
+  RecordProperty("odometry_error_m", std::to_string(odometryError(log)));
+  EXPECT_LT(error, 0.06);
+  EXPECT_GT(odometryError(log), 0.8) << "else the test shows nothing";
+  EXPECT_GT(closures(engine->view(), true), 20U);
+}
+
+TEST(EngineSimulated, AMapInSpaceHasThePlanarTrajectory) {
+  const SimulatedLog log(ring(1));
+  const auto planar = makeEngine(kLaserIni), spatial = makeEngine(kLaserIni, {"mapper.motion=spatial"});
+  testing::run(*planar, log.observations());
+  testing::run(*spatial, log.observations());
+  const auto& a = planar->view().map.key_frames;
+  const auto& b = spatial->view().map.key_frames;
+  ASSERT_EQ(a.size(), b.size());
+  double farthest = 0, highest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    farthest = std::max(farthest, (a[i].map_from_base - b[i].map_from_base).translation().norm());
+    highest = std::max({highest, std::abs(b[i].map_from_base.z()), std::abs(b[i].map_from_base.roll())});
+  }
+  RecordProperty("farthest_m", std::to_string(farthest));
+  EXPECT_LT(farthest, 0.03);
+  EXPECT_LT(highest, 1e-6);
+}
+
+TEST(EngineSimulated, TwoLasersAtOnceMapAsWellAsOne) {
+  auto options = ring(1);
+  options.lasers.resize(2);
+  options.lasers[1].label = "rear";
+  options.lasers[1].base_from_sensor = CPose3D(-0.25, 0.05, 0.2, geometry::kPi, 0, 0);
+  options.lasers[1].phase += 0.04;
+  const SimulatedLog log(options);
+  const auto engine = makeEngine(kLaserIni);
+  testing::run(*engine, log.observations());
+  RecordProperty("trajectory_error_m", std::to_string(trajectoryError(engine->view(), log)));
+  EXPECT_LT(trajectoryError(engine->view(), log), 0.06);
+  const auto& decisions = engine->view().decisions;
+  EXPECT_GT(
+      static_cast<double>(std::count_if(decisions.begin(), decisions.end(), [](const auto& d) { return d.accepted; })),
+      0.95 * static_cast<double>(engine->view().map.key_frames.size()));
+}
+
+TEST(EngineSimulated, ALaserUpsideDownSeesTheSamePlace) {
+  auto options = ring(0.5);
+  options.lasers[0].base_from_sensor = CPose3D(0.2, 0, 0.3, 0.4, 0, geometry::kPi);
+  const SimulatedLog log(options);
+  const auto engine = makeEngine(kLaserIni);
+  testing::run(*engine, log.observations());
+  RecordProperty("trajectory_error_m", std::to_string(trajectoryError(engine->view(), log)));
+  EXPECT_LT(trajectoryError(engine->view(), log), 0.06);
+}
+
+// The log says nothing of where the laser is; the INI does.
+TEST(EngineSimulated, ASensorPoseOfTheIniReplacesThatOfTheLog) {
+  auto options = ring(0.5);
+  const SimulatedLog told(options);
+  auto log = told.observations();
+  for (const auto& observation : log) {
+    if (observation->sensorLabel == "laser") observation->setSensorPose(CPose3D());
+  }
+  const auto right = makeEngine(kLaserIni),
+             repaired = makeEngine(kLaserIni + "[front]\nlabel = laser\n",
+                                   {"mapper.sensors=front", "front.pose_x_m=0.2", "front.pose_z_m=0.3"});
+  testing::run(*right, told.observations());
+  testing::run(*repaired, log);
+  EXPECT_TRUE(testing::bitsOf(repaired->view()) == testing::bitsOf(right->view()));
+}
+
+TEST(EngineSimulated, WithoutOdometryEveryScanMatchedOnTheNullMotionGivesTheWay) {
+  auto options = ring(0.5);
+  options.speed = 0.5;
+  const SimulatedLog log(options);
+  auto observations = log.observations();
+  observations.erase(std::remove_if(observations.begin(), observations.end(),
+                                    [](const auto& o) { return o->sensorLabel == "odometry"; }),
+                     observations.end());
+  const auto engine = makeEngine(kLaserIni, {"mapper.pose_plugins=no_motion", "trigger.every_observation=true"});
+  testing::run(*engine, observations);
+  EXPECT_EQ(engine->view().map.key_frames.size(), observations.size());
+  RecordProperty("trajectory_error_m", std::to_string(trajectoryError(engine->view(), log)));
+  EXPECT_LT(trajectoryError(engine->view(), log), 0.15);
+}
+
+}  // namespace
+}  // namespace omnimapper::mapper
