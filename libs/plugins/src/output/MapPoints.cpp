@@ -89,12 +89,15 @@ Rgb spectrum(double fraction) {
   return {channel(0), channel(1), channel(2)};
 }
 
-bool hasClouds(const map::Map& map) {
-  return std::any_of(map.key_frames.begin(), map.key_frames.end(), [](const map::KeyFrame& frame) {
-    return std::any_of(frame.observations.begin(), frame.observations.end(), [](const auto& observation) {
-      return dynamic_cast<const CObservationPointCloud*>(observation.get()) != nullptr;
-    });
+bool hasClouds(const map::KeyFrame& frame) {
+  return std::any_of(frame.observations.begin(), frame.observations.end(), [](const auto& observation) {
+    return dynamic_cast<const CObservationPointCloud*>(observation.get()) != nullptr;
   });
+}
+
+bool hasClouds(const map::Map& map) {
+  return std::any_of(map.key_frames.begin(), map.key_frames.end(),
+                     [](const map::KeyFrame& frame) { return hasClouds(frame); });
 }
 
 std::vector<TPoint3Df> pointsInBase(const map::KeyFrame& frame, bool of_clouds, double max_range) {

@@ -18,6 +18,7 @@ struct ColouredPoint {
 /// The points that a key frame saw, in the frame of its base [m]: of its point clouds if `of_clouds`, else of its 2D
 /// scans. Points further than `max_range` [m] from their sensor are left out.
 std::vector<mrpt::math::TPoint3Df> pointsInBase(const map::KeyFrame& frame, bool of_clouds, double max_range);
+bool hasClouds(const map::KeyFrame& frame);
 /// Whether any key frame has a point cloud: then those are the points of the map.
 bool hasClouds(const map::Map& map);
 

@@ -41,7 +41,8 @@ std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
                        fixed(input.picture->max_y - input.picture->minY(), 0) + " m",
                    "mapped");
   }
-  html += figure(grouped(figures.closures), "loop closures") + figure(grouped(figures.refused_closures), "closures refused") +
+  html += figure(grouped(figures.closures), "loop closures") +
+          figure(grouped(figures.refused_closures), "closures refused") +
           figure(grouped(view.graph.factors().size()), "factors") + figure(large(view.graph.chi2()), "chi-square") +
           figure(duration(figures.wall_seconds), "computed");
   if (figures.wall_seconds > 0 && figures.log_seconds > 0) {

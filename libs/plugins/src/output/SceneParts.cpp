@@ -12,11 +12,12 @@ namespace {
 using mrpt::img::TColor;
 using namespace mrpt::opengl;
 
-constexpr float kLinesAboveGround = 0.02f;  // [m] so that they are not hidden by it
-constexpr double kBorder = 5;               // [m]
+// [m] above the ground and one above the other, so that each is seen.
+constexpr float kRefusedHeight = 0.01f, kAcceptedHeight = 0.02f, kTrajectoryHeight = 0.03f;
+constexpr double kBorder = 5;  // [m]
 
-void appendLine(CSetOfLines& lines, const mrpt::math::TPoint3D& a, const mrpt::math::TPoint3D& b) {
-  lines.appendLine(a.x, a.y, a.z + kLinesAboveGround, b.x, b.y, b.z + kLinesAboveGround);
+void appendLine(CSetOfLines& lines, const mrpt::math::TPoint3D& a, const mrpt::math::TPoint3D& b, float height) {
+  lines.appendLine(a.x, a.y, a.z + height, b.x, b.y, b.z + height);
 }
 
 }  // namespace
@@ -48,7 +49,8 @@ CSetOfLines::Ptr trajectoryLines(const std::vector<map::StampedPose>& trajectory
   lines->setLineWidth(3);
   lines->reserve(trajectory.size());
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    appendLine(*lines, trajectory[i - 1].map_from_base.translation(), trajectory[i].map_from_base.translation());
+    appendLine(*lines, trajectory[i - 1].map_from_base.translation(), trajectory[i].map_from_base.translation(),
+               kTrajectoryHeight);
   }
   return lines;
 }
@@ -76,7 +78,9 @@ CSetOfLines::Ptr closureLines(const std::vector<Closure>& closures, bool accepte
   lines->setColor_u8(accepted ? TColor(22, 163, 74) : TColor(220, 60, 50, 90));
   lines->setLineWidth(accepted ? 2 : 1);
   for (const Closure& closure : closures) {
-    if (closure.decision->accepted == accepted) appendLine(*lines, closure.from, closure.to);
+    if (closure.decision->accepted == accepted) {
+      appendLine(*lines, closure.from, closure.to, accepted ? kAcceptedHeight : kRefusedHeight);
+    }
   }
   return lines;
 }

@@ -1,0 +1,177 @@
+#include <mrpt/gui/CDisplayWindow3D.h>
+#include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/stock_objects.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/plugins/LiveWindow.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+#include <unordered_map>
+
+#include "SceneParts.h"
+
+IMPLEMENTS_MRPT_OBJECT(LiveWindowFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<LiveWindowOptions>& LiveWindowOptions::table() {
+  using Options = LiveWindowOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .integer("width_pixels", &Options::width, {200, 8000}, "Width of the window.")
+          .integer("height_pixels", &Options::height, {200, 8000}, "Height of the window.")
+          .integer("points_per_key_frame", &Options::points_per_key_frame, {1, 1000000}, "Points drawn of a key frame.")
+          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Points further from their sensor are not drawn.")
+          .flag("follow", &Options::follow, "Keep the whole map in view; false leaves the camera to the mouse.")
+          .flag("keep_open", &Options::keep_open, "At the end wait until the window is closed.");
+  return table;
+}
+
+namespace {
+
+bool isSet(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value;
+}
+
+[[noreturn]] void failWithoutDisplay() {
+  const char* display = std::getenv("DISPLAY");
+  throw base::Error(
+      base::ExitCode::command_line,
+      "the live window cannot be opened: there is no display (DISPLAY is " +
+          (display && *display ? "\"" + std::string(display) + "\", which does not answer" : std::string("not set")) +
+          "). Leave out --gui, or run the program under xvfb-run.");
+}
+
+std::unique_ptr<mrpt::gui::CDisplayWindow3D> openWindow(const std::string& title, const LiveWindowOptions& options) {
+  if (!isSet("DISPLAY") && !isSet("WAYLAND_DISPLAY")) failWithoutDisplay();
+  auto window = std::make_unique<mrpt::gui::CDisplayWindow3D>(title, static_cast<unsigned>(options.width),
+                                                              static_cast<unsigned>(options.height));
+  if (!window->isOpen()) failWithoutDisplay();
+  return window;
+}
+
+}  // namespace
+
+/// The window, and what is in it. Points hang on their key frames, so that a solve moves frames, not points.
+class LiveWindow::Scene {
+ public:
+  Scene(const LiveWindowOptions& options, const std::string& title)
+      : options_(options), window_(openWindow("OmniMapper: " + title, options)) {
+    mrpt::opengl::COpenGLScene::Ptr scene;
+    mrpt::gui::CDisplayWindow3DLocker lock(*window_, scene);
+    scene->getViewport()->setCustomBackgroundColor({0.96f, 0.97f, 0.98f});
+    for (const auto& object : {ground_, points_, trajectory_, refused_, accepted_, pose_}) scene->insert(object);
+    pose_->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 4.0f));
+    window_->setCameraElevationDeg(70);
+    window_->setCameraAzimuthDeg(-90);
+  }
+
+  bool isOpen() const { return window_->isOpen(); }
+
+  void show(const mapper::View& view) {
+    if (view.map.key_frames.empty()) return;
+    {
+      mrpt::opengl::COpenGLScene::Ptr scene;
+      mrpt::gui::CDisplayWindow3DLocker lock(*window_, scene);
+      placePoints(view.map);
+      replace(*ground_, groundOf(view.map));
+      replace(*trajectory_, trajectoryLines(keyFramePoses(view.map)));
+      const auto closures = closuresOf(view.map, view.decisions);
+      replace(*accepted_, closureLines(closures, true));
+      replace(*refused_, closureLines(closures, false));
+      pose_->setPose(view.map.key_frames.back().map_from_base);
+      const auto count =
+          std::count_if(closures.begin(), closures.end(), [](const Closure& c) { return c.decision->accepted; });
+      mrpt::opengl::TFontParams font;
+      font.color = mrpt::img::TColorf(0.1f, 0.13f, 0.18f);
+      window_->addTextMessage(10, -25,
+                              std::to_string(view.map.key_frames.size()) + " key frames, " + std::to_string(count) +
+                                  " closures accepted, " + std::to_string(closures.size() - count) + " refused",
+                              0, font);
+    }
+    if (options_.follow) lookAtAll(view.map);
+    window_->forceRepaint();
+  }
+
+ private:
+  using Group = mrpt::opengl::CSetOfObjects;
+
+  static void replace(Group& group, const mrpt::opengl::CRenderizable::Ptr& content) {
+    group.clear();
+    group.insert(content);
+  }
+
+  static std::vector<map::StampedPose> keyFramePoses(const map::Map& map) {
+    std::vector<map::StampedPose> poses;
+    for (const map::KeyFrame& frame : map.key_frames) poses.push_back({frame.stamp, frame.map_from_base});
+    return poses;
+  }
+
+  void placePoints(const map::Map& map) {
+    for (const map::KeyFrame& frame : map.key_frames) {
+      auto& cloud = clouds_[frame.id];
+      if (!cloud) {
+        cloud = cloudInBase(frame);
+        points_->insert(cloud);
+      }
+      cloud->setPose(frame.map_from_base);
+    }
+  }
+
+  mrpt::opengl::CPointCloud::Ptr cloudInBase(const map::KeyFrame& frame) const {
+    const auto points = pointsInBase(frame, hasClouds(frame), options_.max_range);
+    const std::size_t stride = 1 + points.size() / static_cast<std::size_t>(options_.points_per_key_frame);
+    auto cloud = mrpt::opengl::CPointCloud::Create();
+    cloud->setColor_u8(mrpt::img::TColor(24, 33, 47));
+    cloud->setPointSize(2);
+    for (std::size_t i = 0; i < points.size(); i += stride) cloud->insertPoint(points[i].x, points[i].y, points[i].z);
+    return cloud;
+  }
+
+  void lookAtAll(const map::Map& map) {
+    mrpt::math::TPoint3D low = map.key_frames.front().map_from_base.translation(), high = low;
+    for (const map::KeyFrame& frame : map.key_frames) {
+      const auto p = frame.map_from_base.translation();
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const auto middle = 0.5 * (low + high);
+    window_->setCameraPointingToPoint(static_cast<float>(middle.x), static_cast<float>(middle.y),
+                                      static_cast<float>(middle.z));
+    window_->setCameraZoom(static_cast<float>(12 + 1.6 * (high - low).norm()));
+  }
+
+  LiveWindowOptions options_;
+  Group::Ptr ground_ = Group::Create(), points_ = Group::Create(), trajectory_ = Group::Create(),
+             refused_ = Group::Create(), accepted_ = Group::Create(), pose_ = Group::Create();
+  std::unordered_map<base::KeyFrameId, mrpt::opengl::CPointCloud::Ptr> clouds_;
+  std::unique_ptr<mrpt::gui::CDisplayWindow3D> window_;
+};
+
+LiveWindow::LiveWindow(const LiveWindowOptions& options, const std::string& title)
+    : options_(options), scene_(std::make_unique<Scene>(options, title)) {}
+
+LiveWindow::~LiveWindow() = default;
+
+bool LiveWindow::isOpen() const {
+  return scene_->isOpen();
+}
+
+void LiveWindow::update(const mapper::View& view) {
+  if (isOpen()) scene_->show(view);
+}
+
+void LiveWindow::finish(const mapper::View& view) {
+  update(view);
+  while (options_.keep_open && isOpen()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
+std::unique_ptr<mapper::OutputPlugin> LiveWindowFactory::make(const base::ConfigSection& section,
+                                                              const mapper::PluginContext& context) const {
+  return std::make_unique<LiveWindow>(section.read<LiveWindowOptions>(mapper::sectionKeysOfEngine()), context.title);
+}
+
+}  // namespace omnimapper::plugins
