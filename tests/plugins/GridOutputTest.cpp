@@ -204,4 +204,24 @@ TEST(GridPicture, pixelsAreRegisteredWithTheMapAtEveryScale) {
   }
 }
 
+TEST(GridPicture, aStrayBeamDoesNotMakeTheBuildingSmall) {
+  // A room of 100 x 100 cells with one beam of 400 cells out of its window.
+  ScanGrid grid;
+  grid.columns = 500;
+  grid.rows = 100;
+  grid.resolution = 0.1;
+  grid.min_x = -10;
+  grid.cells.assign(500 * 100, Cell::unknown);
+  for (int row = 0; row < 100; ++row) std::fill_n(grid.cells.begin() + row * 500, 100, Cell::free);
+  std::fill_n(grid.cells.begin() + 50 * 500, 500, Cell::free);
+  const auto room = plugins::focused(grid, {});
+  EXPECT_DOUBLE_EQ(room.min_x, -10);
+  EXPECT_LT(room.maxX(), 40 - 1.5);
+  EXPECT_GT(room.maxX(), 0);
+  EXPECT_EQ(room.cells.size(), static_cast<std::size_t>(room.columns) * room.rows);
+  EXPECT_EQ(cellAt(room, -5.05, 5.05), Cell::free);
+  const auto with_place = plugins::focused(grid, {{39.95, 5, 0}});
+  EXPECT_DOUBLE_EQ(with_place.maxX(), 40);
+}
+
 }  // namespace

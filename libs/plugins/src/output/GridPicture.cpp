@@ -88,7 +88,7 @@ GridPicture drawGridToSize(const ScanGrid& grid, int side) {
 }
 
 ScanGrid focused(const ScanGrid& grid, const std::vector<mrpt::math::TPoint3D>& places) {
-  constexpr double kCut = 0.002;
+  constexpr double kCut = 0.005;
   std::vector<double> columns(static_cast<std::size_t>(grid.columns)), rows(static_cast<std::size_t>(grid.rows));
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {

@@ -29,7 +29,7 @@ GridPicture drawGrid(const ScanGrid& grid);
 /// wall among them wins, so that walls stay closed. Walls one pixel thin get soft edges, so that they are seen.
 GridPicture drawGridToSize(const ScanGrid& grid, int side);
 
-/// The part of a grid that holds all but the outermost 0.2 % of what is known, to each of the four sides, and the given
+/// The part of a grid that holds all but the outermost 0.5 % of what is known, to each of the four sides, and the given
 /// places [m] too: a few beams through windows do not make a picture of a building small.
 ScanGrid focused(const ScanGrid& grid, const std::vector<mrpt::math::TPoint3D>& places);
 
