@@ -39,7 +39,7 @@ mapper::Batch RobotPosePlugin::measure(const map::KeyFrame& frame, const mrpt::o
   decision.kind = "absolute pose";
   decision.from = frame.id;
 
-  const auto reference_from_base = geometry::fromMrpt(measured.pose.mean - measured.sensorPose);
+  const auto reference_from_base = geometry::fromMrpt(measured.pose.mean + (-measured.sensorPose));
   geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
   const auto& reported = measured.pose.cov.asEigen();
   if (reported.allFinite() && reported.trace() > 0) {
