@@ -141,6 +141,21 @@ TEST(AtomicFile, AnyMomentOfKillLeavesOneWholeVersion) {
   }
 }
 
+TEST(AtomicFile, WhatKilledWritersLeftIsRemovedAndNothingElse) {
+  ScratchFolder folder;
+  const pid_t gone = ::fork();
+  if (gone == 0) ::_exit(0);
+  ::waitpid(gone, nullptr, 0);
+  const std::string dead = std::to_string(gone), alive = std::to_string(::getppid());
+  const std::vector<std::string> kept{"map.tmp" + alive + ".omnimap", "map.tmp.omnimap", "map.tmp" + dead + ".png",
+                                      "map.tmp" + dead + "b.omnimap", "amap.tmp" + dead + ".omnimap"};
+  for (const auto& name : kept) std::ofstream(folder / name) << "x";
+  std::ofstream(folder / ("map.tmp" + dead + ".omnimap")) << "half a map";
+  writeText(folder / "map.omnimap", "whole");
+  EXPECT_FALSE(fs::exists(folder / ("map.tmp" + dead + ".omnimap")));
+  for (const auto& name : kept) EXPECT_TRUE(fs::exists(folder / name)) << name;
+}
+
 TEST(AtomicFile, AFileThatCannotGrowKeepsItsOldContent) {
   ScratchFolder folder;
   EXPECT_TRUE(holdsInChild([&] {

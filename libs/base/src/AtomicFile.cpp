@@ -1,12 +1,15 @@
 #include <fcntl.h>
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 namespace omnimapper::base {
 
@@ -30,6 +33,34 @@ bool syncPath(const std::string& path) {
                                        "); its previous content is kept. Free some room or choose another folder.");
 }
 
+// What is written first, before it takes the place of `target`: "map.tmp123.omnimap" of the process 123. The extension
+// stays last: several writers choose their format by it.
+std::string temporaryPrefix(const fs::path& target) {
+  return target.stem().string() + ".tmp";
+}
+fs::path temporaryOf(const fs::path& target) {
+  return target.parent_path() / (temporaryPrefix(target) + std::to_string(::getpid()) + target.extension().string());
+}
+
+// Removes what processes left behind that were killed while they wrote `target`.
+void removeLeftovers(const fs::path& target) {
+  const std::string prefix = temporaryPrefix(target), end = target.extension().string();
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  std::error_code ignored;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator entry(folder, ignored), last; !ignored && entry != last; entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
+    if (name.size() <= prefix.size() + end.size() || name.compare(0, prefix.size(), prefix) != 0) continue;
+    if (name.compare(name.size() - end.size(), end.size(), end) != 0) continue;
+    pid_t writer = 0;
+    const char* digits_end = name.data() + name.size() - end.size();
+    const auto parsed = std::from_chars(name.data() + prefix.size(), digits_end, writer);
+    if (parsed.ec != std::errc() || parsed.ptr != digits_end || writer <= 0) continue;
+    if (::kill(writer, 0) != 0 && errno == ESRCH) left.push_back(entry->path());
+  }
+  for (const auto& path : left) fs::remove(path, ignored);
+}
+
 }  // namespace
 
 void makeWritableFolder(const std::string& folder) {
@@ -46,10 +77,8 @@ void makeWritableFolder(const std::string& folder) {
 
 void replaceFile(const std::string& path, const std::function<void(const std::string&)>& save) {
   const fs::path target(path);
-  // The extension stays last: several writers choose their format by it.
-  const std::string temporary = (target.parent_path() / (target.stem().string() + ".tmp" + std::to_string(::getpid()) +
-                                                         target.extension().string()))
-                                    .string();
+  const std::string temporary = temporaryOf(target).string();
+  removeLeftovers(target);
   try {
     errno = 0;
     save(temporary);

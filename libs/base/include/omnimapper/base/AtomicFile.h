@@ -10,7 +10,8 @@ namespace omnimapper::base {
 void makeWritableFolder(const std::string& folder);
 
 /// Writes a file so that at any moment `path` holds either its old content or the whole new one: `save` writes to
-/// the temporary name it is given (same folder, same extension), which is synced and renamed.
+/// the temporary name it is given (same folder, same extension), which is synced and renamed. What a process left
+/// behind that was killed while it wrote `path` is removed first.
 /// Throws Error(disk_full) with the system's reason if anything of it fails; the temporary file is removed then.
 void replaceFile(const std::string& path, const std::function<void(const std::string& temporary_path)>& save);
 
