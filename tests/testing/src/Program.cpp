@@ -1,0 +1,126 @@
+#include <fcntl.h>
+#include <omnimapper/testing/Program.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+namespace omnimapper::testing {
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+int memoryFile(const char* name) {
+  const int fd = ::memfd_create(name, MFD_CLOEXEC);
+  if (fd < 0) throw std::runtime_error(std::string("no file in memory for ") + name + ": " + std::strerror(errno));
+  return fd;
+}
+
+std::string contentOf(int fd) {
+  std::string content(static_cast<std::size_t>(::lseek(fd, 0, SEEK_END)), '\0');
+  const ssize_t read = ::pread(fd, content.data(), content.size(), 0);
+  content.resize(read < 0 ? 0 : static_cast<std::size_t>(read));
+  return content;
+}
+
+// In the child, which has one thread.
+[[noreturn]] void become(const std::vector<std::string>& argv, const ProgramOptions& options, int out, int err) {
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  ::dup2(nothing, STDIN_FILENO);
+  ::dup2(out, STDOUT_FILENO);
+  ::dup2(err, STDERR_FILENO);
+  const rlimit no_core{0, 0}, file{options.largest_file, options.largest_file};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  if (options.largest_file > 0) ::setrlimit(RLIMIT_FSIZE, &file);
+  std::vector<char*> words;
+  for (const auto& word : argv) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  ::execvp(words[0], words.data());
+  ::dprintf(STDERR_FILENO, "%s: %s\n", words[0], std::strerror(errno));
+  ::_exit(127);
+}
+
+}  // namespace
+
+std::string toString(const Ended& ended) {
+  std::string how = "ended with code " + std::to_string(ended.code);
+  if (ended.signal != 0) how = std::string("was ended by signal ") + ::strsignal(ended.signal);
+  if (!ended.in_time) how = "was killed after " + std::to_string(ended.seconds) + " s";
+  return how + "\nstdout: " + ended.out + "\nstderr: " + ended.err;
+}
+
+Program::Program(const std::vector<std::string>& argv, const ProgramOptions& options)
+    : out_(memoryFile("stdout")), err_(memoryFile("stderr")), time_limit_(options.time_limit), start_(now()) {
+  child_ = ::fork();
+  if (child_ < 0) throw std::runtime_error(std::string("cannot start ") + argv.at(0) + ": " + std::strerror(errno));
+  if (child_ == 0) become(argv, options, out_, err_);
+}
+
+Program::~Program() {
+  send(SIGKILL);
+  reap(true);
+  ::close(out_);
+  ::close(err_);
+}
+
+double Program::secondsSinceStart() const {
+  return now() - start_;
+}
+
+bool Program::reap(bool block) {
+  if (has_ended_) return true;
+  int status = 0;
+  pid_t reaped = 0;
+  do reaped = ::waitpid(child_, &status, block ? 0 : WNOHANG);
+  while (reaped < 0 && errno == EINTR);
+  if (reaped != child_) return false;
+  has_ended_ = true;
+  ended_.seconds = secondsSinceStart();
+  if (WIFEXITED(status)) ended_.code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) ended_.signal = WTERMSIG(status);
+  ended_.out = contentOf(out_);
+  ended_.err = contentOf(err_);
+  return true;
+}
+
+bool Program::isRunning() {
+  return !reap(false);
+}
+
+void Program::send(int signal) {
+  if (isRunning()) ::kill(child_, signal);
+}
+
+Ended Program::wait() {
+  while (isRunning()) {
+    if (secondsSinceStart() > time_limit_) {
+      ended_.in_time = false;
+      send(SIGKILL);
+      reap(true);
+      break;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return ended_;
+}
+
+Ended runProgram(const std::vector<std::string>& argv, const ProgramOptions& options) {
+  return Program(argv, options).wait();
+}
+
+std::string ownProgram(const std::string& name) {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+}
+
+}  // namespace omnimapper::testing
