@@ -43,10 +43,15 @@ int run(Arguments& arguments) {
   }
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size fails as on a full disk
   base::TerminalProgress progress(std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
   const auto result = mapper::runMapping(arguments.run, config, progress, [] { return g_interrupted != 0; });
   if (arguments.verbose) std::cout << result.source.text();
   if (!arguments.quiet) std::cout << mapper::toText(result, arguments.run.output_folder);
+  for (const auto& warning : result.warnings) {
+    if (arguments.quiet && result.code == base::ExitCode::ok) break;
+    std::cerr << "omnimapper-graphslam: warning: " << warning << "\n";
+  }
   return exitCode(result.code);
 }
 
@@ -69,7 +74,7 @@ int main(int argc, char** argv) {
   app.add_flag("--list-plugins", arguments.list_plugins, "list the plugin classes and leave");
   app.add_option("--print-ini", arguments.print_ini, "print the documented section of a plugin class and leave");
   app.add_flag("--ini-reference", arguments.ini_reference, "print all INI keys as Markdown and leave");
-  app.add_flag("-q,--quiet", arguments.quiet, "no progress, no summary");
+  app.add_flag("-q,--quiet", arguments.quiet, "no progress, no summary; warnings only if the map is not whole");
   app.add_flag("-v,--verbose", arguments.verbose, "also say what the logs hold");
   app.footer("Exit codes: doc/exit_codes.md (0 only for a whole map of a whole log).");
   try {

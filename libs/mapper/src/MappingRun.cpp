@@ -17,11 +17,14 @@ namespace {
 class Pace {
  public:
   explicit Pace(double speed) : speed_(speed) {}
-  void waitFor(base::Stamp stamp) {
+  // Returns early if it is to stop.
+  void waitFor(base::Stamp stamp, const std::function<bool()>& stop) {
     if (speed_ <= 0 || !base::isValid(stamp)) return;
     if (!first_) first_ = stamp;
-    const double ahead = base::secondsBetween(*first_, stamp) / speed_ - watch_.seconds();
-    if (ahead > 0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead, 1.0)));
+    const double due = base::secondsBetween(*first_, stamp) / speed_;
+    for (double ahead; (ahead = due - watch_.seconds()) > 0 && !stop();) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead, 0.1)));
+    }
   }
 
  private:
@@ -48,12 +51,22 @@ bool feed(source::ObservationSource& log, Engine& engine, double speed, base::Pr
     const auto observation = log.next();
     reading += watch.seconds();
     if (!observation) break;
-    pace.waitFor(observation->timestamp);
+    pace.waitFor(observation->timestamp, stop);
     engine.add(observation);
     progress.report(log.progress(), std::to_string(engine.view().map.key_frames.size()) + " key frames");
   }
   engine.addTime("source", reading);
   return stopped;
+}
+
+void warnOf(const source::SourceReport& report, bool stopped, Engine& engine) {
+  if (!report.message.empty()) engine.warn(report.message);
+  if (report.missing_images > 0) {
+    engine.warn(std::to_string(report.missing_images) + " observations were left out because an external file of " +
+                "theirs cannot be read, first " + report.first_missing_image +
+                "; put the files there, or name their folder as [source] images_folder");
+  }
+  if (stopped) engine.warn("interrupted: this is the map of what was read until then");
 }
 
 void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
@@ -66,6 +79,18 @@ void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
   warn(counts.unusable, "of the odometry are not finite or run backwards in time and were left out");
   warn(counts.unconnected, "have no pose: no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
   if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
+}
+
+// An empty map is not written: it would take the place of a good one.
+[[noreturn]] void failWithNothingToMap(const RunRequest& request, const std::string& ini, const RunResult& result) {
+  std::string logs;
+  for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
+  const bool is_whole = result.code == base::ExitCode::ok;
+  throw base::Error(is_whole ? base::ExitCode::nothing_to_map : result.code,
+                    logs + ": nothing to map: no observation that a measurement plugin of " + ini +
+                        " wants; see its [source], [perception] extractors and [mapper] measurement_plugins. Nothing "
+                        "was written. What was read:\n" +
+                        result.source.text());
 }
 
 RunResult resultOf(const View& view) {
@@ -124,17 +149,12 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   engine.finish();
 
   const auto report = log->report();
-  if (!report.message.empty()) engine.warn(report.message);
-  if (stopped) engine.warn("interrupted: this is the map of what was read until then");
+  warnOf(report, stopped, engine);
   warnOf(engine.view().counts, engine.view().map.key_frames.size(), engine);
   auto result = resultOf(engine.view());
   result.source = report;
   result.code = stopped ? base::ExitCode::interrupted : report.exitCode();
-  if (result.key_frames == 0 && result.code == base::ExitCode::ok) {
-    throw base::Error(base::ExitCode::nothing_to_map, titleOf(request.logs) +
-                                                          ": no observation that a measurement plugin of " +
-                                                          config.file() + " wants; the log holds:\n" + report.text());
-  }
+  if (result.key_frames == 0) failWithNothingToMap(request, config.file(), result);
   progress.report(1.0, "writing the outputs");
   engine.writeOutputs();
   result.wall_seconds = watch.seconds();
@@ -142,20 +162,18 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
 }
 
 std::string toText(const RunResult& result, const std::string& output_folder) {
-  char text[1024];
+  char text[512];
   std::snprintf(text, sizeof text,
                 "key frames        %zu\n"
                 "factors           %zu\n"
                 "loop closures     %zu accepted, %zu refused (reasons: report.html)\n"
                 "way               %.1f m in %.1f s\n"
                 "wall time         %.2f s (%.0f times the log's own pace)\n"
-                "outputs           %s\n",
+                "outputs           ",
                 result.key_frames, result.factors, result.closures, result.refused_closures, result.way,
                 result.log_seconds, result.wall_seconds,
-                result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0, output_folder.c_str());
-  std::string all = text;
-  for (const auto& warning : result.warnings) all += "warning: " + warning + "\n";
-  return all;
+                result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
+  return text + output_folder + "\n";
 }
 
 }  // namespace omnimapper::mapper

@@ -33,12 +33,12 @@ struct RunResult {
 };
 
 /// Log in, map out: opens the logs, makes the plugins, feeds the engine, writes the outputs. Damaged input and `stop`
-/// still give the map of what was read, with their own code. Throws base::Error for everything that keeps a map from
-/// being written. `stop` is asked between observations.
+/// still give the map of what was read, with their own code; nothing is written if that holds no key frame. Throws
+/// base::Error for everything that keeps a map from being written. `stop` is asked between observations.
 RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
                      const std::function<bool()>& stop);
 
-/// The summary for a screen.
+/// The summary for a screen, without the warnings.
 std::string toText(const RunResult& result, const std::string& output_folder);
 
 /// The sections of an INI that runMapping() reads beside those of the plugins.
