@@ -1,8 +1,10 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/poses/CPose2D.h>
+#include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/mapper/PoseFactors.h>
 #include <omnimapper/plugins/ScanMatchingPlugin.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,6 +77,10 @@ const base::OptionTable<ScanMatchingOptions>& ScanMatchingOptions::table() {
                   "A closure farther from the prediction is refused.")
           .number("loop_max_turn_correction_deg", &Options::loop_max_turn_correction, base::Range{0, 180},
                   "A closure turned farther from the prediction is refused.")
+          .number("loop_max_chi2", &Options::loop_max_chi2, base::Range::positive(),
+                  "A closure that contradicts the trajectory more than this is refused: chi-square of 3 degrees of "
+                  "freedom. 16.3 would pass 99.9 % if matches in sequence erred independently; they share their local "
+                  "map, and twice the sigma is allowed for.")
           .number("loop_loss_scale", &Options::loop_loss_scale, base::Range::positive(),
                   "Scale of the Cauchy loss on closures, in standard deviations.");
   return table;
@@ -135,7 +141,7 @@ void ScanMatchingPlugin::matchSequential(const map::KeyFrame& frame, const Histo
 }
 
 void ScanMatchingPlugin::closeLoops(const map::KeyFrame& frame, const History& history, const mapper::View& view,
-                                    mapper::Batch& batch) const {
+                                    mapper::Batch& batch) {
   const auto around = static_cast<std::size_t>(options_.loop_frames);
   for (const std::size_t candidate : loopCandidates(frame, history, view)) {
     const std::size_t first = candidate > around ? candidate - around : 0;
@@ -151,8 +157,14 @@ void ScanMatchingPlugin::closeLoops(const map::KeyFrame& frame, const History& h
     decision.kind = "loop closure";
     decision.from = frame.id;
     decision.to = place.id;
+    auto closure = factor(place.pose, frame.pose, match);
     if (decision.accepted) {
-      auto closure = factor(place.pose, frame.pose, match);
+      const double chi2 = innovation(match, guess, closure, uncertainty_.between(view, place.id, frame.id));
+      decision.numbers.emplace_back("chi-square", chi2);
+      decision.accepted = chi2 <= options_.loop_max_chi2;
+      if (!decision.accepted) decision.reason = "contradicts the trajectory (chi-square)";
+    }
+    if (decision.accepted) {
       closure.loss = graph::Loss::cauchy(options_.loop_loss_scale);
       closure.tags.hypothesis = true;
       batch.addFactor(std::move(closure));
@@ -216,6 +228,18 @@ mapper::Decision ScanMatchingPlugin::judge(const matching::ScanMatch& match, con
     decision.reason = "matched";
   }
   return decision;
+}
+
+double ScanMatchingPlugin::innovation(const matching::ScanMatch& match, const TPose2D& guess,
+                                      const graph::FactorRecord& closure,
+                                      const Eigen::Matrix<double, 6, 6>& predicted) const {
+  const TPose2D error = match.reference_from_scan - guess;
+  const Eigen::Vector3d difference(error.x, error.y, mrpt::math::wrapToPi(error.phi));
+  // In a planar map the noise of the closure is of x y yaw; in a spatial one its planar part is.
+  const Eigen::MatrixXd noise = closure.noise.covariance();
+  const Eigen::Matrix3d measured = noise.rows() == 3 ? Eigen::Matrix3d(noise) : geometry::planarPart(noise);
+  const Eigen::Matrix3d covariance = geometry::planarPart(predicted) + measured;
+  return difference.dot(covariance.ldlt().solve(difference));
 }
 
 graph::FactorRecord ScanMatchingPlugin::factor(base::VariableId reference, base::VariableId scan,

@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/mapper/RelativeUncertainty.h>
 #include <omnimapper/matching/IcpMatcher.h>
 
 #include <map>
@@ -31,7 +32,8 @@ struct ScanMatchingOptions {
   double loop_max_distance = 2.0;                                                 ///< [m]
   double loop_max_correction = 4.0;                                               ///< [m]
   double loop_max_turn_correction = 30.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double loop_loss_scale = 2.0;                                                   ///< [sigma] of the Cauchy loss
+  double loop_max_chi2 = 60;
+  double loop_loss_scale = 2.0;  ///< [sigma] of the Cauchy loss
 
   static const base::OptionTable<ScanMatchingOptions>& table();
 };
@@ -58,8 +60,10 @@ class ScanMatchingPlugin : public mapper::MeasurementPlugin {
 
   void matchSequential(const map::KeyFrame& frame, const History& history, const mapper::View& view,
                        mapper::Batch& batch) const;
-  void closeLoops(const map::KeyFrame& frame, const History& history, const mapper::View& view,
-                  mapper::Batch& batch) const;
+  void closeLoops(const map::KeyFrame& frame, const History& history, const mapper::View& view, mapper::Batch& batch);
+  /// Squared Mahalanobis distance of a match from the prediction, whose covariance is `predicted`.
+  double innovation(const matching::ScanMatch& match, const mrpt::math::TPose2D& guess,
+                    const graph::FactorRecord& closure, const Eigen::Matrix<double, 6, 6>& predicted) const;
   std::vector<std::size_t> loopCandidates(const map::KeyFrame& frame, const History& history,
                                           const mapper::View& view) const;
   matching::PlanarScan localMap(const History& history, std::size_t first, std::size_t last, std::size_t centre,
@@ -76,6 +80,7 @@ class ScanMatchingPlugin : public mapper::MeasurementPlugin {
   mapper::PluginContext context_;
   matching::IcpMatcher sequential_matcher_;
   matching::IcpMatcher loop_matcher_;
+  mapper::RelativeUncertainty uncertainty_;
   std::map<std::string, History> histories_;  // by label
 };
 
