@@ -1,5 +1,6 @@
 # cmake -D BUILD_FOLDER=... -D FOREIGN_PROJECT=... -D SCRATCH=... -D GENERATOR=... -P PackageTest.cmake
-# Installs the build, moves the installed tree, and uses it as a stranger would.
+# Installs the build, moves the installed tree, and uses it as a stranger would: links against it, starts its programs,
+# and has one of them load a plugin built outside.
 cmake_minimum_required(VERSION 3.22)
 set(stage "${SCRATCH}/stage")
 set(prefix "${SCRATCH}/moved")
@@ -28,4 +29,27 @@ file(GLOB programs "${prefix}/bin/*")
 foreach(program ${programs})
   run("${program}" --help)
 endforeach()
+
+# A map of a real log, with the foreign plugin as its only output.
+file(WRITE "${SCRATCH}/foreign.ini" "
+[mapper]
+pose_plugins     = odometry
+output_plugins   = pose_count
+plugin_libraries = ${SCRATCH}/build/libforeign-plugins.so
+[perception]
+extractors = laser_points
+[odometry]
+class = OdometryPlugin
+[laser_points]
+class = LaserPointsExtractor
+[pose_count]
+class = PoseCountOutput
+file  = count.txt
+")
+file(GLOB log "/usr/share/mrpt/datasets/*Telecom*one_loop_only.rawlog")
+run("${prefix}/bin/omnimapper-graphslam" -i "${SCRATCH}/foreign.ini" -r "${log}" -o "${SCRATCH}/out" -q)
+file(READ "${SCRATCH}/out/count.txt" count)
+if(NOT count GREATER 10)
+  message(FATAL_ERROR "the foreign plugin counted '${count}' key frames")
+endif()
 file(REMOVE_RECURSE "${SCRATCH}")

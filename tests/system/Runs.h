@@ -1,0 +1,86 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Program.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+/// Runs of omnimapper-graphslam as a user makes them.
+namespace runs {
+
+namespace fs = std::filesystem;
+using omnimapper::base::ExitCode;
+using omnimapper::testing::Ended;
+using omnimapper::testing::ProgramOptions;
+using Words = std::vector<std::string>;
+
+/// The command line that maps the logs with ini/laser2d.ini.
+inline Words mappingCommand(const Words& logs, const std::string& output_folder, const Words& more = {}) {
+  Words words{omnimapper::testing::ownProgram("omnimapper-graphslam"), "-i",
+              omnimapper::testing::sourceFile("ini/laser2d.ini")};
+  for (const auto& log : logs) words.insert(words.end(), {"-r", log});
+  words.insert(words.end(), {"-o", output_folder});
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+inline Ended map(const Words& logs, const std::string& output_folder, const Words& more = {},
+                 const ProgramOptions& options = {}) {
+  return omnimapper::testing::runProgram(mappingCommand(logs, output_folder, more), options);
+}
+
+inline Ended graphslam(const Words& arguments) {
+  Words words{omnimapper::testing::ownProgram("omnimapper-graphslam")};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return omnimapper::testing::runProgram(words);
+}
+
+inline int number(ExitCode code) {
+  return static_cast<int>(code);
+}
+
+/// Ended by itself with that code, and on standard error stand all the words.
+inline ::testing::AssertionResult endedWith(ExitCode code, const Ended& ended, const Words& words = {}) {
+  if (ended.code != number(code)) {
+    return ::testing::AssertionFailure() << "expected code " << number(code) << ", but it " << toString(ended);
+  }
+  for (const auto& word : words) {
+    if (ended.err.find(word) != std::string::npos) continue;
+    return ::testing::AssertionFailure() << "standard error lacks '" << word << "'; it " << toString(ended);
+  }
+  return ::testing::AssertionSuccess();
+}
+
+inline std::string readFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline std::string writeFile(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+  return path;
+}
+
+inline std::set<std::string> filesIn(const std::string& folder) {
+  std::set<std::string> names;
+  if (!fs::exists(folder)) return names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+  return names;
+}
+
+/// What ini/laser2d.ini leaves in the output folder.
+inline const std::set<std::string>& allOutputs() {
+  static const std::set<std::string> names{"trajectory.tum", "graph.g2o",    "grid.pgm",    "grid.yaml",
+                                           "grid.png",       "points.ply",   "map.omnimap", "map.png",
+                                           "scene.3Dscene",  "summary.json", "report.html"};
+  return names;
+}
+
+}  // namespace runs
