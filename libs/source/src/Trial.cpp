@@ -28,14 +28,12 @@ constexpr char kGoodOrder = 'e';  // the reading came to an end of a kind that t
 }
 
 void limitMemory() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   std::ifstream statm("/proc/self/statm");
   rlim_t pages = 0;
   statm >> pages;
   const rlim_t bytes = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + (rlim_t{1} << 30);
   const rlimit limit{bytes, bytes};
   ::setrlimit(RLIMIT_AS, &limit);
-#endif
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
 }
