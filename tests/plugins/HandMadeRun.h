@@ -1,0 +1,37 @@
+#pragma once
+
+#include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/mapper/View.h>
+
+#include <vector>
+
+namespace omnimapper::plugins {
+
+/// A planar map and graph that grow by hand, for measurement plugins without an engine.
+struct HandMadeRun {
+  map::Map map;
+  graph::Graph graph;
+  mapper::DecisionLog decisions;
+  mapper::StageTimes times;
+  mapper::RunCounts counts;
+  std::vector<mapper::SolveRecord> solves;
+  std::vector<std::string> warnings;
+
+  mapper::View view() const { return {map, graph, decisions, times, counts, solves, warnings}; }
+
+  /// A key frame at that estimate, one second after the one before.
+  const map::KeyFrame& addFrame(const mrpt::poses::CPose3D& map_from_base) {
+    map::KeyFrame frame;
+    const auto index = static_cast<std::uint32_t>(map.key_frames.size());
+    frame.id = {0, index};
+    frame.stamp = base::stampFromUnix(1'000'000'000 + static_cast<double>(index));
+    frame.map_from_base = map_from_base;
+    frame.pose = graph.addVariable(mapper::poseVariable(mapper::Motion::planar),
+                                   mapper::poseValue(mapper::Motion::planar, map_from_base), index == 0);
+    map.key_frames.push_back(frame);
+    return map.key_frames.back();
+  }
+};
+
+}  // namespace omnimapper::plugins
