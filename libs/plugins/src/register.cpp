@@ -5,6 +5,7 @@
 #include <omnimapper/plugins/GraphOutput.h>
 #include <omnimapper/plugins/GridOutput.h>
 #include <omnimapper/plugins/LaserPointsPlugin.h>
+#include <omnimapper/plugins/LiveWindow.h>
 #include <omnimapper/plugins/MapOutput.h>
 #include <omnimapper/plugins/NoMotionPlugin.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
@@ -31,6 +32,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(GpsPluginFactory));
   registerClass(CLASS_ID(GraphOutputFactory));
   registerClass(CLASS_ID(GridOutputFactory));
+  registerClass(CLASS_ID(LiveWindowFactory));
   registerClass(CLASS_ID(MapOutputFactory));
   registerClass(CLASS_ID(PointsOutputFactory));
   registerClass(CLASS_ID(ReportOutputFactory));
