@@ -19,7 +19,7 @@ const std::map<std::string, CarmenOdometry> kOdometryNames = {
 
 void printSummary(const source::CarmenLog& log) {
   const auto report = log.report();
-  std::cout << report.text();
+  std::cout << "lines read: " << report.objects << ", bad: " << log.badLineCount() << "\n" << report.text();
   for (const auto& bad : log.badLines()) std::cout << "line " << bad.number << " left out: it " << bad.reason << "\n";
   if (log.badLineCount() > log.badLines().size())
     std::cout << "... and " << log.badLineCount() - log.badLines().size() << " more bad lines\n";

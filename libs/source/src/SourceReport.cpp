@@ -70,8 +70,8 @@ std::string SourceReport::text() const {
   if (!message.empty()) text += message + "\n";
   if (!sensors.empty()) {
     char row[400];
-    std::snprintf(row, sizeof row, "%-20s %-40s %9s %8s %8s  %-18s %-18s\n", "label", "class", "count", "no stamp",
-                  "backward", "first stamp [s]", "last stamp [s]");
+    std::snprintf(row, sizeof row, "%-20s %-40s %9s %8s %8s  %-18s %-18s %10s\n", "label", "class", "count", "no stamp",
+                  "backward", "first stamp [s]", "last stamp [s]", "span [s]");
     text += row;
     for (const auto& [sensor, counts] : sensors) {
       std::snprintf(row, sizeof row, "%-20s %-40s %9llu %8llu %8llu  %-18s %-18s\n",
@@ -79,7 +79,7 @@ std::string SourceReport::text() const {
                     static_cast<unsigned long long>(counts.observations),
                     static_cast<unsigned long long>(counts.zero_stamps),
                     static_cast<unsigned long long>(counts.backward_stamps), stampText(counts.first_stamp).c_str(),
-                    stampText(counts.last_stamp).c_str());
+                    stampText(counts.last_stamp).c_str(), base::secondsBetween(counts.first_stamp, counts.last_stamp));
       text += row;
     }
   }

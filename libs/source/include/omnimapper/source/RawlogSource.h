@@ -9,8 +9,11 @@
 
 namespace omnimapper::source {
 
-/// Streams one rawlog, plain or gzip, in either of MRPT's formats or a mixture of both: observations one by one, or
-/// pairs of actions and sensory frames. Memory does not grow with the file.
+/// Streams one rawlog, plain, gzip or bzip2, in either of MRPT's formats or a mixture of both: observations one by one,
+/// or pairs of actions and sensory frames. Memory does not grow with the file.
+///
+/// The constructor reads the file once for its checksum. A file that has none or a wrong one is read once more in a
+/// child process, because MRPT's readers can crash on corrupt data; this source then ends before the object that does.
 ///
 /// An action becomes a CObservationRelativeMotion; SourceOptions say which span of time it is taken for. It is handed
 /// out as soon as the end of the span is known: with its action, or right before the frame that ends it. The spans
