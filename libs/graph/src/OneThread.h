@@ -12,7 +12,7 @@ class OneThread {
 
  private:
   int blas_threads_ = 0;
-  int openmp_threads_ = 0;
+  int openmp_levels_ = 0;
 };
 
 }  // namespace omnimapper::graph

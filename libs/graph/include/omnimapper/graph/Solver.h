@@ -9,7 +9,8 @@ namespace omnimapper::graph {
 
 struct SolveOptions {
   enum class Method { levenberg_marquardt, dogleg };
-  Method method = Method::levenberg_marquardt;
+  /// Dogleg takes fewer factorisations where the valley is curved; see doc/results/graph.md.
+  Method method = Method::dogleg;
   int max_iterations = 100;
   /// Converged when a step lowers the cost by less than this part of it.
   double function_tolerance = 1e-9;
