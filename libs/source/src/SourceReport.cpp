@@ -74,7 +74,7 @@ std::string SourceReport::text() const {
                   "backward", "first stamp [s]", "last stamp [s]", "span [s]");
     text += row;
     for (const auto& [sensor, counts] : sensors) {
-      std::snprintf(row, sizeof row, "%-20s %-40s %9llu %8llu %8llu  %-18s %-18s\n",
+      std::snprintf(row, sizeof row, "%-20s %-40s %9llu %8llu %8llu  %-18s %-18s %10.1f\n",
                     sensor.first.empty() ? "(none)" : sensor.first.c_str(), sensor.second.c_str(),
                     static_cast<unsigned long long>(counts.observations),
                     static_cast<unsigned long long>(counts.zero_stamps),
