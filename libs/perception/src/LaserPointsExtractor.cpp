@@ -27,6 +27,7 @@ std::vector<Point> validPoints(const mrpt::obs::CObservation2DRangeScan& scan, d
   for (std::size_t i = 0; i < beams; ++i) {
     const double range = scan.getScanRange(i);
     if (!scan.getScanRangeValidity(i) || !std::isfinite(range) || range < min_range || range > max_range) continue;
+    if (range >= scan.maxRange) continue;  // how many sensors say that nothing came back
     const double angle = first + sign * step * static_cast<double>(i);
     points.push_back({static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle))});
   }
@@ -72,9 +73,8 @@ const base::OptionTable<LaserPointsOptions>& LaserPointsOptions::table() {
 }
 
 mrpt::obs::CObservation::Ptr LaserPointsExtractor::extract(const mrpt::obs::CObservation2DRangeScan& scan) const {
-  const double max_range = std::min<double>(options_.max_range, scan.maxRange);
-  const auto points = spaced(
-      withoutIsolated(validPoints(scan, options_.min_range, max_range), options_.isolated_distance), options_.spacing);
+  const auto valid = validPoints(scan, options_.min_range, options_.max_range);
+  const auto points = spaced(withoutIsolated(valid, options_.isolated_distance), options_.spacing);
   auto cloud = mrpt::maps::CSimplePointsMap::Create();
   cloud->reserve(points.size());
   for (const auto& point : points) cloud->insertPointFast(point.x, point.y, 0);

@@ -20,7 +20,8 @@ class LaserPointsExtractor {
   explicit LaserPointsExtractor(const LaserPointsOptions& options) : options_(options) {}
 
   /// A CObservationPointCloud with the scan's stamp and sensorPose, points in the sensor frame [m], label
-  /// "<scan label>.points". Beams that are invalid, not finite or out of range give no point. Thread-safe.
+  /// "<scan label>.points". Beams that are invalid, not finite, out of range or at the sensor's own limit, where
+  /// nothing came back, give no point. Thread-safe.
   mrpt::obs::CObservation::Ptr extract(const mrpt::obs::CObservation2DRangeScan& scan) const;
 
  private:

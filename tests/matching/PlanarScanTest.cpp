@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "Scans.h"
+
+namespace omnimapper::matching {
+namespace {
+
+using Eigen::Vector2f;
+
+Vector2f pointOf(const PlanarScan& scan, std::size_t i) {
+  float x, y, z;
+  scan.points.getPointFast(i, x, y, z);
+  EXPECT_EQ(z, 0);
+  return {x, y};
+}
+
+// Points every 5 cm along x at y = 2, with noise across.
+std::vector<Vector2f> wall(int count, double sigma) {
+  testing::Dice dice(1);
+  std::vector<Vector2f> points;
+  for (int i = 0; i < count; ++i) points.emplace_back(0.05 * i, 2 + dice.normal(sigma));
+  return points;
+}
+
+TEST(PlanarScan, PointsOfAWallGetItsNormal) {
+  const auto scan = fitLines(wall(60, 0));
+  ASSERT_EQ(scan.size(), 60U);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    EXPECT_NEAR(std::abs(scan.normals[i].y()), 1, 1e-5);
+    EXPECT_NEAR(pointOf(scan, i).y(), 2, 1e-5);
+  }
+}
+
+TEST(PlanarScan, ANoisyWallBecomesThinner) {
+  const double sigma = 0.03;
+  const auto raw = wall(100, sigma);
+  const auto scan = fitLines(raw);
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    EXPECT_GT(std::abs(scan.normals[i].y()), std::cos(0.35)) << "point " << i;
+    before += std::pow(raw[i].y() - 2, 2);
+    after += std::pow(pointOf(scan, i).y() - 2, 2);
+  }
+  EXPECT_LT(std::sqrt(after), 0.6 * std::sqrt(before));
+}
+
+TEST(PlanarScan, ACleanCornerStaysSharp) {
+  std::vector<Vector2f> points;
+  for (int i = 0; i < 20; ++i) points.emplace_back(0.05 * i, 0);
+  for (int i = 1; i < 20; ++i) points.emplace_back(0.95, 0.05 * i);
+  const auto scan = fitLines(points);
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT((pointOf(scan, i) - points[i]).norm(), 0.03) << i;
+  EXPECT_NEAR(std::abs(scan.normals[10].y()), 1, 1e-3);
+  EXPECT_NEAR(std::abs(scan.normals[28].x()), 1, 1e-3);
+}
+
+TEST(PlanarScan, PointsByThemselvesHaveNoNormalAndStayWhereTheyAre) {
+  const std::vector<Vector2f> apart{{0, 0}, {3, 0}, {6, 1}, {9, -2}};
+  const auto scan = fitLines(apart);
+  ASSERT_EQ(scan.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_TRUE(scan.normals[i].isZero());
+    EXPECT_EQ(pointOf(scan, i), apart[i]);
+  }
+  EXPECT_TRUE(fitLines({}).empty());
+  EXPECT_EQ(fitLines({{1, 2}}).size(), 1U);
+}
+
+TEST(PlanarScan, AppendingMovesPointsAndTurnsNormals) {
+  const auto scan = fitLines(wall(10, 0));
+  PlanarScan both = scan;
+  append(scan, mrpt::math::TPose2D(1, -1, 3.14159265358979323846 / 2), both);
+  ASSERT_EQ(both.size(), 20U);
+  ASSERT_EQ(both.points.size(), 20U);
+  for (std::size_t i = 0; i < 10; ++i) {
+    const Vector2f p = pointOf(scan, i);
+    EXPECT_LT((pointOf(both, i) - p).norm(), 1e-6);
+    EXPECT_LT((pointOf(both, 10 + i) - Vector2f(1 - p.y(), -1 + p.x())).norm(), 1e-5);
+    EXPECT_NEAR(std::abs(both.normals[10 + i].x()), 1, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace omnimapper::matching
