@@ -23,7 +23,8 @@ void printSummary(const source::CarmenLog& log) {
   for (const auto& bad : log.badLines()) std::cout << "line " << bad.number << " left out: it " << bad.reason << "\n";
   if (log.badLineCount() > log.badLines().size())
     std::cout << "... and " << log.badLineCount() - log.badLines().size() << " more bad lines\n";
-  std::cout << "odometry: of the " << (log.odometry() == CarmenOdometry::lines ? "ODOM lines" : "scans' own lines")
+  std::cout << "odometry: of the "
+            << (log.odometry() == CarmenOdometry::lines ? "ODOM lines, and again of each scan" : "scans' own lines")
             << "; ODOM lines or repetitions left out: " << log.unusedOdometry() << "\n";
 }
 

@@ -79,9 +79,10 @@ TEST_F(CarmenLogTest, odometryOfScansComesRightBeforeThemWithTheirStamp) {
   EXPECT_EQ(log_->odometry(), CarmenOdometry::scans);
 }
 
-TEST_F(CarmenLogTest, odometryOfLinesIsTakenWhereTheClockIsGood) {
+TEST_F(CarmenLogTest, odometryOfLinesComesFirstWhereTheClockIsGood) {
   const std::string text = odom(1, "10.4") + flaser(1, "10.5") + odom(2, "10.6") + flaser(2, "10.7");
-  EXPECT_EQ(read(text), (Strings{"ODOM 10.400 1.0", "FLASER 10.500", "ODOM 10.600 2.0", "FLASER 10.700"}));
+  EXPECT_EQ(read(text), (Strings{"ODOM 10.400 1.0", "FLASER_ODOM 10.500 1.0", "FLASER 10.500", "ODOM 10.600 2.0",
+                                 "FLASER_ODOM 10.700 2.0", "FLASER 10.700"}));
   EXPECT_EQ(log_->odometry(), CarmenOdometry::lines);
   EXPECT_EQ(read(text, CarmenOdometry::scans),
             (Strings{"ODOM 10.500 1.0", "FLASER 10.500", "ODOM 10.700 2.0", "FLASER 10.700"}));

@@ -119,6 +119,7 @@ TEST(Recordings, acesHasAllItsScansWithTheStampsOfTheRelations) {
   EXPECT_EQ(log.report().ending, SourceReport::Ending::complete);
   EXPECT_EQ(log.odometry(), CarmenOdometry::lines);
   EXPECT_EQ(countOf(log.report(), "ODOM", kOdometry), 7375u);
+  EXPECT_EQ(countOf(log.report(), "FLASER_ODOM", kOdometry), 7374u);
   EXPECT_EQ(log.report().repaired_stamps, 1u) << "two ODOM lines of one stamp";
   const auto wanted = stampsIn(*relations, 2);
   EXPECT_GT(wanted.size(), 1000u);

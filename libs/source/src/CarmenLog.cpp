@@ -17,6 +17,7 @@ using mrpt::obs::CObservation;
 namespace {
 
 constexpr const char* kOdometryLabel = "ODOM";
+constexpr const char* kScanOdometrySuffix = "_ODOM";
 constexpr std::size_t kBadLinesKept = 10;
 constexpr std::uint64_t kLinesUntilFirstWord = 1000;
 
@@ -126,7 +127,7 @@ class CarmenLog::Stream {
   }
 
   void takeOdometry(const CarmenOdometryLine& line) {
-    const auto observation = odometryAt(repaired(kOdometryLabel, line.stamp), line.pose);
+    const auto observation = odometryAt(kOdometryLabel, repaired(kOdometryLabel, line.stamp), line.pose);
     observation->hasVelocities = true;
     observation->velocityLocal = {line.forward_speed, 0, line.turn_rate};
     waiting_.push_back(observation);
@@ -134,14 +135,13 @@ class CarmenLog::Stream {
 
   void takeScan(const CarmenScanLine& line) {
     const base::Stamp stamp = repaired(line.name, line.stamp);
-    if (odometry_ == CarmenOdometry::scans) {
-      auto& before = latest_[kOdometryLabel];
-      if (stamp > before) {
-        before = stamp;
-        waiting_.push_back(odometryAt(stamp, line.robot_pose));
-      } else {
-        ++unused_odometry_;
-      }
+    const std::string label = odometry_ == CarmenOdometry::scans ? kOdometryLabel : line.name + kScanOdometrySuffix;
+    auto& before = latest_[label];
+    if (stamp > before) {
+      before = stamp;
+      waiting_.push_back(odometryAt(label, stamp, line.robot_pose));
+    } else {
+      ++unused_odometry_;
     }
     waiting_.push_back(lasers_.scan(line, stamp));
   }
@@ -155,9 +155,10 @@ class CarmenLog::Stream {
     return before;
   }
 
-  static mrpt::obs::CObservationOdometry::Ptr odometryAt(base::Stamp stamp, const mrpt::math::TPose2D& pose) {
+  static mrpt::obs::CObservationOdometry::Ptr odometryAt(const std::string& label, base::Stamp stamp,
+                                                         const mrpt::math::TPose2D& pose) {
     auto observation = mrpt::obs::CObservationOdometry::Create();
-    observation->sensorLabel = kOdometryLabel;
+    observation->sensorLabel = label;
     observation->timestamp = stamp;
     observation->odometry = mrpt::poses::CPose2D(pose);
     return observation;

@@ -11,15 +11,16 @@
 namespace omnimapper::source {
 
 /// A CARMEN log holds the odometry twice: in ODOM lines with stamps of their own, and again in each scan's line, where
-/// it is the last ODOM line's, however old that is. Both have one label in MRPT, so only one of them is handed out.
+/// it is the last ODOM line's, however old that is. Each scan's odometry is handed out with the scan's stamp, right
+/// before the scan. The label ODOM, which comes first and is what a mapper takes, goes to one of the two.
 enum class CarmenOdometry {
   automatic,  ///< lines if there are some and no stamp of the log runs backwards, else scans
-  lines,      ///< ODOM lines, with their stamps: the better one if the log's clock is good
-  scans,      ///< the odometry of each scan, with the scan's stamp, right before the scan
+  lines,      ///< ODOM lines as ODOM: the better one if the log's clock is good; those of scans as <scan's label>_ODOM
+  scans,      ///< those of the scans as ODOM; ODOM lines are left out
 };
 
 /// Streams a CARMEN log (plain, gzip or bzip2) as MRPT observations: CObservation2DRangeScan for FLASER, RLASER,
-/// ROBOTLASER1 and ROBOTLASER2, labelled with these names, and CObservationOdometry labelled ODOM.
+/// ROBOTLASER1 and ROBOTLASER2, labelled with these names, and CObservationOdometry.
 ///
 /// Stamps are the log's IPC stamps, the third field from the end. The lines stand in the order of capture, the stamps
 /// need not: for each label t'_i = max(t_i, t'_(i-1) + 1 ms).
