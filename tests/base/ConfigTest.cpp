@@ -181,6 +181,14 @@ TEST(Config, DriverSectionsOfRawlogGrabberPass) {
   EXPECT_NO_THROW(config.refuseUnreadSections());
 }
 
+TEST(Config, SectionsOfPluginsThatNobodyAskedForAreSwitchedOff) {
+  const Config config = parsed("[trigger]\n[grid]\nclass = GridOutput\n[odometry]\nclass = OdometryPlugin\n");
+  config.section("trigger");
+  config.section("odometry");
+  EXPECT_NO_THROW(config.refuseUnreadSections());
+  EXPECT_EQ(config.switchedOffPlugins(), std::vector<std::string>{"grid"});
+}
+
 TEST(Config, ReadsFilesAndNamesTheOnesItCannotRead) {
   testing::ScratchFolder folder;
   writeFile(folder / "a.ini", [](std::ostream& out) { out << "[trigger]\nevery = 7\n"; });

@@ -148,14 +148,28 @@ ConfigSection Config::section(const std::string& name) const {
   return ConfigSection(*this, name);
 }
 
-void Config::refuseUnreadSections() const {
-  std::vector<std::string> sections;
+std::vector<std::string> Config::unreadSections() const {
+  std::vector<std::string> sections, unread;
   ini_.getAllSections(sections);
-  const std::vector<std::string> known(asked_.begin(), asked_.end());
   for (const auto& section : sections) {
-    if (asked_.count(section) || ini_.keyExists(section, "driver")) continue;
+    if (!asked_.count(section) && !ini_.keyExists(section, "driver")) unread.push_back(section);
+  }
+  return unread;
+}
+
+void Config::refuseUnreadSections() const {
+  const std::vector<std::string> known(asked_.begin(), asked_.end());
+  for (const auto& section : unreadSections()) {
+    if (ini_.keyExists(section, "class")) continue;
     throw Error(ExitCode::unknown_key, file_ + ": nobody reads section [" + section + "]" + suggestion(section, known));
   }
+}
+
+std::vector<std::string> Config::switchedOffPlugins() const {
+  auto sections = unreadSections();
+  const auto is_no_plugin = [&](const std::string& section) { return !ini_.keyExists(section, "class"); };
+  sections.erase(std::remove_if(sections.begin(), sections.end(), is_no_plugin), sections.end());
+  return sections;
 }
 
 bool ConfigSection::find(const std::string& key, std::string& text) const {

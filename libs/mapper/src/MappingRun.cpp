@@ -133,8 +133,6 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   auto outputs = options.output_plugins;
   outputs.insert(outputs.begin(), request.more_outputs.begin(), request.more_outputs.end());
 
-  const auto log = source::openRawlogs(request.logs, source_options);
-  base::makeWritableFolder(request.output_folder);
   PluginContext context;
   context.motion = options.motion;
   context.output_folder = request.output_folder;
@@ -143,8 +141,14 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   auto plugins =
       makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, outputs}, config, context);
   config.refuseUnreadSections();
+  const auto log = source::openRawlogs(request.logs, source_options);
+  base::makeWritableFolder(request.output_folder);
 
   Engine engine(options, trigger, solver, std::move(sensor_poses), std::move(plugins), request.threads);
+  if (const auto off = config.switchedOffPlugins(); !off.empty()) {
+    engine.warn(config.file() + ": no list of [mapper] or [perception] names the plugins " +
+                base::option_text::format(off) + ": they are switched off");
+  }
   const bool stopped = feed(*log, engine, request.speed, progress, stop);
   engine.finish();
 

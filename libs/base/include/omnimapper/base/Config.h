@@ -59,9 +59,11 @@ class Config {
   bool has(const std::string& section) const;
   /// The section, empty if the file has none of that name: all its options keep their defaults.
   ConfigSection section(const std::string& name) const;
-  /// Throws Error(unknown_key) if the file holds a section that section() was never asked for. Sections of
-  /// rawlog-grabber's form (with a "driver" key) are another program's and pass.
+  /// Throws Error(unknown_key) if the file holds a section that section() was never asked for. Two kinds pass: sections
+  /// of rawlog-grabber's form (with a "driver" key), which are another program's, and switchedOffPlugins().
   void refuseUnreadSections() const;
+  /// Sections of plugins (with a "class" key) that section() was never asked for.
+  std::vector<std::string> switchedOffPlugins() const;
 
   const std::string& file() const { return file_; }
   /// The INI as read, settings of the command line included.
@@ -69,6 +71,8 @@ class Config {
 
  private:
   friend class ConfigSection;
+  std::vector<std::string> unreadSections() const;
+
   mrpt::config::CConfigFileMemory ini_;
   std::string file_;
   mutable std::set<std::string> asked_;
