@@ -229,6 +229,7 @@ TEST(FramesSection, laterVersionsAndStrangeBytesAreRefused) {
   } catch (const base::Error& error) {
     EXPECT_NE(std::string(error.what()).find("frames"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("CObservationRobotPast"), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line: " << error.what();
   }
 }
 

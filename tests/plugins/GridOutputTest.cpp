@@ -86,6 +86,30 @@ TEST(ScanGrid, aBeamBeyondTheRangeLimitClearsButMarksNoWall) {
   EXPECT_GT(free, 100);
 }
 
+TEST(ScanGrid, aReadingAtTheSensorsLimitIsNoWall) {
+  RunRecord run;
+  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+  scan->maxRange = 2;
+  scan->aperture = 0.5f;
+  scan->resizeScan(51);
+  for (std::size_t i = 0; i < 51; ++i) {
+    scan->setScanRange(i, i < 25 ? 1.0f : 2.0f);
+    scan->setScanRangeValidity(i, true);
+  }
+  run.map.key_frames.resize(1);
+  run.map.key_frames[0].observations.push_back(scan);
+  const auto grid = plugins::buildScanGrid(run.map, {});
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(cellAt(*grid, std::cos(-0.125), std::sin(-0.125)), Cell::occupied);
+  EXPECT_EQ(cellAt(*grid, 1.5 * std::cos(0.125), 1.5 * std::sin(0.125)), Cell::free);
+  for (int row = 0; row < grid->rows; ++row) {
+    for (int column = 0; column < grid->columns; ++column) {
+      const double x = grid->min_x + column * kResolution, y = grid->min_y + row * kResolution;
+      EXPECT_FALSE(grid->at(column, row) == Cell::occupied && std::hypot(x, y) > 1.2) << x << " " << y;
+    }
+  }
+}
+
 TEST(ScanGrid, aTooLargeExtentGetsCoarserCells) {
   plugins::ScanGridOptions options;
   options.max_cells = 2000;  // 4 x 3 m in cells of 0.05 m are 4800

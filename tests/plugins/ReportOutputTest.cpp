@@ -147,7 +147,9 @@ TEST(Report, aMapWithoutScansShowsItsTrajectory) {
 
 TEST(Html, escapesMarkupAndRepairsWhatIsNoUtf8) {
   EXPECT_EQ(plugins::escapeHtml("a<b> & \"c\""), "a&lt;b&gt; &amp; &quot;c&quot;");
-  EXPECT_EQ(plugins::escapeHtml("M\xc3\xa1laga \xff\xc3("), "M\xc3\xa1laga ?" "?(");
+  EXPECT_EQ(plugins::escapeHtml("M\xc3\xa1laga \xff\xc3("),
+            "M\xc3\xa1laga ?"
+            "?(");
 }
 
 TEST(Html, base64OfKnownTexts) {

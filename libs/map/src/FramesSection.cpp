@@ -62,6 +62,15 @@ void writeObservation(ByteWriter& out, const mrpt::obs::CObservation& observatio
   throw base::Error(base::ExitCode::unreadable_input, "map file, section \"" + kName + "\": " + reason);
 }
 
+/// The sentence within an exception of MRPT, without its place in the source and the call stack.
+std::string sentenceOf(const std::exception& error) {
+  const std::string text = error.what(), label = "Message:";
+  const std::size_t found = text.find(label);
+  if (found == std::string::npos) return text;
+  const std::size_t begin = text.find_first_not_of(' ', found + label.size());
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
 mrpt::obs::CObservation::ConstPtr readObservation(ByteReader& in) {
   const std::string_view bytes = in.block();
   mrpt::serialization::CSerializable::Ptr object;
@@ -70,8 +79,7 @@ mrpt::obs::CObservation::ConstPtr readObservation(ByteReader& in) {
     memory.assignMemoryNotOwn(bytes.data(), bytes.size());
     object = mrpt::serialization::archiveFrom(memory).ReadObject();
   } catch (const std::exception& error) {
-    refuse(std::string("an observation cannot be read; load the library that has its class. MRPT says: ") +
-           error.what());
+    refuse("an observation cannot be read; load the library that has its class. MRPT says: " + sentenceOf(error));
   }
   auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
   if (!observation) refuse("holds something that is no observation where one should be");

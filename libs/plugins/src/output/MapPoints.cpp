@@ -36,7 +36,7 @@ void addCloud(const CObservationPointCloud& cloud, double max_range, std::vector
 void addScan(const mrpt::obs::CObservation2DRangeScan& scan, double max_range, std::vector<TPoint3Df>& points) {
   const BeamEnds ends(scan, mrpt::poses::CPose3D());
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (ends.valid(i) && scan.getScanRange(i) <= max_range) points.emplace_back(ends.at(i, max_range));
+    if (ends.hits(i) && scan.getScanRange(i) <= max_range) points.emplace_back(ends.at(i, max_range));
   }
 }
 

@@ -33,6 +33,8 @@ class BeamEnds {
     const float range = scan_.getScanRange(beam);
     return scan_.getScanRangeValidity(beam) && std::isfinite(range) && range > 0;
   }
+  /// Whether something was there: many sensors tell their own limit when nothing came back.
+  bool hits(std::size_t beam) const { return valid(beam) && scan_.getScanRange(beam) < scan_.maxRange; }
   /// End of the beam, cut at `max_range` [m].
   mrpt::math::TPoint3D at(std::size_t beam, double max_range) const {
     const double range = std::min<double>(scan_.getScanRange(beam), max_range);

@@ -53,13 +53,14 @@ COccupancyGridMap2D occupancyOf(const map::Map& map, const Extent& extent, doubl
                            static_cast<float>(extent.min_y), static_cast<float>(extent.max_y),
                            static_cast<float>(resolution));
   auto& how = grid.insertionOptions;
-  how.maxDistanceInsertion = static_cast<float>(max_range);
   how.maxOccupancyUpdateCertainty = kHitCertainty;
   how.maxFreenessUpdateCertainty = kPassCertainty;
   how.considerInvalidRangesAsFreeSpace = false;
   how.horizontalTolerance = static_cast<float>(kTiltTolerance);
   for (const map::KeyFrame& frame : map.key_frames) {
     forEachScan(frame, [&](const mrpt::obs::CObservation2DRangeScan& scan) {
+      // A beam as long as this clears its way and marks no wall; nothing came back at the sensor's own limit.
+      how.maxDistanceInsertion = std::min(static_cast<float>(max_range), 0.9999f * scan.maxRange);
       grid.insertObservation(scan, frame.map_from_base);
     });
   }
