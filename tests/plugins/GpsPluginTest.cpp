@@ -124,6 +124,18 @@ TEST(GpsPlugin, TheLeverArmOfTheAntennaCounts) {
   EXPECT_GT(errors[false], 0.5);
 }
 
+TEST(GpsPlugin, AMapInSpaceFindsHeightAndTiltToo) {
+  auto options = ringWithGps();
+  options.gps.enu_from_map = CPose3D(40, -25, 0, 0.7, 0.02, -0.03);
+  const testing::SimulatedLog log(options);
+  const auto engine = testing::makeEngine(kGpsIni, {"mapper.motion=spatial"});
+  testing::run(*engine, log.observations());
+  EXPECT_LT(errorOnEarth(engine->view(), log, options), 0.1);
+  const CPose3D found = -foundAlignment(engine->view());
+  EXPECT_NEAR(found.pitch(), 0.02, 0.02);
+  EXPECT_NEAR(found.roll(), -0.03, 0.02);
+}
+
 TEST(GpsPlugin, ATenthOfTheFixesFarOffBendsNothing) {
   const auto options = ringWithGps();
   const testing::SimulatedLog log(options);

@@ -1,0 +1,213 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <omnimapper/mapper/Engine.h>
+#include <omnimapper/mapper/PoseFactors.h>
+
+#include <functional>
+
+// What the engine promises to plugins, with plugins made for it: a robot that moves 1 m a second along x and a log of
+// one comment a second, each a key frame.
+namespace omnimapper::mapper {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationComment;
+using mrpt::poses::CPose3D;
+
+base::Stamp at(double seconds) {
+  return base::stampFromUnix(1'000'000'000) + base::durationFromSeconds(seconds);
+}
+
+class Steady : public PosePlugin {
+ public:
+  Taken add(const CObservation&) override { return Taken::not_mine; }
+  std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
+    const double way = base::secondsBetween(begin, end);
+    return RelativeMotion{CPose3D(way, 0, 0, 0, 0, 0), 0.01 * way * Eigen::Matrix<double, 6, 6>::Identity()};
+  }
+  std::optional<base::Stamp> coveredUntil() const override { return std::nullopt; }
+};
+
+// Does what a test tells it to.
+class Scripted : public MeasurementPlugin {
+ public:
+  bool wants(const CObservation& observation) const override {
+    return dynamic_cast<const CObservationComment*>(&observation) != nullptr;
+  }
+  Batch measure(const map::KeyFrame& frame, const CObservation&, const View& view) override {
+    return on_measure ? on_measure(frame, view) : Batch();
+  }
+  void applied(const AppliedBatch& ids) override { applied_ids.push_back(ids); }
+  Batch afterCommit(const map::KeyFrame& frame, const View& view) override {
+    return after_commit ? after_commit(frame, view) : Batch();
+  }
+
+  std::function<Batch(const map::KeyFrame&, const View&)> on_measure, after_commit;
+  std::vector<AppliedBatch> applied_ids;
+};
+
+class CountingOutput : public OutputPlugin {
+ public:
+  explicit CountingOutput(bool fails) : fails_(fails) {}
+  void update(const View&) override { ++updates; }
+  void finish(const View&) override {
+    ++finishes;
+    if (fails_) throw base::Error(base::ExitCode::disk_full, "no room");
+  }
+  int updates = 0, finishes = 0;
+
+ private:
+  bool fails_;
+};
+
+class EnginePlugins : public ::testing::Test {
+ protected:
+  EnginePlugins() {
+    options_.solve_every = 1000;
+    auto scripted = std::make_unique<Scripted>();
+    plugin_ = scripted.get();
+    set_.pose.push_back({"steady", std::make_unique<Steady>()});
+    set_.measurement.push_back({"scripted", std::move(scripted)});
+  }
+  CountingOutput* addOutput(bool fails) {
+    auto output = std::make_unique<CountingOutput>(fails);
+    auto* pointer = output.get();
+    set_.output.push_back({"output", std::move(output)});
+    return pointer;
+  }
+  Engine& run(int key_frames) {
+    TriggerOptions every;
+    every.every_observation = true;
+    engine_ = std::make_unique<Engine>(options_, every, SolverOptions(), SensorPoses(), std::move(set_), 1);
+    for (int i = 0; i < key_frames; ++i) {
+      auto comment = CObservationComment::Create();
+      comment->timestamp = at(i);
+      engine_->add(comment);
+    }
+    engine_->finish();
+    return *engine_;
+  }
+
+  EngineOptions options_;
+  PluginSet set_;
+  Scripted* plugin_;
+  std::unique_ptr<Engine> engine_;
+};
+
+graph::FactorRecord link(base::VariableId a, base::VariableId b, double way) {
+  return betweenPoses(Motion::planar, a, b,
+                      {CPose3D(way, 0, 0, 0, 0, 0), 0.01 * Eigen::Matrix<double, 6, 6>::Identity()}, "scripted");
+}
+
+TEST_F(EnginePlugins, FinalIdsReachThePluginAndItsLaterBatchesMayUseThem) {
+  plugin_->on_measure = [this](const map::KeyFrame& frame, const View& view) {
+    EXPECT_EQ(frame.id, view.map.key_frames.back().id) << "measured at the newest key frame";
+    Batch batch;
+    const auto landmark = plugin_->applied_ids.empty()
+                              ? batch.addVariable(poseVariable(Motion::planar), Eigen::Vector3d(9, 0, 0))
+                              : plugin_->applied_ids.front().variables.front();
+    batch.addFactor(link(frame.pose, landmark, 10 - static_cast<double>(frame.id.index)));
+    return batch;
+  };
+  const auto view = run(5).view();
+  ASSERT_EQ(plugin_->applied_ids.size(), 5U);
+  const auto landmark = plugin_->applied_ids.front().variables.front();
+  EXPECT_FALSE(Batch::isProvisional(landmark));
+  EXPECT_EQ(view.graph.factorsOf(landmark).size(), 5U);
+  EXPECT_NEAR(view.graph.value(landmark).x(), 10, 1e-6) << "solved at the end";
+}
+
+TEST_F(EnginePlugins, AfterCommitComesOncePerKeyFrameWhenItsFactorsAreInTheGraph) {
+  std::vector<base::KeyFrameId> committed;
+  plugin_->on_measure = [](const map::KeyFrame& frame, const View& view) {
+    Batch batch;
+    if (frame.id.index > 0) batch.addFactor(link(view.map.key_frames.front().pose, frame.pose, frame.id.index));
+    return batch;
+  };
+  plugin_->after_commit = [&](const map::KeyFrame& frame, const View& view) {
+    committed.push_back(frame.id);
+    Batch batch;
+    if (frame.id.index == 0) return batch;
+    EXPECT_EQ(view.graph.factorsOf(frame.pose).size(), 2U) << "the odometry's and its own";
+    batch.removeFactor(view.graph.factorsOf(frame.pose).back());
+    return batch;
+  };
+  const auto view = run(4).view();
+  EXPECT_EQ(committed, (std::vector<base::KeyFrameId>{{0, 0}, {0, 1}, {0, 2}, {0, 3}}));
+  EXPECT_EQ(view.graph.factors().size(), 3U) << "its own were taken out again";
+}
+
+TEST_F(EnginePlugins, SolvesEverySoManyKeyFramesAndAtTheEnd) {
+  options_.solve_every = 10;
+  const auto* output = addOutput(false);
+  const auto view = run(35).view();
+  std::vector<std::size_t> solved;
+  for (const auto& solve : view.solves) solved.push_back(solve.key_frames);
+  EXPECT_EQ(solved, (std::vector<std::size_t>{10, 20, 30, 35}));
+  EXPECT_EQ(view.counts.solves, 4U);
+  EXPECT_EQ(output->updates, 4);
+}
+
+TEST_F(EnginePlugins, AHypothesisBringsTheNextSolveForward) {
+  options_.solve_every = 10;
+  options_.solve_after_closure = 4;
+  plugin_->on_measure = [](const map::KeyFrame& frame, const View& view) {
+    Batch batch;
+    if (frame.id.index != 11) return batch;  // the twelfth
+    auto closure = link(view.map.key_frames.front().pose, frame.pose, 11);
+    closure.tags.hypothesis = true;
+    batch.addFactor(closure);
+    return batch;
+  };
+  std::vector<std::size_t> solved;
+  for (const auto& solve : run(30).view().solves) solved.push_back(solve.key_frames);
+  EXPECT_EQ(solved, (std::vector<std::size_t>{10, 14, 24, 30}));
+}
+
+TEST_F(EnginePlugins, AnOutputThatFailsKeepsNoOtherFromItsOwn) {
+  auto *first = addOutput(true), *second = addOutput(false);
+  auto& engine = run(3);
+  try {
+    engine.writeOutputs();
+    FAIL() << "the error was swallowed";
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::disk_full);
+  }
+  EXPECT_EQ(first->finishes, 1);
+  EXPECT_EQ(second->finishes, 1);
+}
+
+TEST_F(EnginePlugins, EveryPosePluginThatCoversTheSpanLinksTheKeyFrames) {
+  set_.pose.push_back({"second", std::make_unique<Steady>()});
+  const auto view = run(6).view();
+  std::map<std::string, int> links;
+  for (const auto& [id, record] : view.graph.factors()) ++links[record.tags.owner];
+  EXPECT_EQ(links, (std::map<std::string, int>{{"steady", 5}, {"second", 5}}));
+}
+
+TEST_F(EnginePlugins, AnInvalidBatchIsAnErrorThatLeavesTheGraphWhole) {
+  plugin_->on_measure = [](const map::KeyFrame& frame, const View&) {
+    Batch batch;
+    batch.addVariable(poseVariable(Motion::planar), Eigen::Vector3d::Zero());
+    if (frame.id.index == 2) batch.addFactor(link(frame.pose, {0, 999}, 1));
+    return batch;
+  };
+  EXPECT_THROW(run(5), base::Error);
+  const auto view = engine_->view();
+  EXPECT_EQ(view.graph.variables().size(), view.map.key_frames.size() + 2) << "nothing of the bad batch";
+}
+
+TEST_F(EnginePlugins, AnExtractorThatFailsIsHeardOf) {
+  class Failing : public Extractor {
+   public:
+    bool wants(const CObservation&) const override { return true; }
+    std::vector<CObservation::Ptr> extract(const CObservation&) const override {
+      throw base::Error(base::ExitCode::damaged_input, "cannot make sense of it");
+    }
+  };
+  set_.extractors.push_back({"failing", std::make_unique<Failing>()});
+  EXPECT_THROW(run(3), base::Error);
+}
+
+}  // namespace
+}  // namespace omnimapper::mapper
