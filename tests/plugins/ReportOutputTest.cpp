@@ -7,6 +7,7 @@
 #include <output/Html.h>
 #include <output/Image.h>
 
+#include <cmath>
 #include <regex>
 
 #include "BoxWorld.h"
@@ -169,6 +170,7 @@ TEST(Chart, ticksAreRoundAndCoverTheRange) {
   EXPECT_EQ(plugins::niceTicks(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
   EXPECT_EQ(plugins::niceTicks(-0.3, 0.3, 3), (std::vector<double>{-0.2, 0, 0.2}));
   EXPECT_EQ(plugins::niceTicks(7, 7, 5), std::vector<double>{7});
+  EXPECT_EQ(plugins::niceTicks(7, std::nextafter(7, 8), 5), std::vector<double>{7}) << "they differ by rounding alone";
 }
 
 TEST(Chart, thinsLongCurvesButKeepsPeaks) {

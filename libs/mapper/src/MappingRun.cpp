@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <thread>
@@ -57,6 +58,17 @@ bool feed(source::ObservationSource& log, Engine& engine, double speed, base::Pr
   }
   engine.addTime("source", reading);
   return stopped;
+}
+
+// What breaks while the log is worked on must not cost the map of what came before it.
+std::exception_ptr tried(Engine& engine, const std::function<void()>& work) {
+  try {
+    work();
+    return nullptr;
+  } catch (const std::exception& error) {
+    engine.warn(std::string("broken off: ") + error.what() + "; this is the map of what came before");
+    return std::current_exception();
+  }
 }
 
 void warnOf(const source::SourceReport& report, bool stopped, Engine& engine) {
@@ -131,7 +143,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   for (const auto& library : options.plugin_libraries) loadPluginLibrary(library);
   SensorPoses sensor_poses(options.sensors, config);
   auto outputs = options.output_plugins;
-  outputs.insert(outputs.begin(), request.more_outputs.begin(), request.more_outputs.end());
+  outputs.insert(outputs.end(), request.more_outputs.begin(), request.more_outputs.end());
 
   PluginContext context;
   context.motion = options.motion;
@@ -141,16 +153,16 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   auto plugins =
       makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, outputs}, config, context);
   config.refuseUnreadSections();
-  const auto log = source::openRawlogs(request.logs, source_options);
-  base::makeWritableFolder(request.output_folder);
-
   Engine engine(options, trigger, solver, std::move(sensor_poses), std::move(plugins), request.threads);
   if (const auto off = config.switchedOffPlugins(); !off.empty()) {
     engine.warn(config.file() + ": no list of [mapper] or [perception] names the plugins " +
                 base::option_text::format(off) + ": they are switched off");
   }
-  const bool stopped = feed(*log, engine, request.speed, progress, stop);
-  engine.finish();
+  const auto log = source::openRawlogs(request.logs, source_options);
+  base::makeWritableFolder(request.output_folder);
+  bool stopped = false;
+  const auto failure = tried(engine, [&] { stopped = feed(*log, engine, request.speed, progress, stop); });
+  const auto failure_at_end = tried(engine, [&] { engine.finish(); });
 
   const auto report = log->report();
   warnOf(report, stopped, engine);
@@ -158,9 +170,12 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   auto result = resultOf(engine.view());
   result.source = report;
   result.code = stopped ? base::ExitCode::interrupted : report.exitCode();
+  if (result.key_frames == 0 && failure) std::rethrow_exception(failure);
   if (result.key_frames == 0) failWithNothingToMap(request, config.file(), result);
   progress.report(1.0, "writing the outputs");
   engine.writeOutputs();
+  if (failure) std::rethrow_exception(failure);
+  if (failure_at_end) std::rethrow_exception(failure_at_end);
   result.wall_seconds = watch.seconds();
   return result;
 }

@@ -130,7 +130,8 @@ std::string drawSeries(const ChartSeries& series, const Axes& axes) {
 }  // namespace
 
 std::vector<double> niceTicks(double low, double high, int count) {
-  if (!(high > low)) return {low};
+  // Between numbers that differ by their rounding alone there are no round ones; nor up to infinity.
+  if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)))) return {low};
   const double rough = (high - low) / std::max(1, count), power = std::pow(10, std::floor(std::log10(rough)));
   const double mantissa = rough / power;
   const double step = power * (mantissa <= 1 ? 1 : mantissa <= 2 ? 2 : mantissa <= 5 ? 5 : 10);
