@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/plugins/GpsPlugin.h>
+#include <omnimapper/testing/HandMadeRun.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "HandMadeRun.h"
 
 namespace omnimapper::plugins {
 namespace {
@@ -160,7 +159,7 @@ TEST(GpsPlugin, BadFixesAreRefusedWithTheReason) {
   };
   for (const auto& [reason, edit] : cases) {
     GpsPlugin plugin({}, {});
-    HandMadeRun run;
+    testing::HandMadeRun run;
     const auto fix = fixes(log.observations()).front();
     edit(gga(*fix).fields);
     const auto batch = plugin.measure(run.addFrame({}), *fix, run.view());
@@ -177,7 +176,7 @@ TEST(GpsPlugin, FixesWaitUntilTheySpreadAndThenAllCount) {
   GpsOptions gps;
   gps.min_spread = 3;
   GpsPlugin plugin(gps, {});
-  HandMadeRun run;
+  testing::HandMadeRun run;
   const auto all = fixes(log.observations());
   std::size_t waiting = 0;
   for (const auto& fix : all) {
@@ -208,7 +207,7 @@ TEST(GpsPlugin, TheQualityOfAFixIsItsSigma) {
                                                           {1, 2.5F, 2.5 * options.sigma}};
   for (const auto& [quality, hdop, sigma] : cases) {
     GpsPlugin plugin(options, {});
-    HandMadeRun run;
+    testing::HandMadeRun run;
     const auto fix = fixes(testing::SimulatedLog(ringWithGps()).observations()).front();
     gga(*fix).fields.fix_quality = static_cast<std::uint8_t>(quality);
     gga(*fix).fields.HDOP = hdop;

@@ -2,11 +2,10 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/graph/Prior.h>
 #include <omnimapper/plugins/RobotPosePlugin.h>
+#include <omnimapper/testing/HandMadeRun.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <limits>
-
-#include "HandMadeRun.h"
 
 namespace omnimapper::plugins {
 namespace {
@@ -83,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Headings, RobotPoseAnywhere, ::testing::Values(0.0, 1.1
 
 TEST(RobotPosePlugin, TheTrackedBodyIsTakenBackToTheBase) {
   RobotPosePlugin plugin({}, {});
-  HandMadeRun run;
+  testing::HandMadeRun run;
   // The body sits 1 m left of the base and looks along its y. It is seen at (5, 3), looking along the map's x:
   // so the base looks along -y, its left is the map's +x, and it stands at (4, 3).
   const auto batch = plugin.measure(run.addFrame({}),
@@ -100,7 +99,7 @@ TEST(RobotPosePlugin, AReportedCovarianceIsTakenToTheBaseTooElseThatOfTheOptions
   options.position_sigma = 0.3;
   options.angle_sigma = 0.2;
   RobotPosePlugin plugin(options, {});
-  HandMadeRun run;
+  testing::HandMadeRun run;
   auto observation = measured(CPose3D(), CPose3D(2, 0, 0, 0, 0, 0));  // the body is 2 m ahead of the base
   const auto covariance = [&](const mapper::Batch& batch) { return batch.addedFactors().front().noise.covariance(); };
   const auto from_options = covariance(plugin.measure(run.addFrame({}), observation, run.view()));
@@ -117,7 +116,7 @@ TEST(RobotPosePlugin, AReportedCovarianceIsTakenToTheBaseTooElseThatOfTheOptions
 
 TEST(RobotPosePlugin, WhatIsNotFiniteIsRefusedWithTheReason) {
   RobotPosePlugin plugin({}, {});
-  HandMadeRun run;
+  testing::HandMadeRun run;
   const auto observation = measured(CPose3D(std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0, 0));
   const auto batch = plugin.measure(run.addFrame({}), observation, run.view());
   EXPECT_TRUE(batch.addedFactors().empty());

@@ -5,11 +5,10 @@
 #include <omnimapper/graph/Between.h>
 #include <omnimapper/plugins/LaserPointsPlugin.h>
 #include <omnimapper/plugins/ScanMatchingPlugin.h>
+#include <omnimapper/testing/HandMadeRun.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <algorithm>
-
-#include "HandMadeRun.h"
 
 namespace omnimapper::plugins {
 namespace {
@@ -60,7 +59,7 @@ TEST(ScanMatchingPlugin, FindsTheTrueMotionFromAWrongPrediction) {
     for (const CPose2D& wrong : {CPose2D(0, 0, 0), CPose2D(0.15, -0.1, 0), CPose2D(-0.1, 0.1, 8 * kDegree),
                                  CPose2D(0.05, 0.15, -8 * kDegree)}) {
       auto plugin = makePlugin();
-      HandMadeRun run;
+      testing::HandMadeRun run;
       plugin.measure(run.addFrame(CPose3D(a.map_from_base)), *a.cloud, run.view());
       const auto batch = plugin.measure(run.addFrame(CPose3D(b.map_from_base + wrong)), *b.cloud, run.view());
       ASSERT_EQ(batch.addedFactors().size(), 1U) << batch.decisions().front().reason;
@@ -78,7 +77,7 @@ TEST(ScanMatchingPlugin, FindsTheTrueMotionFromAWrongPrediction) {
 TEST(ScanMatchingPlugin, ScansOfTwoPlacesAreRefusedForTooLittleOverlap) {
   const auto all = sights(1);
   auto plugin = makePlugin();
-  HandMadeRun run;
+  testing::HandMadeRun run;
   const CPose3D start(all[10].map_from_base);
   plugin.measure(run.addFrame(start), *all[10].cloud, run.view());
   const auto batch = plugin.measure(run.addFrame(start), *all[200].cloud, run.view());
@@ -100,7 +99,7 @@ TEST(ScanMatchingPlugin, MatchesBeyondTheGateAreRefusedWithTheReason) {
   const auto& b = all.at(107);
   const auto reason = [&](const ScanMatchingOptions& options, const CPose2D& wrong) {
     auto plugin = makePlugin(options);
-    HandMadeRun run;
+    testing::HandMadeRun run;
     plugin.measure(run.addFrame(CPose3D(a.map_from_base)), *a.cloud, run.view());
     return plugin.measure(run.addFrame(CPose3D(b.map_from_base + wrong)), *b.cloud, run.view())
         .decisions()

@@ -6,10 +6,11 @@
 
 #include <vector>
 
-namespace omnimapper::plugins {
+namespace omnimapper::testing {
 
-/// A planar map and graph that grow by hand, for measurement plugins without an engine.
+/// A map and graph that grow by hand, for what needs a View without an engine.
 struct HandMadeRun {
+  mapper::Motion motion = mapper::Motion::planar;
   map::Map map;
   graph::Graph graph;
   mapper::DecisionLog decisions;
@@ -27,11 +28,10 @@ struct HandMadeRun {
     frame.id = {0, index};
     frame.stamp = base::stampFromUnix(1'000'000'000 + static_cast<double>(index));
     frame.map_from_base = map_from_base;
-    frame.pose = graph.addVariable(mapper::poseVariable(mapper::Motion::planar),
-                                   mapper::poseValue(mapper::Motion::planar, map_from_base), index == 0);
+    frame.pose = graph.addVariable(mapper::poseVariable(motion), mapper::poseValue(motion, map_from_base), index == 0);
     map.key_frames.push_back(frame);
     return map.key_frames.back();
   }
 };
 
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::testing
