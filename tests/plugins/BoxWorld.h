@@ -158,6 +158,20 @@ inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0
   return run;
 }
 
+/// The number that follows `label` in `text`, from `at` on; `at` moves behind it. NaN if there is none.
+inline double numberAfter(const std::string& text, const std::string& label, std::size_t& at) {
+  at = text.find(label, at);
+  if (at == std::string::npos) return NAN;
+  std::size_t length = 0;
+  const double value = std::stod(text.substr(at + label.size(), 32), &length);
+  at += label.size() + length;
+  return value;
+}
+inline double numberAfter(const std::string& text, const std::string& label) {
+  std::size_t at = 0;
+  return numberAfter(text, label, at);
+}
+
 inline std::string contentOf(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream out;

@@ -7,7 +7,6 @@
 #include <output/ScanGrid.h>
 
 #include <filesystem>
-#include <regex>
 
 #include "BoxWorld.h"
 
@@ -145,12 +144,10 @@ struct MapServerMap {
 
   explicit MapServerMap(const std::string& folder) {
     const std::string yaml = contentOf(folder + "/grid.yaml"), pgm = contentOf(folder + "/grid.pgm");
-    std::smatch match;
-    const std::string text = yaml;
-    if (std::regex_search(text, match, std::regex(R"(resolution: ([0-9.e-]+))"))) resolution = std::stod(match[1]);
-    if (std::regex_search(text, match, std::regex(R"(origin: \[([0-9.e-]+), ([0-9.e-]+), 0.0\])"))) {
-      origin_x = std::stod(match[1]), origin_y = std::stod(match[2]);
-    }
+    resolution = numberAfter(yaml, "resolution: ");
+    std::size_t at = 0;
+    origin_x = numberAfter(yaml, "origin: [", at);
+    origin_y = numberAfter(yaml, ", ", at);
     std::istringstream header(pgm);
     std::string magic;
     int levels;
