@@ -28,7 +28,7 @@ function(omnimapper_compile_options target)
 endfunction()
 
 # omnimapper_library(NAME PUBLIC <targets...> PRIVATE <targets...>)
-# Shared library omnimapper-NAME from libs/NAME/src, one folder deep,, exported as omnimapper::NAME.
+# Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME.
 function(omnimapper_library name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")

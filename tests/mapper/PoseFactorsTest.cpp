@@ -76,6 +76,17 @@ TEST(PoseFactors, WhatIsClaimedToBeExactIsGivenALeastVariance) {
   }
 }
 
+TEST(PoseFactors, WhatIsNoCovarianceCountsByItsVariances) {
+  Covariance contradiction = diagonal(0.04, 0.01);
+  contradiction(0, 1) = contradiction(1, 0) = 1;  // correlated 25 times more than fully
+  graph::Graph graph;
+  const auto a = graph.addVariable(poseVariable(Motion::planar), poseValue(Motion::planar, {}), true);
+  const auto b = graph.addVariable(poseVariable(Motion::planar), poseValue(Motion::planar, {}));
+  const auto link = graph.addFactor(betweenPoses(Motion::planar, a, b, {CPose3D(), contradiction}, "x"));
+  const Eigen::MatrixXd noise = graph.factor(link).noise.covariance();
+  EXPECT_NEAR((noise - Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal().toDenseMatrix()).norm(), 0, 1e-9);
+}
+
 TEST(PoseFactors, AtAQuarterTurnUpTheRotationStaysWhole) {
   const CPose3D pose(0, 0, 0, 0.4, geometry::kPi / 2, 0);
   graph::Graph graph;

@@ -134,6 +134,19 @@ TEST(OdometryPlugin, TimeThatStandsStillOrRunsBackwardsIsRefused) {
   EXPECT_EQ(actions.add(action(2, 1.5, CPose3D())), Taken::unusable) << "backwards";
 }
 
+TEST(OdometryPlugin, OneStampFromTheFutureIsRefusedAndALeapOfTheLogIsNot) {
+  OdometryPlugin plugin(roundNoise());
+  plugin.add(reading(0, {0, 0, 0}));
+  EXPECT_EQ(plugin.add(reading(1e8, {1, 0, 0})), Taken::unusable);
+  EXPECT_EQ(plugin.add(reading(1, {1, 0, 0})), Taken::taken) << "all later ones would have come too late";
+  EXPECT_NEAR(plugin.between(at(0), at(1))->begin_from_end.x(), 1, 1e-12);
+  // The recording paused for an hour: the first reading after it waits for the second to agree.
+  EXPECT_EQ(plugin.add(reading(3600, {2, 0, 0})), Taken::unusable);
+  EXPECT_EQ(plugin.add(reading(3600.1, {3, 0, 0})), Taken::taken);
+  EXPECT_EQ(plugin.add(reading(3600.2, {4, 0, 0})), Taken::taken);
+  EXPECT_EQ(plugin.coveredUntil(), at(3600.2));
+}
+
 TEST(OdometryPlugin, TakesItsOwnLabelOrTheFirstThatComes) {
   OdometryPlugin first(roundNoise());
   EXPECT_EQ(first.add(reading(0, {}, "left")), Taken::taken);

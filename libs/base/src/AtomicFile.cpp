@@ -82,6 +82,10 @@ void replaceFile(const std::string& path, const std::function<void(const std::st
   try {
     errno = 0;
     save(temporary);
+  } catch (const Error&) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw;
   } catch (const std::exception& error) {
     failWrite(path, temporary, error.what());
   }

@@ -11,6 +11,9 @@ namespace {
 
 // How long pose plugins keep motion before the newest key frame: sensors slower than this count as without odometry.
 constexpr double kHistorySeconds = 30;
+// Moments that wait for their perception. Not a matter of threads: what is known of the odometry when a moment is
+// worked on must not depend on them.
+constexpr std::size_t kPipelineDepth = 8;
 // How long beyond the window an observation waits for a pose source that lags behind.
 constexpr double kPatienceSeconds = 3;
 
@@ -43,7 +46,7 @@ Engine::Engine(const EngineOptions& options, const TriggerOptions& trigger, cons
       trigger_(trigger),
       queue_(base::durationFromSeconds(options.window)),
       pool_(pointers(plugins_.extractors), threads),
-      pipeline_depth_(plugins_.extractors.empty() ? 0 : 4 * static_cast<std::size_t>(threads)),
+      pipeline_depth_(plugins_.extractors.empty() ? 0 : kPipelineDepth),
       graph_(0),
       reference_sensor_(options.reference_sensor) {
   if (plugins_.pose.empty() || plugins_.measurement.empty()) {
@@ -235,12 +238,18 @@ void Engine::measure(map::KeyFrame& frame) {
 }
 
 void Engine::hang(base::Stamp stamp) {
-  if (map_.key_frames.empty()) return;
+  if (map_.key_frames.empty()) {
+    ++counts_.unconnected;
+    return;
+  }
   map::KeyFrame& frame = map_.key_frames.back();
   const bool first = frame.hanging.empty();
   const base::Stamp begin = first ? frame.stamp : frame.hanging.back().stamp;
   const auto told = motionBetween(begin, stamp, true);
-  if (told.empty()) return;
+  if (told.empty()) {
+    ++counts_.unconnected;
+    return;
+  }
   const auto& start = first ? mrpt::poses::CPose3D() : frame.hanging.back().keyframe_from_base;
   frame.hanging.push_back({stamp, start + told.front().second.begin_from_end});
 }

@@ -45,14 +45,14 @@ bool feed(source::ObservationSource& log, Engine& engine, double speed, base::Pr
           const std::function<bool()>& stop) {
   Pace pace(speed);
   double reading = 0;
-  bool stopped = false;
-  for (;;) {
-    if ((stopped = stop())) break;
+  bool stopped = stop();
+  while (!stopped) {
     const StopWatch watch;
     const auto observation = log.next();
     reading += watch.seconds();
     if (!observation) break;
     pace.waitFor(observation->timestamp, stop);
+    if ((stopped = stop())) break;
     engine.add(observation);
     progress.report(log.progress(), std::to_string(engine.view().map.key_frames.size()) + " key frames");
   }
@@ -98,11 +98,12 @@ void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
   std::string logs;
   for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
   const bool is_whole = result.code == base::ExitCode::ok;
-  throw base::Error(is_whole ? base::ExitCode::nothing_to_map : result.code,
-                    logs + ": nothing to map: no observation that a measurement plugin of " + ini +
-                        " wants; see its [source], [perception] extractors and [mapper] measurement_plugins. Nothing "
-                        "was written. What was read:\n" +
-                        result.source.text());
+  const std::string how = result.code == base::ExitCode::interrupted ? "interrupted before the first" : "no";
+  throw base::Error(
+      is_whole ? base::ExitCode::nothing_to_map : result.code,
+      logs + ": nothing to map: " + how + " observation that a measurement plugin of " + ini + " wants" +
+          (is_whole ? " (see its [source], [perception] extractors and [mapper] measurement_plugins)" : "") +
+          "; nothing was written. What was read:\n" + result.source.text());
 }
 
 RunResult resultOf(const View& view) {

@@ -5,6 +5,8 @@
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/PoseFactors.h>
 
+#include <Eigen/Cholesky>
+
 namespace omnimapper::mapper {
 
 namespace {
@@ -16,6 +18,10 @@ Matrix6d withFloor(Matrix6d covariance) {
   for (int i = 0; i < 6; ++i) {
     const double floor = i < 3 ? kPosition * kPosition : kAngle * kAngle;
     if (covariance(i, i) < floor) covariance(i, i) = floor;
+  }
+  // What a sensor reports need not be a covariance: the variances alone always are.
+  if (Eigen::LLT<Matrix6d>(covariance).info() != Eigen::Success) {
+    return covariance.diagonal().asDiagonal();
   }
   return covariance;
 }

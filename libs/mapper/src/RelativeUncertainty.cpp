@@ -1,3 +1,4 @@
+#include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/mapper/RelativeUncertainty.h>
@@ -35,15 +36,21 @@ Matrix6d ofStep(const graph::Graph& graph, const map::KeyFrame& from, const map:
 
 }  // namespace
 
-void RelativeUncertainty::update(const View& view) {
-  if (marginals_ && solves_ == view.counts.solves) return;
-  marginals_.emplace(view.graph);
+bool RelativeUncertainty::update(const View& view) {
+  if (marginals_ && solves_ == view.counts.solves) return true;
+  try {
+    marginals_.emplace(view.graph);
+  } catch (const base::Error&) {
+    marginals_.reset();
+    return false;
+  }
   solves_ = view.counts.solves;
   covered_ = view.map.key_frames.size();
+  return true;
 }
 
-Matrix6d RelativeUncertainty::between(const View& view, base::KeyFrameId from, base::KeyFrameId to) {
-  update(view);
+std::optional<Matrix6d> RelativeUncertainty::between(const View& view, base::KeyFrameId from, base::KeyFrameId to) {
+  if (!update(view)) return std::nullopt;
   const auto& frames = view.map.key_frames;
   const auto indexOf = [&](base::KeyFrameId id) {
     return static_cast<std::size_t>(&view.map.keyFrame(id) - frames.data());

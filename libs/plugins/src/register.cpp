@@ -1,6 +1,7 @@
 #include <mrpt/core/initializer.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/obs/registerClasses.h>
+#include <omnimapper/plugins/AntennaFactor.h>
 #include <omnimapper/plugins/GpsPlugin.h>
 #include <omnimapper/plugins/GraphOutput.h>
 #include <omnimapper/plugins/GridOutput.h>
@@ -39,6 +40,12 @@ void registerPlugins() {
   registerClass(CLASS_ID(SceneOutputFactory));
   registerClass(CLASS_ID(SummaryOutputFactory));
   registerClass(CLASS_ID(TrajectoryOutputFactory));
+}
+
+graph::FactorRegistry factorRegistry() {
+  auto registry = graph::FactorRegistry::withBuiltIns();
+  AntennaFactor::addTo(registry);
+  return registry;
 }
 
 }  // namespace omnimapper::plugins

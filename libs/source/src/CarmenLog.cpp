@@ -137,7 +137,9 @@ class CarmenLog::Stream {
     const base::Stamp stamp = repaired(line.name, line.stamp);
     const std::string label = odometry_ == CarmenOdometry::scans ? kOdometryLabel : line.name + kScanOdometrySuffix;
     auto& before = latest_[label];
-    if (stamp > before) {
+    // ODOM comes first, also in a log that begins with a scan: a mapper takes the first odometry it meets.
+    const bool too_early = label != kOdometryLabel && latest_.count(kOdometryLabel) == 0;
+    if (stamp > before && !too_early) {
       before = stamp;
       waiting_.push_back(odometryAt(label, stamp, line.robot_pose));
     } else {

@@ -159,10 +159,14 @@ void ScanMatchingPlugin::closeLoops(const map::KeyFrame& frame, const History& h
     decision.to = place.id;
     auto closure = factor(place.pose, frame.pose, match);
     if (decision.accepted) {
-      const double chi2 = innovation(match, guess, closure, uncertainty_.between(view, place.id, frame.id));
-      decision.numbers.emplace_back("chi-square", chi2);
-      decision.accepted = chi2 <= options_.loop_max_chi2;
-      if (!decision.accepted) decision.reason = "contradicts the trajectory (chi-square)";
+      const auto predicted = uncertainty_.between(view, place.id, frame.id);
+      const double chi2 = predicted ? innovation(match, guess, closure, *predicted) : 0;
+      decision.accepted = predicted && chi2 <= options_.loop_max_chi2;
+      if (predicted) decision.numbers.emplace_back("chi-square", chi2);
+      if (!decision.accepted) {
+        decision.reason = predicted ? "contradicts the trajectory (chi-square)"
+                                    : "the trajectory is not determined well enough to judge";
+      }
     }
     if (decision.accepted) {
       closure.loss = graph::Loss::cauchy(options_.loop_loss_scale);

@@ -64,10 +64,24 @@ OdometryPlugin::Taken OdometryPlugin::addMotion(const obs::CObservationRelativeM
   return fits ? Taken::taken : Taken::unusable;
 }
 
+// One stamp gone wrong must not make all that follow it too old: a leap counts once the next reading confirms it.
+bool OdometryPlugin::isUnconfirmedLeap(base::Stamp stamp) {
+  constexpr double kLeapSeconds = 60;
+  const auto leaps = [&](base::Stamp from) { return base::secondsBetween(from, stamp) > kLeapSeconds; };
+  if (!leaps(last_->first)) {
+    leap_.reset();
+    return false;
+  }
+  const bool confirmed = leap_ && stamp > *leap_ && !leaps(*leap_);
+  leap_ = stamp;
+  return !confirmed;
+}
+
 OdometryPlugin::Taken OdometryPlugin::addPose(const mrpt::obs::CObservationOdometry& odometry) {
   const auto& pose = odometry.odometry;
   if (!std::isfinite(pose.x()) || !std::isfinite(pose.y()) || !std::isfinite(pose.phi())) return Taken::unusable;
   if (last_ && odometry.timestamp <= last_->first) return Taken::unusable;
+  if (last_ && isUnconfirmedLeap(odometry.timestamp)) return Taken::unusable;
   const mrpt::poses::CPose3D odom_from_base(pose);
   if (last_) {
     const mrpt::poses::CPose3D motion = odom_from_base - last_->second;

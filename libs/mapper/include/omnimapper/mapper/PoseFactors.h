@@ -21,7 +21,7 @@ Eigen::VectorXd poseValue(Motion motion, const mrpt::poses::CPose3D& map_from_ba
 mrpt::poses::CPose3D poseOf(const graph::Graph& graph, base::VariableId id);
 
 /// Factor for a measured motion from pose `begin` to pose `end`. Variances below (0.1 mm)^2 and (0.001 deg)^2 are
-/// raised to that: nothing is known exactly.
+/// raised to that: nothing is known exactly. Of a matrix that is no covariance the diagonal alone is taken.
 graph::FactorRecord betweenPoses(Motion motion, base::VariableId begin, base::VariableId end,
                                  const RelativeMotion& measured, const std::string& owner);
 /// Factor for a measured pose in the map; covariance in the tangent at the pose.

@@ -13,11 +13,12 @@ namespace omnimapper::mapper {
 class RelativeUncertainty {
  public:
   /// Covariance of inverse(map_from_base of `from`) * map_from_base of `to`: tangent at `to`, x y z [m], rotation
-  /// vector [rad]; zeros outside x, y, yaw in a planar map. `from` must be older than `to`.
-  Eigen::Matrix<double, 6, 6> between(const View& view, base::KeyFrameId from, base::KeyFrameId to);
+  /// vector [rad]; zeros outside x, y, yaw in a planar map. `from` must be older than `to`. None while a direction of
+  /// some variable is determined by nothing.
+  std::optional<Eigen::Matrix<double, 6, 6>> between(const View& view, base::KeyFrameId from, base::KeyFrameId to);
 
  private:
-  void update(const View& view);
+  bool update(const View& view);
 
   std::optional<graph::Marginals> marginals_;
   std::size_t solves_ = 0;   // of the engine, when they were made

@@ -38,12 +38,14 @@ class OdometryPlugin : public mapper::PosePlugin {
  private:
   Taken addMotion(const obs::CObservationRelativeMotion& motion);
   Taken addPose(const mrpt::obs::CObservationOdometry& odometry);
+  bool isUnconfirmedLeap(base::Stamp stamp);
   bool isOurs(const mrpt::obs::CObservation& observation);
   Eigen::Matrix<double, 6, 6> covarianceOf(const mrpt::poses::CPose3D& motion, double seconds) const;
 
   OdometryOptions options_;
   std::optional<std::string> label_;                                  // of the first that came
   std::optional<std::pair<base::Stamp, mrpt::poses::CPose3D>> last_;  // odom_from_base
+  std::optional<base::Stamp> leap_;                                   // of a reading far ahead of all before it
   mapper::PoseTimeline timeline_;
 };
 
