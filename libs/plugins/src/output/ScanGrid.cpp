@@ -48,6 +48,15 @@ Extent extentOf(const map::Map& map, double max_range) {
   return extent;
 }
 
+// MRPT's grid follows whatever a scan calls valid, even to where there are no cells: what is no distance is not valid.
+mrpt::obs::CObservation2DRangeScan withoutOddRanges(mrpt::obs::CObservation2DRangeScan scan) {
+  for (std::size_t i = 0; i < scan.getScanSize(); ++i) {
+    const float range = scan.getScanRange(i);
+    if (!std::isfinite(range) || range <= 0) scan.setScanRangeValidity(i, false);
+  }
+  return scan;
+}
+
 COccupancyGridMap2D occupancyOf(const map::Map& map, const Extent& extent, double resolution, double max_range) {
   COccupancyGridMap2D grid(static_cast<float>(extent.min_x), static_cast<float>(extent.max_x),
                            static_cast<float>(extent.min_y), static_cast<float>(extent.max_y),
@@ -61,7 +70,7 @@ COccupancyGridMap2D occupancyOf(const map::Map& map, const Extent& extent, doubl
     forEachScan(frame, [&](const mrpt::obs::CObservation2DRangeScan& scan) {
       // A beam as long as this clears its way and marks no wall; nothing came back at the sensor's own limit.
       how.maxDistanceInsertion = std::min(static_cast<float>(max_range), 0.9999f * scan.maxRange);
-      grid.insertObservation(scan, frame.map_from_base);
+      grid.insertObservation(withoutOddRanges(scan), frame.map_from_base);
     });
   }
   return grid;
