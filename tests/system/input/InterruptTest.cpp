@@ -1,0 +1,63 @@
+// Ctrl-C and SIGTERM: the map so far is saved.
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+#include "../MapFolder.h"
+
+namespace {
+
+using namespace runs;
+using omnimapper::testing::Program;
+using omnimapper::testing::ScratchFolder;
+using omnimapper::testing::SimulatedLogOptions;
+
+class Interrupt : public ::testing::TestWithParam<int> {
+ protected:
+  Interrupt() {
+    SimulatedLogOptions options;
+    options.place = SimulatedLogOptions::Place::box;
+    log_ = std::make_unique<SimulatedLog>(options);
+    log_->writeRawlog(log_path_);
+  }
+  /// The program replaying the log at that pace, once it has come to reading it.
+  std::unique_ptr<Program> started(const std::string& speed) {
+    auto program = std::make_unique<Program>(mappingCommand({log_path_}, folder_, {"--speed", speed}));
+    while (!fs::exists(folder_) && program->isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return program;
+  }
+
+  ScratchFolder scratch_;
+  std::unique_ptr<SimulatedLog> log_;
+  std::string log_path_ = scratch_ / "box.rawlog", folder_ = scratch_ / "map";
+};
+
+TEST_P(Interrupt, WhileReplayingSavesTheMapSoFar) {
+  const auto program = started("4");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  program->send(GetParam());
+  const auto ended = program->wait();
+  EXPECT_TRUE(endedWith(ExitCode::interrupted, ended, {"interrupted"}));
+  EXPECT_LT(ended.seconds, 30);
+  EXPECT_EQ(filesIn(folder_), allOutputs());
+  EXPECT_GT(loadMap(folder_).map.key_frames.size(), 2U);
+  const auto found = stampsOf(loadTrajectory(folder_)), scans = scanStamps(*log_);
+  ASSERT_GT(found.size(), 20U);
+  EXPECT_LT(found.size(), scans.size());
+  EXPECT_TRUE(std::equal(found.begin(), found.end(), scans.begin())) << "all scans up to then";
+}
+
+TEST_P(Interrupt, WhileWaitingForAPauseOfTheLogEndsAtOnce) {
+  const auto program = started("0.001");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const auto start = std::chrono::steady_clock::now();
+  program->send(GetParam());
+  EXPECT_TRUE(endedWith(ExitCode::interrupted, program->wait(), {"nothing to map"})) << "no scan had come yet";
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM),
+                         [](const auto& signal) { return signal.param == SIGINT ? "CtrlC" : "Terminate"; });
+
+}  // namespace
