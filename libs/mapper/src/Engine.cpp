@@ -99,6 +99,12 @@ bool Engine::accepts(const mrpt::obs::CObservation& observation) {
     return false;
   }
   last->second = observation.timestamp;
+  mrpt::poses::CPose3D base_from_sensor;
+  observation.getSensorPose(base_from_sensor);
+  if (!base_from_sensor.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite()) {
+    ++counts_.unusable;
+    return false;
+  }
   return true;
 }
 

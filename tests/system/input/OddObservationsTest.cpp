@@ -88,6 +88,14 @@ TEST_F(OddObservations, OdometryThatIsNoNumberIsLeftOutAndCounted) {
   EXPECT_EQ(counts_["unusable"], 3);
 }
 
+TEST_F(OddObservations, SensorPosesThatAreNoNumbersAreLeftOutAndCounted) {
+  scan(10).sensorPose.x(kNaN);
+  scan(60).sensorPose.z(kInfinity);
+  stamps_.erase(stamps_.begin() + 60);
+  stamps_.erase(stamps_.begin() + 10);
+  expectMap(stamps_, {"warning: 2 observations"});
+}
+
 TEST_F(OddObservations, ObservationsWithoutStampAreLeftOutAndCounted) {
   for (const std::size_t i : {10, 11, 70}) scan(i).timestamp = omnimapper::base::Stamp();
   odometry(30).timestamp = omnimapper::base::Stamp();

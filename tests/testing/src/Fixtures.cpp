@@ -25,7 +25,9 @@ ScratchFolder::~ScratchFolder() {
   fs::remove_all(path_, ignored);
 }
 
-std::string sourceFile(const std::string& relative) { return std::string(OMNIMAPPER_SOURCE_DIR) + "/" + relative; }
+std::string sourceFile(const std::string& relative) {
+  return std::string(OMNIMAPPER_SOURCE_DIR) + "/" + relative;
+}
 
 std::optional<std::string> sharedData(const std::string& relative) {
   const char* folder = std::getenv("OMNIMAPPER_DATA");

@@ -20,8 +20,8 @@ struct RunCounts {
   std::size_t no_stamp = 0;        ///< refused: zero stamp
   std::size_t repeated_stamp = 0;  ///< refused: the same sensor and stamp a second time
   std::size_t too_late = 0;        ///< refused: older than what was already released
-  std::size_t unusable = 0;        ///< refused by the pose plugin they are for: not finite, or time runs backwards
-  std::size_t unconnected = 0;     ///< refused: no pose plugin tells the motion since the key frame before
+  std::size_t unusable = 0;  ///< refused: odometry not finite or backwards in time, or a sensor pose that is not finite
+  std::size_t unconnected = 0;  ///< refused: no pose plugin tells the motion since the key frame before
   std::size_t solves = 0;
 };
 
