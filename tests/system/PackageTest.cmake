@@ -34,6 +34,7 @@ endforeach()
 file(WRITE "${SCRATCH}/foreign.ini" "
 [mapper]
 pose_plugins     = odometry
+measurement_plugins = scan_matching
 output_plugins   = pose_count
 plugin_libraries = ${SCRATCH}/build/libforeign-plugins.so
 [perception]
@@ -42,6 +43,8 @@ extractors = laser_points
 class = OdometryPlugin
 [laser_points]
 class = LaserPointsExtractor
+[scan_matching]
+class = ScanMatchingPlugin
 [pose_count]
 class = PoseCountOutput
 file  = count.txt
