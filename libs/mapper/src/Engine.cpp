@@ -92,8 +92,8 @@ bool Engine::accepts(const mrpt::obs::CObservation& observation) {
     ++counts_.no_stamp;
     return false;
   }
-  const auto key = std::make_pair(observation.sensorLabel, std::string(observation.GetRuntimeClass()->className));
-  const auto [last, first] = last_stamps_.try_emplace(key, observation.timestamp);
+  const auto [last, first] =
+      last_stamps_[observation.GetRuntimeClass()].try_emplace(observation.sensorLabel, observation.timestamp);
   if ((!first && last->second == observation.timestamp) || queue_.holds(observation)) {
     ++counts_.repeated_stamp;
     return false;
@@ -101,7 +101,7 @@ bool Engine::accepts(const mrpt::obs::CObservation& observation) {
   last->second = observation.timestamp;
   mrpt::poses::CPose3D base_from_sensor;
   observation.getSensorPose(base_from_sensor);
-  if (!base_from_sensor.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite()) {
+  if (!base_from_sensor.m_coords.asEigen().allFinite() || !base_from_sensor.getRotationMatrix().asEigen().allFinite()) {
     ++counts_.unusable;
     return false;
   }

@@ -93,7 +93,7 @@ class Engine {
   std::vector<SolveRecord> solves_;
   std::vector<std::string> warnings_;
   std::string reference_sensor_;
-  std::map<std::pair<std::string, std::string>, base::Stamp> last_stamps_;  // by label and class
+  std::map<const mrpt::rtti::TRuntimeClassId*, std::map<std::string, base::Stamp>> last_stamps_;  // by class and label
   BusyTimes busy_;
   std::size_t key_frames_at_solve_ = 0;
   bool closed_since_solve_ = false;
