@@ -34,7 +34,7 @@ class IniMistakes : public ::testing::Test {
 };
 
 TEST_F(IniMistakes, MisspeltKeysAreRefusedWithTheNearest) {
-  expectRefused(laser2dAnd("[trigger]\ndistanse_m = 1\n"), ExitCode::unknown_key,
+  expectRefused(laser2d("distance_m = 0.6", "distanse_m = 1"), ExitCode::unknown_key,
                 {"[trigger]", "'distanse_m'", "did you mean 'distance_m'"});
   expectRefused(laser2d("class = OdometryPlugin", "class = OdometryPlugin\nlable = wheels"), ExitCode::unknown_key,
                 {"[odometry]", "'lable'", "'label'"});
@@ -56,16 +56,16 @@ TEST_F(IniMistakes, WhatStandsTwiceOrOutsideOfASectionIsRefusedWithItsLine) {
 }
 
 TEST_F(IniMistakes, WrongTypesAreRefusedWithWhatIsExpected) {
-  expectRefused(laser2dAnd("[trigger]\ndistance_m = far\n"), ExitCode::wrong_type,
+  expectRefused(laser2d("distance_m = 0.6", "distance_m = far"), ExitCode::wrong_type,
                 {"[trigger] distance_m", "'far'", "a number", "default"});
-  expectRefused(laser2dAnd("[trigger]\nevery_observation = perhaps\n"), ExitCode::wrong_type,
+  expectRefused(laser2d("distance_m = 0.6", "every_observation = perhaps"), ExitCode::wrong_type,
                 {"every_observation", "'perhaps'", "true or false"});
   expectRefused(laser2d("= planar", "= flying"), ExitCode::wrong_type, {"[mapper] motion", "'flying'", "planar"});
-  expectRefused(laser2dAnd("[trigger]\ndistance_m = nan\n"), ExitCode::wrong_type, {"'nan'", "a number"});
+  expectRefused(laser2d("distance_m = 0.6", "distance_m = nan"), ExitCode::wrong_type, {"'nan'", "a number"});
 }
 
 TEST_F(IniMistakes, ValuesOutOfRangeAreRefusedWithTheRange) {
-  expectRefused(laser2dAnd("[trigger]\ndistance_m = -1\n"), ExitCode::out_of_range,
+  expectRefused(laser2d("distance_m = 0.6", "distance_m = -1"), ExitCode::out_of_range,
                 {"[trigger] distance_m", "'-1'", "must be", "default"});
   expectRefused(laser2d("class = ScanMatchingPlugin", "class = ScanMatchingPlugin\nmin_overlap = 1.5"),
                 ExitCode::out_of_range, {"[scan_matching] min_overlap", "'1.5'", "[0, 1]"});
