@@ -49,7 +49,7 @@ TEST(EngineSimulated, TwoLapsOfTheRingCloseAndLieOnTheTruth) {
   const double error = trajectoryError(engine->view(), log);
   RecordProperty("trajectory_error_m", std::to_string(error));
   RecordProperty("odometry_error_m", std::to_string(odometryError(log)));
-  EXPECT_LT(error, 0.12);
+  EXPECT_LT(error, 0.06);
   EXPECT_GT(odometryError(log), 0.8) << "else the test shows nothing";
   EXPECT_GT(closures(engine->view(), true), 20U);
 }
