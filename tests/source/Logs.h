@@ -118,6 +118,31 @@ inline std::string readFile(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// Observations from memory: those given, or odometry at those times.
+class ListSource : public ObservationSource {
+ public:
+  explicit ListSource(Observations list) : list_(std::move(list)) { report_.ending = SourceReport::Ending::complete; }
+  ListSource(const std::string& label, const std::vector<double>& seconds) {
+    for (const double s : seconds) list_.push_back(odometry(s, 0, label));
+    report_.ending = SourceReport::Ending::complete;
+  }
+  CObservation::Ptr next() override {
+    if (next_ == list_.size()) return nullptr;
+    const auto& observation = list_[next_++];
+    report_.count(observation->sensorLabel, "odometry", observation->timestamp);
+    return observation;
+  }
+  double progress() const override {
+    return list_.empty() ? 1.0 : static_cast<double>(next_) / static_cast<double>(list_.size());
+  }
+  SourceReport report() const override { return report_; }
+  SourceReport report_;
+
+ private:
+  Observations list_;
+  std::size_t next_ = 0;
+};
+
 inline Observations readAll(ObservationSource& source) {
   Observations observations;
   double progress = 0;

@@ -11,29 +11,6 @@ namespace {
 using namespace logs;
 using Strings = std::vector<std::string>;
 
-class ListSource : public ObservationSource {
- public:
-  ListSource(const std::string& label, const std::vector<double>& seconds) {
-    for (const double s : seconds) list_.push_back(odometry(s, 0, label));
-    report_.ending = SourceReport::Ending::complete;
-  }
-  CObservation::Ptr next() override {
-    if (next_ == list_.size()) return nullptr;
-    const auto& observation = list_[next_++];
-    report_.count(observation->sensorLabel, "odometry", observation->timestamp);
-    return observation;
-  }
-  double progress() const override {
-    return list_.empty() ? 1.0 : static_cast<double>(next_) / static_cast<double>(list_.size());
-  }
-  SourceReport report() const override { return report_; }
-  SourceReport report_;
-
- private:
-  Observations list_;
-  std::size_t next_ = 0;
-};
-
 MergedSource merged(const std::vector<std::pair<std::string, std::vector<double>>>& inputs) {
   std::vector<std::unique_ptr<ObservationSource>> sources;
   for (const auto& [label, seconds] : inputs) sources.push_back(std::make_unique<ListSource>(label, seconds));
@@ -96,6 +73,16 @@ TEST(MergedSource, reportIsTheSumAndTheWorstEnding) {
   EXPECT_EQ(report.message, "b is corrupt.");
   EXPECT_EQ(report.sensors.size(), 2u);
   EXPECT_EQ(report.observations(), 3u);
+}
+
+TEST(MergedSource, readsNothingBeforeItIsAsked) {
+  auto list = std::make_unique<ListSource>("a", std::vector<double>{1, 2});
+  const auto& report = list->report_;
+  std::vector<std::unique_ptr<ObservationSource>> sources;
+  sources.push_back(std::move(list));
+  MergedSource source(std::move(sources));
+  EXPECT_EQ(report.observations(), 0u);
+  EXPECT_NE(source.next(), nullptr);
 }
 
 TEST(MergedSource, noSourceIsAnEmptyStream) {

@@ -121,6 +121,43 @@ TEST_F(RawlogSourceTest, severalGzipMembersAreOneLog) {
   EXPECT_EQ(source.report().ending, Ending::complete);
 }
 
+TEST_F(RawlogSourceTest, openingTellsHowFarItIsAndCanBeStopped) {
+  Bytes bytes;
+  for (int i = 1; i <= 3000; ++i) bytes << scan(i);
+  writeGzip(path_, bytes.string());
+  const std::string other = writeGzip(folder_ / "y.rawlog", bytes.string());
+  std::vector<double> parts;
+  openRawlogs({path_, other}, {}, [&](double part) { return parts.push_back(part), false; });
+  EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+  EXPECT_GT(parts.size(), 4U);
+  EXPECT_GT(parts.back(), 0.5);
+  EXPECT_LE(parts.back(), 1);
+  for (std::size_t asked_before : {std::size_t{0}, parts.size() / 2}) {
+    try {
+      openRawlogs({path_, other}, {}, [&](double) { return asked_before-- == 0; });
+      ADD_FAILURE() << "it was not stopped";
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::interrupted);
+    }
+  }
+}
+
+// More objects than a child process can tell of without somebody who listens.
+TEST_F(RawlogSourceTest, aLogWithoutChecksumIsReadWhileItIsTriedAndCanBeLeftAtAnyMoment) {
+  Bytes bytes;
+  for (int i = 1; i <= 100000; ++i) bytes << scan(1);
+  writePlain(path_, bytes.string());
+  for (int taken : {0, 1, 1000}) {
+    RawlogSource source(path_);
+    for (int i = 0; i < taken; ++i) EXPECT_NE(source.next(), nullptr);
+  }
+  RawlogSource source(path_);
+  EXPECT_NE(source.next(), nullptr);
+  source.interrupt();
+  EXPECT_EQ(source.next(), nullptr);
+  EXPECT_EQ(source.report().ending, SourceReport::Ending::open);
+}
+
 TEST_F(RawlogSourceTest, openRawlogsMergesByStampAndCountsTimeFromTheEarliestLog) {
   writeGzip(path_, (Bytes() << odometry(10) << odometry(11) << odometry(12)).string());
   const auto other = writeGzip(folder_ / "y.rawlog", (Bytes() << scan(9) << scan(10.5) << scan(11.5)).string());

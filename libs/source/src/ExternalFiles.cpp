@@ -1,16 +1,14 @@
 #include "ExternalFiles.h"
 
-#include <mrpt/img/CImage.h>
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
-#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <mrpt/obs/CObservationRGBD360.h>
-#include <mrpt/obs/CObservationStereoImages.h>
 
 #include <filesystem>
 #include <mutex>
 #include <vector>
+
+#include "Payload.h"
 
 namespace omnimapper::source {
 
@@ -33,18 +31,6 @@ class FolderForProcess {
 // MRPT takes the first characters of a name without looking how many there are.
 std::string inFolder(const std::string& file) {
   return file.size() > 2 ? mrpt::io::lazy_load_absolute_path(file) : file;
-}
-
-std::vector<const mrpt::img::CImage*> imagesOf(const CObservation& observation) {
-  if (const auto* image = dynamic_cast<const CObservationImage*>(&observation)) return {&image->image};
-  if (const auto* stereo = dynamic_cast<const CObservationStereoImages*>(&observation))
-    return {&stereo->imageLeft, &stereo->imageRight, &stereo->imageDisparity};
-  if (const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation))
-    return {&scan->intensityImage, &scan->confidenceImage};
-  std::vector<const mrpt::img::CImage*> images;
-  if (const auto* ring = dynamic_cast<const CObservationRGBD360*>(&observation))
-    for (const auto& image : ring->intensityImages) images.push_back(&image);
-  return images;
 }
 
 std::vector<std::string> externalFilesOf(const CObservation& observation) {

@@ -5,10 +5,7 @@
 namespace omnimapper::source {
 
 MergedSource::MergedSource(std::vector<std::unique_ptr<ObservationSource>> sources) {
-  for (auto& source : sources) {
-    inputs_.push_back({std::move(source), nullptr, base::Stamp()});
-    advance(inputs_.back());
-  }
+  for (auto& source : sources) inputs_.push_back({std::move(source), nullptr, base::Stamp()});
 }
 
 void MergedSource::advance(Input& input) {
@@ -17,6 +14,10 @@ void MergedSource::advance(Input& input) {
 }
 
 mrpt::obs::CObservation::Ptr MergedSource::next() {
+  if (!is_started_) {
+    for (auto& input : inputs_) advance(input);
+    is_started_ = true;
+  }
   Input* earliest = nullptr;
   for (auto& input : inputs_)
     if (input.head && (!earliest || input.latest < earliest->latest)) earliest = &input;
@@ -37,6 +38,10 @@ SourceReport MergedSource::report() const {
   sum.ending = SourceReport::Ending::complete;
   for (const auto& input : inputs_) sum.add(input.source->report());
   return sum;
+}
+
+void MergedSource::interrupt() {
+  for (auto& input : inputs_) input.source->interrupt();
 }
 
 }  // namespace omnimapper::source

@@ -2,10 +2,12 @@
 
 #include <mrpt/serialization/CArchive.h>
 
-#include <limits>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "CompressedFile.h"
+#include "Trial.h"
 
 namespace omnimapper::source {
 
@@ -19,8 +21,9 @@ class ObjectReader {
   /// Throws as CompressedFile.
   explicit ObjectReader(const std::string& path) : file_(path), archive_(file_) {}
 
-  /// After so many objects the reading ends as corrupt.
-  void refuseAfter(std::uint64_t objects) { most_objects_ = objects; }
+  /// Asked before each object, with the number of objects before it. If the answer is no, the reading ends as corrupt;
+  /// if it is not known, next() returns null once, and the ending stays open.
+  void ask(std::function<Trial::Answer(std::uint64_t)> may_read_after) { may_read_after_ = std::move(may_read_after); }
 
   /// Null at the end, of whatever kind.
   mrpt::serialization::CSerializable::Ptr next();
@@ -76,7 +79,7 @@ class ObjectReader {
   bool in_rawlog_ = false;          // inside a CRawlog saved as one object
   bool rawlog_old_format_ = false;  // no end flag after it
   std::uint32_t rawlog_left_ = 0;   // objects left in it
-  std::uint64_t most_objects_ = std::numeric_limits<std::uint64_t>::max();
+  std::function<Trial::Answer(std::uint64_t)> may_read_after_;
   std::uint64_t objects_ = 0;
   std::uint64_t bytes_ = 0;
 };

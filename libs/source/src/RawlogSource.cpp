@@ -9,9 +9,11 @@
 #include <omnimapper/source/RawlogSource.h>
 
 #include <algorithm>
+#include <atomic>
 #include <deque>
 
 #include "ActionSpans.h"
+#include "Checksum.h"
 #include "ExternalFiles.h"
 #include "ForeignFile.h"
 #include "ObjectReader.h"
@@ -68,17 +70,18 @@ SourceReport::Ending endingOf(ObjectReader::Ending ending) {
 
 class RawlogSource::Stream {
  public:
-  Stream(const std::string& path, const SourceOptions& options)
+  Stream(const std::string& path, const SourceOptions& options, const StopOpening& stop)
       : reader_(registeringClasses(path)),
         spans_(options.action_span, options.action_label),
         selection_(options),
         images_folder_(options.images_folder.empty() ? externalFolderOf(path) : options.images_folder) {
-    if (!isVerified(path)) {
-      const Trial trial = tryReading(path, useOnce);
-      if (!trial.may_read_next) reader_.refuseAfter(trial.objects);
+    bool stopped = false;
+    const auto ask = [&](double part) { return stopped = stopped || (stop && stop(part)); };
+    if (!isVerified(path, ask) && !stopped) tryFirst(path, [&] { return ask(1.0); });
+    while (!stopped && waiting_.empty() && readObject()) {
     }
-    while (waiting_.empty() && readObject()) {
-    }
+    if (stopped) throw base::Error(base::ExitCode::interrupted, path + ": interrupted while the log was being opened.");
+    stop_waiting_ = [this] { return interrupted_.load(); };
     if (reader_.objects() == 0 && !reader_.sawHeader() && reader_.ending() != ObjectReader::Ending::complete)
       refuse(describeForeignFile(path));
     if (waiting_.empty() && reader_.objects() > 0 && rawlog_objects_ == 0)
@@ -86,7 +89,7 @@ class RawlogSource::Stream {
   }
 
   CObservation::Ptr next() {
-    while (!is_over_) {
+    while (!is_over_ && !interrupted_) {
       while (waiting_.empty() && readObject()) {
       }
       if (waiting_.empty()) break;
@@ -121,8 +124,16 @@ class RawlogSource::Stream {
   }
 
   void setLogStart(base::Stamp log_start) { selection_.setLogStart(log_start); }
+  void interrupt() { interrupted_ = true; }
 
  private:
+  // From now on nothing is read that a child process has not read before.
+  void tryFirst(const std::string& path, const std::function<bool()>& stop) {
+    stop_waiting_ = stop;
+    trial_.emplace(path, useOnce);
+    reader_.ask([this](std::uint64_t objects) { return trial_->mayReadAfter(objects, stop_waiting_); });
+  }
+
   [[noreturn]] void refuse(const std::string& reason) const {
     throw base::Error(base::ExitCode::unreadable_input, reader_.file().path() + ": " + reason);
   }
@@ -131,7 +142,7 @@ class RawlogSource::Stream {
   bool readObject() {
     const auto object = reader_.next();
     if (!object) {
-      spans_.finish();
+      if (reader_.ending() != ObjectReader::Ending::open) spans_.finish();
       return false;
     }
     ++rawlog_objects_;
@@ -181,6 +192,9 @@ class RawlogSource::Stream {
   }
 
   ObjectReader reader_;
+  std::optional<Trial> trial_;          // of a file without a good checksum
+  std::function<bool()> stop_waiting_;  // for the trial
+  std::atomic<bool> interrupted_{false};
   ActionSpans spans_;
   Selection selection_;
   std::string images_folder_;
@@ -191,8 +205,8 @@ class RawlogSource::Stream {
   bool is_over_ = false;   // everything wanted has been read
 };
 
-RawlogSource::RawlogSource(const std::string& path, const SourceOptions& options)
-    : stream_(std::make_unique<Stream>(path, options)) {}
+RawlogSource::RawlogSource(const std::string& path, const SourceOptions& options, const StopOpening& stop)
+    : stream_(std::make_unique<Stream>(path, options, stop)) {}
 RawlogSource::~RawlogSource() = default;
 
 CObservation::Ptr RawlogSource::next() {
@@ -204,6 +218,9 @@ double RawlogSource::progress() const {
 SourceReport RawlogSource::report() const {
   return stream_->report();
 }
+void RawlogSource::interrupt() {
+  stream_->interrupt();
+}
 std::optional<base::Stamp> RawlogSource::firstStamp() const {
   return stream_->firstStamp();
 }
@@ -211,12 +228,16 @@ void RawlogSource::setLogStart(base::Stamp log_start) {
   stream_->setLogStart(log_start);
 }
 
-std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options) {
+std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options,
+                                               const StopOpening& stop) {
   if (paths.empty()) throw base::Error(base::ExitCode::command_line, "no rawlog is named; give one with -r.");
   std::vector<std::unique_ptr<RawlogSource>> logs;
   std::optional<base::Stamp> start;
+  const auto ask = [&](double part) {
+    return stop && stop((static_cast<double>(logs.size()) + part) / static_cast<double>(paths.size()));
+  };
   for (const auto& path : paths) {
-    logs.push_back(std::make_unique<RawlogSource>(path, options));
+    logs.push_back(std::make_unique<RawlogSource>(path, options, ask));
     const auto first = logs.back()->firstStamp();
     if (first && (!start || *first < *start)) start = first;
   }

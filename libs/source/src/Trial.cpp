@@ -2,16 +2,16 @@
 
 #include <fcntl.h>
 #include <omnimapper/base/Error.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
-#include <vector>
 
-#include "CompressedFile.h"
 #include "ObjectReader.h"
 
 namespace omnimapper::source {
@@ -61,36 +61,49 @@ void limitMemory() {
 
 }  // namespace
 
-bool isVerified(const std::string& path) {
-  CompressedFile file(path);
-  if (!file.isCompressed()) return false;
-  std::vector<char> buffer(1 << 17);
-  while (file.ending() == CompressedFile::Ending::open) file.read(buffer.data(), buffer.size());
-  return file.ending() == CompressedFile::Ending::end;
-}
-
-Trial tryReading(const std::string& path, const std::function<void(mrpt::serialization::CSerializable&)>& use) {
-  Trial trial;
+Trial::Trial(const std::string& path, const std::function<void(mrpt::serialization::CSerializable&)>& use) {
   int channel[2];
-  if (::pipe(channel) != 0) failTrial(path);
-  const pid_t child = ::fork();
-  if (child < 0) failTrial(path);
-  if (child == 0) {
+  if (::pipe2(channel, O_CLOEXEC) != 0) failTrial(path);
+  child_ = ::fork();
+  if (child_ < 0) {
+    ::close(channel[0]);
+    ::close(channel[1]);
+    failTrial(path);
+  }
+  if (child_ == 0) {
     ::close(channel[0]);
     readInChild(path, use, channel[1]);
   }
   ::close(channel[1]);
-  trial.may_read_next = false;
-  char told[4096];
-  for (ssize_t n; (n = ::read(channel[0], told, sizeof told)) > 0 || (n < 0 && errno == EINTR);) {
-    for (ssize_t i = 0; i < n; ++i) {
-      if (told[i] == kObject) ++trial.objects;
-      if (told[i] == kGoodOrder) trial.may_read_next = true;
-    }
+  from_child_ = channel[0];
+}
+
+Trial::~Trial() {
+  ::kill(child_, SIGKILL);
+  ::close(from_child_);
+  while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
   }
-  ::close(channel[0]);
-  ::waitpid(child, nullptr, 0);
-  return trial;
+}
+
+Trial::Answer Trial::mayReadAfter(std::uint64_t objects, const std::function<bool()>& stop) {
+  while (objects >= objects_ && !is_over_) {
+    if (!isToldWithin(100) && stop()) return Answer::not_known;
+  }
+  return objects < objects_ || has_good_ending_ ? Answer::yes : Answer::no;
+}
+
+// False if the child says nothing for so long.
+bool Trial::isToldWithin(int milliseconds) {
+  pollfd ready{from_child_, POLLIN, 0};
+  if (::poll(&ready, 1, milliseconds) <= 0) return false;
+  char told[4096];
+  const ssize_t n = ::read(from_child_, told, sizeof told);
+  is_over_ = n == 0 || (n < 0 && errno != EINTR);
+  for (ssize_t i = 0; i < n; ++i) {
+    if (told[i] == kObject) ++objects_;
+    if (told[i] == kGoodOrder) has_good_ending_ = true;
+  }
+  return true;
 }
 
 }  // namespace omnimapper::source

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/serialization/CSerializable.h>
+#include <sys/types.h>
 
 #include <cstdint>
 #include <functional>
@@ -8,17 +9,31 @@
 
 namespace omnimapper::source {
 
-/// How far a file can be read without harm.
-struct Trial {
-  std::uint64_t objects = 0;  ///< objects that can be read
-  bool may_read_next = true;  ///< whether what follows them is known to end the reading in good order
-};
-
-/// True if the file is compressed and its checksum says that every byte is as it was written.
-bool isVerified(const std::string& path);
-
 /// Reads a file that no checksum vouches for, in a child process with 1 GiB of memory: MRPT's readers follow corrupt
-/// counts and pointers wherever they lead, a crash included. `use` is what will be done with each object.
-Trial tryReading(const std::string& path, const std::function<void(mrpt::serialization::CSerializable&)>& use);
+/// counts and pointers wherever they lead, a crash included. The child runs ahead of the one who reads on its word.
+class Trial {
+ public:
+  enum class Answer { yes, no, not_known };
+
+  /// Starts the child. `use` is what will be done with each object.
+  Trial(const std::string& path, const std::function<void(mrpt::serialization::CSerializable&)>& use);
+  /// Ends the child, wherever it is.
+  ~Trial();
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+
+  /// Whether what follows the first `objects` objects can be read without harm. Waits until the child has come that
+  /// far; `stop` is asked meanwhile, ten times a second, and if it is true the answer is not known.
+  Answer mayReadAfter(std::uint64_t objects, const std::function<bool()>& stop);
+
+ private:
+  bool isToldWithin(int milliseconds);
+
+  pid_t child_ = -1;
+  int from_child_ = -1;
+  std::uint64_t objects_ = 0;     // that the child has read
+  bool has_good_ending_ = false;  // what follows them ends the reading in a way that the reader can meet itself
+  bool is_over_ = false;
+};
 
 }  // namespace omnimapper::source

@@ -18,6 +18,7 @@ class MergedSource : public ObservationSource {
   double progress() const override;
   /// The sum; the worst ending.
   SourceReport report() const override;
+  void interrupt() override;
 
  private:
   struct Input {
@@ -27,6 +28,7 @@ class MergedSource : public ObservationSource {
   };
   static void advance(Input& input);
   std::vector<Input> inputs_;
+  bool is_started_ = false;
 };
 
 }  // namespace omnimapper::source

@@ -15,6 +15,8 @@ class ObservationSource {
   /// Part of the input that has been read, in [0, 1].
   virtual double progress() const = 0;
   virtual SourceReport report() const = 0;
+  /// From another thread, before this source is given up: a next() that waits for something returns null soon.
+  virtual void interrupt() {}
 };
 
 }  // namespace omnimapper::source

@@ -3,17 +3,22 @@
 #include <omnimapper/source/ObservationSource.h>
 #include <omnimapper/source/SourceOptions.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 namespace omnimapper::source {
 
+/// Asked while a log is opened, with the part of the checking that is done, in [0, 1]; true stops it.
+using StopOpening = std::function<bool(double)>;
+
 /// Streams one rawlog, plain, gzip or bzip2, in either of MRPT's formats or a mixture of both: observations one by one,
 /// or pairs of actions and sensory frames. Memory does not grow with the file.
 ///
-/// The constructor reads the file once for its checksum. A file that has none or a wrong one is read once more in a
-/// child process, because MRPT's readers can crash on corrupt data; this source then ends before the object that does.
+/// The constructor reads a compressed file once for its checksum. A file that has none or a wrong one is read by a
+/// child process, because MRPT's readers can crash on corrupt data; this source follows it, object by object, and ends
+/// before the object that does.
 ///
 /// An action becomes a CObservationRelativeMotion; SourceOptions say which span of time it is taken for. It is handed
 /// out as soon as the end of the span is known: with its action, or right before the frame that ends it. The spans
@@ -22,13 +27,14 @@ namespace omnimapper::source {
 /// out without one.
 class RawlogSource : public ObservationSource {
  public:
-  /// Throws Error(unreadable_input) if the file cannot be opened or is no rawlog.
-  explicit RawlogSource(const std::string& path, const SourceOptions& options = {});
+  /// Throws Error(unreadable_input) if the file cannot be opened or is no rawlog, Error(interrupted) if `stop` says so.
+  explicit RawlogSource(const std::string& path, const SourceOptions& options = {}, const StopOpening& stop = {});
   ~RawlogSource() override;
 
   mrpt::obs::CObservation::Ptr next() override;
   double progress() const override;
   SourceReport report() const override;
+  void interrupt() override;
 
   /// The first stamp of the log, if one of its first objects has a stamp.
   std::optional<base::Stamp> firstStamp() const;
@@ -41,7 +47,8 @@ class RawlogSource : public ObservationSource {
 };
 
 /// One rawlog or several merged by stamp, with start_s and end_s counted from the earliest first stamp of all.
-/// Throws as RawlogSource; Error(command_line) if there is no path.
-std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options);
+/// Throws as RawlogSource; Error(command_line) if there is no path. `stop` is given the part of all logs.
+std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options,
+                                               const StopOpening& stop = {});
 
 }  // namespace omnimapper::source

@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+#include <omnimapper/source/BoundedQueue.h>
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace omnimapper::source {
+namespace {
+
+constexpr std::size_t kManyBytes = 1 << 30;
+
+// Until the other thread has done something that it is certain to do.
+template <class Condition>
+void waitUntil(Condition condition) {
+  while (!condition()) std::this_thread::yield();
+}
+
+TEST(BoundedQueue, handsOutWhatWasPutInInOrderWhateverItsRoom) {
+  for (const std::size_t room : {1, 2, 7, 1000}) {
+    BoundedQueue<int> queue({room, kManyBytes});
+    std::thread producer([&] {
+      for (int i = 0; i < 500; ++i) EXPECT_TRUE(queue.push(i, 1));
+    });
+    for (int i = 0; i < 500; ++i) EXPECT_EQ(queue.pop(), i);
+    producer.join();
+    EXPECT_EQ(queue.size(), 0U);
+  }
+}
+
+TEST(BoundedQueue, neverHoldsMoreThanItsCount) {
+  BoundedQueue<int> queue({3, kManyBytes});
+  std::atomic<int> pushed{0};
+  std::thread producer([&] {
+    for (int i = 0; i < 50; ++i) {
+      queue.push(i, 0);
+      ++pushed;
+    }
+  });
+  for (int taken = 0; taken < 50; ++taken) {
+    waitUntil([&] { return pushed == std::min(50, taken + 3); });
+    EXPECT_LE(queue.size(), 3U);
+    EXPECT_EQ(queue.pop(), taken);
+  }
+  producer.join();
+}
+
+TEST(BoundedQueue, neverHoldsMoreThanItsBytesExceptOneItemAlone) {
+  BoundedQueue<std::string> queue({100, 10});
+  std::atomic<int> pushed{0};
+  std::thread producer([&] {
+    for (const std::size_t bytes : {4, 6, 1, 50, 2, 8}) {
+      queue.push(std::to_string(bytes), bytes);
+      ++pushed;
+    }
+  });
+  // 4 and 6 fill it; 1 waits for room, 50 for an empty queue, and what follows it for its leaving.
+  const std::vector<std::pair<int, std::string>> steps{{2, "4"}, {3, "6"}, {3, "1"}, {4, "50"}, {6, "2"}, {6, "8"}};
+  for (const auto& [pushed_before, next] : steps) {
+    waitUntil([&, expected = pushed_before] { return pushed == expected; });
+    std::this_thread::yield();
+    EXPECT_EQ(pushed, pushed_before);
+    EXPECT_EQ(queue.pop(), next);
+  }
+  producer.join();
+}
+
+TEST(BoundedQueue, closingLetsBothSidesGo) {
+  BoundedQueue<int> full({1, kManyBytes}), empty({1, kManyBytes});
+  ASSERT_TRUE(full.push(1, 1));
+  std::thread producer([&] { EXPECT_FALSE(full.push(2, 1)); });
+  std::thread consumer([&] { EXPECT_EQ(empty.pop(), std::nullopt); });
+  full.close();
+  empty.close();
+  producer.join();
+  consumer.join();
+  EXPECT_EQ(full.pop(), std::nullopt) << "closed is closed";
+  EXPECT_FALSE(empty.push(3, 1));
+}
+
+TEST(BoundedQueue, aStopEndsTheWaitAndLeavesTheQueueOpen) {
+  BoundedQueue<int> queue({1, kManyBytes});
+  int asked = 0;
+  EXPECT_EQ(queue.pop([&] { return ++asked == 2; }), std::nullopt);
+  EXPECT_EQ(asked, 2);
+  ASSERT_TRUE(queue.push(5, 1));
+  EXPECT_EQ(queue.pop([] { return true; }), 5) << "it is asked only where there is something to wait for";
+}
+
+TEST(BoundedQueue, takesWhatCanOnlyBeMoved) {
+  BoundedQueue<std::unique_ptr<int>> queue({2, kManyBytes});
+  ASSERT_TRUE(queue.push(std::make_unique<int>(7), 1));
+  EXPECT_EQ(**queue.pop(), 7);
+}
+
+}  // namespace
+}  // namespace omnimapper::source
