@@ -6,8 +6,8 @@ readonly address_tests=(base geometry obs source perception matching graph map m
 # Programs of others cannot load a library of ours that is built with a sanitizer.
 readonly address_filter='-StockTools.*'
 # Threads: what shares data between them.
-readonly thread_tests=(mapper)
-readonly thread_filter='*Queue*:*Pool*:*Engine*'
+readonly thread_tests=(source mapper)
+readonly thread_filter='*Queue*:*Pool*:*Engine*:ReadAhead*'
 
 # Those of the named tests that exist.
 existing_tests() {

@@ -94,6 +94,16 @@ TEST_F(MappingRun, StoppedItGivesTheMapSoFar) {
                           [](const auto& w) { return w.find("interrupted") != std::string::npos; }));
 }
 
+TEST_F(MappingRun, StoppedWhileTheLogIsOpenedItLeavesNothing) {
+  try {
+    run({}, [] { return true; });
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::interrupted);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
 TEST_F(MappingRun, ALogThatNothingCanBeMappedOfIsAnErrorThatSaysWhatItHolds) {
   auto options = boxLap();
   options.lasers.clear();

@@ -2,6 +2,7 @@
 #include <omnimapper/mapper/Engine.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/ReadAhead.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -50,7 +51,10 @@ bool feed(source::ObservationSource& log, Engine& engine, double speed, base::Pr
     const StopWatch watch;
     const auto observation = log.next();
     reading += watch.seconds();
-    if (!observation) break;
+    if (!observation) {
+      stopped = log.report().ending == source::SourceReport::Ending::open && stop();  // stopped while it waited
+      break;
+    }
     pace.waitFor(observation->timestamp, stop);
     if ((stopped = stop())) break;
     engine.add(observation);
@@ -159,13 +163,17 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
     engine.warn(config.file() + ": no list of [mapper] or [perception] names the plugins " +
                 base::option_text::format(off) + ": they are switched off");
   }
-  const auto log = source::openRawlogs(request.logs, source_options);
+  const auto stop_opening = [&](double part) {
+    progress.report(part, "checking the log");
+    return stop();
+  };
+  source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop_opening), stop);
   base::makeWritableFolder(request.output_folder);
   bool stopped = false;
-  const auto failure = tried(engine, [&] { stopped = feed(*log, engine, request.speed, progress, stop); });
+  const auto failure = tried(engine, [&] { stopped = feed(log, engine, request.speed, progress, stop); });
   const auto failure_at_end = tried(engine, [&] { engine.finish(); });
 
-  const auto report = log->report();
+  const auto report = log.report();
   warnOf(report, stopped, engine);
   warnOf(engine.view().counts, engine.view().map.key_frames.size(), engine);
   auto result = resultOf(engine.view());

@@ -1,4 +1,5 @@
 // Ctrl-C and SIGTERM: the map so far is saved.
+#include <mrpt/io/CFileGZOutputStream.h>
 #include <signal.h>
 
 #include <chrono>
@@ -55,6 +56,24 @@ TEST_P(Interrupt, WhileWaitingForAPauseOfTheLogEndsAtOnce) {
   program->send(GetParam());
   EXPECT_TRUE(endedWith(ExitCode::interrupted, program->wait(), {"nothing to map"})) << "no scan had come yet";
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST_P(Interrupt, WhileTheLogIsCheckedEndsAndLeavesNothing) {
+  // 10 GB of zeros after the log, in a few MB: the check takes many times as long as the way from here to the signal.
+  const std::string zeros_path = scratch_ / "zeros";
+  {
+    mrpt::io::CFileGZOutputStream zeros(zeros_path);
+    const std::vector<char> megabyte(1000000);
+    for (int i = 0; i < 50; ++i) zeros.Write(megabyte.data(), megabyte.size());
+  }
+  std::ofstream log(log_path_, std::ios::binary | std::ios::app);
+  for (int i = 0; i < 200; ++i) log << readFile(zeros_path);
+  log.close();
+  Program program(mappingCommand({log_path_}, folder_));
+  while (!program.hasOpen(log_path_) && program.isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  program.send(GetParam());
+  EXPECT_TRUE(endedWith(ExitCode::interrupted, program.wait(), {"interrupted", log_path_}));
+  EXPECT_FALSE(fs::exists(folder_));
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM),

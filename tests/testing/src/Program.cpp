@@ -98,6 +98,16 @@ bool Program::isRunning() {
   return !reap(false);
 }
 
+bool Program::hasOpen(const std::string& path) const {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path wanted = fs::canonical(path);
+  for (const auto& file : fs::directory_iterator("/proc/" + std::to_string(child_) + "/fd", error)) {
+    if (fs::read_symlink(file, error) == wanted) return true;
+  }
+  return false;
+}
+
 void Program::send(int signal) {
   if (isRunning()) ::kill(child_, signal);
 }

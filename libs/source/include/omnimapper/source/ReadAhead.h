@@ -13,8 +13,8 @@
 namespace omnimapper::source {
 
 /// Reads another source ahead in a thread of its own, so that reading and decompressing go on while the observations
-/// are worked on. Same observations, same order. The thread waits while as much as the limits allow is read ahead, and
-/// holds one observation more.
+/// are worked on. Same observations, same order. The thread waits when as much as the limits allow has been read ahead,
+/// and holds one observation more.
 class ReadAhead : public ObservationSource {
  public:
   /// An observation counts with the bytes that were read from the log for it, and the pixels and points that it has

@@ -35,6 +35,8 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   bool isRunning();
+  /// Whether it has that file open now.
+  bool hasOpen(const std::string& path) const;
   /// Sends it a signal, unless it has ended.
   void send(int signal);
   /// Waits for its end; the same answer every time.
