@@ -7,7 +7,7 @@ readonly address_tests=(base geometry obs source perception matching graph map m
 readonly address_filter='-StockTools.*'
 # Threads: what shares data between them.
 readonly thread_tests=(source mapper)
-readonly thread_filter='*Queue*:*Pool*:*Engine*:ReadAhead*'
+readonly thread_filter='*Queue*:*Pool*:*Engine*:ReadAhead*:MappingRun*'
 
 # Those of the named tests that exist.
 existing_tests() {
