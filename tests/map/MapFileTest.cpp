@@ -81,7 +81,7 @@ map::Map awkwardMap() {
     auto fix = mrpt::obs::CObservationRobotPose::Create();
     fix->pose.mean = pose();
     frame.observations.push_back(fix);
-    map.key_frames.push_back(frame);
+    map.key_frames.insert(frame);
   }
   return map;
 }

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/map/Map.h>
+#include <omnimapper/map/Trajectory.h>
 
 #include <random>
 
@@ -27,14 +27,19 @@ void expectNear(const CPose3D& a, const CPose3D& b, double tolerance) {
   EXPECT_LT(difference.cwiseAbs().maxCoeff(), tolerance) << a.asString() << " is not " << b.asString();
 }
 
-TEST(Map, findsAKeyFrameByIdWhateverTheOrderOfIds) {
+map::Map mapOf(const std::vector<map::KeyFrame>& frames) {
   map::Map map;
-  map.key_frames = {keyFrame(0, 0, {}), keyFrame(3, 1, {}), keyFrame(1, 2, {}), keyFrame(2, 3, {})};
+  for (const auto& frame : frames) map.key_frames.insert(frame);
+  return map;
+}
+
+TEST(Map, findsAKeyFrameByIdWhateverTheOrderOfIds) {
+  const auto map = mapOf({keyFrame(0, 0, {}), keyFrame(1, 2, {}), keyFrame(2, 3, {}), keyFrame(3, 1, {})});
   for (std::uint32_t index : {0u, 1u, 2u, 3u}) EXPECT_EQ(map.keyFrame({0, index}).id.index, index);
 }
 
 TEST(Map, aKeyFrameThatIsNotThereIsAnErrorNamingIt) {
-  const map::Map map{{keyFrame(0, 0, {})}};
+  const map::Map map = mapOf({keyFrame(0, 0, {})});
   try {
     map.keyFrame({2, 7});
     FAIL() << "no error";
@@ -44,22 +49,12 @@ TEST(Map, aKeyFrameThatIsNotThereIsAnErrorNamingIt) {
   }
 }
 
-TEST(Map, indexAtIsTheLastKeyFrameAtOrBefore) {
-  const map::Map map{{keyFrame(0, 1, {}), keyFrame(1, 2, {}), keyFrame(2, 3, {})}};
-  EXPECT_EQ(map.indexAt(at(0.5)), -1);
-  EXPECT_EQ(map.indexAt(at(1)), 0);
-  EXPECT_EQ(map.indexAt(at(1.9)), 0);
-  EXPECT_EQ(map.indexAt(at(2)), 1);
-  EXPECT_EQ(map.indexAt(at(99)), 2);
-  EXPECT_EQ(map::Map{}.indexAt(at(0)), -1);
-}
-
 TEST(DenseTrajectory, spreadsADriftEvenlyInTime) {
   // The source told 1 m straight ahead in 1 s, seen at 0.25 s and 0.5 s; the graph says 1.2 m ahead and 0.4 m left.
   map::KeyFrame first = keyFrame(0, 0, {});
   first.hanging = {{at(0.25), CPose3D(0.25, 0, 0, 0, 0, 0)}, {at(0.5), CPose3D(0.5, 0, 0, 0, 0, 0)}};
   first.keyframe_from_next = CPose3D(1, 0, 0, 0, 0, 0);
-  const auto path = map::denseTrajectory({{first, keyFrame(1, 1, CPose3D(1.2, 0.4, 0, 0, 0, 0))}});
+  const auto path = map::denseTrajectory(mapOf({first, keyFrame(1, 1, CPose3D(1.2, 0.4, 0, 0, 0, 0))}));
   ASSERT_EQ(path.size(), 4u);
   expectNear(path[0].map_from_base, {}, 1e-12);
   expectNear(path[1].map_from_base, CPose3D(0.3, 0.1, 0, 0, 0, 0), 1e-12);
@@ -73,7 +68,7 @@ TEST(DenseTrajectory, aDriftKeepsItsDirectionInTheMapWhileTheRobotTurns) {
   map::KeyFrame first = keyFrame(0, 0, {});
   first.hanging = {{at(0.5), CPose3D(0, 0, 0, M_PI / 2, 0, 0)}};
   first.keyframe_from_next = CPose3D(0, 0, 0, M_PI, 0, 0);
-  const auto path = map::denseTrajectory({{first, keyFrame(1, 1, CPose3D(0.2, 0, 0, M_PI, 0, 0))}});
+  const auto path = map::denseTrajectory(mapOf({first, keyFrame(1, 1, CPose3D(0.2, 0, 0, M_PI, 0, 0))}));
   expectNear(path[1].map_from_base, CPose3D(0.1, 0, 0, M_PI / 2, 0, 0), 1e-12);
 }
 
@@ -81,7 +76,7 @@ TEST(DenseTrajectory, spreadsATurnEvenlyInTime) {
   map::KeyFrame first = keyFrame(0, 0, {});
   first.hanging = {{at(1), CPose3D(0, 0, 0, 0.1, 0, 0)}};
   first.keyframe_from_next = CPose3D(0, 0, 0, 0.4, 0, 0);
-  const auto path = map::denseTrajectory({{first, keyFrame(1, 4, CPose3D(0, 0, 0, 0.8, 0, 0))}});
+  const auto path = map::denseTrajectory(mapOf({first, keyFrame(1, 4, CPose3D(0, 0, 0, 0.8, 0, 0))}));
   expectNear(path[1].map_from_base, CPose3D(0, 0, 0, 0.2, 0, 0), 1e-12);
 }
 
@@ -96,7 +91,7 @@ TEST(DenseTrajectory, aHangingFrameAtTheEndIsTheNextKeyFrameInSpace) {
     first.keyframe_from_next = pose();
     first.hanging = {{at(0), CPose3D()}, {at(2), first.keyframe_from_next}};
     const map::KeyFrame second = keyFrame(1, 2, pose());
-    const auto path = map::denseTrajectory({{first, second}});
+    const auto path = map::denseTrajectory(mapOf({first, second}));
     expectNear(path[1].map_from_base, first.map_from_base, 1e-9);
     expectNear(path[2].map_from_base, second.map_from_base, 1e-9);
   }
@@ -106,14 +101,14 @@ TEST(DenseTrajectory, withoutDisagreementItIsTheToldPath) {
   map::KeyFrame first = keyFrame(0, 0, CPose3D(1, 2, 3, 0.4, 0.1, -0.2));
   first.hanging = {{at(0.3), CPose3D(0.1, 0.2, 0, 0.3, 0, 0)}};
   first.keyframe_from_next = CPose3D(0.5, 0.1, 0.2, 0.6, 0.1, 0);
-  const auto path = map::denseTrajectory({{first, keyFrame(1, 1, first.map_from_base + first.keyframe_from_next)}});
+  const auto path = map::denseTrajectory(mapOf({first, keyFrame(1, 1, first.map_from_base + first.keyframe_from_next)}));
   expectNear(path[1].map_from_base, first.map_from_base + first.hanging[0].keyframe_from_base, 1e-12);
 }
 
 TEST(DenseTrajectory, afterTheNewestKeyFrameTheSourceAloneSpeaks) {
   map::KeyFrame only = keyFrame(0, 0, CPose3D(1, 0, 0, M_PI / 2, 0, 0));
   only.hanging = {{at(1), CPose3D(2, 0, 0, 0, 0, 0)}};
-  const auto path = map::denseTrajectory({{only}});
+  const auto path = map::denseTrajectory(mapOf({only}));
   ASSERT_EQ(path.size(), 2u);
   expectNear(path[1].map_from_base, CPose3D(1, 2, 0, M_PI / 2, 0, 0), 1e-12);
   EXPECT_TRUE(map::denseTrajectory({}).empty());

@@ -28,6 +28,7 @@ FactorRecord invalid(base::VariableId a) {
 }
 
 struct TwoPoses {
+  map::Map map;
   Graph graph;
   base::VariableId a = graph.addVariable(graph::se2(), Eigen::Vector3d(0, 0, 0), true);
   base::VariableId b = graph.addVariable(graph::se2(), Eigen::Vector3d(1, 0, 0));
@@ -63,7 +64,7 @@ TEST(Batch, ProvisionalIdsBecomeFinalOnesInTheOrderTheyWereAdded) {
   batch.addFactor(between(two.b, c));
   EXPECT_FALSE(batch.empty());
 
-  const auto applied = apply(batch, two.graph);
+  const auto applied = apply(batch, {}, two.graph, two.map);
   ASSERT_EQ(applied.variables.size(), 2U);
   ASSERT_EQ(applied.factors.size(), 2U);
   for (const auto id : applied.variables) EXPECT_FALSE(Batch::isProvisional(id));
@@ -81,7 +82,7 @@ TEST(Batch, RemovesFactorsAndSetsWeights) {
   Batch batch;
   batch.removeFactor(two.link);
   batch.setWeight(second, 0.25);
-  apply(batch, two.graph);
+  apply(batch, {}, two.graph, two.map);
   EXPECT_FALSE(two.graph.contains(two.link));
   EXPECT_EQ(two.graph.factor(second).weight, 0.25);
 }
@@ -128,7 +129,7 @@ TEST(Batch, WhereOneEditDoesNotFitTheGraphIsLeftAsItWas) {
     edit(two, batch);
     batch.addFactor(between(two.a, c));
     try {
-      apply(batch, two.graph);
+      apply(batch, {}, two.graph, two.map);
       FAIL() << what << " was applied";
     } catch (const base::Error& error) {
       EXPECT_EQ(error.code(), base::ExitCode::internal) << what;

@@ -34,12 +34,12 @@ class Scripted : public MeasurementPlugin {
   bool wants(const CObservation& observation) const override {
     return dynamic_cast<const CObservationComment*>(&observation) != nullptr;
   }
-  Batch measure(const map::KeyFrame& frame, const CObservation&, const View& view) override {
+  Batch measure(const map::KeyFrame& frame, const Observed&, const View& view) override {
     return on_measure ? on_measure(frame, view) : Batch();
   }
   void applied(const AppliedBatch& ids) override { applied_ids.push_back(ids); }
-  Batch afterCommit(const map::KeyFrame& frame, const View& view) override {
-    return after_commit ? after_commit(frame, view) : Batch();
+  FollowUp afterCommit(const map::KeyFrame& frame, const View& view) override {
+    return after_commit ? FollowUp{after_commit(frame, view), {}} : FollowUp();
   }
 
   std::function<Batch(const map::KeyFrame&, const View&)> on_measure, after_commit;

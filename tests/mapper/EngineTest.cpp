@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/graph/Between.h>
@@ -40,7 +41,7 @@ class Engine : public ::testing::Test {
     observations_.clear();
   }
 
-  static const std::vector<map::KeyFrame>& frames() { return engine_->view().map.key_frames; }
+  static const map::KeyFrames& frames() { return engine_->view().map.key_frames; }
   static std::vector<base::Stamp> scanStamps() {
     std::vector<base::Stamp> stamps;
     for (const auto& o : observations_) {

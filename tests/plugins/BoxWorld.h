@@ -6,6 +6,7 @@
 #include <omnimapper/graph/Prior.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/View.h>
+#include <omnimapper/testing/HandMadeRun.h>
 
 #include <algorithm>
 #include <cmath>
@@ -83,18 +84,7 @@ inline base::Stamp at(double seconds) {
   return base::stampFromUnix(1e9) + base::durationFromSeconds(seconds);
 }
 
-/// Everything an output plugin sees of a run that ended.
-struct RunRecord {
-  map::Map map;
-  graph::Graph graph;
-  mapper::DecisionLog decisions;
-  mapper::StageTimes times;
-  mapper::RunCounts counts;
-  std::vector<mapper::SolveRecord> solves;
-  std::vector<std::string> warnings;
-
-  mapper::View view() const { return {map, graph, decisions, times, counts, solves, warnings}; }
-};
+using RunRecord = testing::HandMadeRun;
 
 inline map::KeyFrame keyFrame(std::uint32_t index, double seconds, const CPose3D& map_from_base,
                               const CPose3D& base_from_sensor) {
@@ -111,14 +101,17 @@ inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0
   RunRecord run;
   const std::vector<CPose3D> poses{{0, 0, 0, 0, 0, 0}, {1, 0.25, 0, 0.5, 0, 0}, {0.5, 1.25, 0, 2.5, 0, 0}};
   for (std::uint32_t i = 0; i < poses.size(); ++i) {
-    run.map.key_frames.push_back(keyFrame(i, i, poses[i], base_from_sensor));
+    run.map.key_frames.insert(keyFrame(i, i, poses[i], base_from_sensor));
   }
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) run.map.key_frames[i].keyframe_from_next = poses[i + 1] - poses[i];
-  run.map.key_frames[0].hanging.push_back({at(0.5), CPose3D(0.5, 0.1, 0, 0.2, 0, 0)});
+  const auto edit = [&](std::size_t i) -> map::KeyFrame& {
+    return run.map.key_frames.edit(run.map.key_frames[i].id);
+  };
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) edit(i).keyframe_from_next = poses[i + 1] - poses[i];
+  edit(0).hanging.push_back({at(0.5), CPose3D(0.5, 0.1, 0, 0.2, 0, 0)});
   const auto noise3 = graph::SquareRootInformation::fromSigmas(Eigen::Vector3d(0.1, 0.1, 0.05));
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const geometry::Se2 pose{poses[i].x(), poses[i].y(), poses[i].yaw()};
-    run.map.key_frames[i].pose = run.graph.addVariable(graph::se2(), graph::toValue(pose));
+    edit(i).pose = run.graph.addVariable(graph::se2(), graph::toValue(pose));
   }
   const auto poseId = [&](std::size_t i) { return run.map.key_frames[i].pose; };
   const auto addFactor = [&](std::vector<base::VariableId> ids, std::shared_ptr<const graph::Factor> factor,
@@ -186,6 +179,12 @@ inline mapper::PluginContext contextFor(const std::string& folder) {
   context.title = "box <world>";
   context.config_text = "[mapper]\nmotion = planar & flat\n";
   return context;
+}
+
+inline void clearObservations(RunRecord& run) {
+  for (std::size_t i = 0; i < run.map.key_frames.size(); ++i) {
+    run.map.key_frames.edit(run.map.key_frames[i].id).observations.clear();
+  }
 }
 
 }  // namespace box_world

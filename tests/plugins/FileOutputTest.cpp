@@ -40,7 +40,7 @@ TEST(TrajectoryOutput, hasOneLineForEachObservationWithStampsToTheTick) {
   first.stamp = at(0.1234567);
   first.map_from_base = CPose3D(1, -2, 0.5, -M_PI / 2, 0, 0);
   first.hanging.push_back({at(0.25), CPose3D(1, 0, 0, 0, 0, 0)});
-  run.map.key_frames.push_back(first);
+  run.map.key_frames.insert(first);
   plugins::TrajectoryOutput({}, contextFor(folder.path())).finish(run.view());
   const auto lines = linesOf(contentOf(folder / "trajectory.tum"));
   ASSERT_EQ(lines.size(), 2u);
@@ -166,8 +166,9 @@ TEST(PointsOutput, cloudsGoBeforeScansAndAreColouredByHeight) {
   points->insertPoint(std::numeric_limits<float>::quiet_NaN(), 0, 0);  // no point at all
   cloud->pointcloud = points;
   cloud->sensorPose = CPose3D(0, 0, 1, M_PI / 2, 0, 0);
-  run.map.key_frames[1].map_from_base = CPose3D(10, 0, 0, 0, 0, 0);
-  run.map.key_frames[1].observations.push_back(cloud);
+  map::KeyFrame& frame = run.map.key_frames.edit(run.map.key_frames[1].id);
+  frame.map_from_base = CPose3D(10, 0, 0, 0, 0, 0);
+  frame.observations.push_back(cloud);
   plugins::PointsOutput({}, contextFor(folder.path())).finish(run.view());
   const auto written = readPly(folder / "points.ply");
   ASSERT_EQ(written.size(), 3u);

@@ -162,7 +162,7 @@ TEST(GpsPlugin, BadFixesAreRefusedWithTheReason) {
     testing::HandMadeRun run;
     const auto fix = fixes(log.observations()).front();
     edit(gga(*fix).fields);
-    const auto batch = plugin.measure(run.addFrame({}), *fix, run.view());
+    const auto batch = plugin.measure(run.addFrame({}), {*fix, nullptr}, run.view());
     EXPECT_TRUE(batch.addedFactors().empty());
     ASSERT_EQ(batch.decisions().size(), 1U);
     EXPECT_FALSE(batch.decisions().front().accepted);
@@ -181,7 +181,7 @@ TEST(GpsPlugin, FixesWaitUntilTheySpreadAndThenAllCount) {
   std::size_t waiting = 0;
   for (const auto& fix : all) {
     const auto& frame = run.addFrame(CPose3D(log.truthAt(fix->timestamp)));
-    const auto batch = plugin.measure(frame, *fix, run.view());
+    const auto batch = plugin.measure(frame, {*fix, nullptr}, run.view());
     if (batch.addedFactors().empty()) {
       EXPECT_TRUE(batch.addedVariables().empty());
       ++waiting;
@@ -211,7 +211,7 @@ TEST(GpsPlugin, TheQualityOfAFixIsItsSigma) {
     const auto fix = fixes(testing::SimulatedLog(ringWithGps()).observations()).front();
     gga(*fix).fields.fix_quality = static_cast<std::uint8_t>(quality);
     gga(*fix).fields.HDOP = hdop;
-    const auto batch = plugin.measure(run.addFrame({}), *fix, run.view());
+    const auto batch = plugin.measure(run.addFrame({}), {*fix, nullptr}, run.view());
     ASSERT_EQ(batch.addedFactors().size(), 1U);
     EXPECT_NEAR(std::sqrt(batch.addedFactors().front().noise.covariance()(0, 0)), sigma, 1e-6) << quality;
   }

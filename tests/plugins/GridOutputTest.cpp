@@ -95,8 +95,9 @@ TEST(ScanGrid, aReadingAtTheSensorsLimitIsNoWall) {
     scan->setScanRange(i, i < 25 ? 1.0f : 2.0f);
     scan->setScanRangeValidity(i, true);
   }
-  run.map.key_frames.resize(1);
-  run.map.key_frames[0].observations.push_back(scan);
+  map::KeyFrame frame;
+  frame.observations.push_back(scan);
+  run.map.key_frames.insert(frame);
   const auto grid = plugins::buildScanGrid(run.map, {});
   ASSERT_TRUE(grid);
   EXPECT_EQ(cellAt(*grid, std::cos(-0.125), std::sin(-0.125)), Cell::occupied);
@@ -123,12 +124,12 @@ TEST(ScanGrid, aTooLargeExtentGetsCoarserCells) {
 TEST(ScanGrid, withoutAValidBeamThereIsNoGrid) {
   EXPECT_FALSE(plugins::buildScanGrid({}, {}));
   RunRecord run = boxRun();
-  for (auto& frame : run.map.key_frames) frame.observations.clear();
+  clearObservations(run);
   EXPECT_FALSE(plugins::buildScanGrid(run.map, {}));
   auto blind = mrpt::obs::CObservation2DRangeScan::Create();
   blind->resizeScan(3);
   for (std::size_t i = 0; i < 3; ++i) blind->setScanRangeValidity(i, false);
-  run.map.key_frames[0].observations.push_back(blind);
+  run.map.key_frames.edit({0, 0}).observations.push_back(blind);
   EXPECT_FALSE(plugins::buildScanGrid(run.map, {}));
 }
 
@@ -206,7 +207,7 @@ TEST(GridOutput, thePngIsTheSamePictureInCrispColours) {
 TEST(GridOutput, aMapWithoutScansGivesNoFileAndNoError) {
   omnimapper::testing::ScratchFolder folder;
   RunRecord run = boxRun();
-  for (auto& frame : run.map.key_frames) frame.observations.clear();
+  clearObservations(run);
   plugins::GridOutput({}, contextFor(folder.path())).finish(run.view());
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }

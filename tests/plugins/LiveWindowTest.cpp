@@ -88,7 +88,7 @@ TEST(LiveWindow, mayBeClosedAtAnyTimeAndTheRunGoesOn) {
   window.update(run.view());
   waitUntil([&] { return x11::closeWindows("OmniMapper"), !window.isOpen(); });
   ASSERT_FALSE(window.isOpen());
-  run.map.key_frames.pop_back();
+  run.map.key_frames = {};
   window.update(run.view());
   window.finish(run.view());
 }

@@ -141,7 +141,7 @@ TEST(Report, aLongLogIsCutWithANoteAndCountedWhole) {
 
 TEST(Report, aMapWithoutScansShowsItsTrajectory) {
   RunRecord run = boxRun();
-  for (auto& frame : run.map.key_frames) frame.observations.clear();
+  clearObservations(run);
   const std::string html = reportOf(run);
   EXPECT_EQ(tagFault(html), "");
   EXPECT_NE(html.find("class=\"track\" d=\"M"), std::string::npos);

@@ -86,7 +86,8 @@ TEST(RobotPosePlugin, TheTrackedBodyIsTakenBackToTheBase) {
   // The body sits 1 m left of the base and looks along its y. It is seen at (5, 3), looking along the map's x:
   // so the base looks along -y, its left is the map's +x, and it stands at (4, 3).
   const auto batch = plugin.measure(run.addFrame({}),
-                                    measured(CPose3D(5, 3, 0, 0, 0, 0), CPose3D(0, 1, 0, kPi / 2, 0, 0)), run.view());
+                                    {measured(CPose3D(5, 3, 0, 0, 0, 0), CPose3D(0, 1, 0, kPi / 2, 0, 0)), nullptr},
+                                    run.view());
   ASSERT_EQ(batch.addedFactors().size(), 1U);
   const auto& prior = dynamic_cast<const graph::PriorSe2&>(*batch.addedFactors().front().factor).measured();
   EXPECT_NEAR(prior.x, 4, 1e-12);
@@ -102,13 +103,13 @@ TEST(RobotPosePlugin, AReportedCovarianceIsTakenToTheBaseTooElseThatOfTheOptions
   testing::HandMadeRun run;
   auto observation = measured(CPose3D(), CPose3D(2, 0, 0, 0, 0, 0));  // the body is 2 m ahead of the base
   const auto covariance = [&](const mapper::Batch& batch) { return batch.addedFactors().front().noise.covariance(); };
-  const auto from_options = covariance(plugin.measure(run.addFrame({}), observation, run.view()));
+  const auto from_options = covariance(plugin.measure(run.addFrame({}), {observation, nullptr}, run.view()));
   EXPECT_NEAR(from_options(0, 0), 0.09, 1e-9);
   EXPECT_NEAR(from_options(2, 2), 0.04, 1e-9);
   observation.pose.cov.setZero();
   observation.pose.cov(0, 0) = observation.pose.cov(1, 1) = 0.25;
   observation.pose.cov(3, 3) = 0.01;  // yaw, in MRPT's order
-  const auto reported = covariance(plugin.measure(run.addFrame({}), observation, run.view()));
+  const auto reported = covariance(plugin.measure(run.addFrame({}), {observation, nullptr}, run.view()));
   EXPECT_NEAR(reported(0, 0), 0.25, 1e-9);
   EXPECT_NEAR(reported(1, 1), 0.25 + 4 * 0.01, 1e-9) << "a lever of 2 m swings the base";
   EXPECT_NEAR(reported(2, 2), 0.01, 1e-9);
@@ -118,7 +119,7 @@ TEST(RobotPosePlugin, WhatIsNotFiniteIsRefusedWithTheReason) {
   RobotPosePlugin plugin({}, {});
   testing::HandMadeRun run;
   const auto observation = measured(CPose3D(std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0, 0));
-  const auto batch = plugin.measure(run.addFrame({}), observation, run.view());
+  const auto batch = plugin.measure(run.addFrame({}), {observation, nullptr}, run.view());
   EXPECT_TRUE(batch.addedFactors().empty());
   ASSERT_EQ(batch.decisions().size(), 1U);
   EXPECT_FALSE(batch.decisions().front().accepted);

@@ -60,8 +60,8 @@ TEST(ScanMatchingPlugin, FindsTheTrueMotionFromAWrongPrediction) {
                                  CPose2D(0.05, 0.15, -8 * kDegree)}) {
       auto plugin = makePlugin();
       testing::HandMadeRun run;
-      plugin.measure(run.addFrame(CPose3D(a.map_from_base)), *a.cloud, run.view());
-      const auto batch = plugin.measure(run.addFrame(CPose3D(b.map_from_base + wrong)), *b.cloud, run.view());
+      plugin.measure(run.addFrame(CPose3D(a.map_from_base)), {*a.cloud, nullptr}, run.view());
+      const auto batch = plugin.measure(run.addFrame(CPose3D(b.map_from_base + wrong)), {*b.cloud, nullptr}, run.view());
       ASSERT_EQ(batch.addedFactors().size(), 1U) << batch.decisions().front().reason;
       const auto& factor = batch.addedFactors().front();
       EXPECT_EQ(factor.variables, (std::vector{run.map.key_frames[0].pose, run.map.key_frames[1].pose}));
@@ -79,8 +79,8 @@ TEST(ScanMatchingPlugin, ScansOfTwoPlacesAreRefusedForTooLittleOverlap) {
   auto plugin = makePlugin();
   testing::HandMadeRun run;
   const CPose3D start(all[10].map_from_base);
-  plugin.measure(run.addFrame(start), *all[10].cloud, run.view());
-  const auto batch = plugin.measure(run.addFrame(start), *all[200].cloud, run.view());
+  plugin.measure(run.addFrame(start), {*all[10].cloud, nullptr}, run.view());
+  const auto batch = plugin.measure(run.addFrame(start), {*all[200].cloud, nullptr}, run.view());
   EXPECT_TRUE(batch.addedFactors().empty());
   ASSERT_EQ(batch.decisions().size(), 1U);
   const auto& decision = batch.decisions().front();
@@ -100,8 +100,8 @@ TEST(ScanMatchingPlugin, MatchesBeyondTheGateAreRefusedWithTheReason) {
   const auto reason = [&](const ScanMatchingOptions& options, const CPose2D& wrong) {
     auto plugin = makePlugin(options);
     testing::HandMadeRun run;
-    plugin.measure(run.addFrame(CPose3D(a.map_from_base)), *a.cloud, run.view());
-    return plugin.measure(run.addFrame(CPose3D(b.map_from_base + wrong)), *b.cloud, run.view())
+    plugin.measure(run.addFrame(CPose3D(a.map_from_base)), {*a.cloud, nullptr}, run.view());
+    return plugin.measure(run.addFrame(CPose3D(b.map_from_base + wrong)), {*b.cloud, nullptr}, run.view())
         .decisions()
         .front()
         .reason;

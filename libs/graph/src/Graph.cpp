@@ -79,23 +79,40 @@ void Graph::checkBinding(const FactorRecord& record) const {
   checkWeight(record.weight, name);
 }
 
-base::FactorId Graph::addFactor(FactorRecord record) {
-  checkBinding(record);
-  const base::FactorId id = factors_.add(session_, std::move(record));
-  for (const base::VariableId variable : factors_.find(id)->variables) {
+void Graph::bind(base::FactorId id) {
+  for (const base::VariableId variable : factor(id).variables) {
     // Ids grow, so this is the end unless the session number went back.
     std::vector<base::FactorId>& list = mutableVariable(variable).factors;
     list.insert(std::upper_bound(list.begin(), list.end(), id), id);
   }
-  return id;
 }
 
-void Graph::removeFactor(base::FactorId id) {
+void Graph::unbind(base::FactorId id) {
   for (const base::VariableId variable : factor(id).variables) {
     std::vector<base::FactorId>& list = mutableVariable(variable).factors;
     list.erase(std::lower_bound(list.begin(), list.end(), id));
   }
+}
+
+base::FactorId Graph::addFactor(FactorRecord record) {
+  checkBinding(record);
+  const base::FactorId id = factors_.add(session_, std::move(record));
+  bind(id);
+  return id;
+}
+
+void Graph::removeFactor(base::FactorId id) {
+  unbind(id);
   factors_.erase(id);
+}
+
+void Graph::rebind(base::FactorId id, const std::vector<base::VariableId>& variables) {
+  FactorRecord bound_anew = factor(id);
+  bound_anew.variables = variables;
+  checkBinding(bound_anew);
+  unbind(id);
+  mutableFactor(id) = std::move(bound_anew);
+  bind(id);
 }
 
 const VariableRecord& Graph::variable(base::VariableId id) const {
@@ -111,11 +128,15 @@ const FactorRecord& Graph::factor(base::FactorId id) const {
 }
 
 VariableRecord& Graph::mutableVariable(base::VariableId id) {
-  return const_cast<VariableRecord&>(variable(id));
+  VariableRecord* record = variables_.edit(id);
+  if (!record) fail("there is no variable " + toString(id));
+  return *record;
 }
 
 FactorRecord& Graph::mutableFactor(base::FactorId id) {
-  return const_cast<FactorRecord&>(factor(id));
+  FactorRecord* record = factors_.edit(id);
+  if (!record) fail("there is no factor " + toString(id));
+  return *record;
 }
 
 void Graph::setValue(base::VariableId id, const Eigen::VectorXd& value) {
@@ -135,6 +156,10 @@ void Graph::setWeight(base::FactorId id, double weight) {
 
 void Graph::setLoss(base::FactorId id, const Loss& loss) {
   mutableFactor(id).loss = loss;
+}
+
+void Graph::setLandmark(base::FactorId id, base::LandmarkId landmark) {
+  mutableFactor(id).tags.landmark = landmark;
 }
 
 Eigen::VectorXd Graph::whitenedResidual(base::FactorId id) const {

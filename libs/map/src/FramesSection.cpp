@@ -3,6 +3,8 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/map/MapFile.h>
 
+#include <algorithm>
+
 #include "Bytes.h"
 
 namespace omnimapper::map {
@@ -116,6 +118,18 @@ KeyFrame readFrame(ByteReader& in) {
   return frame;
 }
 
+// The file has them as they were driven; the table takes them as they were made.
+Map mapOf(std::vector<KeyFrame> frames) {
+  std::sort(frames.begin(), frames.end(), [](const KeyFrame& a, const KeyFrame& b) { return a.id < b.id; });
+  Map map;
+  try {
+    for (KeyFrame& frame : frames) map.key_frames.insert(std::move(frame));
+  } catch (const base::Error& error) {
+    refuse(std::string(error.what()) + ": the file is damaged");
+  }
+  return map;
+}
+
 }  // namespace
 
 MapSection framesToSection(const Map& map) {
@@ -132,10 +146,10 @@ Map framesFromSection(const MapSection& section) {
            std::to_string(kVersion) + ". Use the OmniMapper that wrote it, or a later one.");
   }
   ByteReader in(section.bytes, "map file, section \"" + kName + "\"");
-  Map map;
-  for (std::uint64_t left = in.uint(4); left > 0; --left) map.key_frames.push_back(readFrame(in));
+  std::vector<KeyFrame> frames;
+  for (std::uint64_t left = in.uint(4); left > 0; --left) frames.push_back(readFrame(in));
   if (!in.atEnd()) refuse("goes on after its last key frame: the file is damaged");
-  return map;
+  return mapOf(std::move(frames));
 }
 
 }  // namespace omnimapper::map

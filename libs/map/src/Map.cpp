@@ -1,83 +1,16 @@
 #include <omnimapper/base/Error.h>
-#include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/map/Map.h>
-
-#include <algorithm>
 
 namespace omnimapper::map {
 
-const KeyFrame& Map::keyFrame(base::KeyFrameId id) const {
-  // Ids mostly follow the stamps; a late key frame is spliced in between older ones and breaks that order.
-  const auto sorted =
-      std::lower_bound(key_frames.begin(), key_frames.end(), id,
-                       [](const KeyFrame& frame, base::KeyFrameId wanted) { return frame.id < wanted; });
-  if (sorted != key_frames.end() && sorted->id == id) return *sorted;
-  const auto found =
-      std::find_if(key_frames.begin(), key_frames.end(), [&](const KeyFrame& frame) { return frame.id == id; });
-  if (found == key_frames.end()) {
-    throw base::Error(base::ExitCode::internal, "key frame " + toString(id) + " is asked for, but the map of " +
-                                                    std::to_string(key_frames.size()) + " key frames has none such");
+const Landmark& Map::landmark(base::LandmarkId id) const {
+  const Landmark* found = landmarks.find(id);
+  while (found && found->state == Landmark::State::merged) found = landmarks.find(found->merged_into);
+  if (!found) {
+    throw base::Error(base::ExitCode::internal, "landmark " + toString(id) + " is asked for, but the map of " +
+                                                    std::to_string(landmarks.size()) + " landmarks has none such");
   }
   return *found;
-}
-
-int Map::indexAt(base::Stamp stamp) const {
-  const auto later = std::upper_bound(key_frames.begin(), key_frames.end(), stamp,
-                                      [](base::Stamp wanted, const KeyFrame& frame) { return wanted < frame.stamp; });
-  return static_cast<int>(later - key_frames.begin()) - 1;
-}
-
-namespace {
-
-/// Spreads over a stretch what the continuous source and the optimised next key frame disagree on.
-class Spread {
- public:
-  Spread(const KeyFrame& begin, const KeyFrame& end)
-      : begin_(begin.stamp),
-        seconds_(base::secondsBetween(begin.stamp, end.stamp)),
-        map_from_begin_(geometry::fromMrpt(begin.map_from_base)),
-        begin_from_told_end_(geometry::fromMrpt(begin.keyframe_from_next)),
-        disagreement_(geometry::minus(geometry::fromMrpt(end.map_from_base), map_from_begin_ * begin_from_told_end_)) {}
-
-  // The disagreement is a tangent at the told end; turned into the hanging frame it is the same step and the same turn
-  // in the map, of which the frame takes its share by time. At the end the share is all of it: the next key frame.
-  mrpt::poses::CPose3D operator()(const HangingFrame& frame) const {
-    const double share = std::clamp(base::secondsBetween(begin_, frame.stamp) / seconds_, 0.0, 1.0);
-    const geometry::Se3 begin_from_frame = geometry::fromMrpt(frame.keyframe_from_base);
-    const Eigen::Quaterniond turn = begin_from_frame.rotation.conjugate() * begin_from_told_end_.rotation;
-    geometry::Vector6d step;
-    step << turn * disagreement_.head<3>(), turn * disagreement_.tail<3>();
-    return geometry::toMrpt(geometry::plus(map_from_begin_ * begin_from_frame, share * step));
-  }
-
- private:
-  base::Stamp begin_;
-  double seconds_;
-  geometry::Se3 map_from_begin_, begin_from_told_end_;
-  geometry::Vector6d disagreement_;
-};
-
-}  // namespace
-
-std::vector<StampedPose> denseTrajectory(const Map& map) {
-  std::vector<StampedPose> trajectory;
-  std::size_t size = map.key_frames.size();
-  for (const KeyFrame& frame : map.key_frames) size += frame.hanging.size();
-  trajectory.reserve(size);
-  for (std::size_t i = 0; i < map.key_frames.size(); ++i) {
-    const KeyFrame& frame = map.key_frames[i];
-    trajectory.push_back({frame.stamp, frame.map_from_base});
-    if (frame.hanging.empty()) continue;
-    if (i + 1 == map.key_frames.size()) {
-      for (const HangingFrame& h : frame.hanging) {
-        trajectory.push_back({h.stamp, frame.map_from_base + h.keyframe_from_base});
-      }
-    } else {
-      const Spread spread(frame, map.key_frames[i + 1]);
-      for (const HangingFrame& h : frame.hanging) trajectory.push_back({h.stamp, spread(h)});
-    }
-  }
-  return trajectory;
 }
 
 }  // namespace omnimapper::map

@@ -159,9 +159,9 @@ void Engine::process(Moment& moment) {
     counts_.unconnected += moment.observations.size();
     return;
   }
-  map::KeyFrame& frame = map_.key_frames.back();
-  gather(moment, frame);
-  measure(frame);
+  const base::KeyFrameId id = map_.key_frames.back().id;
+  gather(moment, map_.key_frames.edit(id));
+  measure(id);
   for (auto& [section, plugin] : plugins_.pose) {
     plugin->forgetBefore(moment.stamp - base::durationFromSeconds(kHistorySeconds));
   }
@@ -173,7 +173,7 @@ void Engine::process(Moment& moment) {
 bool Engine::beginKeyFrame(base::Stamp stamp) {
   auto& frames = map_.key_frames;
   map::KeyFrame frame;
-  frame.id = {0, static_cast<std::uint32_t>(frames.size())};
+  frame.id = frames.nextId(0);
   frame.stamp = stamp;
   if (frames.empty()) {
     const bool absolute = std::any_of(plugins_.measurement.begin(), plugins_.measurement.end(),
@@ -182,10 +182,11 @@ bool Engine::beginKeyFrame(base::Stamp stamp) {
     // Where measurements place the map, the first pose is only a start: a kilometre and a turn either way.
     const Eigen::Matrix<double, 6, 6> anywhere = 1e6 * Eigen::Matrix<double, 6, 6>::Identity();
     if (absolute) graph_.addFactor(posePrior(options_.motion, frame.pose, {}, anywhere, "engine"));
-    frames.push_back(std::move(frame));
+    frames.insert(std::move(frame));
+    uncertainty_ = Uncertainty(graph_);
     return true;
   }
-  map::KeyFrame& previous = frames.back();
+  map::KeyFrame& previous = frames.edit(frames.back().id);
   const auto told = motionBetween(previous.stamp, stamp, true);
   if (told.empty()) return false;
   const auto best = std::min_element(told.begin(), told.end(), [](const auto& a, const auto& b) {
@@ -197,7 +198,7 @@ bool Engine::beginKeyFrame(base::Stamp stamp) {
   for (const auto& [section, motion] : told) {
     graph_.addFactor(betweenPoses(options_.motion, previous.pose, frame.pose, motion, section));
   }
-  frames.push_back(std::move(frame));
+  frames.insert(std::move(frame));
   return true;
 }
 
@@ -221,15 +222,15 @@ void Engine::gather(Moment& moment, map::KeyFrame& frame) {
   }
 }
 
-void Engine::measure(map::KeyFrame& frame) {
+void Engine::measure(base::KeyFrameId id) {
   for (auto& [section, plugin] : plugins_.measurement) {
-    for (const auto& observation : frame.observations) {
+    for (const auto& observation : map_.keyFrame(id).observations) {
       if (!plugin->wants(*observation)) continue;
       const StopWatch watch;
-      const Batch batch = plugin->measure(frame, *observation, view());
+      const Batch batch = plugin->measure(map_.keyFrame(id), {*observation, nullptr}, view());
       times_.add("plugin " + section, watch.seconds());
       busy_.plugins += watch.seconds();
-      plugin->applied(applyBatch(batch));
+      plugin->applied(applyBatch(batch, section));
     }
   }
   refineNewest();
@@ -238,8 +239,8 @@ void Engine::measure(map::KeyFrame& frame) {
   if (since_solve >= due) solveNow(solver_.running());
   for (auto& [section, plugin] : plugins_.measurement) {
     const Timed timed(busy_.plugins);
-    const Batch batch = plugin->afterCommit(frame, view());
-    if (!batch.empty()) plugin->applied(applyBatch(batch));
+    const FollowUp follow_up = plugin->afterCommit(map_.keyFrame(id), view());
+    if (!follow_up.batch.empty()) plugin->applied(applyBatch(follow_up.batch, section));
   }
 }
 
@@ -248,7 +249,7 @@ void Engine::hang(base::Stamp stamp) {
     ++counts_.unconnected;
     return;
   }
-  map::KeyFrame& frame = map_.key_frames.back();
+  map::KeyFrame& frame = map_.key_frames.edit(map_.key_frames.back().id);
   const bool first = frame.hanging.empty();
   const base::Stamp begin = first ? frame.stamp : frame.hanging.back().stamp;
   const auto told = motionBetween(begin, stamp, true);
@@ -273,8 +274,8 @@ std::vector<std::pair<std::string, RelativeMotion>> Engine::motionBetween(base::
   return told;
 }
 
-AppliedBatch Engine::applyBatch(const Batch& batch) {
-  auto ids = apply(batch, graph_);
+AppliedBatch Engine::applyBatch(const Batch& batch, const std::string& owner) {
+  auto ids = apply(batch, {owner, map_.key_frames.back().stamp}, graph_, map_);
   decisions_.insert(decisions_.end(), batch.decisions().begin(), batch.decisions().end());
   closed_since_solve_ = closed_since_solve_ || std::any_of(batch.addedFactors().begin(), batch.addedFactors().end(),
                                                            [](const auto& record) { return record.tags.hypothesis; });
@@ -283,7 +284,7 @@ AppliedBatch Engine::applyBatch(const Batch& batch) {
 
 // The newest pose by all factors that bind it to the poses before, which stay: what a solve would do first.
 void Engine::refineNewest() {
-  map::KeyFrame& frame = map_.key_frames.back();
+  map::KeyFrame& frame = map_.key_frames.edit(map_.key_frames.back().id);
   graph::solveOne(graph_, frame.pose);
   frame.map_from_base = poseOf(graph_, frame.pose);
 }
@@ -291,7 +292,11 @@ void Engine::refineNewest() {
 void Engine::solveNow(const graph::SolveOptions& options) {
   const StopWatch watch;
   const auto summary = graph::solve(graph_, options);
-  for (auto& frame : map_.key_frames) frame.map_from_base = poseOf(graph_, frame.pose);
+  for (std::size_t i = 0; i < map_.key_frames.size(); ++i) {
+    auto& frame = map_.key_frames.edit(map_.key_frames[i].id);
+    frame.map_from_base = poseOf(graph_, frame.pose);
+  }
+  uncertainty_ = Uncertainty(graph_);
   busy_.solve += watch.seconds();
   times_.add("solve", watch.seconds());
   ++counts_.solves;

@@ -43,6 +43,12 @@ std::vector<std::shared_ptr<const PluginFactory>> registeredFactories() {
   return factories;
 }
 
+Kinds registeredKinds() {
+  Kinds kinds;
+  for (const auto& factory : registeredFactories()) factory->registerKinds(kinds);
+  return kinds;
+}
+
 std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::string& name, const std::string& place) {
   std::vector<std::string> known;
   for (const auto& factory : registeredFactories()) {

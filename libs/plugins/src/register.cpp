@@ -1,7 +1,6 @@
 #include <mrpt/core/initializer.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/obs/registerClasses.h>
-#include <omnimapper/plugins/AntennaFactor.h>
 #include <omnimapper/plugins/GpsPlugin.h>
 #include <omnimapper/plugins/GraphOutput.h>
 #include <omnimapper/plugins/GridOutput.h>
@@ -40,12 +39,6 @@ void registerPlugins() {
   registerClass(CLASS_ID(SceneOutputFactory));
   registerClass(CLASS_ID(SummaryOutputFactory));
   registerClass(CLASS_ID(TrajectoryOutputFactory));
-}
-
-graph::FactorRegistry factorRegistry() {
-  auto registry = graph::FactorRegistry::withBuiltIns();
-  AntennaFactor::addTo(registry);
-  return registry;
 }
 
 }  // namespace omnimapper::plugins

@@ -74,7 +74,7 @@ std::optional<GpsPlugin::Fix> GpsPlugin::read(const mrpt::obs::CObservationGPS& 
   return std::nullopt;
 }
 
-mapper::Batch GpsPlugin::measure(const map::KeyFrame& frame, const mrpt::obs::CObservation& observation,
+mapper::Batch GpsPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                  const mapper::View& view) {
   mapper::Batch batch;
   mapper::Decision decision;
@@ -82,7 +82,7 @@ mapper::Batch GpsPlugin::measure(const map::KeyFrame& frame, const mrpt::obs::CO
   decision.plugin = context_.section;
   decision.kind = "absolute position";
   decision.from = frame.id;
-  const auto fix = read(dynamic_cast<const mrpt::obs::CObservationGPS&>(observation), decision);
+  const auto fix = read(dynamic_cast<const mrpt::obs::CObservationGPS&>(observed.observation), decision);
   batch.log(decision);
   if (!fix) return batch;
   waiting_.push_back(*fix);
@@ -140,6 +140,10 @@ std::optional<mrpt::poses::CPose3D> GpsPlugin::alignment(const mapper::View& vie
                                std::sin(yaw) * mean_enu.x() + std::cos(yaw) * mean_enu.y(), mean_enu.z());
   const Eigen::Vector3d offset = mean_map - turned;
   return mrpt::poses::CPose3D(offset.x(), offset.y(), offset.z(), yaw, 0, 0);
+}
+
+void GpsPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+  AntennaFactor::addTo(kinds.factors);
 }
 
 std::unique_ptr<mapper::MeasurementPlugin> GpsPluginFactory::make(const base::ConfigSection& section,

@@ -29,9 +29,9 @@ bool RobotPosePlugin::wants(const mrpt::obs::CObservation& observation) const {
          (options_.label.empty() || observation.sensorLabel == options_.label);
 }
 
-mapper::Batch RobotPosePlugin::measure(const map::KeyFrame& frame, const mrpt::obs::CObservation& observation,
+mapper::Batch RobotPosePlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                        const mapper::View&) {
-  const auto& measured = dynamic_cast<const mrpt::obs::CObservationRobotPose&>(observation);
+  const auto& measured = dynamic_cast<const mrpt::obs::CObservationRobotPose&>(observed.observation);
   mapper::Batch batch;
   mapper::Decision decision;
   decision.stamp = frame.stamp;

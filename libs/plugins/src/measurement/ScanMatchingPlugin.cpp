@@ -104,10 +104,10 @@ bool ScanMatchingPlugin::wants(const mrpt::obs::CObservation& observation) const
   return label.size() >= suffix.size() && label.compare(label.size() - suffix.size(), suffix.size(), suffix) == 0;
 }
 
-mapper::Batch ScanMatchingPlugin::measure(const map::KeyFrame& frame, const mrpt::obs::CObservation& observation,
+mapper::Batch ScanMatchingPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                           const mapper::View& view) {
-  const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(observation);
-  History& history = histories_[observation.sensorLabel];
+  const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(observed.observation);
+  History& history = histories_[cloud.sensorLabel];
   double way = 0;
   if (!history.empty()) {
     const auto& before = view.map.keyFrame(history.back().id).map_from_base;
@@ -159,7 +159,7 @@ void ScanMatchingPlugin::closeLoops(const map::KeyFrame& frame, const History& h
     decision.to = place.id;
     auto closure = factor(place.pose, frame.pose, match);
     if (decision.accepted) {
-      const auto predicted = uncertainty_.between(view, place.id, frame.id);
+      const auto predicted = view.covarianceBetween(place.id, frame.id);
       const double chi2 = predicted ? innovation(match, guess, closure, *predicted) : 0;
       decision.accepted = predicted && chi2 <= options_.loop_max_chi2;
       if (predicted) decision.numbers.emplace_back("chi-square", chi2);

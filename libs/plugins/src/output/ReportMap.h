@@ -1,5 +1,7 @@
 #pragma once
 
+#include <omnimapper/map/Trajectory.h>
+
 #include <string>
 #include <vector>
 

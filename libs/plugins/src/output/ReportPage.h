@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/mapper/View.h>
 

@@ -1,6 +1,7 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/serialization/CArchive.h>
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugins/SceneOutput.h>
 
 #include "OutputFile.h"

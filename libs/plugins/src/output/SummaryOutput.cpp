@@ -1,3 +1,4 @@
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugins/SummaryOutput.h>
 
 #include <nlohmann/json.hpp>

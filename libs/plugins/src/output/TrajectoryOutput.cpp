@@ -1,3 +1,4 @@
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugins/TrajectoryOutput.h>
 
 #include "OutputFile.h"

@@ -1,5 +1,6 @@
 #include "Tum.h"
 
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/geometry/Conversions.h>
 
 #include "Numbers.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/map/Map.h>
+#include <omnimapper/map/Trajectory.h>
 
 #include <string>
 #include <vector>

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <omnimapper/base/Id.h>
+#include <omnimapper/base/IdTable.h>
 
 #include <Eigen/Core>
 #include <memory>
 #include <vector>
 
 #include "omnimapper/graph/FactorRecord.h"
-#include "omnimapper/graph/IdTable.h"
 #include "omnimapper/graph/Variable.h"
 
 namespace omnimapper::graph {
@@ -21,7 +21,7 @@ struct VariableRecord {
 };
 
 /// Variables and the factors between them. Every edit takes a time that does not grow with the graph. Copies are
-/// independent and share the immutable factors. Every method that is given an id throws Error(internal), naming it, if
+/// independent and cheap: they share what neither has changed since (base::IdTable). Every method that is given an id throws Error(internal), naming it, if
 /// the graph has no such thing.
 class Graph {
  public:
@@ -39,14 +39,16 @@ class Graph {
   /// if the noise is not of the residual's size, or if the weight is negative or not finite.
   base::FactorId addFactor(FactorRecord record);
   void removeFactor(base::FactorId id);
+  /// Lets a factor speak of other variables; id, noise, weight and tags stay. Throws as addFactor().
+  void rebind(base::FactorId id, const std::vector<base::VariableId>& variables);
 
   bool contains(base::VariableId id) const { return variables_.find(id) != nullptr; }
   bool contains(base::FactorId id) const { return factors_.find(id) != nullptr; }
   const VariableRecord& variable(base::VariableId id) const;
   const FactorRecord& factor(base::FactorId id) const;
   /// Iteration in the order of ids: for (const auto& [id, record] : graph.variables()).
-  const IdTable<base::VariableId, VariableRecord>& variables() const { return variables_; }
-  const IdTable<base::FactorId, FactorRecord>& factors() const { return factors_; }
+  const base::IdTable<base::VariableId, VariableRecord>& variables() const { return variables_; }
+  const base::IdTable<base::FactorId, FactorRecord>& factors() const { return factors_; }
   const std::vector<base::FactorId>& factorsOf(base::VariableId id) const { return variable(id).factors; }
 
   const Eigen::VectorXd& value(base::VariableId id) const { return variable(id).value; }
@@ -56,6 +58,8 @@ class Graph {
   /// Throws Error(internal) if it is negative or not finite.
   void setWeight(base::FactorId id, double weight);
   void setLoss(base::FactorId id, const Loss& loss);
+  /// The landmark in its tags.
+  void setLandmark(base::FactorId id, base::LandmarkId landmark);
 
   /// noise * residual at the current values; weight and loss do not enter.
   Eigen::VectorXd whitenedResidual(base::FactorId id) const;
@@ -69,10 +73,12 @@ class Graph {
   VariableRecord& mutableVariable(base::VariableId id);
   FactorRecord& mutableFactor(base::FactorId id);
   void checkBinding(const FactorRecord& record) const;
+  void bind(base::FactorId id);
+  void unbind(base::FactorId id);
 
   std::uint16_t session_;
-  IdTable<base::VariableId, VariableRecord> variables_;
-  IdTable<base::FactorId, FactorRecord> factors_;
+  base::IdTable<base::VariableId, VariableRecord> variables_;
+  base::IdTable<base::FactorId, FactorRecord> factors_;
 };
 
 }  // namespace omnimapper::graph

@@ -1,50 +1,32 @@
 #pragma once
 
-#include <mrpt/obs/CObservation.h>
-#include <mrpt/poses/CPose3D.h>
-#include <omnimapper/base/Id.h>
-#include <omnimapper/base/Stamp.h>
+#include <omnimapper/base/IdTable.h>
+#include <omnimapper/map/KeyFrames.h>
+#include <omnimapper/map/Landmark.h>
 
 #include <string>
 #include <vector>
 
 namespace omnimapper::map {
 
-/// An observation of the reference sensor between two key frames: it hangs on the key frame before it.
-struct HangingFrame {
-  base::Stamp stamp;
-  mrpt::poses::CPose3D keyframe_from_base;  ///< motion since the key frame, by the continuous pose source
+/// One run that added to the map. Everything it made carries its number.
+struct Session {
+  std::uint16_t number = 0;
+  std::string title;        ///< name of its log
+  base::VariableId anchor;  ///< map_from_session: where the session began, as the graph has it now
+  bool joined = true;       ///< an accepted hypothesis ties it to an earlier session; the first one needs none
 };
 
-/// A pose of the base that the graph optimises, with what was seen from there.
-struct KeyFrame {
-  base::KeyFrameId id;
-  base::Stamp stamp;
-  base::VariableId pose;                                        ///< its variable in the graph
-  mrpt::poses::CPose3D map_from_base;                           ///< latest estimate
-  std::vector<mrpt::obs::CObservation::ConstPtr> observations;  ///< raw and derived, all of `stamp`; sensor frames
-  std::vector<HangingFrame> hanging;                            ///< in order of stamp, before the next key frame
-  /// Motion to the next key frame by the source that gave `hanging`; identity for the newest.
-  mrpt::poses::CPose3D keyframe_from_next;
-};
-
-/// What is known of the place, in plain data. Lengths [m], angles [rad].
+/// What is known of the place, in plain data. Lengths [m], angles [rad]. Copies are cheap (base::IdTable).
 struct Map {
-  std::vector<KeyFrame> key_frames;  ///< in order of stamp
+  KeyFrames key_frames;
+  base::IdTable<base::LandmarkId, Landmark> landmarks;
+  std::vector<Session> sessions;  ///< in order of number
 
   /// The key frame of that id. Throws Error(internal) if there is none.
-  const KeyFrame& keyFrame(base::KeyFrameId id) const;
-  /// Index of the last key frame at or before `stamp`; -1 if all are later.
-  int indexAt(base::Stamp stamp) const;
+  const KeyFrame& keyFrame(base::KeyFrameId id) const { return key_frames.at(id); }
+  /// The landmark of that id, or the one it was merged into. Throws Error(internal) if there is none.
+  const Landmark& landmark(base::LandmarkId id) const;
 };
-
-struct StampedPose {
-  base::Stamp stamp;
-  mrpt::poses::CPose3D map_from_base;
-};
-
-/// One pose for each key frame and each hanging frame, in order of stamp. Between two key frames the disagreement of
-/// the continuous source with the optimised poses is spread evenly in time, so that the path has no steps.
-std::vector<StampedPose> denseTrajectory(const Map& map);
 
 }  // namespace omnimapper::map

@@ -40,7 +40,7 @@ class Engine {
   /// Adds time spent outside the engine, such as reading the log.
   void addTime(const std::string& stage, double seconds) { times_.add(stage, seconds); }
 
-  View view() const { return {map_, graph_, decisions_, times_, counts_, solves_, warnings_}; }
+  View view() const { return {{map_, graph_, uncertainty_}, decisions_, times_, counts_, solves_, warnings_, sections_}; }
 
  private:
   /// An observation with the derived ones that the pool is making of it.
@@ -61,12 +61,12 @@ class Engine {
   void process(Moment& moment);
   bool beginKeyFrame(base::Stamp stamp);
   void gather(Moment& moment, map::KeyFrame& frame);
-  void measure(map::KeyFrame& frame);
+  void measure(base::KeyFrameId id);
   void hang(base::Stamp stamp);
   /// What each source that covers the span says, by section; the fallbacks if none does and they are asked for.
   std::vector<std::pair<std::string, RelativeMotion>> motionBetween(base::Stamp begin, base::Stamp end,
                                                                     bool or_fallback) const;
-  AppliedBatch applyBatch(const Batch& batch);
+  AppliedBatch applyBatch(const Batch& batch, const std::string& owner);
   void refineNewest();
   void solveNow(const graph::SolveOptions& options);
 
@@ -87,6 +87,8 @@ class Engine {
 
   map::Map map_;
   graph::Graph graph_;
+  Uncertainty uncertainty_;
+  std::vector<map::MapSection> sections_;
   DecisionLog decisions_;
   StageTimes times_;
   RunCounts counts_;

@@ -2,6 +2,8 @@
 
 #include <mrpt/rtti/CObject.h>
 #include <omnimapper/base/Config.h>
+#include <omnimapper/graph/FactorRegistry.h>
+#include <omnimapper/map/PayloadRegistry.h>
 #include <omnimapper/mapper/Extractor.h>
 #include <omnimapper/mapper/MeasurementPlugin.h>
 #include <omnimapper/mapper/Motion.h>
@@ -23,6 +25,12 @@ struct PluginContext {
   std::string config_text;    ///< the INI of the run
 };
 
+/// What a map file may hold.
+struct Kinds {
+  graph::FactorRegistry factors = graph::FactorRegistry::withBuiltIns();
+  map::PayloadRegistry payloads;
+};
+
 enum class PluginKind { pose, measurement, output, extractor };
 
 /// An MRPT run-time class that stands for a plugin class and makes it: it has no state and exists without options.
@@ -36,6 +44,8 @@ class PluginFactory : public mrpt::rtti::CObject {
   /// One sentence for --list-plugins.
   virtual std::string summary() const = 0;
   virtual const std::vector<base::OptionSpec>& options() const = 0;
+  /// Makes known the variables, factors and payloads that its plugin puts into a map, so that a map file can be read.
+  virtual void registerKinds(Kinds& /*kinds*/) const {}
 };
 
 /// make() reads the options from `section` and throws base::Error if they do not fit.

@@ -14,6 +14,9 @@ void registerFactoryBases();
 /// Every factory that is registered with MRPT by now, by kind, then name.
 std::vector<std::shared_ptr<const PluginFactory>> registeredFactories();
 
+/// What the plugins of all registered factories put into maps, beside the kinds of `graph` itself.
+Kinds registeredKinds();
+
 /// The factory an INI means by `class = name`. Throws Error(unknown_plugin) naming the nearest known class.
 std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::string& name, const std::string& place);
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <omnimapper/graph/Graph.h>
-#include <omnimapper/map/Map.h>
+#include <omnimapper/map/MapFile.h>
 #include <omnimapper/mapper/DecisionLog.h>
 #include <omnimapper/mapper/StageTimes.h>
+#include <omnimapper/mapper/State.h>
 
 #include <cstddef>
 #include <map>
@@ -19,7 +19,9 @@ struct RunCounts {
   std::size_t not_triggered = 0;   ///< taken, but the trigger gave them no pose of their own
   std::size_t no_stamp = 0;        ///< refused: zero stamp
   std::size_t repeated_stamp = 0;  ///< refused: the same sensor and stamp a second time
-  std::size_t too_late = 0;        ///< refused: older than what was already released
+  std::size_t too_late = 0;        ///< refused: older than [mapper] horizon_s, or than the first of a continued session
+  std::size_t late = 0;            ///< came after their window and were put in their place
+  std::size_t spliced = 0;         ///< key frames that late observations made between others
   std::size_t unusable = 0;  ///< refused: odometry not finite or backwards in time, or a sensor pose that is not finite
   std::size_t unconnected = 0;  ///< refused: no pose plugin tells the motion since the key frame before
   std::size_t solves = 0;
@@ -34,15 +36,15 @@ struct SolveRecord {
 };
 
 /// Everything there is to see, const. Valid during the call it is given to.
-struct View {
-  const map::Map& map;
-  const graph::Graph& graph;
+struct View : State {
   const DecisionLog& decisions;
   const StageTimes& times;
   const RunCounts& counts;
   const std::vector<SolveRecord>& solves;
   /// What a user should know of this run: damaged input, interruption, observations left out.
   const std::vector<std::string>& warnings;
+  /// What a map file holds beside graph, frames and landmarks: sections of plugins, and those that nobody here knows.
+  const std::vector<map::MapSection>& sections;
 };
 
 }  // namespace omnimapper::mapper

@@ -36,7 +36,7 @@ class GpsPlugin : public mapper::MeasurementPlugin {
 
   bool wants(const mrpt::obs::CObservation& observation) const override;
   bool givesAbsolutePoses() const override { return options_.map_is_enu; }
-  mapper::Batch measure(const map::KeyFrame& frame, const mrpt::obs::CObservation& observation,
+  mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
   void applied(const mapper::AppliedBatch& ids) override;
 
@@ -68,6 +68,7 @@ class GpsPluginFactory : public mapper::MeasurementPluginFactory {
   std::string name() const override { return "GpsPlugin"; }
   std::string summary() const override { return "GPS fixes; finds where the map is on the earth, or is told."; }
   const std::vector<base::OptionSpec>& options() const override { return GpsOptions::table().specs(); }
+  void registerKinds(mapper::Kinds& kinds) const override;
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
                                                   const mapper::PluginContext& context) const override;
 };

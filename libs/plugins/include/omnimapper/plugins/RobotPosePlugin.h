@@ -28,7 +28,7 @@ class RobotPosePlugin : public mapper::MeasurementPlugin {
 
   bool wants(const mrpt::obs::CObservation& observation) const override;
   bool givesAbsolutePoses() const override { return options_.reference_is_map; }
-  mapper::Batch measure(const map::KeyFrame& frame, const mrpt::obs::CObservation& observation,
+  mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
   void applied(const mapper::AppliedBatch& ids) override;
 

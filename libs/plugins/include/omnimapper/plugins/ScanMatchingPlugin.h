@@ -2,7 +2,6 @@
 
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/mapper/PluginFactory.h>
-#include <omnimapper/mapper/RelativeUncertainty.h>
 #include <omnimapper/matching/IcpMatcher.h>
 
 #include <map>
@@ -46,7 +45,7 @@ class ScanMatchingPlugin : public mapper::MeasurementPlugin {
                      const mapper::PluginContext& context);
 
   bool wants(const mrpt::obs::CObservation& observation) const override;
-  mapper::Batch measure(const map::KeyFrame& frame, const mrpt::obs::CObservation& observation,
+  mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
 
  private:
@@ -80,7 +79,6 @@ class ScanMatchingPlugin : public mapper::MeasurementPlugin {
   mapper::PluginContext context_;
   matching::IcpMatcher sequential_matcher_;
   matching::IcpMatcher loop_matcher_;
-  mapper::RelativeUncertainty uncertainty_;
   std::map<std::string, History> histories_;  // by label
 };
 

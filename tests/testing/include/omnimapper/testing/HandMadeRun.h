@@ -18,8 +18,10 @@ struct HandMadeRun {
   mapper::RunCounts counts;
   std::vector<mapper::SolveRecord> solves;
   std::vector<std::string> warnings;
+  std::vector<map::MapSection> sections;
+  mapper::Uncertainty uncertainty;  ///< of nothing, until a test sets it
 
-  mapper::View view() const { return {map, graph, decisions, times, counts, solves, warnings}; }
+  mapper::View view() const { return {{map, graph, uncertainty}, decisions, times, counts, solves, warnings, sections}; }
 
   /// A key frame at that estimate, one second after the one before.
   const map::KeyFrame& addFrame(const mrpt::poses::CPose3D& map_from_base) {
@@ -29,8 +31,7 @@ struct HandMadeRun {
     frame.stamp = base::stampFromUnix(1'000'000'000 + static_cast<double>(index));
     frame.map_from_base = map_from_base;
     frame.pose = graph.addVariable(mapper::poseVariable(motion), mapper::poseValue(motion, map_from_base), index == 0);
-    map.key_frames.push_back(frame);
-    return map.key_frames.back();
+    return map.key_frames[map.key_frames.insert(frame)];
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/map/MapFile.h>

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <omnimapper/base/Id.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::base {
+
+/// Things by their id. Look-up, insertion and removal take constant time; iteration is in the order of ids; an index is
+/// never given twice. A copy shares what it holds until one of the two changes it, chunk by chunk: copying costs a
+/// pointer for every 64 things. A copy may be read in another thread while the original changes, as long as the thread
+/// that changes it is the one that destroys the copy.
+template <class IdType, class Value>
+class IdTable {
+  static constexpr std::uint32_t kChunkSize = 64;
+  using Chunk = std::array<std::optional<Value>, kChunkSize>;
+  struct Session {
+    std::vector<std::shared_ptr<Chunk>> chunks;
+    std::uint32_t next = 0;
+    const std::optional<Value>& at(std::uint32_t index) const {
+      return (*chunks[index / kChunkSize])[index % kChunkSize];
+    }
+  };
+  using Sessions = std::map<std::uint16_t, Session>;
+
+ public:
+  /// Steps over what is there; *it is {id, value}.
+  class Iterator {
+   public:
+    std::pair<IdType, const Value&> operator*() const {
+      return {IdType{session_->first, index_}, *session_->second.at(index_)};
+    }
+    Iterator& operator++() {
+      ++index_;
+      skipHoles();
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return session_ != other.session_ || index_ != other.index_; }
+    bool operator==(const Iterator& other) const { return !(*this != other); }
+
+   private:
+    friend class IdTable;
+    using Place = typename Sessions::const_iterator;
+    Iterator(Place session, Place end) : session_(session), end_(end) { skipHoles(); }
+    void skipHoles() {
+      while (session_ != end_) {
+        while (index_ < session_->second.next && !session_->second.at(index_)) ++index_;
+        if (index_ < session_->second.next) return;
+        index_ = 0;
+        ++session_;
+      }
+    }
+    Place session_, end_;
+    std::uint32_t index_ = 0;
+  };
+
+  Iterator begin() const { return Iterator(sessions_.begin(), sessions_.end()); }
+  Iterator end() const { return Iterator(sessions_.end(), sessions_.end()); }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+
+  /// The id that add() would give.
+  IdType nextId(std::uint16_t session) const {
+    const auto found = sessions_.find(session);
+    return {session, found == sessions_.end() ? 0 : found->second.next};
+  }
+  /// Gives it the session's next index.
+  IdType add(std::uint16_t session, Value value) {
+    const std::uint32_t index = skip(session);
+    ownChunk(sessions_[session], index)[index % kChunkSize] = std::move(value);
+    ++size_;
+    return {session, index};
+  }
+  /// False, and nothing done, if there is no such id.
+  bool erase(IdType id) {
+    if (!find(id)) return false;
+    ownChunk(sessions_[id.session], id.index)[id.index % kChunkSize].reset();
+    --size_;
+    return true;
+  }
+  const Value* find(IdType id) const {
+    const auto session = sessions_.find(id.session);
+    if (session == sessions_.end() || id.index >= session->second.next) return nullptr;
+    const std::optional<Value>& value = session->second.at(id.index);
+    return value ? &*value : nullptr;
+  }
+  /// To change it: until the table is copied again. Null if there is no such id.
+  Value* edit(IdType id) {
+    if (!find(id)) return nullptr;
+    return &*ownChunk(sessions_[id.session], id.index)[id.index % kChunkSize];
+  }
+
+  /// The index that add() will give next, of every session that ever had one.
+  std::map<std::uint16_t, std::uint32_t> nextIndices() const {
+    std::map<std::uint16_t, std::uint32_t> next;
+    for (const auto& [number, session] : sessions_) next[number] = session.next;
+    return next;
+  }
+  /// Leaves a hole where add() would have put something; how a table is rebuilt with the ids it had.
+  std::uint32_t skip(std::uint16_t session) {
+    Session& values = sessions_[session];
+    if (values.next % kChunkSize == 0) values.chunks.push_back(std::make_shared<Chunk>());
+    return values.next++;
+  }
+
+ private:
+  Chunk& ownChunk(Session& session, std::uint32_t index) {
+    std::shared_ptr<Chunk>& chunk = session.chunks[index / kChunkSize];
+    if (chunk.use_count() > 1) chunk = std::make_shared<Chunk>(*chunk);
+    return *chunk;
+  }
+
+  Sessions sessions_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace omnimapper::base

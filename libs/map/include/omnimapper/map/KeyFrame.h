@@ -1,0 +1,31 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/poses/CPose3D.h>
+#include <omnimapper/base/Id.h>
+#include <omnimapper/base/Stamp.h>
+
+#include <vector>
+
+namespace omnimapper::map {
+
+/// An observation of the reference sensor between two key frames: it hangs on the key frame before it.
+struct HangingFrame {
+  base::Stamp stamp;
+  mrpt::poses::CPose3D keyframe_from_base;  ///< motion since the key frame, by the continuous pose source
+};
+
+/// A pose of the base that the graph optimises, with what was seen from there.
+struct KeyFrame {
+  base::KeyFrameId id;
+  base::Stamp stamp;
+  base::VariableId pose;                                        ///< its variable in the graph
+  mrpt::poses::CPose3D map_from_base;                           ///< latest estimate
+  std::vector<mrpt::obs::CObservation::ConstPtr> observations;  ///< raw and derived, all of `stamp`; sensor frames
+  std::vector<HangingFrame> hanging;                            ///< in order of stamp, before the next key frame
+  /// Motion to the next key frame by the source that gave `hanging`; identity for the newest.
+  mrpt::poses::CPose3D keyframe_from_next;
+  bool reference = true;  ///< the reference sensor saw something here: the trajectory has a line for it
+};
+
+}  // namespace omnimapper::map

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <omnimapper/base/Id.h>
+#include <omnimapper/base/Stamp.h>
+
+#include <cstdint>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace omnimapper::map {
+
+/// What a landmark is beside what is optimised: a plane's extent, a sign's text, an object's model. Immutable; a plugin
+/// that learns more gives a new one. Points in it are in the base of the key frame that saw them.
+class LandmarkPayload {
+ public:
+  virtual ~LandmarkPayload() = default;
+  /// Name in files, unique among payloads: its reader is registered under it.
+  virtual std::string_view kind() const = 0;
+  virtual void write(std::ostream& out) const = 0;
+};
+
+/// Something in the place that was seen, and may be seen again (thesis 4).
+struct Landmark {
+  enum class State : std::uint8_t {
+    active,
+    retired,  ///< no longer there: kept with its factors, but nothing is associated with it any more
+    merged,   ///< found to be another one, which has its factors now
+  };
+  base::LandmarkId id;
+  std::string kind;   ///< "wall", "door sign", ...: what a user calls it
+  std::string owner;  ///< INI section of the plugin that knows it
+  std::vector<base::VariableId> variables;
+  std::shared_ptr<const LandmarkPayload> payload;  ///< null if there is nothing beside the variables
+  std::uint32_t evidence = 0;                      ///< observations counted for it
+  base::Stamp first_seen, last_seen;
+  State state = State::active;
+  base::LandmarkId merged_into;  ///< while state is merged
+};
+
+}  // namespace omnimapper::map

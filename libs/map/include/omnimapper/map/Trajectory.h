@@ -1,0 +1,19 @@
+#pragma once
+
+#include <omnimapper/map/Map.h>
+
+#include <vector>
+
+namespace omnimapper::map {
+
+struct StampedPose {
+  base::Stamp stamp;
+  mrpt::poses::CPose3D map_from_base;
+};
+
+/// One pose for each observation of the reference sensor, at a key frame or hanging on one, in the order of key frames.
+/// Between two key frames the disagreement of the continuous source with the optimised poses is spread evenly in time,
+/// so that the path has no steps.
+std::vector<StampedPose> denseTrajectory(const Map& map);
+
+}  // namespace omnimapper::map

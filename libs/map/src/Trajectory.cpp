@@ -1,0 +1,61 @@
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/map/Trajectory.h>
+
+#include <algorithm>
+
+namespace omnimapper::map {
+
+namespace {
+
+/// Spreads over a stretch what the continuous source and the optimised next key frame disagree on.
+class Spread {
+ public:
+  Spread(const KeyFrame& begin, const KeyFrame& end)
+      : begin_(begin.stamp),
+        seconds_(base::secondsBetween(begin.stamp, end.stamp)),
+        map_from_begin_(geometry::fromMrpt(begin.map_from_base)),
+        begin_from_told_end_(geometry::fromMrpt(begin.keyframe_from_next)),
+        disagreement_(geometry::minus(geometry::fromMrpt(end.map_from_base), map_from_begin_ * begin_from_told_end_)) {}
+
+  // The disagreement is a tangent at the told end; turned into the hanging frame it is the same step and the same turn
+  // in the map, of which the frame takes its share by time. At the end the share is all of it: the next key frame.
+  mrpt::poses::CPose3D operator()(const HangingFrame& frame) const {
+    const double share = std::clamp(base::secondsBetween(begin_, frame.stamp) / seconds_, 0.0, 1.0);
+    const geometry::Se3 begin_from_frame = geometry::fromMrpt(frame.keyframe_from_base);
+    const Eigen::Quaterniond turn = begin_from_frame.rotation.conjugate() * begin_from_told_end_.rotation;
+    geometry::Vector6d step;
+    step << turn * disagreement_.head<3>(), turn * disagreement_.tail<3>();
+    return geometry::toMrpt(geometry::plus(map_from_begin_ * begin_from_frame, share * step));
+  }
+
+ private:
+  base::Stamp begin_;
+  double seconds_;
+  geometry::Se3 map_from_begin_, begin_from_told_end_;
+  geometry::Vector6d disagreement_;
+};
+
+}  // namespace
+
+std::vector<StampedPose> denseTrajectory(const Map& map) {
+  std::vector<StampedPose> trajectory;
+  std::size_t size = map.key_frames.size();
+  for (const KeyFrame& frame : map.key_frames) size += frame.hanging.size();
+  trajectory.reserve(size);
+  for (std::size_t i = 0; i < map.key_frames.size(); ++i) {
+    const KeyFrame& frame = map.key_frames[i];
+    if (frame.reference) trajectory.push_back({frame.stamp, frame.map_from_base});
+    if (frame.hanging.empty()) continue;
+    if (i + 1 == map.key_frames.size() || map.key_frames[i + 1].id.session != frame.id.session) {
+      for (const HangingFrame& h : frame.hanging) {
+        trajectory.push_back({h.stamp, frame.map_from_base + h.keyframe_from_base});
+      }
+    } else {
+      const Spread spread(frame, map.key_frames[i + 1]);
+      for (const HangingFrame& h : frame.hanging) trajectory.push_back({h.stamp, spread(h)});
+    }
+  }
+  return trajectory;
+}
+
+}  // namespace omnimapper::map
