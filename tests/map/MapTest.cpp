@@ -101,7 +101,8 @@ TEST(DenseTrajectory, withoutDisagreementItIsTheToldPath) {
   map::KeyFrame first = keyFrame(0, 0, CPose3D(1, 2, 3, 0.4, 0.1, -0.2));
   first.hanging = {{at(0.3), CPose3D(0.1, 0.2, 0, 0.3, 0, 0)}};
   first.keyframe_from_next = CPose3D(0.5, 0.1, 0.2, 0.6, 0.1, 0);
-  const auto path = map::denseTrajectory(mapOf({first, keyFrame(1, 1, first.map_from_base + first.keyframe_from_next)}));
+  const auto path =
+      map::denseTrajectory(mapOf({first, keyFrame(1, 1, first.map_from_base + first.keyframe_from_next)}));
   expectNear(path[1].map_from_base, first.map_from_base + first.hanging[0].keyframe_from_base, 1e-12);
 }
 

@@ -51,10 +51,10 @@ class EngineInput : public ::testing::Test {
   std::size_t scan_ = indexOf<CObservation2DRangeScan>(log_, log_.size() / 2);
 
   /// Expects the same map, to the bit, as without the inserted observation; gives the counts.
-  RunCounts countsWith(const CObservation::Ptr& bad, std::size_t place) {
+  RunCounts countsWith(const CObservation::Ptr& bad, std::size_t place, const std::vector<std::string>& settings = {}) {
     auto spoiled = log_;
     spoiled.insert(spoiled.begin() + static_cast<std::ptrdiff_t>(place), bad);
-    const auto clean = makeEngine(kLaserIni), engine = makeEngine(kLaserIni);
+    const auto clean = makeEngine(kLaserIni, settings), engine = makeEngine(kLaserIni, settings);
     testing::run(*clean, log_);
     testing::run(*engine, spoiled);
     EXPECT_EQ(bitsOf(engine->view()), bitsOf(clean->view()));
@@ -82,11 +82,11 @@ TEST_F(EngineInput, ARepeatedScanIsRefusedAndCountedThoughOthersCameBetween) {
   EXPECT_EQ(countsWith(copyOf<CObservation>(*log_[scan_]), later).repeated_stamp, 1U);
 }
 
-TEST_F(EngineInput, WhatComesLaterThanTheWindowIsRefusedAndCounted) {
+TEST_F(EngineInput, WhatComesLaterThanTheHorizonIsRefusedAndCounted) {
   const auto late = copyOf<CObservation2DRangeScan>(*log_[scan_]);
   late->timestamp -= base::durationFromSeconds(0.75);
   late->sensorLabel = "slow laser";
-  EXPECT_EQ(countsWith(late, scan_ + 1).too_late, 1U);
+  EXPECT_EQ(countsWith(late, scan_ + 1, {"mapper.horizon_s=0"}).too_late, 1U);
 }
 
 TEST_F(EngineInput, OdometryThatIsNotFiniteIsRefusedAndCounted) {

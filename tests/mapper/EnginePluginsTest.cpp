@@ -63,7 +63,7 @@ class CountingOutput : public OutputPlugin {
 class EnginePlugins : public ::testing::Test {
  protected:
   EnginePlugins() {
-    options_.solve_every = 1000;
+    settings_.engine.solve_every = 1000;
     auto scripted = std::make_unique<Scripted>();
     plugin_ = scripted.get();
     set_.pose.push_back({"steady", std::make_unique<Steady>()});
@@ -76,9 +76,8 @@ class EnginePlugins : public ::testing::Test {
     return pointer;
   }
   Engine& run(int key_frames) {
-    TriggerOptions every;
-    every.every_observation = true;
-    engine_ = std::make_unique<Engine>(options_, every, SolverOptions(), SensorPoses(), std::move(set_), 1);
+    settings_.trigger.every_observation = true;
+    engine_ = std::make_unique<Engine>(settings_, "scripted", SensorPoses(), std::move(set_), 1);
     for (int i = 0; i < key_frames; ++i) {
       auto comment = CObservationComment::Create();
       comment->timestamp = at(i);
@@ -88,7 +87,7 @@ class EnginePlugins : public ::testing::Test {
     return *engine_;
   }
 
-  EngineOptions options_;
+  EngineSettings settings_;
   PluginSet set_;
   Scripted* plugin_;
   std::unique_ptr<Engine> engine_;
@@ -138,7 +137,7 @@ TEST_F(EnginePlugins, AfterCommitComesOncePerKeyFrameWhenItsFactorsAreInTheGraph
 }
 
 TEST_F(EnginePlugins, SolvesEverySoManyKeyFramesAndAtTheEnd) {
-  options_.solve_every = 10;
+  settings_.engine.solve_every = 10;
   const auto* output = addOutput(false);
   const auto view = run(35).view();
   std::vector<std::size_t> solved;
@@ -149,8 +148,8 @@ TEST_F(EnginePlugins, SolvesEverySoManyKeyFramesAndAtTheEnd) {
 }
 
 TEST_F(EnginePlugins, AHypothesisBringsTheNextSolveForward) {
-  options_.solve_every = 10;
-  options_.solve_after_closure = 4;
+  settings_.engine.solve_every = 10;
+  settings_.engine.solve_after_closure = 4;
   plugin_->on_measure = [](const map::KeyFrame& frame, const View& view) {
     Batch batch;
     if (frame.id.index != 11) return batch;  // the twelfth

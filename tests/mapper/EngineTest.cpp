@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
-#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/graph/Between.h>
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
 #include <omnimapper/testing/MapperRun.h>
 

@@ -41,7 +41,7 @@ struct RandomTimeline {
       const auto any = [&] { return dice.uniform(-1, 1); };
       const CPose3D motion(any(), any(), any(), 3 * any(), any(), 3 * any());
       const Covariance root = Covariance::NullaryExpr([&](Eigen::Index, Eigen::Index) { return 0.1 * any(); });
-      EXPECT_TRUE(timeline.append(begin, end, {motion, root * root.transpose()}));
+      EXPECT_TRUE(timeline.insert(begin, end, {motion, root * root.transpose()}));
       length = end;
     }
   }
@@ -54,8 +54,8 @@ struct RandomTimeline {
 
 TEST(PoseTimeline, TwoSpansComposeAsWorkedByHand) {
   PoseTimeline timeline;
-  ASSERT_TRUE(timeline.append(at(0), at(1), {CPose3D(1, 0, 0, kQuarterTurn, 0, 0), diagonal(0, 0.01)}));
-  ASSERT_TRUE(timeline.append(at(1), at(2), {CPose3D(2, 0, 0, 0, 0, 0), diagonal(0.5, 0)}));
+  ASSERT_TRUE(timeline.insert(at(0), at(1), {CPose3D(1, 0, 0, kQuarterTurn, 0, 0), diagonal(0, 0.01)}));
+  ASSERT_TRUE(timeline.insert(at(1), at(2), {CPose3D(2, 0, 0, 0, 0, 0), diagonal(0.5, 0)}));
   const auto motion = timeline.between(at(0), at(2));
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->begin_from_end.x(), 1, 1e-12);
@@ -70,7 +70,7 @@ TEST(PoseTimeline, TwoSpansComposeAsWorkedByHand) {
 
 TEST(PoseTimeline, APartOfASpanIsItsShareOfTheMotion) {
   PoseTimeline timeline;
-  ASSERT_TRUE(timeline.append(at(10), at(14), {CPose3D(2, 0, 0, 0, 0, 0), diagonal(0.4, 0)}));
+  ASSERT_TRUE(timeline.insert(at(10), at(14), {CPose3D(2, 0, 0, 0, 0, 0), diagonal(0.4, 0)}));
   const auto quarter = timeline.between(at(11), at(12));
   ASSERT_TRUE(quarter);
   EXPECT_NEAR(quarter->begin_from_end.x(), 0.5, 1e-12);
@@ -112,8 +112,8 @@ TEST(PoseTimeline, NothingIsToldAcrossAGapOrBeyondTheEnds) {
   PoseTimeline timeline;
   EXPECT_FALSE(timeline.end());
   EXPECT_FALSE(timeline.between(at(0), at(0)));
-  ASSERT_TRUE(timeline.append(at(0), at(1), identityMotion()));
-  ASSERT_TRUE(timeline.append(at(2), at(3), identityMotion()));
+  ASSERT_TRUE(timeline.insert(at(0), at(1), identityMotion()));
+  ASSERT_TRUE(timeline.insert(at(2), at(3), identityMotion()));
   EXPECT_EQ(*timeline.end(), at(3));
   EXPECT_TRUE(timeline.between(at(0), at(1)));
   EXPECT_TRUE(timeline.between(at(2), at(3)));
@@ -126,17 +126,17 @@ TEST(PoseTimeline, NothingIsToldAcrossAGapOrBeyondTheEnds) {
 
 TEST(PoseTimeline, RefusesWhatDoesNotFollowOrIsNotFiniteAndStaysAsItWas) {
   PoseTimeline timeline;
-  ASSERT_TRUE(timeline.append(at(0), at(1), {CPose3D(1, 0, 0, 0, 0, 0), diagonal(1, 1)}));
+  ASSERT_TRUE(timeline.insert(at(0), at(1), {CPose3D(1, 0, 0, 0, 0, 0), diagonal(1, 1)}));
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(timeline.append(at(1), at(1), identityMotion()));
-  EXPECT_FALSE(timeline.append(at(2), at(1.5), identityMotion()));
-  EXPECT_FALSE(timeline.append(at(0.9), at(2), identityMotion()));
-  EXPECT_FALSE(timeline.append(at(1), at(2), {CPose3D(nan, 0, 0, 0, 0, 0), diagonal(1, 1)}));
-  EXPECT_FALSE(timeline.append(at(1), at(2), {CPose3D(0, inf, 0, 0, 0, 0), diagonal(1, 1)}));
-  EXPECT_FALSE(timeline.append(at(1), at(2), {CPose3D(0, 0, 0, nan, 0, 0), diagonal(1, 1)}));
-  EXPECT_FALSE(timeline.append(at(1), at(2), {CPose3D(), diagonal(nan, 1)}));
+  EXPECT_FALSE(timeline.insert(at(1), at(1), identityMotion()));
+  EXPECT_FALSE(timeline.insert(at(2), at(1.5), identityMotion()));
+  EXPECT_FALSE(timeline.insert(at(0.9), at(2), identityMotion()));
+  EXPECT_FALSE(timeline.insert(at(1), at(2), {CPose3D(nan, 0, 0, 0, 0, 0), diagonal(1, 1)}));
+  EXPECT_FALSE(timeline.insert(at(1), at(2), {CPose3D(0, inf, 0, 0, 0, 0), diagonal(1, 1)}));
+  EXPECT_FALSE(timeline.insert(at(1), at(2), {CPose3D(0, 0, 0, nan, 0, 0), diagonal(1, 1)}));
+  EXPECT_FALSE(timeline.insert(at(1), at(2), {CPose3D(), diagonal(nan, 1)}));
   EXPECT_EQ(*timeline.end(), at(1));
-  EXPECT_TRUE(timeline.append(at(1), at(2), identityMotion()));
+  EXPECT_TRUE(timeline.insert(at(1), at(2), identityMotion()));
   EXPECT_NEAR(timeline.between(at(0), at(2))->begin_from_end.x(), 1, 1e-12);
 }
 

@@ -31,7 +31,7 @@ Trigger::MotionBetween asked(const PoseTimeline& timeline) {
 PoseTimeline even(double seconds, const CPose3D& motion_per_second) {
   PoseTimeline timeline;
   for (double t = 0; t < seconds; t += 1) {
-    timeline.append(at(t), at(t + 1), {motion_per_second, Eigen::Matrix<double, 6, 6>::Zero()});
+    timeline.insert(at(t), at(t + 1), {motion_per_second, Eigen::Matrix<double, 6, 6>::Zero()});
   }
   return timeline;
 }
@@ -60,7 +60,7 @@ TEST(Trigger, FiresAtTheAngle) {
 TEST(Trigger, CountsTheDistanceFromTheLastKeyFrameNotTheWay) {
   PoseTimeline timeline;  // to and fro by 0.3 m
   for (int i = 0; i < 10; ++i) {
-    timeline.append(at(i), at(i + 1),
+    timeline.insert(at(i), at(i + 1),
                     {CPose3D(i % 2 ? -0.3 : 0.3, 0, 0, 0, 0, 0), Eigen::Matrix<double, 6, 6>::Zero()});
   }
   Trigger trigger(halfMetreOr30Degrees());
@@ -100,8 +100,8 @@ TEST(Trigger, EachLabelHasItsOwnState) {
 
 TEST(Trigger, WhereNoOdometryTellsTheMotionTimeFiresUntilItIsBack) {
   PoseTimeline timeline;  // nothing between 2 s and 6 s
-  timeline.append(at(0), at(2), identityMotion());
-  timeline.append(at(6), at(20), identityMotion());
+  timeline.insert(at(0), at(2), identityMotion());
+  timeline.insert(at(6), at(20), identityMotion());
   Trigger trigger(halfMetreOr30Degrees());
   const auto fired = firings(trigger, 0.5, 30, asked(timeline));
   // From 2.5 s on a part since the key frame at 0 s is uncovered, and the second is long over; then each second.

@@ -84,7 +84,7 @@ inline base::Stamp at(double seconds) {
   return base::stampFromUnix(1e9) + base::durationFromSeconds(seconds);
 }
 
-using RunRecord = testing::HandMadeRun;
+using RunRecord = omnimapper::testing::HandMadeRun;
 
 inline map::KeyFrame keyFrame(std::uint32_t index, double seconds, const CPose3D& map_from_base,
                               const CPose3D& base_from_sensor) {
@@ -103,9 +103,7 @@ inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0
   for (std::uint32_t i = 0; i < poses.size(); ++i) {
     run.map.key_frames.insert(keyFrame(i, i, poses[i], base_from_sensor));
   }
-  const auto edit = [&](std::size_t i) -> map::KeyFrame& {
-    return run.map.key_frames.edit(run.map.key_frames[i].id);
-  };
+  const auto edit = [&](std::size_t i) -> map::KeyFrame& { return run.map.key_frames.edit(run.map.key_frames[i].id); };
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) edit(i).keyframe_from_next = poses[i + 1] - poses[i];
   edit(0).hanging.push_back({at(0.5), CPose3D(0.5, 0.1, 0, 0.2, 0, 0)});
   const auto noise3 = graph::SquareRootInformation::fromSigmas(Eigen::Vector3d(0.1, 0.1, 0.05));

@@ -85,9 +85,8 @@ TEST(RobotPosePlugin, TheTrackedBodyIsTakenBackToTheBase) {
   testing::HandMadeRun run;
   // The body sits 1 m left of the base and looks along its y. It is seen at (5, 3), looking along the map's x:
   // so the base looks along -y, its left is the map's +x, and it stands at (4, 3).
-  const auto batch = plugin.measure(run.addFrame({}),
-                                    {measured(CPose3D(5, 3, 0, 0, 0, 0), CPose3D(0, 1, 0, kPi / 2, 0, 0)), nullptr},
-                                    run.view());
+  const auto batch = plugin.measure(
+      run.addFrame({}), {measured(CPose3D(5, 3, 0, 0, 0, 0), CPose3D(0, 1, 0, kPi / 2, 0, 0)), nullptr}, run.view());
   ASSERT_EQ(batch.addedFactors().size(), 1U);
   const auto& prior = dynamic_cast<const graph::PriorSe2&>(*batch.addedFactors().front().factor).measured();
   EXPECT_NEAR(prior.x, 4, 1e-12);

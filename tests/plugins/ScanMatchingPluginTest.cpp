@@ -61,7 +61,8 @@ TEST(ScanMatchingPlugin, FindsTheTrueMotionFromAWrongPrediction) {
       auto plugin = makePlugin();
       testing::HandMadeRun run;
       plugin.measure(run.addFrame(CPose3D(a.map_from_base)), {*a.cloud, nullptr}, run.view());
-      const auto batch = plugin.measure(run.addFrame(CPose3D(b.map_from_base + wrong)), {*b.cloud, nullptr}, run.view());
+      const auto batch =
+          plugin.measure(run.addFrame(CPose3D(b.map_from_base + wrong)), {*b.cloud, nullptr}, run.view());
       ASSERT_EQ(batch.addedFactors().size(), 1U) << batch.decisions().front().reason;
       const auto& factor = batch.addedFactors().front();
       EXPECT_EQ(factor.variables, (std::vector{run.map.key_frames[0].pose, run.map.key_frames[1].pose}));

@@ -24,10 +24,9 @@ std::size_t KeyFrames::position(base::KeyFrameId id) const {
 }
 
 std::size_t KeyFrames::lowerBound(std::uint16_t session, base::Stamp stamp) const {
-  const auto place =
-      std::lower_bound(order_.begin(), order_.end(), std::tuple(session, stamp), [&](base::KeyFrameId id, auto wanted) {
-        return std::tuple(id.session, frames_.find(id)->stamp) < wanted;
-      });
+  const auto place = std::lower_bound(
+      order_.begin(), order_.end(), std::tuple(session, stamp),
+      [&](base::KeyFrameId id, auto wanted) { return std::tuple(id.session, frames_.find(id)->stamp) < wanted; });
   return static_cast<std::size_t>(place - order_.begin());
 }
 

@@ -45,8 +45,7 @@ class Check {
   }
   void needVariable(base::VariableId id, const std::string& edit) {
     if (Batch::isProvisional(id)) {
-      need(id.index < batch_.addedVariables().size(), edit,
-           "binds a provisional variable that the batch does not add");
+      need(id.index < batch_.addedVariables().size(), edit, "binds a provisional variable that the batch does not add");
     } else {
       need(graph_.contains(id), edit, "the graph has no variable " + toString(id));
     }

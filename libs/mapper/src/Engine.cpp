@@ -9,8 +9,6 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// How long pose plugins keep motion before the newest key frame: sensors slower than this count as without odometry.
-constexpr double kHistorySeconds = 30;
 // Moments that wait for their perception. Not a matter of threads: what is known of the odometry when a moment is
 // worked on must not depend on them.
 constexpr std::size_t kPipelineDepth = 8;
@@ -35,25 +33,58 @@ class Timed {
   StopWatch watch_;
 };
 
+bool isFinite(const mrpt::poses::CPose3D& pose) {
+  return pose.m_coords.asEigen().allFinite() && pose.getRotationMatrix().asEigen().allFinite();
+}
+
+bool isOfOneSensor(const mrpt::obs::CObservation& a, const mrpt::obs::CObservation& b) {
+  return a.sensorLabel == b.sensorLabel && a.GetRuntimeClass() == b.GetRuntimeClass();
+}
+
+bool givesAbsolutePoses(const PluginSet& plugins) {
+  return std::any_of(plugins.measurement.begin(), plugins.measurement.end(),
+                     [](const auto& named) { return named.plugin->givesAbsolutePoses(); });
+}
+
 }  // namespace
 
-Engine::Engine(const EngineOptions& options, const TriggerOptions& trigger, const SolverOptions& solver,
-               SensorPoses sensor_poses, PluginSet plugins, int threads)
-    : options_(options),
-      solver_(solver),
+Engine::Engine(const EngineSettings& settings, const std::string& title, SensorPoses sensor_poses, PluginSet plugins,
+               int threads)
+    : settings_(settings),
       sensor_poses_(std::move(sensor_poses)),
       plugins_(std::move(plugins)),
-      trigger_(trigger),
-      queue_(base::durationFromSeconds(options.window)),
-      pool_(pointers(plugins_.extractors), threads),
-      pipeline_depth_(plugins_.extractors.empty() ? 0 : kPipelineDepth),
-      graph_(0),
-      reference_sensor_(options.reference_sensor) {
+      trigger_(settings.trigger),
+      queue_(base::durationFromSeconds(settings.engine.window)),
+      chain_(settings.engine.motion, plugins_.pose, map_, graph_),
+      hypotheses_(settings.hypotheses.consistency()),
+      reference_sensor_(settings.engine.reference_sensor),
+      pool_(std::max(1, threads)),
+      perception_(pointers(plugins_.extractors), pointers(plugins_.measurement), pool_),
+      jobs_(pool_, static_cast<std::size_t>(settings.engine.job_delay)) {
   if (plugins_.pose.empty() || plugins_.measurement.empty()) {
     throw base::Error(base::ExitCode::unknown_plugin,
                       "[mapper] names no " +
                           std::string(plugins_.pose.empty() ? "pose_plugins" : "measurement_plugins") +
                           ": a map needs at least one of each; see --list-plugins");
+  }
+  chain_.beginSession({0, title, {}, true}, std::nullopt, givesAbsolutePoses(plugins_));
+}
+
+void Engine::continueFrom(SavedMap saved, const SessionStart& start) {
+  map::Session session = map_.sessions.back();
+  map_ = std::move(saved.map);
+  graph_ = std::move(saved.graph);
+  sections_ = std::move(saved.sections);
+  session.number = static_cast<std::uint16_t>(map_.sessions.empty() ? 0 : map_.sessions.back().number + 1);
+  session.joined = false;
+  graph_.setSession(session.number);
+  uncertainty_ = Uncertainty(graph_);
+  chain_.beginSession(session, start, givesAbsolutePoses(plugins_));
+  for (auto& [section, plugin] : plugins_.measurement) {
+    const auto found = std::find_if(sections_.begin(), sections_.end(), [&name = section](const auto& other) {
+      return other.name == kPluginSectionPrefix + name;
+    });
+    plugin->restore(found == sections_.end() ? nullptr : &*found, view());
   }
 }
 
@@ -62,29 +93,28 @@ void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
   ++counts_.observations;
   if (!accepts(*observation)) return;
   queue_.arrived(observation->timestamp);
-  bool taken = false;
-  for (auto& [section, plugin] : plugins_.pose) {
-    const auto answer = plugin->add(*observation);
-    counts_.unusable += answer == PosePlugin::Taken::unusable;
-    taken = taken || answer != PosePlugin::Taken::not_mine;
-  }
+  const bool told = tellSources(*observation);
   if (isWanted(*observation)) {
-    if (!queue_.add(sensor_poses_.applied(observation))) ++counts_.too_late;
-  } else if (!taken) {
+    const auto placed = sensor_poses_.applied(observation);
+    if (!queue_.add(placed)) addLate(placed);
+  } else if (!told) {
     ++counts_.unwanted;
   }
-  for (auto due = queue_.due(); due && isCovered(*due); due = queue_.due()) release(*queue_.next());
+  for (auto due = queue_.due(); due && isCovered(*due); due = queue_.due()) release(*queue_.next(), false);
 }
 
 void Engine::finish() {
   {
     const Timed timed(busy_.total);
-    while (auto group = queue_.next()) release(std::move(*group));
+    while (auto group = queue_.next()) release(*group, false);
     for (; !moments_.empty(); moments_.pop_front()) process(moments_.front());
-    if (!map_.key_frames.empty()) solveNow(solver_.final());
+    applyJobs(true);
+    if (!map_.key_frames.empty()) solveNow(settings_.solver.final());
   }
+  collectSections();
   times_.add("perception wait", busy_.perception);
-  times_.add("engine", busy_.total - busy_.perception - busy_.plugins - busy_.solve - busy_.outputs);
+  times_.add("job wait", busy_.jobs);
+  times_.add("engine", busy_.total - busy_.perception - busy_.jobs - busy_.plugins - busy_.solve - busy_.outputs);
 }
 
 bool Engine::accepts(const mrpt::obs::CObservation& observation) {
@@ -101,197 +131,214 @@ bool Engine::accepts(const mrpt::obs::CObservation& observation) {
   last->second = observation.timestamp;
   mrpt::poses::CPose3D base_from_sensor;
   observation.getSensorPose(base_from_sensor);
-  if (!base_from_sensor.m_coords.asEigen().allFinite() || !base_from_sensor.getRotationMatrix().asEigen().allFinite()) {
+  if (!isFinite(base_from_sensor)) {
     ++counts_.unusable;
     return false;
   }
   return true;
 }
 
-bool Engine::isWanted(const mrpt::obs::CObservation& observation) const {
-  return pool_.wants(observation) || std::any_of(plugins_.measurement.begin(), plugins_.measurement.end(),
-                                                 [&](const auto& named) { return named.plugin->wants(observation); });
+// Whether a pose source took it. What it tells anew of the past changes the factors of the key frames there.
+bool Engine::tellSources(const mrpt::obs::CObservation& observation) {
+  bool taken = false;
+  for (auto& [section, plugin] : plugins_.pose) {
+    const auto answer = plugin->add(observation);
+    counts_.unusable += answer == PosePlugin::Taken::unusable;
+    taken = taken || answer != PosePlugin::Taken::not_mine;
+    const auto newest = chain_.newest();
+    const auto news = plugin->news();
+    if (news && newest && news->begin < *newest) chain_.relink(news->begin, news->end);
+  }
+  return taken;
 }
 
 // Whether every continuous source can tell the motion until then. One that has fallen silent is waited for no more.
 bool Engine::isCovered(base::Stamp stamp) const {
-  const auto patience = base::durationFromSeconds(options_.window + kPatienceSeconds);
+  const auto patience = base::durationFromSeconds(settings_.engine.window + kPatienceSeconds);
   return std::all_of(plugins_.pose.begin(), plugins_.pose.end(), [&](const auto& named) {
     const auto until = named.plugin->coveredUntil();
     return named.plugin->isFallback() || !until || *until >= stamp || *until + patience < *queue_.now();
   });
 }
 
+// Later than its window. Beyond the horizon nobody knows any more how the base moved then.
+void Engine::addLate(const mrpt::obs::CObservation::Ptr& observation) {
+  const auto newest = chain_.newest();
+  if (newest && observation->timestamp + base::durationFromSeconds(settings_.engine.horizon) < *newest) {
+    ++counts_.too_late;
+    return;
+  }
+  ++counts_.late;
+  release({observation->timestamp, {observation}}, true);
+}
+
 // Past the trigger, perception starts at once; the moment itself is worked on when those before it are.
-void Engine::release(ReleaseQueue::Group group) {
-  const auto motion = [this](base::Stamp begin, base::Stamp end) -> std::optional<RelativeMotion> {
-    auto told = motionBetween(begin, end, false);
-    if (told.empty()) return std::nullopt;
-    return std::move(told.front().second);
-  };
-  Moment moment{group.stamp, {}};
-  bool reference = false;
-  for (auto& observation : group.observations) {
-    if (trigger_.fires(observation->sensorLabel, group.stamp, motion)) {
+void Engine::release(const ReleaseQueue::Group& group, bool late) {
+  const auto motion = [this](base::Stamp begin, base::Stamp end) { return chain_.motion(begin, end, false); };
+  Moment moment{group.stamp, false, {}};
+  for (const auto& observation : group.observations) {
+    const bool fires = late ? trigger_.firesLate(observation->sensorLabel, group.stamp, motion)
+                            : trigger_.fires(observation->sensorLabel, group.stamp, motion);
+    if (fires) {
       if (reference_sensor_.empty()) reference_sensor_ = observation->sensorLabel;
-      moment.observations.push_back({observation, pool_.submit(observation)});
+      moment.observations.push_back({observation, perception_.submit(observation)});
     } else {
       ++counts_.not_triggered;
-      reference = reference || observation->sensorLabel == reference_sensor_;
     }
+    moment.reference = moment.reference || observation->sensorLabel == reference_sensor_;
   }
-  if (moment.observations.empty() && !reference) return;
+  if (moment.observations.empty() && !moment.reference) return;
   moments_.push_back(std::move(moment));
-  while (moments_.size() > pipeline_depth_) {
-    process(moments_.front());
-    moments_.pop_front();
-  }
+  for (; moments_.size() > kPipelineDepth; moments_.pop_front()) process(moments_.front());
 }
 
 void Engine::process(Moment& moment) {
   if (moment.observations.empty()) {
-    hang(moment.stamp);
+    if (!chain_.hang(moment.stamp)) ++counts_.unconnected;
     return;
   }
   const BusyTimes before = busy_;
   StopWatch watch;
-  if (!beginKeyFrame(moment.stamp)) {
+  const auto place = chain_.place(moment.stamp);
+  if (!place) {
     counts_.unconnected += moment.observations.size();
     return;
   }
-  const base::KeyFrameId id = map_.key_frames.back().id;
-  gather(moment, map_.key_frames.edit(id));
-  measure(id);
-  for (auto& [section, plugin] : plugins_.pose) {
-    plugin->forgetBefore(moment.stamp - base::durationFromSeconds(kHistorySeconds));
+  if (moment.reference) map_.key_frames.edit(place->id).reference = true;
+  if (map_.key_frames.size() == 1) uncertainty_ = Uncertainty(graph_);
+  if (place->is_new && place->after) {
+    ++counts_.spliced;
+    for (auto& [section, plugin] : plugins_.measurement) {
+      plugin->spliced(map_.keyFrame(place->id), place->before, place->after);
+    }
   }
+  const auto perceived = gather(moment, place->id);
+  measure(place->id, perceived);
+  commit(place->id);
+  const auto kept = *chain_.newest() - base::durationFromSeconds(settings_.engine.horizon);
+  for (auto& [section, plugin] : plugins_.pose) plugin->forgetBefore(kept);
+  trigger_.forgetBefore(kept);
   const double plugins = busy_.plugins - before.plugins, solve = busy_.solve - before.solve;
-  const double waited = busy_.perception - before.perception;
+  const double waited = busy_.perception + busy_.jobs - before.perception - before.jobs;
   times_.keyFrames().push_back({1e3 * plugins, 1e3 * solve, 1e3 * (watch.seconds() - plugins - solve - waited)});
 }
 
-bool Engine::beginKeyFrame(base::Stamp stamp) {
-  auto& frames = map_.key_frames;
-  map::KeyFrame frame;
-  frame.id = frames.nextId(0);
-  frame.stamp = stamp;
-  if (frames.empty()) {
-    const bool absolute = std::any_of(plugins_.measurement.begin(), plugins_.measurement.end(),
-                                      [](const auto& named) { return named.plugin->givesAbsolutePoses(); });
-    frame.pose = graph_.addVariable(poseVariable(options_.motion), poseValue(options_.motion, {}), !absolute);
-    // Where measurements place the map, the first pose is only a start: a kilometre and a turn either way.
-    const Eigen::Matrix<double, 6, 6> anywhere = 1e6 * Eigen::Matrix<double, 6, 6>::Identity();
-    if (absolute) graph_.addFactor(posePrior(options_.motion, frame.pose, {}, anywhere, "engine"));
-    frames.insert(std::move(frame));
-    uncertainty_ = Uncertainty(graph_);
-    return true;
+// The raw observations, then what the pool made of them, without what the key frame has already: a perceived log
+// brings derived observations of its own, and a late one may repeat an old one.
+std::vector<Perceived> Engine::gather(Moment& moment, base::KeyFrameId id) {
+  std::vector<Perceived> raw, derived;
+  for (auto& pending : moment.observations) {
+    const Timed timed(busy_.perception);
+    auto all = pending.perceived.get();
+    raw.push_back(std::move(all.front()));
+    std::move(all.begin() + 1, all.end(), std::back_inserter(derived));
   }
-  map::KeyFrame& previous = frames.edit(frames.back().id);
-  const auto told = motionBetween(previous.stamp, stamp, true);
-  if (told.empty()) return false;
-  const auto best = std::min_element(told.begin(), told.end(), [](const auto& a, const auto& b) {
-    return a.second.covariance.trace() < b.second.covariance.trace();
-  });
-  frame.map_from_base = previous.map_from_base + best->second.begin_from_end;
-  previous.keyframe_from_next = told.front().second.begin_from_end;
-  frame.pose = graph_.addVariable(poseVariable(options_.motion), poseValue(options_.motion, frame.map_from_base));
-  for (const auto& [section, motion] : told) {
-    graph_.addFactor(betweenPoses(options_.motion, previous.pose, frame.pose, motion, section));
-  }
-  frames.insert(std::move(frame));
-  return true;
-}
-
-// The raw observations and what the pool made of them. What a perceived log brought already is not added twice.
-void Engine::gather(Moment& moment, map::KeyFrame& frame) {
-  const auto isThere = [&](const mrpt::obs::CObservation& derived) {
-    return std::any_of(frame.observations.begin(), frame.observations.end(), [&](const auto& other) {
-      return other->sensorLabel == derived.sensorLabel && other->GetRuntimeClass() == derived.GetRuntimeClass();
-    });
-  };
-  for (const auto& perceived : moment.observations) frame.observations.push_back(perceived.raw);
-  for (auto& perceived : moment.observations) {
-    PerceptionPool::Derived derived;
-    {
-      const Timed timed(busy_.perception);
-      derived = perceived.derived.get();
-    }
-    for (const auto& observation : derived) {
-      if (!isThere(*observation)) frame.observations.push_back(observation);
+  map::KeyFrame& frame = map_.key_frames.edit(id);
+  std::vector<Perceived> added;
+  for (auto* part : {&raw, &derived}) {
+    for (auto& perceived : *part) {
+      const bool is_there = std::any_of(frame.observations.begin(), frame.observations.end(), [&](const auto& other) {
+        return isOfOneSensor(*other, *perceived.observation);
+      });
+      if (is_there) {
+        counts_.repeated_stamp += part == &raw;
+        continue;
+      }
+      frame.observations.push_back(perceived.observation);
+      added.push_back(std::move(perceived));
     }
   }
+  return added;
 }
 
-void Engine::measure(base::KeyFrameId id) {
-  for (auto& [section, plugin] : plugins_.measurement) {
-    for (const auto& observation : map_.keyFrame(id).observations) {
-      if (!plugin->wants(*observation)) continue;
+void Engine::measure(base::KeyFrameId id, const std::vector<Perceived>& perceived) {
+  for (std::size_t i = 0; i < plugins_.measurement.size(); ++i) {
+    auto& [section, plugin] = plugins_.measurement[i];
+    for (const auto& one : perceived) {
+      if (!plugin->wants(*one.observation)) continue;
       const StopWatch watch;
-      const Batch batch = plugin->measure(map_.keyFrame(id), {*observation, nullptr}, view());
+      const auto& frame = map_.keyFrame(id);
+      const Batch batch = plugin->measure(frame, {*one.observation, one.prepared[i].get()}, view());
       times_.add("plugin " + section, watch.seconds());
       busy_.plugins += watch.seconds();
-      plugin->applied(applyBatch(batch, section));
+      applyBatch(batch, {section, frame.stamp}, *plugin);
     }
   }
-  refineNewest();
-  const std::size_t since_solve = map_.key_frames.size() - key_frames_at_solve_;
-  const auto due = static_cast<std::size_t>(closed_since_solve_ ? options_.solve_after_closure : options_.solve_every);
-  if (since_solve >= due) solveNow(solver_.running());
+}
+
+void Engine::commit(base::KeyFrameId id) {
+  refine(id);
+  applyJobs(false);
+  if (isSolveDue()) solveNow(settings_.solver.running());
+  std::shared_ptr<const Snapshot> snapshot;
   for (auto& [section, plugin] : plugins_.measurement) {
-    const Timed timed(busy_.plugins);
-    const FollowUp follow_up = plugin->afterCommit(map_.keyFrame(id), view());
-    if (!follow_up.batch.empty()) plugin->applied(applyBatch(follow_up.batch, section));
-  }
-}
-
-void Engine::hang(base::Stamp stamp) {
-  if (map_.key_frames.empty()) {
-    ++counts_.unconnected;
-    return;
-  }
-  map::KeyFrame& frame = map_.key_frames.edit(map_.key_frames.back().id);
-  const bool first = frame.hanging.empty();
-  const base::Stamp begin = first ? frame.stamp : frame.hanging.back().stamp;
-  const auto told = motionBetween(begin, stamp, true);
-  if (told.empty()) {
-    ++counts_.unconnected;
-    return;
-  }
-  const auto& start = first ? mrpt::poses::CPose3D() : frame.hanging.back().keyframe_from_base;
-  frame.hanging.push_back({stamp, start + told.front().second.begin_from_end});
-}
-
-std::vector<std::pair<std::string, RelativeMotion>> Engine::motionBetween(base::Stamp begin, base::Stamp end,
-                                                                          bool or_fallback) const {
-  std::vector<std::pair<std::string, RelativeMotion>> told;
-  for (const bool fallback : {false, true}) {
-    if (fallback && (!told.empty() || !or_fallback)) break;
-    for (const auto& [section, plugin] : plugins_.pose) {
-      if (plugin->isFallback() != fallback) continue;
-      if (const auto motion = plugin->between(begin, end)) told.emplace_back(section, *motion);
+    const StopWatch watch;
+    FollowUp follow_up = plugin->afterCommit(map_.keyFrame(id), view());
+    busy_.plugins += watch.seconds();
+    const BatchOrigin origin{section, map_.keyFrame(id).stamp};
+    if (!follow_up.jobs.empty() && !snapshot) {
+      snapshot = std::make_shared<const Snapshot>(Snapshot{map_, graph_, uncertainty_});
     }
+    for (auto& job : follow_up.jobs) jobs_.add(map_.key_frames.size(), origin, id, std::move(job), snapshot);
+    if (!follow_up.batch.empty()) applyBatch(follow_up.batch, origin, *plugin);
   }
-  return told;
 }
 
-AppliedBatch Engine::applyBatch(const Batch& batch, const std::string& owner) {
-  auto ids = apply(batch, {owner, map_.key_frames.back().stamp}, graph_, map_);
+void Engine::applyJobs(bool all) {
+  for (;;) {
+    std::optional<JobQueue::Done> done;
+    {
+      const Timed timed(busy_.jobs);
+      done = jobs_.take(map_.key_frames.size(), all);
+    }
+    if (!done) return;
+    const std::string why_unfit = whyUnfit(done->batch, graph_, map_);
+    if (why_unfit.empty()) {
+      applyBatch(done->batch, done->origin, pluginOf(done->origin.owner));
+      continue;
+    }
+    Decision dropped;
+    dropped.stamp = done->origin.stamp;
+    dropped.plugin = done->origin.owner;
+    dropped.kind = done->name;
+    dropped.from = done->frame;
+    dropped.reason = "what it is about has changed since: " + why_unfit;
+    decisions_.push_back(std::move(dropped));
+  }
+}
+
+MeasurementPlugin& Engine::pluginOf(const std::string& section) {
+  return *std::find_if(plugins_.measurement.begin(), plugins_.measurement.end(), [&](const auto& named) {
+            return named.section == section;
+          })->plugin;
+}
+
+void Engine::applyBatch(const Batch& batch, const BatchOrigin& origin, MeasurementPlugin& plugin) {
+  const auto ids = apply(batch, origin, graph_, map_);
   decisions_.insert(decisions_.end(), batch.decisions().begin(), batch.decisions().end());
-  closed_since_solve_ = closed_since_solve_ || std::any_of(batch.addedFactors().begin(), batch.addedFactors().end(),
-                                                           [](const auto& record) { return record.tags.hypothesis; });
-  return ids;
+  hypotheses_.take(batch, ids, graph_, decisions_);
+  plugin.applied(ids);
 }
 
-// The newest pose by all factors that bind it to the poses before, which stay: what a solve would do first.
-void Engine::refineNewest() {
-  map::KeyFrame& frame = map_.key_frames.edit(map_.key_frames.back().id);
+// The pose by all factors that bind it to others, which stay: what a solve would do first.
+void Engine::refine(base::KeyFrameId id) {
+  map::KeyFrame& frame = map_.key_frames.edit(id);
   graph::solveOne(graph_, frame.pose);
   frame.map_from_base = poseOf(graph_, frame.pose);
 }
 
-void Engine::solveNow(const graph::SolveOptions& options) {
+bool Engine::isSolveDue() const {
+  const std::size_t since_solve = map_.key_frames.size() - key_frames_at_solve_;
+  const auto& options = settings_.engine;
+  return since_solve >=
+         static_cast<std::size_t>(hypotheses_.anyFresh() ? options.solve_after_closure : options.solve_every);
+}
+
+void Engine::solveNow(graph::SolveOptions options) {
   const StopWatch watch;
-  const auto summary = graph::solve(graph_, options);
+  options.stop = stop_;
+  const double initial_cost = graph_.cost();
+  hypotheses_.solve(graph_, options, map_, decisions_);
   for (std::size_t i = 0; i < map_.key_frames.size(); ++i) {
     auto& frame = map_.key_frames.edit(map_.key_frames[i].id);
     frame.map_from_base = poseOf(graph_, frame.pose);
@@ -300,15 +347,29 @@ void Engine::solveNow(const graph::SolveOptions& options) {
   busy_.solve += watch.seconds();
   times_.add("solve", watch.seconds());
   ++counts_.solves;
-  solves_.push_back(
-      {map_.key_frames.size(), graph_.factors().size(), summary.initial_cost, summary.final_cost, summary.iterations});
+  solves_.push_back({map_.key_frames.size(), graph_.factors().size(), initial_cost, graph_.cost(), watch.seconds()});
   key_frames_at_solve_ = map_.key_frames.size();
-  closed_since_solve_ = false;
   for (auto& [section, plugin] : plugins_.output) {
     const StopWatch shown;
     plugin->update(view());
     busy_.outputs += shown.seconds();
     times_.add("output " + section, shown.seconds());
+  }
+}
+
+// What plugins keep for a later session takes the place of what they kept before; sections of nobody here stay.
+void Engine::collectSections() {
+  for (auto& [section, plugin] : plugins_.measurement) {
+    auto saved = plugin->save();
+    if (!saved) continue;
+    saved->name = kPluginSectionPrefix + section;
+    const auto place =
+        std::find_if(sections_.begin(), sections_.end(), [&](const auto& other) { return other.name == saved->name; });
+    if (place == sections_.end()) {
+      sections_.push_back(std::move(*saved));
+    } else {
+      *place = std::move(*saved);
+    }
   }
 }
 

@@ -18,10 +18,41 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
                 "earns a key frame.")
           .number("window_s", &Options::window, base::Range::notNegative(),
                   "Observations wait so long for slower sensors before they are worked on.")
+          .number("horizon_s", &Options::horizon, base::Range::notNegative(),
+                  "Observations later than window_s still get their place in the trajectory if they are not older than "
+                  "this; what is older is refused.")
+          .integer("job_delay", &Options::job_delay, base::Range{0, 1e6},
+                   "What a job finds, such as a loop closure, counts so many key frames after the one that asked.")
           .integer("solve_every", &Options::solve_every, base::Range{1, 1e9}, "Solve after so many key frames.")
           .integer("solve_after_closure", &Options::solve_after_closure, base::Range{1, 1e9},
                    "Solve after a loop closure, but not before so many key frames have passed since the last solve.");
   return table;
+}
+
+const base::OptionTable<HypothesisOptions>& HypothesisOptions::table() {
+  using Options = HypothesisOptions;
+  using Method = graph::ConsistencyOptions::Method;
+  static const auto table =
+      base::OptionTable<Options>()
+          .choice("test", &Options::test,
+                  {{"none", Method::none}, {"pairwise", Method::pairwise}, {"graduated", Method::graduated}},
+                  "How loop closures and other hypotheses are tested: not at all, pair by pair for the largest set "
+                  "that agrees, or by graduated non-convexity.")
+          .number("confidence", &Options::confidence, base::Range{0.5, 0.999999999},
+                  "A true hypothesis passes a gate with this probability.")
+          .number("inflation", &Options::inflation, base::Range{1, 100},
+                  "Factor on the standard deviations of the trajectory: odometry and matches in sequence are surer of "
+                  "themselves than they should be.");
+  return table;
+}
+
+EngineSettings EngineSettings::read(const base::Config& config) {
+  EngineSettings settings;
+  settings.engine = config.section("mapper").read<EngineOptions>();
+  settings.trigger = config.section("trigger").read<TriggerOptions>();
+  settings.solver = config.section("solver").read<SolverOptions>();
+  settings.hypotheses = config.section("hypotheses").read<HypothesisOptions>();
+  return settings;
 }
 
 const base::OptionTable<PerceptionOptions>& PerceptionOptions::table() {

@@ -91,7 +91,7 @@ void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
   };
   warn(counts.no_stamp, "have no stamp and were left out");
   warn(counts.repeated_stamp, "repeat the stamp of the one before and were left out");
-  warn(counts.too_late, "came later than [mapper] window_s and were left out");
+  warn(counts.too_late, "came later than [mapper] horizon_s and were left out");
   warn(counts.unusable, "(odometry or sensor poses) are not finite or run backwards in time and were left out");
   warn(counts.unconnected, "have no pose: no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
   if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
@@ -130,20 +130,22 @@ RunResult resultOf(const View& view) {
 }  // namespace
 
 const FixedSections& fixedSections() {
-  static const FixedSections sections{
-      {"mapper", EngineOptions::table().specs()},         {"perception", PerceptionOptions::table().specs()},
-      {"trigger", TriggerOptions::table().specs()},       {"solver", SolverOptions::table().specs()},
-      {"source", source::SourceOptions::table().specs()}, {"<name of a sensor>", SensorPoseOptions::table().specs()}};
+  static const FixedSections sections{{"mapper", EngineOptions::table().specs()},
+                                      {"perception", PerceptionOptions::table().specs()},
+                                      {"trigger", TriggerOptions::table().specs()},
+                                      {"solver", SolverOptions::table().specs()},
+                                      {"hypotheses", HypothesisOptions::table().specs()},
+                                      {"source", source::SourceOptions::table().specs()},
+                                      {"<name of a sensor>", SensorPoseOptions::table().specs()}};
   return sections;
 }
 
 RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
                      const std::function<bool()>& stop) {
   const StopWatch watch;
-  const auto options = config.section("mapper").read<EngineOptions>();
+  const auto settings = EngineSettings::read(config);
+  const auto& options = settings.engine;
   const auto perception = config.section("perception").read<PerceptionOptions>();
-  const auto trigger = config.section("trigger").read<TriggerOptions>();
-  const auto solver = config.section("solver").read<SolverOptions>();
   const auto source_options = config.section("source").read<source::SourceOptions>();
   for (const auto& library : options.plugin_libraries) loadPluginLibrary(library);
   SensorPoses sensor_poses(options.sensors, config);
@@ -158,7 +160,8 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   auto plugins =
       makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, outputs}, config, context);
   config.refuseUnreadSections();
-  Engine engine(options, trigger, solver, std::move(sensor_poses), std::move(plugins), request.threads);
+  Engine engine(settings, context.title, std::move(sensor_poses), std::move(plugins), request.threads);
+  engine.setStop(stop);
   if (const auto off = config.switchedOffPlugins(); !off.empty()) {
     engine.warn(config.file() + ": no list of [mapper] or [perception] names the plugins " +
                 base::option_text::format(off) + ": they are switched off");

@@ -39,20 +39,34 @@ RelativeMotion compose(const RelativeMotion& a, const RelativeMotion& b) {
   return {a.begin_from_end + b.begin_from_end, geometry::composeCovariance(a.covariance, b_motion, b.covariance)};
 }
 
-bool PoseTimeline::append(base::Stamp begin, base::Stamp end, const RelativeMotion& motion) {
+bool PoseTimeline::insert(base::Stamp begin, base::Stamp end, const RelativeMotion& motion) {
   const bool finite =
       motion.begin_from_end.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite() &&
       motion.covariance.allFinite();
-  if (end <= begin || !finite || (!spans_.empty() && begin < spans_.back().end)) return false;
-  spans_.push_back({begin, end, motion});
+  if (end <= begin || !finite) return false;
+  const auto after = firstEndingAfter(begin);
+  if (after != spans_.end() && after->begin < end) return false;
+  spans_.insert(after, {begin, end, motion});
   return true;
+}
+
+bool PoseTimeline::remove(base::Stamp begin, base::Stamp end) {
+  const auto span = firstEndingAfter(begin);
+  if (span == spans_.end() || span->begin != begin || span->end != end) return false;
+  spans_.erase(span);
+  return true;
+}
+
+std::deque<PoseTimeline::Span>::const_iterator PoseTimeline::firstEndingAfter(base::Stamp stamp) const {
+  if (spans_.empty() || spans_.back().end <= stamp) return spans_.end();
+  return std::upper_bound(spans_.begin(), spans_.end(), stamp,
+                          [](base::Stamp wanted, const Span& span) { return wanted < span.end; });
 }
 
 std::optional<RelativeMotion> PoseTimeline::between(base::Stamp begin, base::Stamp end) const {
   if (spans_.empty() || begin < spans_.front().begin || end > spans_.back().end || end < begin) return std::nullopt;
   RelativeMotion sum = identityMotion();
-  auto span = std::upper_bound(spans_.begin(), spans_.end(), begin,
-                               [](base::Stamp stamp, const Span& s) { return stamp < s.end; });
+  auto span = firstEndingAfter(begin);
   base::Stamp reached = begin;
   for (; reached < end; ++span) {
     if (span == spans_.end() || span->begin > reached) return std::nullopt;

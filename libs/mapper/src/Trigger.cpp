@@ -35,15 +35,48 @@ bool Trigger::isDue(const Since& since) const {
 
 bool Trigger::fires(const std::string& label, base::Stamp stamp, const MotionBetween& motion) {
   const auto [entry, first] = labels_.try_emplace(label, Since{stamp, stamp, mrpt::poses::CPose3D()});
-  if (first) return true;
+  if (first) {
+    entry->second.all_fired.insert(stamp);
+    return true;
+  }
   Since& since = entry->second;
   // Motion is summed step by step: asking for all of it each time would cost ever more while the robot rests.
   const auto step = motion(since.seen, stamp);
   since.motion = step && since.motion ? std::make_optional(*since.motion + step->begin_from_end) : std::nullopt;
   since.seen = stamp;
   if (!isDue(since)) return false;
-  since = {stamp, stamp, mrpt::poses::CPose3D()};
+  since.fired = stamp;
+  since.motion = mrpt::poses::CPose3D();
+  since.all_fired.insert(stamp);
   return true;
+}
+
+bool Trigger::firesLate(const std::string& label, base::Stamp stamp, const MotionBetween& motion) {
+  const auto entry = labels_.find(label);
+  if (entry == labels_.end()) return fires(label, stamp, motion);
+  Since& since = entry->second;
+  const auto isFar = [&](base::Stamp begin, base::Stamp end) {
+    const auto told = motion(begin, end);
+    return isDue({begin, end, told ? std::make_optional(told->begin_from_end) : std::nullopt});
+  };
+  const auto after = since.all_fired.lower_bound(stamp);
+  if (after != since.all_fired.end() && *after == stamp) return false;
+  const bool near_after = after != since.all_fired.end() && !isFar(stamp, *after);
+  const bool near_before = after != since.all_fired.begin() && !isFar(*std::prev(after), stamp);
+  if (!options_.every_observation && (near_after || near_before)) return false;
+  const bool newest = after == since.all_fired.end();
+  since.all_fired.insert(stamp);
+  if (newest && stamp < since.seen) {
+    const auto told = motion(stamp, since.seen);
+    since.fired = stamp;
+    since.motion = told ? std::make_optional(told->begin_from_end) : std::nullopt;
+  }
+  return true;
+}
+
+void Trigger::forgetBefore(base::Stamp stamp) {
+  for (auto& [label, since] : labels_)
+    since.all_fired.erase(since.all_fired.begin(), since.all_fired.lower_bound(stamp));
 }
 
 }  // namespace omnimapper::mapper

@@ -3,9 +3,9 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
-#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/graph/G2o.h>
+#include <omnimapper/map/Trajectory.h>
 
 #include <algorithm>
 #include <cmath>

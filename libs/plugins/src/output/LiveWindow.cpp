@@ -1,8 +1,8 @@
 #include <mrpt/gui/CDisplayWindow3D.h>
 #include <mrpt/opengl/CPointCloud.h>
 #include <mrpt/opengl/stock_objects.h>
-#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugins/LiveWindow.h>
 
 #include <algorithm>

@@ -44,7 +44,7 @@ Json solvesOf(const std::vector<mapper::SolveRecord>& solves) {
                     {"factors", solve.factors},
                     {"initial_cost", solve.initial_cost},
                     {"final_cost", solve.final_cost},
-                    {"iterations", solve.iterations}});
+                    {"seconds", solve.seconds}});
   }
   return list;
 }

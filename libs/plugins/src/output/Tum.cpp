@@ -1,7 +1,7 @@
 #include "Tum.h"
 
-#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/map/Trajectory.h>
 
 #include "Numbers.h"
 

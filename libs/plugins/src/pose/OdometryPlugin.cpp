@@ -47,6 +47,7 @@ Eigen::Matrix<double, 6, 6> OdometryPlugin::covarianceOf(const mrpt::poses::CPos
 }
 
 OdometryPlugin::Taken OdometryPlugin::add(const mrpt::obs::CObservation& observation) {
+  news_.reset();
   if (const auto* motion = dynamic_cast<const obs::CObservationRelativeMotion*>(&observation)) {
     return isOurs(observation) ? addMotion(*motion) : Taken::not_mine;
   }
@@ -60,15 +61,16 @@ OdometryPlugin::Taken OdometryPlugin::addMotion(const obs::CObservationRelativeM
   const double seconds = base::secondsBetween(motion.begin, motion.timestamp);
   const auto covariance =
       options_.use_reported_covariance ? motion.covariance : covarianceOf(motion.begin_from_end, seconds);
-  const bool fits = timeline_.append(motion.begin, motion.timestamp, {motion.begin_from_end, covariance});
-  return fits ? Taken::taken : Taken::unusable;
+  if (!timeline_.insert(motion.begin, motion.timestamp, {motion.begin_from_end, covariance})) return Taken::unusable;
+  news_ = Span{motion.begin, motion.timestamp};
+  return Taken::taken;
 }
 
 // One stamp gone wrong must not make all that follow it too old: a leap counts once the next reading confirms it.
 bool OdometryPlugin::isUnconfirmedLeap(base::Stamp stamp) {
   constexpr double kLeapSeconds = 60;
   const auto leaps = [&](base::Stamp from) { return base::secondsBetween(from, stamp) > kLeapSeconds; };
-  if (!leaps(last_->first)) {
+  if (!leaps(readings_.rbegin()->first)) {
     leap_.reset();
     return false;
   }
@@ -80,16 +82,54 @@ bool OdometryPlugin::isUnconfirmedLeap(base::Stamp stamp) {
 OdometryPlugin::Taken OdometryPlugin::addPose(const mrpt::obs::CObservationOdometry& odometry) {
   const auto& pose = odometry.odometry;
   if (!std::isfinite(pose.x()) || !std::isfinite(pose.y()) || !std::isfinite(pose.phi())) return Taken::unusable;
-  if (last_ && odometry.timestamp <= last_->first) return Taken::unusable;
-  if (last_ && isUnconfirmedLeap(odometry.timestamp)) return Taken::unusable;
   const mrpt::poses::CPose3D odom_from_base(pose);
-  if (last_) {
-    const mrpt::poses::CPose3D motion = odom_from_base - last_->second;
-    const double seconds = base::secondsBetween(last_->first, odometry.timestamp);
-    timeline_.append(last_->first, odometry.timestamp, {motion, covarianceOf(motion, seconds)});
+  if (!readings_.empty()) {
+    const auto& [last, odom_from_last] = *readings_.rbegin();
+    if (odometry.timestamp <= last) return addLatePose(odometry.timestamp, odom_from_base);
+    if (isUnconfirmedLeap(odometry.timestamp)) return Taken::unusable;
+    tell(last, odometry.timestamp, odom_from_base - odom_from_last);
+    news_ = Span{last, odometry.timestamp};
   }
-  last_ = {odometry.timestamp, odom_from_base};
+  readings_.emplace(odometry.timestamp, odom_from_base);
   return Taken::taken;
+}
+
+// A reading that arrived after a later one takes its place between its neighbours, if it lies on their way. If not, the
+// robot's clock was set back rather than the reading delayed, and it says nothing of that time.
+OdometryPlugin::Taken OdometryPlugin::addLatePose(base::Stamp stamp, const mrpt::poses::CPose3D& odom_from_base) {
+  constexpr double kLongestDetour = 0.2;  // [m]
+  const auto after = readings_.lower_bound(stamp);
+  if (after->first == stamp) return Taken::unusable;
+  const mrpt::poses::CPose3D to_after = after->second - odom_from_base;
+  if (after == readings_.begin()) {
+    if (forgotten_) return Taken::unusable;
+    tell(stamp, after->first, to_after);
+    news_ = Span{stamp, after->first};
+  } else {
+    const auto before = std::prev(after);
+    const mrpt::poses::CPose3D from_before = odom_from_base - before->second;
+    const double detour = from_before.norm() + to_after.norm() - (after->second - before->second).norm();
+    if (detour > kLongestDetour) return Taken::unusable;
+    timeline_.remove(before->first, after->first);
+    tell(before->first, stamp, from_before);
+    tell(stamp, after->first, to_after);
+    news_ = Span{before->first, after->first};
+  }
+  readings_.emplace(stamp, odom_from_base);
+  return Taken::taken;
+}
+
+void OdometryPlugin::tell(base::Stamp begin, base::Stamp end, const mrpt::poses::CPose3D& motion) {
+  timeline_.insert(begin, end, {motion, covarianceOf(motion, base::secondsBetween(begin, end))});
+}
+
+// The reading before `stamp` stays: a late one may follow it.
+void OdometryPlugin::forgetBefore(base::Stamp stamp) {
+  timeline_.forgetBefore(stamp);
+  while (readings_.size() > 1 && std::next(readings_.begin())->first <= stamp) {
+    readings_.erase(readings_.begin());
+    forgotten_ = true;
+  }
 }
 
 std::optional<mapper::RelativeMotion> OdometryPlugin::between(base::Stamp begin, base::Stamp end) const {

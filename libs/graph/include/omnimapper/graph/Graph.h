@@ -21,8 +21,8 @@ struct VariableRecord {
 };
 
 /// Variables and the factors between them. Every edit takes a time that does not grow with the graph. Copies are
-/// independent and cheap: they share what neither has changed since (base::IdTable). Every method that is given an id throws Error(internal), naming it, if
-/// the graph has no such thing.
+/// independent and cheap: they share what neither has changed since (base::IdTable). Every method that is given an id
+/// throws Error(internal), naming it, if the graph has no such thing.
 class Graph {
  public:
   /// New ids carry the number of the session.

@@ -12,12 +12,12 @@ namespace omnimapper::mapper {
 
 /// One association or closure that was considered, and why it was taken or refused.
 struct Decision {
-  base::Stamp stamp;                   ///< of the key frame it was made at
-  std::string plugin;                  ///< INI section of who decided
-  std::string kind;                    ///< "sequential match", "loop closure", ...
-  base::KeyFrameId from;               ///< the key frame it was made at
-  std::optional<base::KeyFrameId> to;  ///< the other one, of a closure
-  bool accepted = false;                     ///< of a hypothesis: as it stands now
+  base::Stamp stamp;                                    ///< of the key frame it was made at
+  std::string plugin;                                   ///< INI section of who decided
+  std::string kind;                                     ///< "sequential match", "loop closure", ...
+  base::KeyFrameId from;                                ///< the key frame it was made at
+  std::optional<base::KeyFrameId> to;                   ///< the other one, of a closure
+  bool accepted = false;                                ///< of a hypothesis: as it stands now
   std::string reason;                                   ///< a few words a user understands
   std::vector<std::pair<std::string, double>> numbers;  ///< what it was decided on: name with unit, value
   /// The factor that the consistency test decides about, if it is a hypothesis; `accepted` is how it stands now.

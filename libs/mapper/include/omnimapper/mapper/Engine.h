@@ -3,12 +3,16 @@
 #include <omnimapper/graph/Graph.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/EngineOptions.h>
-#include <omnimapper/mapper/PerceptionPool.h>
+#include <omnimapper/mapper/Hypotheses.h>
+#include <omnimapper/mapper/JobQueue.h>
+#include <omnimapper/mapper/Perception.h>
 #include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/mapper/PoseChain.h>
 #include <omnimapper/mapper/ReleaseQueue.h>
 #include <omnimapper/mapper/SensorPoses.h>
 #include <omnimapper/mapper/Trigger.h>
 #include <omnimapper/mapper/View.h>
+#include <omnimapper/mapper/WorkerPool.h>
 
 #include <deque>
 #include <functional>
@@ -19,86 +23,109 @@
 
 namespace omnimapper::mapper {
 
+/// What a map file gave, for a session that continues it.
+struct SavedMap {
+  map::Map map;
+  graph::Graph graph;
+  std::vector<map::MapSection> sections;  ///< all others
+};
+
 /// The mapper (thesis 5.2.3, 5.3.2): observations in, a map out. One thread calls it and is the only writer; workers
-/// run the extractors. What comes out depends on the observations and the options, never on the workers.
+/// run extractors, preparations and jobs. What comes out depends on the observations, their order of arrival and the
+/// options, never on the workers.
 class Engine {
  public:
   /// Throws Error(unknown_plugin) if no pose plugin or no measurement plugin is given.
-  Engine(const EngineOptions& options, const TriggerOptions& trigger, const SolverOptions& solver,
-         SensorPoses sensor_poses, PluginSet plugins, int threads);
+  /// `title` names the session.
+  Engine(const EngineSettings& settings, const std::string& title, SensorPoses sensor_poses, PluginSet plugins,
+         int threads);
 
+  /// Before the first observation: takes up a map as it was saved; what follows is a new session of it, which begins
+  /// at `start`. Throws Error(unreadable_input) if a plugin cannot make use of its section.
+  void continueFrom(SavedMap saved, const SessionStart& start);
   /// Takes one observation, in order of arrival, and works on whatever that releases. What cannot be used is counted.
   void add(const mrpt::obs::CObservation::Ptr& observation);
-  /// The end of the log: everything still queued is worked off, the graph is solved to the end.
+  /// The end of the log: everything still queued is worked off, jobs in order, and the graph is solved to the end.
   void finish();
   /// Calls every output plugin's finish(). An output that cannot be written does not keep the others from theirs; the
   /// first error is thrown at the end.
   void writeOutputs();
 
+  /// Asked while a solve runs; true ends it with the best so far (Ctrl-C).
+  void setStop(std::function<bool()> stop) { stop_ = std::move(stop); }
   /// A sentence for the user: shown by the report and the summary.
   void warn(const std::string& sentence) { warnings_.push_back(sentence); }
   /// Adds time spent outside the engine, such as reading the log.
   void addTime(const std::string& stage, double seconds) { times_.add(stage, seconds); }
 
-  View view() const { return {{map_, graph_, uncertainty_}, decisions_, times_, counts_, solves_, warnings_, sections_}; }
+  View view() const {
+    return {{map_, graph_, uncertainty_}, decisions_, times_, counts_, solves_, warnings_, sections_};
+  }
 
  private:
-  /// An observation with the derived ones that the pool is making of it.
-  struct Perceived {
+  /// An observation with what the pool is making of it.
+  struct Pending {
     mrpt::obs::CObservation::Ptr raw;
-    std::future<PerceptionPool::Derived> derived;
+    std::future<std::vector<Perceived>> perceived;
   };
   /// All observations of one stamp, past the trigger. Without any, the stamp only hangs on its key frame.
   struct Moment {
     base::Stamp stamp;
-    std::vector<Perceived> observations;
+    bool reference;  // one of them, or of those that hang, is of the reference sensor
+    std::vector<Pending> observations;
   };
 
   bool accepts(const mrpt::obs::CObservation& observation);
-  bool isWanted(const mrpt::obs::CObservation& observation) const;
+  bool isWanted(const mrpt::obs::CObservation& observation) const { return perception_.wants(observation); }
   bool isCovered(base::Stamp stamp) const;
-  void release(ReleaseQueue::Group group);
+  bool tellSources(const mrpt::obs::CObservation& observation);
+  void release(const ReleaseQueue::Group& group, bool late);
+  void addLate(const mrpt::obs::CObservation::Ptr& observation);
   void process(Moment& moment);
-  bool beginKeyFrame(base::Stamp stamp);
-  void gather(Moment& moment, map::KeyFrame& frame);
-  void measure(base::KeyFrameId id);
-  void hang(base::Stamp stamp);
-  /// What each source that covers the span says, by section; the fallbacks if none does and they are asked for.
-  std::vector<std::pair<std::string, RelativeMotion>> motionBetween(base::Stamp begin, base::Stamp end,
-                                                                    bool or_fallback) const;
-  AppliedBatch applyBatch(const Batch& batch, const std::string& owner);
-  void refineNewest();
-  void solveNow(const graph::SolveOptions& options);
+  std::vector<Perceived> gather(Moment& moment, base::KeyFrameId id);
+  void measure(base::KeyFrameId id, const std::vector<Perceived>& perceived);
+  void commit(base::KeyFrameId id);
+  void applyJobs(bool all);
+  void applyBatch(const Batch& batch, const BatchOrigin& origin, MeasurementPlugin& plugin);
+  MeasurementPlugin& pluginOf(const std::string& section);
+  bool isSolveDue() const;
+  void refine(base::KeyFrameId id);
+  void solveNow(graph::SolveOptions options);
+  void collectSections();
 
   /// Seconds in the engine's thread.
   struct BusyTimes {
-    double total = 0, perception = 0, plugins = 0, solve = 0, outputs = 0;
+    double total = 0, perception = 0, plugins = 0, jobs = 0, solve = 0, outputs = 0;
   };
 
-  EngineOptions options_;
-  SolverOptions solver_;
+  EngineSettings settings_;
   SensorPoses sensor_poses_;
   PluginSet plugins_;
   Trigger trigger_;
   ReleaseQueue queue_;
   std::deque<Moment> moments_;
-  PerceptionPool pool_;
-  std::size_t pipeline_depth_;
 
   map::Map map_;
   graph::Graph graph_;
   Uncertainty uncertainty_;
-  std::vector<map::MapSection> sections_;
+  PoseChain chain_;
+  Hypotheses hypotheses_;
   DecisionLog decisions_;
   StageTimes times_;
   RunCounts counts_;
   std::vector<SolveRecord> solves_;
   std::vector<std::string> warnings_;
+  std::vector<map::MapSection> sections_;
   std::string reference_sensor_;
   std::map<const mrpt::rtti::TRuntimeClassId*, std::map<std::string, base::Stamp>> last_stamps_;  // by class and label
   BusyTimes busy_;
+  std::function<bool()> stop_;
   std::size_t key_frames_at_solve_ = 0;
-  bool closed_since_solve_ = false;
+
+  // Last, so that they end first: the pool's tasks use what stands above.
+  WorkerPool pool_;
+  Perception perception_;
+  JobQueue jobs_;
 };
 
 }  // namespace omnimapper::mapper

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <omnimapper/base/Config.h>
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/graph/Consistency.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/mapper/Motion.h>
+#include <omnimapper/mapper/Trigger.h>
 
 #include <string>
 #include <vector>
@@ -17,10 +20,22 @@ struct EngineOptions {
   std::vector<std::string> plugin_libraries;
   std::string reference_sensor;  ///< label; empty: the first sensor that earns a key frame
   double window = 0.5;           ///< [s]
+  double horizon = 30;           ///< [s]
+  int job_delay = 5;             ///< key frames
   int solve_every = 100;         ///< key frames
   int solve_after_closure = 10;  ///< key frames
 
   static const base::OptionTable<EngineOptions>& table();
+};
+
+/// Section [hypotheses] of an INI.
+struct HypothesisOptions {
+  graph::ConsistencyOptions::Method test = graph::ConsistencyOptions().method;
+  double confidence = graph::ConsistencyOptions().confidence;
+  double inflation = graph::ConsistencyOptions().inflation;
+
+  graph::ConsistencyOptions consistency() const { return {test, confidence, inflation}; }
+  static const base::OptionTable<HypothesisOptions>& table();
 };
 
 /// Section [perception] of an INI.
@@ -42,6 +57,17 @@ struct SolverOptions {
   /// While the map grows, and at its end.
   graph::SolveOptions running() const { return {method, max_iterations, tolerance, {}}; }
   graph::SolveOptions final() const { return {method, final_max_iterations, final_tolerance, {}}; }
+};
+
+/// Everything the engine itself is told by an INI.
+struct EngineSettings {
+  EngineOptions engine;
+  TriggerOptions trigger;
+  SolverOptions solver;
+  HypothesisOptions hypotheses;
+
+  /// Reads the sections of that name. Throws base::Error as base::ConfigSection::read().
+  static EngineSettings read(const base::Config& config);
 };
 
 }  // namespace omnimapper::mapper

@@ -9,9 +9,9 @@
 namespace omnimapper::mapper {
 
 /// Work that may take longer than a key frame, such as the search for a loop closure: a pure function of the state at
-/// the key frame that asked for it. It runs in the worker pool; what it returns is applied [mapper] job_delay key frames
-/// later, or at the end of the log, whatever the number of workers. A batch that does not fit any more is dropped, with
-/// a word in the decision log.
+/// the key frame that asked for it. It runs in the worker pool; what it returns is applied [mapper] job_delay key
+/// frames later, or at the end of the log, whatever the number of workers. A batch that does not fit any more is
+/// dropped, with a word in the decision log.
 struct Job {
   std::string name;  ///< for the decision log and the times: "loop closure of 0:17"
   /// Must read nothing but its argument and what it holds itself.

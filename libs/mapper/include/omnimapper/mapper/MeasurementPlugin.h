@@ -12,6 +12,9 @@
 
 namespace omnimapper::mapper {
 
+/// A section of a map file with this before a plugin's INI section is that plugin's.
+inline constexpr char kPluginSectionPrefix[] = "plugin ";
+
 /// What a plugin made of an observation in the worker pool; a plugin derives its own from it.
 struct Prepared {
   virtual ~Prepared() = default;

@@ -17,8 +17,15 @@ class PosePlugin {
     taken,
     unusable,  ///< of its kind, but not finite, or its time runs backwards
   };
-  /// Takes an observation into its history if it is of its kind. Called in order of arrival.
+  /// Takes an observation into its history if it is of its kind. Called in order of arrival, which need not be that of
+  /// stamps.
   virtual Taken add(const mrpt::obs::CObservation& observation) = 0;
+  struct Span {
+    base::Stamp begin, end;
+  };
+  /// The span of time of which the last add() taught it something; none if there is none. Key frames in it that were
+  /// linked by what was known before are linked anew.
+  virtual std::optional<Span> news() const { return std::nullopt; }
   /// Motion from `begin` to `end` (begin <= end), none if the span is not covered.
   /// Additive: cov(a, c) = cov(a, b) transported + cov(b, c), so that a span may be split without gain or loss.
   virtual std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const = 0;

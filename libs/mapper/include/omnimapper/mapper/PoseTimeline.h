@@ -13,9 +13,11 @@ namespace omnimapper::mapper {
 /// composed, wherever b lies (thesis 5.2.3.1: nothing is counted twice, nothing is lost).
 class PoseTimeline {
  public:
-  /// Appends the span from `begin` to `end`. False, and nothing changes, if it is empty or reversed, begins before
-  /// the end of the last one, or its motion is not finite. A gap is allowed: nothing across it can be asked for.
-  bool append(base::Stamp begin, base::Stamp end, const RelativeMotion& motion);
+  /// Adds the span from `begin` to `end`. False, and nothing changes, if it is empty or reversed, overlaps another one,
+  /// or its motion is not finite. A gap is allowed: nothing across it can be asked for.
+  bool insert(base::Stamp begin, base::Stamp end, const RelativeMotion& motion);
+  /// Takes the span from `begin` to `end` away. False, and nothing changes, if that is not a span as it was added.
+  bool remove(base::Stamp begin, base::Stamp end);
 
   /// Motion from `begin` to `end`, begin <= end; none if a part of the span was never told.
   /// Inside a span the motion is taken as even in time.
@@ -30,7 +32,9 @@ class PoseTimeline {
     base::Stamp begin, end;
     RelativeMotion motion;
   };
-  std::deque<Span> spans_;
+  std::deque<Span>::const_iterator firstEndingAfter(base::Stamp stamp) const;
+
+  std::deque<Span> spans_;  // in order of time
 };
 
 /// Motion over a, then over b; the covariance of a is transported to the end of b.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace omnimapper::mapper {
@@ -32,12 +33,18 @@ class Trigger {
 
   /// Whether the observation of that label and stamp gets a pose. The first of a label does. Call in order of stamp.
   bool fires(const std::string& label, base::Stamp stamp, const MotionBetween& motion);
+  /// The same of an observation that is older than the last of its label: it does if it is as far from the triggered
+  /// ones before and after it as they are to be from each other.
+  bool firesLate(const std::string& label, base::Stamp stamp, const MotionBetween& motion);
+  /// No late observation before `stamp` will be asked about.
+  void forgetBefore(base::Stamp stamp);
 
  private:
   /// What happened to a label since its last triggered observation.
   struct Since {
     base::Stamp fired, seen;
     std::optional<mrpt::poses::CPose3D> motion;  // from fired to seen; none if a part of it is not covered
+    std::set<base::Stamp> all_fired = {};        // as far back as late ones may come
   };
   bool isDue(const Since& since) const;
 

@@ -32,7 +32,7 @@ struct SolveRecord {
   std::size_t key_frames = 0;
   std::size_t factors = 0;
   double initial_cost = 0, final_cost = 0;
-  int iterations = 0;
+  double seconds = 0;  ///< that it took
 };
 
 /// Everything there is to see, const. Valid during the call it is given to.

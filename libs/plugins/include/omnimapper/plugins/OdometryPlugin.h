@@ -33,19 +33,24 @@ class OdometryPlugin : public mapper::PosePlugin {
   Taken add(const mrpt::obs::CObservation& observation) override;
   std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override;
   std::optional<base::Stamp> coveredUntil() const override { return timeline_.end(); }
-  void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }
+  std::optional<Span> news() const override { return news_; }
+  void forgetBefore(base::Stamp stamp) override;
 
  private:
   Taken addMotion(const obs::CObservationRelativeMotion& motion);
   Taken addPose(const mrpt::obs::CObservationOdometry& odometry);
+  Taken addLatePose(base::Stamp stamp, const mrpt::poses::CPose3D& odom_from_base);
+  void tell(base::Stamp begin, base::Stamp end, const mrpt::poses::CPose3D& motion);
   bool isUnconfirmedLeap(base::Stamp stamp);
   bool isOurs(const mrpt::obs::CObservation& observation);
   Eigen::Matrix<double, 6, 6> covarianceOf(const mrpt::poses::CPose3D& motion, double seconds) const;
 
   OdometryOptions options_;
-  std::optional<std::string> label_;                                  // of the first that came
-  std::optional<std::pair<base::Stamp, mrpt::poses::CPose3D>> last_;  // odom_from_base
-  std::optional<base::Stamp> leap_;                                   // of a reading far ahead of all before it
+  std::optional<std::string> label_;                      // of the first that came
+  std::map<base::Stamp, mrpt::poses::CPose3D> readings_;  // odom_from_base
+  std::optional<base::Stamp> leap_;                       // of a reading far ahead of all before it
+  std::optional<Span> news_;
+  bool forgotten_ = false;  // there were readings before the first
   mapper::PoseTimeline timeline_;
 };
 

@@ -21,7 +21,9 @@ struct HandMadeRun {
   std::vector<map::MapSection> sections;
   mapper::Uncertainty uncertainty;  ///< of nothing, until a test sets it
 
-  mapper::View view() const { return {{map, graph, uncertainty}, decisions, times, counts, solves, warnings, sections}; }
+  mapper::View view() const {
+    return {{map, graph, uncertainty}, decisions, times, counts, solves, warnings, sections};
+  }
 
   /// A key frame at that estimate, one second after the one before.
   const map::KeyFrame& addFrame(const mrpt::poses::CPose3D& map_from_base) {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/map/MapFile.h>
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/mapper/Engine.h>
 #include <omnimapper/plugins/registerPlugins.h>
 #include <omnimapper/testing/SimulatedLog.h>
@@ -40,15 +40,14 @@ inline std::unique_ptr<mapper::Engine> makeEngine(const std::string& ini, const 
   plugins::registerPlugins();
   auto config = base::Config::fromText(ini, "test.ini");
   for (const auto& setting : settings) config.set(setting);
-  const auto options = config.section("mapper").read<mapper::EngineOptions>();
+  const auto options_of_engine = mapper::EngineSettings::read(config);
+  const auto& options = options_of_engine.engine;
   const auto perception = config.section("perception").read<mapper::PerceptionOptions>();
-  const auto trigger = config.section("trigger").read<mapper::TriggerOptions>();
-  const auto solver = config.section("solver").read<mapper::SolverOptions>();
   mapper::PluginContext context;
   context.motion = options.motion;
   auto plugins = mapper::makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, {}},
                                      config, context);
-  return std::make_unique<mapper::Engine>(options, trigger, solver, mapper::SensorPoses(options.sensors, config),
+  return std::make_unique<mapper::Engine>(options_of_engine, "test", mapper::SensorPoses(options.sensors, config),
                                           std::move(plugins), threads);
 }
 

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <omnimapper/graph/Graph.h>
+#include <omnimapper/map/Map.h>
+#include <omnimapper/mapper/Motion.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/mapper/PosePlugin.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// Where a session begins on a map that is continued.
+struct SessionStart {
+  mrpt::poses::CPose3D map_from_base;  ///< the guess
+  double position_sigma = 1;           ///< [m]
+  double angle_sigma = 0.5;            ///< [rad]
+};
+
+/// The key frames of the running session and the continuous factors that link each to the next (thesis 5.2.3): between
+/// neighbours in time, and only there, each continuous source that covers the span has one factor. A key frame that
+/// comes late is spliced in: the factors across its stamp are replaced by two, and nothing else changes.
+class PoseChain {
+ public:
+  /// `sources`, `map` and `graph` stay the caller's.
+  PoseChain(Motion motion, const std::vector<Named<PosePlugin>>& sources, map::Map& map, graph::Graph& graph)
+      : motion_(motion), sources_(sources), map_(map), graph_(graph) {}
+
+  /// Before the first key frame of a session. Without `start` the first pose is held at the map's origin, or left to
+  /// measurements if these are `absolute`: they say where in the map the base is.
+  void beginSession(const map::Session& session, const std::optional<SessionStart>& start, bool absolute);
+
+  struct Place {
+    base::KeyFrameId id;
+    bool is_new;  ///< false: there was a key frame of that stamp
+    std::optional<base::KeyFrameId> before, after;
+  };
+  /// The key frame of that stamp: the one there is, or a new one in its place. None if no source tells the motion to
+  /// its neighbours.
+  std::optional<Place> place(base::Stamp stamp);
+  /// An observation of the reference sensor that is no key frame: hangs on the key frame before it. False if there is
+  /// none, or no source tells the motion from it.
+  bool hang(base::Stamp stamp);
+  /// A source tells other than before of that span: what links the key frames there is made anew.
+  void relink(base::Stamp begin, base::Stamp end);
+
+  /// Stamp of the session's newest key frame; none before the first.
+  std::optional<base::Stamp> newest() const;
+  /// What the first source that covers the span says; fallbacks are asked if `or_fallback`.
+  std::optional<RelativeMotion> motion(base::Stamp begin, base::Stamp end, bool or_fallback) const;
+
+ private:
+  using Told = std::vector<std::pair<std::string, RelativeMotion>>;  // by section of the source
+  Told motionBetween(base::Stamp begin, base::Stamp end, bool or_fallback) const;
+  std::uint16_t session() const { return map_.sessions.back().number; }
+  const map::KeyFrame* frameBefore(base::Stamp stamp) const;
+  const map::KeyFrame* frameAfter(base::Stamp stamp) const;
+  map::KeyFrame newFrame(base::Stamp stamp, const mrpt::poses::CPose3D& map_from_base);
+  void hold(base::VariableId first_pose);
+  void link(base::KeyFrameId begin, base::KeyFrameId end, const Told& told);
+  void unlink(base::KeyFrameId begin);
+  void rehang(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps);
+
+  Motion motion_;
+  const std::vector<Named<PosePlugin>>& sources_;
+  map::Map& map_;
+  graph::Graph& graph_;
+  std::map<base::KeyFrameId, std::vector<base::FactorId>> links_;  // to the next key frame
+  std::optional<SessionStart> start_;
+  bool absolute_ = false;
+  // What holds the session's first pose: a factor, or that it is fixed.
+  std::optional<base::FactorId> hold_;
+  std::optional<base::VariableId> held_;
+};
+
+}  // namespace omnimapper::mapper

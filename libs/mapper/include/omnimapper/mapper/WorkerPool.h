@@ -1,0 +1,44 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// Threads that run tasks in the order they were submitted. What a task gives is fetched by its future, so results do
+/// not depend on the number of threads.
+class WorkerPool {
+ public:
+  /// threads >= 1.
+  explicit WorkerPool(int threads);
+  /// Leaves out what has not begun; its futures throw std::future_error.
+  ~WorkerPool();
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  /// An exception of the task comes out of the future.
+  template <class Result>
+  std::future<Result> submit(std::function<Result()> task) {
+    auto packaged = std::make_shared<std::packaged_task<Result()>>(std::move(task));
+    auto result = packaged->get_future();
+    push([packaged] { (*packaged)(); });
+    return result;
+  }
+
+ private:
+  void push(std::function<void()> task);
+  void work();
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::function<void()>> tasks_;
+  bool closing_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace omnimapper::mapper

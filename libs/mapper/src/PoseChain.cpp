@@ -1,0 +1,209 @@
+#include <omnimapper/mapper/PoseChain.h>
+#include <omnimapper/mapper/PoseFactors.h>
+
+#include <algorithm>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+using mrpt::poses::CPose3D;
+
+// The most certain of what the sources say.
+const RelativeMotion& best(const std::vector<std::pair<std::string, RelativeMotion>>& told) {
+  return std::min_element(
+             told.begin(), told.end(),
+             [](const auto& a, const auto& b) { return a.second.covariance.trace() < b.second.covariance.trace(); })
+      ->second;
+}
+
+std::vector<base::Stamp> stampsOf(const std::vector<map::HangingFrame>& hanging) {
+  std::vector<base::Stamp> stamps;
+  for (const auto& frame : hanging) stamps.push_back(frame.stamp);
+  return stamps;
+}
+
+}  // namespace
+
+void PoseChain::beginSession(const map::Session& session, const std::optional<SessionStart>& start, bool absolute) {
+  map_.sessions.push_back(session);
+  start_ = start;
+  absolute_ = absolute;
+  links_.clear();
+  hold_.reset();
+  held_.reset();
+}
+
+const map::KeyFrame* PoseChain::frameBefore(base::Stamp stamp) const {
+  const std::size_t position = map_.key_frames.lowerBound(session(), stamp);
+  if (position == 0 || map_.key_frames[position - 1].id.session != session()) return nullptr;
+  return &map_.key_frames[position - 1];
+}
+
+const map::KeyFrame* PoseChain::frameAfter(base::Stamp stamp) const {
+  const std::size_t position = map_.key_frames.lowerBound(session(), stamp);
+  if (position == map_.key_frames.size() || map_.key_frames[position].id.session != session()) return nullptr;
+  return &map_.key_frames[position];
+}
+
+std::optional<base::Stamp> PoseChain::newest() const {
+  if (map_.key_frames.empty() || map_.key_frames.back().id.session != session()) return std::nullopt;
+  return map_.key_frames.back().stamp;
+}
+
+std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
+  const map::KeyFrame *before = frameBefore(stamp), *after = frameAfter(stamp);
+  Place place{{}, true, {}, {}};
+  if (after && after->stamp == stamp) return Place{after->id, false, {}, {}};
+  Told to, from;
+  if (before) {
+    place.before = before->id;
+    to = motionBetween(before->stamp, stamp, true);
+    if (to.empty()) return std::nullopt;
+  }
+  if (after) {
+    place.after = after->id;
+    from = motionBetween(stamp, after->stamp, true);
+    if (from.empty()) return std::nullopt;
+  }
+  const CPose3D guess = before   ? before->map_from_base + best(to).begin_from_end
+                        : after  ? after->map_from_base + (-best(from).begin_from_end)
+                        : start_ ? start_->map_from_base
+                                 : CPose3D();
+  map::KeyFrame frame = newFrame(stamp, guess);
+  place.id = frame.id;
+  const base::VariableId pose = frame.pose;
+  std::vector<base::Stamp> hanging;
+  if (before) hanging = stampsOf(before->hanging);
+  if (before && after) unlink(*place.before);
+  map_.key_frames.insert(std::move(frame));
+  if (before) link(*place.before, place.id, to);
+  if (after) link(place.id, *place.after, from);
+  if (!before) hold(pose);
+  // What hung on the key frame before and is later hangs on this one.
+  const auto later = std::upper_bound(hanging.begin(), hanging.end(), stamp);
+  const auto earlier = std::lower_bound(hanging.begin(), later, stamp);
+  if (before && earlier != hanging.end()) rehang(*place.before, {hanging.begin(), earlier});
+  if (later != hanging.end()) rehang(place.id, {later, hanging.end()});
+  map_.key_frames.edit(place.id).reference = earlier != later;
+  return place;
+}
+
+map::KeyFrame PoseChain::newFrame(base::Stamp stamp, const CPose3D& map_from_base) {
+  map::KeyFrame frame;
+  frame.id = map_.key_frames.nextId(session());
+  frame.stamp = stamp;
+  frame.map_from_base = map_from_base;
+  frame.pose = graph_.addVariable(poseVariable(motion_), poseValue(motion_, map_from_base));
+  return frame;
+}
+
+// The first pose of a session has nothing before it. Where another one was first until now, that one is let go.
+void PoseChain::hold(base::VariableId first_pose) {
+  constexpr char kOwner[] = "engine";
+  map::Session& session = map_.sessions.back();
+  if (start_) {
+    if (!hold_) {
+      session.anchor = graph_.addVariable(poseVariable(motion_), poseValue(motion_, start_->map_from_base));
+      Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+      covariance.diagonal().head<3>().setConstant(start_->position_sigma * start_->position_sigma);
+      covariance.diagonal().tail<3>().setConstant(start_->angle_sigma * start_->angle_sigma);
+      graph_.addFactor(posePrior(motion_, session.anchor, start_->map_from_base, covariance, kOwner));
+    }
+    if (hold_) graph_.removeFactor(*hold_);
+    // A session begins where its first pose is.
+    RelativeMotion none{{}, Eigen::Matrix<double, 6, 6>::Zero()};
+    hold_ = graph_.addFactor(betweenPoses(motion_, session.anchor, first_pose, none, kOwner));
+    return;
+  }
+  if (absolute_) {
+    if (hold_) graph_.removeFactor(*hold_);
+    // Where measurements place the map, the first pose is only a start: a kilometre and a turn either way.
+    const Eigen::Matrix<double, 6, 6> anywhere = 1e6 * Eigen::Matrix<double, 6, 6>::Identity();
+    hold_ = graph_.addFactor(posePrior(motion_, first_pose, {}, anywhere, kOwner));
+  } else {
+    if (held_) graph_.setFixed(*held_, false);
+    graph_.setFixed(first_pose, true);
+    held_ = first_pose;
+  }
+  session.anchor = first_pose;
+}
+
+void PoseChain::link(base::KeyFrameId begin, base::KeyFrameId end, const Told& told) {
+  map::KeyFrame& frame = map_.key_frames.edit(begin);
+  const base::VariableId end_pose = map_.keyFrame(end).pose;
+  for (const auto& [section, motion] : told) {
+    links_[begin].push_back(graph_.addFactor(betweenPoses(motion_, frame.pose, end_pose, motion, section)));
+  }
+  frame.keyframe_from_next = told.front().second.begin_from_end;
+}
+
+void PoseChain::unlink(base::KeyFrameId begin) {
+  for (const auto id : links_[begin]) graph_.removeFactor(id);
+  links_.erase(begin);
+}
+
+void PoseChain::rehang(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps) {
+  map::KeyFrame& frame = map_.key_frames.edit(begin);
+  frame.hanging.clear();
+  for (const auto stamp : stamps) {
+    if (const auto told = motion(frame.stamp, stamp, true)) frame.hanging.push_back({stamp, told->begin_from_end});
+  }
+}
+
+bool PoseChain::hang(base::Stamp stamp) {
+  const map::KeyFrame* after = frameAfter(stamp);
+  if (after && after->stamp == stamp) {
+    map_.key_frames.edit(after->id).reference = true;
+    return true;
+  }
+  const map::KeyFrame* before = frameBefore(stamp);
+  if (!before) return false;
+  map::KeyFrame& frame = map_.key_frames.edit(before->id);
+  auto place =
+      std::lower_bound(frame.hanging.begin(), frame.hanging.end(), stamp,
+                       [](const map::HangingFrame& other, base::Stamp wanted) { return other.stamp < wanted; });
+  if (place != frame.hanging.end() && place->stamp == stamp) return true;
+  const bool first = place == frame.hanging.begin();
+  const auto told = motion(first ? frame.stamp : std::prev(place)->stamp, stamp, true);
+  if (!told) return false;
+  const CPose3D start = first ? CPose3D() : std::prev(place)->keyframe_from_base;
+  frame.hanging.insert(place, {stamp, start + told->begin_from_end});
+  return true;
+}
+
+void PoseChain::relink(base::Stamp begin, base::Stamp end) {
+  const map::KeyFrame* first = frameBefore(begin);
+  std::size_t position = first ? map_.key_frames.position(first->id) : map_.key_frames.lowerBound(session(), begin);
+  for (; position < map_.key_frames.size() && map_.key_frames[position].stamp < end; ++position) {
+    const base::KeyFrameId id = map_.key_frames[position].id;
+    if (position + 1 < map_.key_frames.size()) {
+      const map::KeyFrame& next = map_.key_frames[position + 1];
+      const auto told = motionBetween(map_.key_frames[position].stamp, next.stamp, true);
+      if (told.empty()) continue;  // what was told before is all there is
+      unlink(id);
+      link(id, next.id, told);
+    }
+    rehang(id, stampsOf(map_.keyFrame(id).hanging));
+  }
+}
+
+PoseChain::Told PoseChain::motionBetween(base::Stamp begin, base::Stamp end, bool or_fallback) const {
+  Told told;
+  for (const bool fallback : {false, true}) {
+    if (fallback && (!told.empty() || !or_fallback)) break;
+    for (const auto& [section, plugin] : sources_) {
+      if (plugin->isFallback() != fallback) continue;
+      if (const auto motion = plugin->between(begin, end)) told.emplace_back(section, *motion);
+    }
+  }
+  return told;
+}
+
+std::optional<RelativeMotion> PoseChain::motion(base::Stamp begin, base::Stamp end, bool or_fallback) const {
+  auto told = motionBetween(begin, end, or_fallback);
+  if (told.empty()) return std::nullopt;
+  return std::move(told.front().second);
+}
+
+}  // namespace omnimapper::mapper

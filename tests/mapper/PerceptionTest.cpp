@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/mapper/Perception.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace omnimapper::mapper {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationComment;
+
+CObservationComment::Ptr comment(const std::string& text) {
+  auto made = CObservationComment::Create();
+  made->text = text;
+  return made;
+}
+
+// Gives the text of a comment with a suffix, after a while that differs from one to the next. Throws on "bad".
+class Suffix : public Extractor {
+ public:
+  explicit Suffix(std::string suffix) : suffix_(std::move(suffix)) {}
+  bool wants(const CObservation& raw) const override {
+    return dynamic_cast<const CObservationComment*>(&raw) != nullptr;
+  }
+  std::vector<CObservation::Ptr> extract(const CObservation& raw) const override {
+    const auto& text = dynamic_cast<const CObservationComment&>(raw).text;
+    if (text == "bad") throw std::runtime_error("cannot read this one");
+    std::this_thread::sleep_for(std::chrono::microseconds(std::hash<std::string>()(text) % 300));
+    return {comment(text + suffix_)};
+  }
+
+ private:
+  std::string suffix_;
+};
+
+using Result = std::vector<Perceived>;
+
+// Of what was derived; the observation itself comes first.
+std::vector<std::string> texts(const Result& result) {
+  std::vector<std::string> all;
+  for (std::size_t i = 1; i < result.size(); ++i) {
+    all.push_back(dynamic_cast<const CObservationComment&>(*result[i].observation).text);
+  }
+  return all;
+}
+
+class Pool : public ::testing::TestWithParam<int> {};
+
+TEST_P(Pool, GivesTheSameResultsInTheSameOrderWithAnyNumberOfThreads) {
+  const Suffix one(".one"), two(".two");
+  WorkerPool workers(GetParam());
+  const Perception perception({&one, &two}, {}, workers);
+  std::vector<std::future<Result>> results;
+  for (int i = 0; i < 200; ++i) results.push_back(perception.submit(comment(std::to_string(i))));
+  for (int i = 0; i < 200; ++i) {
+    const std::string name = std::to_string(i);
+    EXPECT_EQ(texts(results[static_cast<std::size_t>(i)].get()),
+              (std::vector<std::string>{name + ".one", name + ".two"}));
+  }
+}
+
+TEST_P(Pool, AnExceptionComesOutOfItsFutureAndOfNoOther) {
+  const Suffix one(".one");
+  WorkerPool workers(GetParam());
+  const Perception perception({&one}, {}, workers);
+  auto before = perception.submit(comment("a")), bad = perception.submit(comment("bad")),
+       after = perception.submit(comment("b"));
+  EXPECT_EQ(texts(before.get()), std::vector<std::string>{"a.one"});
+  EXPECT_THROW(bad.get(), std::runtime_error);
+  EXPECT_EQ(texts(after.get()), std::vector<std::string>{"b.one"});
+}
+
+TEST_P(Pool, WhatHasNotBegunAtTheEndIsLeftOutAndItsFutureSaysSo) {
+  std::vector<std::future<Result>> results;
+  const Suffix one(".one");
+  {
+    WorkerPool workers(GetParam());
+    const Perception perception({&one}, {}, workers);
+    for (int i = 0; i < 200; ++i) results.push_back(perception.submit(comment(std::to_string(i))));
+  }
+  bool left_out = false;
+  for (auto& result : results) {
+    try {
+      EXPECT_EQ(texts(result.get()).size(), 1U);
+      EXPECT_FALSE(left_out) << "they are done in order";
+    } catch (const std::future_error&) {
+      left_out = true;
+    }
+  }
+}
+
+// Prepares the length of a comment's text.
+class Counter : public MeasurementPlugin {
+ public:
+  struct Length : Prepared {
+    std::size_t length;
+  };
+  bool wants(const CObservation& observation) const override {
+    return dynamic_cast<const CObservationComment*>(&observation) != nullptr;
+  }
+  std::unique_ptr<const Prepared> prepare(const CObservation& observation) const override {
+    auto prepared = std::make_unique<Length>();
+    prepared->length = dynamic_cast<const CObservationComment&>(observation).text.size();
+    return prepared;
+  }
+  Batch measure(const map::KeyFrame&, const Observed&, const View&) override { return {}; }
+};
+
+TEST_P(Pool, PluginsPrepareWhatTheyWantOfTheRawAndTheDerived) {
+  const Suffix one(".one");
+  const Counter counter;
+  WorkerPool workers(GetParam());
+  const Perception perception({&one}, {&counter}, workers);
+  const auto result = perception.submit(comment("abc")).get();
+  ASSERT_EQ(result.size(), 2U);
+  const auto length = [&](std::size_t i) {
+    return dynamic_cast<const Counter::Length&>(*result[i].prepared.front()).length;
+  };
+  EXPECT_EQ(length(0), 3U);
+  EXPECT_EQ(length(1), 7U);
+  EXPECT_EQ(perception.submit(mrpt::obs::CObservationOdometry::Create()).get().front().prepared.front(), nullptr);
+}
+
+TEST_P(Pool, WhatNoExtractorWantsGivesNothing) {
+  const Suffix one(".one");
+  WorkerPool workers(GetParam());
+  const Perception perception({&one}, {}, workers);
+  const auto odometry = mrpt::obs::CObservationOdometry::Create();
+  EXPECT_FALSE(perception.wants(*odometry));
+  EXPECT_TRUE(perception.wants(*comment("a")));
+  EXPECT_EQ(perception.submit(odometry).get().size(), 1U) << "itself";
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, Pool, ::testing::Values(1, 2, 4));
+
+}  // namespace
+}  // namespace omnimapper::mapper
