@@ -84,7 +84,7 @@ TEST_F(EngineInput, ARepeatedScanIsRefusedAndCountedThoughOthersCameBetween) {
 
 TEST_F(EngineInput, WhatComesLaterThanTheHorizonIsRefusedAndCounted) {
   const auto late = copyOf<CObservation2DRangeScan>(*log_[scan_]);
-  late->timestamp -= base::durationFromSeconds(0.75);
+  late->timestamp -= base::durationFromSeconds(4);
   late->sensorLabel = "slow laser";
   EXPECT_EQ(countsWith(late, scan_ + 1, {"mapper.horizon_s=0"}).too_late, 1U);
 }
