@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
 #include <omnimapper/graph/Consistency.h>
+#include <omnimapper/graph/PointFactor.h>
+#include <omnimapper/graph/Prior.h>
 
 #include "Worlds.h"
 
@@ -28,8 +31,21 @@ class Ring {
     }
   }
   Graph& graph() { return graph_; }
+  const std::vector<VariableId>& ids() const { return ids_; }
+  const std::vector<Se2>& truth() const { return truth_; }
   /// A hypothesis that is wrong by `error`.
   FactorId closure(int a, int b, const Se2& error = {}) { return add(a, b, error, {0.02, 0.02, 0.01}, true); }
+  std::vector<Verdict> test(const std::vector<FactorId>& fresh, ConsistencyOptions::Method method) {
+    ConsistencyOptions options;
+    options.method = method;
+    return testConsistency(graph_, fresh, options);
+  }
+  double largestError() const {
+    double error = 0;
+    for (std::size_t i = 0; i < ids_.size(); ++i)
+      error = std::max(error, (graph_.value(ids_[i]).head<2>() - truth_[i].translation()).norm());
+    return error;
+  }
   bool accepted(FactorId id) const { return graph_.factor(id).weight > 0; }
 
  private:
@@ -49,19 +65,170 @@ class Ring {
   Graph graph_;
 };
 
-TEST(ConsistencyTest, AGrossFalseClosureOfARingIsRefusedAndTheTrueOnesAct) {
+using Method = ConsistencyOptions::Method;
+
+/// Properties that every method that tests must have.
+class ConsistencyMethodTest : public ::testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, ConsistencyMethodTest, ::testing::Values(Method::pairwise, Method::graduated));
+
+TEST_P(ConsistencyMethodTest, AGrossFalseClosureIsRefusedAndTheTrueOnesAct) {
   Ring ring(60);
-  const FactorId good = ring.closure(0, 59), other = ring.closure(1, 58), bad = ring.closure(5, 40);
+  const FactorId one = ring.closure(0, 59), two = ring.closure(1, 58), three = ring.closure(5, 40);
   const FactorId false_one = ring.closure(10, 55, {4, 3, 1});
-  const std::vector<Verdict> verdicts = testConsistency(ring.graph(), {good, other, bad, false_one});
+  const std::vector<Verdict> verdicts = ring.test({one, two, false_one, three}, GetParam());
   ASSERT_EQ(verdicts.size(), 4u);
-  EXPECT_TRUE(ring.accepted(good) && ring.accepted(other) && ring.accepted(bad));
+  EXPECT_TRUE(ring.accepted(one) && ring.accepted(two) && ring.accepted(three));
   EXPECT_FALSE(ring.accepted(false_one));
-  EXPECT_EQ(verdicts[3].factor, false_one);
-  EXPECT_FALSE(verdicts[3].changed);
-  EXPECT_GT(verdicts[3].chi2, 16.3);
-  EXPECT_EQ(verdicts[3].degrees_of_freedom, 3);
-  EXPECT_NE(verdicts[3].reason.find("does not fit the map"), std::string::npos);
+  EXPECT_EQ(verdicts[2].factor, false_one);
+  EXPECT_FALSE(verdicts[2].changed);
+  EXPECT_TRUE(verdicts[0].changed);
+  EXPECT_GT(verdicts[2].chi2, 16.27);  // of three degrees of freedom, at 0.999
+  EXPECT_EQ(verdicts[2].degrees_of_freedom, 3);
+  EXPECT_EQ(verdicts[2].reason.find("contradicts"), 0u) << verdicts[2].reason;
+  EXPECT_LT(ring.largestError(), 0.3);
+}
+
+TEST_P(ConsistencyMethodTest, WithoutFalseOnesTheResultIsTheSolutionOfAll) {
+  Ring ring(60), all(60);
+  std::vector<FactorId> fresh;
+  for (int i = 0; i < 5; ++i) {
+    fresh.push_back(ring.closure(i, 59 - i));
+    all.graph().setWeight(all.closure(i, 59 - i), 1);
+  }
+  for (const Verdict& verdict : ring.test(fresh, GetParam())) EXPECT_TRUE(verdict.accepted) << verdict.reason;
+  const SolveSummary expected = solve(all.graph());
+  int asked = 0;
+  SolveOptions counting;
+  counting.stop = [&asked] { return ++asked, false; };
+  for (const VariableId id : ring.ids()) EXPECT_NEAR((ring.graph().value(id) - all.graph().value(id)).norm(), 0, 1e-6);
+  Ring again(60);
+  for (int i = 0; i < 5; ++i) again.closure(i, 59 - i);
+  ConsistencyOptions options;
+  options.method = GetParam();
+  testConsistency(again.graph(), fresh, options, counting);
+  EXPECT_LE(asked, expected.iterations);  // one solution and no more; the last iteration may end before it asks
+}
+
+TEST_P(ConsistencyMethodTest, AnEarlyFalseOneIsTakenBackWhenTwoThatAgreeContradictIt) {
+  Ring ring(60);
+  const FactorId early = ring.closure(2, 50, {0.6, -0.5, 0.1});
+  ring.graph().setWeight(early, 1);  // let in when little was known
+  solve(ring.graph());
+  const FactorId first = ring.closure(0, 59);
+  ring.test({first}, GetParam());
+  EXPECT_TRUE(ring.accepted(early));
+  EXPECT_FALSE(ring.accepted(first));
+  const FactorId second = ring.closure(1, 58);
+  const std::vector<Verdict> verdicts = ring.test({second}, GetParam());
+  EXPECT_TRUE(ring.accepted(first));
+  EXPECT_TRUE(ring.accepted(second));
+  EXPECT_FALSE(ring.accepted(early));
+  ASSERT_EQ(verdicts.size(), 3u);
+  EXPECT_EQ(verdicts[0].factor, second);
+  EXPECT_EQ(verdicts[1].factor, early);
+  EXPECT_EQ(verdicts[1].reason.find("taken back"), 0u) << verdicts[1].reason;
+  EXPECT_TRUE(verdicts[1].against.has_value());
+  EXPECT_EQ(verdicts[2].factor, first);
+  EXPECT_LT(ring.largestError(), 0.3);
+}
+
+TEST_P(ConsistencyMethodTest, AGroupOfFalseOnesThatAgreeIsRefusedWhereTheMapIsKnown) {
+  Ring ring(60);
+  ring.test({ring.closure(0, 59), ring.closure(1, 58), ring.closure(15, 45), ring.closure(30, 55)}, GetParam());
+  std::vector<FactorId> group;
+  for (int i = 0; i < 4; ++i) {
+    // The same shift of the far end in the frame of the near one, seen from ever new pairs.
+    const Se2 a_from_b = inverse(ring.truth()[10 + i]) * ring.truth()[10] * Se2{3, 2, 0.5} * inverse(ring.truth()[40]) *
+                         ring.truth()[40 + i];
+    group.push_back(
+        ring.closure(10 + i, 40 + i, inverse(inverse(ring.truth()[10 + i]) * ring.truth()[40 + i]) * a_from_b));
+  }
+  for (const FactorId id : group) ring.test({id}, GetParam());
+  for (const FactorId id : group) EXPECT_FALSE(ring.accepted(id));
+  EXPECT_LT(ring.largestError(), 0.3);
+}
+
+TEST_P(ConsistencyMethodTest, WhatCouldFitByChanceWaitsForAnotherToBearItOut) {
+  Ring ring(300);
+  const FactorId first = ring.closure(0, 299);
+  std::vector<Verdict> verdicts = ring.test({first}, GetParam());
+  EXPECT_FALSE(ring.accepted(first));
+  EXPECT_EQ(verdicts[0].reason.find("waits"), 0u) << verdicts[0].reason;
+  const FactorId second = ring.closure(1, 298);
+  verdicts = ring.test({second}, GetParam());
+  EXPECT_TRUE(ring.accepted(first));
+  EXPECT_TRUE(ring.accepted(second));
+  ASSERT_EQ(verdicts.size(), 2u);
+  EXPECT_EQ(verdicts[1].factor, first);
+  EXPECT_TRUE(verdicts[1].changed);
+}
+
+TEST_P(ConsistencyMethodTest, ARefusedOneComesBackWhenTheMapHasMovedToIt) {
+  Ring ring(60);
+  const FactorId closure = ring.closure(0, 59);
+  const FactorId wrong = ring.closure(1, 57, {0.6, -0.5, 0.1});
+  ring.graph().setWeight(wrong, 1);
+  solve(ring.graph());
+  ring.test({closure}, GetParam());
+  EXPECT_FALSE(ring.accepted(closure));
+  ring.graph().removeFactor(wrong);
+  ring.test({ring.closure(0, 58)}, GetParam());
+  EXPECT_TRUE(ring.accepted(closure));
+}
+
+TEST_P(ConsistencyMethodTest, TheSameGraphGivesTheSameVerdictsInEveryBit) {
+  const auto run = [] {
+    Ring ring(80);
+    std::vector<FactorId> fresh;
+    for (int i = 0; i < 6; ++i) fresh.push_back(ring.closure(i, 79 - i, i % 2 ? Se2{1.0 * i, 1, 0.3} : Se2{}));
+    const std::vector<Verdict> verdicts = ring.test(fresh, GetParam());
+    std::vector<double> numbers;
+    for (const Verdict& verdict : verdicts) numbers.push_back(verdict.chi2);
+    for (const VariableId id : ring.ids())
+      for (const double number : ring.graph().value(id)) numbers.push_back(number);
+    return numbers;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST_P(ConsistencyMethodTest, APriorOrAPointIsTestedToo) {
+  Ring ring(30);
+  const auto add = [&](std::vector<VariableId> variables, std::shared_ptr<const Factor> factor, int rows) {
+    FactorRecord record{std::move(variables), std::move(factor),
+                        SquareRootInformation::fromSigmas(Eigen::VectorXd::Constant(rows, 0.05))};
+    record.tags.hypothesis = true;
+    record.weight = 0;
+    return ring.graph().addFactor(record);
+  };
+  const Se2 there = ring.truth()[29];
+  const FactorId good = add({ring.ids()[29]}, std::make_shared<PriorSe2>(there), 3);
+  const FactorId bad = add({ring.ids()[29]}, std::make_shared<PriorSe2>(there * Se2{3, 0, 0}), 3);
+  const VariableId point = ring.graph().addVariable(point2(), Eigen::Vector2d(1, 1));
+  ring.graph().addFactor({{ring.ids()[0], point},
+                          std::make_shared<PointFactor2>(Eigen::Vector2d(1, 1)),
+                          SquareRootInformation::fromSigmas(Eigen::Vector2d(0.05, 0.05))});
+  const FactorId seen =
+      add({ring.ids()[29], point}, std::make_shared<PointFactor2>(inverse(there) * Eigen::Vector2d(1, 1)), 2);
+  const FactorId mistaken =
+      add({ring.ids()[29], point}, std::make_shared<PointFactor2>(inverse(there) * Eigen::Vector2d(4, 1)), 2);
+  ring.test({good, bad, seen, mistaken}, GetParam());
+  EXPECT_TRUE(ring.accepted(good));
+  EXPECT_FALSE(ring.accepted(bad));
+  EXPECT_TRUE(ring.accepted(seen));
+  EXPECT_FALSE(ring.accepted(mistaken));
+}
+
+TEST(ConsistencyTest, MethodNoneLetsEveryHypothesisAct) {
+  Ring ring(60);
+  const FactorId false_one = ring.closure(10, 55, {4, 3, 1});
+  EXPECT_TRUE(ring.test({false_one}, Method::none)[0].accepted);
+  EXPECT_TRUE(ring.accepted(false_one));
+}
+
+TEST(ConsistencyTest, WhatIsNoHypothesisIsAnError) {
+  Ring ring(10);
+  const FactorId odometry = (*ring.graph().factors().begin()).first;
+  EXPECT_THROW(testConsistency(ring.graph(), {odometry}), base::Error);
 }
 
 }  // namespace

@@ -6,22 +6,23 @@
 #include <cstdio>
 #include <map>
 
-#include "ChiSquare.h"
-#include "Innovation.h"
+#include "Overturn.h"
+#include "Selection.h"
 
 namespace omnimapper::graph {
 
 namespace {
 
 using base::FactorId;
+using Method = ConsistencyOptions::Method;
 
-/// What is refused comes back only where it fits well: what is on the edge would go to and fro.
-constexpr double kReturnConfidence = 0.95;
+/// So many of the newest that do not act are looked at again beside fresh ones.
+constexpr std::size_t kMostWaiting = 20;
 
-std::string rounded(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", number);
-  return text;
+std::string text(const char* form, double chi2, double bound) {
+  char line[128];
+  std::snprintf(line, sizeof line, form, chi2, bound);
+  return line;
 }
 
 /// One run of the test.
@@ -29,37 +30,39 @@ class Test {
  public:
   Test(Graph& graph, const std::vector<FactorId>& fresh, const ConsistencyOptions& options,
        const SolveOptions& solve_options)
-      : graph_(graph), fresh_(fresh), options_(options), solve_options_(solve_options) {
+      : graph_(graph), fresh_(fresh), options_(options), solve_options_(solve_options), gate_(options) {
     for (const FactorId id : fresh_)
       if (!graph_.factor(id).tags.hypothesis)
         throw base::Error(base::ExitCode::internal, "consistency test: factor " + toString(id) + " is no hypothesis");
     for (const auto& [id, record] : graph_.factors())
-      if (record.tags.hypothesis) before_[id] = record.weight > 0;
+      if (record.tags.hypothesis) acted_[id] = record.weight > 0;
   }
 
   std::vector<Verdict> run() {
-    if (options_.method == ConsistencyOptions::Method::none) {
-      for (const FactorId id : fresh_) accept(id, 0, "taken without test");
-    } else {
-      for (const FactorId id : fresh_) graph_.setWeight(id, 0);
-      takeFresh();
+    if (options_.method == Method::none) {
+      for (const FactorId id : fresh_) decide(id, true, misfit(id), "taken without a test");
+      solve(graph_, solve_options_);
+      return verdicts();
     }
+    for (const FactorId id : fresh_) graph_.setWeight(id, 0);
+    const std::vector<FactorId> contradicting = takeFresh();
     solve(graph_, solve_options_);
-    if (options_.method != ConsistencyOptions::Method::none) review();
+    if (!contradicting.empty()) overturnBy(contradicting);
+    takeBackWhatNoLongerFits();
+    letInWhatFitsNow();
     return verdicts();
   }
 
  private:
-  double gate(FactorId id) const { return gate(rowsOf(id)); }
-  double gate(int rows) const { return chiSquareQuantile(options_.confidence, rows); }
   int rowsOf(FactorId id) const { return graph_.factor(id).factor->residualSize(); }
+  double bound(FactorId id) const { return gate_.bound(rowsOf(id)); }
   double misfit(FactorId id) const { return graph_.whitenedResidual(id).squaredNorm(); }
+  bool isFresh(FactorId id) const { return std::find(fresh_.begin(), fresh_.end(), id) != fresh_.end(); }
 
-  void accept(FactorId id, double chi2, const std::string& reason) { decide(id, true, chi2, reason); }
   void decide(FactorId id, bool accepted, double chi2, const std::string& reason,
               std::optional<FactorId> against = std::nullopt) {
     graph_.setWeight(id, accepted ? 1 : 0);
-    verdicts_[id] = {id, accepted, false, chi2, rowsOf(id), reason, against};
+    verdicts_[id] = {id, accepted, accepted != acted_.at(id), chi2, rowsOf(id), reason, against};
   }
 
   /// True if a variable of the factor is held by nothing yet, so that there is nothing to test it against.
@@ -72,72 +75,128 @@ class Test {
     });
   }
 
-  /// Those that fit what the graph knows, the best known first, each given those before it.
-  void takeFresh() {
-    std::vector<FactorId> judged;
+  /// The newest that do not act and came before the fresh ones, in the order of ids.
+  std::vector<FactorId> waiting() const {
+    std::vector<FactorId> found;
+    for (auto at = acted_.rbegin(); at != acted_.rend() && found.size() < kMostWaiting; ++at)
+      if (graph_.factor(at->first).weight == 0 && !isFresh(at->first) && !reachesOut(at->first))
+        found.push_back(at->first);
+    std::reverse(found.begin(), found.end());
+    return found;
+  }
+
+  /// Decides about the fresh ones; returns those that contradict the map.
+  std::vector<FactorId> takeFresh() {
+    std::vector<FactorId> candidates;
     for (const FactorId id : fresh_)
       if (reachesOut(id))
-        accept(id, 0, "nothing is known of what it measures");
+        decide(id, true, 0, "nothing is known yet of what it measures");
       else
-        judged.push_back(id);
-    if (judged.empty()) return;
-    Innovation innovation(graph_, Marginals(graph_), judged, options_.inflation);
-    std::vector<int> order(judged.size());
-    std::vector<double> vagueness;
-    for (int i = 0; i < innovation.size(); ++i) {
-      order[i] = i;
-      vagueness.push_back(innovation.vagueness(i));
+        candidates.push_back(id);
+    if (candidates.empty()) return {};
+    const Marginals marginals(graph_);
+    std::vector<Choice> choices = select(marginals, candidates);
+    const bool some_wait = std::any_of(choices.begin(), choices.end(),
+                                       [](const Choice& choice) { return choice.kind == Choice::Kind::waits; });
+    if (const std::vector<FactorId> older = waiting(); some_wait && !older.empty()) {
+      candidates.insert(candidates.begin(), older.begin(), older.end());
+      choices = select(marginals, candidates);
     }
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return vagueness[a] < vagueness[b]; });
-    for (const int i : order) {
-      const FactorId id = judged[i];
-      const double chi2 = innovation.chi2(i), bound = gate(id);
-      if (chi2 > bound) {
-        decide(id, false, chi2, "does not fit the map (chi-square " + rounded(chi2) + " > " + rounded(bound) + ")");
-      } else {
-        accept(id, chi2, "fits the map (chi-square " + rounded(chi2) + " <= " + rounded(bound) + ")");
-        innovation.condition(i);
-      }
+    std::vector<FactorId> contradicting;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (isFresh(candidates[i]) || choices[i].kind == Choice::Kind::fits || choices[i].kind == Choice::Kind::agrees)
+        apply(candidates[i], choices[i], candidates);
+      if (isFresh(candidates[i]) && choices[i].kind == Choice::Kind::contradicts)
+        contradicting.push_back(candidates[i]);
+    }
+    return contradicting;
+  }
+
+  std::vector<Choice> select(const Marginals& marginals, const std::vector<FactorId>& candidates) const {
+    const FalseVolume volume(graph_);
+    std::vector<std::optional<double>> log_volumes;
+    for (const FactorId id : candidates) log_volumes.push_back(volume.logOf(graph_.factor(id)));
+    const Innovation innovation(graph_, marginals, candidates, options_.inflation);
+    return options_.method == Method::pairwise ? selectPairwise(innovation, log_volumes, gate_)
+                                               : selectGraduated(innovation, log_volumes, gate_);
+  }
+
+  void apply(FactorId id, const Choice& choice, const std::vector<FactorId>& candidates) {
+    std::optional<FactorId> with;
+    if (choice.with) with = candidates[*choice.with];
+    const std::string other = with ? toString(*with) : "others";
+    switch (choice.kind) {
+      case Choice::Kind::fits:
+        return decide(id, true, choice.chi2, text("fits the map (chi-square %.1f <= %.1f)", choice.chi2, bound(id)));
+      case Choice::Kind::agrees:
+        return decide(
+            id, true, choice.chi2,
+            "fits the map and agrees with " + other + text(" (chi-square %.1f <= %.1f)", choice.chi2, bound(id)));
+      case Choice::Kind::waits:
+        return decide(id, false, choice.chi2,
+                      "waits for another to bear it out: so little is known there that it could "
+                      "fit by chance");
+      case Choice::Kind::contradicts:
+        return decide(id, false, choice.chi2,
+                      "contradicts " + (with ? other : std::string("the map")) +
+                          text(" (chi-square %.1f > %.1f)", choice.chi2, bound(id)),
+                      with);
     }
   }
 
-  /// Takes back what no longer fits, worst first; lets in again what fits now.
-  void review() {
+  void overturnBy(const std::vector<FactorId>& contradicting) {
+    const auto overturned = overturn(graph_, contradicting, waiting(), gate_, options_.inflation, solve_options_);
+    if (!overturned) return;
+    const FactorId first = overturned->accepted.front();
+    for (const FactorId id : overturned->accepted)
+      decide(id, true, misfit(id),
+             "agrees with " + std::to_string(overturned->accepted.size() - 1) + " others against what acted before");
+    for (const FactorId id : overturned->taken_back)
+      decide(id, false, misfit(id),
+             "taken back: contradicts " + toString(first) + " and " + std::to_string(overturned->accepted.size() - 1) +
+                 text(" that agree with it (chi-square %.1f > %.1f)", misfit(id), bound(id)),
+             first);
+    solve(graph_, solve_options_);
+  }
+
+  /// Worst first, and what is left is solved before the next is looked at.
+  void takeBackWhatNoLongerFits() {
     while (true) {
       std::optional<FactorId> worst;
       double worst_ratio = 1;
-      for (const auto& [id, was_accepted] : before_) {
+      for (const auto& [id, acted] : acted_) {
         if (graph_.factor(id).weight == 0) continue;
-        const double ratio = misfit(id) / gate(id);
-        if (ratio > worst_ratio) {
-          worst = id;
-          worst_ratio = ratio;
-        }
+        const double ratio = misfit(id) / bound(id);
+        if (ratio <= worst_ratio) continue;
+        worst = id;
+        worst_ratio = ratio;
       }
-      if (!worst) break;
-      const double chi2 = misfit(*worst);
-      decide(*worst, false, chi2,
-             "taken back: no longer fits (chi-square " + rounded(chi2) + " > " + rounded(gate(*worst)) + ")");
+      if (!worst) return;
+      const char* const form = acted_.at(*worst) ? "taken back: no longer fits the map (chi-square %.1f > %.1f)"
+                                                 : "contradicts the map (chi-square %.1f > %.1f)";
+      decide(*worst, false, misfit(*worst), text(form, misfit(*worst), bound(*worst)));
       solve(graph_, solve_options_);
     }
-    bool returned = false;
-    for (const auto& [id, was_accepted] : before_) {
-      if (graph_.factor(id).weight > 0 || verdicts_.count(id) > 0) continue;
-      const double chi2 = misfit(id), bound = chiSquareQuantile(kReturnConfidence, rowsOf(id));
-      if (chi2 > bound) continue;
-      accept(id, chi2, "fits the map as it is now (chi-square " + rounded(chi2) + " <= " + rounded(bound) + ")");
-      returned = true;
-    }
-    if (returned) solve(graph_, solve_options_);
   }
 
-  std::vector<Verdict> verdicts() {
+  /// What the map predicts within its own noise passes every gate, however well the map is known.
+  void letInWhatFitsNow() {
+    bool changed = false;
+    for (const auto& [id, acted] : acted_) {
+      if (graph_.factor(id).weight > 0 || verdicts_.count(id) > 0 || reachesOut(id)) continue;
+      const double chi2 = misfit(id), most = bound(id);
+      if (chi2 > most) continue;
+      decide(id, true, chi2, text("fits the map as it is now (chi-square %.1f <= %.1f)", chi2, most));
+      changed = true;
+    }
+    if (changed) solve(graph_, solve_options_);
+  }
+
+  std::vector<Verdict> verdicts() const {
     std::vector<Verdict> all;
     for (const FactorId id : fresh_) all.push_back(verdicts_.at(id));
     for (const auto& [id, verdict] : verdicts_)
-      if (std::find(fresh_.begin(), fresh_.end(), id) == fresh_.end() && verdict.accepted != before_.at(id))
-        all.push_back(verdict);
-    for (Verdict& verdict : all) verdict.changed = verdict.accepted != before_.at(verdict.factor);
+      if (verdict.changed && !isFresh(id)) all.push_back(verdict);
     return all;
   }
 
@@ -145,7 +204,8 @@ class Test {
   const std::vector<FactorId>& fresh_;
   const ConsistencyOptions& options_;
   const SolveOptions& solve_options_;
-  std::map<FactorId, bool> before_;  // of every hypothesis: did it act
+  Gate gate_;
+  std::map<FactorId, bool> acted_;  // every hypothesis: did it act before
   std::map<FactorId, Verdict> verdicts_;
 };
 

@@ -1,6 +1,9 @@
 #include "Innovation.h"
 
+#include <omnimapper/geometry/Angle.h>
+
 #include <Eigen/Cholesky>
+#include <cmath>
 #include <unordered_map>
 
 #include "BoundFactor.h"
@@ -26,6 +29,17 @@ struct Places {
 };
 
 }  // namespace
+
+double Surprise::chi2() const {
+  return residual.dot(covariance.llt().solve(residual));
+}
+
+double Surprise::logDensity() const {
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  const double log_determinant = 2 * Eigen::MatrixXd(root.matrixL()).diagonal().array().log().sum();
+  return -0.5 * (residual.dot(root.solve(residual)) + log_determinant +
+                 static_cast<double>(residual.size()) * std::log(2 * geometry::kPi));
+}
 
 Innovation::Innovation(const Graph& graph, const Marginals& marginals, std::vector<base::FactorId> factors,
                        double inflation)
@@ -54,21 +68,53 @@ Innovation::Innovation(const Graph& graph, const Marginals& marginals, std::vect
         inflation * inflation * jacobian * marginals.jointCovariance(places.variables) * jacobian.transpose();
 }
 
-double Innovation::chi2(int i) const {
-  return residual(i).dot(covariance(i, i).llt().solve(residual(i)));
+Surprise Innovation::of(const std::vector<int>& some) const {
+  int rows = 0;
+  for (const int i : some) rows += degreesOfFreedom(i);
+  Surprise all{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, rows)};
+  int row = 0;
+  for (const int i : some) {
+    all.residual.segment(row, degreesOfFreedom(i)) = residual(i);
+    int column = 0;
+    for (const int j : some) {
+      all.covariance.block(row, column, degreesOfFreedom(i), degreesOfFreedom(j)) = covariance(i, j);
+      column += degreesOfFreedom(j);
+    }
+    row += degreesOfFreedom(i);
+  }
+  return all;
 }
 
-double Innovation::chi2(int i, int j) const {
-  const int a = degreesOfFreedom(i), b = degreesOfFreedom(j);
-  Eigen::VectorXd both(a + b);
-  both << residual(i), residual(j);
-  Eigen::MatrixXd spread(a + b, a + b);
-  spread << covariance(i, i), covariance(i, j), covariance(j, i), covariance(j, j);
-  return both.dot(spread.llt().solve(both));
+Eigen::MatrixXd Innovation::crossCovariance(int i, const std::vector<int>& others) const {
+  int columns = 0;
+  for (const int j : others) columns += degreesOfFreedom(j);
+  Eigen::MatrixXd cross(degreesOfFreedom(i), columns);
+  int column = 0;
+  for (const int j : others) {
+    cross.middleCols(column, degreesOfFreedom(j)) = covariance(i, j);
+    column += degreesOfFreedom(j);
+  }
+  return cross;
 }
 
-double Innovation::vagueness(int i) const {
-  return 2 * Eigen::MatrixXd(covariance(i, i).llt().matrixL()).diagonal().array().log().sum();
+Surprise Innovation::given(int i, const std::vector<int>& others) const {
+  if (others.empty()) return of(i);
+  const Surprise known = of(others);
+  const Eigen::MatrixXd cross = crossCovariance(i, others);
+  const Eigen::LLT<Eigen::MatrixXd> root(known.covariance);
+  return {residual(i) - cross * root.solve(known.residual), covariance(i, i) - cross * root.solve(cross.transpose())};
+}
+
+Surprise Innovation::without(int i, const std::vector<int>& acting) const {
+  // Taking factors out of the information matrix adds cov J^T (I - J cov J^T)^-1 J cov to its inverse. Where they alone
+  // hold something, nothing is left: the small number stands for that.
+  constexpr double kNothing = 1e-9;
+  const Surprise acts = of(acting);
+  const Eigen::MatrixXd cross = crossCovariance(i, acting);
+  Eigen::MatrixXd left = -acts.covariance;  // I - (covariance - I)
+  left.diagonal().array() += 2 + kNothing;
+  const Eigen::LLT<Eigen::MatrixXd> root(left);
+  return {residual(i) + cross * root.solve(acts.residual), covariance(i, i) + cross * root.solve(cross.transpose())};
 }
 
 void Innovation::condition(int i) {

@@ -8,8 +8,19 @@
 
 namespace omnimapper::graph {
 
-/// What factors that do not act yet say against what the graph knows: their whitened residuals, one after another, and
-/// the covariance these have together if all are true, J inflation^2 cov J^T + I, to first order.
+/// What one or several factors say against what the graph knows: whitened residual, and its covariance if they are
+/// true.
+struct Surprise {
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd covariance;
+
+  double chi2() const;
+  /// Logarithm of the density of the residual, in whitened units.
+  double logDensity() const;
+};
+
+/// Factors that do not act yet, all of them together: their covariance is J inflation^2 cov J^T + I, to first order.
+/// Factors that act may stand among them for without().
 class Innovation {
  public:
   /// `marginals` are those of the graph; every variable of the factors must have a place in them or be fixed.
@@ -18,15 +29,19 @@ class Innovation {
   int size() const { return static_cast<int>(factors_.size()); }
   base::FactorId factor(int i) const { return factors_[i]; }
   int degreesOfFreedom(int i) const { return rows_[i + 1] - rows_[i]; }
-  /// Chi-square of one, of two together.
-  double chi2(int i) const;
-  double chi2(int i, int j) const;
-  /// Logarithm of the determinant of one's covariance: how little the graph knows of what it measures.
-  double vagueness(int i) const;
-  /// Takes one as true: the others' residuals and covariances become those given it.
+  Surprise of(int i) const { return of(std::vector<int>{i}); }
+  /// Of several together.
+  Surprise of(const std::vector<int>& some) const;
+  /// Of one if others are true.
+  Surprise given(int i, int other) const { return given(i, std::vector<int>{other}); }
+  Surprise given(int i, const std::vector<int>& others) const;
+  /// Of one if others, which act in the graph, did not.
+  Surprise without(int i, const std::vector<int>& acting) const;
+  /// Takes one as true: the surprise of the others becomes that given it.
   void condition(int i);
 
  private:
+  Eigen::MatrixXd crossCovariance(int i, const std::vector<int>& others) const;
   auto residual(int i) const { return residual_.segment(rows_[i], degreesOfFreedom(i)); }
   auto covariance(int i, int j) const {
     return covariance_.block(rows_[i], rows_[j], degreesOfFreedom(i), degreesOfFreedom(j));

@@ -26,6 +26,9 @@ struct ConsistencyOptions {
   /// Factor on the standard deviations of what the graph says before the hypothesis: odometry is surer of itself than
   /// it should be.
   double inflation = 1;
+  /// A hypothesis acts when what it measures is so many times likelier if it is true than if it is false and lies
+  /// anywhere in the map; else it waits for another that bears it out.
+  double min_likelihood_ratio = 100;
 };
 
 /// What was decided about one hypothesis, and why.
