@@ -34,7 +34,8 @@ struct RunResult {
 
 /// Log in, map out: opens the logs, makes the plugins, feeds the engine, writes the outputs. Damaged input and `stop`
 /// still give the map of what was read, with their own code; nothing is written if that holds no key frame. Throws
-/// base::Error for everything that keeps a map from being written. `stop` is asked between observations.
+/// base::Error for everything that keeps a map from being written. `stop` is asked while the logs are
+/// opened, between observations and while one is waited for; stopped while they are opened, it throws too.
 RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
                      const std::function<bool()>& stop);
 
