@@ -1,13 +1,11 @@
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <mrpt/poses/CPose2D.h>
-#include <omnimapper/geometry/Covariance.h>
-#include <omnimapper/mapper/PoseFactors.h>
 #include <omnimapper/plugins/ScanMatchingPlugin.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
+
+#include "ScanFactor.h"
 
 IMPLEMENTS_MRPT_OBJECT(ScanMatchingPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -15,13 +13,11 @@ namespace omnimapper::plugins {
 
 namespace {
 
-using mrpt::math::TPose2D;
-
 constexpr const char* kCloudSuffix = ".points";
 
-TPose2D planar(const mrpt::poses::CPose3D& pose) {
-  return {pose.x(), pose.y(), pose.yaw()};
-}
+struct PreparedScan : mapper::Prepared {
+  std::shared_ptr<const matching::PlanarScan> scan;  // in the base
+};
 
 // The cloud in the plane of the base.
 matching::PlanarScan scanInBase(const mrpt::obs::CObservationPointCloud& cloud) {
@@ -77,10 +73,6 @@ const base::OptionTable<ScanMatchingOptions>& ScanMatchingOptions::table() {
                   "A closure farther from the prediction is refused.")
           .number("loop_max_turn_correction_deg", &Options::loop_max_turn_correction, base::Range{0, 180},
                   "A closure turned farther from the prediction is refused.")
-          .number("loop_max_chi2", &Options::loop_max_chi2, base::Range::positive(),
-                  "A closure that contradicts the trajectory more than this is refused: chi-square of 3 degrees of "
-                  "freedom. 16.3 would pass 99.9 % if matches in sequence erred independently; they share their local "
-                  "map, and twice the sigma is allowed for.")
           .number("loop_loss_scale", &Options::loop_loss_scale, base::Range::positive(),
                   "Scale of the Cauchy loss on closures, in standard deviations.");
   return table;
@@ -91,7 +83,7 @@ ScanMatchingPlugin::ScanMatchingPlugin(const ScanMatchingOptions& options, const
     : options_(options), context_(context), sequential_matcher_(icp), loop_matcher_([&] {
         auto wide = icp;
         wide.max_distance = options.loop_max_distance;
-        return wide;
+        return std::make_shared<const matching::IcpMatcher>(wide);
       }()) {}
 
 bool ScanMatchingPlugin::wants(const mrpt::obs::CObservation& observation) const {
@@ -104,169 +96,94 @@ bool ScanMatchingPlugin::wants(const mrpt::obs::CObservation& observation) const
   return label.size() >= suffix.size() && label.compare(label.size() - suffix.size(), suffix.size(), suffix) == 0;
 }
 
+std::unique_ptr<const mapper::Prepared> ScanMatchingPlugin::prepare(const mrpt::obs::CObservation& observation) const {
+  auto prepared = std::make_unique<PreparedScan>();
+  prepared->scan = std::make_shared<const matching::PlanarScan>(
+      scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(observation)));
+  return prepared;
+}
+
 mapper::Batch ScanMatchingPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                           const mapper::View& view) {
-  const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(observed.observation);
-  History& history = histories_[cloud.sensorLabel];
+  History& history = histories_[observed.observation.sensorLabel];
+  const auto& scan = dynamic_cast<const PreparedScan&>(*observed.prepared).scan;
+  const auto after = std::upper_bound(history.begin(), history.end(), frame.stamp,
+                                      [](base::Stamp stamp, const Seen& seen) { return stamp < seen.stamp; });
   double way = 0;
-  if (!history.empty()) {
-    const auto& before = view.map.keyFrame(history.back().id).map_from_base;
-    way = history.back().way + (frame.map_from_base - before).translation().norm();
+  if (after != history.begin()) {
+    const auto& before = *std::prev(after);
+    const auto& map_from_before = view.map.keyFrame(before.sight.frame).map_from_base;
+    way = before.way + (frame.map_from_base - map_from_before).translation().norm();
   }
-  history.push_back({frame.id, scanInBase(cloud), way});
+  const auto place = history.insert(after, {{frame.id, scan}, frame.stamp, way});
   mapper::Batch batch;
-  if (history.size() < 2 || history.back().scan_in_base.empty()) return batch;
-  matchSequential(frame, history, view, batch);
-  if (options_.close_loops) closeLoops(frame, history, view, batch);
+  if (place == history.begin() || scan->empty()) return batch;
+  const auto index = static_cast<std::size_t>(place - history.begin());
+  matchSequential(frame, history, index, view, batch);
+  if (options_.close_loops) {
+    auto places = loopPlaces(frame, history, index, view);
+    if (!places.empty()) searches_.emplace_back(options_, context_, loop_matcher_, place->sight, std::move(places));
+  }
   return batch;
 }
 
-void ScanMatchingPlugin::matchSequential(const map::KeyFrame& frame, const History& history, const mapper::View& view,
-                                         mapper::Batch& batch) const {
-  const std::size_t previous = history.size() - 2;
+void ScanMatchingPlugin::matchSequential(const map::KeyFrame& frame, const History& history, std::size_t index,
+                                         const mapper::State& state, mapper::Batch& batch) const {
   const auto frames = static_cast<std::size_t>(options_.local_frames);
-  const std::size_t first = previous + 1 > frames ? previous + 1 - frames : 0;
-  const auto reference = localMap(history, first, previous, previous, view);
-  const auto& before = view.map.keyFrame(history[previous].id);
-  const TPose2D guess = planar(frame.map_from_base - before.map_from_base);
-  const auto match = sequential_matcher_.match(reference, history.back().scan_in_base, guess);
+  const auto& before = state.map.keyFrame(history[index - 1].sight.frame);
+  const auto reference = localMap(sights(history, index > frames ? index - frames : 0, index), before.id, state);
+  const auto guess = planar(frame.map_from_base - before.map_from_base);
+  const auto match = sequential_matcher_.match(reference, *history[index].sight.scan, guess);
 
   auto decision = judge(match, guess, {options_.min_overlap, options_.max_correction, options_.max_turn_correction});
   decision.stamp = frame.stamp;
+  decision.plugin = context_.section;
   decision.kind = "sequential match";
   decision.from = frame.id;
   decision.to = before.id;
-  if (decision.accepted) batch.addFactor(factor(before.pose, frame.pose, match));
+  if (decision.accepted) batch.addFactor(scanFactor(options_, context_, before.pose, frame.pose, match));
   batch.log(std::move(decision));
 }
 
-void ScanMatchingPlugin::closeLoops(const map::KeyFrame& frame, const History& history, const mapper::View& view,
-                                    mapper::Batch& batch) {
-  const auto around = static_cast<std::size_t>(options_.loop_frames);
-  for (const std::size_t candidate : loopCandidates(frame, history, view)) {
-    const std::size_t first = candidate > around ? candidate - around : 0;
-    const std::size_t last = std::min(candidate + around, history.size() - 2);
-    const auto reference = localMap(history, first, last, candidate, view);
-    const auto& place = view.map.keyFrame(history[candidate].id);
-    const TPose2D guess = planar(frame.map_from_base - place.map_from_base);
-    const auto match = loop_matcher_.match(reference, history.back().scan_in_base, guess);
-
-    auto decision = judge(match, guess,
-                          {options_.loop_min_overlap, options_.loop_max_correction, options_.loop_max_turn_correction});
-    decision.stamp = frame.stamp;
-    decision.kind = "loop closure";
-    decision.from = frame.id;
-    decision.to = place.id;
-    auto closure = factor(place.pose, frame.pose, match);
-    if (decision.accepted) {
-      const auto predicted = view.covarianceBetween(place.id, frame.id);
-      const double chi2 = predicted ? innovation(match, guess, closure, *predicted) : 0;
-      decision.accepted = predicted && chi2 <= options_.loop_max_chi2;
-      if (predicted) decision.numbers.emplace_back("chi-square", chi2);
-      if (!decision.accepted) {
-        decision.reason = predicted ? "contradicts the trajectory (chi-square)"
-                                    : "the trajectory is not determined well enough to judge";
-      }
-    }
-    if (decision.accepted) {
-      closure.loss = graph::Loss::cauchy(options_.loop_loss_scale);
-      closure.tags.hypothesis = true;
-      batch.addFactor(std::move(closure));
-    }
-    batch.log(std::move(decision));
-  }
+mapper::FollowUp ScanMatchingPlugin::afterCommit(const map::KeyFrame& frame, const mapper::View&) {
+  mapper::FollowUp follow_up;
+  for (auto& search : searches_) follow_up.jobs.push_back({"loop closure of " + toString(frame.id), std::move(search)});
+  searches_.clear();
+  return follow_up;
 }
 
-std::vector<std::size_t> ScanMatchingPlugin::loopCandidates(const map::KeyFrame& frame, const History& history,
-                                                            const mapper::View& view) const {
+std::vector<LoopSearch::Sight> ScanMatchingPlugin::sights(const History& history, std::size_t first, std::size_t end) {
+  std::vector<LoopSearch::Sight> all;
+  for (std::size_t i = first; i < end; ++i) all.push_back(history[i].sight);
+  return all;
+}
+
+// The nearest place of each earlier pass, with the scans around it.
+std::vector<LoopSearch::Place> ScanMatchingPlugin::loopPlaces(const map::KeyFrame& frame, const History& history,
+                                                              std::size_t index, const mapper::State& state) const {
   std::vector<std::pair<double, std::size_t>> near;
-  for (std::size_t i = 0; i + 1 < history.size(); ++i) {
-    if (history.back().way - history[i].way < options_.loop_min_way) break;
-    const auto& place = view.map.keyFrame(history[i].id).map_from_base;
+  for (std::size_t i = 0; i < index; ++i) {
+    if (history[index].way - history[i].way < options_.loop_min_way) break;
+    const auto& place = state.map.keyFrame(history[i].sight.frame).map_from_base;
     const double distance = (place.translation() - frame.map_from_base.translation()).norm();
     if (distance <= options_.loop_radius) near.emplace_back(distance, i);
   }
   std::sort(near.begin(), near.end());
-  // The nearest place of each pass: neighbours along the path would only repeat it.
+  const auto around = static_cast<std::size_t>(options_.loop_frames);
   std::vector<std::size_t> chosen;
+  std::vector<LoopSearch::Place> places;
   for (const auto& [distance, i] : near) {
+    // Neighbours along the path would only repeat it.
     const bool repeats = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
       return std::abs(history[other].way - history[i].way) < options_.loop_min_way;
     });
-    if (!repeats) chosen.push_back(i);
-    if (chosen.size() == static_cast<std::size_t>(options_.loop_candidates)) break;
+    if (repeats) continue;
+    chosen.push_back(i);
+    const std::size_t first = i > around ? i - around : 0, end = std::min(i + around + 1, index);
+    places.push_back({history[i].sight.frame, sights(history, first, end)});
+    if (places.size() == static_cast<std::size_t>(options_.loop_candidates)) break;
   }
-  return chosen;
-}
-
-matching::PlanarScan ScanMatchingPlugin::localMap(const History& history, std::size_t first, std::size_t last,
-                                                  std::size_t centre, const mapper::View& view) const {
-  const auto& map_from_centre = view.map.keyFrame(history[centre].id).map_from_base;
-  matching::PlanarScan local;
-  for (std::size_t i = first; i <= last; ++i) {
-    const auto centre_from_frame = planar(view.map.keyFrame(history[i].id).map_from_base - map_from_centre);
-    matching::append(history[i].scan_in_base, centre_from_frame, local);
-  }
-  return local;
-}
-
-mapper::Decision ScanMatchingPlugin::judge(const matching::ScanMatch& match, const TPose2D& guess,
-                                           const Gate& gate) const {
-  const TPose2D correction = match.reference_from_scan - guess;
-  const double moved = std::hypot(correction.x, correction.y);
-  const double turned = std::abs(mrpt::math::wrapToPi(correction.phi));
-  mapper::Decision decision;
-  decision.plugin = context_.section;
-  decision.numbers = {{"overlap", match.overlap},
-                      {"distance from walls [m]", match.wall_distance},
-                      {"correction [m]", moved},
-                      {"correction [deg]", turned / base::option_text::kRadiansPerDegree}};
-  if (match.overlap < gate.min_overlap) {
-    decision.reason = "too little overlap";
-  } else if (moved > gate.max_correction) {
-    decision.reason = "too far from the prediction";
-  } else if (turned > gate.max_turn_correction) {
-    decision.reason = "turned too far from the prediction";
-  } else {
-    decision.accepted = true;
-    decision.reason = "matched";
-  }
-  return decision;
-}
-
-double ScanMatchingPlugin::innovation(const matching::ScanMatch& match, const TPose2D& guess,
-                                      const graph::FactorRecord& closure,
-                                      const Eigen::Matrix<double, 6, 6>& predicted) const {
-  const TPose2D error = match.reference_from_scan - guess;
-  const Eigen::Vector3d difference(error.x, error.y, mrpt::math::wrapToPi(error.phi));
-  // In a planar map the noise of the closure is of x y yaw; in a spatial one its planar part is.
-  const Eigen::MatrixXd noise = closure.noise.covariance();
-  const Eigen::Matrix3d measured = noise.rows() == 3 ? Eigen::Matrix3d(noise) : geometry::planarPart(noise);
-  const Eigen::Matrix3d covariance = geometry::planarPart(predicted) + measured;
-  return difference.dot(covariance.ldlt().solve(difference));
-}
-
-graph::FactorRecord ScanMatchingPlugin::factor(base::VariableId reference, base::VariableId scan,
-                                               const matching::ScanMatch& match) const {
-  const auto squared = [](double value) { return value * value; };
-  Eigen::Matrix3d planar_covariance =
-      match.unit_covariance *
-      std::max(squared(options_.point_sigma), squared(options_.wall_sigma_factor * match.wall_distance));
-  planar_covariance.diagonal() +=
-      Eigen::Vector3d(squared(options_.position_sigma_floor), squared(options_.position_sigma_floor),
-                      squared(options_.angle_sigma_floor));
-  mapper::RelativeMotion motion;
-  motion.begin_from_end = mrpt::poses::CPose3D(mrpt::poses::CPose2D(match.reference_from_scan));
-  // A scan says nothing of height and tilt: a metre and half a radian, in a spatial map.
-  motion.covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  motion.covariance.diagonal() << 0, 0, 1.0, 0.25, 0.25, 0;
-  const std::array<int, 3> index{0, 1, 5};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      motion.covariance(index[row], index[column]) = planar_covariance(row, column);
-    }
-  }
-  return mapper::betweenPoses(context_.motion, reference, scan, motion, context_.section);
+  return places;
 }
 
 namespace {

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/poses/CPose3D.h>
+#include <omnimapper/graph/FactorRecord.h>
+#include <omnimapper/mapper/DecisionLog.h>
+#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/matching/IcpMatcher.h>
+#include <omnimapper/plugins/ScanMatchingOptions.h>
+
+namespace omnimapper::plugins {
+
+inline mrpt::math::TPose2D planar(const mrpt::poses::CPose3D& pose) {
+  return {pose.x(), pose.y(), pose.yaw()};
+}
+
+/// Limits a match has to keep.
+struct MatchGate {
+  double min_overlap;
+  double max_correction;       ///< [m]
+  double max_turn_correction;  ///< [rad]
+};
+
+/// Whether a match keeps the limits around what was predicted, with its numbers. Who, when and where is the caller's.
+mapper::Decision judge(const matching::ScanMatch& match, const mrpt::math::TPose2D& guess, const MatchGate& gate);
+
+/// The motion between two poses that a match measured. In a spatial map height and tilt stay open.
+graph::FactorRecord scanFactor(const ScanMatchingOptions& options, const mapper::PluginContext& context,
+                               base::VariableId reference, base::VariableId scan, const matching::ScanMatch& match);
+
+}  // namespace omnimapper::plugins
