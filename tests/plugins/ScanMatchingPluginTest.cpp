@@ -43,6 +43,13 @@ ScanMatchingPlugin makePlugin(const ScanMatchingOptions& options = {}) {
   return ScanMatchingPlugin(options, {}, context);
 }
 
+// As the engine does it: prepared, then measured.
+mapper::Batch measured(ScanMatchingPlugin& plugin, const map::KeyFrame& frame, const mrpt::obs::CObservation& cloud,
+                       const testing::HandMadeRun& run) {
+  const auto prepared = plugin.prepare(cloud);
+  return plugin.measure(frame, {cloud, prepared.get()}, run.view());
+}
+
 double numberOf(const mapper::Decision& decision, const std::string& name) {
   for (const auto& [key, value] : decision.numbers) {
     if (key == name) return value;
@@ -60,9 +67,8 @@ TEST(ScanMatchingPlugin, FindsTheTrueMotionFromAWrongPrediction) {
                                  CPose2D(0.05, 0.15, -8 * kDegree)}) {
       auto plugin = makePlugin();
       testing::HandMadeRun run;
-      plugin.measure(run.addFrame(CPose3D(a.map_from_base)), {*a.cloud, nullptr}, run.view());
-      const auto batch =
-          plugin.measure(run.addFrame(CPose3D(b.map_from_base + wrong)), {*b.cloud, nullptr}, run.view());
+      measured(plugin, run.addFrame(CPose3D(a.map_from_base)), *a.cloud, run);
+      const auto batch = measured(plugin, run.addFrame(CPose3D(b.map_from_base + wrong)), *b.cloud, run);
       ASSERT_EQ(batch.addedFactors().size(), 1U) << batch.decisions().front().reason;
       const auto& factor = batch.addedFactors().front();
       EXPECT_EQ(factor.variables, (std::vector{run.map.key_frames[0].pose, run.map.key_frames[1].pose}));
@@ -80,8 +86,8 @@ TEST(ScanMatchingPlugin, ScansOfTwoPlacesAreRefusedForTooLittleOverlap) {
   auto plugin = makePlugin();
   testing::HandMadeRun run;
   const CPose3D start(all[10].map_from_base);
-  plugin.measure(run.addFrame(start), {*all[10].cloud, nullptr}, run.view());
-  const auto batch = plugin.measure(run.addFrame(start), {*all[200].cloud, nullptr}, run.view());
+  measured(plugin, run.addFrame(start), *all[10].cloud, run);
+  const auto batch = measured(plugin, run.addFrame(start), *all[200].cloud, run);
   EXPECT_TRUE(batch.addedFactors().empty());
   ASSERT_EQ(batch.decisions().size(), 1U);
   const auto& decision = batch.decisions().front();
@@ -101,11 +107,8 @@ TEST(ScanMatchingPlugin, MatchesBeyondTheGateAreRefusedWithTheReason) {
   const auto reason = [&](const ScanMatchingOptions& options, const CPose2D& wrong) {
     auto plugin = makePlugin(options);
     testing::HandMadeRun run;
-    plugin.measure(run.addFrame(CPose3D(a.map_from_base)), {*a.cloud, nullptr}, run.view());
-    return plugin.measure(run.addFrame(CPose3D(b.map_from_base + wrong)), {*b.cloud, nullptr}, run.view())
-        .decisions()
-        .front()
-        .reason;
+    measured(plugin, run.addFrame(CPose3D(a.map_from_base)), *a.cloud, run);
+    return measured(plugin, run.addFrame(CPose3D(b.map_from_base + wrong)), *b.cloud, run).decisions().front().reason;
   };
   ScanMatchingOptions strict;
   strict.max_correction = 0.05;
@@ -164,7 +167,7 @@ TEST(ScanMatchingPlugin, OnTheSecondLapClosuresLieOnTheTruth) {
   EXPECT_GT(accepted, 10U);
   std::size_t hypotheses = 0, wrong = 0;
   for (const auto& [id, record] : view.graph.factors()) {
-    if (!record.tags.hypothesis) continue;
+    if (!record.tags.hypothesis || record.weight == 0) continue;
     ++hypotheses;
     EXPECT_EQ(record.loss.kind(), graph::Loss::Kind::cauchy);
     const auto stamp = [&](base::VariableId pose) {
@@ -176,10 +179,9 @@ TEST(ScanMatchingPlugin, OnTheSecondLapClosuresLieOnTheTruth) {
     const auto error = minus(dynamic_cast<const graph::BetweenSe2&>(*record.factor).measured(), truth);
     if (error.head<2>().norm() < 0.1 && std::abs(error.z()) < 1.5 * kDegree) continue;
     ++wrong;
-    EXPECT_GT(view.graph.whitenedResidual(id).norm(), 10) << "a wrong closure that the loss does not put aside";
   }
   EXPECT_EQ(hypotheses, accepted);
-  EXPECT_LE(wrong, accepted / 25);
+  EXPECT_EQ(wrong, 0U) << "a wrong closure that acts";
 }
 
 TEST(ScanMatchingPlugin, LoopsAreClosedOnlyWhereTheUserSaysSo) {

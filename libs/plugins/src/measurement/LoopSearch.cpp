@@ -27,8 +27,8 @@ void LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   // A copy: MRPT's maps keep caches, and other jobs look at the same scan.
   const matching::PlanarScan scan = *newest_.scan;
   const auto match = matcher_->match(localMap(place.around, place.centre, state), scan, guess);
-  auto decision = judge(match, guess,
-                        {options_.loop_min_overlap, options_.loop_max_correction, options_.loop_max_turn_correction});
+  auto decision =
+      judge(match, guess, {options_.loop_min_overlap, options_.loop_max_correction, options_.loop_max_turn_correction});
   decision.stamp = frame.stamp;
   decision.plugin = context_.section;
   decision.kind = "loop closure";

@@ -39,9 +39,8 @@ graph::FactorRecord scanFactor(const ScanMatchingOptions& options, const mapper:
   Eigen::Matrix3d planar_covariance =
       match.unit_covariance *
       std::max(squared(options.point_sigma), squared(options.wall_sigma_factor * match.wall_distance));
-  planar_covariance.diagonal() +=
-      Eigen::Vector3d(squared(options.position_sigma_floor), squared(options.position_sigma_floor),
-                      squared(options.angle_sigma_floor));
+  planar_covariance.diagonal() += Eigen::Vector3d(
+      squared(options.position_sigma_floor), squared(options.position_sigma_floor), squared(options.angle_sigma_floor));
   mapper::RelativeMotion motion;
   motion.begin_from_end = mrpt::poses::CPose3D(mrpt::poses::CPose2D(match.reference_from_scan));
   // A scan says nothing of height and tilt: a metre and half a radian, in a spatial map.

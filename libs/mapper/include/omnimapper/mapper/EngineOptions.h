@@ -32,7 +32,7 @@ struct EngineOptions {
 struct HypothesisOptions {
   graph::ConsistencyOptions::Method test = graph::ConsistencyOptions().method;
   double confidence = graph::ConsistencyOptions().confidence;
-  double inflation = graph::ConsistencyOptions().inflation;
+  double inflation = 2;
 
   graph::ConsistencyOptions consistency() const { return {test, confidence, inflation}; }
   static const base::OptionTable<HypothesisOptions>& table();

@@ -27,7 +27,7 @@ struct ScanMatchingOptions {
   double loop_max_distance = 2.0;                                                 ///< [m]
   double loop_max_correction = 4.0;                                               ///< [m]
   double loop_max_turn_correction = 30.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double loop_loss_scale = 2.0;  ///< [sigma] of the Cauchy loss
+  double loop_loss_scale = 2.0;                                                   ///< [sigma] of the Cauchy loss
 
   static const base::OptionTable<ScanMatchingOptions>& table();
 };
