@@ -1,6 +1,4 @@
-#include <omnimapper/graph/SolveOne.h>
 #include <omnimapper/mapper/Engine.h>
-#include <omnimapper/mapper/PoseFactors.h>
 
 #include <algorithm>
 #include <utility>
@@ -33,10 +31,6 @@ class Timed {
   StopWatch watch_;
 };
 
-bool isFinite(const mrpt::poses::CPose3D& pose) {
-  return pose.m_coords.asEigen().allFinite() && pose.getRotationMatrix().asEigen().allFinite();
-}
-
 bool isOfOneSensor(const mrpt::obs::CObservation& a, const mrpt::obs::CObservation& b) {
   return a.sensorLabel == b.sensorLabel && a.GetRuntimeClass() == b.GetRuntimeClass();
 }
@@ -56,7 +50,7 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
       trigger_(settings.trigger),
       queue_(base::durationFromSeconds(settings.engine.window)),
       chain_(settings.engine.motion, plugins_.pose, map_, graph_),
-      hypotheses_(settings.hypotheses.consistency()),
+      estimator_(settings_, map_, graph_, decisions_),
       reference_sensor_(settings.engine.reference_sensor),
       pool_(std::max(1, threads)),
       perception_(pointers(plugins_.extractors), pointers(plugins_.measurement), pool_),
@@ -78,7 +72,7 @@ void Engine::continueFrom(SavedMap saved, const SessionStart& start) {
   session.number = static_cast<std::uint16_t>(map_.sessions.empty() ? 0 : map_.sessions.back().number + 1);
   session.joined = false;
   graph_.setSession(session.number);
-  uncertainty_ = Uncertainty(graph_);
+  estimator_.begin();
   chain_.beginSession(session, start, givesAbsolutePoses(plugins_));
   for (auto& [section, plugin] : plugins_.measurement) {
     const auto found = std::find_if(sections_.begin(), sections_.end(), [&name = section](const auto& other) {
@@ -91,7 +85,11 @@ void Engine::continueFrom(SavedMap saved, const SessionStart& start) {
 void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
   const Timed timed(busy_.total);
   ++counts_.observations;
-  if (!accepts(*observation)) return;
+  if (!intake_.accepts(*observation, counts_)) return;
+  if (queue_.holds(*observation)) {
+    ++counts_.repeated_stamp;
+    return;
+  }
   queue_.arrived(observation->timestamp);
   const bool told = tellSources(*observation);
   if (isWanted(*observation)) {
@@ -115,27 +113,6 @@ void Engine::finish() {
   times_.add("perception wait", busy_.perception);
   times_.add("job wait", busy_.jobs);
   times_.add("engine", busy_.total - busy_.perception - busy_.jobs - busy_.plugins - busy_.solve - busy_.outputs);
-}
-
-bool Engine::accepts(const mrpt::obs::CObservation& observation) {
-  if (!base::isValid(observation.timestamp)) {
-    ++counts_.no_stamp;
-    return false;
-  }
-  const auto [last, first] =
-      last_stamps_[observation.GetRuntimeClass()].try_emplace(observation.sensorLabel, observation.timestamp);
-  if ((!first && last->second == observation.timestamp) || queue_.holds(observation)) {
-    ++counts_.repeated_stamp;
-    return false;
-  }
-  last->second = observation.timestamp;
-  mrpt::poses::CPose3D base_from_sensor;
-  observation.getSensorPose(base_from_sensor);
-  if (!isFinite(base_from_sensor)) {
-    ++counts_.unusable;
-    return false;
-  }
-  return true;
 }
 
 // Whether a pose source took it. What it tells anew of the past changes the factors of the key frames there.
@@ -205,7 +182,7 @@ void Engine::process(Moment& moment) {
     return;
   }
   if (moment.reference) map_.key_frames.edit(place->id).reference = true;
-  if (map_.key_frames.size() == 1) uncertainty_ = Uncertainty(graph_);
+  if (map_.key_frames.size() == 1) estimator_.begin();
   if (place->is_new && place->after) {
     ++counts_.spliced;
     for (auto& [section, plugin] : plugins_.measurement) {
@@ -267,9 +244,9 @@ void Engine::measure(base::KeyFrameId id, const std::vector<Perceived>& perceive
 }
 
 void Engine::commit(base::KeyFrameId id) {
-  refine(id);
+  estimator_.refine(id);
   applyJobs(false);
-  if (isSolveDue()) solveNow(settings_.solver.running());
+  if (estimator_.isDue()) solveNow(settings_.solver.running());
   std::shared_ptr<const Snapshot> snapshot;
   for (auto& [section, plugin] : plugins_.measurement) {
     const StopWatch watch;
@@ -277,7 +254,7 @@ void Engine::commit(base::KeyFrameId id) {
     busy_.plugins += watch.seconds();
     const BatchOrigin origin{section, map_.keyFrame(id).stamp};
     if (!follow_up.jobs.empty() && !snapshot) {
-      snapshot = std::make_shared<const Snapshot>(Snapshot{map_, graph_, uncertainty_});
+      snapshot = std::make_shared<const Snapshot>(Snapshot{map_, graph_, estimator_.uncertainty()});
     }
     for (auto& job : follow_up.jobs) jobs_.add(map_.key_frames.size(), origin, id, std::move(job), snapshot);
     if (!follow_up.batch.empty()) applyBatch(follow_up.batch, origin, *plugin);
@@ -316,39 +293,16 @@ MeasurementPlugin& Engine::pluginOf(const std::string& section) {
 void Engine::applyBatch(const Batch& batch, const BatchOrigin& origin, MeasurementPlugin& plugin) {
   const auto ids = apply(batch, origin, graph_, map_);
   decisions_.insert(decisions_.end(), batch.decisions().begin(), batch.decisions().end());
-  hypotheses_.take(batch, ids, graph_, decisions_);
+  estimator_.applied(batch, ids);
   plugin.applied(ids);
 }
 
-// The pose by all factors that bind it to others, which stay: what a solve would do first.
-void Engine::refine(base::KeyFrameId id) {
-  map::KeyFrame& frame = map_.key_frames.edit(id);
-  graph::solveOne(graph_, frame.pose);
-  frame.map_from_base = poseOf(graph_, frame.pose);
-}
-
-bool Engine::isSolveDue() const {
-  const std::size_t since_solve = map_.key_frames.size() - key_frames_at_solve_;
-  const auto& options = settings_.engine;
-  return since_solve >=
-         static_cast<std::size_t>(hypotheses_.anyFresh() ? options.solve_after_closure : options.solve_every);
-}
-
-void Engine::solveNow(graph::SolveOptions options) {
+void Engine::solveNow(const graph::SolveOptions& options) {
   const StopWatch watch;
-  options.stop = stop_;
-  const double initial_cost = graph_.cost();
-  hypotheses_.solve(graph_, options, map_, decisions_);
-  for (std::size_t i = 0; i < map_.key_frames.size(); ++i) {
-    auto& frame = map_.key_frames.edit(map_.key_frames[i].id);
-    frame.map_from_base = poseOf(graph_, frame.pose);
-  }
-  uncertainty_ = Uncertainty(graph_);
+  estimator_.solve(options);
   busy_.solve += watch.seconds();
   times_.add("solve", watch.seconds());
   ++counts_.solves;
-  solves_.push_back({map_.key_frames.size(), graph_.factors().size(), initial_cost, graph_.cost(), watch.seconds()});
-  key_frames_at_solve_ = map_.key_frames.size();
   for (auto& [section, plugin] : plugins_.output) {
     const StopWatch shown;
     plugin->update(view());

@@ -3,7 +3,8 @@
 #include <omnimapper/graph/Graph.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/EngineOptions.h>
-#include <omnimapper/mapper/Hypotheses.h>
+#include <omnimapper/mapper/Estimator.h>
+#include <omnimapper/mapper/Intake.h>
 #include <omnimapper/mapper/JobQueue.h>
 #include <omnimapper/mapper/Perception.h>
 #include <omnimapper/mapper/PluginRegistry.h>
@@ -52,14 +53,20 @@ class Engine {
   void writeOutputs();
 
   /// Asked while a solve runs; true ends it with the best so far (Ctrl-C).
-  void setStop(std::function<bool()> stop) { stop_ = std::move(stop); }
+  void setStop(std::function<bool()> stop) { estimator_.setStop(std::move(stop)); }
   /// A sentence for the user: shown by the report and the summary.
   void warn(const std::string& sentence) { warnings_.push_back(sentence); }
   /// Adds time spent outside the engine, such as reading the log.
   void addTime(const std::string& stage, double seconds) { times_.add(stage, seconds); }
 
   View view() const {
-    return {{map_, graph_, uncertainty_}, decisions_, times_, counts_, solves_, warnings_, sections_};
+    return {{map_, graph_, estimator_.uncertainty()},
+            decisions_,
+            times_,
+            counts_,
+            estimator_.solves(),
+            warnings_,
+            sections_};
   }
 
  private:
@@ -75,7 +82,6 @@ class Engine {
     std::vector<Pending> observations;
   };
 
-  bool accepts(const mrpt::obs::CObservation& observation);
   bool isWanted(const mrpt::obs::CObservation& observation) const { return perception_.wants(observation); }
   bool isCovered(base::Stamp stamp) const;
   bool tellSources(const mrpt::obs::CObservation& observation);
@@ -88,9 +94,7 @@ class Engine {
   void applyJobs(bool all);
   void applyBatch(const Batch& batch, const BatchOrigin& origin, MeasurementPlugin& plugin);
   MeasurementPlugin& pluginOf(const std::string& section);
-  bool isSolveDue() const;
-  void refine(base::KeyFrameId id);
-  void solveNow(graph::SolveOptions options);
+  void solveNow(const graph::SolveOptions& options);
   void collectSections();
 
   /// Seconds in the engine's thread.
@@ -101,26 +105,22 @@ class Engine {
   EngineSettings settings_;
   SensorPoses sensor_poses_;
   PluginSet plugins_;
+  Intake intake_;
   Trigger trigger_;
   ReleaseQueue queue_;
   std::deque<Moment> moments_;
 
   map::Map map_;
   graph::Graph graph_;
-  Uncertainty uncertainty_;
-  PoseChain chain_;
-  Hypotheses hypotheses_;
   DecisionLog decisions_;
+  PoseChain chain_;
+  Estimator estimator_;
   StageTimes times_;
   RunCounts counts_;
-  std::vector<SolveRecord> solves_;
   std::vector<std::string> warnings_;
   std::vector<map::MapSection> sections_;
   std::string reference_sensor_;
-  std::map<const mrpt::rtti::TRuntimeClassId*, std::map<std::string, base::Stamp>> last_stamps_;  // by class and label
   BusyTimes busy_;
-  std::function<bool()> stop_;
-  std::size_t key_frames_at_solve_ = 0;
 
   // Last, so that they end first: the pool's tasks use what stands above.
   WorkerPool pool_;

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <omnimapper/graph/Graph.h>
+#include <omnimapper/map/Map.h>
+#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/mapper/Hypotheses.h>
+#include <omnimapper/mapper/Uncertainty.h>
+#include <omnimapper/mapper/View.h>
+
+#include <functional>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// When the graph is solved, and what is kept of it: key frames at their new estimates, the uncertainty for gates, a
+/// record for the curves. Between solves the newest pose alone is refined.
+class Estimator {
+ public:
+  /// `map`, `graph` and `decisions` stay the caller's.
+  Estimator(const EngineSettings& settings, map::Map& map, graph::Graph& graph, DecisionLog& decisions)
+      : settings_(settings),
+        map_(map),
+        graph_(graph),
+        decisions_(decisions),
+        hypotheses_(settings.hypotheses.consistency()) {}
+
+  /// A map with a past, or a first key frame, is there: gates start from it.
+  void begin() { uncertainty_ = Uncertainty(graph_); }
+  /// Takes note of a batch that was just applied; its decisions are the last of the log.
+  void applied(const Batch& batch, const AppliedBatch& ids) { hypotheses_.take(batch, ids, graph_, decisions_); }
+  /// Moves one key frame to where all factors that bind it want it, all others held.
+  void refine(base::KeyFrameId id);
+  /// Whether it is time to solve: after so many key frames, and sooner where hypotheses wait for their verdict.
+  bool isDue() const;
+  /// Solves with what is found consistent.
+  void solve(graph::SolveOptions options);
+
+  /// Asked while a solve runs; true ends it with the best so far.
+  void setStop(std::function<bool()> stop) { stop_ = std::move(stop); }
+  const Uncertainty& uncertainty() const { return uncertainty_; }
+  const std::vector<SolveRecord>& solves() const { return solves_; }
+
+ private:
+  const EngineSettings& settings_;
+  map::Map& map_;
+  graph::Graph& graph_;
+  DecisionLog& decisions_;
+  Hypotheses hypotheses_;
+  Uncertainty uncertainty_;
+  std::vector<SolveRecord> solves_;
+  std::function<bool()> stop_;
+  std::size_t key_frames_at_solve_ = 0;
+};
+
+}  // namespace omnimapper::mapper
