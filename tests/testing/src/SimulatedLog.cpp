@@ -213,6 +213,14 @@ std::vector<CObservation::Ptr> SimulatedLog::observations() const {
     const auto& tracker = options_.tracker;
     for (const auto stamp : stampsOf(*this, tracker.rate, tracker.phase)) all.push_back(trackedPose(stamp, dice));
   }
+  if (options_.beacons.on) {
+    Dice dice(options_.seed + 3);
+    const auto& beacons = options_.beacons;
+    for (const auto stamp : stampsOf(*this, beacons.rate, beacons.phase)) {
+      const double seconds = base::secondsBetween(begin_, stamp);
+      all.push_back(beacons.sightings(plan_, CPose3D(truthAt(stamp)), stamp, seconds, dice));
+    }
+  }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
   return all;
 }

@@ -5,6 +5,7 @@
 #include <mrpt/poses/CPose3D.h>
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/testing/FloorPlan.h>
+#include <omnimapper/testing/SimulatedBeacons.h>
 
 #include <cstdint>
 #include <random>
@@ -70,12 +71,14 @@ struct SimulatedLogOptions {
   std::vector<SimulatedLaser> lasers{SimulatedLaser{}};
   SimulatedGps gps;
   SimulatedTracker tracker;
+  SimulatedBeacons beacons;
   std::uint64_t seed = 1;
 };
 
 /// The simulated twin of the real logs: a robot drives round a floor plan without stopping and records its odometry
-/// ("odometry"), lasers, and where switched on GPS ("gps") and motion capture ("tracker"). The same options give the
-/// same bits; each sensor has random numbers of its own. The map's frame is the base at the start.
+/// ("odometry"), lasers, and where switched on GPS ("gps"), motion capture ("tracker") and sightings of beacons
+/// ("beacons"). The same options give the same bits; each sensor has random numbers of its own. The map's frame is the
+/// base at the start.
 class SimulatedLog {
  public:
   explicit SimulatedLog(const SimulatedLogOptions& options = {});

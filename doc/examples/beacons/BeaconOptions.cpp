@@ -1,0 +1,25 @@
+#include "BeaconOptions.h"
+
+namespace beacons {
+
+using omnimapper::base::OptionTable;
+using omnimapper::base::Range;
+
+const OptionTable<BeaconOptions>& BeaconOptions::table() {
+  using Options = BeaconOptions;
+  static const auto table = [] {
+    auto own =
+        OptionTable<Options>()
+            .text("label", &Options::label, "Sensor label; empty for every sensor of ranges and bearings.")
+            .number("height_m", &Options::height, {}, "Height of all beacons in the map.")
+            .number("sigma_range_m", &Options::sigma_range, Range::positive(), "Standard deviation of a range.")
+            .number("sigma_yaw_deg", &Options::sigma_yaw, Range::positive(), "Standard deviation of a yaw.")
+            .number("sigma_pitch_deg", &Options::sigma_pitch, Range::positive(), "Standard deviation of a pitch.")
+            .number("confidence", &Options::confidence, Range{0.5, 1},
+                    "A true sighting passes the gate with this probability; 1 for no gate.");
+    return declareIn(own);  // the keys of SensorPoseTrust
+  }();
+  return table;
+}
+
+}  // namespace beacons

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <omnimapper/mapper/SensorCorrections.h>
+
+#include <string>
+
+namespace beacons {
+
+// Step 4: what a user can set. Each key is declared once, in table(): reading, checking, --print-ini and the messages
+// about misspelt keys all come from there. A key ends in its unit; "_deg" is radians in memory.
+
+struct BeaconOptions : omnimapper::mapper::SensorPoseTrust {
+  std::string label;           ///< empty: every sensor of that kind
+  double height = 1;           ///< [m] above the floor of the map
+  double sigma_range = 0.05;   ///< [m]
+  double sigma_yaw = 0.01;     ///< [rad]
+  double sigma_pitch = 0.01;   ///< [rad]
+  double confidence = 0.9999;  ///< of the gate
+
+  static const omnimapper::base::OptionTable<BeaconOptions>& table();
+};
+
+}  // namespace beacons

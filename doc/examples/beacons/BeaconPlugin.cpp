@@ -1,0 +1,246 @@
+#include "BeaconPlugin.h"
+
+#include <mrpt/math/distributions.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/mapper/PoseFactors.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "BeaconPayload.h"
+#include "BeaconVariable.h"
+
+namespace beacons {
+
+namespace base = omnimapper::base;
+namespace geometry = omnimapper::geometry;
+namespace graph = omnimapper::graph;
+namespace map = omnimapper::map;
+namespace mapper = omnimapper::mapper;
+using mrpt::obs::CObservationBearingRange;
+
+// Where the sensor was when it saw what it saw, by the estimate of the moment.
+struct BeaconPlugin::Viewpoint {
+  const map::KeyFrame& frame;
+  geometry::Se3 map_from_base, base_from_reported, reported_from_sensor;
+  std::optional<base::VariableId> correction;  // variable of reported_from_sensor, if it is estimated
+
+  geometry::Se3 mapFromSensor() const { return map_from_base * base_from_reported * reported_from_sensor; }
+};
+
+struct BeaconPlugin::Sighting {
+  std::int32_t number;
+  Eigen::Vector3d measured;  // range, yaw, pitch
+};
+
+namespace {
+
+// A factor at an estimate, for gates: the residual, and what each variable changes of it.
+struct Linearised {
+  using ByPose = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
+  Eigen::Vector3d residual;
+  ByPose by_base, by_correction;
+  Eigen::Matrix<double, 3, 2, Eigen::RowMajor> by_beacon;
+
+  Linearised(const Eigen::Vector3d& measured, const geometry::Se3& base_from_reported,
+             const geometry::Se3& map_from_base, const geometry::Se3& reported_from_sensor,
+             const Eigen::Vector3d& beacon) {
+    const auto base = graph::toValue(map_from_base), correction = graph::toValue(reported_from_sensor);
+    const double* const values[] = {base.data(), correction.data(), beacon.data()};
+    double* const jacobians[] = {by_base.data(), by_correction.data(), by_beacon.data()};
+    SightingFactor(measured, base_from_reported, true).evaluate(values, residual.data(), jacobians);
+  }
+};
+
+// Whether the session of a key frame lies in the map where it belongs; before that, nothing can be gated.
+bool isJoined(const map::Map& map, base::KeyFrameId frame) {
+  return std::all_of(map.sessions.begin(), map.sessions.end(),
+                     [&](const auto& session) { return session.number != frame.session || session.joined; });
+}
+
+// Why a measurement cannot be used; empty if it can.
+std::string whyUseless(const CObservationBearingRange::TMeasurement& sighting, const std::set<std::int32_t>& seen) {
+  if (sighting.landmarkID < 0) return "it tells no number";
+  if (seen.count(sighting.landmarkID) > 0) return "its number stands twice in the observation";
+  const bool finite = std::isfinite(sighting.range) && std::isfinite(sighting.yaw) && std::isfinite(sighting.pitch);
+  return finite && sighting.range > 0 ? "" : "no finite range and bearing";
+}
+
+}  // namespace
+
+BeaconPlugin::BeaconPlugin(const BeaconOptions& options, const mapper::PluginContext& context)
+    : options_(options),
+      section_(context.section),
+      sigmas_(options.sigma_range, options.sigma_yaw, options.sigma_pitch),
+      corrections_(options, context.section) {}
+
+bool BeaconPlugin::wants(const mrpt::obs::CObservation& observation) const {
+  return dynamic_cast<const CObservationBearingRange*>(&observation) &&
+         (options_.label.empty() || observation.sensorLabel == options_.label);
+}
+
+// Every sighting leaves a decision with its reason: users ask why a landmark was not taken.
+mapper::Batch BeaconPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                                    const mapper::View& view) {
+  const auto& observation = dynamic_cast<const CObservationBearingRange&>(observed.observation);
+  mapper::Batch batch;
+  std::optional<Viewpoint> from;
+  std::set<std::int32_t> seen;
+  for (const auto& measurement : observation.sensedData) {
+    mapper::Decision decision;
+    decision.stamp = frame.stamp;
+    decision.plugin = section_;
+    decision.kind = "beacon sighting";
+    decision.from = frame.id;
+    decision.numbers = {{"beacon", measurement.landmarkID}, {"range [m]", measurement.range}};
+    decision.reason = whyUseless(measurement, seen);
+    if (!decision.reason.empty()) {
+      batch.log(decision);
+      continue;
+    }
+    seen.insert(measurement.landmarkID);
+    if (!from) from.emplace(viewpoint(frame, observation, view, batch));
+    const Sighting sighting{measurement.landmarkID, {measurement.range, measurement.yaw, measurement.pitch}};
+    if (known_.count(sighting.number) > 0) {
+      addToKnown(sighting, *from, view, decision, batch);
+    } else {
+      addNew(sighting, *from, decision, batch);
+    }
+  }
+  return batch;
+}
+
+BeaconPlugin::Viewpoint BeaconPlugin::viewpoint(const map::KeyFrame& frame, const CObservationBearingRange& observation,
+                                                const mapper::View& view, mapper::Batch& batch) {
+  const auto correction = corrections_.find(observation.sensorLabel, frame.id, batch);
+  return {frame, geometry::fromMrpt(mapper::poseOf(view.graph, frame.pose)),
+          geometry::fromMrpt(observation.sensorLocationOnRobot),
+          mapper::SensorCorrections::estimate(correction, view.graph), correction};
+}
+
+// A variable, the factor that binds it, and the landmark that stands for it. Their ids are provisional: good within
+// this batch, replaced by the engine, and told to applied().
+void BeaconPlugin::addNew(const Sighting& sighting, const Viewpoint& from, mapper::Decision decision,
+                          mapper::Batch& batch) {
+  const auto position = firstPosition(sighting, from);
+  decision.accepted = position.has_value();
+  decision.reason = position ? "new" : "the range does not reach to the height of the beacons";
+  batch.log(decision);
+  if (!position) return;
+  const auto variable = batch.addVariable(beaconVariable(), *position);
+  const double range = sighting.measured[0];
+  const auto landmark =
+      batch.addLandmark("beacon", {variable}, std::make_shared<BeaconPayload>(sighting.number, range, range));
+  batch.addFactor(record(sighting, from, variable, landmark));
+  known_[sighting.number] = {landmark, from.frame.id, covarianceSeenFrom(sighting, from, *position)};
+}
+
+void BeaconPlugin::addToKnown(const Sighting& sighting, const Viewpoint& from, const mapper::View& view,
+                              mapper::Decision decision, mapper::Batch& batch) {
+  Known& known = known_.at(sighting.number);
+  const map::Landmark& landmark = view.map.landmark(known.landmark);
+  const auto variable = landmark.variables.front();
+  auto sighting_record = record(sighting, from, variable, landmark.id);
+  if (landmark.id.session != from.frame.id.session && !isJoined(view.map, from.frame.id)) {
+    // The first thing that ties this session to the map: if it were wrong, everything would be.
+    decision.reason = "waits for the consistency test";
+    batch.addHypothesis(std::move(sighting_record), decision);
+    return;
+  }
+  const Eigen::Vector3d position = view.graph.value(variable);
+  decision.accepted = passesGate(sighting, from, known, position, view, decision);
+  batch.log(decision);
+  if (!decision.accepted) return;
+  batch.addFactor(std::move(sighting_record));
+  const auto& payload = dynamic_cast<const BeaconPayload&>(*landmark.payload);
+  const double range = sighting.measured[0];
+  const bool tells_more = range < payload.nearest || range > payload.farthest;
+  batch.addEvidence(landmark.id,
+                    tells_more ? std::make_shared<BeaconPayload>(sighting.number, std::min(range, payload.nearest),
+                                                                 std::max(range, payload.farthest))
+                               : nullptr);
+  known = {landmark.id, from.frame.id, covarianceSeenFrom(sighting, from, position)};
+}
+
+void BeaconPlugin::applied(const mapper::AppliedBatch& ids) {
+  corrections_.applied(ids);
+  for (auto& [number, known] : known_) {
+    if (mapper::Batch::isProvisional(known.landmark)) known.landmark = ids.landmarks.at(known.landmark.index);
+  }
+}
+
+// A map that is continued: its landmarks are in the view, and their payloads say which they are.
+void BeaconPlugin::restore(const map::MapSection* /*saved*/, const mapper::View& view) {
+  for (const auto id : view.candidates(section_)) {
+    const auto* payload = dynamic_cast<const BeaconPayload*>(view.map.landmark(id).payload.get());
+    if (payload) known_[payload->number].landmark = id;
+  }
+}
+
+// Range and yaw, at the height that is known: the way over the floor is what the range leaves beside the height.
+std::optional<Eigen::Vector3d> BeaconPlugin::firstPosition(const Sighting& sighting, const Viewpoint& from) const {
+  const double range = sighting.measured[0], yaw = sighting.measured[1], pitch = sighting.measured[2];
+  const geometry::Se3 map_from_sensor = from.mapFromSensor();
+  const Eigen::Vector3d ray(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), -std::sin(pitch));
+  const Eigen::Vector2d over_floor = (map_from_sensor.rotation * ray).head<2>();
+  const double up = options_.height - map_from_sensor.translation.z();
+  if (range <= std::abs(up) || over_floor.norm() < 1e-6) return std::nullopt;
+  const double way = std::sqrt(range * range - up * up);
+  Eigen::Vector3d position;
+  position << map_from_sensor.translation.head<2>() + way * over_floor.normalized(), options_.height;
+  return position;
+}
+
+// How well one sighting alone tells the beacon from where it was seen: (H^T R^-1 H)^-1, R with the sensor's own place.
+Eigen::Matrix2d BeaconPlugin::covarianceSeenFrom(const Sighting& sighting, const Viewpoint& from,
+                                                 const Eigen::Vector3d& beacon) const {
+  const Linearised at(sighting.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
+                      beacon);
+  Eigen::Matrix3d noise = at.by_correction * corrections_.priorCovariance() * at.by_correction.transpose();
+  noise.diagonal() += sigmas_.cwiseAbs2();
+  return (at.by_beacon.transpose() * noise.llt().solve(at.by_beacon)).inverse();
+}
+
+// Chi-square of the residual with its own covariance: the measurement, the beacon as the last sighting told it, and the
+// motion of the base since then. What the graph knows better than that makes the gate only wider than it could be.
+bool BeaconPlugin::passesGate(const Sighting& sighting, const Viewpoint& from, const Known& known,
+                              const Eigen::Vector3d& beacon, const mapper::View& view,
+                              mapper::Decision& decision) const {
+  decision.reason = "known";
+  if (options_.confidence >= 1 || !known.seen_from) return true;
+  const auto motion = view.covarianceBetween(*known.seen_from, from.frame.id);
+  if (!motion) return true;  // nobody can tell how far it may be off
+  const Linearised at(sighting.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
+                      beacon);
+  Eigen::Matrix3d covariance = at.by_base * *motion * at.by_base.transpose() +
+                               at.by_beacon * known.covariance * at.by_beacon.transpose() +
+                               at.by_correction * corrections_.priorCovariance() * at.by_correction.transpose();
+  covariance.diagonal() += sigmas_.cwiseAbs2();
+  const double chi2 = at.residual.dot(covariance.llt().solve(at.residual));
+  const double limit = mrpt::math::chi2inv(options_.confidence, 3);
+  decision.numbers.emplace_back("chi-square", chi2);
+  decision.numbers.emplace_back("limit", limit);
+  if (chi2 <= limit) return true;
+  decision.reason = "gated out: too far from where the beacon should be";
+  return false;
+}
+
+graph::FactorRecord BeaconPlugin::record(const Sighting& sighting, const Viewpoint& from, base::VariableId beacon,
+                                         base::LandmarkId landmark) const {
+  std::vector<base::VariableId> variables{from.frame.pose};
+  if (from.correction) variables.push_back(*from.correction);
+  variables.push_back(beacon);
+  graph::FactorRecord record{
+      variables,
+      std::make_shared<SightingFactor>(sighting.measured, from.base_from_reported, from.correction.has_value()),
+      graph::SquareRootInformation::fromSigmas(sigmas_)};
+  record.tags.owner = section_;
+  record.tags.landmark = landmark;
+  record.tags.note = "beacon sighting";
+  return record;
+}
+
+}  // namespace beacons

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <omnimapper/mapper/MeasurementPlugin.h>
+#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/mapper/SensorCorrections.h>
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "BeaconOptions.h"
+#include "SightingFactor.h"
+
+namespace beacons {
+
+// Step 5: the plugin. It is told of observations and of what became of its batches, and answers with batches; it never
+// changes the map or the graph itself, and one thread calls it.
+
+/// Beacons that tell their number, from ranges and bearings (CObservationBearingRange). A beacon is born from its first
+/// sighting; later ones are associated by number and gated. In a session that is not joined to the map yet, a sighting
+/// of a beacon of an earlier one is a hypothesis.
+class BeaconPlugin : public omnimapper::mapper::MeasurementPlugin {
+ public:
+  BeaconPlugin(const BeaconOptions& options, const omnimapper::mapper::PluginContext& context);
+
+  bool wants(const mrpt::obs::CObservation& observation) const override;
+  omnimapper::mapper::Batch measure(const omnimapper::map::KeyFrame& frame,
+                                    const omnimapper::mapper::Observed& observed,
+                                    const omnimapper::mapper::View& view) override;
+  void applied(const omnimapper::mapper::AppliedBatch& ids) override;
+  void restore(const omnimapper::map::MapSection* saved, const omnimapper::mapper::View& view) override;
+  // Not needed here: spliced(), since a sighting binds one key frame, and what happens between two is nothing to it;
+  // prepare(), since there is no heavy work; save(), since the payloads of the landmarks say all that restore() needs.
+
+ private:
+  /// What it knows of a beacon beside what map and graph know.
+  struct Known {
+    omnimapper::base::LandmarkId landmark;                  // provisional between measure() and applied()
+    std::optional<omnimapper::base::KeyFrameId> seen_from;  // last; none if that was in an earlier session
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();   // of the beacon as it was seen from there
+  };
+  struct Viewpoint;
+  struct Sighting;
+
+  Viewpoint viewpoint(const omnimapper::map::KeyFrame& frame, const mrpt::obs::CObservationBearingRange& observation,
+                      const omnimapper::mapper::View& view, omnimapper::mapper::Batch& batch);
+  std::optional<Eigen::Vector3d> firstPosition(const Sighting& sighting, const Viewpoint& from) const;
+  Eigen::Matrix2d covarianceSeenFrom(const Sighting& sighting, const Viewpoint& from,
+                                     const Eigen::Vector3d& beacon) const;
+  bool passesGate(const Sighting& sighting, const Viewpoint& from, const Known& known, const Eigen::Vector3d& beacon,
+                  const omnimapper::mapper::View& view, omnimapper::mapper::Decision& decision) const;
+  omnimapper::graph::FactorRecord record(const Sighting& sighting, const Viewpoint& from,
+                                         omnimapper::base::VariableId beacon,
+                                         omnimapper::base::LandmarkId landmark) const;
+  void addNew(const Sighting& sighting, const Viewpoint& from, omnimapper::mapper::Decision decision,
+              omnimapper::mapper::Batch& batch);
+  void addToKnown(const Sighting& sighting, const Viewpoint& from, const omnimapper::mapper::View& view,
+                  omnimapper::mapper::Decision decision, omnimapper::mapper::Batch& batch);
+
+  BeaconOptions options_;
+  std::string section_;
+  Eigen::Vector3d sigmas_;  // range, yaw, pitch
+  omnimapper::mapper::SensorCorrections corrections_;
+  std::map<std::int32_t, Known> known_;  // by number
+};
+
+// Step 6: the factory, an MRPT run-time class without state, so that an INI can name the plugin: "class =
+// BeaconPlugin".
+class BeaconPluginFactory : public omnimapper::mapper::MeasurementPluginFactory {
+  DEFINE_MRPT_OBJECT(BeaconPluginFactory, beacons)
+ public:
+  std::string name() const override { return "BeaconPlugin"; }
+  std::string summary() const override { return "Beacons that tell their number, from ranges and bearings."; }
+  const std::vector<omnimapper::base::OptionSpec>& options() const override { return BeaconOptions::table().specs(); }
+  void registerKinds(omnimapper::mapper::Kinds& kinds) const override;
+  std::unique_ptr<omnimapper::mapper::MeasurementPlugin> make(
+      const omnimapper::base::ConfigSection& section, const omnimapper::mapper::PluginContext& context) const override;
+};
+
+}  // namespace beacons
