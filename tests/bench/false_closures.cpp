@@ -39,6 +39,7 @@ struct Problem {
   int poses = 0;
   std::vector<Edge> odometry, closures;
   std::vector<Se2> truth;
+  bool has_truth = false;  // else the optimum stands for it
 };
 
 // ---- The graphs -----------------------------------------------------------------------------------------------------
@@ -95,6 +96,7 @@ std::optional<Problem> load(const std::string& name, std::mt19937& rng) {
   Problem problem = fromG2o(stem, *path);
   const auto truth = omnimapper::testing::sharedData("posegraphs/" + stem + ".nodes_groundtruth.dat");
   if (truth) problem.truth = readTruth(*truth);
+  problem.has_truth = truth || name != stem;
   return name == stem ? problem : redrawn(problem, rng);
 }
 
@@ -264,37 +266,66 @@ double median(std::vector<double> numbers) {
   return numbers[numbers.size() / 2];
 }
 
-void row(const std::string& graph_name, const std::string& method, double percent, int group, const Flags& flags) {
+/// What the seeds gave for one row of the table.
+struct Row {
+  bool has_truth = true;
   std::vector<double> errors, ratios, times, refused, accepted;
-  const Setting clean_setting = settingOf("none"), setting = settingOf(method);
-  std::size_t true_ones = 0, false_ones = 0;
-  for (int seed = 1; seed <= (percent > 0 || graph_name.find('-') != std::string::npos ? flags.seeds : 1); ++seed) {
-    std::mt19937 rng(static_cast<unsigned>(seed));
-    std::optional<Problem> problem = load(graph_name, rng);
-    if (!problem) {
-      std::printf("%s: recording not on this machine\n", graph_name.c_str());
-      return;
-    }
-    const Outcome clean = runOnce(*problem, clean_setting, flags);
-    true_ones = problem->closures.size();
-    addFalseClosures(*problem, percent / 100, group, rng);
-    false_ones = problem->closures.size() - true_ones;
-    const Outcome outcome = runOnce(*problem, setting, flags);
+  std::size_t false_ones = 0;
+
+  void add(const Outcome& outcome, const Outcome& clean, std::size_t true_ones, std::size_t false_ones_added) {
+    false_ones = false_ones_added;
     errors.push_back(outcome.error_m);
     ratios.push_back(outcome.error_m / clean.error_m);
     times.push_back(outcome.seconds / clean.seconds);
     refused.push_back(100.0 * outcome.true_refused / static_cast<double>(true_ones));
     accepted.push_back(outcome.false_accepted);
   }
-  const auto largest = [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); };
-  std::printf("| %s | %g %% %s | %s | %.3f | %.3f | %.3f | %.2f | %.2f | %g | %g of %zu | %.2f |\n", graph_name.c_str(),
-              percent,
-              percent == 0 ? ""
-              : group > 1  ? "grouped"
-                           : "random",
-              method.c_str(), median(errors), median(ratios), largest(ratios), median(refused), largest(refused),
-              median(accepted), largest(accepted), false_ones, median(times));
-  std::fflush(stdout);
+  void print(const std::string& label) const {
+    const auto largest = [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); };
+    char against_clean[64] = "|";  // against the optimum itself there is no ratio
+    if (has_truth) std::snprintf(against_clean, sizeof against_clean, "%.3f | %.3f", median(ratios), largest(ratios));
+    std::printf("| %s | %.4f | %.4f | %s | %.2f | %.2f | %g | %g of %zu | %.2f |\n", label.c_str(), median(errors),
+                largest(errors), against_clean, median(refused), largest(refused), median(accepted), largest(accepted),
+                false_ones, median(times));
+    std::fflush(stdout);
+  }
+};
+
+/// The rows of one graph.
+void table(const std::string& graph_name, const Flags& flags) {
+  const bool redrawn = graph_name.find('-') != std::string::npos;
+  std::vector<Problem> problems;
+  std::vector<Outcome> clean;
+  for (int seed = 1; seed <= (redrawn ? flags.seeds : 1); ++seed) {
+    std::mt19937 rng(static_cast<unsigned>(seed));
+    std::optional<Problem> problem = load(graph_name, rng);
+    if (!problem) {
+      std::printf("%s: recording not on this machine\n", graph_name.c_str());
+      return;
+    }
+    problems.push_back(*problem);
+    clean.push_back(runOnce(*problem, settingOf("none"), flags));
+  }
+  for (const double percent : flags.percents)
+    for (const int group : flags.groups)
+      for (const std::string& method : flags.methods) {
+        if (percent == 0 && group != flags.groups.front()) continue;
+        Row row;
+        row.has_truth = problems[0].has_truth;
+        const int seeds = percent > 0 || redrawn ? flags.seeds : 1;
+        for (int seed = 1; seed <= seeds; ++seed) {
+          const std::size_t at = redrawn ? static_cast<std::size_t>(seed - 1) : 0;
+          Problem problem = problems[at];
+          std::mt19937 rng(static_cast<unsigned>(100 + seed));
+          addFalseClosures(problem, percent / 100, group, rng);
+          const std::size_t true_ones = problems[at].closures.size();
+          row.add(runOnce(problem, settingOf(method), flags), clean[at], true_ones,
+                  problem.closures.size() - true_ones);
+        }
+        char share[32];
+        std::snprintf(share, sizeof share, "%g %%%s", percent, percent == 0 ? "" : group > 1 ? " grouped" : " random");
+        row.print(graph_name + " | " + share + " | " + method);
+      }
 }
 
 }  // namespace
@@ -312,15 +343,12 @@ int main(int argc, char** argv) {
   app.add_flag("--batch", flags.batch, "everything at once, from chained odometry");
   CLI11_PARSE(app, argc, argv);
   std::printf(
-      "| graph | false closures | method | error [m] | error / clean | worst | true refused [%%] | worst | false "
+      "| graph | false closures | method | error [m] | worst | error / clean | worst | true refused [%%] | worst | "
+      "false "
       "accepted "
-      "| worst | time / clean |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| worst | time / clean |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   try {
-    for (const std::string& name : flags.graphs)
-      for (const double percent : flags.percents)
-        for (const int group : flags.groups)
-          for (const std::string& method : flags.methods)
-            if (percent > 0 || group == flags.groups.front()) row(name, method, percent, group, flags);
+    for (const std::string& name : flags.graphs) table(name, flags);
   } catch (const base::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "BoundFactor.h"
+#include "Linearised.h"
 
 namespace omnimapper::graph {
 
@@ -47,20 +47,15 @@ Innovation::Innovation(const Graph& graph, const Marginals& marginals, std::vect
   const Places places(graph, factors_);
   for (const base::FactorId id : factors_) rows_.push_back(rows_.back() + graph.factor(id).factor->residualSize());
   residual_.resize(rows_.back());
-  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  RowMatrix jacobian = RowMatrix::Zero(rows_.back(), places.size);
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows_.back(), places.size);
   for (int i = 0; i < size(); ++i) {
-    const FactorRecord& record = graph.factor(factors_[i]);
-    const BoundFactor bound(graph, record);
-    std::vector<const double*> values;
-    std::vector<double*> jacobians;
-    for (const base::VariableId id : record.variables) {
-      values.push_back(graph.value(id).data());
-      const auto place = places.offsets.find(id);
-      jacobians.push_back(place == places.offsets.end() ? nullptr : &jacobian(rows_[i], place->second));
-    }
-    const std::vector<int> strides(values.size(), places.size);
-    bound.evaluate(values.data(), residual_.data() + rows_[i], jacobians.data(), strides.data());
+    const Linearised linearised(graph, factors_[i]);
+    residual_.segment(rows_[i], degreesOfFreedom(i)) = linearised.residual;
+    const std::vector<base::VariableId>& variables = graph.factor(factors_[i]).variables;
+    for (std::size_t k = 0; k < variables.size(); ++k)
+      if (const auto place = places.offsets.find(variables[k]); place != places.offsets.end())
+        jacobian.block(rows_[i], place->second, degreesOfFreedom(i), linearised.jacobians[k].cols()) =
+            linearised.jacobians[k];
   }
   covariance_ = Eigen::MatrixXd::Identity(rows_.back(), rows_.back());
   if (places.size > 0)

@@ -1,8 +1,11 @@
 #include "Overturn.h"
 
 #include <algorithm>
+#include <unordered_map>
 #include <unordered_set>
 
+#include "Linearised.h"
+#include "OverturnTrial.h"
 #include "PoseCycle.h"
 
 namespace omnimapper::graph {
@@ -100,77 +103,75 @@ std::vector<std::vector<FactorId>> actingGroups(const Graph& graph) {
   return groups;
 }
 
-/// The acting groups without which the refused ones would fit best, best first.
-std::vector<std::vector<FactorId>> suspects(const Graph& graph, const Marginals& marginals,
-                                            const std::vector<FactorId>& group) {
-  constexpr std::size_t kMost = 3;
-  const std::vector<FactorId> ends = {group.front(), group.back()};
-  std::vector<std::pair<double, std::vector<FactorId>>> ranked;
-  for (const std::vector<FactorId>& acting : actingGroups(graph)) {
-    std::vector<FactorId> all = ends;
-    all.insert(all.end(), acting.begin(), acting.end());
-    const Innovation innovation(graph, marginals, all, 1);
-    std::vector<int> places;
-    for (std::size_t i = 0; i < acting.size(); ++i) places.push_back(static_cast<int>(i) + 2);
-    const double before = innovation.of(0).chi2() + innovation.of(1).chi2();
-    const double after = innovation.without(0, places).chi2() + innovation.without(1, places).chi2();
-    if (after < 0.5 * before) ranked.emplace_back(after, acting);
-  }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  if (ranked.size() > kMost) ranked.resize(kMost);
-  std::vector<std::vector<FactorId>> groups;
-  for (const auto& [chi2, acting] : ranked) groups.push_back(acting);
-  return groups;
-}
-
-/// The graph with a group in place of suspects, and whether it is the better one.
-class Trial {
+/// How much acting hypotheses hold of what another measures: the size of the covariance of both residuals.
+class Influence {
  public:
-  Trial(const Graph& graph, const Gate& gate, double inflation, const SolveOptions& solve_options)
-      : graph_(graph), gate_(gate), inflation_(inflation), solve_options_(solve_options) {}
-
-  bool succeeds(const std::vector<FactorId>& group, const std::vector<FactorId>& suspects) {
-    const double before = truncatedCost(group);
-    for (const FactorId id : suspects) graph_.setWeight(id, 0);
-    solve(graph_, solve_options_);
-    if (!hasRoomFor(group)) return false;
-    for (const FactorId id : group) graph_.setWeight(id, 1);
-    solve(graph_, solve_options_);
-    for (const FactorId id : group)
-      if (misfit(id) > bound(id)) return false;
-    const double after = truncatedCost(suspects);
-    for (const FactorId id : suspects)
-      if (misfit(id) > bound(id))
-        taken_back_.push_back(id);
-      else
-        graph_.setWeight(id, 1);
-    return group.size() > taken_back_.size() && after < before;
+  Influence(const Graph& graph, const Marginals& marginals, FactorId on, const std::vector<VariableId>& variables)
+      : graph_(graph), jacobians_(Linearised(graph, on).jacobians) {
+    for (std::size_t i = 0; i < variables.size(); ++i) places_.emplace(variables[i], i);
+    for (const VariableId id : graph.factor(on).variables)
+      covariances_.push_back(marginals.crossCovariances(id, variables));
   }
-  Graph& graph() { return graph_; }
-  const std::vector<FactorId>& takenBack() const { return taken_back_; }
+  double of(const std::vector<FactorId>& group) const {
+    double sum = 0;
+    for (const FactorId id : group) {
+      const Linearised acting(graph_, id);
+      const std::vector<VariableId>& variables = graph_.factor(id).variables;
+      Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(acting.residual.size(), jacobians_[0].rows());
+      for (std::size_t i = 0; i < variables.size(); ++i)
+        for (std::size_t k = 0; k < jacobians_.size(); ++k)
+          cross += acting.jacobians[i] * covariances_[k][places_.at(variables[i])] * jacobians_[k].transpose();
+      sum += cross.squaredNorm();
+    }
+    return sum;
+  }
 
  private:
-  double bound(FactorId id) const { return gate_.bound(graph_.factor(id).factor->residualSize()); }
-  double misfit(FactorId id) const { return graph_.whitenedResidual(id).squaredNorm(); }
-  /// Chi-square of what acts, and of these, which do not, up to the bound of each.
-  double truncatedCost(const std::vector<FactorId>& refused) const {
-    double cost = 2 * graph_.cost();
-    for (const FactorId id : refused) cost += std::min(misfit(id), bound(id));
-    return cost;
-  }
-  bool hasRoomFor(const std::vector<FactorId>& group) const {
-    const Innovation innovation(graph_, Marginals(graph_), group, inflation_);
-    for (int i = 0; i < innovation.size(); ++i)
-      if (!gate_.passes(innovation.of(i))) return false;
-    return true;
-  }
-
-  Graph graph_;
-  const Gate& gate_;
-  double inflation_;
-  const SolveOptions& solve_options_;
-  std::vector<FactorId> taken_back_;
+  const Graph& graph_;
+  std::vector<Eigen::MatrixXd> jacobians_;
+  std::unordered_map<VariableId, std::size_t> places_;
+  std::vector<std::vector<Eigen::MatrixXd>> covariances_;  // of each variable of `on` with those of the groups
 };
+
+/// Leaves those that are largest by `key`, largest first.
+template <class Thing, class Key>
+void keepLargest(std::vector<Thing>& things, std::size_t most, const Key& key) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < things.size(); ++i) order.emplace_back(-key(things[i]), i);
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), most));
+  std::vector<Thing> kept;
+  for (const auto& [negative, i] : order) kept.push_back(std::move(things[i]));
+  things = std::move(kept);
+}
+
+/// The acting groups without which the refused ones would fit best, best first.
+std::vector<std::vector<FactorId>> suspects(const Graph& graph, const Marginals& marginals,
+                                            const std::vector<FactorId>& refused) {
+  constexpr std::size_t kMostInfluential = 8, kMost = 3;
+  std::vector<std::vector<FactorId>> groups = actingGroups(graph);
+  std::vector<VariableId> variables;
+  std::unordered_set<VariableId> seen;
+  for (const std::vector<FactorId>& group : groups)
+    for (const FactorId id : group)
+      for (const VariableId variable : graph.factor(id).variables)
+        if (seen.insert(variable).second) variables.push_back(variable);
+  const Influence influence(graph, marginals, refused.front(), variables);
+  keepLargest(groups, kMostInfluential, [&](const auto& group) { return influence.of(group); });
+  const auto relief = [&](const std::vector<FactorId>& group) {
+    std::vector<FactorId> all = {refused.front(), refused.back()};
+    all.insert(all.end(), group.begin(), group.end());
+    const Innovation innovation(graph, marginals, all, 1);
+    std::vector<int> places;
+    for (std::size_t i = 2; i < all.size(); ++i) places.push_back(static_cast<int>(i));
+    const double before = innovation.of(0).chi2() + innovation.of(1).chi2();
+    return before / (innovation.without(0, places).chi2() + innovation.without(1, places).chi2());
+  };
+  keepLargest(groups, kMost, relief);
+  groups.erase(std::remove_if(groups.begin(), groups.end(), [&](const auto& group) { return relief(group) < 2; }),
+               groups.end());
+  return groups;
+}
 
 }  // namespace
 
@@ -180,11 +181,13 @@ std::optional<Overturned> overturn(Graph& graph, const std::vector<FactorId>& re
   const Marginals marginals(graph);
   const std::vector<FactorId> group = Group(graph, marginals, gate, inflation).largest(refused, waiting);
   if (group.empty()) return std::nullopt;
+  std::vector<FactorId> pool = waiting;
+  pool.insert(pool.end(), refused.begin(), refused.end());
   for (const std::vector<FactorId>& acting : suspects(graph, marginals, group)) {
-    Trial trial(graph, gate, inflation, solve_options);
-    if (!trial.succeeds(group, acting)) continue;
+    OverturnTrial trial(graph, gate, inflation, solve_options);
+    if (!trial.succeeds(group, pool, acting)) continue;
     std::swap(graph, trial.graph());
-    return Overturned{group, trial.takenBack()};
+    return trial.outcome();
   }
   return std::nullopt;
 }

@@ -3,15 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "Selection.h"
-#include "omnimapper/graph/Solver.h"
+#include "OverturnTrial.h"
 
 namespace omnimapper::graph {
-
-/// What a group of refused hypotheses overturned.
-struct Overturned {
-  std::vector<base::FactorId> accepted, taken_back;
-};
 
 /// Refused hypotheses that agree with one another, against those that act: if they are more than what stands against
 /// them, and the graph without that has room for them and fits better as a whole, they act in its place. Looked at when

@@ -1,0 +1,61 @@
+#include "OverturnTrial.h"
+
+#include <algorithm>
+
+namespace omnimapper::graph {
+
+using base::FactorId;
+
+bool OverturnTrial::succeeds(const std::vector<FactorId>& group, const std::vector<FactorId>& pool,
+                             const std::vector<FactorId>& suspects) {
+  std::vector<FactorId> all = pool;
+  all.insert(all.end(), suspects.begin(), suspects.end());
+  const double before = truncatedCost(all);
+  for (const FactorId id : suspects) graph_.setWeight(id, 0);
+  solve(graph_, solve_options_);
+  if (!letIn(group) || 2 * outcome_.accepted.size() <= group.size()) return false;
+  // What they let in may in turn make room for more.
+  while (letIn(pool)) {
+  }
+  for (const FactorId id : outcome_.accepted)
+    if (misfit(id) > bound(id)) return false;
+  const double after = truncatedCost(all);
+  for (const FactorId id : suspects)
+    if (misfit(id) > bound(id))
+      outcome_.taken_back.push_back(id);
+    else
+      graph_.setWeight(id, 1);
+  return outcome_.accepted.size() > outcome_.taken_back.size() && after < before;
+}
+
+/// Chi-square of what acts, and of those of `some` that do not, up to the bound of each.
+double OverturnTrial::truncatedCost(const std::vector<FactorId>& some) const {
+  double cost = 2 * graph_.cost();
+  for (const FactorId id : some)
+    if (graph_.factor(id).weight == 0) cost += std::min(misfit(id), bound(id));
+  return cost;
+}
+
+/// Lets those of the pool act that can, and solves; false if there are none.
+bool OverturnTrial::letIn(const std::vector<FactorId>& pool) {
+  std::vector<FactorId> candidates;
+  for (const FactorId id : pool)
+    if (graph_.factor(id).weight == 0) candidates.push_back(id);
+  if (candidates.empty()) return false;
+  const FalseVolume volume(graph_);
+  std::vector<std::optional<double>> log_volumes;
+  for (const FactorId id : candidates) log_volumes.push_back(volume.logOf(graph_.factor(id)));
+  const std::vector<Choice> choices =
+      selectPairwise(Innovation(graph_, Marginals(graph_), candidates, inflation_), log_volumes, gate_);
+  bool some = false;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (choices[i].kind == Choice::Kind::fits || choices[i].kind == Choice::Kind::agrees) {
+      graph_.setWeight(candidates[i], 1);
+      outcome_.accepted.push_back(candidates[i]);
+      some = true;
+    }
+  if (some) solve(graph_, solve_options_);
+  return some;
+}
+
+}  // namespace omnimapper::graph

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "Selection.h"
+#include "omnimapper/graph/Solver.h"
+
+namespace omnimapper::graph {
+
+/// What refused hypotheses overturned.
+struct Overturned {
+  std::vector<base::FactorId> accepted, taken_back;
+};
+
+/// A copy of a graph in which a group of refused hypotheses is put in place of suspects that act.
+class OverturnTrial {
+ public:
+  OverturnTrial(const Graph& graph, const Gate& gate, double inflation, const SolveOptions& solve_options)
+      : graph_(graph), gate_(gate), inflation_(inflation), solve_options_(solve_options) {}
+
+  /// True if the graph without the suspects has room for most of the group, if those that then act, and the others of
+  /// the pool that can act beside them, are more than the suspects that then no longer fit, and if the graph as a whole
+  /// fits better. The pool holds what is refused, the group included.
+  bool succeeds(const std::vector<base::FactorId>& group, const std::vector<base::FactorId>& pool,
+                const std::vector<base::FactorId>& suspects);
+  /// After success: the graph, solved but for suspects that fit again, and what changed.
+  Graph& graph() { return graph_; }
+  const Overturned& outcome() const { return outcome_; }
+
+ private:
+  double bound(base::FactorId id) const { return gate_.bound(graph_.factor(id).factor->residualSize()); }
+  double misfit(base::FactorId id) const { return graph_.whitenedResidual(id).squaredNorm(); }
+  double truncatedCost(const std::vector<base::FactorId>& some) const;
+  bool letIn(const std::vector<base::FactorId>& pool);
+
+  Graph graph_;
+  const Gate& gate_;
+  double inflation_;
+  const SolveOptions& solve_options_;
+  Overturned outcome_;
+};
+
+}  // namespace omnimapper::graph
