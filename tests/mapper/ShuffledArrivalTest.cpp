@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+#include <omnimapper/testing/MapperRun.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "GraphInvariants.h"
+
+// The same log with every observation on its way for a time of its own, up to several windows, odometry included.
+namespace omnimapper::mapper {
+namespace {
+
+using mrpt::obs::CObservation;
+using testing::makeEngine;
+using testing::SimulatedLog;
+using testing::SimulatedLogOptions;
+
+constexpr double kWindow = 0.5;      // [s] of the engine's queue
+constexpr double kLongestDelay = 2;  // [s]
+constexpr int kSeeds = 50;
+
+std::vector<CObservation::Ptr> shuffled(const std::vector<CObservation::Ptr>& log, std::uint64_t seed) {
+  testing::Dice dice(seed);
+  std::multimap<base::Stamp, CObservation::Ptr> arrivals;
+  for (const auto& observation : log) {
+    arrivals.emplace(observation->timestamp + base::durationFromSeconds(dice.uniform(0, kLongestDelay)), observation);
+  }
+  std::vector<CObservation::Ptr> arrived;
+  for (const auto& [stamp, observation] : arrivals) arrived.push_back(observation);
+  return arrived;
+}
+
+// Every factor as what it measures and the stamps of what it binds; landmarks by their name.
+std::multiset<std::string> factorsByStamp(const View& view) {
+  std::map<base::VariableId, std::string> names;
+  for (const auto& frame : view.map.key_frames) names[frame.pose] = base::formatUnix(frame.stamp, 7);
+  for (const auto& [id, landmark] : view.map.landmarks) {
+    std::ostringstream name;
+    if (landmark.payload) landmark.payload->write(name);
+    for (const auto variable : landmark.variables) names[variable] = landmark.kind + " " + name.str();
+  }
+  std::multiset<std::string> all;
+  for (const auto& [id, record] : view.graph.factors()) {
+    std::ostringstream text;
+    text << record.tags.owner << " " << record.factor->kind();
+    for (const auto variable : record.variables) text << " " << (names.count(variable) ? names[variable] : "other");
+    all.insert(text.str());
+  }
+  return all;
+}
+
+const std::string kKnownIdentityIni = R"(
+[mapper]
+pose_plugins        = odometry
+measurement_plugins = tracker
+[trigger]
+every_observation = true
+[solver]
+final_max_iterations = 200
+final_tolerance      = 1e-14
+[odometry]
+class = OdometryPlugin
+[tracker]
+class = RobotPosePlugin
+reference_is_map = false
+)";
+
+TEST(ShuffledArrival, WithKnownIdentitiesTheGraphIsThatOfTheOrderedRun) {
+  SimulatedLogOptions options;
+  options.place = SimulatedLogOptions::Place::box;
+  options.lasers.clear();
+  options.tracker.on = true;
+  options.tracker.rate = 5;
+  const auto log = SimulatedLog(options).observations();
+  const auto ordered = makeEngine(kKnownIdentityIni);
+  testing::run(*ordered, log);
+  const auto expected = factorsByStamp(ordered->view());
+  const double chi2 = ordered->view().graph.chi2();
+  ASSERT_GT(expected.size(), 50U);
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const auto engine = makeEngine(kKnownIdentityIni);
+    testing::run(*engine, shuffled(log, static_cast<std::uint64_t>(seed)));
+    const auto view = engine->view();
+    EXPECT_EQ(view.graph.variables().size(), ordered->view().graph.variables().size());
+    EXPECT_TRUE(factorsByStamp(view) == expected);
+    EXPECT_NEAR(view.graph.chi2() / chi2, 1, 1e-9);
+    EXPECT_GT(view.counts.spliced, 5U) << "else the test shows nothing";
+    testing::expectOneChain(view, {"odometry"});
+    testing::expectNothingDangles(view);
+    if (HasFailure()) FAIL() << "with seed " << seed;
+  }
+}
+
+// One log says little: how far a map is from the truth is mostly its noise. The mean over ten of them does not.
+TEST(ShuffledArrival, WithScanMatchingTheTrajectoryIsAsGoodAndNoOdometryIsUsedTwice) {
+  constexpr int kLogs = 10;
+  double ordered_sum = 0, shuffled_sum = 0;
+  for (int number = 1; number <= kLogs; ++number) {
+    SimulatedLogOptions options;
+    options.laps = 1.2;
+    options.lasers.front().rate = 1.6;  // nearly every scan earns a key frame
+    options.seed = static_cast<std::uint64_t>(number);
+    const SimulatedLog simulated(options);
+    const auto log = simulated.observations();
+    const auto ordered = makeEngine(testing::kLaserIni);
+    testing::run(*ordered, log);
+    ordered_sum += testing::trajectoryError(ordered->view(), simulated);
+    for (int seed = number; seed <= kSeeds; seed += kLogs) {
+      const auto engine = makeEngine(testing::kLaserIni);
+      testing::run(*engine, shuffled(log, static_cast<std::uint64_t>(seed)));
+      shuffled_sum += testing::trajectoryError(engine->view(), simulated);
+      testing::expectOneChain(engine->view(), {"odometry", "no_motion"});
+      EXPECT_GT(engine->view().counts.spliced, 5U) << "else the test shows nothing";
+    }
+  }
+  RecordProperty("ordered_error_m", std::to_string(ordered_sum / kLogs));
+  RecordProperty("shuffled_error_m", std::to_string(shuffled_sum / kSeeds));
+  EXPECT_LT(shuffled_sum / kSeeds, 1.05 * ordered_sum / kLogs);
+}
+
+}  // namespace
+}  // namespace omnimapper::mapper
