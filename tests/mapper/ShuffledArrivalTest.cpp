@@ -1,3 +1,4 @@
+#include <BeaconPayload.h>
 #include <gtest/gtest.h>
 #include <omnimapper/testing/MapperRun.h>
 
@@ -36,9 +37,8 @@ std::multiset<std::string> factorsByStamp(const View& view) {
   std::map<base::VariableId, std::string> names;
   for (const auto& frame : view.map.key_frames) names[frame.pose] = base::formatUnix(frame.stamp, 7);
   for (const auto& [id, landmark] : view.map.landmarks) {
-    std::ostringstream name;
-    if (landmark.payload) landmark.payload->write(name);
-    for (const auto variable : landmark.variables) names[variable] = landmark.kind + " " + name.str();
+    const auto& payload = dynamic_cast<const beacons::BeaconPayload&>(*landmark.payload);
+    for (const auto variable : landmark.variables) names[variable] = "beacon " + std::to_string(payload.number);
   }
   std::multiset<std::string> all;
   for (const auto& [id, record] : view.graph.factors()) {
@@ -53,7 +53,7 @@ std::multiset<std::string> factorsByStamp(const View& view) {
 const std::string kKnownIdentityIni = R"(
 [mapper]
 pose_plugins        = odometry
-measurement_plugins = tracker
+measurement_plugins = tracker, beacons
 [trigger]
 every_observation = true
 [solver]
@@ -64,14 +64,18 @@ class = OdometryPlugin
 [tracker]
 class = RobotPosePlugin
 reference_is_map = false
+loss_scale       = 1000
+[beacons]
+class      = BeaconPlugin
+confidence = 1
 )";
 
 TEST(ShuffledArrival, WithKnownIdentitiesTheGraphIsThatOfTheOrderedRun) {
   SimulatedLogOptions options;
-  options.place = SimulatedLogOptions::Place::box;
   options.lasers.clear();
   options.tracker.on = true;
   options.tracker.rate = 5;
+  options.beacons.on = true;
   const auto log = SimulatedLog(options).observations();
   const auto ordered = makeEngine(kKnownIdentityIni);
   testing::run(*ordered, log);
@@ -82,6 +86,7 @@ TEST(ShuffledArrival, WithKnownIdentitiesTheGraphIsThatOfTheOrderedRun) {
     const auto engine = makeEngine(kKnownIdentityIni);
     testing::run(*engine, shuffled(log, static_cast<std::uint64_t>(seed)));
     const auto view = engine->view();
+    EXPECT_EQ(view.map.landmarks.size(), ordered->view().map.landmarks.size());
     EXPECT_EQ(view.graph.variables().size(), ordered->view().graph.variables().size());
     EXPECT_TRUE(factorsByStamp(view) == expected);
     EXPECT_NEAR(view.graph.chi2() / chi2, 1, 1e-9);
