@@ -1,5 +1,6 @@
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/plugins/registerPlugins.h>
 #include <unistd.h>
 
@@ -29,14 +30,15 @@ int exitCode(base::ExitCode code) {
 
 int run(Arguments& arguments) {
   plugins::registerPlugins();
+  auto config = arguments.ini.empty() ? base::Config::fromText("", "no INI") : base::Config::fromFile(arguments.ini);
+  for (const auto& setting : arguments.settings) config.set(setting);
+  if (arguments.list_plugins || !arguments.print_ini.empty()) mapper::loadPluginLibraries(config);
   if (arguments.list_plugins) return std::cout << mapper::listPlugins(), 0;
   if (arguments.ini_reference) return std::cout << mapper::iniReference(mapper::fixedSections()), 0;
   if (!arguments.print_ini.empty()) return std::cout << mapper::printIni(arguments.print_ini), 0;
   if (arguments.ini.empty() || arguments.run.logs.empty() || arguments.run.output_folder.empty()) {
     throw base::Error(base::ExitCode::command_line, "-i INI, -r LOG and -o FOLDER are needed; see --help");
   }
-  auto config = base::Config::fromFile(arguments.ini);
-  for (const auto& setting : arguments.settings) config.set(setting);
   if (arguments.gui) {
     arguments.run.more_outputs.push_back("live_window");
     if (!config.has("live_window")) config.set("live_window.class=LiveWindow");
@@ -71,7 +73,8 @@ int main(int argc, char** argv) {
   app.add_option("--speed", arguments.run.speed, "replay at so many times the log's pace; 0: as fast as possible")
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--gui", arguments.gui, "show the map while it grows");
-  app.add_flag("--list-plugins", arguments.list_plugins, "list the plugin classes and leave");
+  app.add_flag("--list-plugins", arguments.list_plugins,
+               "list the plugin classes, with -i those of its libraries too, and leave");
   app.add_option("--print-ini", arguments.print_ini, "print the documented section of a plugin class and leave");
   app.add_flag("--ini-reference", arguments.ini_reference, "print all INI keys as Markdown and leave");
   app.add_flag("-q,--quiet", arguments.quiet, "no progress, no summary; warnings only if the map is not whole");

@@ -121,5 +121,29 @@ TEST(BeaconPlugin, ANewOneKnowsTheBeaconsOfAMapThatIsContinued) {
   EXPECT_FALSE(batch.evidence().empty());
 }
 
+TEST(BeaconPlugin, ASessionFindsItsPlaceInTheMapByTheBeaconsItSeesAgain) {
+  auto options = drive();
+  const auto first = testing::makeEngine(kBeaconIni);
+  const SimulatedLog log(options);
+  testing::run(*first, log.observations());
+  options.seed = 2;
+  options.laps = 0.4;
+  const SimulatedLog second_log(options);
+  const auto second = testing::makeEngine(kBeaconIni);
+  // Guessed a metre and 20 degrees wrong.
+  second->continueFrom({first->view().map, first->view().graph, {}}, {{0.8, -0.6, 0, 0.35, 0, 0}, 1, 0.5});
+  testing::run(*second, second_log.observations());
+  const auto view = second->view();
+  ASSERT_EQ(view.map.sessions.size(), 2U);
+  EXPECT_TRUE(view.map.sessions.back().joined);
+  EXPECT_EQ(view.map.landmarks.size(), options.beacons.positions.size()) << "each beacon is one landmark of both";
+  EXPECT_LT(worstBeacon(view, log, options), 0.15);
+  for (const auto& frame : view.map.key_frames) {
+    if (frame.id.session == 0) continue;
+    const mrpt::poses::CPose3D truth(second_log.truthAt(frame.stamp));
+    EXPECT_LT((frame.map_from_base.translation() - truth.translation()).norm(), 0.15) << frame.id;
+  }
+}
+
 }  // namespace
 }  // namespace beacons

@@ -48,9 +48,9 @@ std::vector<geometry::Vector6d> corrections(const mapper::View& view) {
 TEST(SensorCorrections, OneForTheRunFindsHowTheSensorIsMounted) {
   const auto options = panTilt();
   const SimulatedLog log(options);
-  const auto engine =
-      testing::makeEngine(kBeaconIni, {"beacons.estimate_sensor_pose=once", "beacons.confidence=1",
-                                       "beacons.sensor_pose_sigma_m=0.01", "beacons.sensor_pose_sigma_deg=5"});
+  const auto engine = testing::makeEngine(
+      kBeaconIni,
+      {"beacons.estimate_sensor_pose=once", "beacons.sensor_pose_sigma_m=0.01", "beacons.sensor_pose_sigma_deg=5"});
   testing::run(*engine, log.observations());
   const auto found = corrections(engine->view());
   ASSERT_EQ(found.size(), 1U);
@@ -66,7 +66,7 @@ TEST(SensorCorrections, OneForTheRunFindsHowTheSensorIsMounted) {
   }
   EXPECT_LT(std::sqrt((*covariance)(5, 5)), 0.5 * kDegree) << "the pan is not told by the prior alone";
   EXPECT_LT(std::sqrt((*covariance)(4, 4)), 0.5 * kDegree) << "nor the tilt";
-  EXPECT_LT(worstBeacon(engine->view(), log, options), 0.15);
+  EXPECT_LT(worstBeacon(engine->view(), log, options), 0.3);
 }
 
 TEST(SensorCorrections, TakenAsToldTheSameErrorBendsTheMap) {
@@ -75,14 +75,14 @@ TEST(SensorCorrections, TakenAsToldTheSameErrorBendsTheMap) {
   const auto engine = testing::makeEngine(kBeaconIni, {"beacons.confidence=1"});
   testing::run(*engine, log.observations());
   EXPECT_TRUE(corrections(engine->view()).empty());
-  EXPECT_GT(worstBeacon(engine->view(), log, options), 0.2);
+  EXPECT_GT(worstBeacon(engine->view(), log, options), 1);
 }
 
 TEST(SensorCorrections, OneForEachKeyFrameStaysWithinItsPrior) {
   const auto options = panTilt();
   const SimulatedLog log(options);
   const auto engine =
-      testing::makeEngine(kBeaconIni, {"beacons.estimate_sensor_pose=each_key_frame", "beacons.confidence=1",
+      testing::makeEngine(kBeaconIni, {"beacons.estimate_sensor_pose=each_key_frame",
                                        "beacons.sensor_pose_sigma_m=0.01", "beacons.sensor_pose_sigma_deg=2"});
   testing::run(*engine, log.observations());
   const auto found = corrections(engine->view());

@@ -161,6 +161,13 @@ TEST(HouseRules, nothingNamesAPlaceOnOneMachine) {
                        "a path of one machine: take it from the command line, the INI or the source tree");
 }
 
+TEST(HouseRules, theLibrariesKnowNothingOfTheExampleFromOutside) {
+  for (const path& file : files("libs")) {
+    EXPECT_FALSE(std::regex_search(read(file), std::regex("beacon", std::regex::icase)))
+        << projectPath(file) << " speaks of doc/examples/beacons, which must do without";
+  }
+}
+
 TEST(HouseRules, testFoldersMirrorTheLibraries) {
   const auto libraries = folders("libs");
   const std::vector<std::string> others{"bench", "system", "testing"};

@@ -1,6 +1,8 @@
-# cmake -D BUILD_FOLDER=... -D FOREIGN_PROJECT=... -D SCRATCH=... -D GENERATOR=... -P PackageTest.cmake
+# cmake -D BUILD_FOLDER=... -D FOREIGN_PROJECT=... -D EXAMPLE=... -D BEACON_LOG=... -D SCRATCH=... -D GENERATOR=...
+#   -P PackageTest.cmake
 # Installs the build, moves the installed tree, and uses it as a stranger would: links against it, starts its programs,
-# and has one of them load a plugin built outside.
+# and has one of them load plugins built outside: outputs of a foreign project, and the landmarks of
+# doc/examples/beacons.
 cmake_minimum_required(VERSION 3.22)
 set(stage "${SCRATCH}/stage")
 set(prefix "${SCRATCH}/moved")
@@ -19,10 +21,16 @@ endfunction()
 run("${CMAKE_COMMAND}" --install "${BUILD_FOLDER}" --prefix "${stage}")
 file(RENAME "${stage}" "${prefix}")
 
-run("${CMAKE_COMMAND}" -S "${FOREIGN_PROJECT}" -B "${SCRATCH}/build" -G "${GENERATOR}"
-  "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER_LAUNCHER=")
-run("${CMAKE_COMMAND}" --build "${SCRATCH}/build")
+# Configures and builds a project of somebody else's against the installed package.
+function(build project folder)
+  run("${CMAKE_COMMAND}" -S "${project}" -B "${folder}" -G "${GENERATOR}"
+    "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER_LAUNCHER=")
+  run("${CMAKE_COMMAND}" --build "${folder}")
+endfunction()
+
+build("${FOREIGN_PROJECT}" "${SCRATCH}/build")
 run("${SCRATCH}/build/foreign")
+build("${EXAMPLE}" "${SCRATCH}/beacons")
 
 # Every program starts from where the tree was moved to.
 file(GLOB programs "${prefix}/bin/*")
@@ -55,4 +63,38 @@ file(READ "${SCRATCH}/out/count.txt" count)
 if(NOT count GREATER 10)
   message(FATAL_ERROR "the foreign plugin counted '${count}' key frames")
 endif()
+
+# A landmark type from outside: the example's own INI, with the full path of its library and an output that checks.
+set(ini "${SCRATCH}/beacons.ini")
+file(READ "${EXAMPLE}/beacons.ini" text)
+string(REPLACE "build/libbeacons.so" "${SCRATCH}/beacons/libbeacons.so, ${SCRATCH}/build/libforeign-plugins.so" text "${text}")
+string(REPLACE "map, trajectory, report" "map, trajectory, report, check" text "${text}")
+file(WRITE "${ini}" "${text}
+[check]
+class = LandmarkCheckOutput
+truth = ${SCRATCH}/beacons.txt
+")
+# The program knows its classes and keys.
+execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -i "${ini}" --list-plugins OUTPUT_VARIABLE listed)
+if(NOT listed MATCHES "BeaconPlugin +Beacons that tell")
+  message(FATAL_ERROR "--list-plugins does not know BeaconPlugin:\n${listed}")
+endif()
+execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -i "${ini}" --print-ini BeaconPlugin OUTPUT_VARIABLE printed)
+if(NOT printed MATCHES "height_m = 1" OR NOT printed MATCHES "estimate_sensor_pose = no")
+  message(FATAL_ERROR "--print-ini BeaconPlugin:\n${printed}")
+endif()
+run("${BEACON_LOG}" "${SCRATCH}/drive.rawlog" "${SCRATCH}/beacons.txt")
+foreach(estimate no once each_key_frame)
+  run("${prefix}/bin/omnimapper-graphslam" -i "${ini}" -r "${SCRATCH}/drive.rawlog" -o "${SCRATCH}/out" -q
+    --set "beacons.estimate_sensor_pose=${estimate}")
+  file(READ "${SCRATCH}/out/landmarks.txt" check)
+  if(NOT check MATCHES "^([0-9]+) ([0-9]+) ([0-9]+)\n$")
+    message(FATAL_ERROR "the check wrote '${check}'")
+  endif()
+  if(NOT CMAKE_MATCH_1 EQUAL CMAKE_MATCH_2 OR NOT CMAKE_MATCH_3 LESS 100)
+    message(FATAL_ERROR "sensor pose '${estimate}': ${CMAKE_MATCH_1} landmarks for ${CMAKE_MATCH_2} beacons, the worst "
+      "${CMAKE_MATCH_3} mm off")
+  endif()
+  message(STATUS "sensor pose '${estimate}': ${CMAKE_MATCH_1} beacons, the worst ${CMAKE_MATCH_3} mm off")
+endforeach()
 file(REMOVE_RECURSE "${SCRATCH}")

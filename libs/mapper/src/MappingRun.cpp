@@ -147,7 +147,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   const auto& options = settings.engine;
   const auto perception = config.section("perception").read<PerceptionOptions>();
   const auto source_options = config.section("source").read<source::SourceOptions>();
-  for (const auto& library : options.plugin_libraries) loadPluginLibrary(library);
+  loadPluginLibraries(config);
   SensorPoses sensor_poses(options.sensors, config);
   auto outputs = options.output_plugins;
   outputs.insert(outputs.end(), request.more_outputs.begin(), request.more_outputs.end());

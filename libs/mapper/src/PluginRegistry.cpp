@@ -1,5 +1,6 @@
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/system/os.h>
+#include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 
 #include <algorithm>
@@ -70,6 +71,10 @@ void loadPluginLibrary(const std::string& path) {
                       "[mapper] plugin_libraries: cannot load '" + path + "' (" + problem +
                           "); give its full path, or a name that the system's loader finds");
   }
+}
+
+void loadPluginLibraries(const base::Config& config) {
+  for (const auto& path : config.section("mapper").read<EngineOptions>().plugin_libraries) loadPluginLibrary(path);
 }
 
 namespace {

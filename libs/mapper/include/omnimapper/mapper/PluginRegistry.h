@@ -22,6 +22,8 @@ std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::str
 
 /// Loads a shared library that registers factories (mrpt::system::loadPluginModule). Throws Error(plugin_library).
 void loadPluginLibrary(const std::string& path);
+/// Those that [mapper] plugin_libraries of an INI names. Throws as loadPluginLibrary() and base::ConfigSection::read().
+void loadPluginLibraries(const base::Config& config);
 
 /// A plugin with the name of its INI section, the owner of its factors and decisions.
 template <class Plugin>

@@ -1,0 +1,73 @@
+// An output plugin made outside the project, beside a measurement plugin of somebody else's: compares the landmarks of
+// the map with a file of true positions.
+#include <mrpt/core/initializer.h>
+#include <omnimapper/mapper/PluginFactory.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+namespace foreign {
+
+using namespace omnimapper;
+
+struct LandmarkCheckOptions {
+  std::string file = "landmarks.txt";
+  std::string truth;
+
+  static const base::OptionTable<LandmarkCheckOptions>& table() {
+    using Options = LandmarkCheckOptions;
+    static const auto table = base::OptionTable<Options>()
+                                  .text("file", &Options::file, "Name of the file in the output folder.")
+                                  .text("truth", &Options::truth, "File of true positions, 'x y z' a line.");
+    return table;
+  }
+};
+
+// Writes "<landmarks> <true positions> <worst distance of a true position from the nearest landmark [mm]>".
+class LandmarkCheckOutput : public mapper::OutputPlugin {
+ public:
+  LandmarkCheckOutput(const std::string& path, const std::string& truth) : path_(path), truth_(truth) {}
+
+  void finish(const mapper::View& view) override {
+    std::ifstream truth(truth_);
+    Eigen::Vector3d there;
+    double worst = 0;
+    int positions = 0;
+    for (; truth >> there.x() >> there.y() >> there.z(); ++positions) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& [id, landmark] : view.map.landmarks) {
+        const Eigen::VectorXd& value = view.graph.value(landmark.variables.front());
+        nearest = std::min(nearest, (value.head<3>() - there).norm());
+      }
+      worst = std::max(worst, std::min(nearest, 1e6));
+    }
+    std::ofstream(path_) << view.map.landmarks.size() << " " << positions << " " << std::lround(1000 * worst) << "\n";
+  }
+
+ private:
+  std::string path_, truth_;
+};
+
+class LandmarkCheckOutputFactory : public mapper::OutputPluginFactory {
+  DEFINE_MRPT_OBJECT(LandmarkCheckOutputFactory, foreign)
+ public:
+  std::string name() const override { return "LandmarkCheckOutput"; }
+  std::string summary() const override { return "Compares landmarks with true positions."; }
+  const std::vector<base::OptionSpec>& options() const override { return LandmarkCheckOptions::table().specs(); }
+  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
+                                             const mapper::PluginContext& context) const override {
+    const auto options = section.read<LandmarkCheckOptions>(mapper::sectionKeysOfEngine());
+    return std::make_unique<LandmarkCheckOutput>(context.output_folder + "/" + options.file, options.truth);
+  }
+};
+
+}  // namespace foreign
+
+IMPLEMENTS_MRPT_OBJECT(LandmarkCheckOutputFactory, omnimapper::mapper::OutputPluginFactory, foreign)
+
+MRPT_INITIALIZER(registerLandmarkCheckOutput) {
+  mrpt::rtti::registerClass(CLASS_ID(foreign::LandmarkCheckOutputFactory));
+}

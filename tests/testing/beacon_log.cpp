@@ -1,0 +1,15 @@
+// beacon-log LOG TRUTH: a simulated drive past beacons, and where they are ("x y z" a line), for the package test.
+#include <omnimapper/testing/SimulatedLog.h>
+
+#include <fstream>
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  omnimapper::testing::SimulatedLogOptions options;
+  options.lasers.clear();
+  options.beacons.on = true;
+  omnimapper::testing::SimulatedLog(options).writeRawlog(argv[1]);
+  std::ofstream truth(argv[2]);
+  for (const auto& position : options.beacons.positions) truth << position.transpose() << "\n";
+  return truth.flush() ? 0 : 1;
+}
