@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/graph/Consistency.h>
+#include <omnimapper/graph/Initialisation.h>
 #include <omnimapper/graph/PointFactor.h>
 #include <omnimapper/graph/Prior.h>
 
@@ -216,6 +217,73 @@ TEST_P(ConsistencyMethodTest, APriorOrAPointIsTestedToo) {
   EXPECT_FALSE(ring.accepted(bad));
   EXPECT_TRUE(ring.accepted(seen));
   EXPECT_FALSE(ring.accepted(mistaken));
+}
+
+TEST_P(ConsistencyMethodTest, TheFirstOfAVariableThatNothingHoldsActsAndAMajorityOverturnsIt) {
+  Ring ring(30);
+  const VariableId point = ring.graph().addVariable(point2(), Eigen::Vector2d(0, 0));
+  const Eigen::Vector2d in_map(2, 2), elsewhere(9, -4);
+  const auto seen = [&](int from, const Eigen::Vector2d& where) {
+    FactorRecord record{{ring.ids()[from], point},
+                        std::make_shared<PointFactor2>(inverse(ring.truth()[from]) * where),
+                        SquareRootInformation::fromSigmas(Eigen::Vector2d(0.05, 0.05))};
+    record.tags.hypothesis = true;
+    record.weight = 0;
+    return ring.graph().addFactor(record);
+  };
+  const FactorId mistaken = seen(0, elsewhere);
+  EXPECT_TRUE(ring.test({mistaken}, GetParam())[0].accepted);
+  EXPECT_NEAR((ring.graph().value(point) - elsewhere).norm(), 0, 1e-6);
+  std::vector<FactorId> good;
+  for (int from = 1; from < 4; ++from) {
+    good.push_back(seen(from, in_map));
+    ring.test({good.back()}, GetParam());
+  }
+  EXPECT_FALSE(ring.accepted(mistaken));
+  for (const FactorId id : good) EXPECT_TRUE(ring.accepted(id));
+  EXPECT_NEAR((ring.graph().value(point) - in_map).norm(), 0, 0.2);
+}
+
+TEST_P(ConsistencyMethodTest, ManyAtOnceAreJudgedAsIfOneAfterAnother) {
+  World2 world = gridWorld(400, 3, {0.02, 0.02, 0.005});
+  std::vector<FactorId> fresh;
+  std::vector<bool> truth;
+  Noise noise(4);
+  std::vector<std::pair<FactorId, FactorRecord>> closures;
+  for (const auto& [id, record] : world.graph.factors())
+    if (record.variables[1].index != record.variables[0].index + 1) closures.emplace_back(id, record);
+  ASSERT_GT(closures.size(), 90u);
+  for (auto& [id, record] : closures) {
+    world.graph.removeFactor(id);
+    record.tags.hypothesis = true;
+    fresh.push_back(world.graph.addFactor(record));
+    truth.push_back(true);
+    if (noise.below(2) == 0) {
+      const int a = noise.below(400);
+      record.variables = {world.ids[a], world.ids[(a + 20 + noise.below(300)) % 400]};
+      record.factor = std::make_shared<BetweenSe2>(Se2{noise.normal(0.3), noise.normal(0.3), noise.normal(0.2)});
+      fresh.push_back(world.graph.addFactor(record));
+      truth.push_back(false);
+    }
+  }
+  initialiseByChaining(world.graph);
+  ConsistencyOptions options;
+  options.method = GetParam();
+  const std::vector<Verdict> verdicts = testConsistency(world.graph, fresh, options);
+  ASSERT_EQ(verdicts.size(), fresh.size());
+  int refused = 0, let_in = 0;
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    EXPECT_EQ(verdicts[i].factor, fresh[i]);
+    EXPECT_EQ(verdicts[i].accepted, world.graph.factor(fresh[i]).weight > 0);
+    refused += truth[i] && !verdicts[i].accepted;
+    let_in += !truth[i] && verdicts[i].accepted;
+  }
+  EXPECT_LE(refused, static_cast<int>(closures.size()) / 50);
+  EXPECT_LE(let_in, 1);
+  double error = 0;
+  for (std::size_t i = 0; i < world.ids.size(); ++i)
+    error = std::max(error, (world.graph.value(world.ids[i]).head<2>() - world.truth[i].translation()).norm());
+  EXPECT_LT(error, 0.3);
 }
 
 TEST(ConsistencyTest, MethodNoneLetsEveryHypothesisAct) {

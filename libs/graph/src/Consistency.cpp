@@ -8,6 +8,7 @@
 
 #include "Overturn.h"
 #include "Selection.h"
+#include "Unheld.h"
 
 namespace omnimapper::graph {
 
@@ -18,6 +19,8 @@ using Method = ConsistencyOptions::Method;
 
 /// So many of the newest that do not act are looked at again beside fresh ones.
 constexpr std::size_t kMostWaiting = 20;
+/// So many fresh ones are judged together; more are judged as if they had come one after another.
+constexpr std::size_t kMostAtOnce = 20;
 
 std::string text(const char* form, double chi2, double bound) {
   char line[128];
@@ -27,6 +30,10 @@ std::string text(const char* form, double chi2, double bound) {
 
 std::string fits(double chi2, double bound) {
   return text("fits the map (chi-square %.1f <= %.1f)", chi2, bound);
+}
+
+bool contains(const std::vector<FactorId>& some, FactorId id) {
+  return std::find(some.begin(), some.end(), id) != some.end();
 }
 
 /// One run of the test.
@@ -48,12 +55,14 @@ class Test {
       solve(graph_, solve_options_);
       return verdicts();
     }
-    for (const FactorId id : fresh_) graph_.setWeight(id, 0);
-    const std::vector<FactorId> contradicting = takeFresh();
-    solve(graph_, solve_options_);
-    if (!contradicting.empty()) overturnBy(contradicting);
-    takeBackWhatNoLongerFits();
-    letInWhatFitsNow();
+    later_ = inOrderOfTime();
+    for (const FactorId id : later_) graph_.setWeight(id, 0);
+    do {
+      const std::size_t size = std::min(later_.size(), kMostAtOnce);
+      const std::vector<FactorId> some(later_.begin(), later_.begin() + static_cast<std::ptrdiff_t>(size));
+      later_.erase(later_.begin(), later_.begin() + static_cast<std::ptrdiff_t>(size));
+      judge(some);
+    } while (!later_.empty());
     return verdicts();
   }
 
@@ -61,7 +70,6 @@ class Test {
   int rowsOf(FactorId id) const { return graph_.factor(id).factor->residualSize(); }
   double bound(FactorId id) const { return gate_.bound(rowsOf(id)); }
   double misfit(FactorId id) const { return graph_.whitenedResidual(id).squaredNorm(); }
-  bool isFresh(FactorId id) const { return std::find(fresh_.begin(), fresh_.end(), id) != fresh_.end(); }
 
   void decide(FactorId id, bool accepted, double chi2, const std::string& reason,
               std::optional<FactorId> against = std::nullopt) {
@@ -69,34 +77,46 @@ class Test {
     verdicts_[id] = {id, accepted, accepted != acted_.at(id), chi2, rowsOf(id), reason, against};
   }
 
-  /// True if a variable of the factor is held by nothing yet, so that there is nothing to test it against.
-  bool reachesOut(FactorId id) const {
-    const auto& variables = graph_.factor(id).variables;
-    return std::any_of(variables.begin(), variables.end(), [this](base::VariableId variable) {
-      const std::vector<FactorId>& factors = graph_.factorsOf(variable);
-      return std::none_of(factors.begin(), factors.end(),
-                          [this](FactorId factor) { return graph_.factor(factor).weight > 0; });
-    });
+  /// The fresh ones as they could have come one after another: by the newest of their variables.
+  std::vector<FactorId> inOrderOfTime() const {
+    const auto newest = [this](FactorId id) {
+      const std::vector<base::VariableId>& variables = graph_.factor(id).variables;
+      return *std::max_element(variables.begin(), variables.end());
+    };
+    std::vector<FactorId> order = fresh_;
+    std::stable_sort(order.begin(), order.end(), [&](FactorId a, FactorId b) { return newest(a) < newest(b); });
+    return order;
   }
 
-  /// The newest that do not act and came before the fresh ones, in the order of ids.
-  std::vector<FactorId> waiting() const {
+  void judge(const std::vector<FactorId>& some) {
+    const std::vector<FactorId> contradicting = take(some);
+    solve(graph_, solve_options_);
+    if (!contradicting.empty()) overturnBy(contradicting);
+    takeBackWhatNoLongerFits();
+    letInWhatFitsNow();
+  }
+
+  /// The newest that do not act and were judged before these, in the order of ids.
+  std::vector<FactorId> waiting(const std::vector<FactorId>& some) const {
     std::vector<FactorId> found;
     for (auto at = acted_.rbegin(); at != acted_.rend() && found.size() < kMostWaiting; ++at)
-      if (graph_.factor(at->first).weight == 0 && !isFresh(at->first) && !reachesOut(at->first))
+      if (graph_.factor(at->first).weight == 0 && !contains(some, at->first) && !contains(later_, at->first) &&
+          !reachesOut(graph_, at->first))
         found.push_back(at->first);
     std::reverse(found.begin(), found.end());
     return found;
   }
 
-  /// Decides about the fresh ones; returns those that contradict the map.
-  std::vector<FactorId> takeFresh() {
+  /// Decides about some of the fresh ones; returns those that contradict the map.
+  std::vector<FactorId> take(const std::vector<FactorId>& some) {
     std::vector<FactorId> candidates;
-    for (const FactorId id : fresh_)
-      if (reachesOut(id))
+    for (const FactorId id : some)
+      if (reachesOut(graph_, id)) {
+        reachOut(graph_, id);
         decide(id, true, 0, "nothing is known yet of what it measures");
-      else
+      } else {
         candidates.push_back(id);
+      }
     // What the map predicts within the measurement's own noise passes every gate, however well the map is known.
     if (std::all_of(candidates.begin(), candidates.end(), [this](FactorId id) { return misfit(id) <= bound(id); })) {
       for (const FactorId id : candidates) decide(id, true, misfit(id), fits(misfit(id), bound(id)));
@@ -106,15 +126,16 @@ class Test {
     std::vector<Choice> choices = select(marginals, candidates);
     const bool some_wait = std::any_of(choices.begin(), choices.end(),
                                        [](const Choice& choice) { return choice.kind == Choice::Kind::waits; });
-    if (const std::vector<FactorId> older = waiting(); some_wait && !older.empty()) {
+    if (const std::vector<FactorId> older = waiting(some); some_wait && !older.empty()) {
       candidates.insert(candidates.begin(), older.begin(), older.end());
       choices = select(marginals, candidates);
     }
     std::vector<FactorId> contradicting;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (isFresh(candidates[i]) || choices[i].kind == Choice::Kind::fits || choices[i].kind == Choice::Kind::agrees)
+      if (contains(some, candidates[i]) || choices[i].kind == Choice::Kind::fits ||
+          choices[i].kind == Choice::Kind::agrees)
         apply(candidates[i], choices[i], candidates);
-      if (isFresh(candidates[i]) && choices[i].kind == Choice::Kind::contradicts)
+      if (contains(some, candidates[i]) && choices[i].kind == Choice::Kind::contradicts)
         contradicting.push_back(candidates[i]);
     }
     return contradicting;
@@ -153,7 +174,8 @@ class Test {
   }
 
   void overturnBy(const std::vector<FactorId>& contradicting) {
-    const auto overturned = overturn(graph_, contradicting, waiting(), gate_, options_.inflation, solve_options_);
+    const auto overturned =
+        overturn(graph_, contradicting, waiting(contradicting), gate_, options_.inflation, solve_options_);
     if (!overturned) return;
     const FactorId first = overturned->accepted.front();
     for (const FactorId id : overturned->accepted)
@@ -190,7 +212,7 @@ class Test {
   void letInWhatFitsNow() {
     bool changed = false;
     for (const auto& [id, acted] : acted_) {
-      if (graph_.factor(id).weight > 0 || verdicts_.count(id) > 0 || reachesOut(id)) continue;
+      if (graph_.factor(id).weight > 0 || contains(later_, id) || reachesOut(graph_, id)) continue;
       const double chi2 = misfit(id), most = bound(id);
       if (chi2 > most) continue;
       decide(id, true, chi2, text("fits the map as it is now (chi-square %.1f <= %.1f)", chi2, most));
@@ -203,12 +225,13 @@ class Test {
     std::vector<Verdict> all;
     for (const FactorId id : fresh_) all.push_back(verdicts_.at(id));
     for (const auto& [id, verdict] : verdicts_)
-      if (verdict.changed && !isFresh(id)) all.push_back(verdict);
+      if (verdict.changed && !contains(fresh_, id)) all.push_back(verdict);
     return all;
   }
 
   Graph& graph_;
   const std::vector<FactorId>& fresh_;
+  std::vector<FactorId> later_;  // fresh ones that are not judged yet
   const ConsistencyOptions& options_;
   const SolveOptions& solve_options_;
   Gate gate_;

@@ -100,16 +100,23 @@ Surprise Innovation::given(int i, const std::vector<int>& others) const {
   return {residual(i) - cross * root.solve(known.residual), covariance(i, i) - cross * root.solve(cross.transpose())};
 }
 
-Surprise Innovation::without(int i, const std::vector<int>& acting) const {
+void Innovation::withdraw(const std::vector<int>& acting) {
   // Taking factors out of the information matrix adds cov J^T (I - J cov J^T)^-1 J cov to its inverse. Where they alone
   // hold something, nothing is left: the small number stands for that.
   constexpr double kNothing = 1e-9;
+  if (acting.empty()) return;
   const Surprise acts = of(acting);
-  const Eigen::MatrixXd cross = crossCovariance(i, acting);
+  Eigen::MatrixXd columns(residual_.size(), acts.residual.size());
+  int column = 0;
+  for (const int j : acting) {
+    columns.middleCols(column, degreesOfFreedom(j)) = covariance_.middleCols(rows_[j], degreesOfFreedom(j));
+    column += degreesOfFreedom(j);
+  }
   Eigen::MatrixXd left = -acts.covariance;  // I - (covariance - I)
   left.diagonal().array() += 2 + kNothing;
   const Eigen::LLT<Eigen::MatrixXd> root(left);
-  return {residual(i) + cross * root.solve(acts.residual), covariance(i, i) + cross * root.solve(cross.transpose())};
+  residual_ += columns * root.solve(acts.residual);
+  covariance_ += columns * root.solve(columns.transpose());
 }
 
 void Innovation::condition(int i) {

@@ -20,7 +20,7 @@ struct Surprise {
 };
 
 /// Factors that do not act yet, all of them together: their covariance is J inflation^2 cov J^T + I, to first order.
-/// Factors that act may stand among them for without().
+/// Factors that act may stand among them for withdraw().
 class Innovation {
  public:
   /// `marginals` are those of the graph; every variable of the factors must have a place in them or be fixed.
@@ -35,10 +35,10 @@ class Innovation {
   /// Of one if others are true.
   Surprise given(int i, int other) const { return given(i, std::vector<int>{other}); }
   Surprise given(int i, const std::vector<int>& others) const;
-  /// Of one if others, which act in the graph, did not.
-  Surprise without(int i, const std::vector<int>& acting) const;
   /// Takes one as true: the surprise of the others becomes that given it.
   void condition(int i);
+  /// Takes away some that act in the graph: the surprise of the others becomes that without them. Needs inflation 1.
+  void withdraw(const std::vector<int>& acting);
 
  private:
   Eigen::MatrixXd crossCovariance(int i, const std::vector<int>& others) const;

@@ -21,6 +21,12 @@ int doublings(std::size_t number) {
   return count;
 }
 
+std::vector<int> from(int first, int end) {
+  std::vector<int> numbers;
+  for (int i = first; i < end; ++i) numbers.push_back(i);
+  return numbers;
+}
+
 /// The largest group of refused and waiting ones that agree pair by pair, each predicting the other sharply.
 class Group {
  public:
@@ -54,8 +60,22 @@ class Group {
  private:
   bool agree(FactorId a, FactorId b) const {
     auto surprise = poseCycle(graph_, marginals_, a, b, inflation_);
-    if (!surprise) surprise = Innovation(graph_, marginals_, {a, b}, inflation_).given(1, 0);
+    if (!surprise) surprise = onTheirOwn(a, b);
     return gate_.passes(*surprise) && gate_.margin(*surprise, volume_.logOf(graph_.factor(b))) >= 0;
+  }
+
+  /// What the second says if the first is true, and what acts on the same variables is not.
+  Surprise onTheirOwn(FactorId a, FactorId b) const {
+    std::vector<FactorId> all = {a, b};
+    for (const FactorId of : {a, b})
+      for (const VariableId variable : graph_.factor(of).variables)
+        for (const FactorId other : graph_.factorsOf(variable)) {
+          const FactorRecord& record = graph_.factor(other);
+          if (record.tags.hypothesis && record.weight > 0 && !contains(all, other)) all.push_back(other);
+        }
+    Innovation innovation(graph_, marginals_, all, 1);
+    innovation.withdraw(from(2, innovation.size()));
+    return innovation.given(1, 0);
   }
 
   const Graph& graph_;
@@ -161,11 +181,10 @@ std::vector<std::vector<FactorId>> suspects(const Graph& graph, const Marginals&
   const auto relief = [&](const std::vector<FactorId>& group) {
     std::vector<FactorId> all = {refused.front(), refused.back()};
     all.insert(all.end(), group.begin(), group.end());
-    const Innovation innovation(graph, marginals, all, 1);
-    std::vector<int> places;
-    for (std::size_t i = 2; i < all.size(); ++i) places.push_back(static_cast<int>(i));
+    Innovation innovation(graph, marginals, all, 1);
     const double before = innovation.of(0).chi2() + innovation.of(1).chi2();
-    return before / (innovation.without(0, places).chi2() + innovation.without(1, places).chi2());
+    innovation.withdraw(from(2, innovation.size()));
+    return before / (innovation.of(0).chi2() + innovation.of(1).chi2());
   };
   keepLargest(groups, kMost, relief);
   groups.erase(std::remove_if(groups.begin(), groups.end(), [&](const auto& group) { return relief(group) < 2; }),

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "Unheld.h"
+
 namespace omnimapper::graph {
 
 using base::FactorId;
@@ -13,8 +15,10 @@ bool OverturnTrial::succeeds(const std::vector<FactorId>& group, const std::vect
   const double before = truncatedCost(all);
   for (const FactorId id : suspects) graph_.setWeight(id, 0);
   solve(graph_, solve_options_);
-  if (!letIn(group) || 2 * outcome_.accepted.size() <= group.size()) return false;
-  // What they let in may in turn make room for more.
+  while (letIn(group)) {
+  }
+  if (2 * outcome_.accepted.size() <= group.size()) return false;
+  // They may in turn make room for more.
   while (letIn(pool)) {
   }
   for (const FactorId id : outcome_.accepted)
@@ -42,6 +46,14 @@ bool OverturnTrial::letIn(const std::vector<FactorId>& pool) {
   for (const FactorId id : pool)
     if (graph_.factor(id).weight == 0) candidates.push_back(id);
   if (candidates.empty()) return false;
+  const auto out =
+      std::find_if(candidates.begin(), candidates.end(), [&](FactorId id) { return reachesOut(graph_, id); });
+  if (out != candidates.end()) {
+    reachOut(graph_, *out);
+    outcome_.accepted.push_back(*out);
+    solve(graph_, solve_options_);
+    return true;
+  }
   const FalseVolume volume(graph_);
   std::vector<std::optional<double>> log_volumes;
   for (const FactorId id : candidates) log_volumes.push_back(volume.logOf(graph_.factor(id)));
