@@ -25,7 +25,10 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
                    "What a job finds, such as a loop closure, counts so many key frames after the one that asked.")
           .integer("solve_every", &Options::solve_every, base::Range{1, 1e9}, "Solve after so many key frames.")
           .integer("solve_after_closure", &Options::solve_after_closure, base::Range{1, 1e9},
-                   "Solve after a loop closure, but not before so many key frames have passed since the last solve.");
+                   "Solve after a loop closure, but not before so many key frames have passed since the last solve.")
+          .number("solve_growth", &Options::solve_growth, base::Range{0, 1},
+                  "Solves are at least this share of the key frames apart, a quarter of it where a closure contradicts "
+                  "the estimate: a solve costs as much as the map is large, a key frame is to cost the same always.");
   return table;
 }
 

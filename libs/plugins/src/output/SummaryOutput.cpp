@@ -56,6 +56,28 @@ Json timesOf(const mapper::StageTimes& times) {
   return stages;
 }
 
+// Mean milliseconds of a key frame in each tenth of the run: whether the cost grows with the length of the log.
+Json costsOf(const std::vector<mapper::StageTimes::PerKeyFrame>& costs) {
+  constexpr std::size_t kParts = 10;
+  Json list = Json::array();
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const std::size_t begin = part * costs.size() / kParts, end = (part + 1) * costs.size() / kParts;
+    if (begin == end) continue;
+    mapper::StageTimes::PerKeyFrame sum{0, 0, 0};
+    for (std::size_t i = begin; i < end; ++i) {
+      sum.matching_ms += costs[i].matching_ms;
+      sum.solve_ms += costs[i].solve_ms;
+      sum.engine_ms += costs[i].engine_ms;
+    }
+    const auto count = static_cast<double>(end - begin);
+    list.push_back({{"until_key_frame", end},
+                    {"plugins_ms", sum.matching_ms / count},
+                    {"solve_ms", sum.solve_ms / count},
+                    {"engine_ms", sum.engine_ms / count}});
+  }
+  return list;
+}
+
 Json summaryOf(const mapper::View& view, const std::string& title) {
   const auto trajectory = map::denseTrajectory(view.map);
   const RunFigures figures = figuresOf(view, trajectory);
@@ -76,6 +98,7 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   summary["graph"] = graphOf(view);
   summary["decisions"] = decisionsOf(view.decisions);
   summary["solves"] = solvesOf(view.solves);
+  summary["cost_per_key_frame"] = costsOf(view.times.keyFrames());
   summary["stage_times"] = timesOf(view.times);
   summary["warnings"] = view.warnings;
   return summary;

@@ -27,10 +27,11 @@ class Estimator {
   /// A map with a past, or a first key frame, is there: gates start from it.
   void begin() { uncertainty_ = Uncertainty(graph_); }
   /// Takes note of a batch that was just applied; its decisions are the last of the log.
-  void applied(const Batch& batch, const AppliedBatch& ids) { hypotheses_.take(batch, ids, graph_, decisions_); }
+  void applied(const Batch& batch, const AppliedBatch& ids);
   /// Moves one key frame to where all factors that bind it want it, all others held.
   void refine(base::KeyFrameId id);
-  /// Whether it is time to solve: after so many key frames, and sooner where hypotheses wait for their verdict.
+  /// Whether it is time to solve: after so many key frames, sooner where hypotheses wait for their verdict, soonest
+  /// where one contradicts the estimate; in a large map later, so that the cost of a key frame does not grow.
   bool isDue() const;
   /// Solves with what is found consistent.
   void solve(graph::SolveOptions options);
@@ -50,6 +51,7 @@ class Estimator {
   std::vector<SolveRecord> solves_;
   std::function<bool()> stop_;
   std::size_t key_frames_at_solve_ = 0;
+  bool contradicted_ = false;  // by a hypothesis since the last solve
 };
 
 }  // namespace omnimapper::mapper
