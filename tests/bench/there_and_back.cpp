@@ -66,7 +66,8 @@ Row row(int ways, const mapper::RunResult& result, const nlohmann::json& summary
   };
   double solve = 0;
   for (const auto& record : summary.at("solves")) solve += record.at("seconds").get<double>();
-  return {ways, result.key_frames, result.closures, result.wall_seconds, solve, cost(tenths.front()), cost(tenths.back())};
+  return {ways,  result.key_frames,    result.closures,    result.wall_seconds,
+          solve, cost(tenths.front()), cost(tenths.back())};
 }
 
 }  // namespace
@@ -89,8 +90,9 @@ int main(int argc, char** argv) {
   const auto observations = read(log);
   std::ofstream csv(out + "/length.csv");
   csv << "ways,key_frames,closures,wall_s,solve_s,first_tenth_ms_per_key_frame,last_tenth_ms_per_key_frame\n";
-  std::printf("| ways | key frames | closures | wall [s] | in solves [s] | first tenth [ms per key frame] | last tenth |\n"
-              "|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| ways | key frames | closures | wall [s] | in solves [s] | first tenth [ms per key frame] | last tenth |\n"
+      "|---|---|---|---|---|---|---|\n");
   for (const int count : ways) {
     const std::string name = out + "/" + std::to_string(count);
     write(observations, count, name + ".rawlog");

@@ -295,5 +295,19 @@ TEST(EngineConnection, WhereOdometryIsMissingTheNullMotionBridgesIt) {
   EXPECT_LT(testing::trajectoryError(engine->view(), simulated), 0.05) << "scan matching tells what odometry did not";
 }
 
+TEST(EngineQueue, HoldsNoMoreThanItsLimitWhateverTheWindow) {
+  SimulatedLogOptions options;
+  options.laps = 0.2;
+  const auto log = SimulatedLog(options).observations();
+  const auto engine = makeEngine(kLaserIni, {"mapper.window_s=1000000", "mapper.queue_limit=20"});
+  for (const auto& observation : log) engine->add(observation);
+  EXPECT_GT(engine->view().counts.hurried, 20U);
+  EXPECT_GT(engine->view().map.key_frames.size(), 5U) << "worked on while the log was read";
+  engine->finish();
+  const auto patient = makeEngine(kLaserIni);
+  testing::run(*patient, log);
+  EXPECT_EQ(engine->view().map.key_frames.size(), patient->view().map.key_frames.size());
+}
+
 }  // namespace
 }  // namespace omnimapper::mapper

@@ -5,6 +5,8 @@
 
 #include <functional>
 
+#include "SteadyMotion.h"
+
 // What the engine promises to plugins, with plugins made for it: a robot that moves 1 m a second along x and a log of
 // one comment a second, each a key frame.
 namespace omnimapper::mapper {
@@ -13,20 +15,8 @@ namespace {
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationComment;
 using mrpt::poses::CPose3D;
-
-base::Stamp at(double seconds) {
-  return base::stampFromUnix(1'000'000'000) + base::durationFromSeconds(seconds);
-}
-
-class Steady : public PosePlugin {
- public:
-  Taken add(const CObservation&) override { return Taken::not_mine; }
-  std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
-    const double way = base::secondsBetween(begin, end);
-    return RelativeMotion{CPose3D(way, 0, 0, 0, 0, 0), 0.01 * way * Eigen::Matrix<double, 6, 6>::Identity()};
-  }
-  std::optional<base::Stamp> coveredUntil() const override { return std::nullopt; }
-};
+using testing::at;
+using testing::Steady;
 
 // Does what a test tells it to.
 class Scripted : public MeasurementPlugin {

@@ -5,6 +5,7 @@
 #include <omnimapper/testing/MapperRun.h>
 
 #include "GraphInvariants.h"
+#include "SteadyMotion.h"
 
 // The engine with a plugin that does everything a plugin may do, at random, on observations that come late at random.
 namespace omnimapper::mapper {
@@ -13,22 +14,9 @@ namespace {
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationComment;
 using mrpt::poses::CPose3D;
+using testing::at;
 using testing::Dice;
-
-base::Stamp at(double seconds) {
-  return base::stampFromUnix(1'000'000'000) + base::durationFromSeconds(seconds);
-}
-
-// 1 m a second along x.
-class Steady : public PosePlugin {
- public:
-  Taken add(const CObservation&) override { return Taken::not_mine; }
-  std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
-    const double way = base::secondsBetween(begin, end);
-    return RelativeMotion{CPose3D(way, 0, 0, 0, 0, 0), 0.01 * way * Eigen::Matrix<double, 6, 6>::Identity()};
-  }
-  std::optional<base::Stamp> coveredUntil() const override { return std::nullopt; }
-};
+using testing::Steady;
 
 // Landmarks are poses ahead of the key frame that saw them.
 class Random : public MeasurementPlugin {

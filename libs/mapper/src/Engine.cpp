@@ -99,6 +99,10 @@ void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
     ++counts_.unwanted;
   }
   for (auto due = queue_.due(); due && isCovered(*due); due = queue_.due()) release(*queue_.next(), false);
+  while (queue_.size() > static_cast<std::size_t>(settings_.engine.queue_limit)) {
+    ++counts_.hurried;
+    release(*queue_.next(), false);
+  }
 }
 
 void Engine::finish() {

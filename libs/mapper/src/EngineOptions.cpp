@@ -21,6 +21,9 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
           .number("horizon_s", &Options::horizon, base::Range::notNegative(),
                   "Observations later than window_s still get their place in the trajectory if they are not older than "
                   "this; what is older is refused.")
+          .integer("queue_limit", &Options::queue_limit, base::Range{1, 1e9},
+                   "So many stamps wait at most, whatever window_s says: a clock that stands still must not fill the "
+                   "memory.")
           .integer("job_delay", &Options::job_delay, base::Range{0, 1e6},
                    "What a job finds, such as a loop closure, counts so many key frames after the one that asked.")
           .integer("solve_every", &Options::solve_every, base::Range{1, 1e9}, "Solve after so many key frames.")

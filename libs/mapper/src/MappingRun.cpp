@@ -92,6 +92,8 @@ void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
   warn(counts.no_stamp, "have no stamp and were left out");
   warn(counts.repeated_stamp, "repeat the stamp of the one before and were left out");
   warn(counts.too_late, "came later than [mapper] horizon_s and were left out");
+  warn(counts.hurried,
+       "could not wait for [mapper] window_s, more than queue_limit waited: do the stamps stand still?");
   warn(counts.unusable, "(odometry or sensor poses) are not finite or run backwards in time and were left out");
   warn(counts.unconnected, "have no pose: no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
   if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");

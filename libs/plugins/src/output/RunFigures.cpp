@@ -59,6 +59,9 @@ std::vector<std::pair<std::string, std::size_t>> namedCounts(const mapper::RunCo
           {"no_stamp", counts.no_stamp},
           {"repeated_stamp", counts.repeated_stamp},
           {"too_late", counts.too_late},
+          {"late", counts.late},
+          {"spliced", counts.spliced},
+          {"hurried", counts.hurried},
           {"unusable", counts.unusable},
           {"unconnected", counts.unconnected},
           {"solves", counts.solves}};

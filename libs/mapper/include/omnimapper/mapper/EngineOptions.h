@@ -21,6 +21,7 @@ struct EngineOptions {
   std::string reference_sensor;  ///< label; empty: the first sensor that earns a key frame
   double window = 0.5;           ///< [s]
   double horizon = 30;           ///< [s]
+  int queue_limit = 10000;       ///< stamps
   int job_delay = 5;             ///< key frames
   int solve_every = 100;         ///< key frames
   int solve_after_closure = 10;  ///< key frames

@@ -32,6 +32,7 @@ class ReleaseQueue {
   std::optional<base::Stamp> due() const;
   /// The next group, however long it has waited.
   std::optional<Group> next();
+  /// Of the groups that wait.
   std::size_t size() const { return groups_.size(); }
 
  private:

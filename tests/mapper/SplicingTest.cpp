@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <omnimapper/mapper/Engine.h>
+#include <omnimapper/mapper/PoseFactors.h>
+
+#include <set>
+
+#include "GraphInvariants.h"
+#include "SteadyMotion.h"
+
+// Thesis 5.2.3.3: an observation that comes late gets its place in the trajectory, and nothing else changes. A robot
+// goes 1 m a second; a comment is an observation that earns a key frame.
+namespace omnimapper::mapper {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationComment;
+using testing::at;
+using testing::Steady;
+
+class Listener : public MeasurementPlugin {
+ public:
+  struct Splice {
+    base::KeyFrameId frame;
+    std::optional<base::KeyFrameId> before, after;
+  };
+  bool wants(const CObservation&) const override { return true; }
+  Batch measure(const map::KeyFrame& frame, const Observed&, const View&) override {
+    measured.push_back(frame.id);
+    return {};
+  }
+  void spliced(const map::KeyFrame& frame, std::optional<base::KeyFrameId> before,
+               std::optional<base::KeyFrameId> after) override {
+    splices.push_back({frame.id, before, after});
+  }
+  bool givesAbsolutePoses() const override { return absolute; }
+
+  bool absolute = false;
+  std::vector<Splice> splices;
+  std::vector<base::KeyFrameId> measured;
+};
+
+class Splicing : public ::testing::Test {
+ protected:
+  Engine& start(double horizon = 30, bool absolute = false) {
+    EngineSettings settings;
+    settings.trigger.every_observation = true;
+    settings.engine.window = 0;
+    settings.engine.horizon = horizon;
+    PluginSet set;
+    set.pose.push_back({"steady", std::make_unique<Steady>()});
+    auto listener = std::make_unique<Listener>();
+    listener->absolute = absolute;
+    listener_ = listener.get();
+    set.measurement.push_back({"listener", std::move(listener)});
+    engine_ = std::make_unique<Engine>(settings, "splicing", SensorPoses(), std::move(set), 1);
+    return *engine_;
+  }
+  void add(double seconds, const std::string& label = "talker") {
+    auto comment = CObservationComment::Create();
+    comment->timestamp = at(seconds);
+    comment->sensorLabel = label;
+    engine_->add(comment);
+  }
+  // Seconds of the key frames in the order of the trajectory.
+  std::vector<double> seconds() const {
+    std::vector<double> all;
+    for (const auto& frame : engine_->view().map.key_frames) all.push_back(base::secondsBetween(at(0), frame.stamp));
+    return all;
+  }
+
+  std::unique_ptr<Engine> engine_;
+  Listener* listener_ = nullptr;
+};
+
+TEST_F(Splicing, TheFactorAcrossTheStampIsReplacedByTwo) {
+  auto& engine = start();
+  for (const double second : {0, 1, 3, 4}) add(second);
+  add(2.5);
+  engine.finish();
+  const auto view = engine.view();
+  EXPECT_EQ(seconds(), (std::vector<double>{0, 1, 2.5, 3, 4}));
+  testing::expectOneChain(view, {"steady"});
+  ASSERT_EQ(listener_->splices.size(), 1U);
+  const auto& splice = listener_->splices.front();
+  EXPECT_EQ(splice.before, view.map.key_frames[1].id);
+  EXPECT_EQ(splice.after, view.map.key_frames[3].id);
+  EXPECT_EQ(listener_->measured.back(), splice.frame);
+  EXPECT_NEAR(view.map.keyFrame(splice.frame).map_from_base.x(), 2.5, 1e-9);
+  // 1 to 3 was one factor of variance 0.02; it is two, of 0.015 and 0.005.
+  const auto variance = [&](std::size_t i) {
+    for (const auto id : view.graph.factorsOf(view.map.key_frames[i].pose)) {
+      const auto& record = view.graph.factor(id);
+      if (record.variables.size() == 2 && record.variables[1] == view.map.key_frames[i].pose) {
+        return record.noise.covariance()(0, 0);
+      }
+    }
+    return 0.0;
+  };
+  EXPECT_NEAR(variance(2), 0.015, 1e-9);
+  EXPECT_NEAR(variance(3), 0.005, 1e-9);
+  EXPECT_EQ(view.counts.late, 1U);
+  EXPECT_EQ(view.counts.spliced, 1U);
+}
+
+TEST_F(Splicing, BeforeTheFirstPoseThePriorMoves) {
+  auto& engine = start();
+  for (const double second : {5, 6, 7}) add(second);
+  add(3);
+  engine.finish();
+  const auto view = engine.view();
+  EXPECT_EQ(seconds(), (std::vector<double>{3, 5, 6, 7}));
+  EXPECT_TRUE(view.graph.variable(view.map.key_frames[0].pose).fixed);
+  EXPECT_FALSE(view.graph.variable(view.map.key_frames[1].pose).fixed);
+  EXPECT_NEAR(view.map.key_frames[0].map_from_base.x(), -2, 1e-9) << "the map stays where it was";
+  EXPECT_NEAR(view.map.key_frames[3].map_from_base.x(), 2, 1e-9);
+  EXPECT_EQ(view.map.sessions.front().anchor, view.map.key_frames[0].pose);
+  testing::expectOneChain(view, {"steady"});
+}
+
+TEST_F(Splicing, BeforeTheFirstPoseOfAMapThatMeasurementsPlaceThePriorIsStillOne) {
+  auto& engine = start(30, true);
+  for (const double second : {5, 6, 4, 3}) add(second);
+  engine.finish();
+  const auto view = engine.view();
+  std::vector<base::VariableId> held;
+  for (const auto& [id, record] : view.graph.factors()) {
+    if (record.tags.owner == "engine") held.push_back(record.variables.front());
+  }
+  EXPECT_EQ(held, std::vector<base::VariableId>{view.map.key_frames[0].pose});
+}
+
+TEST_F(Splicing, AtTheStampOfAKeyFrameItBecomesOneOfItsObservations) {
+  auto& engine = start();
+  for (const double second : {0, 1, 2}) add(second);
+  add(1, "slow");
+  add(1, "slow");
+  engine.finish();
+  const auto view = engine.view();
+  ASSERT_EQ(view.map.key_frames.size(), 3U);
+  EXPECT_EQ(view.map.key_frames[1].observations.size(), 2U);
+  EXPECT_TRUE(listener_->splices.empty());
+  EXPECT_EQ(listener_->measured.size(), 4U);
+  EXPECT_EQ(view.counts.repeated_stamp, 1U);
+}
+
+TEST_F(Splicing, BeyondTheHorizonItIsRefusedAndCounted) {
+  auto& engine = start(5);
+  for (int second = 0; second <= 20; ++second) add(second);
+  add(3.5);
+  engine.finish();
+  EXPECT_EQ(engine.view().map.key_frames.size(), 21U);
+  EXPECT_EQ(engine.view().counts.too_late, 1U);
+}
+
+TEST_F(Splicing, ManyLateOnesInAnyOrderGiveTheSameChain) {
+  auto& engine = start();
+  for (const double second : {0, 10}) add(second);
+  for (const double second : {5.0, 2.5, 7.5, 1.0, 9.0, 6.0, 2.0, 3.0}) add(second);
+  engine.finish();
+  EXPECT_EQ(seconds(), (std::vector<double>{0, 1, 2, 2.5, 3, 5, 6, 7.5, 9, 10}));
+  testing::expectOneChain(engine.view(), {"steady"});
+  testing::expectNothingDangles(engine.view());
+  EXPECT_NEAR(engine.view().graph.chi2(), 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace omnimapper::mapper
