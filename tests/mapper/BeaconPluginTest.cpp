@@ -33,6 +33,16 @@ TEST(BeaconPlugin, OneDriveMapsEveryBeaconOnceWhereItIs) {
   }
 }
 
+TEST(BeaconPlugin, ASpatialMapTakesTheSameFactors) {
+  const auto options = drive();
+  const SimulatedLog log(options);
+  const auto engine = testing::makeEngine(kBeaconIni, {"mapper.motion=spatial"});
+  testing::run(*engine, log.observations());
+  EXPECT_EQ(engine->view().map.landmarks.size(), options.beacons.positions.size());
+  EXPECT_LT(worstBeacon(engine->view(), log, options), 0.15);
+  EXPECT_LT(testing::trajectoryError(engine->view(), log), 0.1);
+}
+
 TEST(BeaconPlugin, EverySightingHasADecisionAndTrueOnesPassTheGate) {
   const SimulatedLog log(drive());
   const auto engine = testing::makeEngine(kBeaconIni);

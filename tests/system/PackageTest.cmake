@@ -83,18 +83,23 @@ execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -i "${ini}" --print
 if(NOT printed MATCHES "height_m = 1" OR NOT printed MATCHES "estimate_sensor_pose = no")
   message(FATAL_ERROR "--print-ini BeaconPlugin:\n${printed}")
 endif()
-run("${BEACON_LOG}" "${SCRATCH}/drive.rawlog" "${SCRATCH}/beacons.txt")
-foreach(estimate no once each_key_frame)
-  run("${prefix}/bin/omnimapper-graphslam" -i "${ini}" -r "${SCRATCH}/drive.rawlog" -o "${SCRATCH}/out" -q
-    --set "beacons.estimate_sensor_pose=${estimate}")
-  file(READ "${SCRATCH}/out/landmarks.txt" check)
+# What the check wrote: as many landmarks as there are beacons, each within 10 cm.
+function(expect_beacons_in folder)
+  file(READ "${folder}/landmarks.txt" check)
   if(NOT check MATCHES "^([0-9]+) ([0-9]+) ([0-9]+)\n$")
-    message(FATAL_ERROR "the check wrote '${check}'")
+    message(FATAL_ERROR "${folder}: the check wrote '${check}'")
   endif()
+  set(found "${CMAKE_MATCH_1} landmarks for ${CMAKE_MATCH_2} beacons, the worst ${CMAKE_MATCH_3} mm off")
   if(NOT CMAKE_MATCH_1 EQUAL CMAKE_MATCH_2 OR NOT CMAKE_MATCH_3 LESS 100)
-    message(FATAL_ERROR "sensor pose '${estimate}': ${CMAKE_MATCH_1} landmarks for ${CMAKE_MATCH_2} beacons, the worst "
-      "${CMAKE_MATCH_3} mm off")
+    message(FATAL_ERROR "${folder}: ${found}")
   endif()
-  message(STATUS "sensor pose '${estimate}': ${CMAKE_MATCH_1} beacons, the worst ${CMAKE_MATCH_3} mm off")
+  message(STATUS "${folder}: ${found}")
+endfunction()
+
+run("${BEACON_LOG}" "${SCRATCH}/drive.rawlog" "${SCRATCH}/beacons.txt" 1)
+foreach(estimate no once each_key_frame)
+  run("${prefix}/bin/omnimapper-graphslam" -i "${ini}" -r "${SCRATCH}/drive.rawlog" -o "${SCRATCH}/${estimate}" -q
+    --set "beacons.estimate_sensor_pose=${estimate}")
+  expect_beacons_in("${SCRATCH}/${estimate}")
 endforeach()
 file(REMOVE_RECURSE "${SCRATCH}")

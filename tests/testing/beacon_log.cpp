@@ -1,11 +1,13 @@
-// beacon-log LOG TRUTH: a simulated drive past beacons, and where they are ("x y z" a line), for the package test.
+// beacon-log LOG TRUTH SEED: a simulated drive past beacons, and where they are ("x y z" a line), for the package test.
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <fstream>
+#include <string>
 
 int main(int argc, char** argv) {
-  if (argc != 3) return 2;
+  if (argc != 4) return 2;
   omnimapper::testing::SimulatedLogOptions options;
+  options.seed = std::stoull(argv[3]);
   options.lasers.clear();
   options.beacons.on = true;
   omnimapper::testing::SimulatedLog(options).writeRawlog(argv[1]);

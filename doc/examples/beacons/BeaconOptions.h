@@ -10,12 +10,12 @@ namespace beacons {
 // about misspelt keys all come from there. A key ends in its unit; "_deg" is radians in memory.
 
 struct BeaconOptions : omnimapper::mapper::SensorPoseTrust {
-  std::string label;           ///< empty: every sensor of that kind
-  double height = 1;           ///< [m] above the floor of the map
-  double sigma_range = 0.05;   ///< [m]
-  double sigma_yaw = 0.01;     ///< [rad]
-  double sigma_pitch = 0.01;   ///< [rad]
-  double confidence = 0.9999;  ///< of the gate
+  std::string label;                                                            ///< empty: every sensor of that kind
+  double height = 1;                                                            ///< [m] above the floor of the map
+  double sigma_range = 0.05;                                                    ///< [m]
+  double sigma_yaw = 0.5 * omnimapper::base::option_text::kRadiansPerDegree;    ///< [rad]
+  double sigma_pitch = 0.5 * omnimapper::base::option_text::kRadiansPerDegree;  ///< [rad]
+  double confidence = 0.9999;                                                   ///< of the gate
 
   static const omnimapper::base::OptionTable<BeaconOptions>& table();
 };
