@@ -213,9 +213,9 @@ TEST(FramesSection, keepsEveryBitOfPosesStampsAndObservations) {
 
 TEST(FramesSection, laterVersionsAndStrangeBytesAreRefused) {
   map::MapSection section = map::framesToSection(awkwardMap());
-  section.version = 2;
+  section.version = 3;
   EXPECT_THROW(map::framesFromSection(section), base::Error);
-  section.version = 1;
+  section.version = 2;
   section.bytes.pop_back();
   EXPECT_THROW(map::framesFromSection(section), base::Error);
   EXPECT_THROW(map::framesFromSection({"frames", 1, "??"}), base::Error);

@@ -1,40 +1,18 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
-#include <omnimapper/base/Error.h>
 #include <omnimapper/map/MapFile.h>
 
 #include <algorithm>
 
-#include "Bytes.h"
+#include "SectionBytes.h"
 
 namespace omnimapper::map {
 
 namespace {
 
 const std::string kName = "frames";
-constexpr std::uint32_t kVersion = 1;
-
-template <class Tag>
-void writeId(ByteWriter& out, base::Id<Tag> id) {
-  out.uint(id.session, 2);
-  out.uint(id.index, 4);
-}
-
-template <class Tag>
-base::Id<Tag> readId(ByteReader& in) {
-  base::Id<Tag> id;
-  id.session = static_cast<std::uint16_t>(in.uint(2));
-  id.index = static_cast<std::uint32_t>(in.uint(4));
-  return id;
-}
-
-void writeStamp(ByteWriter& out, base::Stamp stamp) {
-  out.uint(static_cast<std::uint64_t>(stamp.time_since_epoch().count()), 8);
-}
-
-base::Stamp readStamp(ByteReader& in) {
-  return base::Stamp(base::Duration(static_cast<std::int64_t>(in.uint(8))));
-}
+// Version 2 says of each key frame whether the reference sensor saw something there.
+constexpr std::uint32_t kVersion = 2;
 
 // The rotation matrix is what CPose3D keeps: angles or a quaternion would round, and a map saved twice would differ.
 void writePose(ByteWriter& out, const mrpt::poses::CPose3D& pose) {
@@ -60,10 +38,6 @@ void writeObservation(ByteWriter& out, const mrpt::obs::CObservation& observatio
   out.block({static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()});
 }
 
-[[noreturn]] void refuse(const std::string& reason) {
-  throw base::Error(base::ExitCode::unreadable_input, "map file, section \"" + kName + "\": " + reason);
-}
-
 /// The sentence within an exception of MRPT, without its place in the source and the call stack.
 std::string sentenceOf(const std::exception& error) {
   const std::string text = error.what(), label = "Message:";
@@ -81,10 +55,11 @@ mrpt::obs::CObservation::ConstPtr readObservation(ByteReader& in) {
     memory.assignMemoryNotOwn(bytes.data(), bytes.size());
     object = mrpt::serialization::archiveFrom(memory).ReadObject();
   } catch (const std::exception& error) {
-    refuse("an observation cannot be read; load the library that has its class. MRPT says: " + sentenceOf(error));
+    refuse(kName,
+           "an observation cannot be read; load the library that has its class. MRPT says: " + sentenceOf(error));
   }
   auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
-  if (!observation) refuse("holds something that is no observation where one should be");
+  if (!observation) refuse(kName, "holds something that is no observation where one should be");
   return observation;
 }
 
@@ -101,9 +76,10 @@ void writeFrame(ByteWriter& out, const KeyFrame& frame) {
   }
   out.uint(frame.observations.size(), 4);
   for (const auto& observation : frame.observations) writeObservation(out, *observation);
+  out.uint(frame.reference, 1);
 }
 
-KeyFrame readFrame(ByteReader& in) {
+KeyFrame readFrame(ByteReader& in, std::uint32_t version) {
   KeyFrame frame;
   frame.id = readId<base::KeyFrameTag>(in);
   frame.stamp = readStamp(in);
@@ -115,6 +91,7 @@ KeyFrame readFrame(ByteReader& in) {
     frame.hanging.push_back({stamp, readPose(in)});
   }
   for (std::uint64_t left = in.uint(4); left > 0; --left) frame.observations.push_back(readObservation(in));
+  frame.reference = version == 1 || in.uint(1) != 0;
   return frame;
 }
 
@@ -125,7 +102,7 @@ Map mapOf(std::vector<KeyFrame> frames) {
   try {
     for (KeyFrame& frame : frames) map.key_frames.insert(std::move(frame));
   } catch (const base::Error& error) {
-    refuse(std::string(error.what()) + ": the file is damaged");
+    refuse(kName, std::string(error.what()) + ": the file is damaged");
   }
   return map;
 }
@@ -140,15 +117,11 @@ MapSection framesToSection(const Map& map) {
 }
 
 Map framesFromSection(const MapSection& section) {
-  if (section.name != kName) refuse("is asked for, but \"" + section.name + "\" is given");
-  if (section.version != kVersion) {
-    refuse("is of version " + std::to_string(section.version) + ", and this program reads version " +
-           std::to_string(kVersion) + ". Use the OmniMapper that wrote it, or a later one.");
-  }
-  ByteReader in(section.bytes, "map file, section \"" + kName + "\"");
+  expectSection(section, kName, kVersion);
+  ByteReader in(section.bytes, placeOf(kName));
   std::vector<KeyFrame> frames;
-  for (std::uint64_t left = in.uint(4); left > 0; --left) frames.push_back(readFrame(in));
-  if (!in.atEnd()) refuse("goes on after its last key frame: the file is damaged");
+  for (std::uint64_t left = in.uint(4); left > 0; --left) frames.push_back(readFrame(in, section.version));
+  expectEnd(in, kName);
   return mapOf(std::move(frames));
 }
 

@@ -31,7 +31,14 @@ std::shared_ptr<const LandmarkPayload> PayloadRegistry::read(const std::string& 
   const auto reader = readers_.find(kind);
   if (reader == readers_.end()) return std::make_shared<UnknownPayload>(kind, bytes);
   std::istringstream in(bytes);
-  return reader->second(in);
+  auto payload = reader->second(in);
+  if (in.peek() != std::istringstream::traits_type::eof()) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "landmark payload '" + kind +
+                          "' has more bytes than its reader takes: it was written by another "
+                          "version of its plugin");
+  }
+  return payload;
 }
 
 }  // namespace omnimapper::map

@@ -44,15 +44,15 @@ std::vector<StampedPose> denseTrajectory(const Map& map) {
   trajectory.reserve(size);
   for (std::size_t i = 0; i < map.key_frames.size(); ++i) {
     const KeyFrame& frame = map.key_frames[i];
-    if (frame.reference) trajectory.push_back({frame.stamp, frame.map_from_base});
+    if (frame.reference) trajectory.push_back({frame.stamp, frame.map_from_base, frame.id.session});
     if (frame.hanging.empty()) continue;
     if (i + 1 == map.key_frames.size() || map.key_frames[i + 1].id.session != frame.id.session) {
       for (const HangingFrame& h : frame.hanging) {
-        trajectory.push_back({h.stamp, frame.map_from_base + h.keyframe_from_base});
+        trajectory.push_back({h.stamp, frame.map_from_base + h.keyframe_from_base, frame.id.session});
       }
     } else {
       const Spread spread(frame, map.key_frames[i + 1]);
-      for (const HangingFrame& h : frame.hanging) trajectory.push_back({h.stamp, spread(h)});
+      for (const HangingFrame& h : frame.hanging) trajectory.push_back({h.stamp, spread(h), frame.id.session});
     }
   }
   return trajectory;

@@ -1,4 +1,5 @@
 #include <omnimapper/mapper/Engine.h>
+#include <omnimapper/mapper/Joining.h>
 
 #include <algorithm>
 #include <utility>
@@ -35,11 +36,6 @@ bool isOfOneSensor(const mrpt::obs::CObservation& a, const mrpt::obs::CObservati
   return a.sensorLabel == b.sensorLabel && a.GetRuntimeClass() == b.GetRuntimeClass();
 }
 
-bool givesAbsolutePoses(const PluginSet& plugins) {
-  return std::any_of(plugins.measurement.begin(), plugins.measurement.end(),
-                     [](const auto& named) { return named.plugin->givesAbsolutePoses(); });
-}
-
 }  // namespace
 
 Engine::Engine(const EngineSettings& settings, const std::string& title, SensorPoses sensor_poses, PluginSet plugins,
@@ -61,7 +57,7 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
                           std::string(plugins_.pose.empty() ? "pose_plugins" : "measurement_plugins") +
                           ": a map needs at least one of each; see --list-plugins");
   }
-  chain_.beginSession({0, title, {}, true}, std::nullopt, givesAbsolutePoses(plugins_));
+  chain_.beginSession({0, title, {}, true}, std::nullopt, !absoluteOwners().empty());
 }
 
 void Engine::continueFrom(SavedMap saved, const SessionStart& start) {
@@ -72,8 +68,8 @@ void Engine::continueFrom(SavedMap saved, const SessionStart& start) {
   session.number = static_cast<std::uint16_t>(map_.sessions.empty() ? 0 : map_.sessions.back().number + 1);
   session.joined = false;
   graph_.setSession(session.number);
-  estimator_.begin();
-  chain_.beginSession(session, start, givesAbsolutePoses(plugins_));
+  estimator_.takeUp();
+  chain_.beginSession(session, start, !absoluteOwners().empty());
   for (auto& [section, plugin] : plugins_.measurement) {
     const auto found = std::find_if(sections_.begin(), sections_.end(), [&name = section](const auto& other) {
       return other.name == kPluginSectionPrefix + name;
@@ -186,7 +182,8 @@ void Engine::process(Moment& moment) {
     return;
   }
   if (moment.reference) map_.key_frames.edit(place->id).reference = true;
-  if (map_.key_frames.size() == 1) estimator_.begin();
+  const bool is_alone = place->is_new && !place->before && !place->after;
+  if (is_alone) estimator_.begin();  // of its session, whose place is known to so much
   if (place->is_new && place->after) {
     ++counts_.spliced;
     for (auto& [section, plugin] : plugins_.measurement) {
@@ -304,6 +301,7 @@ void Engine::applyBatch(const Batch& batch, const BatchOrigin& origin, Measureme
 void Engine::solveNow(const graph::SolveOptions& options) {
   const StopWatch watch;
   estimator_.solve(options);
+  markJoined(map_, graph_, absoluteOwners());
   busy_.solve += watch.seconds();
   times_.add("solve", watch.seconds());
   ++counts_.solves;
@@ -329,6 +327,15 @@ void Engine::collectSections() {
       *place = std::move(*saved);
     }
   }
+}
+
+// Sections of the plugins that say where in the map the base is.
+std::set<std::string> Engine::absoluteOwners() const {
+  std::set<std::string> owners;
+  for (const auto& [section, plugin] : plugins_.measurement) {
+    if (plugin->givesAbsolutePoses()) owners.insert(section);
+  }
+  return owners;
 }
 
 void Engine::writeOutputs() {

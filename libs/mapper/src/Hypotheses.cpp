@@ -38,19 +38,12 @@ void Hypotheses::take(const Batch& batch, const AppliedBatch& applied, graph::Gr
   }
 }
 
-void Hypotheses::solve(graph::Graph& graph, const graph::SolveOptions& solve_options, map::Map& map,
+void Hypotheses::solve(graph::Graph& graph, const graph::SolveOptions& solve_options, const map::Map& map,
                        DecisionLog& decisions) {
   fresh_.erase(std::remove_if(fresh_.begin(), fresh_.end(), [&](auto id) { return !graph.contains(id); }),
                fresh_.end());
   for (const auto& verdict : graph::testConsistency(graph, fresh_, options_, solve_options)) {
-    const auto& record = graph.factor(verdict.factor);
-    log(verdict, record, map, decisions);
-    if (!verdict.accepted) continue;
-    const auto [first, last] =
-        std::minmax_element(record.variables.begin(), record.variables.end(),
-                            [](base::VariableId a, base::VariableId b) { return a.session < b.session; });
-    if (first->session == last->session) continue;
-    for (auto& session : map.sessions) session.joined = session.joined || session.number == last->session;
+    log(verdict, graph.factor(verdict.factor), map, decisions);
   }
   fresh_.clear();
 }

@@ -1,6 +1,9 @@
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/map/SessionFigures.h>
 #include <omnimapper/mapper/Engine.h>
+#include <omnimapper/mapper/Joining.h>
 #include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/ReadAhead.h>
 
@@ -85,6 +88,13 @@ void warnOf(const source::SourceReport& report, bool stopped, Engine& engine) {
   if (stopped) engine.warn("interrupted: this is the map of what was read until then");
 }
 
+// What is wrong with the place of a session that continues a map.
+void warnOf(const map::Session& session, Engine& engine) {
+  if (session.joined) return;
+  engine.warn(joinedText(session) + " to the map: it lies where [session] start says; see the refused " +
+              "closures in the report, and give a better start or a larger start_sigma_m");
+}
+
 void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
   const auto warn = [&](std::size_t count, const std::string& what) {
     if (count > 0) engine.warn(std::to_string(count) + " observations " + what);
@@ -97,6 +107,20 @@ void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
   warn(counts.unusable, "(odometry or sensor poses) are not finite or run backwards in time and were left out");
   warn(counts.unconnected, "have no pose: no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
   if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
+}
+
+// What follows becomes a new session of a saved map.
+void continueMap(const std::string& path, const SessionOptions& session, const std::string& ini, Motion motion,
+                 Engine& engine) {
+  auto saved = readMap(path, registeredKinds());
+  if (saved.motion() != motion) {
+    const std::string of_map = saved.motion() == Motion::planar ? "planar" : "spatial";
+    throw base::Error(base::ExitCode::unreadable_input,
+                      path + ": the map is " + of_map + ", which [mapper] motion of " + ini +
+                          " is not: continue it with " + "motion = " + of_map + ", or map its log again");
+  }
+  const auto start = session.startOn(saved.map);
+  engine.continueFrom(std::move(saved), start);
 }
 
 // An empty map is not written: it would take the place of a good one.
@@ -114,31 +138,30 @@ void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
 
 RunResult resultOf(const View& view) {
   RunResult result;
-  const auto& frames = view.map.key_frames;
-  result.key_frames = frames.size();
+  result.key_frames = view.map.key_frames.size();
   result.factors = view.graph.factors().size();
   for (const auto& decision : view.decisions) {
     if (decision.kind != "loop closure") continue;
     ++(decision.accepted ? result.closures : result.refused_closures);
   }
-  for (std::size_t i = 1; i < frames.size(); ++i) {
-    result.way += (frames[i].map_from_base.translation() - frames[i - 1].map_from_base.translation()).norm();
+  result.sessions = view.map.sessions;
+  const auto figures = map::sessionFigures(view.map);
+  if (!figures.empty() && figures.back().number == result.sessions.back().number) {
+    result.new_key_frames = figures.back().key_frames;
+    result.way = figures.back().way;
+    result.log_seconds = figures.back().seconds;
   }
-  if (!frames.empty()) result.log_seconds = base::secondsBetween(frames.front().stamp, frames.back().stamp);
-  result.warnings = view.warnings;
   return result;
 }
 
 }  // namespace
 
 const FixedSections& fixedSections() {
-  static const FixedSections sections{{"mapper", EngineOptions::table().specs()},
-                                      {"perception", PerceptionOptions::table().specs()},
-                                      {"trigger", TriggerOptions::table().specs()},
-                                      {"solver", SolverOptions::table().specs()},
-                                      {"hypotheses", HypothesisOptions::table().specs()},
-                                      {"source", source::SourceOptions::table().specs()},
-                                      {"<name of a sensor>", SensorPoseOptions::table().specs()}};
+  static const FixedSections sections{
+      {"mapper", EngineOptions::table().specs()},         {"perception", PerceptionOptions::table().specs()},
+      {"session", SessionOptions::table().specs()},       {"trigger", TriggerOptions::table().specs()},
+      {"solver", SolverOptions::table().specs()},         {"hypotheses", HypothesisOptions::table().specs()},
+      {"source", source::SourceOptions::table().specs()}, {"<name of a sensor>", SensorPoseOptions::table().specs()}};
   return sections;
 }
 
@@ -148,6 +171,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   const auto settings = EngineSettings::read(config);
   const auto& options = settings.engine;
   const auto perception = config.section("perception").read<PerceptionOptions>();
+  const auto session = config.section("session").read<SessionOptions>();
   const auto source_options = config.section("source").read<source::SourceOptions>();
   loadPluginLibraries(config);
   SensorPoses sensor_poses(options.sensors, config);
@@ -168,6 +192,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
     engine.warn(config.file() + ": no list of [mapper] or [perception] names the plugins " +
                 base::option_text::format(off) + ": they are switched off");
   }
+  if (!request.continue_map.empty()) continueMap(request.continue_map, session, config.file(), options.motion, engine);
   const auto stop_opening = [&](double part) {
     progress.report(part, "checking the log");
     return stop();
@@ -180,12 +205,17 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
 
   const auto report = log.report();
   warnOf(report, stopped, engine);
-  warnOf(engine.view().counts, engine.view().map.key_frames.size(), engine);
   auto result = resultOf(engine.view());
+  warnOf(engine.view().counts, result.new_key_frames, engine);
+  warnOf(result.sessions.back(), engine);
+  result.warnings = engine.view().warnings;
   result.source = report;
   result.code = stopped ? base::ExitCode::interrupted : report.exitCode();
-  if (result.key_frames == 0 && failure) std::rethrow_exception(failure);
-  if (result.key_frames == 0) failWithNothingToMap(request, config.file(), result);
+  // A map that is continued is there already: better that one than one broken off.
+  const bool keep_old = result.new_key_frames == 0 || !request.continue_map.empty();
+  if (keep_old && failure) std::rethrow_exception(failure);
+  if (keep_old && failure_at_end) std::rethrow_exception(failure_at_end);
+  if (result.new_key_frames == 0) failWithNothingToMap(request, config.file(), result);
   progress.report(1.0, "writing the outputs");
   engine.writeOutputs();
   if (failure) std::rethrow_exception(failure);
@@ -195,6 +225,12 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
 }
 
 std::string toText(const RunResult& result, const std::string& output_folder) {
+  std::string sessions;
+  if (result.sessions.size() > 1) {
+    const auto& session = result.sessions.back();
+    sessions = "sessions          " + std::to_string(result.sessions.size()) + ", of " +
+               std::to_string(result.new_key_frames) + " key frames the new one; " + joinedText(session) + "\n";
+  }
   char text[512];
   std::snprintf(text, sizeof text,
                 "key frames        %zu\n"
@@ -206,7 +242,7 @@ std::string toText(const RunResult& result, const std::string& output_folder) {
                 result.key_frames, result.factors, result.closures, result.refused_closures, result.way,
                 result.log_seconds, result.wall_seconds,
                 result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
-  return text + output_folder + "\n";
+  return sessions + text + output_folder + "\n";
 }
 
 }  // namespace omnimapper::mapper

@@ -4,10 +4,17 @@
 #include <omnimapper/plugins/GpsPlugin.h>
 
 #include <cmath>
+#include <sstream>
+
+#include "SavedVariable.h"
 
 IMPLEMENTS_MRPT_OBJECT(GpsPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
+
+namespace {
+constexpr std::uint32_t kSavedVersion = 1;
+}
 
 const base::OptionTable<GpsOptions>& GpsOptions::table() {
   using Options = GpsOptions;
@@ -99,6 +106,33 @@ mapper::Batch GpsPlugin::measure(const map::KeyFrame& frame, const mapper::Obser
 
 void GpsPlugin::applied(const mapper::AppliedBatch& ids) {
   if (!ids.variables.empty()) map_from_enu_ = ids.variables.front();
+}
+
+std::optional<map::MapSection> GpsPlugin::save() const {
+  if (!map_from_enu_) return std::nullopt;
+  std::ostringstream out;
+  writeVariableId(out, *map_from_enu_);
+  for (const double number : {origin_->latitude, origin_->longitude, origin_->altitude})
+    graph::writeDouble(out, number);
+  return map::MapSection{{}, kSavedVersion, out.str()};
+}
+
+void GpsPlugin::restore(const map::MapSection* saved, const mapper::View& view) {
+  if (!saved) return;
+  expectVersion(*saved, kSavedVersion);
+  std::istringstream in(saved->bytes);
+  const auto id = readVariableId(in, view, saved->name);
+  const double latitude = graph::readDouble(in), longitude = graph::readDouble(in), altitude = graph::readDouble(in);
+  const bool same_origin = !options_.map_is_enu || (origin_->latitude == latitude && origin_->longitude == longitude &&
+                                                    origin_->altitude == altitude);
+  if (view.graph.variable(id).fixed != options_.map_is_enu || !same_origin) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "[" + context_.section +
+                          "] map_is_enu or its origin is not what the map that is continued was "
+                          "made with: give the values of then, or map its log again");
+  }
+  map_from_enu_ = id;
+  origin_ = {latitude, longitude, altitude};
 }
 
 graph::FactorRecord GpsPlugin::factor(const Fix& fix, const mapper::View& view) const {

@@ -4,9 +4,17 @@
 #include <omnimapper/mapper/PoseFactors.h>
 #include <omnimapper/plugins/RobotPosePlugin.h>
 
+#include <sstream>
+
+#include "SavedVariable.h"
+
 IMPLEMENTS_MRPT_OBJECT(RobotPosePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
+
+namespace {
+constexpr std::uint32_t kSavedVersion = 1;
+}
 
 const base::OptionTable<RobotPoseOptions>& RobotPoseOptions::table() {
   using Options = RobotPoseOptions;
@@ -74,6 +82,26 @@ mapper::Batch RobotPosePlugin::measure(const map::KeyFrame& frame, const mapper:
 
 void RobotPosePlugin::applied(const mapper::AppliedBatch& ids) {
   if (!ids.variables.empty()) map_from_reference_ = ids.variables.front();
+}
+
+std::optional<map::MapSection> RobotPosePlugin::save() const {
+  if (!map_from_reference_) return std::nullopt;
+  std::ostringstream out;
+  writeVariableId(out, *map_from_reference_);
+  return map::MapSection{{}, kSavedVersion, out.str()};
+}
+
+void RobotPosePlugin::restore(const map::MapSection* saved, const mapper::View& view) {
+  if (!saved) return;
+  expectVersion(*saved, kSavedVersion);
+  if (options_.reference_is_map) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "[" + context_.section +
+                          "] reference_is_map = true, but the map that is continued was made with "
+                          "false: give that, or map its log again");
+  }
+  std::istringstream in(saved->bytes);
+  map_from_reference_ = readVariableId(in, view, saved->name);
 }
 
 std::unique_ptr<mapper::MeasurementPlugin> RobotPosePluginFactory::make(const base::ConfigSection& section,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "ScanFactor.h"
@@ -107,31 +108,53 @@ mapper::Batch ScanMatchingPlugin::measure(const map::KeyFrame& frame, const mapp
                                           const mapper::View& view) {
   History& history = histories_[observed.observation.sensorLabel];
   const auto& scan = dynamic_cast<const PreparedScan&>(*observed.prepared).scan;
-  const auto after = std::upper_bound(history.begin(), history.end(), frame.stamp,
-                                      [](base::Stamp stamp, const Seen& seen) { return stamp < seen.stamp; });
-  double way = 0;
-  if (after != history.begin()) {
-    const auto& before = *std::prev(after);
-    const auto& map_from_before = view.map.keyFrame(before.sight.frame).map_from_base;
-    way = before.way + (frame.map_from_base - map_from_before).translation().norm();
-  }
-  const auto place = history.insert(after, {{frame.id, scan}, frame.stamp, way});
+  const std::size_t index = remember(frame, scan, view, history);
   mapper::Batch batch;
-  if (place == history.begin() || scan->empty()) return batch;
-  const auto index = static_cast<std::size_t>(place - history.begin());
+  if (index == 0 || scan->empty()) return batch;
   matchSequential(frame, history, index, view, batch);
   if (options_.close_loops) {
     auto places = loopPlaces(frame, history, index, view);
-    if (!places.empty()) searches_.emplace_back(options_, context_, loop_matcher_, place->sight, std::move(places));
+    if (!places.empty())
+      searches_.emplace_back(options_, context_, loop_matcher_, history[index].sight, std::move(places));
   }
   return batch;
+}
+
+std::size_t ScanMatchingPlugin::remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state,
+                                         History& history) const {
+  const auto after = std::upper_bound(
+      history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
+      [](const auto& wanted, const Seen& seen) { return wanted < std::tuple(seen.sight.frame.session, seen.stamp); });
+  double way = 0;
+  if (after != history.begin()) {
+    const auto& before = *std::prev(after);
+    const auto& map_from_before = state.map.keyFrame(before.sight.frame).map_from_base;
+    // How far the base was carried between sessions nobody knows: all of an earlier one counts as left long ago.
+    const bool same_session = before.sight.frame.session == frame.id.session;
+    way = before.way +
+          (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.loop_min_way);
+  }
+  const auto place = history.insert(after, {{frame.id, scan}, frame.stamp, way});
+  return static_cast<std::size_t>(place - history.begin());
+}
+
+void ScanMatchingPlugin::restore(const map::MapSection*, const mapper::View& view) {
+  for (const auto& frame : view.map.key_frames) {
+    for (const auto& observation : frame.observations) {
+      if (!wants(*observation)) continue;
+      const auto prepared = prepare(*observation);
+      remember(frame, dynamic_cast<const PreparedScan&>(*prepared).scan, view, histories_[observation->sensorLabel]);
+    }
+  }
 }
 
 void ScanMatchingPlugin::matchSequential(const map::KeyFrame& frame, const History& history, std::size_t index,
                                          const mapper::State& state, mapper::Batch& batch) const {
   const auto frames = static_cast<std::size_t>(options_.local_frames);
   const auto& before = state.map.keyFrame(history[index - 1].sight.frame);
-  const auto reference = localMap(sights(history, index > frames ? index - frames : 0, index), before.id, state);
+  if (before.id.session != frame.id.session) return;
+  const auto scans = sights(history, index > frames ? index - frames : 0, index, index);
+  const auto reference = localMap(scans, before.id, state);
   const auto guess = planar(frame.map_from_base - before.map_from_base);
   const auto match = sequential_matcher_.match(reference, *history[index].sight.scan, guess);
 
@@ -152,9 +175,12 @@ mapper::FollowUp ScanMatchingPlugin::afterCommit(const map::KeyFrame& frame, con
   return follow_up;
 }
 
-std::vector<LoopSearch::Sight> ScanMatchingPlugin::sights(const History& history, std::size_t first, std::size_t end) {
+std::vector<LoopSearch::Sight> ScanMatchingPlugin::sights(const History& history, std::size_t first, std::size_t end,
+                                                          std::size_t centre) {
   std::vector<LoopSearch::Sight> all;
-  for (std::size_t i = first; i < end; ++i) all.push_back(history[i].sight);
+  for (std::size_t i = first; i < end; ++i) {
+    if (history[i].sight.frame.session == history[centre].sight.frame.session) all.push_back(history[i].sight);
+  }
   return all;
 }
 
@@ -180,7 +206,7 @@ std::vector<LoopSearch::Place> ScanMatchingPlugin::loopPlaces(const map::KeyFram
     if (repeats) continue;
     chosen.push_back(i);
     const std::size_t first = i > around ? i - around : 0, end = std::min(i + around + 1, index);
-    places.push_back({history[i].sight.frame, sights(history, first, end)});
+    places.push_back({history[i].sight.frame, sights(history, first, end, i)});
     if (places.size() == static_cast<std::size_t>(options_.loop_candidates)) break;
   }
   return places;

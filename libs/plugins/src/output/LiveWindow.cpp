@@ -107,7 +107,8 @@ class LiveWindow::Scene {
 
   static std::vector<map::StampedPose> keyFramePoses(const map::Map& map) {
     std::vector<map::StampedPose> poses;
-    for (const map::KeyFrame& frame : map.key_frames) poses.push_back({frame.stamp, frame.map_from_base});
+    for (const map::KeyFrame& frame : map.key_frames)
+      poses.push_back({frame.stamp, frame.map_from_base, frame.id.session});
     return poses;
   }
 

@@ -1,8 +1,5 @@
-#include <omnimapper/graph/GraphArchive.h>
-#include <omnimapper/map/MapFile.h>
+#include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/plugins/MapOutput.h>
-
-#include <sstream>
 
 #include "OutputFile.h"
 
@@ -19,12 +16,7 @@ MapOutput::MapOutput(const MapOutputOptions&, const mapper::PluginContext& conte
     : path_(outputPath(context, "map.omnimap")) {}
 
 void MapOutput::finish(const mapper::View& view) {
-  std::ostringstream graph;
-  graph::writeGraph(view.graph, graph);
-  map::MapFile file;
-  file.set({"graph", 1, std::move(graph).str()});
-  file.set(map::framesToSection(view.map));
-  file.write(path_);
+  mapper::mapFileOf(view.map, view.graph, view.sections).write(path_);
 }
 
 std::unique_ptr<mapper::OutputPlugin> MapOutputFactory::make(const base::ConfigSection& section,

@@ -20,52 +20,7 @@ double distanceToLine(PixelPoint p, PixelPoint a, PixelPoint b) {
   return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
 }
 
-}  // namespace
-
-Image drawMap(const GridPicture& grid, const std::vector<map::StampedPose>& trajectory,
-              const std::vector<Closure>& closures) {
-  Image image(grid.image.width, grid.image.height, kPaper);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = grid.image.palette[grid.image.pixels[i]];
-  const double width = std::max(1.5, std::max(image.width, image.height) / 600.0);
-  for (const Closure& closure : closures) {
-    if (!closure.decision->accepted) continue;
-    drawLine(image, pixelOf(grid, closure.from), pixelOf(grid, closure.to), {kClosure, width, 0.8});
-  }
-  const auto path = simplifiedPath(grid, trajectory, 0.25);
-  drawPath(image, path, {kTrack, width, 0.9});
-  if (path.empty()) return image;
-  drawDot(image, path.front(), {kTrack, 5 * width});
-  drawDot(image, path.front(), {kPaper, 2.6 * width});
-  drawDot(image, path.back(), {kPaper, 6 * width});
-  drawDot(image, path.back(), {kTrack, 5 * width});
-  return image;
-}
-
-std::optional<GridPicture> emptyPicture(const std::vector<map::StampedPose>& trajectory, double margin, int side) {
-  if (trajectory.empty()) return std::nullopt;
-  const auto first = trajectory.front().map_from_base.translation();
-  double min_x = first.x, max_x = first.x, min_y = first.y, max_y = first.y;
-  for (const auto& pose : trajectory) {
-    const auto p = pose.map_from_base.translation();
-    min_x = std::min(min_x, p.x), max_x = std::max(max_x, p.x);
-    min_y = std::min(min_y, p.y), max_y = std::max(max_y, p.y);
-  }
-  const double width = max_x - min_x + 2 * margin, height = max_y - min_y + 2 * margin;
-  GridPicture picture;
-  picture.metres_per_pixel = std::max(width, height) / side;
-  picture.min_x = min_x - margin;
-  picture.max_y = max_y + margin;
-  picture.image.width = std::max(1, static_cast<int>(std::lround(width / picture.metres_per_pixel)));
-  picture.image.height = std::max(1, static_cast<int>(std::lround(height / picture.metres_per_pixel)));
-  picture.image.palette = {kPaper};
-  picture.image.pixels.assign(static_cast<std::size_t>(picture.image.width) * picture.image.height, 0);
-  return picture;
-}
-
-std::vector<PixelPoint> simplifiedPath(const GridPicture& grid, const std::vector<map::StampedPose>& trajectory,
-                                       double tolerance) {
-  std::vector<PixelPoint> all;
-  for (const auto& pose : trajectory) all.push_back(pixelOf(grid, pose.map_from_base.translation()));
+std::vector<PixelPoint> simplified(const std::vector<PixelPoint>& all, double tolerance) {
   if (all.size() < 3) return all;
   // Keep the point furthest from the chord while it is too far; a stack in place of recursion (Ramer-Douglas-Peucker).
   std::vector<bool> kept(all.size(), false);
@@ -90,6 +45,61 @@ std::vector<PixelPoint> simplifiedPath(const GridPicture& grid, const std::vecto
     if (kept[i]) path.push_back(all[i]);
   }
   return path;
+}
+
+}  // namespace
+
+Image drawMap(const GridPicture& grid, const std::vector<map::StampedPose>& trajectory,
+              const std::vector<Closure>& closures) {
+  Image image(grid.image.width, grid.image.height, kPaper);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = grid.image.palette[grid.image.pixels[i]];
+  const double width = std::max(1.5, std::max(image.width, image.height) / 600.0);
+  for (const Closure& closure : closures) {
+    if (!closure.decision->accepted) continue;
+    drawLine(image, pixelOf(grid, closure.from), pixelOf(grid, closure.to), {kClosure, width, 0.8});
+  }
+  const auto paths = simplifiedPaths(grid, trajectory, 0.25);
+  for (const auto& path : paths) drawPath(image, path, {kTrack, width, 0.9});
+  for (const auto& path : paths) {
+    drawDot(image, path.front(), {kTrack, 5 * width});
+    drawDot(image, path.front(), {kPaper, 2.6 * width});
+    drawDot(image, path.back(), {kPaper, 6 * width});
+    drawDot(image, path.back(), {kTrack, 5 * width});
+  }
+  return image;
+}
+
+std::optional<GridPicture> emptyPicture(const std::vector<map::StampedPose>& trajectory, double margin, int side) {
+  if (trajectory.empty()) return std::nullopt;
+  const auto first = trajectory.front().map_from_base.translation();
+  double min_x = first.x, max_x = first.x, min_y = first.y, max_y = first.y;
+  for (const auto& pose : trajectory) {
+    const auto p = pose.map_from_base.translation();
+    min_x = std::min(min_x, p.x), max_x = std::max(max_x, p.x);
+    min_y = std::min(min_y, p.y), max_y = std::max(max_y, p.y);
+  }
+  const double width = max_x - min_x + 2 * margin, height = max_y - min_y + 2 * margin;
+  GridPicture picture;
+  picture.metres_per_pixel = std::max(width, height) / side;
+  picture.min_x = min_x - margin;
+  picture.max_y = max_y + margin;
+  picture.image.width = std::max(1, static_cast<int>(std::lround(width / picture.metres_per_pixel)));
+  picture.image.height = std::max(1, static_cast<int>(std::lround(height / picture.metres_per_pixel)));
+  picture.image.palette = {kPaper};
+  picture.image.pixels.assign(static_cast<std::size_t>(picture.image.width) * picture.image.height, 0);
+  return picture;
+}
+
+std::vector<std::vector<PixelPoint>> simplifiedPaths(const GridPicture& grid,
+                                                     const std::vector<map::StampedPose>& trajectory,
+                                                     double tolerance) {
+  std::vector<std::vector<PixelPoint>> paths;
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    if (i == 0 || trajectory[i].session != trajectory[i - 1].session) paths.emplace_back();
+    paths.back().push_back(pixelOf(grid, trajectory[i].map_from_base.translation()));
+  }
+  for (auto& path : paths) path = simplified(path, tolerance);
+  return paths;
 }
 
 }  // namespace omnimapper::plugins

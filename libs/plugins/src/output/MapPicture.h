@@ -18,8 +18,9 @@ Image drawMap(const GridPicture& grid, const std::vector<map::StampedPose>& traj
 /// ground for a map that has no scans. None for an empty trajectory.
 std::optional<GridPicture> emptyPicture(const std::vector<map::StampedPose>& trajectory, double margin, int side);
 
-/// The trajectory in pixels, without the points that change its course by less than `tolerance` [pixels].
-std::vector<PixelPoint> simplifiedPath(const GridPicture& grid, const std::vector<map::StampedPose>& trajectory,
-                                       double tolerance);
+/// The trajectory in pixels, a path for each session, without the points that change its course by less than
+/// `tolerance` [pixels].
+std::vector<std::vector<PixelPoint>> simplifiedPaths(const GridPicture& grid,
+                                                     const std::vector<map::StampedPose>& trajectory, double tolerance);
 
 }  // namespace omnimapper::plugins

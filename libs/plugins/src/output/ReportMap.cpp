@@ -81,7 +81,7 @@ std::string legend(const std::vector<Closure>& closures, std::size_t max_refused
 std::string drawReportMap(const GridPicture& grid, const std::vector<map::StampedPose>& trajectory,
                           const std::vector<Closure>& closures, std::size_t max_refused) {
   const std::string width = std::to_string(grid.image.width), height = std::to_string(grid.image.height);
-  const auto path = simplifiedPath(grid, trajectory, 0.3);
+  const auto paths = simplifiedPaths(grid, trajectory, 0.3);
   const double radius = std::max(grid.image.width, grid.image.height) / 160.0;
   std::string svg = "<svg id=\"map\" viewBox=\"0 0 " + width + " " + height + "\" data-metres-per-pixel=\"" +
                     brief(grid.metres_per_pixel, 9) + "\" data-min-x=\"" + brief(grid.min_x, 9) + "\" data-max-y=\"" +
@@ -89,8 +89,10 @@ std::string drawReportMap(const GridPicture& grid, const std::vector<map::Stampe
                     "\" height=\"" + height + "\" href=\"data:image/png;base64," + encodeBase64(encodePng(grid.image)) +
                     "\"/>\n";
   svg += closureGroup(grid, closures, false, max_refused) + closureGroup(grid, closures, true, closures.size());
-  svg += "<g class=\"track\"><path class=\"track\" d=\"" + pathData(path) + "\"/>\n";
-  if (!path.empty()) svg += dot("start", path.front(), radius) + dot("end", path.back(), radius);
+  std::string data;
+  for (const auto& path : paths) data += pathData(path);
+  svg += "<g class=\"track\"><path class=\"track\" d=\"" + data + "\"/>\n";
+  for (const auto& path : paths) svg += dot("start", path.front(), radius) + dot("end", path.back(), radius);
   svg += "</g>\n" + scaleBar(grid) + "</svg>\n";
   return "<section class=\"card map\">" + legend(closures, max_refused) + svg +
          "<p class=\"note\">x points right, y up. Ring: start; dot: end. Hold the pointer over a closure for its "

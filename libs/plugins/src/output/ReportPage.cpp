@@ -45,8 +45,8 @@ std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
           figure(grouped(figures.refused_closures), "closures refused") +
           figure(grouped(view.graph.factors().size()), "factors") + figure(large(view.graph.chi2()), "chi-square") +
           figure(duration(figures.wall_seconds), "computed");
-  if (figures.wall_seconds > 0 && figures.log_seconds > 0) {
-    const double speed = figures.log_seconds / figures.wall_seconds;
+  if (figures.wall_seconds > 0 && figures.run_seconds > 0) {
+    const double speed = figures.run_seconds / figures.wall_seconds;
     html += figure(fixed(speed, speed < 10 ? 1 : 0) + " &#215;", "of real time");
   }
   return "<div class=\"figures\">" + html + "</div>\n";
@@ -84,7 +84,8 @@ std::string drawReport(const ReportInput& input) {
   html += drawWarnings(view.warnings) + drawFigures(input, figuresOf(view, input.trajectory));
   if (input.picture) html += drawReportMap(*input.picture, input.trajectory, input.closures, kMostRefusedClosures);
   html += charts("Error", drawErrorCurves(view)) + charts("Time", drawTimeCurves(view));
-  html += drawReasonTable(view.decisions) + drawDecisionTable(view.map, view.decisions, input.max_rows);
+  html += drawSessionTable(view.map) + drawReasonTable(view.decisions) +
+          drawDecisionTable(view.map, view.decisions, input.max_rows);
   html += drawCountTables(view) + drawConfig(input.context.config_text);
   html += "</main>\n<script>";
   html += kReportScript;

@@ -1,5 +1,8 @@
 #include "ReportTables.h"
 
+#include <omnimapper/map/SessionFigures.h>
+#include <omnimapper/mapper/Joining.h>
+
 #include <algorithm>
 #include <set>
 
@@ -67,6 +70,24 @@ std::string countTable(const std::string& title, const Counts& counts) {
 
 }  // namespace
 
+std::string drawSessionTable(const map::Map& map) {
+  if (map.sessions.size() < 2) return {};
+  std::string rows;
+  for (const auto& figures : map::sessionFigures(map)) {
+    const auto session = std::find_if(map.sessions.begin(), map.sessions.end(),
+                                      [&](const auto& other) { return other.number == figures.number; });
+    if (session == map.sessions.end()) continue;
+    const bool first = session == map.sessions.begin();
+    rows += "<tr>" + number(std::to_string(figures.number)) + cell(escapeHtml(session->title)) +
+            number(grouped(figures.key_frames)) + number(fixed(figures.way, 1)) + number(fixed(figures.seconds, 1)) +
+            cell(first ? "" : escapeHtml(mapper::joinedText(*session))) + "</tr>\n";
+  }
+  return "<section class=\"card\"><h2>Sessions</h2><div class=\"scroll\"><table class=\"sortable\"><thead><tr>"
+         "<th class=\"num\">session</th><th>log</th><th class=\"num\">key frames</th><th class=\"num\">way [m]</th>"
+         "<th class=\"num\">time [s]</th><th>joined</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div></section>\n";
+}
+
 std::string drawReasonTable(const mapper::DecisionLog& decisions) {
   if (decisions.empty()) return {};
   std::string rows;
@@ -83,7 +104,10 @@ std::string drawReasonTable(const mapper::DecisionLog& decisions) {
 
 std::string drawDecisionTable(const map::Map& map, const mapper::DecisionLog& decisions, std::size_t max_rows) {
   if (decisions.empty()) return {};
-  const base::Stamp start = map.key_frames.empty() ? decisions.front().stamp : map.key_frames.front().stamp;
+  // The log is that of the newest session.
+  const auto& frames = map.key_frames;
+  const base::Stamp start = frames.empty() ? decisions.front().stamp
+                                           : frames[frames.lowerBound(frames.back().id.session, base::Stamp())].stamp;
   const auto rows = listed(decisions, max_rows);
   std::string note;
   if (rows.size() < decisions.size()) {

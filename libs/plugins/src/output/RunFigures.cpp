@@ -1,5 +1,7 @@
 #include "RunFigures.h"
 
+#include <omnimapper/map/SessionFigures.h>
+
 #include <algorithm>
 
 #include "Closures.h"
@@ -9,8 +11,10 @@ namespace omnimapper::plugins {
 RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPose>& trajectory) {
   RunFigures figures;
   figures.trajectory_poses = trajectory.size();
-  if (!trajectory.empty()) {
-    figures.log_seconds = base::secondsBetween(trajectory.front().stamp, trajectory.back().stamp);
+  for (const auto& session : map::sessionFigures(view.map)) {
+    figures.log_seconds += session.seconds;
+    figures.run_seconds = session.seconds;
+    figures.way += session.way;
   }
   const auto& frames = view.map.key_frames;
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -22,7 +26,6 @@ RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPos
     figures.max_y = first ? p.y : std::max(figures.max_y, p.y);
     figures.min_z = first ? p.z : std::min(figures.min_z, p.z);
     figures.max_z = first ? p.z : std::max(figures.max_z, p.z);
-    if (!first) figures.way += (p - frames[i - 1].map_from_base.translation()).norm();
   }
   for (const Closure& closure : closuresOf(view.map, view.decisions)) {
     ++(closure.decision->accepted ? figures.closures : figures.refused_closures);

@@ -13,8 +13,9 @@ namespace omnimapper::plugins {
 /// Figures of a run that several outputs show.
 struct RunFigures {
   std::size_t trajectory_poses = 0;
-  double log_seconds = 0;                                                   ///< from the first to the last pose
-  double way = 0;                                                           ///< [m] along the key frames
+  double log_seconds = 0;  ///< from the first to the last observation of every session
+  double run_seconds = 0;  ///< the same of the newest session: what this run worked on
+  double way = 0;          ///< [m] along the key frames of every session
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0, min_z = 0, max_z = 0;  ///< [m] of the key frames
   std::size_t closures = 0, refused_closures = 0;
   double wall_seconds = 0;  ///< sum of all stages

@@ -49,6 +49,7 @@ CSetOfLines::Ptr trajectoryLines(const std::vector<map::StampedPose>& trajectory
   lines->setLineWidth(3);
   lines->reserve(trajectory.size());
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    if (trajectory[i].session != trajectory[i - 1].session) continue;
     appendLine(*lines, trajectory[i - 1].map_from_base.translation(), trajectory[i].map_from_base.translation(),
                kTrajectoryHeight);
   }

@@ -1,3 +1,4 @@
+#include <omnimapper/map/SessionFigures.h>
 #include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugins/SummaryOutput.h>
 
@@ -78,6 +79,23 @@ Json costsOf(const std::vector<mapper::StageTimes::PerKeyFrame>& costs) {
   return list;
 }
 
+Json sessionsOf(const map::Map& map) {
+  Json list = Json::array();
+  const auto all = map::sessionFigures(map);
+  for (const map::Session& session : map.sessions) {
+    Json entry = {{"number", session.number}, {"title", session.title}, {"joined", session.joined}};
+    if (session.joined_at) entry["joined_at"] = toString(*session.joined_at);
+    for (const auto& figures : all) {
+      if (figures.number != session.number) continue;
+      entry["key_frames"] = figures.key_frames;
+      entry["way_m"] = figures.way;
+      entry["log_s"] = figures.seconds;
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 Json summaryOf(const mapper::View& view, const std::string& title) {
   const auto trajectory = map::denseTrajectory(view.map);
   const RunFigures figures = figuresOf(view, trajectory);
@@ -93,6 +111,7 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   summary["way_m"] = figures.way;
   summary["extent_m"] = {{"min", {figures.min_x, figures.min_y, figures.min_z}},
                          {"max", {figures.max_x, figures.max_y, figures.max_z}}};
+  summary["sessions"] = sessionsOf(view.map);
   summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
   summary["counts"] = counts;
   summary["graph"] = graphOf(view);

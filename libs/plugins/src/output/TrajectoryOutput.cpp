@@ -20,7 +20,8 @@ TrajectoryOutput::TrajectoryOutput(const TrajectoryOptions& options, const mappe
 void TrajectoryOutput::finish(const mapper::View& view) {
   std::vector<map::StampedPose> trajectory;
   if (options_.key_frames_only) {
-    for (const auto& frame : view.map.key_frames) trajectory.push_back({frame.stamp, frame.map_from_base});
+    for (const auto& frame : view.map.key_frames)
+      trajectory.push_back({frame.stamp, frame.map_from_base, frame.id.session});
   } else {
     trajectory = map::denseTrajectory(view.map);
   }

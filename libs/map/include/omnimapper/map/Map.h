@@ -4,6 +4,7 @@
 #include <omnimapper/map/KeyFrames.h>
 #include <omnimapper/map/Landmark.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ struct Session {
   std::uint16_t number = 0;
   std::string title;        ///< name of its log
   base::VariableId anchor;  ///< map_from_session: where the session began, as the graph has it now
-  bool joined = true;       ///< an accepted hypothesis ties it to an earlier session; the first one needs none
+  bool joined = true;       ///< something measured ties it to the first session, which needs nothing
+  std::optional<base::KeyFrameId> joined_at = std::nullopt;  ///< the key frame that tied it, where one did
 };
 
 /// What is known of the place, in plain data. Lengths [m], angles [rad]. Copies are cheap (base::IdTable).

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/map/Map.h>
+#include <omnimapper/map/PayloadRegistry.h>
 
 #include <cstdint>
 #include <string>
@@ -35,7 +36,21 @@ class MapFile {
 
 /// The "frames" section: every key frame with its observations.
 MapSection framesToSection(const Map& map);
-/// Throws Error(unreadable_input) if the bytes are not frames of a known version.
+/// A map of nothing else. Throws Error(unreadable_input) if the bytes are not frames of a known version.
 Map framesFromSection(const MapSection& section);
+
+/// The "landmarks" section. A payload of a kind that nobody registered keeps its bytes.
+MapSection landmarksToSection(const Map& map);
+/// Throws Error(unreadable_input) as framesFromSection(), and what the readers of payloads throw.
+base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection& section,
+                                                               const PayloadRegistry& payloads);
+
+/// The "sessions" section.
+MapSection sessionsToSection(const Map& map);
+/// Throws Error(unreadable_input) as framesFromSection().
+std::vector<Session> sessionsFromSection(const MapSection& section);
+/// The sessions of a map from before there was such a section: one for each number that key frames carry, joined, its
+/// anchor the pose of its first key frame.
+std::vector<Session> sessionsOfFrames(const KeyFrames& key_frames);
 
 }  // namespace omnimapper::map

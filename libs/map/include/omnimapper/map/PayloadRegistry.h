@@ -19,6 +19,7 @@ class PayloadRegistry {
   /// Throws Error(internal) if the kind is taken.
   void add(const std::string& kind, Reader reader);
   /// A kind that nobody registered gives a payload that keeps the bytes and writes them again as they are.
+  /// Throws Error(unreadable_input) if the reader leaves bytes over, and what it throws.
   std::shared_ptr<const LandmarkPayload> read(const std::string& kind, const std::string& bytes) const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <omnimapper/map/Map.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace omnimapper::map {
@@ -9,6 +10,7 @@ namespace omnimapper::map {
 struct StampedPose {
   base::Stamp stamp;
   mrpt::poses::CPose3D map_from_base;
+  std::uint16_t session = 0;
 };
 
 /// One pose for each observation of the reference sensor, at a key frame or hanging on one, in the order of key frames.

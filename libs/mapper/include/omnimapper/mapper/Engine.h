@@ -10,6 +10,7 @@
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/PoseChain.h>
 #include <omnimapper/mapper/ReleaseQueue.h>
+#include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/mapper/SensorPoses.h>
 #include <omnimapper/mapper/Trigger.h>
 #include <omnimapper/mapper/View.h>
@@ -19,17 +20,11 @@
 #include <functional>
 #include <future>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace omnimapper::mapper {
-
-/// What a map file gave, for a session that continues it.
-struct SavedMap {
-  map::Map map;
-  graph::Graph graph;
-  std::vector<map::MapSection> sections;  ///< all others
-};
 
 /// The mapper (thesis 5.2.3, 5.3.2): observations in, a map out. One thread calls it and is the only writer; workers
 /// run extractors, preparations and jobs. What comes out depends on the observations, their order of arrival and the
@@ -96,6 +91,7 @@ class Engine {
   MeasurementPlugin& pluginOf(const std::string& section);
   void solveNow(const graph::SolveOptions& options);
   void collectSections();
+  std::set<std::string> absoluteOwners() const;
 
   /// Seconds in the engine's thread.
   struct BusyTimes {

@@ -24,8 +24,13 @@ class Estimator {
         decisions_(decisions),
         hypotheses_(settings.hypotheses.consistency()) {}
 
-  /// A map with a past, or a first key frame, is there: gates start from it.
+  /// The first key frame of a session is there: gates start from it.
   void begin() { uncertainty_ = Uncertainty(graph_); }
+  /// A map with a past is there, solved as it is.
+  void takeUp() {
+    begin();
+    key_frames_at_solve_ = map_.key_frames.size();
+  }
   /// Takes note of a batch that was just applied; its decisions are the last of the log.
   void applied(const Batch& batch, const AppliedBatch& ids);
   /// Moves one key frame to where all factors that bind it want it, all others held.

@@ -20,9 +20,9 @@ class Hypotheses {
   void take(const Batch& batch, const AppliedBatch& applied, graph::Graph& graph, DecisionLog& decisions);
   /// Whether some wait for their verdict.
   bool anyFresh() const { return !fresh_.empty(); }
-  /// Solves `graph` with what is found consistent, and says so in the log. Sessions that an accepted one ties to an
-  /// earlier session are marked in `map`.
-  void solve(graph::Graph& graph, const graph::SolveOptions& solve_options, map::Map& map, DecisionLog& decisions);
+  /// Solves `graph` with what is found consistent, and says so in the log.
+  void solve(graph::Graph& graph, const graph::SolveOptions& solve_options, const map::Map& map,
+             DecisionLog& decisions);
 
  private:
   void log(const graph::Verdict& verdict, const graph::FactorRecord& record, const map::Map& map,

@@ -3,6 +3,7 @@
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Progress.h>
+#include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/source/SourceReport.h>
 
@@ -17,6 +18,7 @@ struct RunRequest {
   std::vector<std::string> logs;  ///< rawlogs, merged by stamp
   std::string output_folder;
   std::vector<std::string> more_outputs;  ///< sections of outputs beside those of the INI, such as the live window
+  std::string continue_map;               ///< map file that the logs are a new session of; empty: a new map
   int threads = 1;                        ///< workers of the perception pool
   double speed = 0;                       ///< times the log's own pace; 0: as fast as possible
 };
@@ -26,10 +28,12 @@ struct RunResult {
   base::ExitCode code = base::ExitCode::ok;
   std::vector<std::string> warnings;
   source::SourceReport source;
-  std::size_t key_frames = 0, factors = 0, closures = 0, refused_closures = 0;
-  double log_seconds = 0;   ///< from first to last stamp
-  double wall_seconds = 0;  ///< of the whole run
-  double way = 0;           ///< [m] of the trajectory
+  std::size_t key_frames = 0, factors = 0;  ///< of the whole map
+  std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;
+  std::vector<map::Session> sessions;  ///< of the whole map; the last is this run
+  double log_seconds = 0;              ///< from first to last stamp
+  double wall_seconds = 0;             ///< of the whole run
+  double way = 0;                      ///< [m] of this run's trajectory
 };
 
 /// Log in, map out: opens the logs, makes the plugins, feeds the engine, writes the outputs. Damaged input and `stop`

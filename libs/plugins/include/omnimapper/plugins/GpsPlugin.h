@@ -39,6 +39,9 @@ class GpsPlugin : public mapper::MeasurementPlugin {
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
   void applied(const mapper::AppliedBatch& ids) override;
+  /// The origin and the variable map_from_enu.
+  std::optional<map::MapSection> save() const override;
+  void restore(const map::MapSection* saved, const mapper::View& view) override;
 
  private:
   struct Origin {

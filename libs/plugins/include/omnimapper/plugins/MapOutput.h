@@ -11,8 +11,7 @@ struct MapOutputOptions {
   static const base::OptionTable<MapOutputOptions>& table();
 };
 
-/// Writes map.omnimap, the map as it is loaded again: sections "graph" (graph::writeGraph) and "frames"
-/// (map::framesToSection). The same log and INI give the same bytes.
+/// Writes map.omnimap, the map as it is loaded again (mapper::mapFileOf). The same log and INI give the same bytes.
 class MapOutput : public mapper::OutputPlugin {
  public:
   MapOutput(const MapOutputOptions& options, const mapper::PluginContext& context);

@@ -31,6 +31,9 @@ class RobotPosePlugin : public mapper::MeasurementPlugin {
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
   void applied(const mapper::AppliedBatch& ids) override;
+  /// The variable map_from_reference.
+  std::optional<map::MapSection> save() const override;
+  void restore(const map::MapSection* saved, const mapper::View& view) override;
 
  private:
   RobotPoseOptions options_;

@@ -24,6 +24,8 @@ class ScanMatchingPlugin : public mapper::MeasurementPlugin {
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
+  /// What earlier sessions saw: places to close loops with.
+  void restore(const map::MapSection* saved, const mapper::View& view) override;
 
  private:
   /// What one sensor saw at one key frame.
@@ -32,13 +34,20 @@ class ScanMatchingPlugin : public mapper::MeasurementPlugin {
     base::Stamp stamp;
     double way;  // [m] driven until here
   };
-  using History = std::vector<Seen>;  // in order of stamp
+  using History = std::vector<Seen>;  // in order of session, then stamp
+  using Scan = std::shared_ptr<const matching::PlanarScan>;
+
+  /// Puts it in its place and gives the index.
+  std::size_t remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state,
+                       History& history) const;
 
   void matchSequential(const map::KeyFrame& frame, const History& history, std::size_t index,
                        const mapper::State& state, mapper::Batch& batch) const;
   std::vector<LoopSearch::Place> loopPlaces(const map::KeyFrame& frame, const History& history, std::size_t index,
                                             const mapper::State& state) const;
-  static std::vector<LoopSearch::Sight> sights(const History& history, std::size_t first, std::size_t end);
+  /// Of that stretch, those of the session of the one at `centre`: others may lie elsewhere still.
+  static std::vector<LoopSearch::Sight> sights(const History& history, std::size_t first, std::size_t end,
+                                               std::size_t centre);
 
   ScanMatchingOptions options_;
   mapper::PluginContext context_;

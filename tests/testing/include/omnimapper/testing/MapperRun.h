@@ -68,9 +68,9 @@ inline std::string bitsOf(const mapper::View& view) {
 inline double trajectoryError(const mapper::View& view, const SimulatedLog& log) {
   const auto trajectory = map::denseTrajectory(view.map);
   double sum = 0;
-  for (const auto& [stamp, map_from_base] : trajectory) {
-    const mrpt::poses::CPose3D truth(log.truthAt(stamp) - log.truthAt(trajectory.front().stamp));
-    sum += (truth.translation() - map_from_base.translation()).sqrNorm();
+  for (const auto& pose : trajectory) {
+    const mrpt::poses::CPose3D truth(log.truthAt(pose.stamp) - log.truthAt(trajectory.front().stamp));
+    sum += (truth.translation() - pose.map_from_base.translation()).sqrNorm();
   }
   return std::sqrt(sum / static_cast<double>(trajectory.size()));
 }

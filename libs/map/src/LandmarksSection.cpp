@@ -1,0 +1,108 @@
+#include <omnimapper/map/MapFile.h>
+
+#include <map>
+#include <sstream>
+
+#include "SectionBytes.h"
+
+namespace omnimapper::map {
+
+namespace {
+
+const std::string kName = "landmarks";
+constexpr std::uint32_t kVersion = 1;
+// Indices that were given and are gone take memory: a number beyond this is damaged.
+constexpr std::uint64_t kMaxHoles = 1'000'000;
+
+void writePayload(ByteWriter& out, const LandmarkPayload* payload) {
+  out.uint(payload != nullptr, 1);
+  if (!payload) return;
+  std::ostringstream bytes;
+  payload->write(bytes);
+  out.block(payload->kind());
+  out.block(bytes.str());
+}
+
+std::shared_ptr<const LandmarkPayload> readPayload(ByteReader& in, const PayloadRegistry& payloads) {
+  if (in.uint(1) == 0) return nullptr;
+  const std::string kind(in.block()), bytes(in.block());
+  return payloads.read(kind, bytes);
+}
+
+void writeLandmark(ByteWriter& out, const Landmark& landmark) {
+  out.block(landmark.kind);
+  out.block(landmark.owner);
+  out.uint(landmark.variables.size(), 4);
+  for (const base::VariableId id : landmark.variables) writeId(out, id);
+  writePayload(out, landmark.payload.get());
+  out.uint(landmark.evidence, 4);
+  writeStamp(out, landmark.first_seen);
+  writeStamp(out, landmark.last_seen);
+  out.uint(static_cast<std::uint64_t>(landmark.state), 1);
+  writeId(out, landmark.merged_into);
+}
+
+Landmark readLandmark(ByteReader& in, base::LandmarkId id, const PayloadRegistry& payloads) {
+  Landmark landmark;
+  landmark.id = id;
+  landmark.kind = in.block();
+  landmark.owner = in.block();
+  for (std::uint64_t left = in.uint(4); left > 0; --left) landmark.variables.push_back(readId<base::VariableTag>(in));
+  landmark.payload = readPayload(in, payloads);
+  landmark.evidence = static_cast<std::uint32_t>(in.uint(4));
+  landmark.first_seen = readStamp(in);
+  landmark.last_seen = readStamp(in);
+  const std::uint64_t state = in.uint(1);
+  if (state > static_cast<std::uint64_t>(Landmark::State::merged)) {
+    refuse(kName, "landmark " + toString(id) + " is in an unknown state: the file is damaged");
+  }
+  landmark.state = static_cast<Landmark::State>(state);
+  landmark.merged_into = readId<base::LandmarkTag>(in);
+  return landmark;
+}
+
+}  // namespace
+
+// First the next index of each session, so that none is given twice; then the landmarks in the order of ids.
+MapSection landmarksToSection(const Map& map) {
+  ByteWriter out;
+  const auto next = map.landmarks.nextIndices();
+  out.uint(next.size(), 4);
+  for (const auto& [session, index] : next) writeId(out, base::LandmarkId{session, index});
+  out.uint(map.landmarks.size(), 4);
+  for (const auto& [id, landmark] : map.landmarks) {
+    writeId(out, id);
+    writeLandmark(out, landmark);
+  }
+  return {kName, kVersion, out.take()};
+}
+
+base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection& section,
+                                                               const PayloadRegistry& payloads) {
+  expectSection(section, kName, kVersion);
+  ByteReader in(section.bytes, placeOf(kName));
+  std::map<std::uint16_t, std::uint32_t> next;
+  for (std::uint64_t left = in.uint(4); left > 0; --left) {
+    const auto id = readId<base::LandmarkTag>(in);
+    next[id.session] = id.index;
+  }
+  base::IdTable<base::LandmarkId, Landmark> table;
+  const auto skipTo = [&](base::LandmarkId id) {
+    const std::uint32_t at = table.nextId(id.session).index;
+    const auto end = next.find(id.session);
+    if (end == next.end() || id.index > end->second || id.index < at || id.index - at > kMaxHoles) {
+      refuse(kName, "id " + toString(id) + " is out of order: the file is damaged");
+    }
+    while (table.nextId(id.session).index < id.index) table.skip(id.session);
+  };
+  for (std::uint64_t left = in.uint(4); left > 0; --left) {
+    const auto id = readId<base::LandmarkTag>(in);
+    skipTo(id);
+    table.add(id.session, readLandmark(in, id, payloads));
+  }
+  for (const auto& [session, index] : next) skipTo({session, index});
+  expectEnd(in, kName);
+  return table;
+}
+
+}  // namespace omnimapper::map

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <omnimapper/graph/Graph.h>
+#include <omnimapper/map/Map.h>
+
+#include <set>
+#include <string>
+
+namespace omnimapper::mapper {
+
+/// Says of each session of `map` whether factors that act tie it to the first one, be it by way of others, and which
+/// key frame was first to. What the plugins `absolute` measure ties a session to the map itself.
+void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
+
+/// "session 1 was joined at key frame 1:4", or that it was never joined.
+std::string joinedText(const map::Session& session);
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/map/Map.h>
+#include <omnimapper/mapper/PoseChain.h>
+
+namespace omnimapper::mapper {
+
+/// Section [session] of an INI: where a session that continues a map begins, until something ties it to the map.
+struct SessionOptions {
+  enum class Start {
+    end,     ///< where the last session ended
+    origin,  ///< at the map's origin
+    pose     ///< at the pose below
+  };
+  Start start = Start::end;
+  double start_x = 0, start_y = 0;                                       ///< [m] in the map
+  double start_yaw = 0;                                                  ///< [rad]
+  double start_sigma = 1;                                                ///< [m]
+  double start_angle_sigma = 30 * base::option_text::kRadiansPerDegree;  ///< [rad]
+
+  static const base::OptionTable<SessionOptions>& table();
+  /// On a map with at least one key frame.
+  SessionStart startOn(const map::Map& map) const;
+};
+
+}  // namespace omnimapper::mapper

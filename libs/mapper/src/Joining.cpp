@@ -1,0 +1,54 @@
+#include <omnimapper/mapper/Joining.h>
+
+#include <algorithm>
+#include <map>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+std::optional<base::KeyFrameId> frameOf(const graph::FactorRecord& record, std::uint16_t session, const map::Map& map) {
+  for (const auto& frame : map.key_frames) {
+    const bool bound =
+        std::find(record.variables.begin(), record.variables.end(), frame.pose) != record.variables.end();
+    if (bound && frame.id.session == session) return frame.id;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute) {
+  if (map.sessions.size() < 2) return;
+  const std::uint16_t first = map.sessions.front().number;
+  std::map<std::uint16_t, std::uint16_t> group;  // sessions tied to each other have one number
+  for (auto& session : map.sessions) {
+    group[session.number] = session.number;
+    session.joined = session.number == first;
+    session.joined_at.reset();
+  }
+  for (const auto& [id, record] : graph.factors()) {
+    if (record.weight <= 0) continue;
+    const auto [low, high] =
+        std::minmax_element(record.variables.begin(), record.variables.end(),
+                            [](base::VariableId a, base::VariableId b) { return a.session < b.session; });
+    const std::uint16_t from = absolute.count(record.tags.owner) > 0 ? first : low->session, to = high->session;
+    if (from == to || group[from] == group[to]) continue;
+    const std::uint16_t kept = std::min(group[from], group[to]), gone = std::max(group[from], group[to]);
+    for (auto& session : map.sessions) {
+      if (group[session.number] != gone) continue;
+      group[session.number] = kept;
+      if (kept != first) continue;
+      session.joined = true;
+      session.joined_at = frameOf(record, to, map);
+    }
+  }
+}
+
+std::string joinedText(const map::Session& session) {
+  const std::string name = "session " + std::to_string(session.number);
+  if (!session.joined) return name + " was never joined";
+  return name + " was joined" + (session.joined_at ? " at key frame " + toString(*session.joined_at) : "");
+}
+
+}  // namespace omnimapper::mapper

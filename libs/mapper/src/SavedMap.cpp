@@ -1,0 +1,120 @@
+#include <omnimapper/graph/GraphArchive.h>
+#include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/mapper/Batch.h>
+#include <omnimapper/mapper/SavedMap.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <filesystem>
+#include <sstream>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+constexpr std::uint32_t kGraphVersion = 1;
+const std::array<std::string, 4> kOwnSections{"graph", "frames", "landmarks", "sessions"};
+
+[[noreturn]] void refuse(const std::string& reason) {
+  throw base::Error(base::ExitCode::unreadable_input, reason);
+}
+
+const map::MapSection& needed(const map::MapFile& file, const std::string& name) {
+  const auto* section = file.find(name);
+  if (!section) refuse("has no section \"" + name + "\": it is no map of OmniMapper, or damaged");
+  return *section;
+}
+
+graph::Graph graphOf(const map::MapSection& section, const Kinds& kinds) {
+  if (section.version > kGraphVersion) {
+    refuse("section \"graph\" is of version " + std::to_string(section.version) + ", and this program reads version " +
+           std::to_string(kGraphVersion) + ". Use the OmniMapper that wrote it, or a later one.");
+  }
+  std::istringstream in(section.bytes);
+  try {
+    return graph::readGraph(in, kinds.factors);
+  } catch (const base::Error& error) {
+    if (error.code() != base::ExitCode::unregistered_class) throw;
+    refuse(std::string(error.what()) +
+           ". It is of a plugin that is not loaded: name its library in [mapper] plugin_libraries.");
+  }
+}
+
+// What stands in one section about another.
+void expectWhole(const SavedMap& saved) {
+  const auto& [map, graph, sections] = saved;
+  const auto known = [&graph = graph](base::VariableId id, const std::string& what) {
+    if (!graph.contains(id))
+      refuse(what + " speaks of variable " + toString(id) + ", which the graph has not: damaged");
+  };
+  if (map.key_frames.empty()) refuse("holds no key frame: there is nothing to go on from");
+  if (map.sessions.empty() || map.sessions.back().number + 1 >= Batch::kProvisionalSession) {
+    refuse("has no session, or one of a number out of range: damaged");
+  }
+  const auto pose_kind = graph.contains(map.key_frames.front().pose)
+                             ? graph.variable(map.key_frames.front().pose).kind->kind()
+                             : std::string_view();
+  for (const auto& frame : map.key_frames) {
+    known(frame.pose, "key frame " + toString(frame.id));
+    const bool has_session = std::any_of(map.sessions.begin(), map.sessions.end(),
+                                         [&](const auto& session) { return session.number == frame.id.session; });
+    if (!has_session || graph.variable(frame.pose).kind->kind() != pose_kind) {
+      refuse("key frame " + toString(frame.id) + " is of no known session, or its pose of another kind: damaged");
+    }
+  }
+  for (const auto& session : map.sessions) known(session.anchor, "session " + std::to_string(session.number));
+  for (const auto& [id, landmark] : map.landmarks) {
+    for (const auto variable : landmark.variables) {
+      if (landmark.state != map::Landmark::State::merged) known(variable, "landmark " + toString(id));
+    }
+  }
+}
+
+SavedMap parse(const map::MapFile& file, const Kinds& kinds) {
+  SavedMap saved;
+  saved.map = map::framesFromSection(needed(file, "frames"));
+  saved.graph = graphOf(needed(file, "graph"), kinds);
+  if (const auto* landmarks = file.find("landmarks")) {
+    saved.map.landmarks = map::landmarksFromSection(*landmarks, kinds.payloads);
+  }
+  const auto* sessions = file.find("sessions");
+  saved.map.sessions = sessions ? map::sessionsFromSection(*sessions) : map::sessionsOfFrames(saved.map.key_frames);
+  for (const auto& section : file.sections()) {
+    const bool own = std::find(kOwnSections.begin(), kOwnSections.end(), section.name) != kOwnSections.end();
+    if (!own) saved.sections.push_back(section);
+  }
+  expectWhole(saved);
+  return saved;
+}
+
+}  // namespace
+
+Motion SavedMap::motion() const {
+  const auto kind = graph.variable(map.key_frames.front().pose).kind->kind();
+  return kind == graph::se2()->kind() ? Motion::planar : Motion::spatial;
+}
+
+SavedMap readMap(const std::string& path, const Kinds& kinds) {
+  const std::string name = std::filesystem::is_directory(path) ? path + "/map.omnimap" : path;
+  const auto file = map::MapFile::read(name);
+  try {
+    return parse(file, kinds);
+  } catch (const std::exception& error) {
+    refuse(name + ": " + error.what());
+  }
+}
+
+map::MapFile mapFileOf(const map::Map& map, const graph::Graph& graph, const std::vector<map::MapSection>& sections) {
+  std::ostringstream graph_bytes;
+  graph::writeGraph(graph, graph_bytes);
+  map::MapFile file;
+  file.set({"graph", kGraphVersion, std::move(graph_bytes).str()});
+  file.set(map::framesToSection(map));
+  file.set(map::landmarksToSection(map));
+  file.set(map::sessionsToSection(map));
+  for (const auto& section : sections) file.set(section);
+  return file;
+}
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,33 @@
+#include <omnimapper/mapper/SessionOptions.h>
+
+namespace omnimapper::mapper {
+
+const base::OptionTable<SessionOptions>& SessionOptions::table() {
+  using Options = SessionOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .choice("start", &Options::start,
+                  {{"end", Options::Start::end}, {"origin", Options::Start::origin}, {"pose", Options::Start::pose}},
+                  "Where a session that continues a map begins: where the last one ended, at the map's origin, or at "
+                  "the pose below.")
+          .number("start_x_m", &Options::start_x, {}, "Position in the map, for start = pose.")
+          .number("start_y_m", &Options::start_y, {}, "Position in the map, for start = pose.")
+          .number("start_yaw_deg", &Options::start_yaw, {}, "Heading in the map, for start = pose.")
+          .number("start_sigma_m", &Options::start_sigma, base::Range::positive(),
+                  "Standard deviation of the position: how far off the start may be.")
+          .number("start_sigma_deg", &Options::start_angle_sigma, base::Range::positive(),
+                  "Standard deviation of the angles.");
+  return table;
+}
+
+SessionStart SessionOptions::startOn(const map::Map& map) const {
+  SessionStart session{{}, start_sigma, start_angle_sigma};
+  if (start == Start::pose) session.map_from_base = mrpt::poses::CPose3D(start_x, start_y, 0, start_yaw, 0, 0);
+  if (start != Start::end) return session;
+  const auto& last = map.key_frames.back();
+  session.map_from_base = last.map_from_base;
+  if (!last.hanging.empty()) session.map_from_base = last.map_from_base + last.hanging.back().keyframe_from_base;
+  return session;
+}
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/map/MapFile.h>
+#include <omnimapper/map/SessionFigures.h>
+#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/testing/Fixtures.h>
+
+#include <iterator>
+#include <ostream>
+
+// The sections of a map file beside that of a single session's frames.
+namespace omnimapper::map {
+namespace {
+
+class Sign : public LandmarkPayload {
+ public:
+  explicit Sign(std::string text) : text(std::move(text)) {}
+  std::string_view kind() const override { return "sign"; }
+  void write(std::ostream& out) const override { out << text; }
+  const std::string text;
+};
+
+PayloadRegistry withSigns() {
+  PayloadRegistry registry;
+  registry.add("sign", [](std::istream& in) {
+    return std::make_shared<Sign>(std::string(std::istreambuf_iterator<char>(in), {}));
+  });
+  return registry;
+}
+
+Landmark landmark(base::LandmarkId id, const std::string& kind) {
+  Landmark result;
+  result.id = id;
+  result.kind = kind;
+  result.owner = "owner of " + kind;
+  return result;
+}
+
+Map mapWithLandmarks() {
+  Map map;
+  auto sign = landmark({0, 0}, "door sign");
+  sign.variables = {{0, 7}, {1, 2}};
+  sign.payload = std::make_shared<Sign>(std::string("Room \0 12", 9));
+  sign.evidence = 41;
+  sign.first_seen = base::stampFromUnix(1.1e9);
+  sign.last_seen = base::stampFromUnix(1.2e9 + 1e-7);
+  map.landmarks.add(0, sign);
+  map.landmarks.skip(0);  // one that is gone
+  auto merged = landmark({0, 2}, "door sign");
+  merged.state = Landmark::State::merged;
+  merged.merged_into = {0, 0};
+  map.landmarks.add(0, merged);
+  auto wall = landmark({3, 0}, "wall");
+  wall.state = Landmark::State::retired;
+  map.landmarks.add(3, wall);
+  map.landmarks.skip(3);
+  return map;
+}
+
+TEST(LandmarksSection, KeepsEveryFieldAndWhichIdsWereGiven) {
+  const auto loaded = landmarksFromSection(landmarksToSection(mapWithLandmarks()), withSigns());
+  ASSERT_EQ(loaded.size(), 3U);
+  const Landmark* sign = loaded.find({0, 0});
+  ASSERT_TRUE(sign);
+  EXPECT_EQ(sign->id, (base::LandmarkId{0, 0}));
+  EXPECT_EQ(sign->kind, "door sign");
+  EXPECT_EQ(sign->owner, "owner of door sign");
+  EXPECT_EQ(sign->variables, (std::vector<base::VariableId>{{0, 7}, {1, 2}}));
+  EXPECT_EQ(sign->evidence, 41U);
+  EXPECT_EQ(sign->first_seen, base::stampFromUnix(1.1e9));
+  EXPECT_EQ(sign->last_seen, base::stampFromUnix(1.2e9 + 1e-7));
+  EXPECT_EQ(sign->state, Landmark::State::active);
+  const auto payload = std::dynamic_pointer_cast<const Sign>(sign->payload);
+  ASSERT_TRUE(payload);
+  EXPECT_EQ(payload->text, std::string("Room \0 12", 9));
+  EXPECT_EQ(loaded.find({0, 1}), nullptr);
+  EXPECT_EQ(loaded.find({0, 2})->state, Landmark::State::merged);
+  EXPECT_EQ(loaded.find({0, 2})->merged_into, (base::LandmarkId{0, 0}));
+  EXPECT_EQ(loaded.find({3, 0})->payload, nullptr);
+  EXPECT_EQ(loaded.nextId(0).index, 3U);
+  EXPECT_EQ(loaded.nextId(3).index, 2U) << "an id is never given twice";
+}
+
+TEST(LandmarksSection, AnUnknownPayloadKeepsItsBytesOverTwoRoundTrips) {
+  const auto first = landmarksToSection(mapWithLandmarks());
+  Map map;
+  map.landmarks = landmarksFromSection(first, PayloadRegistry());
+  const auto second = landmarksToSection(map);
+  map.landmarks = landmarksFromSection(second, PayloadRegistry());
+  const auto third = landmarksToSection(map);
+  EXPECT_EQ(first.bytes, second.bytes);
+  EXPECT_EQ(second.bytes, third.bytes);
+  EXPECT_EQ(landmarksFromSection(third, withSigns()).find({0, 0})->payload->kind(), "sign");
+}
+
+TEST(LandmarksSection, APayloadThatItsReaderLeavesBytesOfIsRefused) {
+  PayloadRegistry greedy_for_one;
+  greedy_for_one.add("sign", [](std::istream& in) {
+    in.get();
+    return std::make_shared<Sign>("");
+  });
+  EXPECT_THROW(landmarksFromSection(landmarksToSection(mapWithLandmarks()), greedy_for_one), base::Error);
+}
+
+TEST(LandmarksSection, CutsLaterVersionsAndOtherSectionsAreRefused) {
+  auto section = landmarksToSection(mapWithLandmarks());
+  for (std::size_t length = 0; length < section.bytes.size(); ++length) {
+    EXPECT_THROW(landmarksFromSection({"landmarks", 1, section.bytes.substr(0, length)}, {}), base::Error) << length;
+  }
+  EXPECT_THROW(landmarksFromSection({"landmarks", 1, section.bytes + "x"}, {}), base::Error);
+  EXPECT_THROW(landmarksFromSection({"landmarks", 2, section.bytes}, {}), base::Error);
+  EXPECT_THROW(landmarksFromSection({"sessions", 1, section.bytes}, {}), base::Error);
+}
+
+TEST(SessionsSection, KeepsEveryField) {
+  Map map;
+  map.sessions.push_back({0, "monday", {0, 0}, true});
+  map.sessions.push_back({2, "tuesday", {2, 5}, true, base::KeyFrameId{2, 9}});
+  map.sessions.push_back({3, "", {3, 1}, false});
+  const auto section = sessionsToSection(map);
+  const auto loaded = sessionsFromSection(section);
+  ASSERT_EQ(loaded.size(), 3U);
+  EXPECT_EQ(loaded[0].title, "monday");
+  EXPECT_FALSE(loaded[0].joined_at);
+  EXPECT_EQ(loaded[1].number, 2);
+  EXPECT_EQ(loaded[1].anchor, (base::VariableId{2, 5}));
+  EXPECT_EQ(loaded[1].joined_at, (base::KeyFrameId{2, 9}));
+  EXPECT_FALSE(loaded[2].joined);
+  for (std::size_t length = 0; length < section.bytes.size(); ++length) {
+    EXPECT_THROW(sessionsFromSection({"sessions", 1, section.bytes.substr(0, length)}), base::Error) << length;
+  }
+  EXPECT_THROW(sessionsFromSection({"sessions", 2, section.bytes}), base::Error);
+}
+
+TEST(SessionsSection, SessionsOutOfOrderAreRefused) {
+  Map map;
+  map.sessions.push_back({1, "a", {}, true});
+  map.sessions.push_back({1, "b", {}, true});
+  EXPECT_THROW(sessionsFromSection(sessionsToSection(map)), base::Error);
+}
+
+TEST(FramesSection, KeepsWhatTheReferenceSensorSaw) {
+  Map map;
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    KeyFrame frame;
+    frame.id = {0, i};
+    frame.stamp = base::stampFromUnix(1e9 + i);
+    frame.reference = i == 1;
+    map.key_frames.insert(frame);
+  }
+  const auto loaded = framesFromSection(framesToSection(map));
+  EXPECT_FALSE(loaded.key_frames[0].reference);
+  EXPECT_TRUE(loaded.key_frames[1].reference);
+}
+
+// 3 m and 4 m, then 1 m of a session that was driven before them.
+TEST(SessionFigures, AreOfEachSessionAndNotOfTheLeapBetween) {
+  Map map;
+  const auto add = [&](base::KeyFrameId id, double seconds, double x) {
+    KeyFrame frame;
+    frame.id = id;
+    frame.stamp = base::stampFromUnix(1e9 + seconds);
+    frame.map_from_base = mrpt::poses::CPose3D(x, 0, 0, 0, 0, 0);
+    map.key_frames.insert(frame);
+  };
+  add({0, 0}, 100, 0);
+  add({0, 1}, 110, 3);
+  add({0, 2}, 130, -1);
+  add({1, 0}, 50, 1000);
+  add({1, 1}, 55, 1001);
+  map.key_frames.edit({1, 1}).hanging.push_back({base::stampFromUnix(1e9 + 57), {}});
+  const auto figures = sessionFigures(map);
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(figures[0].key_frames, 3U);
+  EXPECT_DOUBLE_EQ(figures[0].way, 7);
+  EXPECT_DOUBLE_EQ(figures[0].seconds, 30);
+  EXPECT_EQ(figures[1].number, 1);
+  EXPECT_DOUBLE_EQ(figures[1].way, 1);
+  EXPECT_DOUBLE_EQ(figures[1].seconds, 7);
+  const auto trajectory = denseTrajectory(map);
+  ASSERT_EQ(trajectory.size(), 6U);
+  EXPECT_EQ(trajectory[2].session, 0);
+  EXPECT_EQ(trajectory[3].session, 1);
+  EXPECT_EQ(trajectory[5].session, 1);
+}
+
+}  // namespace
+}  // namespace omnimapper::map

@@ -1,0 +1,233 @@
+#include <gtest/gtest.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/mapper/SessionOptions.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/MapperRun.h>
+
+#include <algorithm>
+#include <cmath>
+
+// Logs that are cut and continued, through a map file, with the plugins of the project.
+namespace omnimapper::mapper {
+namespace {
+
+using mrpt::poses::CPose3D;
+using testing::SimulatedLog;
+using testing::SimulatedLogOptions;
+using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
+
+SimulatedLogOptions ring(double laps) {
+  SimulatedLogOptions options;
+  options.laps = laps;
+  return options;
+}
+
+// The observations before that part of the log, and those after.
+std::pair<Observations, Observations> cut(const SimulatedLog& log, double part) {
+  const auto stamp = log.begin() + base::durationFromSeconds(part * base::secondsBetween(log.begin(), log.end()));
+  std::pair<Observations, Observations> halves;
+  for (const auto& observation : log.observations()) {
+    (observation->timestamp < stamp ? halves.first : halves.second).push_back(observation);
+  }
+  return halves;
+}
+
+class Continue : public ::testing::Test {
+ protected:
+  std::unique_ptr<Engine> map(const Observations& observations) {
+    auto engine = testing::makeEngine(ini_, settings_);
+    testing::run(*engine, observations);
+    return engine;
+  }
+  std::unique_ptr<Engine> goOn(const Engine& before, const Observations& observations) {
+    const auto view = before.view();
+    mapFileOf(view.map, view.graph, view.sections).write(path_);
+    auto saved = readMap(path_, registeredKinds());
+    const auto start = start_.startOn(saved.map);
+    auto engine = testing::makeEngine(ini_, settings_);
+    engine->continueFrom(std::move(saved), start);
+    testing::run(*engine, observations);
+    return engine;
+  }
+
+  std::string ini_ = testing::kLaserIni;
+  std::vector<std::string> settings_;
+  SessionOptions start_;
+  testing::ScratchFolder folder_;
+  std::string path_ = folder_ / "map.omnimap";
+};
+
+TEST_F(Continue, ALogCutInTwoGivesTheMapOfTheLogInOnePiece) {
+  const SimulatedLog log(ring(2));
+  const auto whole = map(log.observations());
+  const double error = testing::trajectoryError(whole->view(), log);
+  for (const double part : {0.5, 0.7}) {
+    const auto [first, second] = cut(log, part);
+    const auto both = goOn(*map(first), second);
+    const auto view = both->view();
+    ASSERT_EQ(view.map.sessions.size(), 2U);
+    EXPECT_TRUE(view.map.sessions[1].joined) << part;
+    ASSERT_TRUE(view.map.sessions[1].joined_at);
+    EXPECT_EQ(view.map.sessions[1].joined_at->session, 1);
+    EXPECT_NEAR(static_cast<double>(view.map.key_frames.size()),
+                static_cast<double>(whole->view().map.key_frames.size()), 2);
+    const double error_of_both = testing::trajectoryError(view, log);
+    RecordProperty("ate_whole_m", std::to_string(error));
+    RecordProperty("ate_cut_m", std::to_string(error_of_both));
+    EXPECT_NEAR(error_of_both, error, 0.03) << part;
+  }
+}
+
+TEST_F(Continue, ItsStampsMayBeEarlierThanThoseOfTheMap) {
+  const SimulatedLog log(ring(2));
+  const auto [first, second] = cut(log, 0.5);
+  const auto before = map(first);
+  const auto later = goOn(*before, second);
+  for (const auto& observation : second) observation->timestamp -= base::durationFromSeconds(86400);
+  const auto earlier = goOn(*before, second);
+  const auto &a = later->view().map.key_frames, &b = earlier->view().map.key_frames;
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_TRUE(earlier->view().map.sessions[1].joined);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].id, b[i].id);
+    EXPECT_LT((a[i].map_from_base.translation() - b[i].map_from_base.translation()).norm(), 1e-6);
+  }
+}
+
+TEST_F(Continue, AWrongStartLeavesTheSessionApartAndTheMapAsItWas) {
+  const SimulatedLog log(ring(2));
+  const auto [first, second] = cut(log, 0.5);
+  const auto before = map(first);
+  start_.start = SessionOptions::Start::pose;
+  start_.start_x = 3, start_.start_y = 4, start_.start_yaw = 0;  // 5 m off
+  const auto both = goOn(*before, second);
+  const auto view = both->view();
+  EXPECT_FALSE(view.map.sessions[1].joined);
+  for (const auto& frame : before->view().map.key_frames) {
+    const CPose3D moved = view.map.keyFrame(frame.id).map_from_base - frame.map_from_base;
+    EXPECT_LT(moved.translation().norm(), 1e-3) << frame.id;
+  }
+  const auto start = view.map.key_frames[before->view().map.key_frames.size()].map_from_base;
+  EXPECT_NEAR(start.x(), 3, 1e-3);
+  EXPECT_NEAR(start.y(), 4, 1e-3);
+}
+
+TEST_F(Continue, AStartHalfAMetreOffIsSetRight) {
+  const SimulatedLog log(ring(2));
+  const auto [first, second] = cut(log, 0.5);
+  start_.start = SessionOptions::Start::pose;
+  start_.start_x = 0.4, start_.start_y = 0.3, start_.start_yaw = 0.2;
+  const auto both = goOn(*map(first), second);
+  EXPECT_TRUE(both->view().map.sessions[1].joined);
+  EXPECT_LT(testing::trajectoryError(both->view(), log), 0.1);
+}
+
+TEST_F(Continue, AThirdSessionGoesOnFromTheSecond) {
+  const SimulatedLog log(ring(3));
+  const auto [first, rest] = cut(log, 1.0 / 3);
+  const auto middle = rest.begin() + static_cast<std::ptrdiff_t>(rest.size() / 2);
+  const auto three = goOn(*goOn(*map(first), {rest.begin(), middle}), {middle, rest.end()});
+  const auto view = three->view();
+  ASSERT_EQ(view.map.sessions.size(), 3U);
+  EXPECT_TRUE(view.map.sessions[1].joined);
+  EXPECT_TRUE(view.map.sessions[2].joined);
+  EXPECT_EQ(view.map.key_frames.back().id.session, 2);
+  EXPECT_LT(testing::trajectoryError(view, log), 0.1);
+}
+
+TEST_F(Continue, TheMapOfTwoSessionsIsTheSameInEveryBitWithMoreThreads) {
+  const SimulatedLog log(ring(1.3));
+  const auto [first, second] = cut(log, 0.75);
+  const auto before = map(first);
+  const auto once = goOn(*before, second);
+  auto saved = readMap(path_, registeredKinds());
+  const auto start = start_.startOn(saved.map);
+  const auto again = testing::makeEngine(ini_, settings_, 3);
+  again->continueFrom(std::move(saved), start);
+  testing::run(*again, second);
+  EXPECT_TRUE(testing::bitsOf(once->view()) == testing::bitsOf(again->view()));
+}
+
+TEST_F(Continue, ASectionOfNobodyHereSurvivesTwoSessions) {
+  const SimulatedLog log(ring(0.6));
+  const auto [first, rest] = cut(log, 0.5);
+  const auto middle = rest.begin() + static_cast<std::ptrdiff_t>(rest.size() / 2);
+  const auto begun = map(first);
+  auto view = begun->view();
+  mapFileOf(view.map, view.graph, {{"plugin stranger", 4, std::string("x\0y", 3)}}).write(path_);
+  auto saved = readMap(path_, registeredKinds());
+  const auto start = start_.startOn(saved.map);
+  auto second = testing::makeEngine(ini_);
+  second->continueFrom(std::move(saved), start);
+  testing::run(*second, {rest.begin(), middle});
+  const auto third = goOn(*second, {middle, rest.end()});
+  const auto& sections = third->view().sections;
+  ASSERT_EQ(sections.size(), 1U);
+  EXPECT_EQ(sections[0].name, "plugin stranger");
+  EXPECT_EQ(sections[0].version, 4U);
+  EXPECT_EQ(sections[0].bytes, std::string("x\0y", 3));
+}
+
+// Neither scans nor closures: the two sessions have the earth, or the frame of the tracker, in common.
+class ContinueWithReference : public Continue {
+ protected:
+  // Variables that are the pose of no key frame and no anchor.
+  static std::size_t countReferences(const View& view) {
+    std::size_t count = 0;
+    for (const auto& [id, record] : view.graph.variables()) {
+      const auto& frames = view.map.key_frames;
+      const auto& sessions = view.map.sessions;
+      count += std::none_of(frames.begin(), frames.end(), [id = id](const auto& f) { return f.pose == id; }) &&
+               std::none_of(sessions.begin(), sessions.end(), [id = id](const auto& s) { return s.anchor == id; });
+    }
+    return count;
+  }
+  static SimulatedLogOptions ringWithoutLaser() {
+    auto options = ring(2);
+    options.lasers.clear();
+    return options;
+  }
+};
+
+TEST_F(ContinueWithReference, GpsGoesOnWithTheSameOriginAndFrame) {
+  auto options = ringWithoutLaser();
+  options.gps.on = true;
+  const SimulatedLog log(options);
+  ini_ =
+      "[mapper]\npose_plugins = odometry\nmeasurement_plugins = gps\n[odometry]\nclass = OdometryPlugin\n[gps]\n"
+      "class = GpsPlugin\n";
+  const auto [first, second] = cut(log, 0.6);
+  const auto before = map(first);
+  start_.start = SessionOptions::Start::pose;
+  start_.start_x = 30, start_.start_y = -20, start_.start_yaw = 2;  // far off: the fixes say where
+  const auto both = goOn(*before, second);
+  EXPECT_EQ(countReferences(before->view()), 1U);
+  EXPECT_EQ(countReferences(both->view()), 1U);
+  EXPECT_TRUE(both->view().map.sessions[1].joined);
+  EXPECT_LT(testing::trajectoryError(both->view(), log), testing::trajectoryError(before->view(), log) + 0.1);
+  settings_ = {"gps.map_is_enu=true"};
+  EXPECT_THROW(goOn(*before, second), base::Error) << "the map is not east-north-up";
+}
+
+TEST_F(ContinueWithReference, ATrackerGoesOnInTheSameFrame) {
+  auto options = ringWithoutLaser();
+  options.tracker.on = true;
+  const SimulatedLog log(options);
+  ini_ =
+      "[mapper]\npose_plugins = odometry\nmeasurement_plugins = tracker\n[odometry]\nclass = OdometryPlugin\n"
+      "[tracker]\nclass = RobotPosePlugin\nreference_is_map = false\n";
+  const auto [first, second] = cut(log, 0.6);
+  const auto before = map(first);
+  start_.start = SessionOptions::Start::pose;
+  start_.start_x = 10, start_.start_y = -5, start_.start_yaw = 1;
+  const auto both = goOn(*before, second);
+  EXPECT_EQ(countReferences(both->view()), 1U);
+  EXPECT_TRUE(both->view().map.sessions[1].joined);
+  EXPECT_LT(testing::trajectoryError(both->view(), log), testing::trajectoryError(before->view(), log) + 0.05);
+  settings_ = {"tracker.reference_is_map=true"};
+  EXPECT_THROW(goOn(*before, second), base::Error);
+}
+
+}  // namespace
+}  // namespace omnimapper::mapper

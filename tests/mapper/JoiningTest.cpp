@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+#include <omnimapper/mapper/Joining.h>
+#include <omnimapper/mapper/PoseFactors.h>
+
+namespace omnimapper::mapper {
+namespace {
+
+// Three sessions of two key frames each, linked within themselves.
+struct ThreeSessions {
+  map::Map map;
+  graph::Graph graph;
+
+  ThreeSessions() {
+    for (std::uint16_t session = 0; session < 3; ++session) {
+      graph.setSession(session);
+      map.sessions.push_back({session, "", {session, 0}, session == 0});
+      for (std::uint32_t i = 0; i < 2; ++i) {
+        map::KeyFrame frame;
+        frame.id = {session, i};
+        frame.stamp = base::stampFromUnix(1e9 + i);
+        frame.pose = graph.addVariable(poseVariable(Motion::planar), Eigen::Vector3d(i, session, 0));
+        map.key_frames.insert(frame);
+      }
+      bind({session, 0}, {session, 1}, "odometry");
+    }
+  }
+  base::FactorId bind(base::KeyFrameId from, base::KeyFrameId to, const std::string& owner) {
+    graph.setSession(std::max(from.session, to.session));
+    return graph.addFactor(betweenPoses(Motion::planar, map.keyFrame(from).pose, map.keyFrame(to).pose,
+                                        {{}, Eigen::Matrix<double, 6, 6>::Identity()}, owner));
+  }
+  bool joined(std::size_t session) {
+    markJoined(map, graph, {"gps"});
+    return map.sessions[session].joined;
+  }
+};
+
+TEST(Joining, ASessionIsJoinedByAFactorToTheFirstOneThatActs) {
+  ThreeSessions world;
+  EXPECT_TRUE(world.joined(0));
+  EXPECT_FALSE(world.joined(1));
+  const auto id = world.bind({0, 1}, {1, 1}, "scan_matching");
+  EXPECT_TRUE(world.joined(1));
+  EXPECT_EQ(world.map.sessions[1].joined_at, (base::KeyFrameId{1, 1}));
+  EXPECT_EQ(joinedText(world.map.sessions[1]), "session 1 was joined at key frame 1:1");
+  EXPECT_FALSE(world.joined(2));
+  world.graph.setWeight(id, 0);  // taken back
+  EXPECT_FALSE(world.joined(1));
+  EXPECT_FALSE(world.map.sessions[1].joined_at);
+  EXPECT_EQ(joinedText(world.map.sessions[1]), "session 1 was never joined");
+}
+
+TEST(Joining, ASessionIsJoinedByWayOfAnother) {
+  ThreeSessions world;
+  world.bind({1, 0}, {2, 0}, "scan_matching");
+  EXPECT_FALSE(world.joined(1));
+  EXPECT_FALSE(world.joined(2)) << "tied to each other, but not to the map";
+  world.bind({0, 0}, {2, 1}, "scan_matching");
+  EXPECT_TRUE(world.joined(1));
+  EXPECT_TRUE(world.joined(2));
+  EXPECT_EQ(world.map.sessions[1].joined_at, (base::KeyFrameId{2, 1}));
+}
+
+TEST(Joining, APlaceInTheMapJoinsIfItsPluginGivesAbsolutePoses) {
+  ThreeSessions world;
+  const auto prior = [&](base::KeyFrameId id, const std::string& owner) {
+    world.graph.setSession(id.session);
+    world.graph.addFactor(
+        posePrior(Motion::planar, world.map.keyFrame(id).pose, {}, Eigen::Matrix<double, 6, 6>::Identity(), owner));
+  };
+  prior({1, 0}, "engine");
+  EXPECT_FALSE(world.joined(1)) << "a guess of the start is no measurement";
+  prior({1, 1}, "gps");
+  EXPECT_TRUE(world.joined(1));
+}
+
+}  // namespace
+}  // namespace omnimapper::mapper

@@ -1,0 +1,173 @@
+#include <gtest/gtest.h>
+#include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/mapper/SessionOptions.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/HandMadeRun.h>
+#include <omnimapper/testing/MapperRun.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace omnimapper::mapper {
+namespace {
+
+using mrpt::poses::CPose3D;
+
+std::string contentOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// What a plugin that is not there any more left.
+class Foreign : public map::LandmarkPayload {
+ public:
+  std::string_view kind() const override { return "foreign"; }
+  void write(std::ostream& out) const override { out << std::string("\0\1 bytes", 8); }
+};
+
+class SavedMapFile : public ::testing::Test {
+ protected:
+  SavedMapFile() {
+    plugins::registerPlugins();
+    for (int i = 0; i < 4; ++i) run_.addFrame(CPose3D(i, 0.1 * i, 0, 0.3 * i, 0, 0));
+    for (std::uint32_t i = 0; i + 1 < 4; ++i) {
+      run_.graph.addFactor(betweenPoses(Motion::planar, run_.map.key_frames[i].pose, run_.map.key_frames[i + 1].pose,
+                                        {CPose3D(1, 0.1, 0, 0.3, 0, 0), Eigen::Matrix<double, 6, 6>::Identity()},
+                                        "odometry"));
+    }
+    run_.map.sessions.push_back({0, "first", run_.map.key_frames[0].pose, true});
+    map::Landmark landmark;
+    landmark.kind = "thing";
+    landmark.variables = {run_.map.key_frames[2].pose};
+    landmark.payload = std::make_shared<Foreign>();
+    run_.map.landmarks.add(0, landmark);
+    run_.sections = {{"plugin gone", 7, std::string("a\0b", 3)}, {"of the future", 1, "c"}};
+  }
+  map::MapFile file() const { return mapFileOf(run_.map, run_.graph, run_.sections); }
+  std::string refusal(const map::MapFile& file) const {
+    file.write(path_);
+    return refusal();
+  }
+  std::string refusal() const {
+    try {
+      readMap(path_, registeredKinds());
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::unreadable_input) << error.what();
+      EXPECT_EQ(std::string(error.what()).rfind(path_, 0), 0U) << "names the file: " << error.what();
+      return error.what();
+    }
+    return {};
+  }
+
+  testing::HandMadeRun run_;
+  testing::ScratchFolder folder_;
+  std::string path_ = folder_ / "map.omnimap";
+};
+
+TEST_F(SavedMapFile, WrittenReadAndWrittenAgainItHasTheSameBytesTwice) {
+  file().write(path_);
+  const std::string first = contentOf(path_);
+  for (int trip = 0; trip < 2; ++trip) {
+    const auto saved = readMap(path_, registeredKinds());
+    ASSERT_EQ(saved.sections.size(), 2U);
+    EXPECT_EQ(saved.sections[0].name, "plugin gone");
+    EXPECT_EQ(saved.sections[0].version, 7U);
+    EXPECT_EQ(saved.sections[0].bytes, std::string("a\0b", 3));
+    EXPECT_EQ(saved.map.landmarks.find({0, 0})->payload->kind(), "foreign");
+    mapFileOf(saved.map, saved.graph, saved.sections).write(path_);
+    EXPECT_TRUE(contentOf(path_) == first) << "trip " << trip;
+  }
+}
+
+TEST_F(SavedMapFile, TheFolderThatHoldsItIsAsGood) {
+  file().write(path_);
+  EXPECT_EQ(readMap(folder_.path(), registeredKinds()).map.key_frames.size(), 4U);
+}
+
+TEST_F(SavedMapFile, AMapOfVersionOneIsReadWithASessionMadeUp) {
+  const std::string old = testing::sourceFile("tests/map/data/version1.omnimap");
+  const auto saved = readMap(old, registeredKinds());
+  EXPECT_FALSE(map::MapFile::read(old).find("sessions"));
+  ASSERT_GT(saved.map.key_frames.size(), 3U);
+  EXPECT_EQ(saved.motion(), Motion::planar);
+  ASSERT_EQ(saved.map.sessions.size(), 1U);
+  EXPECT_EQ(saved.map.sessions[0].anchor, saved.map.key_frames.front().pose);
+  EXPECT_TRUE(saved.map.sessions[0].joined);
+  for (const auto& frame : saved.map.key_frames) {
+    EXPECT_TRUE(frame.reference);
+    EXPECT_EQ(frame.observations.size(), 2U) << "the scan and its points";
+  }
+  EXPECT_TRUE(saved.map.landmarks.empty());
+  mapFileOf(saved.map, saved.graph, saved.sections).write(path_);
+  const std::string first = contentOf(path_);
+  const auto again = readMap(path_, registeredKinds());
+  mapFileOf(again.map, again.graph, again.sections).write(path_);
+  EXPECT_TRUE(contentOf(path_) == first);
+}
+
+TEST_F(SavedMapFile, WhatIsMissingDamagedOrOfTheFutureIsRefusedByName) {
+  EXPECT_NE(refusal().find("cannot be opened"), std::string::npos);
+  file().write(path_);
+  std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
+  EXPECT_NE(refusal(), "");
+  for (const std::string name : {"graph", "frames", "landmarks", "sessions"}) {
+    auto later = file();
+    later.set({name, 99, later.find(name)->bytes});
+    EXPECT_NE(refusal(later).find("version 99"), std::string::npos) << name;
+    auto cut = file();
+    cut.set({name, cut.find(name)->version, cut.find(name)->bytes.substr(0, 20)});
+    EXPECT_NE(refusal(cut), "") << name;
+  }
+  map::MapFile partial;
+  partial.set(*file().find("frames"));
+  EXPECT_NE(refusal(partial).find("no section \"graph\""), std::string::npos);
+}
+
+TEST_F(SavedMapFile, KindsOfAPluginThatIsNotLoadedAreRefusedWithTheRemedy) {
+  auto strange = file();
+  std::string bytes = strange.find("graph")->bytes;
+  const std::string kind(run_.graph.factors().begin().operator*().second.factor->kind());
+  bytes.replace(bytes.find(kind), kind.size(), std::string(kind.size(), 'z'));
+  strange.set({"graph", 1, bytes});
+  const std::string message = refusal(strange);
+  EXPECT_NE(message.find("plugin_libraries"), std::string::npos) << message;
+  EXPECT_NE(message.find(std::string(kind.size(), 'z')), std::string::npos) << message;
+}
+
+TEST_F(SavedMapFile, PartsThatDoNotFitEachOtherAreRefused) {
+  const auto whole = run_;
+  run_.map.key_frames.edit({0, 2}).pose = {0, 99};
+  EXPECT_NE(refusal(file()).find("key frame 0:2"), std::string::npos);
+  run_ = whole;
+  run_.map.sessions[0].anchor = {5, 5};
+  EXPECT_NE(refusal(file()).find("session 0"), std::string::npos);
+  run_ = whole;
+  run_.map.sessions[0].number = 1;
+  EXPECT_NE(refusal(file()).find("no known session"), std::string::npos);
+  run_ = whole;
+  run_.map.landmarks.edit({0, 0})->variables = {{0, 77}};
+  EXPECT_NE(refusal(file()).find("landmark 0:0"), std::string::npos);
+  run_ = whole;
+  EXPECT_EQ(refusal(file()), "");
+}
+
+TEST_F(SavedMapFile, ANewSessionStartsWhereTheOptionsSay) {
+  run_.map.key_frames.edit({0, 3}).hanging.push_back(
+      {run_.map.key_frames[3].stamp + base::Duration(1), CPose3D(0.2, 0, 0, 0, 0, 0)});
+  SessionOptions options;
+  const auto end = options.startOn(run_.map);
+  EXPECT_LT((end.map_from_base - (run_.map.key_frames[3].map_from_base + CPose3D(0.2, 0, 0, 0, 0, 0))).norm(), 1e-12);
+  EXPECT_EQ(end.position_sigma, 1);
+  EXPECT_NEAR(end.angle_sigma, 0.5236, 1e-4);
+  options.start = SessionOptions::Start::origin;
+  EXPECT_EQ(options.startOn(run_.map).map_from_base.norm(), 0);
+  options.start = SessionOptions::Start::pose;
+  options.start_x = 3, options.start_y = -4, options.start_yaw = 1;
+  const auto pose = options.startOn(run_.map).map_from_base;
+  EXPECT_EQ(pose.x(), 3);
+  EXPECT_EQ(pose.y(), -4);
+  EXPECT_NEAR(pose.yaw(), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace omnimapper::mapper
