@@ -68,9 +68,7 @@ int main(int argc, char** argv) {
   app.add_option("-i,--ini", arguments.ini, "INI file: which plugins, with which options");
   app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
   app.add_option("-o,--output", arguments.run.output_folder, "folder for the outputs, made if missing");
-  app.add_option(
-      "--continue", arguments.run.continue_map,
-      "map.omnimap, or its folder: the logs become a new session of it; where it begins: [session] of the INI");
+  app.add_option("--continue", arguments.run.continue_map, "map (or its folder) that the logs go on from: [session]");
   app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
   app.add_option("--threads", arguments.run.threads, "worker threads of perception; the map does not depend on it")
       ->check(CLI::Range(1, 256));

@@ -48,9 +48,9 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
       chain_(settings.engine.motion, plugins_.pose, map_, graph_),
       estimator_(settings_, map_, graph_, decisions_),
       reference_sensor_(settings.engine.reference_sensor),
-      pool_(std::max(1, threads)),
       perception_(pointers(plugins_.extractors), pointers(plugins_.measurement), pool_),
-      jobs_(pool_, static_cast<std::size_t>(settings.engine.job_delay)) {
+      jobs_(pool_, static_cast<std::size_t>(settings.engine.job_delay)),
+      pool_(std::max(1, threads)) {
   if (plugins_.pose.empty() || plugins_.measurement.empty()) {
     throw base::Error(base::ExitCode::unknown_plugin,
                       "[mapper] names no " +

@@ -118,10 +118,10 @@ class Engine {
   std::string reference_sensor_;
   BusyTimes busy_;
 
-  // Last, so that they end first: the pool's tasks use what stands above.
-  WorkerPool pool_;
   Perception perception_;
   JobQueue jobs_;
+  // Last, so that it ends first: its tasks use what stands above.
+  WorkerPool pool_;
 };
 
 }  // namespace omnimapper::mapper
