@@ -4,9 +4,9 @@
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
-#include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/map/MapFile.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/plugins/registerPlugins.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
@@ -24,21 +24,12 @@ namespace runs {
 using omnimapper::testing::SimulatedLog;
 namespace map_file = omnimapper::map;
 
-struct LoadedMap {
-  map_file::Map map;
-  omnimapper::graph::Graph graph;
-};
+using LoadedMap = omnimapper::mapper::SavedMap;
 
 /// map.omnimap. Throws base::Error if any part of it is not whole.
 inline LoadedMap loadMap(const std::string& folder) {
   omnimapper::plugins::registerPlugins();  // the classes of the observations in it
-  const auto file = map_file::MapFile::read(folder + "/map.omnimap");
-  const auto* frames = file.find("frames");
-  const auto* graph = file.find("graph");
-  if (!frames || !graph) throw omnimapper::base::Error(ExitCode::unreadable_input, folder + ": a section is missing");
-  std::istringstream in(graph->bytes);
-  return {map_file::framesFromSection(*frames),
-          omnimapper::graph::readGraph(in, omnimapper::graph::FactorRegistry::withBuiltIns())};
+  return omnimapper::mapper::readMap(folder + "/map.omnimap", omnimapper::mapper::registeredKinds());
 }
 
 inline omnimapper::eval::Trajectory loadTrajectory(const std::string& folder) {

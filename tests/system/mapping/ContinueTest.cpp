@@ -1,0 +1,222 @@
+// Logs cut in two and continued on the command line with --continue: the same map as in one piece, every output, and
+// what is refused. Interrupted or killed, the old map stays whole.
+#include <mrpt/opengl/COpenGLScene.h>
+#include <omnimapper/eval/RelationError.h>
+#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/RawlogWriter.h>
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+#include "../MapFolder.h"
+
+namespace {
+
+using namespace runs;
+using omnimapper::base::Stamp;
+using omnimapper::testing::Program;
+using omnimapper::testing::ScratchFolder;
+using omnimapper::testing::sharedData;
+using omnimapper::testing::SimulatedLogOptions;
+
+/// Writes the observations of a log before `cut` to one rawlog, the others to another.
+void cutLog(const std::string& log, Stamp cut, const std::string& first, const std::string& second) {
+  for (const bool early : {true, false}) {
+    omnimapper::source::RawlogSource source(log);
+    omnimapper::source::writeRawlog(early ? first : second, [&](omnimapper::source::RawlogWriter& writer) {
+      while (const auto observation = source.next()) {
+        if ((observation->timestamp < cut) == early) writer.add(*observation);
+      }
+    });
+  }
+}
+
+double distanceBetween(const omnimapper::eval::Trajectory& a, const omnimapper::eval::Trajectory& b) {
+  return omnimapper::eval::absoluteTrajectoryError(a, b).translation.rmse;
+}
+
+// Two laps of the simulated ring, in one piece and cut after the first.
+class Continue : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = std::make_unique<ScratchFolder>();
+    SimulatedLogOptions options;
+    options.laps = 2;
+    log_ = std::make_unique<SimulatedLog>(options);
+    log_->writeRawlog(file("ring.rawlog"));
+    const double seconds = omnimapper::base::secondsBetween(log_->begin(), log_->end());
+    cutLog(file("ring.rawlog"), log_->begin() + omnimapper::base::durationFromSeconds(seconds / 2), file("a.rawlog"),
+           file("b.rawlog"));
+    ASSERT_TRUE(endedWith(ExitCode::ok, map({file("ring.rawlog")}, file("whole"))));
+    ASSERT_TRUE(endedWith(ExitCode::ok, map({file("a.rawlog")}, file("first"))));
+    continued_ = map({file("b.rawlog")}, file("both"), {"--continue", file("first/map.omnimap")});
+    ASSERT_TRUE(endedWith(ExitCode::ok, continued_));
+  }
+  static void TearDownTestSuite() {
+    scratch_.reset();
+    log_.reset();
+  }
+  static std::string file(const std::string& name) { return *scratch_ / name; }
+  static Ended goOn(const std::string& from, const std::string& to, Words more = {}) {
+    more.insert(more.end(), {"--continue", from});
+    return map({file("b.rawlog")}, to, more);
+  }
+  static std::string folderWithFirst(const std::string& name) {
+    fs::copy(file("first"), file(name));
+    return file(name);
+  }
+
+  static inline std::unique_ptr<ScratchFolder> scratch_;
+  static inline std::unique_ptr<SimulatedLog> log_;
+  static inline Ended continued_;
+};
+
+TEST_F(Continue, TheRingCutInTwoIsTheMapOfTheRingInOnePiece) {
+  const auto whole = loadMap(file("whole")), both = loadMap(file("both"));
+  ASSERT_EQ(both.map.sessions.size(), 2U);
+  EXPECT_TRUE(both.map.sessions[1].joined);
+  EXPECT_EQ(both.map.sessions[1].title, "b");
+  EXPECT_NE(continued_.out.find("session 1 was joined at key frame 1:"), std::string::npos) << continued_.out;
+  EXPECT_EQ(continued_.err, "") << "nothing to warn of";
+  EXPECT_NEAR(static_cast<double>(both.map.key_frames.size()), static_cast<double>(whole.map.key_frames.size()), 2);
+  const auto of_whole = loadTrajectory(file("whole")), of_both = loadTrajectory(file("both"));
+  EXPECT_EQ(stampsOf(of_both), stampsOf(of_whole));
+  const double error = errorAgainst(*log_, of_whole), error_of_both = errorAgainst(*log_, of_both);
+  const double apart = distanceBetween(of_both, of_whole);
+  RecordProperty("ate_whole_m", std::to_string(error));
+  RecordProperty("ate_cut_m", std::to_string(error_of_both));
+  RecordProperty("apart_m", std::to_string(apart));
+  EXPECT_NEAR(error_of_both, error, 0.02);
+  EXPECT_LT(apart, 0.02);
+}
+
+TEST_F(Continue, EveryOutputHasBothSessions) {
+  EXPECT_EQ(filesIn(file("both")), allOutputs());
+  const auto summary = loadSummary(file("both"));
+  ASSERT_EQ(summary["sessions"].size(), 2U);
+  EXPECT_TRUE(summary["sessions"][1]["joined"]);
+  EXPECT_NEAR(summary["way_m"], 2 * log_->lapLength(), 0.02 * log_->lapLength());
+  EXPECT_NEAR(summary["log_s"], omnimapper::base::secondsBetween(log_->begin(), log_->end()), 2);
+  EXPECT_EQ(summary["warnings"].size(), 0U);
+  const std::string report = readFile(file("both/report.html"));
+  for (const char* part : {"Sessions", "session 1 was joined at key frame 1:", "</html>"}) {
+    EXPECT_NE(report.find(part), std::string::npos) << part;
+  }
+  mrpt::opengl::COpenGLScene scene;
+  EXPECT_TRUE(scene.loadFromFile(file("both/scene.3Dscene")));
+  // The places are the same, so the second lap adds hardly a cell or a point.
+  const double cells = static_cast<double>(readFile(file("both/grid.pgm")).size());
+  EXPECT_NEAR(cells / static_cast<double>(readFile(file("whole/grid.pgm")).size()), 1, 0.05);
+  const double points = static_cast<double>(readFile(file("both/points.ply")).size());
+  EXPECT_NEAR(points / static_cast<double>(readFile(file("whole/points.ply")).size()), 1, 0.1);
+}
+
+TEST_F(Continue, ASecondTimeItWritesTheSameBytesAndTheFolderNamesTheMap) {
+  ASSERT_TRUE(endedWith(ExitCode::ok, goOn(file("first"), file("again"), {"--threads", "3"})));
+  EXPECT_TRUE(readFile(file("again/map.omnimap")) == readFile(file("both/map.omnimap")));
+}
+
+TEST_F(Continue, IntoTheFolderOfTheOldMapItTakesItsPlace) {
+  const std::string folder = folderWithFirst("in_place");
+  ASSERT_TRUE(endedWith(ExitCode::ok, goOn(folder, folder)));
+  EXPECT_TRUE(readFile(folder + "/map.omnimap") == readFile(file("both/map.omnimap")));
+}
+
+TEST_F(Continue, ALogThatStartsFarFromWhereItIsSaidToStaysApartWithAWarning) {
+  const auto ended =
+      goOn(file("first"), file("apart"),
+           {"--set", "session.start=pose", "--set", "session.start_x_m=3", "--set", "session.start_y_m=4"});
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"session 1 was never joined", "[session] start", "start_sigma_m"}));
+  EXPECT_NE(ended.out.find("session 1 was never joined"), std::string::npos);
+  EXPECT_FALSE(loadSummary(file("apart"))["sessions"][1]["joined"]);
+  const auto before = loadMap(file("first")), after = loadMap(file("apart"));
+  for (const auto& frame : before.map.key_frames) {
+    const auto moved = after.map.keyFrame(frame.id).map_from_base - frame.map_from_base;
+    EXPECT_LT(moved.translation().norm(), 1e-3) << frame.id;
+  }
+}
+
+TEST_F(Continue, WhatCannotBeContinuedIsRefusedAndNothingIsWritten) {
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, goOn(file("absent.omnimap"), file("none")), {"absent.omnimap"}));
+  const std::string content = readFile(file("first/map.omnimap"));
+  writeFile(file("cut.omnimap"), content.substr(0, content.size() / 2));
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, goOn(file("cut.omnimap"), file("none")), {"cut.omnimap"}));
+  std::string later = content;
+  later[8] = 9;  // the version of the format
+  writeFile(file("later.omnimap"), later);
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, goOn(file("later.omnimap"), file("none")), {"format 9"}));
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input,
+                        goOn(file("first"), file("none"), {"--set", "mapper.motion=spatial"}), {"planar", "motion"}));
+  EXPECT_TRUE(endedWith(ExitCode::wrong_type, goOn(file("first"), file("none"), {"--set", "session.start=here"}),
+                        {"start", "end | origin | pose"}));
+  EXPECT_FALSE(fs::exists(file("none")));
+}
+
+TEST_F(Continue, ALogWithNothingToMapLeavesTheOldMapAsItWas) {
+  const std::string folder = folderWithFirst("nothing");
+  omnimapper::source::writeRawlog(file("odometry.rawlog"), [&](omnimapper::source::RawlogWriter& writer) {
+    for (const auto& observation : log_->observations()) {
+      if (observation->sensorLabel == "odometry") writer.add(*observation);
+    }
+  });
+  EXPECT_TRUE(endedWith(ExitCode::nothing_to_map, map({file("odometry.rawlog")}, folder, {"--continue", folder})));
+  EXPECT_TRUE(readFile(folder + "/map.omnimap") == readFile(file("first/map.omnimap")));
+}
+
+TEST_F(Continue, KilledAtAnyMomentTheOldMapOrTheNewOneIsThere) {
+  const std::string folder = folderWithFirst("killed");
+  const std::string old_map = readFile(file("first/map.omnimap")), new_map = readFile(file("both/map.omnimap"));
+  omnimapper::testing::Dice dice(3);
+  for (int i = 0; i < 12; ++i) {
+    Program program(mappingCommand({file("b.rawlog")}, folder, {"-q", "--continue", file("first")}));
+    std::this_thread::sleep_for(std::chrono::duration<double>(dice.uniform(0, 1.2 * continued_.seconds)));
+    program.send(SIGKILL);
+    program.wait();
+    const std::string found = readFile(folder + "/map.omnimap");
+    EXPECT_TRUE(found == old_map || found == new_map) << "kill number " << i;
+  }
+}
+
+TEST_F(Continue, InterruptedTheMapHasAllOfTheOldSession) {
+  const std::string folder = folderWithFirst("interrupted");
+  Program program(mappingCommand({file("b.rawlog")}, folder, {"--continue", folder, "--speed", "10"}));
+  std::this_thread::sleep_for(std::chrono::duration<double>(2));
+  program.send(SIGINT);
+  EXPECT_TRUE(endedWith(ExitCode::interrupted, program.wait(), {"interrupted"}));
+  const auto before = loadMap(file("first")), after = loadMap(folder);
+  EXPECT_GT(after.map.key_frames.size(), before.map.key_frames.size());
+  EXPECT_LT(after.map.key_frames.size(), loadMap(file("both")).map.key_frames.size());
+  for (const auto& frame : before.map.key_frames) EXPECT_TRUE(after.map.key_frames.find(frame.id)) << frame.id;
+}
+
+// Errors against the public relations of ACES: as good as in one piece.
+TEST(ContinueRecording, AcesCutInTwoIsAsGoodAsInOnePiece) {
+  const auto log = sharedData("laser2d/aces.clf.bz2"), relations = sharedData("laser2d/aces.relations");
+  OMNIMAPPER_NEEDS(log && relations ? log : std::optional<std::string>());
+  ScratchFolder scratch;
+  const std::string whole_log = scratch / "aces.rawlog";
+  ASSERT_TRUE(
+      endedWith(ExitCode::ok, omnimapper::testing::runProgram(
+                                  {omnimapper::testing::ownProgram("omnimapper-import"), "carmen", *log, whole_log})));
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({whole_log}, scratch / "whole")));
+  const auto of_whole = loadTrajectory(scratch / "whole");
+  cutLog(whole_log, of_whole[of_whole.size() / 2].stamp, scratch / "a.rawlog", scratch / "b.rawlog");
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({scratch / "a.rawlog"}, scratch / "first")));
+  ASSERT_TRUE(
+      endedWith(ExitCode::ok, map({scratch / "b.rawlog"}, scratch / "both", {"--continue", scratch / "first"})));
+  const auto both = loadMap(scratch / "both");
+  EXPECT_TRUE(both.map.sessions.at(1).joined);
+  const auto of_both = loadTrajectory(scratch / "both");
+  const auto checked = omnimapper::eval::readRelations(*relations);
+  omnimapper::eval::RelationOptions options;
+  options.tolerance = omnimapper::base::durationFromSeconds(0.05);
+  const auto error = omnimapper::eval::relationError(of_whole, checked, options).translation.mean;
+  const auto error_of_both = omnimapper::eval::relationError(of_both, checked, options).translation.mean;
+  RecordProperty("apart_m", std::to_string(distanceBetween(of_both, of_whole)));
+  RecordProperty("relations_whole_m", std::to_string(error));
+  RecordProperty("relations_cut_m", std::to_string(error_of_both));
+  EXPECT_LT(error_of_both, 1.2 * error);
+}
+
+}  // namespace
