@@ -102,4 +102,10 @@ foreach(estimate no once each_key_frame)
     --set "beacons.estimate_sensor_pose=${estimate}")
   expect_beacons_in("${SCRATCH}/${estimate}")
 endforeach()
+
+# The map goes on: a second drive sees the beacons of the first again, which come from the file.
+run("${BEACON_LOG}" "${SCRATCH}/second.rawlog" "${SCRATCH}/beacons.txt" 2)
+run("${prefix}/bin/omnimapper-graphslam" -i "${ini}" -r "${SCRATCH}/second.rawlog" -o "${SCRATCH}/both" -q
+  --continue "${SCRATCH}/once/map.omnimap")
+expect_beacons_in("${SCRATCH}/both")
 file(REMOVE_RECURSE "${SCRATCH}")
