@@ -35,7 +35,8 @@ void LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   decision.from = frame.id;
   decision.to = centre.id;
   if (!decision.accepted) return batch.log(std::move(decision));
-  auto closure = scanFactor(options_, context_, centre.pose, frame.pose, match);
+  auto closure = scanFactor(options_, options_.loop_position_sigma_floor, options_.loop_angle_sigma_floor, context_,
+                            centre.pose, frame.pose, match);
   closure.loss = graph::Loss::cauchy(options_.loop_loss_scale);
   batch.addHypothesis(std::move(closure), std::move(decision));
 }

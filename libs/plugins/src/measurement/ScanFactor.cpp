@@ -33,14 +33,15 @@ mapper::Decision judge(const matching::ScanMatch& match, const TPose2D& guess, c
   return decision;
 }
 
-graph::FactorRecord scanFactor(const ScanMatchingOptions& options, const mapper::PluginContext& context,
-                               base::VariableId reference, base::VariableId scan, const matching::ScanMatch& match) {
+graph::FactorRecord scanFactor(const ScanMatchingOptions& options, double position_floor, double angle_floor,
+                               const mapper::PluginContext& context, base::VariableId reference, base::VariableId scan,
+                               const matching::ScanMatch& match) {
   const auto squared = [](double value) { return value * value; };
   Eigen::Matrix3d planar_covariance =
       match.unit_covariance *
       std::max(squared(options.point_sigma), squared(options.wall_sigma_factor * match.wall_distance));
-  planar_covariance.diagonal() += Eigen::Vector3d(
-      squared(options.position_sigma_floor), squared(options.position_sigma_floor), squared(options.angle_sigma_floor));
+  planar_covariance.diagonal() +=
+      Eigen::Vector3d(squared(position_floor), squared(position_floor), squared(angle_floor));
   mapper::RelativeMotion motion;
   motion.begin_from_end = mrpt::poses::CPose3D(mrpt::poses::CPose2D(match.reference_from_scan));
   // A scan says nothing of height and tilt: a metre and half a radian, in a spatial map.

@@ -25,7 +25,9 @@ struct MatchGate {
 mapper::Decision judge(const matching::ScanMatch& match, const mrpt::math::TPose2D& guess, const MatchGate& gate);
 
 /// The motion between two poses that a match measured. In a spatial map height and tilt stay open.
-graph::FactorRecord scanFactor(const ScanMatchingOptions& options, const mapper::PluginContext& context,
-                               base::VariableId reference, base::VariableId scan, const matching::ScanMatch& match);
+/// `position_floor` [m] and `angle_floor` [rad]: standard deviations that are added to those of the match.
+graph::FactorRecord scanFactor(const ScanMatchingOptions& options, double position_floor, double angle_floor,
+                               const mapper::PluginContext& context, base::VariableId reference, base::VariableId scan,
+                               const matching::ScanMatch& match);
 
 }  // namespace omnimapper::plugins

@@ -74,6 +74,10 @@ const base::OptionTable<ScanMatchingOptions>& ScanMatchingOptions::table() {
                   "A closure farther from the prediction is refused.")
           .number("loop_max_turn_correction_deg", &Options::loop_max_turn_correction, base::Range{0, 180},
                   "A closure turned farther from the prediction is refused.")
+          .number("loop_position_sigma_floor_m", &Options::loop_position_sigma_floor, base::Range::positive(),
+                  "No closure is trusted more than this: its local map is as bent as the trajectory was then.")
+          .number("loop_angle_sigma_floor_deg", &Options::loop_angle_sigma_floor, base::Range::positive(),
+                  "No closure is trusted more than this.")
           .number("loop_loss_scale", &Options::loop_loss_scale, base::Range::positive(),
                   "Scale of the Cauchy loss on closures, in standard deviations.");
   return table;
@@ -164,7 +168,9 @@ void ScanMatchingPlugin::matchSequential(const map::KeyFrame& frame, const Histo
   decision.kind = "sequential match";
   decision.from = frame.id;
   decision.to = before.id;
-  if (decision.accepted) batch.addFactor(scanFactor(options_, context_, before.pose, frame.pose, match));
+  if (decision.accepted)
+    batch.addFactor(scanFactor(options_, options_.position_sigma_floor, options_.angle_sigma_floor, context_,
+                               before.pose, frame.pose, match));
   batch.log(std::move(decision));
 }
 

@@ -27,6 +27,8 @@ struct ScanMatchingOptions {
   double loop_max_distance = 2.0;                                                 ///< [m]
   double loop_max_correction = 4.0;                                               ///< [m]
   double loop_max_turn_correction = 30.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
+  double loop_position_sigma_floor = 0.03;                                        ///< [m]
+  double loop_angle_sigma_floor = 0.5 * base::option_text::kRadiansPerDegree;     ///< [rad]
   double loop_loss_scale = 2.0;                                                   ///< [sigma] of the Cauchy loss
 
   static const base::OptionTable<ScanMatchingOptions>& table();
