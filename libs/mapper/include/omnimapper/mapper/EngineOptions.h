@@ -35,8 +35,9 @@ struct HypothesisOptions {
   graph::ConsistencyOptions::Method test = graph::ConsistencyOptions().method;
   double confidence = graph::ConsistencyOptions().confidence;
   double inflation = 2;
+  double min_likelihood_ratio = graph::ConsistencyOptions().min_likelihood_ratio;
 
-  graph::ConsistencyOptions consistency() const { return {test, confidence, inflation}; }
+  graph::ConsistencyOptions consistency() const { return {test, confidence, inflation, min_likelihood_ratio}; }
   static const base::OptionTable<HypothesisOptions>& table();
 };
 
