@@ -49,7 +49,8 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
       estimator_(settings_, map_, graph_, decisions_),
       reference_sensor_(settings.engine.reference_sensor),
       perception_(pointers(plugins_.extractors), pointers(plugins_.measurement), pool_),
-      jobs_(pool_, static_cast<std::size_t>(settings.engine.job_delay)),
+      committer_(plugins_.measurement, map_, graph_, estimator_, decisions_, pool_,
+                 static_cast<std::size_t>(settings.engine.job_delay)),
       pool_(std::max(1, threads)) {
   if (plugins_.pose.empty() || plugins_.measurement.empty()) {
     throw base::Error(base::ExitCode::unknown_plugin,
@@ -106,7 +107,7 @@ void Engine::finish() {
     const Timed timed(busy_.total);
     while (auto group = queue_.next()) release(*group, false);
     for (; !moments_.empty(); moments_.pop_front()) process(moments_.front());
-    applyJobs(true);
+    committer_.applyJobs(true, busy_.jobs);
     if (!map_.key_frames.empty()) solveNow(settings_.solver.final());
   }
   collectSections();
@@ -239,63 +240,16 @@ void Engine::measure(base::KeyFrameId id, const std::vector<Perceived>& perceive
       const Batch batch = plugin->measure(frame, {*one.observation, one.prepared[i].get()}, view());
       times_.add("plugin " + section, watch.seconds());
       busy_.plugins += watch.seconds();
-      applyBatch(batch, {section, frame.stamp}, *plugin);
+      committer_.apply(batch, {section, frame.stamp}, *plugin);
     }
   }
 }
 
 void Engine::commit(base::KeyFrameId id) {
   estimator_.refine(id);
-  applyJobs(false);
+  committer_.applyJobs(false, busy_.jobs);
   if (estimator_.isDue()) solveNow(settings_.solver.running());
-  std::shared_ptr<const Snapshot> snapshot;
-  for (auto& [section, plugin] : plugins_.measurement) {
-    const StopWatch watch;
-    FollowUp follow_up = plugin->afterCommit(map_.keyFrame(id), view());
-    busy_.plugins += watch.seconds();
-    const BatchOrigin origin{section, map_.keyFrame(id).stamp};
-    if (!follow_up.jobs.empty() && !snapshot) {
-      snapshot = std::make_shared<const Snapshot>(Snapshot{map_, graph_, estimator_.uncertainty()});
-    }
-    for (auto& job : follow_up.jobs) jobs_.add(map_.key_frames.size(), origin, id, std::move(job), snapshot);
-    if (!follow_up.batch.empty()) applyBatch(follow_up.batch, origin, *plugin);
-  }
-}
-
-void Engine::applyJobs(bool all) {
-  for (;;) {
-    std::optional<JobQueue::Done> done;
-    {
-      const Timed timed(busy_.jobs);
-      done = jobs_.take(map_.key_frames.size(), all);
-    }
-    if (!done) return;
-    const std::string why_unfit = whyUnfit(done->batch, graph_, map_);
-    if (why_unfit.empty()) {
-      applyBatch(done->batch, done->origin, pluginOf(done->origin.owner));
-      continue;
-    }
-    Decision dropped;
-    dropped.stamp = done->origin.stamp;
-    dropped.plugin = done->origin.owner;
-    dropped.kind = done->name;
-    dropped.from = done->frame;
-    dropped.reason = "what it is about has changed since: " + why_unfit;
-    decisions_.push_back(std::move(dropped));
-  }
-}
-
-MeasurementPlugin& Engine::pluginOf(const std::string& section) {
-  return *std::find_if(plugins_.measurement.begin(), plugins_.measurement.end(), [&](const auto& named) {
-            return named.section == section;
-          })->plugin;
-}
-
-void Engine::applyBatch(const Batch& batch, const BatchOrigin& origin, MeasurementPlugin& plugin) {
-  const auto ids = apply(batch, origin, graph_, map_);
-  decisions_.insert(decisions_.end(), batch.decisions().begin(), batch.decisions().end());
-  estimator_.applied(batch, ids);
-  plugin.applied(ids);
+  committer_.followUp(id, view(), busy_.plugins);
 }
 
 void Engine::solveNow(const graph::SolveOptions& options) {

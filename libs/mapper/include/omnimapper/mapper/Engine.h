@@ -2,10 +2,10 @@
 
 #include <omnimapper/graph/Graph.h>
 #include <omnimapper/map/Map.h>
+#include <omnimapper/mapper/Committer.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/Estimator.h>
 #include <omnimapper/mapper/Intake.h>
-#include <omnimapper/mapper/JobQueue.h>
 #include <omnimapper/mapper/Perception.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/PoseChain.h>
@@ -86,9 +86,6 @@ class Engine {
   std::vector<Perceived> gather(Moment& moment, base::KeyFrameId id);
   void measure(base::KeyFrameId id, const std::vector<Perceived>& perceived);
   void commit(base::KeyFrameId id);
-  void applyJobs(bool all);
-  void applyBatch(const Batch& batch, const BatchOrigin& origin, MeasurementPlugin& plugin);
-  MeasurementPlugin& pluginOf(const std::string& section);
   void solveNow(const graph::SolveOptions& options);
   void collectSections();
   std::set<std::string> absoluteOwners() const;
@@ -119,7 +116,7 @@ class Engine {
   BusyTimes busy_;
 
   Perception perception_;
-  JobQueue jobs_;
+  Committer committer_;
   // Last, so that it ends first: its tasks use what stands above.
   WorkerPool pool_;
 };

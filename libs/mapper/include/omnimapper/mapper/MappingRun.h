@@ -7,8 +7,10 @@
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/source/SourceReport.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace omnimapper::mapper {
@@ -19,8 +21,9 @@ struct RunRequest {
   std::string output_folder;
   std::vector<std::string> more_outputs;  ///< sections of outputs beside those of the INI, such as the live window
   std::string continue_map;               ///< map file that the logs are a new session of; empty: a new map
-  int threads = 1;                        ///< workers of the perception pool
-  double speed = 0;                       ///< times the log's own pace; 0: as fast as possible
+  /// Workers for perception and jobs; the map does not depend on their number.
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  double speed = 0;  ///< times the log's own pace; 0: as fast as possible
 };
 
 /// How a run went.
