@@ -178,9 +178,11 @@ class Test {
         overturn(graph_, contradicting, waiting(contradicting), gate_, options_.inflation, solve_options_);
     if (!overturned) return;
     const FactorId first = overturned->accepted.front();
+    const std::string others = std::to_string(overturned->accepted.size() - 1) + " others";
     for (const FactorId id : overturned->accepted)
       decide(id, true, misfit(id),
-             "agrees with " + std::to_string(overturned->accepted.size() - 1) + " others against what acted before");
+             overturned->taken_back.empty() ? "fits the map together with " + others + " that agree with it"
+                                            : "agrees with " + others + " against what acted before");
     for (const FactorId id : overturned->taken_back)
       decide(id, false, misfit(id),
              "taken back: contradicts " + toString(first) + " and " + std::to_string(overturned->accepted.size() - 1) +

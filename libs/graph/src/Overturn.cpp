@@ -200,6 +200,11 @@ std::optional<Overturned> overturn(Graph& graph, const std::vector<FactorId>& re
   const Marginals marginals(graph);
   const std::vector<FactorId> group = Group(graph, marginals, gate, inflation).largest(refused, waiting);
   if (group.empty()) return std::nullopt;
+  OverturnTrial beside(graph, gate, inflation, solve_options);
+  if (beside.fitsBeside(group)) {
+    std::swap(graph, beside.graph());
+    return beside.outcome();
+  }
   std::vector<FactorId> pool = waiting;
   pool.insert(pool.end(), refused.begin(), refused.end());
   for (const std::vector<FactorId>& acting : suspects(graph, marginals, group)) {

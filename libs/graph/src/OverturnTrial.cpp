@@ -32,6 +32,20 @@ bool OverturnTrial::succeeds(const std::vector<FactorId>& group, const std::vect
   return outcome_.accepted.size() > outcome_.taken_back.size() && after < before;
 }
 
+bool OverturnTrial::fitsBeside(const std::vector<FactorId>& group) {
+  const double before = 2 * graph_.cost();
+  int others = 0;
+  for (const FactorId id : group) {
+    graph_.setWeight(id, 1);
+    if (id != group.front()) others += graph_.factor(id).factor->residualSize();
+  }
+  solve(graph_, solve_options_);
+  for (const FactorId id : group)
+    if (misfit(id) > bound(id)) return false;
+  outcome_.accepted = group;
+  return 2 * graph_.cost() - before <= bound(group.front()) + others;
+}
+
 /// Chi-square of what acts, and of those of `some` that do not, up to the bound of each.
 double OverturnTrial::truncatedCost(const std::vector<FactorId>& some) const {
   double cost = 2 * graph_.cost();

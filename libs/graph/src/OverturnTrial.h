@@ -23,6 +23,10 @@ class OverturnTrial {
   /// fits better. The pool holds what is refused, the group included.
   bool succeeds(const std::vector<base::FactorId>& group, const std::vector<base::FactorId>& pool,
                 const std::vector<base::FactorId>& suspects);
+  /// True if the group can act beside all that acts, by the rise of chi-square of a solution with it: where the graph
+  /// is wide open, the linear gate is wrong and this is not. The rise is held against the bound of one of the group and
+  /// what noise makes of the others.
+  bool fitsBeside(const std::vector<base::FactorId>& group);
   /// After success: the graph, solved but for suspects that fit again, and what changed.
   Graph& graph() { return graph_; }
   const Overturned& outcome() const { return outcome_; }
