@@ -3,7 +3,6 @@
 #include <omnimapper/base/Error.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 #include "Overturn.h"
@@ -21,16 +20,6 @@ using Method = ConsistencyOptions::Method;
 constexpr std::size_t kMostWaiting = 20;
 /// So many fresh ones are judged together; more are judged as if they had come one after another.
 constexpr std::size_t kMostAtOnce = 20;
-
-std::string text(const char* form, double chi2, double bound) {
-  char line[128];
-  std::snprintf(line, sizeof line, form, chi2, bound);
-  return line;
-}
-
-std::string fits(double chi2, double bound) {
-  return text("fits the map (chi-square %.1f <= %.1f)", chi2, bound);
-}
 
 bool contains(const std::vector<FactorId>& some, FactorId id) {
   return std::find(some.begin(), some.end(), id) != some.end();
@@ -74,7 +63,7 @@ class Test {
   void decide(FactorId id, bool accepted, double chi2, const std::string& reason,
               std::optional<FactorId> against = std::nullopt) {
     graph_.setWeight(id, accepted ? 1 : 0);
-    verdicts_[id] = {id, accepted, accepted != acted_.at(id), chi2, rowsOf(id), reason, against};
+    verdicts_[id] = {id, accepted, accepted != acted_.at(id), chi2, bound(id), rowsOf(id), reason, against};
   }
 
   /// The fresh ones as they could have come one after another: by the newest of their variables.
@@ -119,7 +108,7 @@ class Test {
       }
     // What the map predicts within the measurement's own noise passes every gate, however well the map is known.
     if (std::all_of(candidates.begin(), candidates.end(), [this](FactorId id) { return misfit(id) <= bound(id); })) {
-      for (const FactorId id : candidates) decide(id, true, misfit(id), fits(misfit(id), bound(id)));
+      for (const FactorId id : candidates) decide(id, true, misfit(id), "fits the map");
       return {};
     }
     const Marginals marginals(graph_);
@@ -153,23 +142,18 @@ class Test {
   void apply(FactorId id, const Choice& choice, const std::vector<FactorId>& candidates) {
     std::optional<FactorId> with;
     if (choice.with) with = candidates[*choice.with];
-    const std::string other = with ? toString(*with) : "others";
     switch (choice.kind) {
       case Choice::Kind::fits:
-        return decide(id, true, choice.chi2, fits(choice.chi2, bound(id)));
+        return decide(id, true, choice.chi2, "fits the map");
       case Choice::Kind::agrees:
-        return decide(
-            id, true, choice.chi2,
-            "fits the map and agrees with " + other + text(" (chi-square %.1f <= %.1f)", choice.chi2, bound(id)));
+        return decide(id, true, choice.chi2, "fits the map and agrees with another", with);
       case Choice::Kind::waits:
         return decide(id, false, choice.chi2,
                       "waits for another to bear it out: so little is known there that it could "
                       "fit by chance");
       case Choice::Kind::contradicts:
         return decide(id, false, choice.chi2,
-                      "contradicts " + (with ? other : std::string("the map")) +
-                          text(" (chi-square %.1f > %.1f)", choice.chi2, bound(id)),
-                      with);
+                      with ? "contradicts another" : "contradicts the map", with);
     }
   }
 
@@ -185,8 +169,7 @@ class Test {
                                             : "agrees with " + others + " against what acted before");
     for (const FactorId id : overturned->taken_back)
       decide(id, false, misfit(id),
-             "taken back: contradicts " + toString(first) + " and " + std::to_string(overturned->accepted.size() - 1) +
-                 text(" that agree with it (chi-square %.1f > %.1f)", misfit(id), bound(id)),
+             "taken back: contradicts others that agree with one another",
              first);
     solve(graph_, solve_options_);
   }
@@ -204,9 +187,8 @@ class Test {
         worst_ratio = ratio;
       }
       if (!worst) return;
-      const char* const form = acted_.at(*worst) ? "taken back: no longer fits the map (chi-square %.1f > %.1f)"
-                                                 : "contradicts the map (chi-square %.1f > %.1f)";
-      decide(*worst, false, misfit(*worst), text(form, misfit(*worst), bound(*worst)));
+      decide(*worst, false, misfit(*worst),
+             acted_.at(*worst) ? "taken back: no longer fits the map" : "contradicts the map");
       solve(graph_, solve_options_);
     }
   }
@@ -217,7 +199,7 @@ class Test {
       if (graph_.factor(id).weight > 0 || contains(later_, id) || reachesOut(graph_, id)) continue;
       const double chi2 = misfit(id), most = bound(id);
       if (chi2 > most) continue;
-      decide(id, true, chi2, text("fits the map as it is now (chi-square %.1f <= %.1f)", chi2, most));
+      decide(id, true, chi2, "fits the map as it is now");
       changed = true;
     }
     if (changed) solve(graph_, solve_options_);

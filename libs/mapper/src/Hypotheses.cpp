@@ -56,7 +56,12 @@ void Hypotheses::log(const graph::Verdict& verdict, const graph::FactorRecord& r
   const auto complete = [&](Decision& decision) {
     decision.accepted = verdict.accepted;
     decision.reason = verdict.reason;
-    decision.numbers.emplace_back("chi-square of the test", verdict.chi2);
+    decision.numbers.emplace_back("chi-square", verdict.chi2);
+    decision.numbers.emplace_back("bound of chi-square", verdict.bound);
+    if (!verdict.against) return;
+    const auto other = decision_of_.find(*verdict.against);
+    if (other == decision_of_.end()) return;
+    decision.numbers.emplace_back("against that of key frame", decisions[other->second].from.index);
   };
   if (entry != decision_of_.end()) {
     Decision& decision = decisions[entry->second];

@@ -37,8 +37,9 @@ struct Verdict {
   bool accepted = false;
   bool changed = false;                   ///< other than before the test
   double chi2 = 0;                        ///< what the decision looked at
+  double bound = 0;                       ///< of chi2, for one that fits
   int degrees_of_freedom = 0;             ///< of chi2
-  std::string reason;                     ///< in words for the user
+  std::string reason;                     ///< in words for the user; the numbers stand beside it
   std::optional<base::FactorId> against;  ///< the hypothesis that it contradicts, where it is one
 };
 
