@@ -70,8 +70,7 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", arguments.run.output_folder, "folder for the outputs, made if missing");
   app.add_option("--continue", arguments.run.continue_map, "map (or its folder) that the logs go on from: [session]");
   app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
-  app.add_option("--threads", arguments.run.threads,
-                 "worker threads, by default one a core; the map does not depend on it")
+  app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the map does not depend on them")
       ->check(CLI::Range(1, 256));
   app.add_option("--speed", arguments.run.speed, "replay at so many times the log's pace; 0: as fast as possible")
       ->check(CLI::NonNegativeNumber);

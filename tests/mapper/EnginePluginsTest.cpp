@@ -68,6 +68,7 @@ class EnginePlugins : public ::testing::Test {
   Engine& run(int key_frames) {
     settings_.trigger.every_observation = true;
     engine_ = std::make_unique<Engine>(settings_, "scripted", SensorPoses(), std::move(set_), 1);
+    engine_->setStop(stop_);
     for (int i = 0; i < key_frames; ++i) {
       auto comment = CObservationComment::Create();
       comment->timestamp = at(i);
@@ -78,6 +79,7 @@ class EnginePlugins : public ::testing::Test {
   }
 
   EngineSettings settings_;
+  std::function<bool()> stop_;
   PluginSet set_;
   Scripted* plugin_;
   std::unique_ptr<Engine> engine_;
@@ -183,7 +185,8 @@ TEST_F(EnginePlugins, AnInvalidBatchIsAnErrorThatLeavesTheGraphWhole) {
   };
   EXPECT_THROW(run(5), base::Error);
   const auto view = engine_->view();
-  EXPECT_EQ(view.graph.variables().size(), view.map.key_frames.size() + 2) << "nothing of the bad batch";
+  EXPECT_EQ(view.map.key_frames.size(), 5U) << "the others are worked off all the same";
+  EXPECT_EQ(view.graph.variables().size(), 5U + 4U) << "nothing of the bad batch";
 }
 
 TEST_F(EnginePlugins, AnExtractorThatFailsIsHeardOf) {
@@ -196,6 +199,47 @@ TEST_F(EnginePlugins, AnExtractorThatFailsIsHeardOf) {
   };
   set_.extractors.push_back({"failing", std::make_unique<Failing>()});
   EXPECT_THROW(run(3), base::Error);
+}
+
+TEST_F(EnginePlugins, AJobThatFailsCostsNeitherTheOtherJobsNorTheLastSolve) {
+  class Failing : public Scripted {
+   public:
+    FollowUp afterCommit(const map::KeyFrame& frame, const View&) override {
+      FollowUp follow_up;
+      follow_up.jobs.push_back({"job", [index = frame.id.index](const State&) -> Batch {
+                                  if (index == 3) throw base::Error(base::ExitCode::damaged_input, "a bad job");
+                                  Batch batch;
+                                  batch.addVariable(poseVariable(Motion::planar), Eigen::Vector3d::Zero());
+                                  return batch;
+                                }});
+      return follow_up;
+    }
+  };
+  settings_.engine.job_delay = 1000;  // all at the end
+  set_.measurement.clear();
+  set_.measurement.push_back({"failing", std::make_unique<Failing>()});
+  EXPECT_THROW(run(20), base::Error);
+  const auto view = engine_->view();
+  EXPECT_EQ(view.map.key_frames.size(), 20U);
+  EXPECT_EQ(view.graph.variables().size(), 20U + 19U);
+  EXPECT_GE(view.counts.solves, 1U);
+}
+
+TEST_F(EnginePlugins, AnInterruptedRunLeavesWhatIsNotJudgedUnjudged) {
+  settings_.engine.solve_after_closure = 1000;
+  plugin_->on_measure = [](const map::KeyFrame& frame, const View& view) {
+    Batch batch;
+    if (frame.id.index != 11) return batch;
+    Decision decision;
+    decision.kind = "loop closure";
+    batch.addHypothesis(link(view.map.key_frames.front().pose, frame.pose, 11), decision);
+    return batch;
+  };
+  stop_ = [] { return true; };
+  const auto view = run(15).view();
+  ASSERT_EQ(view.decisions.size(), 1U);
+  EXPECT_FALSE(view.decisions.front().accepted);
+  EXPECT_NE(view.decisions.front().reason.find("interrupted"), std::string::npos);
 }
 
 }  // namespace

@@ -56,7 +56,8 @@ TEST_P(JobQueueOf, AJobSeesTheStateItWasGivenWhateverHappensAfterwards) {
 TEST_P(JobQueueOf, WhatAJobThrowsComesOutWhenItIsTakenAndTheOthersGoOn) {
   WorkerPool pool(GetParam());
   JobQueue jobs(pool, 0);
-  jobs.add(0, {}, {}, {"bad", [](const State&) -> Batch { throw std::runtime_error("cannot"); }}, snapshotOf(graph::Graph()));
+  jobs.add(0, {}, {}, {"bad", [](const State&) -> Batch { throw std::runtime_error("cannot"); }},
+           snapshotOf(graph::Graph()));
   jobs.add(0, {}, {}, counting("good"), snapshotOf(graph::Graph()));
   EXPECT_THROW(jobs.take(0, false), std::runtime_error);
   EXPECT_EQ(jobs.take(0, false)->name, "good");

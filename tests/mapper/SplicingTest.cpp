@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/mapper/Engine.h>
 #include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/testing/MapperRun.h>
 
 #include <set>
 
@@ -162,6 +165,58 @@ TEST_F(Splicing, ManyLateOnesInAnyOrderGiveTheSameChain) {
   testing::expectOneChain(engine.view(), {"steady"});
   testing::expectNothingDangles(engine.view());
   EXPECT_NEAR(engine.view().graph.chi2(), 0, 1e-12);
+}
+
+// After an hour at rest the key frame before a late scan is older than the horizon; what odometry told of that hour is
+// still known, and no guess takes its place.
+TEST(SplicingAfterARest, OdometryOfTheWholeStretchIsKept) {
+  const std::string ini = R"(
+[mapper]
+pose_plugins        = odometry, no_motion
+measurement_plugins = tracker
+horizon_s = 60
+[trigger]
+period_s = 5000
+[odometry]
+class = OdometryPlugin
+[no_motion]
+class = NoMotionPlugin
+[tracker]
+class = RobotPosePlugin
+reference_is_map = false
+)";
+  const auto engine = testing::makeEngine(ini);
+  const auto odometry = [&](double seconds, double x) {
+    auto reading = mrpt::obs::CObservationOdometry::Create();
+    reading->timestamp = at(seconds);
+    reading->sensorLabel = "odometry";
+    reading->odometry = mrpt::poses::CPose2D(x, 0, 0);
+    engine->add(reading);
+  };
+  const auto tracked = [&](double seconds, double x, const std::string& label) {
+    auto pose = mrpt::obs::CObservationRobotPose::Create();
+    pose->timestamp = at(seconds);
+    pose->sensorLabel = label;
+    pose->pose.mean = mrpt::poses::CPose3D(x, 0, 0, 0, 0, 0);
+    engine->add(pose);
+  };
+  // A key frame at 1 s, an hour of rest, then 1 m a second.
+  for (int second = 0; second <= 3600; second += 10) {
+    odometry(second, 0);
+    if (second == 0) tracked(1, 0, "tracker");
+  }
+  for (int second = 3601; second <= 3640; ++second) {
+    odometry(second, second - 3600);
+    tracked(second, second - 3600, "tracker");
+  }
+  tracked(3615.5, 15.5, "late");
+  tracked(3600.25, 0.25, "late");
+  engine->finish();
+  const auto view = engine->view();
+  EXPECT_EQ(view.counts.late, 2U);
+  EXPECT_GE(view.counts.spliced, 1U);
+  testing::expectOneChain(view, {"odometry", "no_motion"});
+  for (const auto& [id, record] : view.graph.factors()) EXPECT_NE(record.tags.owner, "no_motion");
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ inline std::vector<LoopClosure> loopClosures(const LoadedMap& loaded) {
   for (const auto& frame : loaded.map.key_frames) stamps[frame.pose] = frame.stamp;
   std::vector<LoopClosure> closures;
   for (const auto& [id, record] : loaded.graph.factors()) {
-    if (!record.tags.hypothesis) continue;
+    if (!record.tags.hypothesis || record.weight == 0) continue;
     const auto& between = dynamic_cast<const omnimapper::graph::BetweenSe2&>(*record.factor);
     closures.push_back({stamps.at(record.variables[0]), stamps.at(record.variables[1]), between.measured()});
   }

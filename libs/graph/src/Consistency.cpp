@@ -152,8 +152,7 @@ class Test {
                       "waits for another to bear it out: so little is known there that it could "
                       "fit by chance");
       case Choice::Kind::contradicts:
-        return decide(id, false, choice.chi2,
-                      with ? "contradicts another" : "contradicts the map", with);
+        return decide(id, false, choice.chi2, with ? "contradicts another" : "contradicts the map", with);
     }
   }
 
@@ -168,9 +167,7 @@ class Test {
              overturned->taken_back.empty() ? "fits the map together with " + others + " that agree with it"
                                             : "agrees with " + others + " against what acted before");
     for (const FactorId id : overturned->taken_back)
-      decide(id, false, misfit(id),
-             "taken back: contradicts others that agree with one another",
-             first);
+      decide(id, false, misfit(id), "taken back: contradicts others that agree with one another", first);
     solve(graph_, solve_options_);
   }
 

@@ -3,6 +3,7 @@
 #include <omnimapper/geometry/Angle.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -51,6 +52,8 @@ Innovation::Innovation(const Graph& graph, const Marginals& marginals, std::vect
   for (int i = 0; i < size(); ++i) {
     const Linearised linearised(graph, factors_[i]);
     residual_.segment(rows_[i], degreesOfFreedom(i)) = linearised.residual;
+    const FactorRecord& record = graph.factor(factors_[i]);
+    weights_.push_back(record.weight * record.loss.evaluate(linearised.residual.squaredNorm()).first_derivative);
     const std::vector<base::VariableId>& variables = graph.factor(factors_[i]).variables;
     for (std::size_t k = 0; k < variables.size(); ++k)
       if (const auto place = places.offsets.find(variables[k]); place != places.offsets.end())
@@ -101,8 +104,9 @@ Surprise Innovation::given(int i, const std::vector<int>& others) const {
 }
 
 void Innovation::withdraw(const std::vector<int>& acting) {
-  // Taking factors out of the information matrix adds cov J^T (I - J cov J^T)^-1 J cov to its inverse. Where they alone
-  // hold something, nothing is left: the small number stands for that.
+  // Taking factors of weight w out of the information matrix adds cov J^T (1/w - J cov J^T)^-1 J cov to its inverse; a
+  // robust loss makes a weight smaller. Where they alone hold something, nothing is left: the small number stands for
+  // that.
   constexpr double kNothing = 1e-9;
   if (acting.empty()) return;
   const Surprise acts = of(acting);
@@ -112,8 +116,13 @@ void Innovation::withdraw(const std::vector<int>& acting) {
     columns.middleCols(column, degreesOfFreedom(j)) = covariance_.middleCols(rows_[j], degreesOfFreedom(j));
     column += degreesOfFreedom(j);
   }
-  Eigen::MatrixXd left = -acts.covariance;  // I - (covariance - I)
-  left.diagonal().array() += 2 + kNothing;
+  Eigen::MatrixXd left = -acts.covariance;  // 1/w - (covariance - I)
+  left.diagonal().array() += 1 + kNothing;
+  column = 0;
+  for (const int j : acting) {
+    left.diagonal().segment(column, degreesOfFreedom(j)).array() += 1 / std::max(weights_[j], kNothing);
+    column += degreesOfFreedom(j);
+  }
   const Eigen::LLT<Eigen::MatrixXd> root(left);
   residual_ += columns * root.solve(acts.residual);
   covariance_ += columns * root.solve(columns.transpose());

@@ -49,6 +49,7 @@ class Innovation {
 
   std::vector<base::FactorId> factors_;
   std::vector<int> rows_ = {0};  // first row of each, and the number of rows
+  std::vector<double> weights_;  // with which each acts, its loss included
   Eigen::VectorXd residual_;
   Eigen::MatrixXd covariance_;
 };

@@ -24,6 +24,8 @@ class Check {
     for (const auto& [id, weight] : batch_.weights()) {
       need(graph_.contains(id), "weight of factor " + toString(id), "the graph has none of that id");
       need(weight >= 0 && std::isfinite(weight), "weight of factor " + toString(id), "is negative or not finite");
+      need(!graph_.contains(id) || !graph_.factor(id).tags.hypothesis, "weight of factor " + toString(id),
+           "is a hypothesis: the consistency test weighs it");
     }
     for (const auto& record : batch_.addedFactors()) {
       for (const auto id : record.variables) needVariable(id, "added factor");
@@ -99,6 +101,11 @@ class Check {
                        });
     need(alike, edit, "their variables are of different kinds");
     for (const auto& evidence : batch_.evidence()) need(evidence.landmark != from, edit, "it gets evidence as well");
+    for (const auto& record : batch_.addedFactors()) {
+      for (const auto id : record.variables) {
+        need(std::count(a.begin(), a.end(), id) == 0, edit, "the batch adds a factor to the one that goes");
+      }
+    }
   }
 
   const Batch& batch_;

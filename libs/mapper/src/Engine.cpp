@@ -2,6 +2,7 @@
 #include <omnimapper/mapper/Joining.h>
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace omnimapper::mapper {
@@ -103,17 +104,27 @@ void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
 }
 
 void Engine::finish() {
+  // What one plugin throws must not cost the map of what the others did.
+  std::exception_ptr failed;
+  const auto tried = [&failed](const auto& work) {
+    try {
+      work();
+    } catch (...) {
+      if (!failed) failed = std::current_exception();
+    }
+  };
   {
     const Timed timed(busy_.total);
-    while (auto group = queue_.next()) release(*group, false);
-    for (; !moments_.empty(); moments_.pop_front()) process(moments_.front());
-    committer_.applyJobs(true, busy_.jobs);
-    if (!map_.key_frames.empty()) solveNow(settings_.solver.final());
+    while (auto group = queue_.next()) tried([&] { release(*group, false); });
+    while (!moments_.empty()) tried([&] { processNext(); });
+    while (committer_.jobs() > 0) tried([&] { committer_.applyJobs(true, busy_.jobs); });
+    if (!map_.key_frames.empty()) tried([&] { solveNow(settings_.solver.final()); });
   }
-  collectSections();
+  tried([&] { collectSections(); });
   times_.add("perception wait", busy_.perception);
   times_.add("job wait", busy_.jobs);
   times_.add("engine", busy_.total - busy_.perception - busy_.jobs - busy_.plugins - busy_.solve - busy_.outputs);
+  if (failed) std::rethrow_exception(failed);
 }
 
 // Whether a pose source took it. What it tells anew of the past changes the factors of the key frames there.
@@ -167,7 +178,14 @@ void Engine::release(const ReleaseQueue::Group& group, bool late) {
   }
   if (moment.observations.empty() && !moment.reference) return;
   moments_.push_back(std::move(moment));
-  for (; moments_.size() > kPipelineDepth; moments_.pop_front()) process(moments_.front());
+  while (moments_.size() > kPipelineDepth) processNext();
+}
+
+// Out of the line first: what throws is not to be met again.
+void Engine::processNext() {
+  Moment moment = std::move(moments_.front());
+  moments_.pop_front();
+  process(moment);
 }
 
 void Engine::process(Moment& moment) {
@@ -194,12 +212,20 @@ void Engine::process(Moment& moment) {
   const auto perceived = gather(moment, place->id);
   measure(place->id, perceived);
   commit(place->id);
-  const auto kept = *chain_.newest() - base::durationFromSeconds(settings_.engine.horizon);
-  for (auto& [section, plugin] : plugins_.pose) plugin->forgetBefore(kept);
-  trigger_.forgetBefore(kept);
+  forget();
   const double plugins = busy_.plugins - before.plugins, solve = busy_.solve - before.solve;
   const double waited = busy_.perception + busy_.jobs - before.perception - before.jobs;
   times_.keyFrames().push_back({1e3 * plugins, 1e3 * solve, 1e3 * (watch.seconds() - plugins - solve - waited)});
+}
+
+// What no late observation will ask for: neither one that comes within the horizon, nor one that waits in the line.
+void Engine::forget() {
+  base::Stamp oldest = *chain_.newest() - base::durationFromSeconds(settings_.engine.horizon);
+  for (const auto& moment : moments_) oldest = std::min(oldest, moment.stamp);
+  const auto kept = chain_.lastAtOrBefore(oldest);
+  if (!kept) return;
+  for (auto& [section, plugin] : plugins_.pose) plugin->forgetBefore(*kept);
+  trigger_.forgetBefore(*kept);
 }
 
 // The raw observations, then what the pool made of them, without what the key frame has already: a perceived log

@@ -46,6 +46,9 @@ const base::OptionTable<HypothesisOptions>& HypothesisOptions::table() {
                   "that agrees, or by graduated non-convexity.")
           .number("confidence", &Options::confidence, base::Range{0.5, 0.999999999},
                   "A true hypothesis passes a gate with this probability.")
+          .number("min_likelihood_ratio", &Options::min_likelihood_ratio, base::Range{1, 1e12},
+                  "A hypothesis acts when what it measures is so many times likelier if it is true than if it lies "
+                  "anywhere in the map; else it waits for another that bears it out. 1 lets a lone one in.")
           .number("inflation", &Options::inflation, base::Range{1, 100},
                   "Factor on the standard deviations of the trajectory: odometry and matches in sequence are surer of "
                   "themselves than they should be.");

@@ -1,3 +1,4 @@
+#include <omnimapper/graph/Solver.h>
 #include <omnimapper/mapper/Hypotheses.h>
 
 #include <algorithm>
@@ -42,7 +43,20 @@ void Hypotheses::solve(graph::Graph& graph, const graph::SolveOptions& solve_opt
                        DecisionLog& decisions) {
   fresh_.erase(std::remove_if(fresh_.begin(), fresh_.end(), [&](auto id) { return !graph.contains(id); }),
                fresh_.end());
-  for (const auto& verdict : graph::testConsistency(graph, fresh_, options_, solve_options)) {
+  auto options = solve_options;
+  options.stop = nullptr;
+  if (solve_options.stop && solve_options.stop()) {
+    // Nobody waits for a test any more, and what a solve leaves half done is nothing to judge by.
+    constexpr int kLastIterations = 5;
+    options.max_iterations = std::min(options.max_iterations, kLastIterations);
+    graph::solve(graph, options);
+    for (const auto id : fresh_) {
+      const auto entry = decision_of_.find(id);
+      if (entry != decision_of_.end()) decisions[entry->second].reason = "not judged: the run was interrupted";
+    }
+    return;
+  }
+  for (const auto& verdict : graph::testConsistency(graph, fresh_, options_, options)) {
     log(verdict, graph.factor(verdict.factor), map, decisions);
   }
   fresh_.clear();

@@ -46,6 +46,12 @@ const map::KeyFrame* PoseChain::frameAfter(base::Stamp stamp) const {
   return &map_.key_frames[position];
 }
 
+std::optional<base::Stamp> PoseChain::lastAtOrBefore(base::Stamp stamp) const {
+  const map::KeyFrame* at = frameAfter(stamp);
+  if (!at || at->stamp != stamp) at = frameBefore(stamp);
+  return at ? std::make_optional(at->stamp) : std::nullopt;
+}
+
 std::optional<base::Stamp> PoseChain::newest() const {
   if (map_.key_frames.empty() || map_.key_frames.back().id.session != session()) return std::nullopt;
   return map_.key_frames.back().stamp;
@@ -59,23 +65,28 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
   if (before) {
     place.before = before->id;
     to = motionBetween(before->stamp, stamp, true);
-    if (to.empty()) return std::nullopt;
+    if (to.motions.empty()) return std::nullopt;
   }
   if (after) {
     place.after = after->id;
     from = motionBetween(stamp, after->stamp, true);
-    if (from.empty()) return std::nullopt;
+    if (from.motions.empty()) return std::nullopt;
   }
-  const CPose3D guess = before   ? before->map_from_base + best(to).begin_from_end
-                        : after  ? after->map_from_base + (-best(from).begin_from_end)
+  const CPose3D guess = before   ? before->map_from_base + best(to.motions).begin_from_end
+                        : after  ? after->map_from_base + (-best(from.motions).begin_from_end)
                         : start_ ? start_->map_from_base
                                  : CPose3D();
+  if (before && after) {
+    // What a source told of the whole span is not given up for the guess of a fallback.
+    const bool guessed = to.by_fallback || from.by_fallback;
+    if (guessed && !links_[*place.before].by_fallback) return std::nullopt;
+    unlink(*place.before);
+  }
   map::KeyFrame frame = newFrame(stamp, guess);
   place.id = frame.id;
   const base::VariableId pose = frame.pose;
   std::vector<base::Stamp> hanging;
   if (before) hanging = stampsOf(before->hanging);
-  if (before && after) unlink(*place.before);
   map_.key_frames.insert(std::move(frame));
   if (before) link(*place.before, place.id, to);
   if (after) link(place.id, *place.after, from);
@@ -107,19 +118,17 @@ void PoseChain::hold(base::VariableId first_pose) {
   const Eigen::Matrix<double, 6, 6> anywhere = 1e6 * Eigen::Matrix<double, 6, 6>::Identity();
   map::Session& session = map_.sessions.back();
   if (start_) {
-    if (!hold_) {
-      session.anchor = graph_.addVariable(poseVariable(motion_), poseValue(motion_, start_->map_from_base));
-      Eigen::Matrix<double, 6, 6> covariance = anywhere;
-      if (!absolute_) {
-        covariance.diagonal().head<3>().setConstant(start_->position_sigma * start_->position_sigma);
-        covariance.diagonal().tail<3>().setConstant(start_->angle_sigma * start_->angle_sigma);
-      }
-      auto guess = posePrior(motion_, session.anchor, start_->map_from_base, covariance, kOwner);
-      guess.loss = graph::Loss::cauchy(kStartLossScale);
-      graph_.addFactor(std::move(guess));
+    // The session begins where the first pose that came was; one before it moves nothing.
+    if (hold_) return;
+    session.anchor = graph_.addVariable(poseVariable(motion_), poseValue(motion_, start_->map_from_base));
+    Eigen::Matrix<double, 6, 6> covariance = anywhere;
+    if (!absolute_) {
+      covariance.diagonal().head<3>().setConstant(start_->position_sigma * start_->position_sigma);
+      covariance.diagonal().tail<3>().setConstant(start_->angle_sigma * start_->angle_sigma);
     }
-    if (hold_) graph_.removeFactor(*hold_);
-    // A session begins where its first pose is.
+    auto guess = posePrior(motion_, session.anchor, start_->map_from_base, covariance, kOwner);
+    guess.loss = graph::Loss::cauchy(kStartLossScale);
+    graph_.addFactor(std::move(guess));
     RelativeMotion none{{}, Eigen::Matrix<double, 6, 6>::Zero()};
     hold_ = graph_.addFactor(betweenPoses(motion_, session.anchor, first_pose, none, kOwner));
     return;
@@ -138,22 +147,29 @@ void PoseChain::hold(base::VariableId first_pose) {
 void PoseChain::link(base::KeyFrameId begin, base::KeyFrameId end, const Told& told) {
   map::KeyFrame& frame = map_.key_frames.edit(begin);
   const base::VariableId end_pose = map_.keyFrame(end).pose;
-  for (const auto& [section, motion] : told) {
-    links_[begin].push_back(graph_.addFactor(betweenPoses(motion_, frame.pose, end_pose, motion, section)));
+  links_[begin].by_fallback = told.by_fallback;
+  for (const auto& [section, motion] : told.motions) {
+    links_[begin].factors.push_back(graph_.addFactor(betweenPoses(motion_, frame.pose, end_pose, motion, section)));
   }
-  frame.keyframe_from_next = told.front().second.begin_from_end;
+  frame.keyframe_from_next = told.motions.front().second.begin_from_end;
 }
 
 void PoseChain::unlink(base::KeyFrameId begin) {
-  for (const auto id : links_[begin]) graph_.removeFactor(id);
+  for (const auto id : links_[begin].factors) graph_.removeFactor(id);
   links_.erase(begin);
 }
 
+// Step by step: asking for all of the motion each time would cost ever more while the robot rests. Where nothing is
+// told, a frame is where the one before it is.
 void PoseChain::rehang(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps) {
   map::KeyFrame& frame = map_.key_frames.edit(begin);
   frame.hanging.clear();
+  base::Stamp reached = frame.stamp;
+  CPose3D keyframe_from_base;
   for (const auto stamp : stamps) {
-    if (const auto told = motion(frame.stamp, stamp, true)) frame.hanging.push_back({stamp, told->begin_from_end});
+    if (const auto step = motion(reached, stamp, true)) keyframe_from_base = keyframe_from_base + step->begin_from_end;
+    frame.hanging.push_back({stamp, keyframe_from_base});
+    reached = stamp;
   }
 }
 
@@ -186,7 +202,8 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
     if (position + 1 < map_.key_frames.size()) {
       const map::KeyFrame& next = map_.key_frames[position + 1];
       const auto told = motionBetween(map_.key_frames[position].stamp, next.stamp, true);
-      if (told.empty()) continue;  // what was told before is all there is
+      const bool worse = told.motions.empty() || (told.by_fallback && !links_[id].by_fallback);
+      if (worse) continue;  // what was told before is all there is
       unlink(id);
       link(id, next.id, told);
     }
@@ -197,10 +214,11 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
 PoseChain::Told PoseChain::motionBetween(base::Stamp begin, base::Stamp end, bool or_fallback) const {
   Told told;
   for (const bool fallback : {false, true}) {
-    if (fallback && (!told.empty() || !or_fallback)) break;
+    if (fallback && (!told.motions.empty() || !or_fallback)) break;
+    told.by_fallback = fallback;
     for (const auto& [section, plugin] : sources_) {
       if (plugin->isFallback() != fallback) continue;
-      if (const auto motion = plugin->between(begin, end)) told.emplace_back(section, *motion);
+      if (const auto motion = plugin->between(begin, end)) told.motions.emplace_back(section, *motion);
     }
   }
   return told;
@@ -208,8 +226,8 @@ PoseChain::Told PoseChain::motionBetween(base::Stamp begin, base::Stamp end, boo
 
 std::optional<RelativeMotion> PoseChain::motion(base::Stamp begin, base::Stamp end, bool or_fallback) const {
   auto told = motionBetween(begin, end, or_fallback);
-  if (told.empty()) return std::nullopt;
-  return std::move(told.front().second);
+  if (told.motions.empty()) return std::nullopt;
+  return std::move(told.motions.front().second);
 }
 
 }  // namespace omnimapper::mapper

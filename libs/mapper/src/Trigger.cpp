@@ -1,5 +1,6 @@
 #include <omnimapper/mapper/Trigger.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace omnimapper::mapper {
@@ -66,17 +67,21 @@ bool Trigger::firesLate(const std::string& label, base::Stamp stamp, const Motio
   if (!options_.every_observation && (near_after || near_before)) return false;
   const bool newest = after == since.all_fired.end();
   since.all_fired.insert(stamp);
-  if (newest && stamp < since.seen) {
-    const auto told = motion(stamp, since.seen);
+  if (newest) {
+    const auto told = motion(stamp, std::max(stamp, since.seen));
     since.fired = stamp;
+    since.seen = std::max(stamp, since.seen);
     since.motion = told ? std::make_optional(told->begin_from_end) : std::nullopt;
   }
   return true;
 }
 
 void Trigger::forgetBefore(base::Stamp stamp) {
-  for (auto& [label, since] : labels_)
-    since.all_fired.erase(since.all_fired.begin(), since.all_fired.lower_bound(stamp));
+  // The last one before it stays: a late observation may follow it.
+  for (auto& [label, since] : labels_) {
+    const auto kept = since.all_fired.upper_bound(stamp);
+    if (kept != since.all_fired.begin()) since.all_fired.erase(since.all_fired.begin(), std::prev(kept));
+  }
 }
 
 }  // namespace omnimapper::mapper

@@ -98,6 +98,7 @@ OdometryPlugin::Taken OdometryPlugin::addPose(const mrpt::obs::CObservationOdome
 // robot's clock was set back rather than the reading delayed, and it says nothing of that time.
 OdometryPlugin::Taken OdometryPlugin::addLatePose(base::Stamp stamp, const mrpt::poses::CPose3D& odom_from_base) {
   constexpr double kLongestDetour = 0.2;  // [m]
+  constexpr double kLargestTurn = 0.5;    // [rad] there and back
   const auto after = readings_.lower_bound(stamp);
   if (after->first == stamp) return Taken::unusable;
   const mrpt::poses::CPose3D to_after = after->second - odom_from_base;
@@ -109,8 +110,10 @@ OdometryPlugin::Taken OdometryPlugin::addLatePose(base::Stamp stamp, const mrpt:
     const auto before = std::prev(after);
     const mrpt::poses::CPose3D from_before = odom_from_base - before->second;
     const double detour = from_before.norm() + to_after.norm() - (after->second - before->second).norm();
-    if (detour > kLongestDetour) return Taken::unusable;
-    timeline_.remove(before->first, after->first);
+    const double turn =
+        std::abs(from_before.yaw()) + std::abs(to_after.yaw()) - std::abs((after->second - before->second).yaw());
+    if (detour > kLongestDetour || turn > kLargestTurn) return Taken::unusable;
+    if (!timeline_.remove(before->first, after->first)) return Taken::unusable;
     tell(before->first, stamp, from_before);
     tell(stamp, after->first, to_after);
     news_ = Span{before->first, after->first};

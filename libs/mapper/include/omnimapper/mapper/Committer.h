@@ -29,6 +29,8 @@ class Committer {
   /// The batches of the jobs that are due, or of all. Of what does not fit any more a word is left in the log.
   /// `waited` grows by the seconds that this thread waited for them.
   void applyJobs(bool all, double& waited);
+  /// Jobs whose batches are not applied yet.
+  std::size_t jobs() const { return jobs_.size(); }
 
  private:
   MeasurementPlugin& pluginOf(const std::string& section) const;

@@ -82,7 +82,9 @@ class Engine {
   bool tellSources(const mrpt::obs::CObservation& observation);
   void release(const ReleaseQueue::Group& group, bool late);
   void addLate(const mrpt::obs::CObservation::Ptr& observation);
+  void processNext();
   void process(Moment& moment);
+  void forget();
   std::vector<Perceived> gather(Moment& moment, base::KeyFrameId id);
   void measure(base::KeyFrameId id, const std::vector<Perceived>& perceived);
   void commit(base::KeyFrameId id);

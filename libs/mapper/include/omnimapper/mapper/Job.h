@@ -13,7 +13,7 @@ namespace omnimapper::mapper {
 /// frames later, or at the end of the log, whatever the number of workers. A batch that does not fit any more is
 /// dropped, with a word in the decision log.
 struct Job {
-  std::string name;  ///< for the decision log and the times: "loop closure of 0:17"
+  std::string name;  ///< for the decision log: "loop closure of 0:17"
   /// Must read nothing but its argument and what it holds itself.
   std::function<Batch(const State& state)> work;
 };

@@ -50,11 +50,20 @@ class PoseChain {
 
   /// Stamp of the session's newest key frame; none before the first.
   std::optional<base::Stamp> newest() const;
+  /// Stamp of the session's last key frame that is not after `stamp`.
+  std::optional<base::Stamp> lastAtOrBefore(base::Stamp stamp) const;
   /// What the first source that covers the span says; fallbacks are asked if `or_fallback`.
   std::optional<RelativeMotion> motion(base::Stamp begin, base::Stamp end, bool or_fallback) const;
 
  private:
-  using Told = std::vector<std::pair<std::string, RelativeMotion>>;  // by section of the source
+  struct Told {
+    std::vector<std::pair<std::string, RelativeMotion>> motions;  // by section of the source
+    bool by_fallback = false;
+  };
+  struct Link {
+    std::vector<base::FactorId> factors;
+    bool by_fallback = false;
+  };
   Told motionBetween(base::Stamp begin, base::Stamp end, bool or_fallback) const;
   std::uint16_t session() const { return map_.sessions.back().number; }
   const map::KeyFrame* frameBefore(base::Stamp stamp) const;
@@ -69,7 +78,7 @@ class PoseChain {
   const std::vector<Named<PosePlugin>>& sources_;
   map::Map& map_;
   graph::Graph& graph_;
-  std::map<base::KeyFrameId, std::vector<base::FactorId>> links_;  // to the next key frame
+  std::map<base::KeyFrameId, Link> links_;  // to the next key frame
   std::optional<SessionStart> start_;
   bool absolute_ = false;
   // What holds the session's first pose: a factor, or that it is fixed.

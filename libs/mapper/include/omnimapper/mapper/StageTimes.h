@@ -8,7 +8,8 @@
 namespace omnimapper::mapper {
 
 /// Wall time spent in each stage of the flow, in total and per key frame. The engine measures, algorithms do not.
-/// Stages: "source", "perception wait", "plugin <section>", "solve", "output <section>", "engine" (all the rest).
+/// Stages: "source", "perception wait", "job wait", "plugin <section>", "solve", "output <section>", "engine" (all the
+/// rest).
 class StageTimes {
  public:
   struct Total {

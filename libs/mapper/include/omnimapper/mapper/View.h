@@ -19,7 +19,7 @@ struct RunCounts {
   std::size_t not_triggered = 0;   ///< taken, but the trigger gave them no pose of their own
   std::size_t no_stamp = 0;        ///< refused: zero stamp
   std::size_t repeated_stamp = 0;  ///< refused: the same sensor and stamp a second time
-  std::size_t too_late = 0;        ///< refused: older than [mapper] horizon_s, or than the first of a continued session
+  std::size_t too_late = 0;        ///< refused: older than [mapper] horizon_s
   std::size_t late = 0;            ///< came after their window and were put in their place
   std::size_t spliced = 0;         ///< key frames that late observations made between others
   std::size_t hurried = 0;         ///< stamps worked on before their window was over, [mapper] queue_limit
