@@ -69,6 +69,11 @@ class Random : public MeasurementPlugin {
     for (const auto& [id, record] : state.graph.factors()) {
       if (record.tags.owner == "random") own.push_back(id);
     }
+    if (chance(0.5)) {
+      // Gates ask in the engine's thread and in those of jobs.
+      const auto covariance = state.covarianceBetween(state.map.key_frames.front().id, frame.id);
+      EXPECT_TRUE(!covariance || covariance->allFinite());
+    }
     if (chance(0.3)) {
       const auto variable = batch.addVariable(poseVariable(Motion::planar), Eigen::Vector3d(dice.uniform(0, 50), 0, 0));
       const auto landmark = batch.addLandmark("thing", {variable});

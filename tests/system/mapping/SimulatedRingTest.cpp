@@ -115,7 +115,9 @@ TEST_P(SimulatedRing, TheG2oFileIsTheSameGraph) {
   const auto loaded = loadMap(ring().folder);
   const auto g2o = omnimapper::graph::readG2o(file("graph.g2o"));
   EXPECT_EQ(g2o.graph.variables().size(), loaded.graph.variables().size());
-  EXPECT_EQ(g2o.graph.factors().size(), loaded.graph.factors().size());
+  std::size_t acting = 0;
+  for (const auto& [id, record] : loaded.graph.factors()) acting += record.weight > 0;
+  EXPECT_EQ(g2o.graph.factors().size(), acting) << "closures that are refused are not in it";
   EXPECT_NEAR(g2o.graph.chi2(), loaded.graph.chi2(), 1e-6 * loaded.graph.chi2());
 }
 
