@@ -92,7 +92,8 @@ void warnOf(const source::SourceReport& report, bool stopped, Engine& engine) {
 void warnOf(const map::Session& session, Engine& engine) {
   if (session.joined) return;
   engine.warn(joinedText(session) + " to the map: it lies where [session] start says; see the refused " +
-              "closures in the report, and give a better start or a larger start_sigma_m");
+              "closures in the report, and give a better start (origin, or pose); closures are sought only within " +
+              "[scan_matching] loop_radius_m and loop_max_correction_m of it");
 }
 
 void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
