@@ -4,6 +4,7 @@
 #include <omnimapper/mapper/Perception.h>
 
 #include <chrono>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -79,11 +80,10 @@ TEST_P(Pool, AnExceptionComesOutOfItsFutureAndOfNoOther) {
 TEST_P(Pool, WhatHasNotBegunAtTheEndIsLeftOutAndItsFutureSaysSo) {
   std::vector<std::future<Result>> results;
   const Suffix one(".one");
-  {
-    WorkerPool workers(GetParam());
-    const Perception perception({&one}, {}, workers);
-    for (int i = 0; i < 200; ++i) results.push_back(perception.submit(comment(std::to_string(i))));
-  }
+  auto workers = std::make_unique<WorkerPool>(GetParam());
+  const Perception perception({&one}, {}, *workers);
+  for (int i = 0; i < 200; ++i) results.push_back(perception.submit(comment(std::to_string(i))));
+  workers.reset();  // before what its tasks use
   bool left_out = false;
   for (auto& result : results) {
     try {
