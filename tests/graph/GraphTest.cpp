@@ -124,6 +124,23 @@ TEST(Graph, CostCountsWeightAndLoss) {
   EXPECT_EQ(graph.cost(), 0);
 }
 
+TEST(Graph, AFactorThatIsBoundAnewKeepsItsIdAndItsNoise) {
+  Graph graph;
+  const VariableId a = graph.addVariable(se2(), toValue(Se2{})), b = graph.addVariable(se2(), toValue(Se2{1, 0, 0}));
+  const VariableId c = graph.addVariable(se2(), toValue(Se2{2, 0, 0})),
+                   p = graph.addVariable(point2(), Eigen::Vector2d::Zero());
+  const FactorId first = graph.addFactor(odometry(a, b, {1, 0, 0})),
+                 second = graph.addFactor(odometry(b, c, {1, 0, 0}));
+  graph.rebind(first, {a, c});
+  EXPECT_EQ(graph.factor(first).variables, (std::vector{a, c}));
+  EXPECT_EQ(graph.factorsOf(a), std::vector{first});
+  EXPECT_EQ(graph.factorsOf(b), std::vector{second});
+  EXPECT_EQ(graph.factorsOf(c), (std::vector{first, second}));
+  EXPECT_THROW(graph.rebind(first, {a, a}), base::Error);
+  EXPECT_THROW(graph.rebind(first, {a, p}), base::Error);
+  EXPECT_EQ(graph.factor(first).variables, (std::vector{a, c})) << "as it was";
+}
+
 TEST(Graph, CopiesAreIndependent) {
   World2 world = gridWorld(20, 1, {0.1, 0.1, 0.05});
   Graph copy = world.graph;

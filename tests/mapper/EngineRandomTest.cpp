@@ -2,6 +2,7 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <omnimapper/mapper/Engine.h>
 #include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include "GraphInvariants.h"
@@ -155,7 +156,7 @@ RandomRun run(std::uint64_t seed, int threads, int count) {
 }
 
 TEST(EngineRandom, WhateverPluginsDoTheTrajectoryIsOneChainAndNothingDangles) {
-  for (std::uint64_t seed = 1; seed <= (testing::kSanitized ? 3 : 25); ++seed) {
+  for (std::uint64_t seed = 1; seed <= (testing::kIsSanitized ? 3 : 25); ++seed) {
     const auto made = run(seed, 2, 150);
     const auto view = made.engine->view();
     testing::expectOneChain(view, {"steady"});
@@ -168,7 +169,7 @@ TEST(EngineRandom, WhateverPluginsDoTheTrajectoryIsOneChainAndNothingDangles) {
 }
 
 TEST(EngineRandom, JobsAndSplicesGiveTheSameBitsWithAnyNumberOfThreads) {
-  for (std::uint64_t seed = 1; seed <= (testing::kSanitized ? 1 : 5); ++seed) {
+  for (std::uint64_t seed = 1; seed <= (testing::kIsSanitized ? 1 : 5); ++seed) {
     const std::string bits = testing::bitsOf(run(seed, 1, 150).engine->view());
     EXPECT_EQ(testing::bitsOf(run(seed, 2, 150).engine->view()), bits);
     EXPECT_EQ(testing::bitsOf(run(seed, 5, 150).engine->view()), bits);

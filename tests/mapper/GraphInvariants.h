@@ -11,13 +11,6 @@
 // What must hold of map and graph after whatever was done to them.
 namespace omnimapper::testing {
 
-/// Whether this is a sanitizer's build: it runs ten times slower, and a few seeds show it what there is to see.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kSanitized = true;
-#else
-inline constexpr bool kSanitized = false;
-#endif
-
 /// Between neighbours in time of a session, and nowhere else, each source of `sources` has at most one factor and all
 /// together at least one: no stretch is left out, none is counted twice.
 inline void expectOneChain(const mapper::View& view, const std::set<std::string>& sources) {

@@ -14,8 +14,8 @@ namespace {
 using namespace logs;
 using Ending = SourceReport::Ending;
 
-constexpr int kFlips = kIsSanitized ? 15 : 100;
-constexpr std::size_t kStep = kIsSanitized ? 61 : 6;  // between the places of truncation
+constexpr int kFlips = testing::kIsSanitized ? 15 : 100;
+constexpr std::size_t kStep = testing::kIsSanitized ? 61 : 6;  // between the places of truncation
 
 // Both of MRPT's formats in one log, with every kind of object.
 std::string smallLog() {
@@ -156,7 +156,7 @@ TEST_F(DamageTest, flippedBytesOfAGzipLogAreNeverTakenForGood) {
 
 // A count of four billion particles inside an action: MRPT would draw them all.
 TEST_F(DamageTest, corruptCountThatMrptWouldFollowEndsTheStreamInstead) {
-  if (kIsSanitized) GTEST_SKIP() << "the memory of the child process cannot be limited under a sanitizer";
+  if (testing::kIsSanitized) GTEST_SKIP() << "the memory of the child process cannot be limited under a sanitizer";
   auto movement = logs::movement(1, 0, 0);
   movement.motionModelConfiguration.modelSelection = mrpt::obs::CActionRobotMovement2D::mmThrun;
   movement.motionModelConfiguration.thrunModel.nParticlesCount = 0xfffffff0u;

@@ -21,13 +21,6 @@
 /// Small logs made by hand for the tests of source.
 namespace omnimapper::source::logs {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-/// Processes are slow to start then, and their memory cannot be limited.
-constexpr bool kIsSanitized = true;
-#else
-constexpr bool kIsSanitized = false;
-#endif
-
 using mrpt::obs::CObservation;
 using Observations = std::vector<CObservation::Ptr>;
 

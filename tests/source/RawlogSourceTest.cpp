@@ -146,7 +146,7 @@ TEST_F(RawlogSourceTest, openingTellsHowFarItIsAndCanBeStopped) {
 TEST_F(RawlogSourceTest, aLogWithoutChecksumIsReadWhileItIsTriedAndCanBeLeftAtAnyMoment) {
   const std::string one = (Bytes() << scan(1)).string();
   std::string all;
-  for (int i = 0; i < (kIsSanitized ? 5000 : 100000); ++i) all += one;
+  for (int i = 0; i < (testing::kIsSanitized ? 5000 : 100000); ++i) all += one;
   writePlain(path_, all);
   for (int taken : {0, 1, 1000}) {
     RawlogSource source(path_);

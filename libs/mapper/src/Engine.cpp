@@ -90,7 +90,7 @@ void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
   }
   queue_.arrived(observation->timestamp);
   const bool told = tellSources(*observation);
-  if (isWanted(*observation)) {
+  if (perception_.wants(*observation)) {
     const auto placed = sensor_poses_.applied(observation);
     if (!queue_.add(placed)) addLate(placed);
   } else if (!told) {

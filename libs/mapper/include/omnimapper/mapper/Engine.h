@@ -77,7 +77,6 @@ class Engine {
     std::vector<Pending> observations;
   };
 
-  bool isWanted(const mrpt::obs::CObservation& observation) const { return perception_.wants(observation); }
   bool isCovered(base::Stamp stamp) const;
   bool tellSources(const mrpt::obs::CObservation& observation);
   void release(const ReleaseQueue::Group& group, bool late);

@@ -7,6 +7,13 @@
 
 namespace omnimapper::testing {
 
+/// Whether this is a sanitizer's build: some ten times slower, processes too, and their memory cannot be limited.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kIsSanitized = true;
+#else
+inline constexpr bool kIsSanitized = false;
+#endif
+
 /// A folder of its own for one test, removed with its content at the end.
 class ScratchFolder {
  public:
