@@ -68,7 +68,7 @@ PlanarScan fitLines(const std::vector<Eigen::Vector2f>& points) {
       point -= normal * normal.dot(point - window.mean);
       break;
     }
-    scan.points.insertPointFast(point.x(), point.y(), 0);
+    scan.points.push_back(point);
     scan.normals.push_back(normal);
   }
   return scan;
@@ -78,11 +78,12 @@ void append(const PlanarScan& scan, const mrpt::math::TPose2D& target_from_scan,
   const auto c = static_cast<float>(std::cos(target_from_scan.phi)),
              s = static_cast<float>(std::sin(target_from_scan.phi));
   const auto tx = static_cast<float>(target_from_scan.x), ty = static_cast<float>(target_from_scan.y);
-  const auto& xs = scan.points.getPointsBufferRef_x();
-  const auto& ys = scan.points.getPointsBufferRef_y();
+  target.points.reserve(target.size() + scan.size());
+  target.normals.reserve(target.size() + scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    target.points.insertPointFast(tx + c * xs[i] - s * ys[i], ty + s * xs[i] + c * ys[i], 0);
+    const auto& p = scan.points[i];
     const auto& n = scan.normals[i];
+    target.points.emplace_back(tx + c * p.x() - s * p.y(), ty + s * p.x() + c * p.y());
     target.normals.emplace_back(c * n.x() - s * n.y(), s * n.x() + c * n.y());
   }
 }

@@ -24,9 +24,8 @@ void LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   const auto& frame = state.map.keyFrame(newest_.frame);
   const auto& centre = state.map.keyFrame(place.centre);
   const auto guess = planar(frame.map_from_base - centre.map_from_base);
-  // A copy: MRPT's maps keep caches, and other jobs look at the same scan.
-  const matching::PlanarScan scan = *newest_.scan;
-  const auto match = matcher_->match(localMap(place.around, place.centre, state), scan, guess);
+  const auto reference = matcher_->prepare(localMap(place.around, place.centre, state));
+  const auto match = matcher_->match(*reference, *newest_.scan, guess);
   auto decision =
       judge(match, guess, {options_.loop_min_overlap, options_.loop_max_correction, options_.loop_max_turn_correction});
   decision.stamp = frame.stamp;

@@ -5,7 +5,7 @@
 #include <omnimapper/graph/FactorRecord.h>
 #include <omnimapper/mapper/DecisionLog.h>
 #include <omnimapper/mapper/PluginFactory.h>
-#include <omnimapper/matching/IcpMatcher.h>
+#include <omnimapper/matching/ScanMatcher.h>
 #include <omnimapper/plugins/ScanMatchingOptions.h>
 
 namespace omnimapper::plugins {

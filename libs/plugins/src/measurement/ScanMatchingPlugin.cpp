@@ -83,12 +83,12 @@ const base::OptionTable<ScanMatchingOptions>& ScanMatchingOptions::table() {
   return table;
 }
 
-ScanMatchingPlugin::ScanMatchingPlugin(const ScanMatchingOptions& options, const matching::IcpOptions& icp,
+ScanMatchingPlugin::ScanMatchingPlugin(const ScanMatchingOptions& options, const matching::ScanMatcherOptions& matching,
                                        const mapper::PluginContext& context)
-    : options_(options), context_(context), sequential_matcher_(icp), loop_matcher_([&] {
-        auto wide = icp;
+    : options_(options), context_(context), sequential_matcher_(matching::makeMatcher(matching)), loop_matcher_([&] {
+        auto wide = matching;
         wide.max_distance = options.loop_max_distance;
-        return std::make_shared<const matching::IcpMatcher>(wide);
+        return matching::makeMatcher(wide);
       }()) {}
 
 bool ScanMatchingPlugin::wants(const mrpt::obs::CObservation& observation) const {
@@ -160,7 +160,8 @@ void ScanMatchingPlugin::matchSequential(const map::KeyFrame& frame, const Histo
   const auto scans = sights(history, index > frames ? index - frames : 0, index, index);
   const auto reference = localMap(scans, before.id, state);
   const auto guess = planar(frame.map_from_base - before.map_from_base);
-  const auto match = sequential_matcher_.match(reference, *history[index].sight.scan, guess);
+  const auto match =
+      sequential_matcher_->match(*sequential_matcher_->prepare(reference), *history[index].sight.scan, guess);
 
   auto decision = judge(match, guess, {options_.min_overlap, options_.max_correction, options_.max_turn_correction});
   decision.stamp = frame.stamp;
@@ -232,7 +233,7 @@ std::vector<std::string> keysOf(const std::vector<base::OptionSpec>& specs) {
 }  // namespace
 
 const std::vector<base::OptionSpec>& ScanMatchingPluginFactory::options() const {
-  static const auto specs = joined(ScanMatchingOptions::table().specs(), matching::IcpOptions::table().specs());
+  static const auto specs = joined(ScanMatchingOptions::table().specs(), matching::ScanMatcherOptions::table().specs());
   return specs;
 }
 
@@ -240,7 +241,7 @@ std::unique_ptr<mapper::MeasurementPlugin> ScanMatchingPluginFactory::make(const
                                                                            const mapper::PluginContext& context) const {
   const auto keys = keysOf(options());
   return std::make_unique<ScanMatchingPlugin>(section.read<ScanMatchingOptions>(keys),
-                                              section.read<matching::IcpOptions>(keys), context);
+                                              section.read<matching::ScanMatcherOptions>(keys), context);
 }
 
 }  // namespace omnimapper::plugins

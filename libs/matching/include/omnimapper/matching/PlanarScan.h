@@ -1,6 +1,5 @@
 #pragma once
 
-#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/math/TPose2D.h>
 
 #include <Eigen/Core>
@@ -9,13 +8,13 @@
 namespace omnimapper::matching {
 
 /// Points of a 2D scan, or of several, with the directions of the walls they lie on. Points lie on the line fitted to
-/// their neighbours, so that a noisy wall is as thin as a clean one. z = 0 [m].
+/// their neighbours, so that a noisy wall is as thin as a clean one [m].
 struct PlanarScan {
-  mrpt::maps::CSimplePointsMap points;
-  std::vector<Eigen::Vector2f> normals;  ///< unit, sign open; zero where no line fits
+  std::vector<Eigen::Vector2f> points;
+  std::vector<Eigen::Vector2f> normals;  ///< one for each point: unit, sign open; zero where no line fits
 
-  std::size_t size() const { return normals.size(); }
-  bool empty() const { return normals.empty(); }
+  std::size_t size() const { return points.size(); }
+  bool empty() const { return points.empty(); }
 };
 
 /// Fits the lines. `points` in the order of the beams; each point's window of neighbours grows until a line fits, so

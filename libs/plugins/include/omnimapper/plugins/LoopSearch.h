@@ -2,7 +2,7 @@
 
 #include <omnimapper/mapper/Job.h>
 #include <omnimapper/mapper/PluginFactory.h>
-#include <omnimapper/matching/IcpMatcher.h>
+#include <omnimapper/matching/ScanMatcher.h>
 #include <omnimapper/plugins/ScanMatchingOptions.h>
 
 #include <memory>
@@ -26,7 +26,7 @@ class LoopSearch {
   };
 
   LoopSearch(const ScanMatchingOptions& options, const mapper::PluginContext& context,
-             std::shared_ptr<const matching::IcpMatcher> matcher, Sight newest, std::vector<Place> places)
+             std::shared_ptr<const matching::ScanMatcher> matcher, Sight newest, std::vector<Place> places)
       : options_(options),
         context_(context),
         matcher_(std::move(matcher)),
@@ -41,7 +41,7 @@ class LoopSearch {
 
   ScanMatchingOptions options_;
   mapper::PluginContext context_;
-  std::shared_ptr<const matching::IcpMatcher> matcher_;
+  std::shared_ptr<const matching::ScanMatcher> matcher_;
   Sight newest_;
   std::vector<Place> places_;
 };

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/mapper/PluginFactory.h>
-#include <omnimapper/matching/IcpMatcher.h>
+#include <omnimapper/matching/ScanMatcherOptions.h>
 #include <omnimapper/plugins/LoopSearch.h>
 #include <omnimapper/plugins/ScanMatchingOptions.h>
 
@@ -16,7 +16,7 @@ namespace omnimapper::plugins {
 /// ago to close loops. Scans are matched in the plane of the base; in a spatial map z, roll and pitch stay open.
 class ScanMatchingPlugin : public mapper::MeasurementPlugin {
  public:
-  ScanMatchingPlugin(const ScanMatchingOptions& options, const matching::IcpOptions& icp,
+  ScanMatchingPlugin(const ScanMatchingOptions& options, const matching::ScanMatcherOptions& matching,
                      const mapper::PluginContext& context);
 
   bool wants(const mrpt::obs::CObservation& observation) const override;
@@ -51,8 +51,8 @@ class ScanMatchingPlugin : public mapper::MeasurementPlugin {
 
   ScanMatchingOptions options_;
   mapper::PluginContext context_;
-  matching::IcpMatcher sequential_matcher_;
-  std::shared_ptr<const matching::IcpMatcher> loop_matcher_;
+  std::unique_ptr<const matching::ScanMatcher> sequential_matcher_;
+  std::shared_ptr<const matching::ScanMatcher> loop_matcher_;
   std::map<std::string, History> histories_;  // by label
   std::vector<LoopSearch> searches_;          // of the key frame being measured
 };
@@ -61,7 +61,7 @@ class ScanMatchingPluginFactory : public mapper::MeasurementPluginFactory {
   DEFINE_MRPT_OBJECT(ScanMatchingPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "ScanMatchingPlugin"; }
-  std::string summary() const override { return "Matches 2D scans in sequence and to close loops, by MRPT's ICP."; }
+  std::string summary() const override { return "Matches 2D scans in sequence and to close loops."; }
   const std::vector<base::OptionSpec>& options() const override;
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
                                                   const mapper::PluginContext& context) const override;

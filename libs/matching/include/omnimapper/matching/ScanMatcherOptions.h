@@ -1,0 +1,29 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/matching/ScanMatcher.h>
+
+#include <memory>
+
+namespace omnimapper::matching {
+
+enum class MatcherKind { point_to_line, icp };
+enum class IcpMethod { classic, levenberg_marquardt };
+
+struct ScanMatcherOptions {
+  MatcherKind matcher = MatcherKind::point_to_line;
+  double max_distance = 0.5;  ///< [m] of a pair in the first iterations
+  double min_distance = 0.1;  ///< [m] of a pair in the last iterations
+  int max_iterations = 30;
+  IcpMethod icp_method = IcpMethod::classic;
+  double icp_max_angle =
+      2.0 * base::option_text::kRadiansPerDegree;  ///< [rad]; widens the distance far from the sensor
+  int icp_decimation = 3;                          ///< every n-th point is paired
+
+  static const base::OptionTable<ScanMatcherOptions>& table();
+};
+
+/// The matcher that the options name.
+std::unique_ptr<ScanMatcher> makeMatcher(const ScanMatcherOptions& options);
+
+}  // namespace omnimapper::matching

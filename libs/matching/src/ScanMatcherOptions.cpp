@@ -1,0 +1,34 @@
+#include <omnimapper/matching/IcpMatcher.h>
+#include <omnimapper/matching/PointToLineMatcher.h>
+#include <omnimapper/matching/ScanMatcherOptions.h>
+
+namespace omnimapper::matching {
+
+const base::OptionTable<ScanMatcherOptions>& ScanMatcherOptions::table() {
+  using Options = ScanMatcherOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .choice("matcher", &Options::matcher,
+                  {{"point_to_line", MatcherKind::point_to_line}, {"icp", MatcherKind::icp}},
+                  "How scans are matched: points to lines, or MRPT's ICP.")
+          .number("max_distance_m", &Options::max_distance, base::Range::positive(),
+                  "Largest distance of paired points at the start.")
+          .number("min_distance_m", &Options::min_distance, base::Range::positive(),
+                  "Largest distance of paired points at the end.")
+          .integer("max_iterations", &Options::max_iterations, base::Range{1, 10000}, "Iterations at most.")
+          .choice("icp_method", &Options::icp_method,
+                  {{"classic", IcpMethod::classic}, {"levenberg_marquardt", IcpMethod::levenberg_marquardt}},
+                  "Variant of MRPT's ICP.")
+          .number("icp_max_angle_deg", &Options::icp_max_angle, base::Range{0, 45},
+                  "MRPT's ICP: widens the pairing distance with the distance from the sensor.")
+          .integer("icp_decimation", &Options::icp_decimation, base::Range{1, 1000},
+                   "MRPT's ICP: pairs every n-th point only.");
+  return table;
+}
+
+std::unique_ptr<ScanMatcher> makeMatcher(const ScanMatcherOptions& options) {
+  if (options.matcher == MatcherKind::icp) return std::make_unique<IcpMatcher>(options);
+  return std::make_unique<PointToLineMatcher>(options);
+}
+
+}  // namespace omnimapper::matching
