@@ -33,6 +33,20 @@ struct Bell {
   }
 };
 
+// The larger of each two values. (By value: the compiler need not fear that a byte written is a bound of the loop.)
+void raise(const std::uint8_t* from, unsigned count, std::uint8_t* to) {
+  for (unsigned i = 0; i < count; ++i) to[i] = std::max(to[i], from[i]);
+}
+void largerOf(const std::uint8_t* first, const std::uint8_t* second, unsigned count, std::uint8_t* to) {
+  for (unsigned i = 0; i < count; ++i) to[i] = std::max(first[i], second[i]);
+}
+// Of every second value, and of it and its neighbour.
+void largerOfEverySecond(const std::uint8_t* first, const std::uint8_t* second, unsigned count, std::uint8_t* to) {
+  for (unsigned i = 0; i < count; ++i) {
+    to[i] = std::max(first[2 * i], std::max(second[2 * i], second[2 * i + 1]));
+  }
+}
+
 }  // namespace
 
 LikelihoodPyramid::LikelihoodPyramid(const std::vector<Eigen::Vector2f>& points, const LikelihoodOptions& options)
@@ -110,13 +124,9 @@ void LikelihoodPyramid::pool(int level) {
     std::copy(from, from + copied, row.begin() - offset);
     std::uint8_t* to = &joined[static_cast<std::size_t>(y) * coarse.width];
     if (stride == 1) {
-      const std::uint8_t* second = row.data() + step;
-      for (unsigned x = 0; x < coarse.width; ++x) to[x] = std::max(row[x], second[x]);
+      largerOf(row.data(), row.data() + step, coarse.width, to);
     } else {
-      const std::uint8_t* first = row.data();
-      for (unsigned x = 0; x < coarse.width; ++x, first += 2) {
-        to[x] = std::max(first[0], std::max(first[step], first[step + 1]));
-      }
+      largerOfEverySecond(row.data(), row.data() + step, coarse.width, to);
     }
   }
   coarse.values.assign(static_cast<std::size_t>(coarse.width) * coarse.height, 0);
@@ -126,7 +136,7 @@ void LikelihoodPyramid::pool(int level) {
     for (const int fine_row : {first, first + step, first + reach}) {
       if (fine_row < 0 || fine_row >= fine_height) continue;
       const std::uint8_t* from = &joined[static_cast<std::size_t>(fine_row) * coarse.width];
-      for (unsigned x = 0; x < coarse.width; ++x) to[x] = std::max(to[x], from[x]);
+      raise(from, coarse.width, to);
     }
   }
 }
@@ -145,9 +155,7 @@ double LikelihoodPyramid::score(const std::vector<Eigen::Vector2f>& points,
   for (const auto& point : points) {
     if (!point.allFinite()) continue;
     ++count;
-    const double x = (map_from_scan.x + c * point.x() - s * point.y() - origin_.x()) / cell_,
-                 y = (map_from_scan.y + s * point.x() + c * point.y() - origin_.y()) / cell_;
-    if (x >= 0 && y >= 0 && x < width_ && y < height_) sum += at(static_cast<int>(x), static_cast<int>(y));
+    sum += at({map_from_scan.x + c * point.x() - s * point.y(), map_from_scan.y + s * point.x() + c * point.y()});
   }
   return count == 0 ? 0 : static_cast<double>(sum) / (255.0 * static_cast<double>(count));
 }

@@ -37,6 +37,12 @@ class LikelihoodPyramid {
   /// Of the cell (x, y), which may lie anywhere; 0 outside of the map.
   std::uint8_t at(int x, int y) const { return bound(0, x, y); }
 
+  /// Of the cell that holds a place of the map [m].
+  std::uint8_t at(const Eigen::Vector2d& place) const {
+    const double x = (place.x() - origin_.x()) / cell_, y = (place.y() - origin_.y()) / cell_;
+    return x >= 0 && y >= 0 && x < width_ && y < height_ ? at(static_cast<int>(x), static_cast<int>(y)) : 0;
+  }
+
   /// At least the largest at() over the cells [x, x + 2^level) by [y, y + 2^level); level < kLevels.
   std::uint8_t bound(int level, int x, int y) const {
     const Level& grid = levels_[level];
