@@ -74,7 +74,7 @@ LikelihoodPyramid::LikelihoodPyramid(const std::vector<Eigen::Vector2f>& points,
   width_ = static_cast<int>(size.x());
   height_ = static_cast<int>(size.y());
   drawPoints(points, options.sigma);
-  for (int level = 1; level < kLevels; ++level) pool(level);
+  for (int level = 1; level < std::min(options.levels, kLevels); ++level) pool(level);
 }
 
 void LikelihoodPyramid::drawPoints(const std::vector<Eigen::Vector2f>& points, double sigma) {

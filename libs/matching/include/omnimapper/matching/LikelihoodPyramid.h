@@ -12,7 +12,8 @@ namespace omnimapper::matching {
 struct LikelihoodOptions {
   double cell = 0.05;                ///< [m] side of a cell
   double sigma = 0.08;               ///< [m] of the bell around each point of the map
-  std::size_t max_cells = 64000000;  ///< a larger map is refused; about 3 bytes each
+  int levels = 10;                   ///< of bounds, at most kLevels; 1: at() and score() alone
+  std::size_t max_cells = 64000000;  ///< a larger map is refused; about 4 bytes each with all levels
 };
 
 /// How likely a point of a scan is at a place of a map: 255 in the cell of a map's point, falling off around it like a
@@ -43,7 +44,7 @@ class LikelihoodPyramid {
     return x >= 0 && y >= 0 && x < width_ && y < height_ ? at(static_cast<int>(x), static_cast<int>(y)) : 0;
   }
 
-  /// At least the largest at() over the cells [x, x + 2^level) by [y, y + 2^level); level < kLevels.
+  /// At least the largest at() over the cells [x, x + 2^level) by [y, y + 2^level); level < the options' levels.
   std::uint8_t bound(int level, int x, int y) const {
     const Level& grid = levels_[level];
     const unsigned column = static_cast<unsigned>((x + grid.padding) >> grid.shift),

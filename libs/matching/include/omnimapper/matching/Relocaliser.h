@@ -1,0 +1,82 @@
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+#include <omnimapper/matching/BeamGrid.h>
+#include <omnimapper/matching/CorrelativeSearch.h>
+#include <omnimapper/matching/ScanMatcher.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace omnimapper::matching {
+
+struct RelocaliserOptions {
+  double cell = 0.1;                ///< [m] of the grid that is searched
+  double sigma = 0.15;              ///< [m] of its bell
+  double spacing = 0.1;             ///< [m] between the points of the scan that are searched with
+  double min_score = 0.4;           ///< of a candidate: mean likelihood of its points
+  double min_share_of_best = 0.85;  ///< of a candidate's score
+  int max_candidates = 16;
+  int reference_scans = 8;      ///< of the map, nearest to a candidate, that it is refined against
+  double same_distance = 0.25;  ///< [m] and
+  double same_angle = 0.1;      ///< [rad] within which two refined candidates are one
+  BeamModel beams;
+  double independent_beams = 0.4;  ///< share of the beams that count as independent of each other
+  double nowhere = -1.2;           ///< mean logarithm of the beams' likelihoods of a place that is not in the map
+  double min_confidence = 0.95;    ///< of an answer
+};
+
+/// A scan of the map, where its sensor stood.
+struct MapScan {
+  mrpt::math::TPose2D map_from_sensor;
+  BeamScan scan;
+};
+
+struct LocationCandidate {
+  mrpt::math::TPose2D map_from_sensor;
+  double score = 0;           ///< of the search: mean likelihood of the points, [0, 1]
+  double log_likelihood = 0;  ///< of all beams, free space included: BeamGrid::logLikelihood
+  double probability = 0;     ///< among the candidates and "somewhere else"
+  ScanMatch match;            ///< with the map around it; its reference is the map
+};
+
+struct Location {
+  enum class Answer {
+    found,      ///< the first candidate
+    ambiguous,  ///< it may be one of several, and none is likely enough
+    none        ///< the scan fits nowhere
+  };
+  Answer answer = Answer::none;
+  std::vector<LocationCandidate> candidates;  ///< the most probable first
+};
+
+/// Finds where in a whole map a single scan was taken: a correlative search for the places that its points fit,
+/// refined by the fine matcher, and judged by what each beam says of free space and walls (BeamGrid). Probabilities are
+/// those of Bayes, all candidates and "not in the map" being equally likely before. Never changes, so threads may share
+/// it.
+class Relocaliser {
+ public:
+  /// Throws Error(out_of_range) for a map too large for the grids (BeamModel::max_cells).
+  Relocaliser(std::vector<MapScan> map, std::shared_ptr<const ScanMatcher> matcher,
+              const RelocaliserOptions& options = {});
+
+  /// In the whole map, or in the window if it is given.
+  Location locate(const BeamScan& scan, const std::optional<SearchWindow>& window = std::nullopt) const;
+
+ private:
+  void refine(const PlanarScan& lines, const BeamScan& scan, LocationCandidate& candidate) const;
+  void weigh(const BeamScan& scan, Location& location) const;
+
+  struct Placed {
+    mrpt::math::TPose2D map_from_sensor;
+    PlanarScan lines;
+  };
+  RelocaliserOptions options_;
+  std::shared_ptr<const ScanMatcher> matcher_;
+  std::vector<Placed> map_;
+  std::unique_ptr<const LikelihoodPyramid> pyramid_;
+  std::unique_ptr<const BeamGrid> beams_;
+};
+
+}  // namespace omnimapper::matching
