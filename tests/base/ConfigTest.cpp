@@ -52,6 +52,24 @@ TEST(Config, ReadsValuesAndKeepsDefaultsOfKeysThatAreNotThere) {
   EXPECT_EQ(options.label, "front laser");
 }
 
+TEST(Config, OfSeveralFilesTheLaterCountsOverTheEarlier) {
+  const omnimapper::testing::ScratchFolder folder;
+  const auto save = [&](const std::string& name, const std::string& text) {
+    writeFile(folder / name, [&](std::ostream& out) { out << text; });
+    return folder / name;
+  };
+  const auto first = save("first.ini", "[trigger]\ndistance_m = 1.5\nevery = 2\n");
+  const auto over = save("over.ini", "[other]\nkey = 1\n[trigger]\nevery = 3  ; remark\n");
+  const auto config = Config::fromFiles({first, over});
+  const auto options = config.section("trigger").read<TriggerOptions>();
+  EXPECT_EQ(options.distance, 1.5);
+  EXPECT_EQ(options.every, 3);
+  EXPECT_TRUE(config.has("other"));
+  EXPECT_EQ(config.file(), first + " + " + over);
+  EXPECT_FALSE(Config::fromFiles({}).has("trigger"));
+  expectError([&] { Config::fromFiles({first, folder / "none.ini"}); }, ExitCode::unreadable_input, {"none.ini"});
+}
+
 TEST(Config, AMissingOrEmptySectionKeepsAllDefaults) {
   EXPECT_EQ(trigger("").distance, 0.5);
   EXPECT_EQ(trigger("[trigger]\n").distance, 0.5);

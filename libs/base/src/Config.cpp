@@ -114,6 +114,22 @@ Config Config::fromFile(const std::string& path) {
   return fromText(text, path);
 }
 
+Config Config::fromFiles(const std::vector<std::string>& paths) {
+  if (paths.empty()) return fromText("", "no INI");
+  Config config = fromFile(paths.front());
+  for (std::size_t i = 1; i < paths.size(); ++i) {
+    const Config over = fromFile(paths[i]);
+    std::vector<std::string> sections, keys;
+    over.ini_.getAllSections(sections);
+    for (const auto& section : sections) {
+      over.ini_.getAllKeys(section, keys);
+      for (const auto& key : keys) config.ini_.write(section, key, over.ini_.read_string(section, key, ""));
+    }
+    config.file_ += " + " + paths[i];
+  }
+  return config;
+}
+
 Config Config::fromText(const std::string& text, const std::string& name_for_messages) {
   Config config;
   config.file_ = name_for_messages;

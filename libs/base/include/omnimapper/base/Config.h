@@ -51,6 +51,8 @@ class Config {
  public:
   /// Throws Error(unreadable_input) if the file cannot be read, Error(unknown_key) if a key or section comes twice.
   static Config fromFile(const std::string& path);
+  /// Several files, each over those before it: what it sets counts. Without any, an empty one. Throws as fromFile().
+  static Config fromFiles(const std::vector<std::string>& paths);
   static Config fromText(const std::string& text, const std::string& name_for_messages);
 
   /// "section.key=value", as after --set. Throws Error(command_line) if it is not of that form.

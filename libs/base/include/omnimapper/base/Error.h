@@ -22,6 +22,7 @@ enum class ExitCode : int {
   unwritable_output = 12,   ///< the output folder cannot be made or written
   disk_full = 13,           ///< an output could not be written whole
   nothing_to_map = 14,      ///< no observation that any plugin wants
+  doubtful_input = 15,      ///< --check: a log that is likely mapped wrong without the remedies it names
   interrupted = 130,        ///< Ctrl-C: the map so far is written
 };
 

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <omnimapper/mapper/MappingRun.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+/// The command line of omnimapper-graphslam.
+struct Arguments {
+  omnimapper::mapper::RunRequest run;
+  std::string print_ini;
+  std::vector<std::string> inis, settings, checked_logs;
+  bool list_plugins = false, ini_reference = false, gui = false, quiet = false, verbose = false;
+};
+
+inline void addOptions(CLI::App& app, Arguments& arguments) {
+  app.description(
+      "Maps a robot's log: reads rawlogs, configured by an INI file, and leaves map, pictures and report in a folder.\n"
+      "Example: omnimapper-graphslam -i ini/laser2d.ini -r office.rawlog -o out/office\n"
+      "Check:   omnimapper-graphslam --check office.rawlog\n"
+      "Go on:   omnimapper-graphslam -i ini/laser2d.ini -r next_day.rawlog --continue out/office -o out/both");
+  app.add_option("-i,--ini", arguments.inis,
+                 "INI file: which plugins, with which options; a further one counts over it");
+  app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
+  app.add_option("-o,--output", arguments.run.output_folder, "folder for the outputs, made if missing");
+  app.add_option("--check", arguments.checked_logs,
+                 "judge a log, map nothing: what is wrong, what to set; -o keeps it");
+  app.add_option("--continue", arguments.run.continue_map, "map (or its folder) that the logs go on from: [session]");
+  app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
+  app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the map does not depend on them")
+      ->check(CLI::Range(1, 256));
+  app.add_option("--speed", arguments.run.speed, "replay at so many times the log's pace; 0: as fast as possible")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--gui", arguments.gui, "show the map while it grows");
+  app.add_flag("--list-plugins", arguments.list_plugins,
+               "list the plugin classes, with -i those of its libraries too, and leave");
+  app.add_option("--print-ini", arguments.print_ini, "print the documented section of a plugin class and leave");
+  app.add_flag("--ini-reference", arguments.ini_reference, "print all INI keys as Markdown and leave");
+  app.add_flag("-q,--quiet", arguments.quiet, "no progress, no summary; warnings only if the map is not whole");
+  app.add_flag("-v,--verbose", arguments.verbose, "also say what the logs hold");
+  app.footer("Exit codes: doc/exit_codes.md (0 only for a whole map of a whole log).");
+}

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+#include <omnimapper/base/Stamp.h>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::check {
+
+/// The stamps of one sensor, in order of arrival.
+struct StampFacts {
+  std::size_t count = 0;     ///< observations, without a stamp too
+  std::size_t no_stamp = 0;  ///< zero, or before 1970
+  std::size_t repeated = 0;  ///< the stamp of the one before again
+  std::size_t backward = 0;  ///< before the one before, by no more than a clock that is set
+  std::size_t gaps = 0;      ///< pauses of a second or more, five times the usual period
+  std::size_t jumps = 0;     ///< of the clock: a minute or more ahead, ten seconds or more back
+  double largest_jump = 0;   ///< [s] signed
+  double period = 0;         ///< [s] median of the steps forward; 0: not known
+  double longest_gap = 0;    ///< [s] jumps left out
+  double lateness = 0;       ///< [s] largest, behind the newest stamp of all sensors
+  base::Stamp first, last;   ///< earliest and latest; single ones a minute and more from the rest left out
+};
+
+/// The 2D scans of one label.
+struct ScanFacts {
+  std::size_t scans = 0;
+  std::size_t empty = 0;        ///< without beams
+  std::size_t blind = 0;        ///< with beams, but without a valid one
+  std::size_t all_zero = 0;     ///< of these, all ranges 0
+  std::size_t all_maximum = 0;  ///< of these, all at the sensor's limit or marked as invalid at it
+  std::size_t repeated = 0;     ///< the ranges of the one before again, to the last bit
+  std::size_t beams = 0;        ///< of most scans: of the first that has any
+  std::size_t other_beams = 0;  ///< scans with another number of beams
+  double aperture = 0;          ///< [rad]
+  double max_range = 0;         ///< [m] that the sensor declares
+  double valid_share = 0;       ///< of all beams, [0, 1]
+  double median_range = 0;      ///< [m] of valid beams
+  double longest = 0;           ///< [m] largest range of a beam that counts as valid
+  double longest_share = 0;     ///< of the valid beams, those of exactly that range
+  bool sensor_pose_moves = false;
+  mrpt::poses::CPose3D base_from_sensor;  ///< of the first, where the INI tells no other
+
+  bool isAtOrigin() const;
+  bool isUpsideDown() const;
+  /// Between the scanned plane and the floor, [0, pi / 2] rad.
+  double tilt() const;
+};
+
+/// The wheel odometry of one label, poses or motions.
+struct OdometryFacts {
+  std::size_t readings = 0;
+  std::size_t not_finite = 0;
+  std::size_t jumps = 0;    ///< steps that no robot makes: more than 0.5 m and 5 m/s
+  double largest_jump = 0;  ///< [m]
+  base::Stamp largest_at;
+  double way = 0, turn = 0;  ///< [m] [rad] summed, jumps left out
+};
+
+/// Odometry held against the motion that scan matching finds between pairs of scans, in the base's plane.
+struct MotionFacts {
+  std::string laser, odometry;  ///< labels; no odometry: what scans alone tell
+  std::size_t tried = 0;        ///< pairs of scans
+  std::size_t matched = 0;      ///< of these, that fit
+  std::size_t moved = 0;        ///< of these, with motion by the scans
+  std::size_t frozen = 0;       ///< of these, at rest by the odometry
+  std::size_t forward = 0;      ///< pairs with motion along x by both
+  std::size_t forward_reversed = 0;
+  std::size_t turning = 0;  ///< pairs that turn by both
+  std::size_t turning_reversed = 0;
+  double speed = 0;  ///< [m/s] that one in ten pairs exceeds, by the scans
+  base::Stamp first_frozen;
+
+  /// What would make scans and odometry agree: the sensor's true place on the base, seen from where it is said to be.
+  struct Mounting {
+    double x = 0, y = 0, yaw = 0;  ///< [m] [rad] base_from_base_as_reported
+    double position_sigma = 0, yaw_sigma = 0;
+    double scale = 1;  ///< way by odometry over way by scans
+  };
+  std::optional<Mounting> mounting;  ///< none without pairs that tell
+
+  /// Standard deviations after 1 m of way, 1 rad of turning, as [odometry] has them; none if too few pairs tell.
+  std::optional<double> position_noise_per_root_m;  ///< [m]
+  std::optional<double> yaw_noise_per_root_turn;    ///< [rad]
+  std::optional<double> yaw_noise_per_root_m;       ///< [rad]
+};
+
+/// What a log holds.
+struct LogFacts {
+  std::map<std::pair<std::string, std::string>, StampFacts> sensors;  ///< by (label, class)
+  std::map<std::string, ScanFacts> scans;                             ///< by label
+  std::map<std::string, OdometryFacts> odometry;                      ///< by label
+  std::vector<MotionFacts> motions;                                   ///< of each laser, with each odometry
+  /// Share of a laser's scans that lie in the time of an odometry, by (laser, odometry).
+  std::map<std::pair<std::string, std::string>, double> covered;
+};
+
+}  // namespace omnimapper::check

@@ -1,0 +1,54 @@
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/check/CheckRun.h>
+#include <omnimapper/check/gatherFacts.h>
+#include <omnimapper/check/judge.h>
+#include <omnimapper/check/proposeIni.h>
+#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/source/RawlogSource.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "Words.h"
+#include "checkText.h"
+
+namespace omnimapper::check {
+
+namespace {
+
+// Of ini/laser2d.ini.
+const std::vector<std::string> kPosePlugins{"odometry", "no_motion"};
+
+base::ExitCode codeOf(const source::SourceReport& report, const LogFacts& facts, const std::vector<Finding>& findings) {
+  if (report.exitCode() != base::ExitCode::ok) return report.exitCode();
+  if (usableLasers(facts).empty()) return base::ExitCode::nothing_to_map;
+  const bool has_problem = std::any_of(findings.begin(), findings.end(),
+                                       [](const Finding& finding) { return finding.weight == Weight::problem; });
+  return has_problem ? base::ExitCode::doubtful_input : base::ExitCode::ok;
+}
+
+}  // namespace
+
+CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& config, const std::string& output_folder,
+                     base::Progress& progress, const std::function<bool()>& stop) {
+  const auto options = config.section("mapper").read<mapper::EngineOptions>();
+  const mapper::SensorPoses sensor_poses(options.sensors, config);
+  const auto log = source::openRawlogs(logs, config.section("source").read<source::SourceOptions>(), [&](double part) {
+    progress.report(part, "checking the log");
+    return stop();
+  });
+  const auto facts = gatherFacts(*log, sensor_poses, stop, &progress);
+  if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing is said of half a log");
+  const auto findings = judge(facts);
+  const auto settings = proposeIni(facts, options.pose_plugins.empty() ? kPosePlugins : options.pose_plugins);
+  CheckResult result;
+  result.code = codeOf(log->report(), facts, findings);
+  result.text = checkText(joined(logs, " + "), log->report(), facts, findings, settings);
+  if (output_folder.empty()) return result;
+  base::makeWritableFolder(output_folder);
+  base::writeFile(output_folder + "/check.txt", [&](std::ostream& out) { out << result.text; });
+  base::writeFile(output_folder + "/check.ini", [&](std::ostream& out) { out << toIni(settings); });
+  return result;
+}
+
+}  // namespace omnimapper::check

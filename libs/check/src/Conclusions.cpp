@@ -1,0 +1,131 @@
+// What follows from the facts for the mapper: which laser, which odometry, where a laser really is.
+#include "Conclusions.h"
+
+#include <omnimapper/check/judge.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "Words.h"
+
+namespace omnimapper::check {
+
+namespace {
+
+constexpr double kLargestTilt = 15 * base::option_text::kRadiansPerDegree;
+constexpr double kFewestValid = 0.02;  // share of the beams
+constexpr std::size_t kFewestPairs = 8;
+constexpr double kMost = 0.7;  // share of the pairs that has to agree on a contradiction
+
+bool isMost(std::size_t part, std::size_t all) {
+  return all >= kFewestPairs && static_cast<double>(part) > kMost * static_cast<double>(all);
+}
+
+const MotionFacts* motionOf(const LogFacts& facts, const std::string& laser, const std::string& odometry) {
+  for (const auto& motion : facts.motions) {
+    if (motion.laser == laser && motion.odometry == odometry) return &motion;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+bool isTilted(const ScanFacts& scans) {
+  return scans.tilt() > kLargestTilt;
+}
+
+bool saturates(const ScanFacts& scans) {
+  return scans.longest_share > 0.02;
+}
+
+bool isFrozen(const MotionFacts& motion) {
+  return isMost(motion.frozen, motion.moved);
+}
+
+Contradiction contradictionOf(const MotionFacts& motion) {
+  const bool forward = isMost(motion.forward_reversed, motion.forward);
+  const bool turning = isMost(motion.turning_reversed, motion.turning);
+  if (forward && turning) return Contradiction::both;
+  if (forward) return Contradiction::forward;
+  return turning ? Contradiction::turning : Contradiction::none;
+}
+
+std::vector<const MotionFacts*> motionsWith(const LogFacts& facts, const std::string& odometry) {
+  std::vector<const MotionFacts*> motions;
+  for (const auto& laser : usableLasers(facts)) {
+    if (const auto* motion = motionOf(facts, laser, odometry)) motions.push_back(motion);
+  }
+  return motions;
+}
+
+// Both directions at once are hardly a sensor's place; neither are several lasers that are wrong in the same way.
+bool isReversed(const LogFacts& facts, const std::string& odometry) {
+  const auto motions = motionsWith(facts, odometry);
+  if (motions.empty()) return false;
+  const auto first = contradictionOf(*motions.front());
+  const bool all_same = std::all_of(motions.begin(), motions.end(),
+                                    [&](const MotionFacts* motion) { return contradictionOf(*motion) == first; });
+  return first == Contradiction::both || (first != Contradiction::none && motions.size() > 1 && all_same);
+}
+
+std::vector<std::string> usableLasers(const LogFacts& facts) {
+  std::vector<std::string> labels;
+  for (const auto& [label, scans] : facts.scans) {
+    const bool sees = scans.valid_share > kFewestValid && 10 * (scans.blind + scans.empty) < 9 * scans.scans;
+    if (sees && !isTilted(scans)) labels.push_back(label);
+  }
+  const auto view = [&](const std::string& label) {
+    const auto& scans = facts.scans.at(label);
+    return scans.valid_share * scans.aperture;
+  };
+  std::stable_sort(labels.begin(), labels.end(),
+                   [&](const std::string& a, const std::string& b) { return view(a) > view(b); });
+  return labels;
+}
+
+std::optional<std::string> usableOdometry(const LogFacts& facts) {
+  const auto lasers = usableLasers(facts);
+  std::optional<std::string> best;
+  double least_noise = std::numeric_limits<double>::infinity();
+  for (const auto& [label, odometry] : facts.odometry) {
+    if (odometry.readings < 2 + odometry.not_finite) continue;
+    const auto* motion = lasers.empty() ? nullptr : motionOf(facts, lasers.front(), label);
+    if (motion && (facts.covered.at({motion->laser, label}) < 0.5 || isFrozen(*motion))) continue;
+    if (isReversed(facts, label)) continue;
+    const double noise = motion && motion->position_noise_per_root_m ? *motion->position_noise_per_root_m : 1e3;
+    if (noise >= least_noise) continue;
+    least_noise = noise;
+    best = label;
+  }
+  return best;
+}
+
+std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, const std::string& laser) {
+  using mrpt::poses::CPose3D;
+  constexpr double kSureYaw = 3 * base::option_text::kRadiansPerDegree;
+  constexpr double kWrongYaw = 10 * base::option_text::kRadiansPerDegree;
+  constexpr double kSurePosition = 0.05, kWrongPosition = 0.2, kMissingPosition = 0.05;  // [m]
+  constexpr double kTrust = 5;                                                           // standard deviations
+  const auto odometry = usableOdometry(facts);
+  if (!odometry) return std::nullopt;
+  const auto* motion = motionOf(facts, laser, *odometry);
+  const auto& scans = facts.scans.at(laser);
+  if (!motion || scans.sensor_pose_moves) return std::nullopt;
+  const CPose3D& reported = scans.base_from_sensor;
+  if (contradictionOf(*motion) == Contradiction::turning) return reported + CPose3D(0, 0, 0, 0, 0, std::acos(-1.0));
+  if (!motion->mounting) return std::nullopt;
+  const auto& found = *motion->mounting;
+  const double offset = std::hypot(found.x, found.y);
+  const bool wrong_yaw =
+      found.yaw_sigma < kSureYaw && std::abs(found.yaw) > std::max(kWrongYaw, kTrust * found.yaw_sigma);
+  const double least = scans.isAtOrigin() ? kMissingPosition : kWrongPosition;
+  const bool sure_position = found.position_sigma < kSurePosition;
+  const bool wrong_position = sure_position && offset > std::max(least, kTrust * found.position_sigma);
+  if (!wrong_yaw && !wrong_position) return std::nullopt;
+  // A small angle would be as much the odometry's as the sensor's.
+  return CPose3D(sure_position ? found.x : 0, sure_position ? found.y : 0, 0, wrong_yaw ? found.yaw : 0, 0, 0) +
+         reported;
+}
+
+}  // namespace omnimapper::check

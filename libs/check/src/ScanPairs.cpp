@@ -1,0 +1,84 @@
+#include "ScanPairs.h"
+
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/matching/PointToLineMatcher.h>
+#include <omnimapper/perception/LaserPointsExtractor.h>
+
+#include <cmath>
+
+namespace omnimapper::check {
+
+namespace {
+
+constexpr double kShortest = 0.4, kLongest = 3;  // [s] of a pair
+constexpr std::size_t kMostPairs = 400;
+constexpr double kLeastOverlap = 0.6;
+constexpr double kWallDistance = 0.1;  // [m]
+
+matching::PlanarScan scanInBase(const mrpt::obs::CObservation2DRangeScan& scan) {
+  static const perception::LaserPointsExtractor extractor{perception::LaserPointsOptions()};
+  const auto extracted = extractor.extract(scan);
+  const auto& cloud = *dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*extracted).pointcloud;
+  std::vector<Eigen::Vector2f> points;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    float x, y, z;
+    cloud.getPointFast(i, x, y, z);
+    const auto p = scan.sensorPose.composePoint({x, y, z});
+    if (std::isfinite(p.x) && std::isfinite(p.y)) points.emplace_back(p.x, p.y);
+  }
+  return matching::fitLines(points);
+}
+
+bool fits(const matching::ScanMatch& match) {
+  return match.overlap >= kLeastOverlap && match.wall_distance <= kWallDistance && !match.degenerate;
+}
+
+bool isBetter(const matching::ScanMatch& a, const matching::ScanMatch& b) {
+  if (std::abs(a.overlap - b.overlap) > 0.02) return a.overlap > b.overlap;
+  return a.wall_distance < b.wall_distance;
+}
+
+matching::ScanMatcherOptions wideOptions() {
+  matching::ScanMatcherOptions options;
+  options.max_distance = 1.0;
+  return options;
+}
+
+}  // namespace
+
+void ScanPairs::add(const ScanPtr& scan) {
+  if (!base::isValid(scan->timestamp)) return;
+  const double seconds = begin_ ? base::secondsBetween(begin_->timestamp, scan->timestamp) : -1;
+  if (seconds >= 0 && seconds < kShortest) return;
+  if (seconds >= kShortest && seconds <= kLongest && ended_++ % stride_ == 0) {
+    pairs_.push_back({begin_, scan});
+    if (pairs_.size() == kMostPairs) {
+      for (std::size_t i = 0; 2 * i < pairs_.size(); ++i) pairs_[i] = pairs_[2 * i];
+      pairs_.resize(kMostPairs / 2);
+      stride_ *= 2;
+    }
+  }
+  begin_ = scan;
+}
+
+std::vector<MatchedMotion> matchPairs(const std::vector<ScanPair>& pairs, const OdometryBetween& odometry) {
+  const matching::PointToLineMatcher matcher(wideOptions());
+  std::vector<MatchedMotion> motions;
+  for (const auto& pair : pairs) {
+    const auto from = matcher.prepare(scanInBase(*pair.begin));
+    const auto to = scanInBase(*pair.end);
+    const auto by_odometry = odometry(pair.begin->timestamp, pair.end->timestamp);
+    auto match = matcher.match(*from, to, {0, 0, 0});
+    if (by_odometry) {
+      const auto other = matcher.match(*from, to, by_odometry->asTPose());
+      if (isBetter(other, match)) match = other;
+    }
+    if (!fits(match)) continue;
+    motions.push_back(
+        {pair.begin->timestamp, pair.end->timestamp, mrpt::poses::CPose2D(match.reference_from_scan), by_odometry});
+  }
+  return motions;
+}
+
+}  // namespace omnimapper::check

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace omnimapper::check {
+
+/// "1.50"; no "-0".
+std::string fixed(double value, int decimals);
+/// "37 %", or "0.4 %" where whole numbers would hide it.
+std::string percent(double share);
+/// "1 scan", "2 scans".
+std::string counted(std::size_t count, const std::string& noun);
+/// 'laser', or "(no label)".
+std::string quoted(const std::string& label);
+std::string joined(const std::vector<std::string>& words, const std::string& between);
+
+inline double degrees(double radians) {
+  return radians / base::option_text::kRadiansPerDegree;
+}
+
+}  // namespace omnimapper::check

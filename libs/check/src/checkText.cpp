@@ -1,0 +1,106 @@
+#include "checkText.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "Words.h"
+
+namespace omnimapper::check {
+
+namespace {
+
+std::string shortName(const std::string& class_name) {
+  const auto colon = class_name.rfind(':');
+  return colon == std::string::npos ? class_name : class_name.substr(colon + 1);
+}
+
+std::string sensorTable(const LogFacts& facts) {
+  char row[300];
+  std::snprintf(row, sizeof row, "%-16s %-26s %8s %9s %10s %11s %9s\n", "sensor", "class", "count", "rate 1/s",
+                "longest s", "out of order", "no stamp");
+  std::string text = row;
+  for (const auto& [sensor, stamps] : facts.sensors) {
+    std::snprintf(row, sizeof row, "%-16s %-26s %8zu %9s %10s %12zu %9zu\n",
+                  sensor.first.empty() ? "(no label)" : sensor.first.c_str(), shortName(sensor.second).c_str(),
+                  stamps.count, stamps.period > 0 ? fixed(1 / stamps.period, 1).c_str() : "-",
+                  fixed(stamps.longest_gap, 2).c_str(), stamps.backward + stamps.repeated, stamps.no_stamp);
+    text += row;
+  }
+  return text;
+}
+
+std::string poseText(const mrpt::poses::CPose3D& pose) {
+  return "x " + fixed(pose.x(), 2) + " y " + fixed(pose.y(), 2) + " z " + fixed(pose.z(), 2) + " m, yaw " +
+         fixed(degrees(pose.yaw()), 0) + " pitch " + fixed(degrees(pose.pitch()), 0) + " roll " +
+         fixed(degrees(pose.roll()), 0) + " deg";
+}
+
+std::string scanLines(const LogFacts& facts) {
+  std::string text;
+  for (const auto& [label, scans] : facts.scans) {
+    text += quoted(label) + ": " + std::to_string(scans.beams) + " beams over " + fixed(degrees(scans.aperture), 0) +
+            " deg, " + percent(scans.valid_share) + " valid, half of them under " + fixed(scans.median_range, 1) +
+            " m, at most " + fixed(scans.longest, 1) + " m (limit " + fixed(scans.max_range, 1) + " m)\n  at " +
+            poseText(scans.base_from_sensor) + " on the base" +
+            (scans.isAtOrigin() ? ": nobody said where it is" : "") + "\n";
+  }
+  return text;
+}
+
+std::string noiseText(const MotionFacts& motion) {
+  std::vector<std::string> parts;
+  if (motion.position_noise_per_root_m) parts.push_back(fixed(*motion.position_noise_per_root_m, 3) + " m after 1 m");
+  if (motion.yaw_noise_per_root_m) parts.push_back(fixed(degrees(*motion.yaw_noise_per_root_m), 2) + " deg after 1 m");
+  if (motion.yaw_noise_per_root_turn) {
+    parts.push_back(fixed(degrees(*motion.yaw_noise_per_root_turn), 2) + " deg after a turn of 1 rad");
+  }
+  return parts.empty() ? "" : "; noise " + joined(parts, ", ");
+}
+
+std::string odometryLines(const LogFacts& facts) {
+  std::string text;
+  for (const auto& [label, odometry] : facts.odometry) {
+    text += quoted(label) + ": " + fixed(odometry.way, 1) + " m and " + fixed(degrees(odometry.turn) / 360, 1) +
+            " turns by odometry\n";
+  }
+  for (const auto& motion : facts.motions) {
+    if (motion.odometry.empty()) continue;
+    text += "  " + quoted(motion.odometry) + " against " + quoted(motion.laser) + ": " +
+            std::to_string(motion.matched) + " of " + std::to_string(motion.tried) + " pairs of scans match, " +
+            std::to_string(motion.moved) + " in motion" + noiseText(motion) + "\n";
+  }
+  return text;
+}
+
+std::string findingLines(const std::vector<Finding>& findings) {
+  if (findings.empty()) return "\nNothing is wrong with it.\n";
+  std::string text = "\n";
+  for (const auto& finding : findings) {
+    const char* weight = finding.weight == Weight::problem   ? "PROBLEM  "
+                         : finding.weight == Weight::warning ? "warning  "
+                                                             : "note     ";
+    text += weight + finding.text + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string checkText(const std::string& title, const source::SourceReport& report, const LogFacts& facts,
+                      const std::vector<Finding>& findings, const std::vector<Setting>& settings) {
+  base::Stamp first, last;
+  for (const auto& [sensor, stamps] : facts.sensors) {
+    if (!base::isValid(stamps.first)) continue;
+    first = base::isValid(first) ? std::min(first, stamps.first) : stamps.first;
+    last = std::max(last, stamps.last);
+  }
+  std::string text = title + ": " + toString(report.ending) + ", " +
+                     counted(static_cast<std::size_t>(report.observations()), "observation") + " in " +
+                     fixed(base::secondsBetween(first, last), 1) + " s\n";
+  if (!report.message.empty()) text += report.message + "\n";
+  text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + findingLines(findings);
+  if (settings.empty()) return text + "\nini/laser2d.ini fits as it is.\n";
+  return text + "\nTo go over ini/laser2d.ini (-i ini/laser2d.ini -i THIS):\n\n" + toIni(settings);
+}
+
+}  // namespace omnimapper::check

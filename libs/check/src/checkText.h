@@ -1,0 +1,16 @@
+#pragma once
+
+#include <omnimapper/check/judge.h>
+#include <omnimapper/check/proposeIni.h>
+#include <omnimapper/source/SourceReport.h>
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::check {
+
+/// One screen: how the log could be read, a line for each sensor, findings, proposed INI.
+std::string checkText(const std::string& title, const source::SourceReport& report, const LogFacts& facts,
+                      const std::vector<Finding>& findings, const std::vector<Setting>& settings);
+
+}  // namespace omnimapper::check

@@ -1,0 +1,166 @@
+#include "compareMotions.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "Quantile.h"
+
+namespace omnimapper::check {
+
+namespace {
+
+using mrpt::poses::CPose2D;
+using Mounting = MotionFacts::Mounting;
+
+constexpr double kMoved = 0.1, kTurned = 0.1;  // [m] [rad] what a match tells from rest for sure
+constexpr double kStillWay = 1e-4, kStillTurn = 1e-4;
+constexpr std::size_t kFewestPairs = 8;
+constexpr double kMatchSigma = 0.01;        // [m] of a match at best
+constexpr double kMatchAngleSigma = 0.003;  // [rad]
+
+// Rows of the equations R(yaw) t_scans - (R_odometry - 1) c = t_odometry, in (a, b, c_x, c_y) with a = s cos yaw, b = s
+// sin yaw: the motion of the true base and that of the base as the sensor's reported pose has it are conjugate.
+struct Rows {
+  Eigen::Matrix<double, 2, 4> left;
+  Eigen::Vector2d right;
+};
+
+Rows rowsOf(const MatchedMotion& motion) {
+  const CPose2D& o = *motion.by_odometry;
+  const double x = motion.by_scans.x(), y = motion.by_scans.y();
+  const double c = std::cos(o.phi()) - 1, s = std::sin(o.phi());
+  Rows rows;
+  rows.left << x, -y, -c, s, y, x, -s, -c;
+  rows.right << o.x(), o.y();
+  return rows;
+}
+
+struct Fit {
+  Eigen::Vector4d solution = Eigen::Vector4d(1, 0, 0, 0);
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();
+};
+
+std::vector<double> residuals(const std::vector<Rows>& rows, const Eigen::Vector4d& solution) {
+  std::vector<double> all;
+  for (const auto& row : rows) all.push_back((row.left * solution - row.right).norm());
+  return all;
+}
+
+// Least squares, then again without what lies far off: slips and matches gone wrong.
+std::optional<Fit> fit(const std::vector<Rows>& rows) {
+  Fit result;
+  double limit = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < 4; ++round) {
+    const auto off = residuals(rows, result.solution);
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Identity() * 1e-6;
+    Eigen::Vector4d right = normal * Eigen::Vector4d(1, 0, 0, 0);
+    double squared = 0;
+    std::size_t used = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (round > 0 && off[i] > limit) continue;
+      normal += rows[i].left.transpose() * rows[i].left;
+      right += rows[i].left.transpose() * rows[i].right;
+      squared += off[i] * off[i];
+      ++used;
+    }
+    if (used < kFewestPairs) return std::nullopt;
+    result.solution = normal.ldlt().solve(right);
+    const double variance = std::max(kMatchSigma * kMatchSigma, squared / (2 * static_cast<double>(used)));
+    result.covariance = variance * normal.inverse();
+    limit = std::max(3 * kMatchSigma, 3 * quantile(residuals(rows, result.solution), 0.5));
+  }
+  return result;
+}
+
+std::optional<Mounting> mountingOf(const std::vector<MatchedMotion>& motions) {
+  std::vector<Rows> rows;
+  for (const auto& motion : motions) rows.push_back(rowsOf(motion));
+  const auto found = fit(rows);
+  if (!found) return std::nullopt;
+  const auto& s = found->solution;
+  Mounting mounting;
+  mounting.scale = s.head<2>().norm();
+  if (mounting.scale < 0.1) return std::nullopt;  // the odometry tells no way
+  mounting.yaw = std::atan2(s[1], s[0]);
+  mounting.x = s[2];
+  mounting.y = s[3];
+  mounting.position_sigma = std::sqrt(std::max(found->covariance(2, 2), found->covariance(3, 3)));
+  mounting.yaw_sigma = std::sqrt(std::max(found->covariance(0, 0), found->covariance(1, 1))) / mounting.scale;
+  return mounting;
+}
+
+// Standard deviation after one unit, of squared errors per unit, robustly by their median.
+std::optional<double> noiseOf(const std::vector<double>& squared_per_unit, double chi2_median) {
+  if (squared_per_unit.size() < kFewestPairs) return std::nullopt;
+  return std::sqrt(std::max(0.0, quantile(squared_per_unit, 0.5) / chi2_median));
+}
+
+void measureNoise(const std::vector<MatchedMotion>& motions, const CPose2D& mounting, MotionFacts& facts) {
+  constexpr double kChi2Of1 = 0.455, kChi2Of2 = 1.386;  // medians
+  std::vector<double> positions, turns, headings;
+  for (const auto& motion : motions) {
+    const CPose2D base = mounting + motion.by_scans + (CPose2D() - mounting);
+    const CPose2D error = base - *motion.by_odometry;
+    const double way = base.norm(), turn = std::abs(base.phi());
+    const double position = std::max(0.0, error.norm() * error.norm() - 2 * kMatchSigma * kMatchSigma);
+    const double yaw = std::max(0.0, error.phi() * error.phi() - kMatchAngleSigma * kMatchAngleSigma);
+    if (way > kMoved) positions.push_back(position / way);
+    if (turn > kTurned) turns.push_back(yaw / turn);
+    if (way > kMoved && turn < kTurned / 2) headings.push_back(yaw / way);
+  }
+  facts.position_noise_per_root_m = noiseOf(positions, kChi2Of2);
+  facts.yaw_noise_per_root_turn = noiseOf(turns, kChi2Of1);
+  facts.yaw_noise_per_root_m = noiseOf(headings, kChi2Of1);
+}
+
+bool hasMoved(const CPose2D& motion) {
+  return motion.norm() > kMoved || std::abs(motion.phi()) > kTurned;
+}
+
+bool isStill(const CPose2D& motion) {
+  return motion.norm() < kStillWay && std::abs(motion.phi()) < kStillTurn;
+}
+
+void countDirections(const MatchedMotion& motion, MotionFacts& facts) {
+  const CPose2D &a = motion.by_scans, &b = *motion.by_odometry;
+  if (std::abs(a.x()) > kMoved / 2 && std::abs(b.x()) > kMoved / 2) {
+    ++facts.forward;
+    if (a.x() * b.x() < 0) ++facts.forward_reversed;
+  }
+  if (std::abs(a.phi()) > kTurned / 2 && std::abs(b.phi()) > kTurned / 2) {
+    ++facts.turning;
+    if (a.phi() * b.phi() < 0) ++facts.turning_reversed;
+  }
+}
+
+}  // namespace
+
+MotionFacts compareMotions(const std::vector<MatchedMotion>& motions) {
+  MotionFacts facts;
+  facts.matched = motions.size();
+  std::vector<double> speeds;
+  std::vector<MatchedMotion> told;  // by an odometry that moves when the scans do
+  for (const auto& motion : motions) {
+    speeds.push_back(motion.by_scans.norm() / motion.seconds());
+    const bool moved = hasMoved(motion.by_scans);
+    facts.moved += moved;
+    if (!motion.by_odometry) continue;
+    if (moved && isStill(*motion.by_odometry)) {
+      if (facts.frozen++ == 0) facts.first_frozen = motion.begin;
+      continue;
+    }
+    countDirections(motion, facts);
+    if (moved) told.push_back(motion);
+  }
+  if (!speeds.empty()) facts.speed = quantile(speeds, 0.9);
+  facts.mounting = mountingOf(told);
+  const auto& mounting = facts.mounting;
+  measureNoise(told, mounting ? CPose2D(mounting->x, mounting->y, mounting->yaw) : CPose2D(), facts);
+  return facts;
+}
+
+}  // namespace omnimapper::check

@@ -1,0 +1,95 @@
+#include <omnimapper/check/gatherFacts.h>
+
+#include <algorithm>
+
+#include "OdometryTally.h"
+#include "ScanPairs.h"
+#include "ScanTally.h"
+#include "StampTally.h"
+#include "compareMotions.h"
+
+namespace omnimapper::check {
+
+namespace {
+
+using mrpt::obs::CObservation2DRangeScan;
+
+// Everything that is counted while the log goes by.
+class Gatherer {
+ public:
+  void add(const mrpt::obs::CObservation::Ptr& observation) {
+    const auto stamp = observation->timestamp;
+    const std::string& label = observation->sensorLabel;
+    stamps_[{label, observation->GetRuntimeClass()->className}].add(stamp, newest_);
+    if (base::isValid(stamp) && (stamp > newest_ || base::secondsBetween(stamp, newest_) > kJumpBack)) newest_ = stamp;
+    if (OdometryTally::isOdometry(*observation)) odometry_[label].add(*observation);
+    if (const auto scan = std::dynamic_pointer_cast<const CObservation2DRangeScan>(observation)) {
+      auto& laser = lasers_[label];
+      laser.tally.add(*scan);
+      laser.pairs.add(scan);
+      if (base::isValid(stamp)) laser.stamps.push_back(stamp);
+    }
+  }
+
+  LogFacts facts() const {
+    LogFacts facts;
+    for (const auto& [sensor, tally] : stamps_) facts.sensors[sensor] = tally.facts();
+    for (const auto& [label, tally] : odometry_) facts.odometry[label] = tally.facts();
+    for (const auto& [label, laser] : lasers_) {
+      facts.scans[label] = laser.tally.facts();
+      for (const auto& [odometry, tally] : odometry_) {
+        facts.motions.push_back(motionOf(label, laser, odometry, &tally));
+        facts.covered[{label, odometry}] = coveredShare(laser, tally);
+      }
+      if (odometry_.empty()) facts.motions.push_back(motionOf(label, laser, "", nullptr));
+    }
+    return facts;
+  }
+
+ private:
+  struct Laser {
+    ScanTally tally;
+    ScanPairs pairs;
+    std::vector<base::Stamp> stamps;
+  };
+
+  static MotionFacts motionOf(const std::string& label, const Laser& laser, const std::string& odometry,
+                              const OdometryTally* tally) {
+    const auto between = [&](base::Stamp begin, base::Stamp end) {
+      return tally ? tally->between(begin, end) : std::nullopt;
+    };
+    auto facts = compareMotions(matchPairs(laser.pairs.pairs(), between));
+    facts.laser = label;
+    facts.odometry = odometry;
+    facts.tried = laser.pairs.pairs().size();
+    return facts;
+  }
+
+  static double coveredShare(const Laser& laser, const OdometryTally& odometry) {
+    if (laser.stamps.empty()) return 0;
+    const auto covered = std::count_if(laser.stamps.begin(), laser.stamps.end(),
+                                       [&](base::Stamp stamp) { return odometry.between(stamp, stamp).has_value(); });
+    return static_cast<double>(covered) / static_cast<double>(laser.stamps.size());
+  }
+
+  std::map<std::pair<std::string, std::string>, StampTally> stamps_;
+  std::map<std::string, OdometryTally> odometry_;
+  std::map<std::string, Laser> lasers_;
+  base::Stamp newest_;
+};
+
+}  // namespace
+
+LogFacts gatherFacts(source::ObservationSource& log, const mapper::SensorPoses& sensor_poses,
+                     const std::function<bool()>& stop, base::Progress* progress) {
+  Gatherer gatherer;
+  while (!stop()) {
+    const auto observation = log.next();
+    if (!observation) break;
+    gatherer.add(sensor_poses.applied(observation));
+    if (progress) progress->report(log.progress(), "reading the log");
+  }
+  return gatherer.facts();
+}
+
+}  // namespace omnimapper::check

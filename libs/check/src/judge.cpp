@@ -1,0 +1,204 @@
+#include <omnimapper/check/judge.h>
+#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/plugins/OdometryPlugin.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "Conclusions.h"
+#include "Words.h"
+
+namespace omnimapper::check {
+
+namespace {
+
+class Judge {
+ public:
+  explicit Judge(const LogFacts& facts) : facts_(facts) {}
+
+  std::vector<Finding> findings() {
+    for (const auto& [sensor, stamps] : facts_.sensors) judgeStamps(sensor.first, stamps);
+    for (const auto& [label, scans] : facts_.scans) judgeScans(label, scans);
+    if (usableLasers(facts_).empty()) {
+      add(Weight::problem, facts_.scans.empty() ? "there are no 2D scans: nothing that ini/laser2d.ini maps"
+                                                : "no laser has scans that can be matched");
+    }
+    judgeOdometry();
+    for (const auto& laser : usableLasers(facts_)) judgeSensorPose(laser);
+    std::stable_sort(findings_.begin(), findings_.end(),
+                     [](const Finding& a, const Finding& b) { return a.weight > b.weight; });
+    return std::move(findings_);
+  }
+
+ private:
+  void add(Weight weight, const std::string& text) { findings_.push_back({weight, text}); }
+  std::string sinceStart(base::Stamp stamp) const {
+    base::Stamp first = stamp;
+    for (const auto& [sensor, stamps] : facts_.sensors) {
+      if (base::isValid(stamps.first)) first = std::min(first, stamps.first);
+    }
+    return fixed(base::secondsBetween(first, stamp), 1) + " s after the start";
+  }
+
+  void judgeStamps(const std::string& label, const StampFacts& stamps) {
+    const std::string who = quoted(label) + ": ";
+    const auto weigh = [&](std::size_t bad) { return 2 * bad > stamps.count ? Weight::problem : Weight::warning; };
+    if (stamps.no_stamp > 0) {
+      add(weigh(stamps.no_stamp), who + std::to_string(stamps.no_stamp) + " of " +
+                                      counted(stamps.count, "observation") + " without a stamp: left out");
+    }
+    if (stamps.repeated > 0) {
+      add(weigh(stamps.repeated),
+          who + "the stamp of the one before is repeated " + counted(stamps.repeated, "time") + ": left out");
+    }
+    if (stamps.jumps > 0) {
+      add(Weight::problem, who + "the clock jumps " + counted(stamps.jumps, "time") + ", by up to " +
+                               fixed(stamps.largest_jump, 0) + " s: cut the log there ([source] start_s, end_s)");
+    }
+    if (stamps.backward > 0) {
+      add(Weight::warning, who + "stamps run backwards " + counted(stamps.backward, "time"));
+    }
+    if (stamps.lateness > mapper::EngineOptions().window) {
+      add(Weight::warning, who + "comes up to " + fixed(stamps.lateness, 1) +
+                               " s after later stamps of others, more than [mapper] window_s");
+    }
+    if (stamps.gaps > 0) {
+      constexpr double kLong = 5;  // [s] a robot may have gone far
+      add(stamps.longest_gap > kLong ? Weight::warning : Weight::note,
+          who + counted(stamps.gaps, "gap") + ", the longest of " + fixed(stamps.longest_gap, 1) + " s (usually " +
+              fixed(stamps.period, 3) + " s)");
+    }
+  }
+
+  void judgeScans(const std::string& label, const ScanFacts& scans) {
+    const std::string who = quoted(label) + ": ";
+    const auto part = [&](std::size_t count) { return std::to_string(count) + " of " + counted(scans.scans, "scan"); };
+    const auto weigh = [&](std::size_t bad) { return 2 * bad > scans.scans ? Weight::problem : Weight::warning; };
+    if (scans.empty > 0) add(weigh(scans.empty), who + part(scans.empty) + " without beams");
+    if (scans.blind > 0) {
+      std::string how;
+      if (scans.all_zero > 0) how += ", " + std::to_string(scans.all_zero) + " all zeros";
+      if (scans.all_maximum > 0) how += ", " + std::to_string(scans.all_maximum) + " all at maximum range";
+      add(weigh(scans.blind), who + part(scans.blind) + " without a valid beam" + how);
+    }
+    if (10 * scans.repeated > scans.scans) {
+      add(weigh(scans.repeated), who + part(scans.repeated) + " repeat the one before to the last bit: is it stuck?");
+    }
+    if (scans.other_beams > 0) add(Weight::note, who + part(scans.other_beams) + " with another number of beams");
+    if (saturates(scans)) {
+      add(Weight::warning, who + percent(scans.longest_share) + " of the valid beams at exactly " +
+                               fixed(scans.longest, 2) + " m: nothing came back, but they are marked as valid");
+    }
+    if (isTilted(scans)) {
+      add(Weight::problem,
+          who + "scans a plane tilted by " + fixed(degrees(scans.tilt()), 0) + " deg: not for 2D maps");
+    }
+    if (scans.isUpsideDown()) add(Weight::note, who + "mounted upside down, as its sensor pose says");
+    if (scans.sensor_pose_moves) add(Weight::note, who + "moves on the base, as its sensor poses say");
+  }
+
+  void judgeOdometry() {
+    if (facts_.odometry.empty()) {
+      add(Weight::warning, "there is no odometry: the motion is left to the scans");
+      return;
+    }
+    for (const auto& [label, odometry] : facts_.odometry) {
+      const std::string who = quoted(label) + ": ";
+      if (odometry.not_finite > 0) add(Weight::warning, who + counted(odometry.not_finite, "reading") + " not finite");
+      if (odometry.jumps > 0) {
+        add(Weight::problem, who + "jumps " + counted(odometry.jumps, "time") + ", by up to " +
+                                 fixed(odometry.largest_jump, 2) + " m " + sinceStart(odometry.largest_at));
+      }
+      const auto motions = motionsWith(facts_, label);
+      if (motions.empty()) continue;
+      judgeCover(label, *motions.front());
+      judgeMotion(who, *motions.front(), isReversed(facts_, label));
+    }
+  }
+
+  void judgeCover(const std::string& odometry, const MotionFacts& motion) {
+    const double covered = facts_.covered.at({motion.laser, odometry});
+    if (covered >= 0.95) return;
+    const std::string who = quoted(odometry) + " and " + quoted(motion.laser) + ": ";
+    const std::string rest = percent(1 - covered) + " of the scans lie outside of the odometry's time";
+    if (covered >= 0.5) return add(Weight::warning, who + rest);
+    const auto first = [&](const std::string& label) {
+      base::Stamp stamp;
+      for (const auto& [sensor, stamps] : facts_.sensors) {
+        if (sensor.first == label) stamp = stamps.first;
+      }
+      return stamp;
+    };
+    add(Weight::problem, who + rest + "; it starts " +
+                             fixed(base::secondsBetween(first(motion.laser), first(odometry)), 1) +
+                             " s after them: two clocks, or two logs?");
+  }
+
+  void judgeMotion(const std::string& who, const MotionFacts& motion, bool reversed) {
+    if (motion.frozen > 0) {
+      const bool frozen = isFrozen(motion);
+      add(frozen || 5 * motion.frozen > motion.moved ? Weight::problem : Weight::warning,
+          who + "at rest in " + std::to_string(motion.frozen) + " of " + std::to_string(motion.moved) +
+              " pairs of scans that move" + (frozen ? ": frozen" : "") + ", first " + sinceStart(motion.first_frozen));
+    }
+    if (reversed) add(Weight::problem, who + "runs against the scans: reversed" + reversedText(motion));
+    if (reversed || isFrozen(motion)) return;
+    if (motion.mounting && std::abs(motion.mounting->scale - 1) > 0.05) {
+      add(Weight::warning, who + "measures " + fixed(motion.mounting->scale, 2) + " m where the scans measure 1 m");
+    }
+    const plugins::OdometryOptions defaults;
+    const auto noise = [&](const std::optional<double>& measured, double value, const std::string& what, int decimals,
+                           double unit) {
+      if (!measured || *measured < 2 * value) return;
+      add(Weight::warning, who + "its noise, " + fixed(*measured / unit, decimals) + what + ", is " +
+                               fixed(*measured / value, 1) + " times the default");
+    };
+    noise(motion.position_noise_per_root_m, defaults.position_noise_per_root_m, " m after 1 m", 2, 1);
+    noise(motion.yaw_noise_per_root_turn, defaults.yaw_noise_per_root_turn, " rad after a turn of 1 rad", 2, 1);
+    noise(motion.yaw_noise_per_root_m, defaults.yaw_noise_per_root_m, " deg after 1 m", 1,
+          base::option_text::kRadiansPerDegree);
+  }
+
+  static std::string reversedText(const MotionFacts& motion) {
+    switch (contradictionOf(motion)) {
+      case Contradiction::forward:
+        return " (forward is backward)";
+      case Contradiction::turning:
+        return " (left is right)";
+      default:
+        return " (forward is backward, left is right)";
+    }
+  }
+
+  void judgeSensorPose(const std::string& laser) {
+    const auto& scans = facts_.scans.at(laser);
+    const auto better = betterSensorPose(facts_, laser);
+    const std::string who = quoted(laser) + ": ";
+    if (scans.isAtOrigin()) {
+      add(Weight::warning, who + "its sensor pose is missing: at the origin of the base, nothing said" +
+                               (better ? "" : "; if it is elsewhere, tell [mapper] sensors"));
+    }
+    if (!better) return;
+    const auto change = *better - scans.base_from_sensor;
+    const bool upside_down = change.getRotationMatrix()(2, 2) < 0;
+    const bool backwards = !upside_down && std::abs(degrees(change.yaw())) > 150;
+    const bool little = !upside_down && !backwards && std::abs(degrees(change.yaw())) < 10;
+    const std::string verdict = upside_down ? "is mounted upside down, which its sensor pose does not say"
+                                : backwards ? "looks backwards, which its sensor pose does not say"
+                                            : "is mounted otherwise than its sensor pose says";
+    add(little ? Weight::warning : Weight::problem,
+        who + verdict + ": by its motion x " + fixed(better->x(), 2) + " m, y " + fixed(better->y(), 2) + " m, yaw " +
+            fixed(degrees(better->yaw()), 0) + " deg, roll " + fixed(degrees(better->roll()), 0) + " deg");
+  }
+
+  const LogFacts& facts_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> judge(const LogFacts& facts) {
+  return Judge(facts).findings();
+}
+
+}  // namespace omnimapper::check

@@ -1,0 +1,160 @@
+#include <omnimapper/check/judge.h>
+#include <omnimapper/check/proposeIni.h>
+#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/plugins/OdometryPlugin.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "Conclusions.h"
+#include "Words.h"
+
+namespace omnimapper::check {
+
+namespace {
+
+class Proposal {
+ public:
+  explicit Proposal(const LogFacts& facts) : facts_(facts), lasers_(usableLasers(facts)) {}
+
+  std::vector<Setting> settings(const std::vector<std::string>& pose_plugins) {
+    proposeEngine(pose_plugins);
+    proposeSensorPoses();
+    proposeLasers();
+    proposeOdometry();
+    return std::move(settings_);
+  }
+
+ private:
+  void set(const std::string& section, const std::string& key, const std::string& value, const std::string& reason) {
+    settings_.push_back({section, key, value, reason});
+  }
+
+  void proposeEngine(std::vector<std::string> pose_plugins) {
+    const auto odometry = std::find(pose_plugins.begin(), pose_plugins.end(), "odometry");
+    if (!usableOdometry(facts_) && odometry != pose_plugins.end()) {
+      pose_plugins.erase(odometry);
+      set("mapper", "pose_plugins", joined(pose_plugins, ", "),
+          facts_.odometry.empty() ? "there is no odometry" : "the odometry is worse than none");
+    }
+    double lateness = 0;
+    for (const auto& [sensor, stamps] : facts_.sensors) lateness = std::max(lateness, stamps.lateness);
+    if (lateness > mapper::EngineOptions().window) {
+      set("mapper", "window_s", fixed(std::ceil(11 * lateness) / 10, 1), "observations come so late");
+    }
+    if (lasers_.size() > 1 && !lasers_.front().empty()) {
+      set("mapper", "reference_sensor", lasers_.front(), "the laser that sees most");
+    }
+  }
+
+  void proposeSensorPoses() {
+    std::vector<std::string> sections;
+    std::vector<Setting> poses;
+    for (const auto& laser : lasers_) {
+      const auto pose = betterSensorPose(facts_, laser);
+      if (!pose || laser.empty()) continue;
+      const std::string section = sectionName(laser);
+      sections.push_back(section);
+      poses.push_back({section, "label", laser, "its place on the base by its motion"});
+      const auto add = [&](const std::string& key, double value, int decimals) {
+        if (std::stod(fixed(value, decimals)) != 0) poses.push_back({section, key, fixed(value, decimals), ""});
+      };
+      add("pose_x_m", pose->x(), 2);
+      add("pose_y_m", pose->y(), 2);
+      add("pose_z_m", pose->z(), 2);
+      add("pose_yaw_deg", degrees(pose->yaw()), 0);
+      add("pose_pitch_deg", degrees(pose->pitch()), 0);
+      add("pose_roll_deg", degrees(pose->roll()), 0);
+    }
+    if (sections.empty()) return;
+    set("mapper", "sensors", joined(sections, ", "), "");
+    settings_.insert(settings_.end(), poses.begin(), poses.end());
+  }
+
+  static std::string sectionName(const std::string& label) {
+    std::string name = "place_of_" + label;
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_'; }, '_');
+    return name;
+  }
+
+  void proposeLasers() {
+    if (!lasers_.empty() && lasers_.size() < facts_.scans.size()) {
+      std::vector<std::string> labels;
+      for (const auto& laser : lasers_) labels.push_back(laser + ".points");
+      set("scan_matching", "labels", joined(labels, ", "), "the other lasers see nothing that can be matched");
+    }
+    double limit = 0, median = 0;
+    for (const auto& laser : lasers_) {
+      const auto& scans = facts_.scans.at(laser);
+      if (saturates(scans)) limit = std::max(limit, 0.99 * scans.longest);
+      median = std::max(median, scans.median_range);
+    }
+    if (limit > 0) set("laser_points", "max_range_m", fixed(limit, 2), "beams at more met nothing");
+    if (median > 0 && median < 1.2) {
+      set("trigger", "distance_m", "0.3", "the sensor sees little at once");
+      set("trigger", "angle_deg", "15", "");
+    }
+  }
+
+  void proposeOdometry() {
+    const auto label = usableOdometry(facts_);
+    const auto motions =
+        motionsWith(facts_, label.value_or(facts_.odometry.empty() ? "" : facts_.odometry.begin()->first));
+    if (!label) {
+      constexpr double kStep = 0.3;     // [m] between key frames
+      constexpr double kPeriod = 0.15;  // [s]
+      const double speed = motions.empty() ? 0 : motions.front()->speed;
+      if (speed * kPeriod > kStep) {
+        set("trigger", "period_without_odometry_s", fixed(kStep / speed, 2), "the robot drives that fast");
+      }
+      return;
+    }
+    if (facts_.odometry.size() > 1 && !label->empty())
+      set("odometry", "label", *label, "of several the one nearest to the scans");
+    if (motions.empty()) return;
+    const plugins::OdometryOptions defaults;
+    const auto propose = [&](const std::string& key, const std::optional<double>& measured, double value, double unit) {
+      constexpr double kALot = 2;
+      if (measured && *measured > kALot * value) {
+        set("odometry", key, fixed(*measured / unit, unit < 1 ? 1 : 3), "noise against scan matching");
+      }
+    };
+    const auto& motion = *motions.front();
+    propose("position_noise_per_root_m", motion.position_noise_per_root_m, defaults.position_noise_per_root_m, 1);
+    propose("yaw_noise_per_root_turn", motion.yaw_noise_per_root_turn, defaults.yaw_noise_per_root_turn, 1);
+    propose("yaw_noise_per_root_m_deg", motion.yaw_noise_per_root_m, defaults.yaw_noise_per_root_m,
+            base::option_text::kRadiansPerDegree);
+  }
+
+  const LogFacts& facts_;
+  std::vector<std::string> lasers_;
+  std::vector<Setting> settings_;
+};
+
+}  // namespace
+
+std::vector<Setting> proposeIni(const LogFacts& facts, const std::vector<std::string>& pose_plugins) {
+  return Proposal(facts).settings(pose_plugins);
+}
+
+std::string toIni(const std::vector<Setting>& settings) {
+  std::vector<std::string> sections;
+  for (const auto& setting : settings) {
+    if (std::find(sections.begin(), sections.end(), setting.section) == sections.end()) {
+      sections.push_back(setting.section);
+    }
+  }
+  std::string text;
+  for (const auto& section : sections) {
+    text += (text.empty() ? "[" : "\n[") + section + "]\n";
+    for (const auto& setting : settings) {
+      if (setting.section != section) continue;
+      text += setting.key + " = " + setting.value + (setting.reason.empty() ? "" : "  ; " + setting.reason) + "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace omnimapper::check

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/check/gatherFacts.h>
+#include <omnimapper/check/judge.h>
+#include <omnimapper/check/proposeIni.h>
+#include <omnimapper/testing/SimulatedLog.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+/// Simulated logs, spoilt by hand, and what is said of them.
+namespace omnimapper::check {
+
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationOdometry;
+using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+/// Hands out observations from memory.
+class MemorySource : public source::ObservationSource {
+ public:
+  explicit MemorySource(const Observations& observations) : observations_(observations) {}
+  mrpt::obs::CObservation::Ptr next() override { return at_ < observations_.size() ? observations_[at_++] : nullptr; }
+  double progress() const override { return 1; }
+  source::SourceReport report() const override { return {}; }
+
+ private:
+  const Observations& observations_;
+  std::size_t at_ = 0;
+};
+
+inline Observations halfALap(std::vector<testing::SimulatedLaser> lasers = {testing::SimulatedLaser()},
+                             const std::function<void(testing::SimulatedLogOptions&)>& change = {}) {
+  testing::SimulatedLogOptions options;
+  options.laps = 0.5;
+  options.lasers = std::move(lasers);
+  if (change) change(options);
+  return testing::SimulatedLog(options).observations();
+}
+
+/// Does something to every observation of a class.
+template <class Class>
+void each(Observations& observations, const std::function<void(Class&)>& change) {
+  for (const auto& observation : observations) {
+    if (auto* found = dynamic_cast<Class*>(observation.get())) change(*found);
+  }
+}
+
+struct Checked {
+  LogFacts facts;
+  std::vector<Finding> findings;
+  std::vector<Setting> settings;
+
+  explicit Checked(const Observations& observations) {
+    MemorySource source(observations);
+    facts = gatherFacts(source);
+    findings = judge(facts);
+    settings = proposeIni(facts, {"odometry", "no_motion"});
+  }
+  /// All findings, a line each.
+  std::string text() const {
+    const char* const weights[] = {"note: ", "warning: ", "problem: "};
+    std::string text;
+    for (const auto& finding : findings) text += weights[static_cast<int>(finding.weight)] + finding.text + "\n";
+    return text;
+  }
+  bool says(const std::string& words) const { return text().find(words) != std::string::npos; }
+  /// What is proposed for a key; empty if nothing is.
+  std::string proposed(const std::string& section, const std::string& key) const {
+    for (const auto& setting : settings) {
+      if (setting.section == section && setting.key == key) return setting.value;
+    }
+    return "";
+  }
+};
+
+}  // namespace omnimapper::check

@@ -1,0 +1,119 @@
+// Findings about odometry, held against the motion of the scans.
+#include "CheckedLog.h"
+
+namespace omnimapper::check {
+namespace {
+
+using mrpt::poses::CPose2D;
+using testing::SimulatedLogOptions;
+
+constexpr const char* kWithoutOdometry = "no_motion";
+
+TEST(Odometry, ThatIsAbsentIsSaidAndItsPluginLeftOut) {
+  auto log = halfALap();
+  log.erase(std::remove_if(log.begin(), log.end(), [](const auto& o) { return o->sensorLabel == "odometry"; }),
+            log.end());
+  const Checked checked(log);
+  EXPECT_EQ(checked.text(), "warning: there is no odometry: the motion is left to the scans\n");
+  EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), kWithoutOdometry);
+}
+
+TEST(Odometry, ThatStandsStillWhileTheScansMoveIsFrozen) {
+  auto log = halfALap();
+  each<CObservationOdometry>(log, [](auto& odometry) { odometry.odometry = CPose2D(1, 2, 3); });
+  const Checked checked(log);
+  EXPECT_TRUE(checked.says("problem: 'odometry': at rest in")) << checked.text();
+  EXPECT_TRUE(checked.says("frozen")) << checked.text();
+  EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), kWithoutOdometry);
+}
+
+TEST(Odometry, ThatFreezesForAWhileIsSaidWithTheTime) {
+  auto log = halfALap();
+  const auto start = log.front()->timestamp;
+  CPose2D held, offset;
+  each<CObservationOdometry>(log, [&](auto& odometry) {
+    const double t = base::secondsBetween(start, odometry.timestamp);
+    if (t > 10 && t < 20) odometry.odometry = held;
+    held = odometry.odometry;
+  });
+  const Checked checked(log);
+  EXPECT_TRUE(checked.says("first 10.0 s after the start")) << checked.text();
+}
+
+TEST(Odometry, ThatRunsAgainstTheScansIsReversed) {
+  auto log = halfALap();
+  each<CObservationOdometry>(log, [](auto& odometry) {
+    // What encoders with swapped signs sum up.
+    const auto& p = odometry.odometry;
+    odometry.odometry = CPose2D(-p.x(), p.y(), -p.phi());
+  });
+  const Checked checked(log);
+  EXPECT_TRUE(checked.says("problem: 'odometry': runs against the scans: reversed")) << checked.text();
+  EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), kWithoutOdometry);
+  EXPECT_EQ(checked.proposed("mapper", "sensors"), "") << "the laser is not to blame";
+}
+
+TEST(Odometry, ThatJumpsIsSaidWithTheTime) {
+  auto log = halfALap();
+  const auto start = log.front()->timestamp;
+  each<CObservationOdometry>(log, [&](auto& odometry) {
+    if (base::secondsBetween(start, odometry.timestamp) > 12.01)
+      odometry.odometry = CPose2D(3, 4, 0) + odometry.odometry;
+  });
+  const Checked checked(log);
+  EXPECT_TRUE(checked.says("problem: 'odometry': jumps 1 time, by up to 5.0")) << checked.text();
+  EXPECT_TRUE(checked.says("12.1 s after the start")) << checked.text();
+}
+
+TEST(Odometry, ItsNoiseIsMeasuredAndProposedIfFarFromTheDefault) {
+  const auto noisy = [](SimulatedLogOptions& options) {
+    options.laps = 1;
+    options.position_noise_per_root_m = 0.2;
+    options.yaw_noise_per_root_turn = 0.2;
+  };
+  const Checked checked(halfALap({testing::SimulatedLaser()}, noisy));
+  EXPECT_TRUE(checked.says("times the default")) << checked.text();
+  // The simulated noise is along x only.
+  EXPECT_NEAR(std::stod(checked.proposed("odometry", "position_noise_per_root_m")), 0.2 / std::sqrt(2), 0.06);
+  EXPECT_NEAR(std::stod(checked.proposed("odometry", "yaw_noise_per_root_turn")), 0.2, 0.08);
+}
+
+TEST(Odometry, ThatMeasuresTooFarIsSaid) {
+  const Checked checked(halfALap({testing::SimulatedLaser()}, [](auto& options) { options.way_scale = 1.2; }));
+  EXPECT_TRUE(checked.says("warning: 'odometry': measures 1.2")) << checked.text();
+}
+
+TEST(Odometry, OfAnotherTimeThanTheScansIsAProblem) {
+  auto log = halfALap();
+  each<CObservationOdometry>(log, [](auto& odometry) { odometry.timestamp += std::chrono::hours(1); });
+  const Checked checked(log);
+  EXPECT_TRUE(checked.says("problem: 'odometry' and 'laser': 100 % of the scans lie outside")) << checked.text();
+  EXPECT_TRUE(checked.says("it starts 36")) << checked.text();
+  EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), kWithoutOdometry);
+}
+
+TEST(Odometry, OfTwoTheOneNearerToTheScansIsProposed) {
+  auto log = halfALap();
+  Observations all;
+  for (const auto& observation : log) {
+    all.push_back(observation);
+    if (!dynamic_cast<const CObservationOdometry*>(observation.get())) continue;
+    auto other = std::dynamic_pointer_cast<CObservationOdometry>(observation->duplicateGetSmartPtr());
+    other->sensorLabel = "a_worse_one";
+    other->odometry = CPose2D(1.3 * other->odometry.x(), 0.7 * other->odometry.y(), other->odometry.phi());
+    all.push_back(other);
+  }
+  EXPECT_EQ(Checked(all).proposed("odometry", "label"), "odometry");
+}
+
+TEST(Odometry, ThatIsNoNumberIsCounted) {
+  auto log = halfALap();
+  int n = 0;
+  each<CObservationOdometry>(log, [&](auto& odometry) {
+    if (++n % 100 == 0) odometry.odometry.x(std::numeric_limits<double>::quiet_NaN());
+  });
+  EXPECT_TRUE(Checked(log).says("not finite"));
+}
+
+}  // namespace
+}  // namespace omnimapper::check

@@ -1,0 +1,152 @@
+// Findings about 2D scans and where their laser is.
+#include "CheckedLog.h"
+
+namespace omnimapper::check {
+namespace {
+
+using mrpt::poses::CPose3D;
+using testing::SimulatedLaser;
+
+void setRanges(CObservation2DRangeScan& scan, float range, bool valid) {
+  for (std::size_t i = 0; i < scan.getScanSize(); ++i) {
+    scan.setScanRange(i, range);
+    scan.setScanRangeValidity(i, valid);
+  }
+}
+
+/// A log whose laser is at one place and says it is at another.
+Observations mounted(const CPose3D& truly, const CPose3D& said) {
+  SimulatedLaser laser;
+  laser.base_from_sensor = truly;
+  auto log = halfALap({laser});
+  each<CObservation2DRangeScan>(log, [&](auto& scan) { scan.sensorPose = said; });
+  return log;
+}
+
+TEST(Scans, AreDescribed) {
+  const Checked checked(halfALap());
+  const auto& scans = checked.facts.scans.at("laser");
+  EXPECT_EQ(scans.beams, 181U);
+  EXPECT_NEAR(scans.aperture, kPi, 1e-6);
+  EXPECT_EQ(scans.max_range, 12);
+  EXPECT_GT(scans.valid_share, 0.9);
+  EXPECT_GT(scans.median_range, 1);
+  EXPECT_LT(scans.longest, 12.1);
+  EXPECT_EQ(scans.blind + scans.empty + scans.repeated + scans.other_beams, 0U);
+}
+
+TEST(Scans, OfZerosOfMaximumRangeAndWithoutBeamsAreCounted) {
+  auto log = halfALap();
+  int n = 0;
+  each<CObservation2DRangeScan>(log, [&](auto& scan) {
+    ++n;
+    if (n % 40 == 0) setRanges(scan, 0, true);
+    if (n % 40 == 1) setRanges(scan, scan.maxRange, false);
+    if (n % 40 == 2) setRanges(scan, scan.maxRange, true);
+    if (n % 40 == 3) scan.resizeScan(0);
+  });
+  const Checked checked(log);
+  const auto& scans = checked.facts.scans.at("laser");
+  EXPECT_EQ(scans.all_zero, static_cast<std::size_t>(n / 40));
+  EXPECT_EQ(scans.all_maximum, static_cast<std::size_t>((n + 39) / 40 + (n + 38) / 40));
+  EXPECT_EQ(scans.empty, static_cast<std::size_t>((n + 37) / 40));
+  EXPECT_TRUE(checked.says("warning: 'laser': ")) << checked.text();
+  EXPECT_TRUE(checked.says("all zeros")) << checked.text();
+  EXPECT_TRUE(checked.says("all at maximum range")) << checked.text();
+}
+
+TEST(Scans, AllBlindLeaveNothingToMap) {
+  auto log = halfALap();
+  each<CObservation2DRangeScan>(log, [](auto& scan) { setRanges(scan, 0, true); });
+  const Checked checked(log);
+  EXPECT_TRUE(checked.says("problem: no laser has scans that can be matched")) << checked.text();
+  EXPECT_TRUE(usableLasers(checked.facts).empty());
+}
+
+TEST(Scans, ThatNeverChangeAreAStuckSensor) {
+  auto log = halfALap();
+  const CObservation2DRangeScan* first = nullptr;
+  each<CObservation2DRangeScan>(log, [&](auto& scan) {
+    if (!first) first = &scan;
+    for (std::size_t i = 0; i < scan.getScanSize(); ++i) {
+      scan.setScanRange(i, first->getScanRange(i));
+      scan.setScanRangeValidity(i, first->getScanRangeValidity(i));
+    }
+  });
+  EXPECT_TRUE(Checked(log).says("is it stuck?"));
+}
+
+TEST(Scans, WhoseMissesAreMarkedAsValidGetALimit) {
+  auto log = halfALap();
+  each<CObservation2DRangeScan>(log, [](auto& scan) {
+    scan.maxRange = 30;
+    for (std::size_t i = 0; i < scan.getScanSize(); i += 5) {
+      scan.setScanRange(i, 8.183F);
+      scan.setScanRangeValidity(i, true);
+    }
+    for (std::size_t i = 0; i < scan.getScanSize(); ++i) scan.setScanRange(i, std::min(8.183F, scan.getScanRange(i)));
+  });
+  const Checked checked(log);
+  EXPECT_TRUE(checked.says("exactly 8.18 m")) << checked.text();
+  EXPECT_EQ(checked.proposed("laser_points", "max_range_m"), "8.10");
+}
+
+TEST(Scans, OfATiltedPlaneAreLeftOut) {
+  SimulatedLaser level, tilted;
+  tilted.label = "tilted";
+  tilted.base_from_sensor = CPose3D(0.2, 0, 1, 0, 0.6, 0);
+  const Checked checked(halfALap({level, tilted}));
+  EXPECT_TRUE(checked.says("problem: 'tilted': scans a plane tilted by 34 deg")) << checked.text();
+  EXPECT_EQ(checked.proposed("scan_matching", "labels"), "laser.points");
+}
+
+TEST(Scans, OfTwoLasersTheOneThatSeesMoreIsTheReference) {
+  SimulatedLaser narrow, wide;
+  narrow.label = "a_narrow";
+  narrow.aperture = 2;
+  wide.label = "b_wide";
+  const Checked checked(halfALap({narrow, wide}));
+  EXPECT_EQ(checked.text(), "");
+  EXPECT_EQ(checked.proposed("mapper", "reference_sensor"), "b_wide");
+}
+
+TEST(SensorPose, ThatIsMissingIsSaidAndMeasuredByTheMotion) {
+  const Checked checked(mounted({0.35, 0.1, 0, 0, 0, 0}, {}));
+  EXPECT_TRUE(checked.says("warning: 'laser': its sensor pose is missing")) << checked.text();
+  EXPECT_EQ(checked.proposed("mapper", "sensors"), "place_of_laser");
+  EXPECT_EQ(checked.proposed("place_of_laser", "label"), "laser");
+  EXPECT_NEAR(std::stod(checked.proposed("place_of_laser", "pose_x_m")), 0.35, 0.05);
+  EXPECT_NEAR(std::stod(checked.proposed("place_of_laser", "pose_y_m")), 0.1, 0.05);
+}
+
+TEST(SensorPose, UpsideDownUnsaidIsFoundAndProposed) {
+  const CPose3D said(0.2, 0, 0.3, 0, 0, 0);
+  const Checked checked(mounted({0.2, 0, 0.3, 0, 0, kPi}, said));
+  EXPECT_TRUE(checked.says("problem: 'laser': is mounted upside down, which")) << checked.text();
+  EXPECT_EQ(std::abs(std::stod(checked.proposed("place_of_laser", "pose_roll_deg"))), 180);
+  EXPECT_EQ(checked.proposed("place_of_laser", "pose_x_m"), "0.20");
+  EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), "") << "the odometry is not to blame";
+}
+
+TEST(SensorPose, BackwardsUnsaidIsFoundAndProposed) {
+  const Checked checked(mounted({-0.2, 0, 0.3, kPi, 0, 0}, {-0.2, 0, 0.3, 0, 0, 0}));
+  EXPECT_TRUE(checked.says("problem: 'laser': looks backwards, which")) << checked.text();
+  EXPECT_NEAR(std::abs(std::stod(checked.proposed("place_of_laser", "pose_yaw_deg"))), 180, 2);
+  EXPECT_NEAR(std::stod(checked.proposed("place_of_laser", "pose_x_m")), -0.2, 0.05);
+}
+
+TEST(SensorPose, TurnedUnsaidIsMeasured) {
+  const Checked checked(mounted({0.2, 0, 0.3, 0.6, 0, 0}, {0.2, 0, 0.3, 0, 0, 0}));
+  EXPECT_NEAR(std::stod(checked.proposed("place_of_laser", "pose_yaw_deg")), 0.6 * 180 / kPi, 2);
+}
+
+TEST(SensorPose, ThatIsSaidRightNeedsNothing) {
+  for (const auto& pose : {CPose3D(0.2, 0, 0.3, 0, 0, kPi), CPose3D(-0.2, 0.1, 0.3, kPi, 0, 0)}) {
+    const Checked checked(mounted(pose, pose));
+    EXPECT_EQ(toIni(checked.settings), "") << pose;
+    for (const auto& finding : checked.findings) EXPECT_EQ(finding.weight, Weight::note) << finding.text;
+  }
+}
+
+}  // namespace
+}  // namespace omnimapper::check

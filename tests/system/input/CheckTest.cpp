@@ -1,0 +1,146 @@
+// omnimapper-graphslam --check: what is said of a log is said by the program too, with its exit code, and the INI that
+// it proposes is one that the program takes.
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <filesystem>
+
+#include "../MapFolder.h"
+#include "../Rawlogs.h"
+
+namespace {
+
+using namespace runs;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationOdometry;
+using mrpt::poses::CPose3D;
+using omnimapper::testing::mrptDataset;
+using omnimapper::testing::ScratchFolder;
+using omnimapper::testing::sharedData;
+using omnimapper::testing::SimulatedLogOptions;
+using rawlogs::Observations;
+
+class Check : public ::testing::Test {
+ protected:
+  static Observations ring() {
+    SimulatedLogOptions options;
+    options.laps = 0.3;
+    return SimulatedLog(options).observations();
+  }
+  /// A laser whose observations say another place than it has.
+  static Observations mounted(const CPose3D& truly) {
+    SimulatedLogOptions options;
+    options.laps = 0.3;
+    options.lasers[0].base_from_sensor = truly;
+    auto observations = SimulatedLog(options).observations();
+    for (const auto& observation : observations) {
+      if (observation->sensorLabel == "laser") observation->setSensorPose(CPose3D());
+    }
+    return observations;
+  }
+  std::string save(const Observations& observations) {
+    return writeFile(scratch_ / "log.rawlog", rawlogs::bytesOf(observations).text);
+  }
+  /// Checks it, then again and maps it with the INI that is proposed: both take it.
+  void expectRemedy(const Observations& observations, const std::string& remedy) {
+    const auto log = save(observations);
+    const auto checked = graphslam({"--check", log, "-o", scratch_ / "checked"});
+    EXPECT_TRUE(endedWith(ExitCode::doubtful_input, checked)) << checked.out;
+    EXPECT_NE(checked.out.find("PROBLEM"), std::string::npos) << checked.out;
+    EXPECT_EQ(checked.out, readFile(scratch_ / "checked/check.txt"));
+    const std::string ini = scratch_ / "checked/check.ini";
+    EXPECT_NE(readFile(ini).find(remedy), std::string::npos) << readFile(ini);
+    EXPECT_NE(checked.out.find(readFile(ini)), std::string::npos) << checked.out;
+    EXPECT_TRUE(endedWith(ExitCode::ok, map({log}, scratch_ / "map", {"-i", ini})));
+    again_ = graphslam({"-i", omnimapper::testing::sourceFile("ini/laser2d.ini"), "-i", ini, "--check", log});
+  }
+
+  ScratchFolder scratch_;
+  Ended again_;
+};
+
+TEST_F(Check, AGoodLogEndsWithZeroAndLeavesNothing) {
+  const auto before = filesIn(scratch_.path());
+  const auto ended = graphslam({"--check", save(ring())});
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended)) << ended.out;
+  EXPECT_NE(ended.out.find("Nothing is wrong with it."), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.err, "");
+  EXPECT_EQ(filesIn(scratch_.path()).size(), before.size() + 1) << "the log itself";
+}
+
+TEST_F(Check, ASensorPoseThatIsWrongIsMendedByTheProposal) {
+  expectRemedy(mounted({0.3, 0, 0, 3.14159265, 0, 0}), "pose_yaw_deg = ");
+  EXPECT_TRUE(endedWith(ExitCode::ok, again_)) << again_.out;
+  expectRemedy(mounted({0, 0, 0, 0, 0, 3.14159265}), "pose_roll_deg = ");
+  EXPECT_TRUE(endedWith(ExitCode::ok, again_)) << again_.out;
+}
+
+TEST_F(Check, OdometryThatIsWorseThanNoneIsLeftOutByTheProposal) {
+  auto observations = ring();
+  for (const auto& observation : observations) {
+    auto* odometry = dynamic_cast<CObservationOdometry*>(observation.get());
+    if (odometry) odometry->odometry = mrpt::poses::CPose2D();
+  }
+  expectRemedy(observations, "pose_plugins = no_motion");
+}
+
+TEST_F(Check, ALogWithoutAnythingToMapHasItsCode) {
+  auto observations = ring();
+  observations.erase(
+      std::remove_if(observations.begin(), observations.end(), [](const auto& o) { return o->sensorLabel == "laser"; }),
+      observations.end());
+  const auto ended = graphslam({"--check", save(observations)});
+  EXPECT_TRUE(endedWith(ExitCode::nothing_to_map, ended)) << ended.out;
+  EXPECT_NE(ended.out.find("no 2D scans"), std::string::npos) << ended.out;
+}
+
+TEST_F(Check, ADamagedLogIsJudgedByWhatWasReadable) {
+  const auto log = save(ring());
+  std::filesystem::resize_file(log, std::filesystem::file_size(log) * 2 / 3 - 7);
+  const auto ended = graphslam({"--check", log});
+  EXPECT_TRUE(endedWith(ExitCode::damaged_input, ended)) << ended.out;
+  EXPECT_NE(ended.out.find("truncated"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("181 beams"), std::string::npos) << ended.out;
+}
+
+TEST_F(Check, ALogThatIsNotThereHasItsCode) {
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, graphslam({"--check", scratch_ / "none.rawlog"}), {"none.rawlog"}));
+}
+
+/// Of real logs: no problem is found where there is none.
+class CheckRecordings : public ::testing::Test {
+ protected:
+  static void expectNoProblem(const std::string& log) {
+    const auto ended = graphslam({"--check", log});
+    EXPECT_TRUE(endedWith(ExitCode::ok, ended)) << ended.out;
+    EXPECT_LT(std::count(ended.out.begin(), ended.out.end(), '\n'), 40) << "one screen";
+  }
+};
+
+TEST_F(CheckRecordings, MalagaHasNoProblem) {
+  const auto log = mrptDataset("2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog");
+  OMNIMAPPER_NEEDS(log);
+  expectNoProblem(*log);
+}
+
+TEST_F(CheckRecordings, OfficeAndUalHaveNoProblem) {
+  for (const char* name : {"laser2d/driving_in_office.rawlog", "laser2d/ual.rawlog"}) {
+    const auto log = sharedData(name);
+    OMNIMAPPER_NEEDS(log);
+    expectNoProblem(*log);
+  }
+}
+
+TEST_F(CheckRecordings, AcesHasNoSensorPoseButNoProblem) {
+  const auto log = sharedData("laser2d/aces.clf.bz2");
+  OMNIMAPPER_NEEDS(log);
+  const ScratchFolder scratch;
+  const std::string rawlog = scratch / "aces.rawlog";
+  ASSERT_TRUE(endedWith(
+      ExitCode::ok,
+      omnimapper::testing::runProgram({omnimapper::testing::ownProgram("omnimapper-import"), "carmen", *log, rawlog})));
+  expectNoProblem(rawlog);
+  EXPECT_NE(graphslam({"--check", rawlog}).out.find("sensor pose is missing"), std::string::npos);
+}
+
+}  // namespace
