@@ -124,7 +124,7 @@ double BeamGrid::beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bo
   if (hit) {
     const int x = static_cast<int>(std::floor(to.x())), y = static_cast<int>(std::floor(to.y()));
     const Cell* cell = at(x, y);
-    const double near = cell ? walls_->at(origin_ + to * model_.cell) / 255.0 : 0;
+    const double near = cell && walls_ ? walls_->at(origin_ + to * model_.cell) / 255.0 : 0;
     end = std::max(near, cell && cell->passes + cell->hits > 0 ? model_.clutter : model_.unknown);
   }
   return std::max(model_.anything, open * end);

@@ -63,7 +63,7 @@ LikelihoodPyramid::LikelihoodPyramid(const std::vector<Eigen::Vector2f>& points,
   low_ = low.cast<double>();
   high_ = high.cast<double>();
   const Bell bell(cell_, options.sigma);
-  origin_ = low_.array() - (bell.reach + 1) * cell_;
+  origin_ = low_.array() - (bell.reach + 1.5) * cell_;
   const Eigen::Vector2d size = ((high_ - origin_) / cell_).array() + bell.reach + 2;
   if (!(size.prod() <= static_cast<double>(options.max_cells))) {
     throw base::Error(base::ExitCode::out_of_range, "A likelihood grid of " + std::to_string(size.x() * cell_) +

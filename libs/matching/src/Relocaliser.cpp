@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kMetresPerRadian = 2;  // how far away a scan of the map counts that looks another way
+constexpr double kSpread = 0.05;  // of mean logarithms of likelihoods over a cell of the grid that they are read from
 
 double turn(const TPose2D& a, const TPose2D& b) {
   return std::abs(std::remainder(a.phi - b.phi, 2 * kPi));
@@ -26,7 +27,8 @@ Relocaliser::Relocaliser(std::vector<MapScan> map, std::shared_ptr<const ScanMat
     : options_(options), matcher_(std::move(matcher)) {
   PlanarScan all;
   std::vector<BeamGrid::Placed> placed;
-  for (const MapScan& scan : map) {
+  for (MapScan& scan : map) {
+    scan.scan = finitePart(std::move(scan.scan));
     placed.push_back({scan.map_from_sensor, &scan.scan});
     map_.push_back({scan.map_from_sensor, fitLines(scan.scan.hits)});
     append(map_.back().lines, scan.map_from_sensor, all);
@@ -39,7 +41,8 @@ Relocaliser::Relocaliser(std::vector<MapScan> map, std::shared_ptr<const ScanMat
   beams_ = std::make_unique<const BeamGrid>(placed, options.beams);
 }
 
-Location Relocaliser::locate(const BeamScan& scan, const std::optional<SearchWindow>& window) const {
+Location Relocaliser::locate(const BeamScan& all_beams, const std::optional<SearchWindow>& window) const {
+  const BeamScan scan = finitePart(all_beams);
   SearchOptions search_options;
   search_options.min_score = options_.min_score;
   search_options.min_share_of_best = options_.min_share_of_best;
@@ -78,7 +81,7 @@ void Relocaliser::refine(const PlanarScan& lines, const BeamScan& scan, Location
   candidate.log_likelihood = beams_->logLikelihood(scan, pose);
   candidate.match = matcher_->match(*matcher_->prepare(std::move(around)), lines, pose);
   const double refined = beams_->logLikelihood(scan, candidate.match.reference_from_scan);
-  if (refined < candidate.log_likelihood) return;
+  if (refined < candidate.log_likelihood - kSpread) return;
   candidate.log_likelihood = refined;
   candidate.map_from_sensor = candidate.match.reference_from_scan;
 }

@@ -30,7 +30,7 @@ class BeamGrid {
     const BeamScan* scan;
   };
 
-  /// Throws Error(out_of_range) for scans spread over more than max_cells.
+  /// Points must be finite. Throws Error(out_of_range) for scans spread over more than max_cells.
   BeamGrid(const std::vector<Placed>& scans, const BeamModel& model = {});
 
   /// Mean logarithm of the beams' likelihoods, each in [anything, 1]: of a beam that ends, that no wall stood in its

@@ -61,7 +61,7 @@ class Relocaliser {
   Relocaliser(std::vector<MapScan> map, std::shared_ptr<const ScanMatcher> matcher,
               const RelocaliserOptions& options = {});
 
-  /// In the whole map, or in the window if it is given.
+  /// In the whole map, or in the window if it is given. Points that are not finite are left out.
   Location locate(const BeamScan& scan, const std::optional<SearchWindow>& window = std::nullopt) const;
 
  private:
