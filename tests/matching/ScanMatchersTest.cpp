@@ -36,7 +36,7 @@ std::ostream& operator<<(std::ostream& out, const Which& which) {
 class ScanMatchers : public ::testing::TestWithParam<Which> {
  protected:
   ScanMatch match(const PlanarScan& reference, const PlanarScan& scan, const TPose2D& guess) const {
-    return matcher_->match(*matcher_->prepare(reference), scan, guess);
+    return matcher_->match(*matcher_->prepare(reference), scan, {guess});
   }
 
  private:

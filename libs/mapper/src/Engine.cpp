@@ -89,9 +89,9 @@ void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
     return;
   }
   queue_.arrived(observation->timestamp);
-  const bool told = tellSources(*observation);
-  if (perception_.wants(*observation)) {
-    const auto placed = sensor_poses_.applied(observation);
+  const auto placed = sensor_poses_.applied(observation);
+  const bool told = tellSources(*placed);
+  if (perception_.wants(*placed)) {
     if (!queue_.add(placed)) addLate(placed);
   } else if (!told) {
     ++counts_.unwanted;
@@ -163,6 +163,12 @@ void Engine::addLate(const mrpt::obs::CObservation::Ptr& observation) {
 
 // Past the trigger, perception starts at once; the moment itself is worked on when those before it are.
 void Engine::release(const ReleaseQueue::Group& group, bool late) {
+  for (auto& [section, plugin] : plugins_.pose) {
+    const StopWatch watch;
+    plugin->processUntil(group.stamp);
+    busy_.plugins += watch.seconds();
+    times_.add("plugin " + section, watch.seconds());
+  }
   const auto motion = [this](base::Stamp begin, base::Stamp end) { return chain_.motion(begin, end, false); };
   Moment moment{group.stamp, false, {}};
   for (const auto& observation : group.observations) {

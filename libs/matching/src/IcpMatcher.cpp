@@ -33,11 +33,10 @@ std::shared_ptr<const MatchReference> IcpMatcher::prepare(PlanarScan reference) 
   return std::make_shared<const IcpReference>(std::move(reference));
 }
 
-ScanMatch IcpMatcher::match(const MatchReference& reference, const PlanarScan& scan,
-                            const mrpt::math::TPose2D& guess) const {
+ScanMatch IcpMatcher::match(const MatchReference& reference, const PlanarScan& scan, const MatchGuess& guess) const {
   const auto& icp_reference = dynamic_cast<const IcpReference&>(reference);
   ScanMatch nothing;
-  nothing.reference_from_scan = guess;
+  nothing.reference_from_scan = guess.reference_from_scan;
   if (icp_reference.points().size() < 2 || scan.empty()) return nothing;
   mrpt::slam::CICP icp;
   auto& config = icp.options;
@@ -54,11 +53,11 @@ ScanMatch IcpMatcher::match(const MatchReference& reference, const PlanarScan& s
   config.skip_quality_calculation = true;
   const auto scan_map = pointsMap(scan);
   const std::lock_guard lock(icp_reference.turn);
-  const auto found = icp.Align(&icp_reference.map, &scan_map, mrpt::poses::CPose2D(guess));
+  const auto found = icp.Align(&icp_reference.map, &scan_map, mrpt::poses::CPose2D(guess.reference_from_scan));
   const auto pose = found->getMeanVal().asTPose();
   if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.phi)) return nothing;
   auto match = PointToLineMatcher::judge(reference, scan, pose);
-  if (match.overlap == 0) match.reference_from_scan = guess;
+  if (match.overlap == 0) match.reference_from_scan = guess.reference_from_scan;
   return match;
 }
 

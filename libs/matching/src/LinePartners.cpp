@@ -2,6 +2,7 @@
 
 #include <omnimapper/matching/ScanMatcher.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,7 @@ FixedDirections::FixedDirections(const LinePartners& partners) {
   const double total = partners.information.topLeftCorner<2, 2>().trace();
   if (!(total > 0)) {
     basis_.setIdentity();
-    inverse_.setZero();
+    fixed_.setZero();
     return;
   }
   const double lever = std::max(0.5, std::sqrt(partners.squared_radius / total));
@@ -73,20 +74,27 @@ FixedDirections::FixedDirections(const LinePartners& partners) {
   for (int i = 0; i < 3; ++i) {
     const double value = eigen.eigenvalues()[i];
     const bool fixed = value > kNoiseShare * total && value > 1e-6;
-    inverse_[i] = fixed ? 1 / value : 0;
+    fixed_[i] = fixed ? value : 0;
     count_ += fixed;
   }
 }
 
-Eigen::Vector3d FixedDirections::step(const Eigen::Vector3d& gradient) const {
-  return -basis_ * inverse_.cwiseProduct(basis_.transpose() * gradient);
+Eigen::Vector3d FixedDirections::step(const Eigen::Vector3d& gradient, const Eigen::Matrix3d& guess_information,
+                                      const Eigen::Vector3d& from_guess) const {
+  constexpr double kNothing = 1e-9;
+  Eigen::Vector3d slope = basis_.transpose() * gradient;
+  for (int i = 0; i < 3; ++i) {
+    if (fixed_[i] == 0) slope[i] = 0;
+  }
+  slope += basis_.transpose() * (guess_information * from_guess);
+  Eigen::Matrix3d information = basis_.transpose() * guess_information * basis_;
+  information.diagonal() += fixed_ + Eigen::Vector3d::Constant(kNothing);
+  return -basis_ * information.ldlt().solve(slope);
 }
 
 Eigen::Matrix3d FixedDirections::covariance() const {
-  Eigen::Vector3d variance = inverse_;
-  for (int i = 0; i < 3; ++i) {
-    if (variance[i] == 0) variance[i] = ScanMatch::kOpen;
-  }
+  Eigen::Vector3d variance;
+  for (int i = 0; i < 3; ++i) variance[i] = fixed_[i] > 0 ? 1 / fixed_[i] : ScanMatch::kOpen;
   return basis_ * variance.asDiagonal() * basis_.transpose();
 }
 

@@ -30,14 +30,16 @@ class FixedDirections {
  public:
   explicit FixedDirections(const LinePartners& partners);
   bool all() const { return count_ == 3; }
-  /// The Gauss-Newton step, zero along directions that nothing fixes.
-  Eigen::Vector3d step(const Eigen::Vector3d& gradient) const;
+  /// The Gauss-Newton step of the partners, and of a guess that knows so much and is that far away. Along directions
+  /// that the partners do not fix the guess alone counts; zero where it knows nothing either.
+  Eigen::Vector3d step(const Eigen::Vector3d& gradient, const Eigen::Matrix3d& guess_information,
+                       const Eigen::Vector3d& from_guess) const;
   /// Open directions have variance ScanMatch::kOpen.
   Eigen::Matrix3d covariance() const;
 
  private:
-  Eigen::Matrix3d basis_;    // columns: directions, scaled
-  Eigen::Vector3d inverse_;  // of the information along them; 0 where open
+  Eigen::Matrix3d basis_;  // columns: directions, scaled
+  Eigen::Vector3d fixed_;  // the information along them; 0 where open
   int count_ = 0;
 };
 

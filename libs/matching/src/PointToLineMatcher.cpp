@@ -47,14 +47,16 @@ std::shared_ptr<const MatchReference> PointToLineMatcher::prepare(PlanarScan ref
 }
 
 ScanMatch PointToLineMatcher::match(const MatchReference& reference, const PlanarScan& scan,
-                                    const TPose2D& guess) const {
+                                    const MatchGuess& guess) const {
   const auto& index = dynamic_cast<const PointIndex&>(reference);
-  TPose2D pose = guess;
+  TPose2D pose = guess.reference_from_scan;
   double reach = options_.max_distance, loss_scale = options_.max_distance;
   for (int i = 0; i < options_.max_iterations; ++i) {
     const auto partners = findPartners(index, scan, pose, reach, loss_scale);
-    if (partners.near == 0) return toMatch(partners, scan.size(), guess);
-    const Eigen::Vector3d step = FixedDirections(partners).step(partners.gradient);
+    if (partners.near == 0) return toMatch(partners, scan.size(), guess.reference_from_scan);
+    const TPose2D moved = pose - guess.reference_from_scan;
+    const Eigen::Vector3d from_guess(moved.x, moved.y, mrpt::math::wrapToPi(moved.phi));
+    const Eigen::Vector3d step = FixedDirections(partners).step(partners.gradient, guess.information, from_guess);
     pose = pose + TPose2D(step.x(), step.y(), step.z());
     // Wide at first, then only what lies on the same wall as well as most points do.
     const double spread = 3 * partners.wallDistance();
@@ -75,7 +77,7 @@ mrpt::poses::CPosePDF::Ptr PointToLineMatcher::AlignPDF(const mrpt::maps::CMetri
                                                         const mrpt::maps::CMetricMap* m2,
                                                         const mrpt::poses::CPosePDFGaussian& initialEstimationPDF,
                                                         mrpt::optional_ref<mrpt::slam::TMetricMapAlignmentResult>) {
-  const auto found = match(*prepare(scanOf(m1)), scanOf(m2), initialEstimationPDF.mean.asTPose());
+  const auto found = match(*prepare(scanOf(m1)), scanOf(m2), {initialEstimationPDF.mean.asTPose()});
   auto pdf = std::make_shared<mrpt::poses::CPosePDFGaussian>();
   pdf->mean = mrpt::poses::CPose2D(found.reference_from_scan);
   // MRPT's covariance is of x, y in the frame of m1.

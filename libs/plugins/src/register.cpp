@@ -13,6 +13,7 @@
 #include <omnimapper/plugins/ReportOutput.h>
 #include <omnimapper/plugins/RobotPosePlugin.h>
 #include <omnimapper/plugins/ScanMatchingPlugin.h>
+#include <omnimapper/plugins/ScanOdometryPlugin.h>
 #include <omnimapper/plugins/SceneOutput.h>
 #include <omnimapper/plugins/SummaryOutput.h>
 #include <omnimapper/plugins/TrajectoryOutput.h>
@@ -26,6 +27,7 @@ void registerPlugins() {
   using mrpt::rtti::registerClass;
   registerClass(CLASS_ID(OdometryPluginFactory));
   registerClass(CLASS_ID(NoMotionPluginFactory));
+  registerClass(CLASS_ID(ScanOdometryPluginFactory));
   registerClass(CLASS_ID(LaserPointsPluginFactory));
   registerClass(CLASS_ID(ScanMatchingPluginFactory));
   registerClass(CLASS_ID(RobotPosePluginFactory));

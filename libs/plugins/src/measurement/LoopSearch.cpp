@@ -25,7 +25,7 @@ void LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   const auto& centre = state.map.keyFrame(place.centre);
   const auto guess = planar(frame.map_from_base - centre.map_from_base);
   const auto reference = matcher_->prepare(localMap(place.around, place.centre, state));
-  const auto match = matcher_->match(*reference, *newest_.scan, guess);
+  const auto match = matcher_->match(*reference, *newest_.scan, {guess});
   auto decision =
       judge(match, guess, {options_.loop_min_overlap, options_.loop_max_correction, options_.loop_max_turn_correction});
   decision.stamp = frame.stamp;

@@ -33,6 +33,21 @@ mapper::Decision judge(const matching::ScanMatch& match, const TPose2D& guess, c
   return decision;
 }
 
+mapper::RelativeMotion planarMotion(const TPose2D& begin_from_end, const Eigen::Matrix3d& covariance) {
+  mapper::RelativeMotion motion;
+  motion.begin_from_end = mrpt::poses::CPose3D(mrpt::poses::CPose2D(begin_from_end));
+  // A scan says nothing of height and tilt: a metre and half a radian, in a spatial map.
+  motion.covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  motion.covariance.diagonal() << 0, 0, 1.0, 0.25, 0.25, 0;
+  const std::array<int, 3> index{0, 1, 5};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      motion.covariance(index[row], index[column]) = covariance(row, column);
+    }
+  }
+  return motion;
+}
+
 graph::FactorRecord scanFactor(const ScanMatchingOptions& options, double position_floor, double angle_floor,
                                const mapper::PluginContext& context, base::VariableId reference, base::VariableId scan,
                                const matching::ScanMatch& match) {
@@ -42,18 +57,8 @@ graph::FactorRecord scanFactor(const ScanMatchingOptions& options, double positi
       std::max(squared(options.point_sigma), squared(options.wall_sigma_factor * match.wall_distance));
   planar_covariance.diagonal() +=
       Eigen::Vector3d(squared(position_floor), squared(position_floor), squared(angle_floor));
-  mapper::RelativeMotion motion;
-  motion.begin_from_end = mrpt::poses::CPose3D(mrpt::poses::CPose2D(match.reference_from_scan));
-  // A scan says nothing of height and tilt: a metre and half a radian, in a spatial map.
-  motion.covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  motion.covariance.diagonal() << 0, 0, 1.0, 0.25, 0.25, 0;
-  const std::array<int, 3> index{0, 1, 5};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      motion.covariance(index[row], index[column]) = planar_covariance(row, column);
-    }
-  }
-  return mapper::betweenPoses(context.motion, reference, scan, motion, context.section);
+  return mapper::betweenPoses(context.motion, reference, scan,
+                              planarMotion(match.reference_from_scan, planar_covariance), context.section);
 }
 
 }  // namespace omnimapper::plugins

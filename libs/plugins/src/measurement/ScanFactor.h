@@ -5,6 +5,7 @@
 #include <omnimapper/graph/FactorRecord.h>
 #include <omnimapper/mapper/DecisionLog.h>
 #include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/mapper/RelativeMotion.h>
 #include <omnimapper/matching/ScanMatcher.h>
 #include <omnimapper/plugins/ScanMatchingOptions.h>
 
@@ -23,6 +24,9 @@ struct MatchGate {
 
 /// Whether a match keeps the limits around what was predicted, with its numbers. Who, when and where is the caller's.
 mapper::Decision judge(const matching::ScanMatch& match, const mrpt::math::TPose2D& guess, const MatchGate& gate);
+
+/// A motion in the plane, covariance of x y yaw. Height and tilt stay open, as far as a spatial map asks for them.
+mapper::RelativeMotion planarMotion(const mrpt::math::TPose2D& begin_from_end, const Eigen::Matrix3d& covariance);
 
 /// The motion between two poses that a match measured. In a spatial map height and tilt stay open.
 /// `position_floor` [m] and `angle_floor` [rad]: standard deviations that are added to those of the match.

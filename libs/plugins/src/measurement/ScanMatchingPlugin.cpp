@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ScanFactor.h"
+#include "ScanInBase.h"
 
 IMPLEMENTS_MRPT_OBJECT(ScanMatchingPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -19,20 +20,6 @@ constexpr const char* kCloudSuffix = ".points";
 struct PreparedScan : mapper::Prepared {
   std::shared_ptr<const matching::PlanarScan> scan;  // in the base
 };
-
-// The cloud in the plane of the base.
-matching::PlanarScan scanInBase(const mrpt::obs::CObservationPointCloud& cloud) {
-  std::vector<Eigen::Vector2f> points;
-  points.reserve(cloud.pointcloud->size());
-  for (std::size_t i = 0; i < cloud.pointcloud->size(); ++i) {
-    float x, y, z;
-    cloud.pointcloud->getPointFast(i, x, y, z);
-    double bx, by, bz;
-    cloud.sensorPose.composePoint(x, y, z, bx, by, bz);
-    if (std::isfinite(bx) && std::isfinite(by)) points.emplace_back(bx, by);
-  }
-  return matching::fitLines(points);
-}
 
 }  // namespace
 
@@ -161,7 +148,7 @@ void ScanMatchingPlugin::matchSequential(const map::KeyFrame& frame, const Histo
   const auto reference = localMap(scans, before.id, state);
   const auto guess = planar(frame.map_from_base - before.map_from_base);
   const auto match =
-      sequential_matcher_->match(*sequential_matcher_->prepare(reference), *history[index].sight.scan, guess);
+      sequential_matcher_->match(*sequential_matcher_->prepare(reference), *history[index].sight.scan, {guess});
 
   auto decision = judge(match, guess, {options_.min_overlap, options_.max_correction, options_.max_turn_correction});
   decision.stamp = frame.stamp;

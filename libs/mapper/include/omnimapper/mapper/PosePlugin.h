@@ -26,6 +26,9 @@ class PosePlugin {
   /// The span of time of which the last add() taught it something; none if there is none. Key frames in it that were
   /// linked by what was known before are linked anew.
   virtual std::optional<Span> news() const { return std::nullopt; }
+  /// Everything stamped up to `stamp` has arrived, late data apart: what takes work and needs the order of stamps is
+  /// done here. Called before motions up to there are asked for.
+  virtual void processUntil(base::Stamp /*stamp*/) {}
   /// Motion from `begin` to `end` (begin <= end), none if the span is not covered.
   /// Additive: cov(a, c) = cov(a, b) transported + cov(b, c), so that a span may be split without gain or loss.
   virtual std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const = 0;

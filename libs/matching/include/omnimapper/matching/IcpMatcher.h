@@ -5,14 +5,14 @@
 
 namespace omnimapper::matching {
 
-/// MRPT's iterative closest point (mrpt::slam::CICP; Besl and McKay 1992), judged as PointToLineMatcher judges.
+/// MRPT's iterative closest point (mrpt::slam::CICP; Besl and McKay 1992), judged as PointToLineMatcher judges. What a
+/// guess knows is where it begins, whatever its information.
 class IcpMatcher : public ScanMatcher {
  public:
   explicit IcpMatcher(const ScanMatcherOptions& options) : options_(options) {}
 
   std::shared_ptr<const MatchReference> prepare(PlanarScan reference) const override;
-  ScanMatch match(const MatchReference& reference, const PlanarScan& scan,
-                  const mrpt::math::TPose2D& guess) const override;
+  ScanMatch match(const MatchReference& reference, const PlanarScan& scan, const MatchGuess& guess) const override;
 
  private:
   ScanMatcherOptions options_;

@@ -14,8 +14,7 @@ class PointToLineMatcher : public ScanMatcher, public mrpt::slam::CMetricMapsAli
   explicit PointToLineMatcher(const ScanMatcherOptions& options) : options_(options) {}
 
   std::shared_ptr<const MatchReference> prepare(PlanarScan reference) const override;
-  ScanMatch match(const MatchReference& reference, const PlanarScan& scan,
-                  const mrpt::math::TPose2D& guess) const override;
+  ScanMatch match(const MatchReference& reference, const PlanarScan& scan, const MatchGuess& guess) const override;
   /// The match of a pose as it stands, without moving it.
   static ScanMatch judge(const MatchReference& reference, const PlanarScan& scan, const mrpt::math::TPose2D& pose);
 

@@ -22,6 +22,14 @@ struct ScanMatch {
   static constexpr double kOpen = 1e6;
 };
 
+/// Where a scan is thought to be.
+struct MatchGuess {
+  mrpt::math::TPose2D reference_from_scan;  ///< [m] [rad]
+  /// How much that counts beside the points: inverse covariance in the scan's frame (x y yaw), times the variance of a
+  /// point [1]. Zero: it is where the search begins, and no more.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+};
+
 /// What scans are matched against: points prepared for the search of partners. Immutable.
 class MatchReference {
  public:
@@ -33,10 +41,9 @@ class ScanMatcher {
  public:
   virtual ~ScanMatcher() = default;
   virtual std::shared_ptr<const MatchReference> prepare(PlanarScan reference) const = 0;
-  /// `reference` from prepare() of a matcher of this class; `guess`: where the scan's frame is thought to be in the
-  /// reference's. A match without partners says so by overlap = 0, and leaves the guess as it is.
-  virtual ScanMatch match(const MatchReference& reference, const PlanarScan& scan,
-                          const mrpt::math::TPose2D& guess) const = 0;
+  /// `reference` from prepare() of a matcher of this class. A match without partners says so by overlap = 0, and leaves
+  /// the guess as it is. The covariance is that of the points alone, without what the guess knew.
+  virtual ScanMatch match(const MatchReference& reference, const PlanarScan& scan, const MatchGuess& guess) const = 0;
 };
 
 }  // namespace omnimapper::matching

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/mapper/PoseTimeline.h>
+#include <omnimapper/matching/ScanMatcherOptions.h>
+#include <omnimapper/matching/ScanTracker.h>
+#include <omnimapper/perception/LaserPointsExtractor.h>
+#include <omnimapper/plugins/OdometryPlugin.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::plugins {
+
+struct ScanOdometryOptions {
+  std::string label;           ///< of the laser; empty: the first that comes
+  std::string odometry_label;  ///< of the odometry that predicts; empty: the first that comes
+  double max_gap = 1.0;        ///< [s] between scans that are matched
+  double max_speed = 10.0;     ///< [m/s] of a prediction
+  double guess_sigma = 0.03;   ///< [m]
+  double guess_angle_sigma = 2.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
+  double guess_sigma_per_m = 0.1;
+  double point_sigma = 0.05;  ///< [m]
+  double wall_sigma_factor = 2;
+  double position_noise_per_root_m = 0.01;                                   ///< [m / sqrt(m)]
+  double yaw_noise_per_root_m = 0.2 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(m)]
+  double yaw_noise_per_root_turn = 0.005;                                    ///< [rad / sqrt(rad)]
+  matching::ScanTrackerOptions tracker;
+
+  static const base::OptionTable<ScanOdometryOptions>& table();
+};
+
+/// Laser odometry as a continuous pose source (thesis 5.3.4): every scan of one laser, not those of key frames alone,
+/// is matched against a local map of the scans before it. Scans are worked on in the order of their stamps; one that
+/// comes after its time was worked on is left out. Wheel odometry, or steady motion where that is better or there is
+/// none, says where to begin, and nothing more: what the walls leave open is open in the covariance.
+class ScanOdometryPlugin : public mapper::PosePlugin {
+ public:
+  ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
+                     const perception::LaserPointsOptions& points);
+
+  Taken add(const mrpt::obs::CObservation& observation) override;
+  void processUntil(base::Stamp stamp) override;
+  std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
+    return timeline_.between(begin, end);
+  }
+  std::optional<base::Stamp> coveredUntil() const override;
+  void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }
+
+ private:
+  /// What tells the motion to the next scan, and how far off it was of late.
+  struct Predictor {
+    std::optional<mrpt::math::TPose2D> motion;
+    double error = 0;  // [m], a mean over some scans
+  };
+  bool isOurs(const mrpt::obs::CObservation2DRangeScan& scan);
+  void follow(base::Stamp stamp, const matching::PlanarScan& scan);
+  std::vector<matching::MatchGuess> guesses(base::Stamp stamp);
+  void restart(base::Stamp stamp, const matching::PlanarScan& scan);
+  mapper::RelativeMotion motionOf(const matching::ScanMatch& match) const;
+
+  ScanOdometryOptions options_;
+  perception::LaserPointsExtractor extractor_;
+  matching::ScanTracker tracker_;
+  OdometryPlugin odometry_;
+  std::optional<std::string> label_;                                // of the first that came
+  std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan> wait_;  // for their time
+  std::optional<base::Stamp> last_;                                 // scan that was matched
+  mrpt::math::TPose2D velocity_;                                    // [m/s] [rad/s] in the base
+  Predictor by_odometry_, by_velocity_;
+  mapper::PoseTimeline timeline_;
+};
+
+class ScanOdometryPluginFactory : public mapper::PosePluginFactory {
+  DEFINE_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "ScanOdometryPlugin"; }
+  std::string summary() const override { return "Laser odometry: every 2D scan against those just before it."; }
+  const std::vector<base::OptionSpec>& options() const override;
+  std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
+                                           const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,193 @@
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/geometry/Covariance.h>
+#include <omnimapper/plugins/ScanOdometryPlugin.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../measurement/ScanFactor.h"
+#include "../measurement/ScanInBase.h"
+
+IMPLEMENTS_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+// How far a point at arm's length of the laser, some metres away, is moved [m].
+double sizeOf(const TPose2D& motion) {
+  constexpr double kLever = 3;  // [m]
+  return std::hypot(motion.x, motion.y) + kLever * std::abs(mrpt::math::wrapToPi(motion.phi));
+}
+
+OdometryOptions odometryOf(const ScanOdometryOptions& options) {
+  OdometryOptions odometry;
+  odometry.label = options.odometry_label;
+  return odometry;
+}
+
+}  // namespace
+
+const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
+  using Options = ScanOdometryOptions;
+  const auto zero_or_more = base::Range::notNegative();
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("label", &Options::label, "Sensor label of the laser; empty for the first that comes.")
+          .text("odometry_label", &Options::odometry_label,
+                "Sensor label of the odometry that predicts; empty for the first that comes.")
+          .number("max_gap_s", &Options::max_gap, base::Range::positive(),
+                  "After a longer time without a match the laser begins anew, and other sources tell the motion.")
+          .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
+                  "A prediction that is faster is not believed.")
+          .number("guess_sigma_m", &Options::guess_sigma, base::Range::positive(),
+                  "Standard deviation of a predicted position; counts where the walls leave a direction open.")
+          .number("guess_sigma_deg", &Options::guess_angle_sigma, base::Range::positive(),
+                  "Standard deviation of a predicted heading.")
+          .number("guess_sigma_per_m", &Options::guess_sigma_per_m, zero_or_more,
+                  "Both grow by this share of the motion that is predicted.")
+          .number("point_sigma_m", &Options::point_sigma, base::Range::positive(),
+                  "Standard deviation of a point from the wall it lies on.")
+          .number("wall_sigma_factor", &Options::wall_sigma_factor, zero_or_more,
+                  "The same as a multiple of the distance that the points of a match have from the walls; the larger "
+                  "counts.")
+          .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
+                  "Standard deviation of the position after 1 m of way [m] beside that of the matches.")
+          .number("yaw_noise_per_root_m_deg", &Options::yaw_noise_per_root_m, zero_or_more,
+                  "Standard deviation of the heading after 1 m of way beside that of the matches.")
+          .number("yaw_noise_per_root_turn", &Options::yaw_noise_per_root_turn, zero_or_more,
+                  "Standard deviation of the heading after 1 rad of turning [rad] beside that of the matches.");
+  return table;
+}
+
+ScanOdometryPlugin::ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
+                                       const perception::LaserPointsOptions& points)
+    : options_(options),
+      extractor_(points),
+      tracker_(options.tracker, matching::makeMatcher(matching)),
+      odometry_(odometryOf(options)) {}
+
+bool ScanOdometryPlugin::isOurs(const mrpt::obs::CObservation2DRangeScan& scan) {
+  if (!options_.label.empty()) return scan.sensorLabel == options_.label;
+  if (!label_) label_ = scan.sensorLabel;
+  return scan.sensorLabel == *label_;
+}
+
+ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation& observation) {
+  odometry_.add(observation);
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation);
+  if (!scan || !isOurs(*scan)) return Taken::not_mine;
+  if (!last_ || scan->timestamp > *last_) wait_.emplace(scan->timestamp, *scan);
+  return Taken::taken;
+}
+
+std::optional<base::Stamp> ScanOdometryPlugin::coveredUntil() const {
+  if (!wait_.empty()) return wait_.rbegin()->first;
+  return last_;
+}
+
+// One scan beyond it, so that the motion to between two scans is known.
+void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
+  while (!wait_.empty() && (!last_ || *last_ < stamp)) {
+    const auto next = wait_.extract(wait_.begin());
+    const auto cloud = extractor_.extract(next.mapped());
+    follow(next.key(), scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*cloud)));
+  }
+  odometry_.forgetBefore(last_.value_or(stamp));
+}
+
+void ScanOdometryPlugin::follow(base::Stamp stamp, const matching::PlanarScan& scan) {
+  if (!last_) return restart(stamp, scan);
+  const double seconds = base::secondsBetween(*last_, stamp);
+  const auto match = tracker_.track(scan, guesses(stamp));
+  if (!match) {
+    if (seconds > options_.max_gap) restart(stamp, scan);
+    return;
+  }
+  timeline_.insert(*last_, stamp, motionOf(*match));
+  const TPose2D& motion = match->reference_from_scan;
+  for (auto* predictor : {&by_odometry_, &by_velocity_}) {
+    constexpr double kMemory = 0.9;
+    if (predictor->motion) {
+      predictor->error = kMemory * predictor->error + (1 - kMemory) * sizeOf(*predictor->motion - motion);
+    }
+  }
+  velocity_ = TPose2D(motion.x / seconds, motion.y / seconds, mrpt::math::wrapToPi(motion.phi) / seconds);
+  last_ = stamp;
+}
+
+void ScanOdometryPlugin::restart(base::Stamp stamp, const matching::PlanarScan& scan) {
+  tracker_.restart(scan);
+  velocity_ = {};
+  last_ = stamp;
+}
+
+// That which was nearer to the truth of late first; last that the base stands still.
+std::vector<matching::MatchGuess> ScanOdometryPlugin::guesses(base::Stamp stamp) {
+  const double seconds = base::secondsBetween(*last_, stamp);
+  constexpr double kSlack = 1;  // [m] for stamps that are not exact
+  by_odometry_.motion.reset();
+  if (const auto told = odometry_.between(*last_, stamp)) {
+    const TPose2D motion = planar(told->begin_from_end);
+    if (std::hypot(motion.x, motion.y) <= kSlack + options_.max_speed * seconds) by_odometry_.motion = motion;
+  }
+  by_velocity_.motion = TPose2D(velocity_.x * seconds, velocity_.y * seconds, velocity_.phi * seconds);
+  // What wheels and inertia tell counts where walls tell little, such as along a corridor.
+  const auto guess = [&](const TPose2D& motion) {
+    const double position = options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y);
+    const double angle = options_.guess_angle_sigma + options_.guess_sigma_per_m * std::abs(motion.phi);
+    const Eigen::Vector3d sigmas(position, position, angle);
+    return matching::MatchGuess{
+        motion, Eigen::Matrix3d((options_.point_sigma * sigmas.cwiseInverse()).cwiseAbs2().asDiagonal())};
+  };
+  std::vector<matching::MatchGuess> all;
+  if (by_odometry_.motion) all.push_back(guess(*by_odometry_.motion));
+  const bool steady_is_better = !by_odometry_.motion || by_velocity_.error < 0.5 * by_odometry_.error;
+  all.insert(steady_is_better ? all.begin() : all.end(), guess(*by_velocity_.motion));
+  all.push_back({});
+  return all;
+}
+
+// Variances grow with the way, the turn and time so that spans add up: the match of a scan counts by the share of the
+// way to the next scan of the local map that it stands for.
+mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanMatch& match) const {
+  const auto squared = [](double value) { return value * value; };
+  const TPose2D& motion = match.reference_from_scan;
+  const double way = std::hypot(motion.x, motion.y), turn = std::abs(mrpt::math::wrapToPi(motion.phi));
+  const double share =
+      std::min(1.0, way / options_.tracker.local_distance + turn / options_.tracker.local_angle + 0.02);
+  const double sigma = std::max(options_.point_sigma, options_.wall_sigma_factor * match.wall_distance);
+  Eigen::Matrix3d covariance = share * squared(sigma) * match.unit_covariance;
+  const double position = squared(options_.position_noise_per_root_m) * way;
+  covariance.diagonal() +=
+      Eigen::Vector3d(position, position,
+                      squared(options_.yaw_noise_per_root_m) * way + squared(options_.yaw_noise_per_root_turn) * turn);
+  return planarMotion(motion, covariance);
+}
+
+const std::vector<base::OptionSpec>& ScanOdometryPluginFactory::options() const {
+  static const auto specs = [] {
+    auto all = ScanOdometryOptions::table().specs();
+    for (const auto* more :
+         {&matching::ScanTrackerOptions::table().specs(), &matching::ScanMatcherOptions::table().specs(),
+          &perception::LaserPointsOptions::table().specs()}) {
+      all.insert(all.end(), more->begin(), more->end());
+    }
+    return all;
+  }();
+  return specs;
+}
+
+std::unique_ptr<mapper::PosePlugin> ScanOdometryPluginFactory::make(const base::ConfigSection& section,
+                                                                    const mapper::PluginContext&) const {
+  std::vector<std::string> keys = mapper::sectionKeysOfEngine();
+  for (const auto& spec : options()) keys.push_back(spec.key);
+  auto options = section.read<ScanOdometryOptions>(keys);
+  options.tracker = section.read<matching::ScanTrackerOptions>(keys);
+  return std::make_unique<ScanOdometryPlugin>(options, section.read<matching::ScanMatcherOptions>(keys),
+                                              section.read<perception::LaserPointsOptions>(keys));
+}
+
+}  // namespace omnimapper::plugins
