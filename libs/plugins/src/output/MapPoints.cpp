@@ -34,7 +34,7 @@ void addCloud(const CObservationPointCloud& cloud, double max_range, std::vector
 }
 
 void addScan(const mrpt::obs::CObservation2DRangeScan& scan, double max_range, std::vector<TPoint3Df>& points) {
-  const BeamEnds ends(scan, mrpt::poses::CPose3D());
+  const BeamEnds ends(scan, {}, BeamEnds::Pose::of_base);
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (ends.hits(i) && scan.getScanRange(i) <= max_range) points.emplace_back(ends.at(i, max_range));
   }
@@ -108,7 +108,7 @@ std::vector<TPoint3Df> pointsInBase(const map::KeyFrame& frame, bool of_clouds, 
       if (cloud) addCloud(*cloud, max_range, points);
     }
   } else {
-    forEachScan(frame, [&](const mrpt::obs::CObservation2DRangeScan& scan) { addScan(scan, max_range, points); });
+    forEachScan(frame, [&](const auto& scan) { addScan(*scan, max_range, points); });
   }
   return points;
 }

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <vector>
+
+#include "VoteWindow.h"
+
+namespace omnimapper::plugins {
+
+/// Log-odds of a vote in steps of 0.122: one hit outweighs two beams that pass, so that thin walls stay.
+constexpr int kHitVote = 9, kPassVote = -4;
+/// A cell is occupied above a probability of 0.6 and free below 0.4, so one vote decides a cell.
+constexpr int kOccupiedAbove = 3, kFreeBelow = -3;
+
+/// Finds what a scan says of the cells of the map's z = 0 plane.
+///
+/// A beam passes the cells on its way from the sensor and hits the one where it ends; one that ends at the limit of the
+/// sensor or of the option only passes, an invalid one says nothing. A scan votes once for a cell however many beams
+/// meet it, and a hit is stronger. It does not vote for a cell on the line between the ends of neighbouring beams that
+/// meet the same surface: there beams that graze a wall would clear it between their hits.
+class ScanTracer {
+ public:
+  /// Beams are entered up to `max_range` [m].
+  explicit ScanTracer(double max_range) : max_range_(max_range) {}
+
+  /// Votes for cells with sides of `resolution` [m]. They must be taken out of the window before the next call.
+  VoteWindow& trace(const mrpt::obs::CObservation2DRangeScan& scan, const mrpt::poses::CPose3D& map_from_sensor,
+                    double resolution);
+
+ private:
+  struct Beam {
+    double x = 0, y = 0;  // [cells] where it ends
+    bool is_valid = false, hits = false;
+  };
+  void place(const mrpt::obs::CObservation2DRangeScan& scan, const mrpt::poses::CPose3D& map_from_sensor,
+             double resolution);
+
+  double max_range_;
+  Beam origin_;
+  std::vector<Beam> beams_;
+  VoteWindow votes_;
+};
+
+}  // namespace omnimapper::plugins
