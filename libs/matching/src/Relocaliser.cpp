@@ -79,7 +79,7 @@ void Relocaliser::refine(const PlanarScan& lines, const BeamScan& scan, Location
     append(near.lines, near.map_from_sensor, around);
   }
   candidate.log_likelihood = beams_->logLikelihood(scan, pose);
-  candidate.match = matcher_->match(*matcher_->prepare(std::move(around)), lines, pose);
+  candidate.match = matcher_->match(*matcher_->prepare(std::move(around)), lines, {pose});
   const double refined = beams_->logLikelihood(scan, candidate.match.reference_from_scan);
   if (refined < candidate.log_likelihood - kSpread) return;
   candidate.log_likelihood = refined;
