@@ -1,0 +1,203 @@
+// Matches pairs of scans of a CARMEN log whose relative poses were checked by hand: our matcher and MRPT's ICP in one
+// run, and any other program through files. First from odometry's guess, then from a grid of starts around the checked
+// pose: the basin. Prints Markdown tables and draws the basin as SVG.
+//
+// Example: bench-scan_pairs --log aces.clf.bz2 --relations aces.relations --svg doc/results/scan_matching_basin.svg
+// Another program: --tasks FILE writes what there is to do, --peer NAME=FILE reads what it found (see ScanPairs.h).
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/slam/CICP.h>
+#include <omnimapper/matching/ScanMatcherOptions.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "BasinPlot.h"
+#include "ScanPairs.h"
+
+namespace {
+
+using namespace omnimapper;
+using namespace omnimapper::bench;
+using Clock = std::chrono::steady_clock;
+
+struct Method {
+  std::string name;
+  std::function<Outcome(const ScanPair&, const TPose2D&)> run;
+};
+
+double since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+// The time of everything from the points in the order of the beams: lines of both scans, index, match.
+Outcome matchLines(const matching::ScanMatcher& matcher, const ScanPair& pair, const TPose2D& start) {
+  const auto begin = Clock::now();
+  const auto reference = matcher.prepare(matching::fitLines(pair.reference->points));
+  const auto found = matcher.match(*reference, matching::fitLines(pair.scan->points), {start});
+  return {found.reference_from_scan, since(begin)};
+}
+
+// In a map scans are prepared once and matched often.
+Outcome matchPrepared(const matching::ScanMatcher& matcher, const ScanPair& pair, const TPose2D& start) {
+  const auto reference = matcher.prepare(matching::fitLines(pair.reference->points));
+  const auto scan = matching::fitLines(pair.scan->points);
+  const auto begin = Clock::now();
+  const auto found = matcher.match(*reference, scan, {start});
+  return {found.reference_from_scan, since(begin)};
+}
+
+mrpt::maps::CSimplePointsMap mapOf(const RecordedScan& scan) {
+  mrpt::maps::CSimplePointsMap map;
+  map.reserve(scan.points.size());
+  for (const auto& p : scan.points) map.insertPointFast(p.x(), p.y(), 0);
+  return map;
+}
+
+Outcome matchIcp(const ScanPair& pair, const TPose2D& start, mrpt::slam::TICPAlgorithm algorithm, unsigned decimation,
+                 bool with_maps) {
+  mrpt::slam::CICP icp;  // the rest as MRPT has it
+  icp.options.ICP_algorithm = algorithm;
+  icp.options.corresponding_points_decimation = decimation;
+  icp.options.skip_cov_calculation = true;
+  icp.options.skip_quality_calculation = true;
+  auto begin = Clock::now();
+  const auto reference = mapOf(*pair.reference), scan = mapOf(*pair.scan);
+  if (!with_maps) {
+    float x, y, squared;
+    reference.kdTreeClosestPoint2D(0.F, 0.F, x, y, squared);  // builds its tree
+    begin = Clock::now();
+  }
+  const auto found = icp.Align(&reference, &scan, mrpt::poses::CPose2D(start));
+  return {found->getMeanVal().asTPose(), since(begin)};
+}
+
+std::vector<Method> methods(const matching::ScanMatcher& matcher) {
+  const auto icp = [](auto algorithm, unsigned decimation, bool with_maps) {
+    return [=](const ScanPair& pair, const TPose2D& start) {
+      return matchIcp(pair, start, algorithm, decimation, with_maps);
+    };
+  };
+  return {{"odometry guess", [](const auto&, const auto& start) { return Outcome{start, 0}; }},
+          {"PointToLineMatcher", [&](const auto& pair, const auto& start) { return matchLines(matcher, pair, start); }},
+          {"PointToLineMatcher, scans prepared",
+           [&](const auto& pair, const auto& start) { return matchPrepared(matcher, pair, start); }},
+          {"MRPT ICP, every 5th point", icp(mrpt::slam::icpClassic, 5, true)},
+          {"MRPT ICP, every 5th point, maps prepared", icp(mrpt::slam::icpClassic, 5, false)},
+          {"MRPT ICP, every point", icp(mrpt::slam::icpClassic, 1, true)},
+          {"MRPT ICP, every point, maps prepared", icp(mrpt::slam::icpClassic, 1, false)},
+          {"MRPT ICP, Levenberg-Marquardt", icp(mrpt::slam::icpLevenbergMarquardt, 1, true)}};
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+void printPairs(const std::string& name, const std::vector<ScanPair>& pairs, const std::vector<Outcome>& outcomes) {
+  std::vector<double> distances, turns, times;
+  int good = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    distances.push_back(100 * distance(outcomes[i].pose, pairs[i].truth));
+    turns.push_back(turn(outcomes[i].pose, pairs[i].truth) / kDegree);
+    times.push_back(outcomes[i].milliseconds);
+    good += right(outcomes[i].pose, pairs[i].truth);
+  }
+  std::printf("| %s | %.2f | %.2f | %.1f | %.3f | %.2f | %.1f %% | %.4f | %.4f |\n", name.c_str(),
+              quantile(distances, 0.5), quantile(distances, 0.95), quantile(distances, 1), quantile(turns, 0.5),
+              quantile(turns, 0.95), 100.0 * good / static_cast<double>(pairs.size()), quantile(times, 0.5),
+              quantile(times, 0.95));
+  std::fflush(stdout);
+}
+
+void printBasin(const Basin& basin) {
+  std::printf("| %s |", basin.name.c_str());
+  for (const auto& [low, high] : kRings) {
+    for (const auto& [flat, steep] : kTurns) std::printf(" %.1f |", 100 * basin.share(low, high, flat, steep));
+  }
+  std::printf(" %.1f %% |\n", 100 * basin.share(0, 9, 0, 9));
+  std::fflush(stdout);
+}
+
+void printBasinHead() {
+  std::printf("\nBasin: share [%%] of matches that come right, by distance and turn of the start\n\n| method |");
+  std::string line = "\n|---|";
+  for (const auto& [low, high] : kRings) {
+    for (const auto& [flat, steep] : kTurns) {
+      std::printf(" %.2g to %.2g m, %.0f to %.0f deg |", low, high, flat / kDegree, steep / kDegree);
+      line += "---|";
+    }
+  }
+  std::printf(" all |%s---|\n", line.c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string log, relations, svg, tasks_file, label = "FLASER", only;
+  std::vector<std::string> peers, basin_peers;
+  std::size_t basin_every = 24;
+  CLI::App app("Pairs of scans matched by ours, MRPT's and other matchers.");
+  app.add_option("--log", log, "CARMEN log with 180 beams")->required();
+  app.add_option("--relations", relations, "relative poses that were checked by hand")->required();
+  app.add_option("--svg", svg, "where to draw the basin");
+  app.add_option("--tasks", tasks_file, "writes what another program is to match");
+  app.add_option("--peer", peers, "NAME=FILE of what another program found");
+  app.add_option("--basin-every", basin_every, "the basin is that of every n-th pair; 0 leaves it out");
+  app.add_option("--only", only, "only methods whose name begins so");
+  CLI11_PARSE(app, argc, argv);
+
+  const auto scans = readScans(log, label);
+  const auto pairs = pairsOf(scans, eval::readRelations(relations));
+  std::vector<Task> tasks;
+  for (std::size_t i = 0; i < pairs.size(); ++i) tasks.push_back({i, pairs[i].guess});
+  const auto starts = basin_every > 0 ? basinStarts() : std::vector<TPose2D>();
+  for (std::size_t i = 0; i < pairs.size() && basin_every > 0; i += basin_every) {
+    for (const auto& offset : starts) tasks.push_back({i, pairs[i].truth + offset});
+  }
+  if (!tasks_file.empty()) writeTasks(tasks_file, pairs, tasks);
+
+  std::printf(
+      "%zu pairs\n\n| method | distance [cm] median | 95 %% | max | turn [deg] median | 95 %% | within 10 cm and 2 deg "
+      "| time [ms] median | 95 %% |\n|---|---|---|---|---|---|---|---|---|\n",
+      pairs.size());
+  std::vector<Basin> basins;
+  const auto show = [&](const std::string& name, const std::vector<Outcome>& outcomes, bool with_basin) {
+    printPairs(name, pairs, outcomes);
+    if (!with_basin || starts.empty()) return;
+    Basin basin{name, {}};
+    for (std::size_t i = pairs.size(); i < tasks.size(); ++i) {
+      basin.starts.push_back({starts[(i - pairs.size()) % starts.size()],
+                              right(outcomes[i].pose, pairs[tasks[i].pair].truth)});
+    }
+    basins.push_back(std::move(basin));
+  };
+  const auto matcher = matching::makeMatcher({});
+  for (const auto& [name, run] : methods(*matcher)) {
+    if (name.compare(0, only.size(), only) != 0) continue;
+    const bool with_basin = name.find("prepared") == std::string::npos && name.find("guess") == std::string::npos;
+    std::vector<Outcome> outcomes;
+    for (std::size_t i = 0; i < (with_basin ? tasks.size() : pairs.size()); ++i) {
+      outcomes.push_back(run(pairs[tasks[i].pair], tasks[i].start));
+    }
+    show(name, outcomes, with_basin);
+  }
+  for (const auto& peer : peers) {
+    const auto sign = peer.find('=');
+    show(peer.substr(0, sign), readOutcomes(peer.substr(sign + 1), tasks.size()), true);
+  }
+  if (basins.empty()) return 0;
+  printBasinHead();
+  for (const auto& basin : basins) printBasin(basin);
+  if (!svg.empty()) {
+    std::ofstream out(svg);
+    plotBasins(out, basins);
+  }
+}
