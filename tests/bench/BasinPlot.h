@@ -49,23 +49,27 @@ inline std::vector<TPose2D> basinStarts() {
   return starts;
 }
 
-/// One row of squares for each method: the share that comes right over the offset along x and y, a square for each turn.
+/// One row of squares for each method: the share that comes right over the offset along x and y, a square for each
+/// turn.
 inline void plotBasins(std::ostream& out, const std::vector<Basin>& basins) {
   constexpr int cell = 12, side = (2 * kMoveSteps + 1) * cell, gap = 14, left = 190, top = 40;
-  const int width = left + (2 * kTurnSteps + 1) * (side + gap), height = top + static_cast<int>(basins.size()) * (side + gap);
+  const int width = left + (2 * kTurnSteps + 1) * (side + gap),
+            height = top + static_cast<int>(basins.size()) * (side + gap);
   out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width << "\" height=\"" << height
       << "\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   const auto text = [&](double x, double y, const std::string& words, const char* anchor) {
     out << "<text x=\"" << x << "\" y=\"" << y << "\" text-anchor=\"" << anchor << "\">" << words << "</text>\n";
   };
-  text(10, 16, "Share of matches that come right, light: all, dark: none; each square: start -1 to 1 m along x and y", "start");
+  text(10, 16, "Share of matches that come right, light: all, dark: none; each square: start -1 to 1 m along x and y",
+       "start");
   for (int k = -kTurnSteps; k <= kTurnSteps; ++k) {
     text(left + (k + kTurnSteps) * (side + gap) + side / 2.0, top - 6, std::to_string(k * 10) + " deg", "middle");
   }
   for (std::size_t b = 0; b < basins.size(); ++b) {
     const int y0 = top + static_cast<int>(b) * (side + gap);
     text(left - 10, y0 + side / 2.0, basins[b].name, "end");
-    std::array<std::array<std::pair<int, int>, (2 * kMoveSteps + 1) * (2 * kMoveSteps + 1)>, 2 * kTurnSteps + 1> counts{};
+    std::array<std::array<std::pair<int, int>, (2 * kMoveSteps + 1) * (2 * kMoveSteps + 1)>, 2 * kTurnSteps + 1>
+        counts{};
     for (const auto& s : basins[b].starts) {
       const auto column = static_cast<std::size_t>(std::lround(s.offset.x / kMoveStep) + kMoveSteps),
                  row = static_cast<std::size_t>(kMoveSteps - std::lround(s.offset.y / kMoveStep)),
@@ -78,7 +82,8 @@ inline void plotBasins(std::ostream& out, const std::vector<Basin>& basins) {
       for (std::size_t i = 0; i < counts[square].size(); ++i) {
         const auto [good, count] = counts[square][i];
         const int shade = count > 0 ? 255 * good / count : 0;
-        out << "<rect x=\"" << left + static_cast<int>(square) * (side + gap) + static_cast<int>(i % (2 * kMoveSteps + 1)) * cell
+        out << "<rect x=\""
+            << left + static_cast<int>(square) * (side + gap) + static_cast<int>(i % (2 * kMoveSteps + 1)) * cell
             << "\" y=\"" << y0 + static_cast<int>(i / (2 * kMoveSteps + 1)) * cell << "\" width=\"" << cell
             << "\" height=\"" << cell << "\" fill=\"rgb(" << shade << "," << (30 + shade * 220 / 255) << ","
             << (90 + shade * 60 / 255) << ")\"/>\n";

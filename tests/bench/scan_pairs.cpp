@@ -83,7 +83,10 @@ std::vector<Method> methods(const matching::ScanMatcher& matcher) {
       return matchIcp(pair, start, algorithm, decimation, with_maps);
     };
   };
-  return {{"odometry guess", [](const auto&, const auto& start) { return Outcome{start, 0}; }},
+  return {{"odometry guess",
+           [](const auto&, const auto& start) {
+             return Outcome{start, 0};
+           }},
           {"PointToLineMatcher", [&](const auto& pair, const auto& start) { return matchLines(matcher, pair, start); }},
           {"PointToLineMatcher, scans prepared",
            [&](const auto& pair, const auto& start) { return matchPrepared(matcher, pair, start); }},
@@ -174,8 +177,8 @@ int main(int argc, char** argv) {
     if (!with_basin || starts.empty()) return;
     Basin basin{name, {}};
     for (std::size_t i = pairs.size(); i < tasks.size(); ++i) {
-      basin.starts.push_back({starts[(i - pairs.size()) % starts.size()],
-                              right(outcomes[i].pose, pairs[tasks[i].pair].truth)});
+      basin.starts.push_back(
+          {starts[(i - pairs.size()) % starts.size()], right(outcomes[i].pose, pairs[tasks[i].pair].truth)});
     }
     basins.push_back(std::move(basin));
   };
