@@ -24,10 +24,13 @@ struct ScanMatch {
 
 /// Where a scan is thought to be.
 struct MatchGuess {
+  MatchGuess(const mrpt::math::TPose2D& pose = {}, const Eigen::Matrix3d& known = Eigen::Matrix3d::Zero())
+      : reference_from_scan(pose), information(known) {}
+
   mrpt::math::TPose2D reference_from_scan;  ///< [m] [rad]
   /// How much that counts beside the points: inverse covariance in the scan's frame (x y yaw), times the variance of a
   /// point [1]. Zero: it is where the search begins, and no more.
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d information;
 };
 
 /// What scans are matched against: points prepared for the search of partners. Immutable.

@@ -11,7 +11,7 @@
 namespace omnimapper::matching {
 
 struct ScanTrackerOptions {
-  int local_scans = 20;                                              ///< that make the local map
+  int local_scans = 40;                                              ///< that make the local map
   double local_distance = 0.25;                                      ///< [m] between them
   double local_angle = 10.0 * base::option_text::kRadiansPerDegree;  ///< [rad] between them
   double min_overlap = 0.5;                                          ///< share of the points that must find a partner

@@ -20,8 +20,8 @@ struct ScanOdometryOptions {
   std::string odometry_label;  ///< of the odometry that predicts; empty: the first that comes
   double max_gap = 1.0;        ///< [s] between scans that are matched
   double max_speed = 10.0;     ///< [m/s] of a prediction
-  double guess_sigma = 0.03;   ///< [m]
-  double guess_angle_sigma = 2.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
+  double guess_sigma = 0.02;   ///< [m]
+  double guess_angle_sigma = 1.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double guess_sigma_per_m = 0.1;
   double point_sigma = 0.05;  ///< [m]
   double wall_sigma_factor = 2;
