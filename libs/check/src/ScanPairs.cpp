@@ -69,7 +69,7 @@ std::vector<MatchedMotion> matchPairs(const std::vector<ScanPair>& pairs, const 
     const auto from = matcher.prepare(scanInBase(*pair.begin));
     const auto to = scanInBase(*pair.end);
     const auto by_odometry = odometry(pair.begin->timestamp, pair.end->timestamp);
-    auto match = matcher.match(*from, to, {0, 0, 0});
+    auto match = matcher.match(*from, to, mrpt::math::TPose2D(0, 0, 0));
     if (by_odometry) {
       const auto other = matcher.match(*from, to, by_odometry->asTPose());
       if (isBetter(other, match)) match = other;
