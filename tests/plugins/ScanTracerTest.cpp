@@ -149,6 +149,27 @@ TEST(ScanTracer, aScannerUpsideDownOrTheOtherWayRoundSeesTheMirrorImage) {
   EXPECT_EQ(votesOf(scan, CPose3D(0.5, 0.5, 0, M_PI, 0, 0)).count({-3, -2}), 1u) << "looking back, its left is below";
 }
 
+TEST(ScanTracer, aWallInFrontIsNoRowOfDots) {
+  // Ends 0.175 m apart on an arc of 10 m, in cells of 0.05 m.
+  const auto scan = scanOf({9.9f, 9.9f, 9.9f}, static_cast<float>(2 * M_PI / 180));
+  int wall = 0;
+  for (const auto& [place, vote] : votesOf(scan, {}, 0.05)) wall += vote > 0;
+  EXPECT_GE(wall, 7);
+  // Twice as far apart there may be a gap; the beams say nothing of it.
+  int dots = 0;
+  for (const auto& [place, vote] : votesOf(scanOf({9.9f, 9.9f}, static_cast<float>(2 * M_PI / 180)), {}, 0.05)) {
+    dots += vote > 0;
+  }
+  EXPECT_EQ(dots, 2);
+}
+
+TEST(ScanTracer, betweenAThingAndTheWallBehindItThereIsNoWall) {
+  for (const auto& [place, vote] : votesOf(scanOf({2, 2, 4, 4}, 0.06f), {}, 0.05)) {
+    const double range = std::hypot(place.first + 0.5, place.second + 0.5) * 0.05;
+    EXPECT_TRUE(vote < 0 || std::abs(range - 2) < 0.06 || std::abs(range - 4) < 0.06) << range;
+  }
+}
+
 /// Beams of a wall along y = -0.77 m, from (0, 0): what a robot in a corridor sees at ever smaller angles.
 CObservation2DRangeScan corridorScan() {
   std::vector<float> ranges;

@@ -12,16 +12,22 @@ namespace omnimapper::plugins {
 
 namespace {
 
-/// Neighbouring ends are of one surface if the line between them is seen at more than this angle.
+/// Neighbouring ends are of one surface if the line between them is seen at more than this angle, ...
 constexpr double kGrazing = 3 * geometry::kPi / 180;
+/// ... and surely so if it is seen at more than this one and is no longer than this [m].
+constexpr double kFacing = 20 * geometry::kPi / 180, kSureGap = 0.3;
 
+/// Square of the sine of the angle at which the line from a to b is seen from the origin, at its further end.
 template <class End>
-bool areOfOneSurface(const End& a, const End& b, const End& origin) {
+double squaredSineOfView(const End& a, const End& b, const End& origin) {
   const double ax = a.x - origin.x, ay = a.y - origin.y, bx = b.x - origin.x, by = b.y - origin.y;
-  const double cross = ax * by - ay * bx, longer = std::max(ax * ax + ay * ay, bx * bx + by * by);
-  const double between = (bx - ax) * (bx - ax) + (by - ay) * (by - ay);
-  static const double limit = std::sin(kGrazing) * std::sin(kGrazing);
-  return cross * cross > limit * longer * between;
+  const double cross = ax * by - ay * bx, further = std::max(ax * ax + ay * ay, bx * bx + by * by);
+  const double gap = (bx - ax) * (bx - ax) + (by - ay) * (by - ay);
+  return gap > 0 ? cross * cross / (further * gap) : 0;
+}
+
+double squaredSine(double angle) {
+  return std::sin(angle) * std::sin(angle);
 }
 
 }  // namespace
@@ -52,16 +58,26 @@ void ScanTracer::place(const mrpt::obs::CObservation2DRangeScan& scan, const mrp
   for (Beam& beam : beams_) beam.x -= left, beam.y -= low;
 }
 
+void ScanTracer::voteSurfaces(double resolution) {
+  static const double grazing = squaredSine(kGrazing), facing = squaredSine(kFacing);
+  const double sure_gap = kSureGap / resolution;
+  for (std::size_t i = 1; i < beams_.size(); ++i) {
+    const Beam &a = beams_[i - 1], &b = beams_[i];
+    if (!a.hits || !b.hits) continue;
+    const double view = squaredSineOfView(a, b, origin_);
+    if (view < grazing) continue;
+    const bool is_sure = view > facing && std::hypot(b.x - a.x, b.y - a.y) <= sure_gap;
+    votes_.voteLine(a.x, a.y, b.x, b.y, is_sure ? kSurfaceVote : 0);
+  }
+}
+
 VoteWindow& ScanTracer::trace(const mrpt::obs::CObservation2DRangeScan& scan,
                               const mrpt::poses::CPose3D& map_from_sensor, double resolution) {
   place(scan, map_from_sensor, resolution);
   for (const Beam& beam : beams_) {
     if (beam.is_valid) votes_.voteLine(origin_.x, origin_.y, beam.x, beam.y, kPassVote);
   }
-  for (std::size_t i = 1; i < beams_.size(); ++i) {
-    const Beam &a = beams_[i - 1], &b = beams_[i];
-    if (a.hits && b.hits && areOfOneSurface(a, b, origin_)) votes_.voteLine(a.x, a.y, b.x, b.y, 0);
-  }
+  voteSurfaces(resolution);
   for (const Beam& beam : beams_) {
     if (beam.hits) votes_.voteCell(beam.x, beam.y, kHitVote);
   }

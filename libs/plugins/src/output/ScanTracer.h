@@ -9,8 +9,9 @@
 
 namespace omnimapper::plugins {
 
-/// Log-odds of a vote in steps of 0.122: one hit outweighs two beams that pass, so that thin walls stay.
-constexpr int kHitVote = 9, kPassVote = -4;
+/// Log-odds of a vote in steps of 0.122: one hit outweighs two beams that pass, so that thin walls stay; what must be
+/// between two hits weighs as much as one that passes.
+constexpr int kHitVote = 9, kSurfaceVote = 4, kPassVote = -4;
 /// A cell is occupied above a probability of 0.6 and free below 0.4, so one vote decides a cell.
 constexpr int kOccupiedAbove = 3, kFreeBelow = -3;
 
@@ -18,8 +19,9 @@ constexpr int kOccupiedAbove = 3, kFreeBelow = -3;
 ///
 /// A beam passes the cells on its way from the sensor and hits the one where it ends; one that ends at the limit of the
 /// sensor or of the option only passes, an invalid one says nothing. A scan votes once for a cell however many beams
-/// meet it, and a hit is stronger. It does not vote for a cell on the line between the ends of neighbouring beams that
-/// meet the same surface: there beams that graze a wall would clear it between their hits.
+/// meet it, and a hit is stronger. No beam clears a cell on the line between the ends of two neighbours that meet the
+/// same surface: beams that graze a wall would clear it between their hits. Where the two face it and are near each
+/// other, the cells between them are of the wall too, so that it is no row of dots.
 class ScanTracer {
  public:
   /// Beams are entered up to `max_range` [m].
@@ -36,6 +38,7 @@ class ScanTracer {
   };
   void place(const mrpt::obs::CObservation2DRangeScan& scan, const mrpt::poses::CPose3D& map_from_sensor,
              double resolution);
+  void voteSurfaces(double resolution);
 
   double max_range_;
   Beam origin_;
