@@ -31,6 +31,8 @@ TEST_F(SelectionTest, labelsLeaveTheRestOutAndCountIt) {
   options.labels = {"rear", "wheels"};
   EXPECT_EQ(read(log(), options), (Strings{"wheels 10", "rear 11", "wheels 11.5"}));
   EXPECT_EQ(report_.filtered_out, 3u);
+  EXPECT_EQ(report_.filtered_labels.count("rear"), 0u);
+  EXPECT_FALSE(report_.filtered_labels.empty());
   EXPECT_EQ(report_.sensors.size(), 2u);
 }
 

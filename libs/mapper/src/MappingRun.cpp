@@ -3,6 +3,7 @@
 #include <omnimapper/mapper/Engine.h>
 #include <omnimapper/mapper/Joining.h>
 #include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/mapper/SensorLabels.h>
 #include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/ReadAhead.h>
@@ -110,6 +111,28 @@ void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
   if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
 }
 
+// Sections whose `label` and `labels` are those of sensors.
+std::vector<std::string> labelledSections(const EngineOptions& options, const PerceptionOptions& perception) {
+  std::vector<std::string> sections = options.sensors;
+  for (const auto* names : {&options.pose_plugins, &perception.extractors, &options.measurement_plugins}) {
+    sections.insert(sections.end(), names->begin(), names->end());
+  }
+  return sections;
+}
+
+// A map without a single measurement is what odometry says, and nobody should take it for more.
+void warnOfNothingMeasured(const std::vector<std::string>& measurement_plugins, Engine& engine) {
+  const auto& view = engine.view();
+  if (view.map.key_frames.size() < 3) return;
+  for (const auto& [id, record] : view.graph.factors()) {
+    const auto& owner = record.tags.owner;
+    if (id.session != view.map.sessions.back().number) continue;
+    if (std::find(measurement_plugins.begin(), measurement_plugins.end(), owner) != measurement_plugins.end()) return;
+  }
+  engine.warn("nothing was measured: no measurement plugin made anything of any observation, the map is what the " +
+              std::string("motion sources say; are the sensors blind? omnimapper-graphslam --check LOG tells"));
+}
+
 // What follows becomes a new session of a saved map.
 void continueMap(const std::string& path, const SessionOptions& session, const std::string& ini, Motion motion,
                  Engine& engine) {
@@ -125,8 +148,10 @@ void continueMap(const std::string& path, const SessionOptions& session, const s
 }
 
 // An empty map is not written: it would take the place of a good one.
-[[noreturn]] void failWithNothingToMap(const RunRequest& request, const std::string& ini, const RunResult& result) {
-  std::string logs;
+[[noreturn]] void failWithNothingToMap(const RunRequest& request, const std::string& ini, const RunResult& result,
+                                       const std::vector<std::string>& unknown_labels) {
+  std::string logs, labels;
+  for (const auto& sentence : unknown_labels) labels += sentence + "\n";
   for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
   const bool is_whole = result.code == base::ExitCode::ok;
   const std::string how = result.code == base::ExitCode::interrupted ? "interrupted before the first" : "no";
@@ -134,7 +159,7 @@ void continueMap(const std::string& path, const SessionOptions& session, const s
       is_whole ? base::ExitCode::nothing_to_map : result.code,
       logs + ": nothing to map: " + how + " observation that a measurement plugin of " + ini + " wants" +
           (is_whole ? " (see its [source], [perception] extractors and [mapper] measurement_plugins)" : "") +
-          "; nothing was written. What was read:\n" + result.source.text());
+          "; nothing was written.\n" + labels + "What was read:\n" + result.source.text());
 }
 
 RunResult resultOf(const View& view) {
@@ -206,6 +231,9 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
 
   const auto report = log.report();
   warnOf(report, stopped, engine);
+  const auto unknown_labels = unknownLabels(config, labelledSections(options, perception), report, engine.view().map);
+  for (const auto& sentence : unknown_labels) engine.warn(sentence);
+  warnOfNothingMeasured(options.measurement_plugins, engine);
   auto result = resultOf(engine.view());
   warnOf(engine.view().counts, result.new_key_frames, engine);
   warnOf(result.sessions.back(), engine);
@@ -216,7 +244,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   const bool keep_old = result.new_key_frames == 0 || !request.continue_map.empty();
   if (keep_old && failure) std::rethrow_exception(failure);
   if (keep_old && failure_at_end) std::rethrow_exception(failure_at_end);
-  if (result.new_key_frames == 0) failWithNothingToMap(request, config.file(), result);
+  if (result.new_key_frames == 0) failWithNothingToMap(request, config.file(), result, unknown_labels);
   progress.report(1.0, "writing the outputs");
   engine.writeOutputs();
   if (failure) std::rethrow_exception(failure);

@@ -182,6 +182,7 @@ class RawlogSource::Stream {
     if (after_the_end_ >= kEnoughAfterTheEnd) is_over_ = true;
     if (!selection_.wants(observation)) {
       ++report_.filtered_out;
+      report_.filtered_labels.insert(observation.sensorLabel);
       return false;
     }
     if (const auto missing = loadExternalFiles(observation, images_folder_)) {

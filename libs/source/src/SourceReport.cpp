@@ -127,6 +127,7 @@ void SourceReport::add(const SourceReport& other) {
   for (const auto& [name, count] : other.other_objects) other_objects[name] += count;
   repaired_stamps += other.repaired_stamps;
   filtered_out += other.filtered_out;
+  filtered_labels.insert(other.filtered_labels.begin(), other.filtered_labels.end());
   dropped_actions += other.dropped_actions;
   missing_images += other.missing_images;
   if (first_missing_image.empty()) first_missing_image = other.first_missing_image;

@@ -1,0 +1,54 @@
+// A label in the INI that nothing in the log has: said with the labels that there are.
+#include "../MapFolder.h"
+
+namespace {
+
+using namespace runs;
+using omnimapper::testing::ScratchFolder;
+using omnimapper::testing::SimulatedLogOptions;
+
+class SensorLabels : public ::testing::Test {
+ protected:
+  SensorLabels() {
+    SimulatedLogOptions options;
+    options.place = SimulatedLogOptions::Place::box;
+    options.laps = 0.5;
+    SimulatedLog(options).writeRawlog(scratch_ / "box.rawlog");
+  }
+  Ended mapWith(const Words& settings) {
+    Words more;
+    for (const auto& setting : settings) more.insert(more.end(), {"--set", setting});
+    return map({scratch_ / "box.rawlog"}, scratch_ / "map", more);
+  }
+
+  ScratchFolder scratch_;
+};
+
+TEST_F(SensorLabels, ThatTheLogHasNeedNoWord) {
+  const auto ended = mapWith({"odometry.label=odometry", "scan_matching.labels=laser.points",
+                              "mapper.reference_sensor=laser", "source.labels=laser, odometry"});
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended));
+  EXPECT_EQ(ended.err, "");
+}
+
+TEST_F(SensorLabels, ThatNothingHasAreNamedWithTheNearestAndAll) {
+  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"odometry.label=odometri"}),
+                        {"warning: [odometry] label", "'odometri'", "did you mean 'odometry'?",
+                         "there are: laser, laser.points, odometry"}));
+  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"scan_matching.labels=laser"}), {"nothing was measured"}))
+      << "the points have a label of their own";
+  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"scan_matching.labels=lasr.points, laser.points"}),
+                        {"[scan_matching] labels", "'lasr.points'", "'laser.points'?"}));
+  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"mapper.sensors=front", "front.label=Laser"}), {"[front] label"}));
+}
+
+TEST_F(SensorLabels, ThatTheSourceLeavesOutAreThereForIt) {
+  EXPECT_TRUE(endedWith(ExitCode::nothing_to_map, mapWith({"source.labels=lasr, odometry"}),
+                        {"[source] labels", "'lasr'", "did you mean 'laser'?", "there are: laser, odometry"}));
+}
+
+TEST_F(SensorLabels, OfTheReferenceMustExist) {
+  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"mapper.reference_sensor=lidar"}), {"[mapper] reference_sensor"}));
+}
+
+}  // namespace
