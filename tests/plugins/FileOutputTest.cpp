@@ -154,6 +154,16 @@ TEST(PointsOutput, oneIsKeptOfEachVoxel) {
   }
 }
 
+TEST(PointsOutput, withoutPointsTheFileOfAnOlderRunIsRemoved) {
+  ScratchFolder folder;
+  RunRecord run = boxRun();
+  plugins::PointsOutput output({}, contextFor(folder.path()));
+  output.finish(run.view());
+  clearObservations(run);
+  output.finish(run.view());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(PointsOutput, cloudsGoBeforeScansAndAreColouredByHeight) {
   ScratchFolder folder;
   RunRecord run = boxRun();

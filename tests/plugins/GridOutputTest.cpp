@@ -4,6 +4,7 @@
 #include <omnimapper/testing/Fixtures.h>
 #include <output/GridPicture.h>
 #include <output/MapServer.h>
+#include <output/ScaleBar.h>
 #include <output/ScanGrid.h>
 
 #include <filesystem>
@@ -204,11 +205,13 @@ TEST(GridOutput, thePngIsTheSamePictureInCrispColours) {
   }
 }
 
-TEST(GridOutput, aMapWithoutScansGivesNoFileAndNoError) {
+TEST(GridOutput, aMapWithoutScansGivesNoFileAndRemovesThoseOfAnOlderRun) {
   omnimapper::testing::ScratchFolder folder;
   RunRecord run = boxRun();
+  plugins::GridOutput output({}, contextFor(folder.path()));
+  output.finish(run.view());
   clearObservations(run);
-  plugins::GridOutput({}, contextFor(folder.path())).finish(run.view());
+  output.finish(run.view());
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
@@ -218,11 +221,40 @@ TEST(GridPicture, pixelsAreRegisteredWithTheMapAtEveryScale) {
   for (const int side : {30, 100, 700}) {
     const auto picture = plugins::drawGridToSize(*grid, side);
     EXPECT_NEAR(std::max(picture.image.width, picture.image.height), side, 0.45 * side);
-    for (const auto& [x, y, colour] : {std::tuple{1.0, 0.0, 1}, std::tuple{2.2, -0.2, 1}, std::tuple{-1.4, 2.4, 0}}) {
+    for (const auto& [x, y, green] :
+         {std::tuple{1.0, 0.0, 255}, std::tuple{2.2, -0.2, 255}, std::tuple{-1.4, 2.4, 231}}) {
       const auto pixel = picture.pixelOf(x, y);
       const auto index = static_cast<std::size_t>(pixel.y) * picture.image.width + static_cast<std::size_t>(pixel.x);
-      EXPECT_EQ(picture.image.pixels[index], colour) << x << " " << y << " at side " << side;
+      EXPECT_EQ(picture.image.palette[picture.image.pixels[index]].g, green) << x << " " << y << " at side " << side;
     }
+  }
+}
+
+TEST(GridPicture, aWallOneCellWideStaysBlackAndClosedAtEveryScale) {
+  ScanGrid grid;
+  grid.columns = grid.rows = 300;
+  grid.resolution = 0.1;
+  grid.cells.assign(300 * 300, Cell::free);
+  for (int x = 0; x < 300; ++x) grid.cells[static_cast<std::size_t>(151) * 300 + x] = Cell::occupied;
+  grid.cells[20 * 300 + 20] = Cell::occupied;
+  for (const int side : {300, 150, 100, 60}) {
+    const auto picture = plugins::drawGridToSize(grid, side);
+    const auto& image = picture.image;
+    ASSERT_EQ(image.width, side);
+    const auto row = static_cast<int>(picture.pixelOf(0, 15.15).y);
+    for (int x = 0; x < side; ++x) EXPECT_LT(image.palette[image.pixels[row * side + x]].g, 40) << x << " of " << side;
+    for (const int beside : {row - 1, row + 1}) EXPECT_EQ(image.palette[image.pixels[beside * side + side / 2]].g, 255);
+    const auto dot = picture.pixelOf(2.05, 2.05);
+    const auto grey = image.palette[image.pixels[static_cast<int>(dot.y) * side + static_cast<int>(dot.x)]].g;
+    EXPECT_LT(grey, 255);
+    EXPECT_EQ(grey < 40, side == 300) << "a single cell is not as black as a wall";
+  }
+}
+
+TEST(ScaleBar, isRoundAndAboutASixthOfThePicture) {
+  for (const auto& [width, length] :
+       {std::pair{6.0, 1.0}, {11.9, 1.0}, {12.1, 2.0}, {31.0, 5.0}, {75.0, 10.0}, {0.9, 0.1}, {1300.0, 200.0}}) {
+    EXPECT_NEAR(plugins::scaleBarLength(width), length, 1e-9 * length) << width;
   }
 }
 

@@ -27,7 +27,10 @@ GridOutput::GridOutput(const GridOptions& options, const mapper::PluginContext& 
 void GridOutput::finish(const mapper::View& view) {
   const auto grid =
       buildScanGrid(view.map, {options_.resolution, options_.max_range, options_.margin, 1e6 * options_.max_megacells});
-  if (!grid) return;
+  if (!grid) {
+    for (const char* extension : {".pgm", ".yaml", ".png"}) removeFile(path_ + extension);
+    return;
+  }
   writeBytes(path_ + ".pgm", encodePgm(*grid));
   writeBytes(path_ + ".yaml", encodeMapServerYaml(*grid, "grid.pgm", options_.resolution));
   writeBytes(path_ + ".png", encodePng(drawGrid(*grid).image));

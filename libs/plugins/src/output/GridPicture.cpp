@@ -9,18 +9,39 @@ namespace omnimapper::plugins {
 
 namespace {
 
-// As Cell counts: unknown, free, occupied; then the soft edge of what is occupied.
-const std::vector<Rgb> kColours{{226, 231, 237}, {255, 255, 255}, {24, 33, 47}, {134, 143, 156}};
-constexpr auto kWall = static_cast<std::uint8_t>(Cell::occupied);
-constexpr std::uint8_t kEdge = 3;
+constexpr Rgb kUnknown{226, 231, 237}, kFree{255, 255, 255}, kWall{24, 33, 47};
+/// Shades from unknown to free, and from there to wall, for pixels that hold several cells.
+constexpr int kShades = 8;
 
-std::uint8_t strongestOf(const ScanGrid& grid, int column, int row, int block) {
-  const int end_column = std::min(column + block, grid.columns), end_row = std::min(row + block, grid.rows);
-  Cell strongest = Cell::unknown;
-  for (int y = row; y < end_row; ++y) {
-    for (int x = column; x < end_column; ++x) strongest = std::max(strongest, grid.at(x, y));
+constexpr std::uint8_t shade(int free, int wall) {
+  return static_cast<std::uint8_t>(wall * (kShades + 1) + free);
+}
+
+Rgb mixed(const Rgb& a, const Rgb& b, int part) {
+  const auto channel = [&](int from, int to) { return static_cast<std::uint8_t>(from + (to - from) * part / kShades); };
+  return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
+}
+
+std::vector<Rgb> palette() {
+  std::vector<Rgb> colours;
+  for (int wall = 0; wall <= kShades; ++wall) {
+    for (int free = 0; free <= kShades; ++free) colours.push_back(mixed(mixed(kUnknown, kFree, free), kWall, wall));
   }
-  return static_cast<std::uint8_t>(strongest);
+  return colours;
+}
+
+/// The shade of a square of cells. A wall one cell wide through it is enough for black; single cells are grey.
+std::uint8_t shadeOf(const ScanGrid& grid, int column, int row, int block) {
+  const int end_column = std::min(column + block, grid.columns), end_row = std::min(row + block, grid.rows);
+  int free = 0, walls = 0;
+  for (int y = row; y < end_row; ++y) {
+    for (int x = column; x < end_column; ++x) {
+      const Cell cell = grid.at(x, y);
+      free += cell != Cell::unknown;
+      walls += cell == Cell::occupied;
+    }
+  }
+  return shade((kShades * free + block * block - 1) / (block * block), std::min(kShades, kShades * walls / block));
 }
 
 /// `block` cells to a pixel, then each pixel `zoom` times as large.
@@ -33,32 +54,19 @@ GridPicture draw(const ScanGrid& grid, int block, int zoom) {
   PaletteImage& image = picture.image;
   image.width = columns * zoom;
   image.height = rows * zoom;
-  image.palette = kColours;
+  image.palette = palette();
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
+  constexpr std::uint8_t kShadeOfCell[] = {shade(0, 0), shade(kShades, 0), shade(kShades, kShades)};  // as Cell counts
   for (int row = 0; row < rows; ++row) {
     auto line = image.pixels.begin() + static_cast<std::ptrdiff_t>(rows - 1 - row) * zoom * image.width;
     for (int column = 0; column < columns; ++column) {
-      const std::uint8_t value = block == 1 ? static_cast<std::uint8_t>(grid.at(column, row))
-                                            : strongestOf(grid, column * block, row * block, block);
+      const std::uint8_t value = block == 1 ? kShadeOfCell[static_cast<int>(grid.at(column, row))]
+                                            : shadeOf(grid, column * block, row * block, block);
       std::fill_n(line + column * zoom, zoom, value);
     }
     for (int copy = 1; copy < zoom; ++copy) std::copy_n(line, image.width, line + copy * image.width);
   }
   return picture;
-}
-
-void softenWalls(PaletteImage& image) {
-  const std::vector<std::uint8_t> sharp = image.pixels;
-  const auto isWall = [&](int x, int y) {
-    return x >= 0 && y >= 0 && x < image.width && y < image.height &&
-           sharp[static_cast<std::size_t>(y) * image.width + x] == kWall;
-  };
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const bool beside = isWall(x - 1, y) || isWall(x + 1, y) || isWall(x, y - 1) || isWall(x, y + 1);
-      if (beside && !isWall(x, y)) image.pixels[static_cast<std::size_t>(y) * image.width + x] = kEdge;
-    }
-  }
 }
 
 /// First and last index that are left when `share` of the sum of `counts` is cut off at each end.
@@ -82,9 +90,7 @@ GridPicture drawGridToSize(const ScanGrid& grid, int side) {
     return std::max(1, static_cast<int>(std::lround(static_cast<double>(a) / b)));
   };
   const int zoom = times(side, longer);
-  GridPicture picture = draw(grid, times(longer, side), zoom);
-  if (zoom == 1) softenWalls(picture.image);
-  return picture;
+  return draw(grid, times(longer, side), zoom);
 }
 
 ScanGrid focused(const ScanGrid& grid, const std::vector<mrpt::math::TPoint3D>& places) {

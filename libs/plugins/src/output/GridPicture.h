@@ -25,8 +25,9 @@ struct GridPicture {
 
 /// One pixel for each cell.
 GridPicture drawGrid(const ScanGrid& grid);
-/// Scaled by whole numbers so that the longer side comes near `side` pixels; where several cells fall on one pixel, a
-/// wall among them wins, so that walls stay closed. Walls one pixel thin get soft edges, so that they are seen.
+/// Scaled by whole numbers so that the longer side comes near `side` pixels. Where several cells fall on one pixel, it
+/// is as light as many of them are known, and black if a wall one cell wide goes through, so that walls stay closed,
+/// thin and smooth.
 GridPicture drawGridToSize(const ScanGrid& grid, int side);
 
 /// The part of a grid that holds all but the outermost 0.5 % of what is known, to each of the four sides, and the given

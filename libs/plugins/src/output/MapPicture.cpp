@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ScaleBar.h"
+
 namespace omnimapper::plugins {
 
 namespace {
@@ -53,19 +55,21 @@ Image drawMap(const GridPicture& grid, const std::vector<map::StampedPose>& traj
               const std::vector<Closure>& closures) {
   Image image(grid.image.width, grid.image.height, kPaper);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = grid.image.palette[grid.image.pixels[i]];
-  const double width = std::max(1.5, std::max(image.width, image.height) / 600.0);
+  // Thin, so that walls are seen beside and under them.
+  const double width = std::max(1.2, std::max(image.width, image.height) / 900.0);
   for (const Closure& closure : closures) {
     if (!closure.decision->accepted) continue;
-    drawLine(image, pixelOf(grid, closure.from), pixelOf(grid, closure.to), {kClosure, width, 0.8});
+    drawLine(image, pixelOf(grid, closure.from), pixelOf(grid, closure.to), {kClosure, width, 0.6});
   }
   const auto paths = simplifiedPaths(grid, trajectory, 0.25);
   for (const auto& path : paths) drawPath(image, path, {kTrack, width, 0.9});
   for (const auto& path : paths) {
-    drawDot(image, path.front(), {kTrack, 5 * width});
-    drawDot(image, path.front(), {kPaper, 2.6 * width});
-    drawDot(image, path.back(), {kPaper, 6 * width});
-    drawDot(image, path.back(), {kTrack, 5 * width});
+    drawDot(image, path.front(), {kTrack, 7 * width});
+    drawDot(image, path.front(), {kPaper, 4 * width});
+    drawDot(image, path.back(), {kPaper, 8 * width});
+    drawDot(image, path.back(), {kTrack, 6 * width});
   }
+  drawScaleBar(image, grid);
   return image;
 }
 

@@ -10,7 +10,8 @@
 
 namespace omnimapper::plugins {
 
-/// The map from above as a picture: the grid, the trajectory with its start (ring) and end (dot), accepted closures.
+/// The map from above as a picture: the grid, the trajectory with its start (ring) and end (dot), accepted closures,
+/// a scale bar.
 Image drawMap(const GridPicture& grid, const std::vector<map::StampedPose>& trajectory,
               const std::vector<Closure>& closures);
 

@@ -25,7 +25,7 @@ PointsOutput::PointsOutput(const PointsOptions& options, const mapper::PluginCon
 
 void PointsOutput::finish(const mapper::View& view) {
   const auto points = pointsOf(view.map, options_);
-  if (!points.empty()) writeBytes(path_, encodePly(points));
+  points.empty() ? removeFile(path_) : writeBytes(path_, encodePly(points));
 }
 
 std::unique_ptr<mapper::OutputPlugin> PointsOutputFactory::make(const base::ConfigSection& section,

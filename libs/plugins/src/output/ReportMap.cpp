@@ -7,6 +7,7 @@
 #include "Html.h"
 #include "MapPicture.h"
 #include "Numbers.h"
+#include "ScaleBar.h"
 
 namespace omnimapper::plugins {
 
@@ -46,10 +47,7 @@ std::string dot(const char* kind, PixelPoint at, double radius) {
 
 /// A bar of a round length, about a sixth of the picture, in its lower left corner.
 std::string scaleBar(const GridPicture& grid) {
-  const double width = grid.image.width * grid.metres_per_pixel,
-               power = std::pow(10, std::floor(std::log10(width / 6)));
-  const double mantissa = width / 6 / power;
-  const double length = power * (mantissa < 2 ? 1 : mantissa < 5 ? 2 : 5);
+  const double length = scaleBarLength(grid.image.width * grid.metres_per_pixel);
   const double size = std::max(grid.image.width, grid.image.height) / 50.0;
   const double x = size, y = grid.image.height - size, end = x + length / grid.metres_per_pixel;
   return "<path class=\"scale\" d=\"M" + fixed(x, 1) + " " + fixed(y - 0.4 * size, 1) + "V" + fixed(y, 1) + "H" +

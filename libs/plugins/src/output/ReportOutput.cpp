@@ -37,9 +37,8 @@ void ReportOutput::finish(const mapper::View& view) {
   for (const auto& pose : trajectory) places.push_back(pose.map_from_base.translation());
   const auto picture = grid ? std::optional(drawGridToSize(focused(*grid, places), options_.picture_side))
                             : emptyPicture(trajectory, 1.0, options_.picture_side);
-  if (picture) {
-    writeBytes(outputPath(context_, "map.png"), encodePng(drawMap(*picture, trajectory, closures)));
-  }
+  const std::string map_file = outputPath(context_, "map.png");
+  picture ? writeBytes(map_file, encodePng(drawMap(*picture, trajectory, closures))) : removeFile(map_file);
   writeBytes(outputPath(context_, "report.html"), drawReport({view, context_, picture ? &*picture : nullptr, trajectory,
                                                               closures, static_cast<std::size_t>(options_.max_rows)}));
 }

@@ -17,7 +17,8 @@ struct GridOptions {
 };
 
 /// Writes the occupancy grid of the 2D scans: grid.pgm and grid.yaml as ROS map_server reads them, and grid.png to look
-/// at. A map without scans gives no grid and no file.
+/// at. A map without scans gives no grid and no file, and those of an
+/// older run are removed.
 class GridOutput : public mapper::OutputPlugin {
  public:
   GridOutput(const GridOptions& options, const mapper::PluginContext& context);
