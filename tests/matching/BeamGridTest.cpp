@@ -23,7 +23,7 @@ TEST(BeamGrid, ABeamThatEndsOnAWallIsCertain) {
 }
 
 TEST(BeamGrid, ABeamThatEndsInFreeSpaceIsClutter) {
-  EXPECT_NEAR(oneBeam().logLikelihood({{{1.5F, 0}}, {}}, {0.05, 0.05, 0}), std::log(0.05), 1e-9);
+  EXPECT_NEAR(oneBeam().logLikelihood({{{1.5F, 0}}, {}}, {0.05, 0.05, 0}), std::log(0.02), 1e-9);
 }
 
 TEST(BeamGrid, ABeamThatEndsWhereNothingIsKnownSaysLittle) {
@@ -38,7 +38,7 @@ TEST(BeamGrid, ABeamThroughAWallIsUnlikely) {
 }
 
 TEST(BeamGrid, TheMeanIsOverAllBeams) {
-  EXPECT_NEAR(oneBeam().logLikelihood({{{3.07F, 0}, {1.5F, 0}}, {{2, 0}}}, {0.05, 0.05, 0}), std::log(0.05) / 3, 1e-9);
+  EXPECT_NEAR(oneBeam().logLikelihood({{{3.07F, 0}, {1.5F, 0}}, {{2, 0}}}, {0.05, 0.05, 0}), std::log(0.02) / 3, 1e-9);
   EXPECT_EQ(oneBeam().logLikelihood({}, {0, 0, 0}), 0);
 }
 

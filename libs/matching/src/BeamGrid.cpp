@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace omnimapper::matching {
@@ -78,10 +79,10 @@ BeamGrid::BeamGrid(const std::vector<Placed>& scans, const BeamModel& model) : m
   cells_.resize(static_cast<std::size_t>(width_) * height_);
   for (const Placed& placed : scans) add(placed);
   LikelihoodOptions wall;
-  wall.cell = 0.5 * model.cell;
+  wall.cell = model.cell;
   wall.sigma = model.near_wall;
   wall.levels = 1;
-  wall.max_cells = 4 * model.max_cells;
+  wall.max_cells = model.max_cells;
   walls_ = std::make_unique<const LikelihoodPyramid>(hits, wall);
 }
 
@@ -130,17 +131,23 @@ double BeamGrid::beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bo
   return std::max(model_.anything, open * end);
 }
 
-double BeamGrid::logLikelihood(const BeamScan& scan, const TPose2D& map_from_sensor) const {
+std::vector<double> BeamGrid::logLikelihoods(const BeamScan& scan, const TPose2D& map_from_sensor) const {
   const Mover mover(map_from_sensor);
   const auto inCells = [&](const Eigen::Vector2f& point) -> Eigen::Vector2d {
     return (mover(point) - origin_) / model_.cell;
   };
   const Eigen::Vector2d from = inCells({0, 0});
-  double sum = 0;
-  for (const auto& point : scan.hits) sum += std::log(beam(from, inCells(point), true));
-  for (const auto& point : scan.misses) sum += std::log(beam(from, inCells(point), false));
-  const std::size_t count = scan.hits.size() + scan.misses.size();
-  return count == 0 ? 0 : sum / static_cast<double>(count);
+  std::vector<double> logarithms;
+  logarithms.reserve(scan.hits.size() + scan.misses.size());
+  for (const auto& point : scan.hits) logarithms.push_back(std::log(beam(from, inCells(point), true)));
+  for (const auto& point : scan.misses) logarithms.push_back(std::log(beam(from, inCells(point), false)));
+  return logarithms;
+}
+
+double BeamGrid::logLikelihood(const BeamScan& scan, const TPose2D& map_from_sensor) const {
+  const auto logarithms = logLikelihoods(scan, map_from_sensor);
+  const double sum = std::accumulate(logarithms.begin(), logarithms.end(), 0.0);
+  return logarithms.empty() ? 0 : sum / static_cast<double>(logarithms.size());
 }
 
 }  // namespace omnimapper::matching

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kMetresPerRadian = 2;  // how far away a scan of the map counts that looks another way
+constexpr std::size_t kSectors = 30;
 constexpr double kSpread = 0.05;  // of mean logarithms of likelihoods over a cell of the grid that they are read from
 
 double turn(const TPose2D& a, const TPose2D& b) {
@@ -18,6 +19,29 @@ double turn(const TPose2D& a, const TPose2D& b) {
 }
 double distance(const TPose2D& a, const TPose2D& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+bool isNear(const LocationCandidate& a, const LocationCandidate& b, double most_distance, double most_turn) {
+  return distance(a.map_from_sensor, b.map_from_sensor) <= most_distance &&
+         turn(a.map_from_sensor, b.map_from_sensor) <= most_turn;
+}
+
+// By how much `best` is better than `other`, in the mean, less `doubt` standard errors of that mean. Beams beside each
+// other see the same things, so the error is that of the means of kSectors sectors.
+double leadOf(const std::vector<double>& best, const std::vector<double>& other, double doubt) {
+  const std::size_t size = (best.size() + kSectors - 1) / kSectors;
+  double sum = 0, squares = 0;
+  std::vector<double> sectors;
+  for (std::size_t begin = 0; begin < best.size(); begin += size) {
+    const std::size_t end = std::min(begin + size, best.size());
+    double part = 0;
+    for (std::size_t i = begin; i < end; ++i) part += best[i] - other[i];
+    sum += part;
+    sectors.push_back(part / static_cast<double>(end - begin));
+  }
+  const double mean = sum / static_cast<double>(best.size()), count = static_cast<double>(sectors.size());
+  for (const double sector : sectors) squares += (sector - mean) * (sector - mean);
+  return mean - doubt * std::sqrt(squares / std::max(1.0, count * (count - 1)));
 }
 
 }  // namespace
@@ -43,75 +67,93 @@ Relocaliser::Relocaliser(std::vector<MapScan> map, std::shared_ptr<const ScanMat
 
 Location Relocaliser::locate(const BeamScan& all_beams, const std::optional<SearchWindow>& window) const {
   const BeamScan scan = finitePart(all_beams);
-  SearchOptions search_options;
-  search_options.min_score = options_.min_score;
-  search_options.min_share_of_best = options_.min_share_of_best;
-  search_options.max_results = options_.max_candidates;
-  const PlanarScan lines = fitLines(scan.hits);
-  const auto places = search(*pyramid_, thinned(lines.points, options_.spacing),
-                             window ? *window : SearchWindow::everywhere(*pyramid_, 0), search_options);
-  Location location;
-  for (const SearchResult& place : places) {
-    LocationCandidate candidate;
-    candidate.map_from_sensor = place.map_from_scan;
-    candidate.score = place.score;
-    refine(lines, scan, candidate);
-    location.candidates.push_back(candidate);
+  const SearchWindow searched = window ? *window : SearchWindow::everywhere(*pyramid_, 0);
+  auto found = candidates(scan, searched, options_.min_share_of_best, options_.max_candidates);
+  const bool explained = std::any_of(found.begin(), found.end(),
+                                     [&](const LocationCandidate& one) { return one.log_likelihood >= options_.poor; });
+  if (!found.empty() && !explained) {
+    found = candidates(scan, searched, options_.min_share_if_poor, 2 * options_.max_candidates);
   }
-  weigh(scan, location);
-  return location;
+  return judged(std::move(found), scan);
 }
 
-// Against the scans of the map that were taken nearest to it. Where the beams speak against the result, the candidate
-// stays where it is.
-void Relocaliser::refine(const PlanarScan& lines, const BeamScan& scan, LocationCandidate& candidate) const {
-  const TPose2D& pose = candidate.map_from_sensor;
+std::vector<LocationCandidate> Relocaliser::candidates(const BeamScan& scan, const SearchWindow& window,
+                                                       double min_share, int most) const {
+  SearchOptions search_options;
+  search_options.min_score = options_.min_score;
+  search_options.min_share_of_best = min_share;
+  search_options.max_results = most;
+  const PlanarScan lines = fitLines(scan.hits);
+  std::vector<LocationCandidate> result;
+  for (const auto& place : search(*pyramid_, thinned(lines.points, options_.spacing), window, search_options)) {
+    result.push_back(refined(place, lines, scan));
+  }
+  return result;
+}
+
+// What the map's scans nearest to a pose saw.
+PlanarScan Relocaliser::around(const TPose2D& pose) const {
   std::vector<std::pair<double, std::size_t>> nearest;
   for (std::size_t i = 0; i < map_.size(); ++i) {
     const TPose2D& other = map_[i].map_from_sensor;
     nearest.emplace_back(distance(pose, other) + kMetresPerRadian * turn(pose, other), i);
   }
   const auto count = std::min<std::size_t>(nearest.size(), options_.reference_scans);
-  std::partial_sort(nearest.begin(), nearest.begin() + count, nearest.end());
-  PlanarScan around;
+  std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count), nearest.end());
+  PlanarScan result;
   for (std::size_t k = 0; k < count; ++k) {
     const Placed& near = map_[nearest[k].second];
-    append(near.lines, near.map_from_sensor, around);
+    append(near.lines, near.map_from_sensor, result);
   }
-  candidate.log_likelihood = beams_->logLikelihood(scan, pose);
-  candidate.match = matcher_->match(*matcher_->prepare(std::move(around)), lines, {pose});
-  const double refined = beams_->logLikelihood(scan, candidate.match.reference_from_scan);
-  if (refined < candidate.log_likelihood - kSpread) return;
-  candidate.log_likelihood = refined;
-  candidate.map_from_sensor = candidate.match.reference_from_scan;
+  return result;
 }
 
-void Relocaliser::weigh(const BeamScan& scan, Location& location) const {
-  auto& candidates = location.candidates;
-  if (candidates.empty()) return;
+// Where the beams speak against what the matcher finds, the candidate stays where it is.
+LocationCandidate Relocaliser::refined(const SearchResult& place, const PlanarScan& lines, const BeamScan& scan) const {
+  const TPose2D& pose = place.map_from_scan;
+  LocationCandidate candidate;
+  candidate.score = place.score;
+  candidate.match = matcher_->match(*matcher_->prepare(around(pose)), lines, {pose});
+  candidate.map_from_sensor = candidate.match.reference_from_scan;
+  candidate.log_likelihood = beams_->logLikelihood(scan, candidate.map_from_sensor);
+  const double unmoved = beams_->logLikelihood(scan, pose);
+  if (candidate.log_likelihood < unmoved - kSpread) {
+    candidate.map_from_sensor = pose;
+    candidate.log_likelihood = unmoved;
+  }
+  return candidate;
+}
+
+Location Relocaliser::judged(std::vector<LocationCandidate> candidates, const BeamScan& scan) const {
+  Location location;
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.log_likelihood > b.log_likelihood; });
-  std::vector<LocationCandidate> distinct;
   for (const auto& candidate : candidates) {
-    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const LocationCandidate& other) {
-      return distance(candidate.map_from_sensor, other.map_from_sensor) <= options_.same_distance &&
-             turn(candidate.map_from_sensor, other.map_from_sensor) <= options_.same_angle;
-    });
-    if (!known) distinct.push_back(candidate);
+    const auto isSame = [&](const LocationCandidate& other) {
+      return isNear(candidate, other, options_.same_distance, options_.same_angle);
+    };
+    if (std::none_of(location.candidates.begin(), location.candidates.end(), isSame)) {
+      location.candidates.push_back(candidate);
+    }
   }
-  candidates = std::move(distinct);
-  const double beams = options_.independent_beams * static_cast<double>(scan.hits.size() + scan.misses.size());
-  const double highest = std::max(candidates.front().log_likelihood, options_.nowhere);
-  const double elsewhere = std::exp(beams * (options_.nowhere - highest));
-  double sum = elsewhere;
-  for (auto& candidate : candidates)
-    sum += candidate.probability = std::exp(beams * (candidate.log_likelihood - highest));
-  for (auto& candidate : candidates) candidate.probability /= sum;
-  if (candidates.front().probability >= options_.min_confidence) {
+  if (location.candidates.empty()) return location;
+  const auto& first = location.candidates.front();
+  const auto best = beams_->logLikelihoods(scan, first.map_from_sensor);
+  const double beams = std::min(options_.most_beams, static_cast<int>(best.size()));
+  const double nowhere = std::exp(std::min(50.0, beams * (options_.nowhere - first.log_likelihood)));
+  double sum = nowhere, here = 0;
+  for (auto& candidate : location.candidates) {
+    const double lead = leadOf(best, beams_->logLikelihoods(scan, candidate.map_from_sensor), options_.doubt);
+    sum += candidate.probability = std::exp(-beams * std::max(0.0, lead));
+    if (isNear(candidate, first, options_.place_distance, options_.place_angle)) here += candidate.probability;
+  }
+  for (auto& candidate : location.candidates) candidate.probability /= sum;
+  if (here / sum >= options_.min_confidence) {
     location.answer = Location::Answer::found;
-  } else if (elsewhere / sum < 0.5) {
+  } else if (nowhere / sum < 0.5) {
     location.answer = Location::Answer::ambiguous;
   }
+  return location;
 }
 
 }  // namespace omnimapper::matching

@@ -12,12 +12,12 @@
 namespace omnimapper::matching {
 
 struct BeamModel {
-  double cell = 0.1;                 ///< [m]
+  double cell = 0.05;                ///< [m]
   double tolerance = 0.3;            ///< [m] before a beam's end where the map's walls do not count as crossed
   double near_wall = 0.1;            ///< [m] standard deviation of a beam's end from its wall
-  double clutter = 0.05;             ///< probability that a beam ends where the map says that nothing is
+  double clutter = 0.02;             ///< probability that a beam ends where the map says that nothing is
   double unknown = 0.3;              ///< likelihood of an end where the map knows nothing
-  double anything = 0.02;            ///< least likelihood of a beam
+  double anything = 0.01;            ///< least likelihood of a beam
   std::size_t max_cells = 64000000;  ///< a larger map is refused; 5 bytes each
 };
 
@@ -33,8 +33,10 @@ class BeamGrid {
   /// Points must be finite. Throws Error(out_of_range) for scans spread over more than max_cells.
   BeamGrid(const std::vector<Placed>& scans, const BeamModel& model = {});
 
-  /// Mean logarithm of the beams' likelihoods, each in [anything, 1]: of a beam that ends, that no wall stood in its
-  /// way and one at its end; of one that does not, the first alone. 0 without beams.
+  /// Logarithm of each beam's likelihood, in [anything, 1]: of a beam that ends, that no wall stood in its way and one
+  /// at its end; of one that does not, the first alone. First the hits, then the misses.
+  std::vector<double> logLikelihoods(const BeamScan& scan, const mrpt::math::TPose2D& map_from_sensor) const;
+  /// Their mean; 0 without beams.
   double logLikelihood(const BeamScan& scan, const mrpt::math::TPose2D& map_from_sensor) const;
 
  private:

@@ -18,13 +18,20 @@ struct RelocaliserOptions {
   double min_score = 0.4;           ///< of a candidate: mean likelihood of its points
   double min_share_of_best = 0.85;  ///< of a candidate's score
   int max_candidates = 16;
-  int reference_scans = 8;      ///< of the map, nearest to a candidate, that it is refined against
+  /// Mean logarithm of the beams' likelihoods below which the best candidate explains the scan poorly: something
+  /// stands in the way. The search then goes on down to the second share, for twice as many.
+  double poor = -0.4;
+  double min_share_if_poor = 0.65;
+  int reference_scans = 16;     ///< of the map, nearest to a candidate, that it is refined against
   double same_distance = 0.25;  ///< [m] and
   double same_angle = 0.1;      ///< [rad] within which two refined candidates are one
+  double place_distance = 0.5;  ///< [m] and
+  double place_angle = 0.2;     ///< [rad] within which candidates do not speak against each other
   BeamModel beams;
-  double independent_beams = 0.4;  ///< share of the beams that count as independent of each other
-  double nowhere = -1.2;           ///< mean logarithm of the beams' likelihoods of a place that is not in the map
-  double min_confidence = 0.95;    ///< of an answer
+  int most_beams = 180;          ///< that count as independent of each other
+  double doubt = 0.5;            ///< standard errors by which a lead over another candidate counts less
+  double nowhere = -0.9;         ///< mean logarithm of the beams' likelihoods of a place that is not in the map
+  double min_confidence = 0.95;  ///< of an answer
 };
 
 /// A scan of the map, where its sensor stood.
@@ -37,7 +44,7 @@ struct LocationCandidate {
   mrpt::math::TPose2D map_from_sensor;
   double score = 0;           ///< of the search: mean likelihood of the points, [0, 1]
   double log_likelihood = 0;  ///< of all beams, free space included: BeamGrid::logLikelihood
-  double probability = 0;     ///< among the candidates and "somewhere else"
+  double probability = 0;     ///< among the candidates and "nowhere in the map"
   ScanMatch match;            ///< with the map around it; its reference is the map
 };
 
@@ -53,8 +60,8 @@ struct Location {
 
 /// Finds where in a whole map a single scan was taken: a correlative search for the places that its points fit,
 /// refined by the fine matcher, and judged by what each beam says of free space and walls (BeamGrid). Probabilities are
-/// those of Bayes, all candidates and "not in the map" being equally likely before. Never changes, so threads may share
-/// it.
+/// those of Bayes, all candidates and "nowhere in the map" being equally likely before; but a lead that some beams
+/// give and others take away counts for less than its mean. Never changes, so threads may share it.
 class Relocaliser {
  public:
   /// Throws Error(out_of_range) for a map too large for the grids (BeamModel::max_cells).
@@ -65,8 +72,11 @@ class Relocaliser {
   Location locate(const BeamScan& scan, const std::optional<SearchWindow>& window = std::nullopt) const;
 
  private:
-  void refine(const PlanarScan& lines, const BeamScan& scan, LocationCandidate& candidate) const;
-  void weigh(const BeamScan& scan, Location& location) const;
+  std::vector<LocationCandidate> candidates(const BeamScan& scan, const SearchWindow& window, double min_share,
+                                            int most) const;
+  LocationCandidate refined(const SearchResult& place, const PlanarScan& lines, const BeamScan& scan) const;
+  PlanarScan around(const mrpt::math::TPose2D& pose) const;
+  Location judged(std::vector<LocationCandidate> candidates, const BeamScan& scan) const;
 
   struct Placed {
     mrpt::math::TPose2D map_from_sensor;
