@@ -62,6 +62,9 @@ TEST(OdometryPlugin, MotionIsTheDifferenceOfCumulativePosesInTheEarlierBase) {
   EXPECT_NEAR(motion->begin_from_end.y(), 1, 1e-12);
   EXPECT_NEAR(motion->begin_from_end.yaw(), kPi / 2, 1e-12);
   EXPECT_FALSE(plugin.isFallback());
+  OdometryOptions fallback;
+  fallback.fallback = true;
+  EXPECT_TRUE(OdometryPlugin(fallback).isFallback()) << "where the INI says so";
 }
 
 TEST(OdometryPlugin, VarianceGrowsWithWayTurnAndTimeAsWorkedByHand) {

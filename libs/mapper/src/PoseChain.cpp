@@ -218,6 +218,7 @@ PoseChain::Told PoseChain::motionBetween(base::Stamp begin, base::Stamp end, boo
     told.by_fallback = fallback;
     for (const auto& [section, plugin] : sources_) {
       if (plugin->isFallback() != fallback) continue;
+      if (fallback && !told.motions.empty()) break;  // the first that can
       if (const auto motion = plugin->between(begin, end)) told.motions.emplace_back(section, *motion);
     }
   }

@@ -1,4 +1,5 @@
-// Whole logs of bad data, each mapped with ini/laser2d.ini as it is: on the truth all the same, or with the reason.
+// Whole logs of bad data, each mapped with ini/laser2d.ini and laser odometry: on the truth all the same, or with the
+// reason.
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
@@ -21,6 +22,11 @@ using omnimapper::testing::SimulatedLogOptions;
 using rawlogs::Observations;
 
 constexpr double kPi = 3.14159265358979323846;
+
+/// Laser odometry tells the motion, and wheels where it does not.
+const Words kLaserOdometry{"--set", "mapper.pose_plugins=scan_odometry, odometry, no_motion",
+                           "--set", "scan_odometry.class=ScanOdometryPlugin",
+                           "--set", "odometry.fallback=true"};
 
 /// Two laps of the ring of rooms.
 class BadData : public ::testing::Test {
@@ -52,7 +58,9 @@ class BadData : public ::testing::Test {
   }
   Ended mapThem(const Words& more = {}) {
     writeFile(scratch_ / "bad.rawlog", rawlogs::bytesOf(observations_).text);
-    return map({scratch_ / "bad.rawlog"}, folder_, more);
+    Words words = kLaserOdometry;
+    words.insert(words.end(), more.begin(), more.end());
+    return map({scratch_ / "bad.rawlog"}, folder_, words);
   }
   /// Maps the observations, which ends well and on the truth.
   void expectMap(const Words& words = {}, double largest_error = 0.15) {
@@ -145,6 +153,38 @@ TEST_F(BadData, OdometryThatIsAbsentIsMadeUpForByTheScans) {
   observations_.erase(std::remove_if(observations_.begin(), observations_.end(),
                                      [](const auto& o) { return o->sensorLabel == "odometry"; }),
                       observations_.end());
+  expectMap();
+}
+
+TEST_F(BadData, OdometryThatIsFrozenIsMadeUpForByTheScans) {
+  each<CObservationOdometry>([](auto& odometry) { odometry.odometry = CPose2D(); });
+  expectMap();
+}
+
+TEST_F(BadData, OdometryThatFreezesForAWhileIsMadeUpForByTheScans) {
+  CPose2D held;
+  each<CObservationOdometry>(0, 30, [&](auto& odometry) { held = odometry.odometry; });
+  each<CObservationOdometry>(30, 38, [&](auto& odometry) { odometry.odometry = held; });
+  expectMap();
+}
+
+TEST_F(BadData, OdometryThatRunsBackwardsIsMadeUpForByTheScans) {
+  // What encoders with swapped signs sum up.
+  each<CObservationOdometry>([](auto& odometry) {
+    const auto& p = odometry.odometry;
+    odometry.odometry = CPose2D(-p.x(), p.y(), -p.phi());
+  });
+  expectMap();
+}
+
+TEST_F(BadData, OdometryThatJumpsIsMadeUpForByTheScans) {
+  each<CObservationOdometry>(33, 1e9, [](auto& odometry) { odometry.odometry = CPose2D(3, 4, 0) + odometry.odometry; });
+  expectMap();
+}
+
+TEST_F(BadData, OdometryThatJumpsOnTheSpotIsMadeUpForByTheScans) {
+  // As after a kick: the odometry goes on from another heading too.
+  each<CObservationOdometry>(50, 1e9, [](auto& odometry) { odometry.odometry = CPose2D(5, 0, 1) + odometry.odometry; });
   expectMap();
 }
 

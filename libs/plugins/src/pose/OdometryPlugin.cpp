@@ -23,7 +23,10 @@ const base::OptionTable<OdometryOptions>& OdometryOptions::table() {
           .number("yaw_noise_per_root_s_deg", &Options::yaw_noise_per_root_s, zero_or_more,
                   "Standard deviation of the heading after 1 s; grows with its root.")
           .flag("use_reported_covariance", &Options::use_reported_covariance,
-                "Trust the covariance that MRPT's actions carry instead of the noise above.");
+                "Trust the covariance that MRPT's actions carry instead of the noise above.")
+          .flag("fallback", &Options::fallback,
+                "Tell the motion only where no other source does: beside laser odometry, whose guess it is already, "
+                "wheels that slip, freeze or jump then bend nothing.");
   return table;
 }
 

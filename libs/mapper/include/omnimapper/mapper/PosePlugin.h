@@ -34,7 +34,8 @@ class PosePlugin {
   virtual std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const = 0;
   /// Until when it can answer; none before it has data.
   virtual std::optional<base::Stamp> coveredUntil() const = 0;
-  /// A fallback is asked only for a span that no other source covers, and never holds up the queue.
+  /// A fallback is asked only for a span that no other source covers, and never holds up the queue. Of several
+  /// the first in the order of the INI that covers it answers alone.
   virtual bool isFallback() const { return false; }
   /// Spans before `stamp` will not be asked for any more.
   virtual void forgetBefore(base::Stamp /*stamp*/) {}

@@ -20,6 +20,7 @@ struct OdometryOptions {
   double position_noise_per_root_s = 0.002;                                  ///< [m / sqrt(s)]
   double yaw_noise_per_root_s = 0.1 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(s)]
   bool use_reported_covariance = false;
+  bool fallback = false;  ///< only where no other source tells the motion
 
   static const base::OptionTable<OdometryOptions>& table();
 };
@@ -34,6 +35,7 @@ class OdometryPlugin : public mapper::PosePlugin {
   std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override;
   std::optional<base::Stamp> coveredUntil() const override { return timeline_.end(); }
   std::optional<Span> news() const override { return news_; }
+  bool isFallback() const override { return options_.fallback; }
   void forgetBefore(base::Stamp stamp) override;
 
  private:
