@@ -48,19 +48,19 @@ void waitUntil(const std::function<bool()>& holds) {
 }
 
 /// Number of pixels of the screen near a colour.
-int pixelsNear(const mrpt::img::CImage& screen, int red, int green, int blue) {
+int pixelsNear(const mrpt::img::CImage& screen, int red, int green, int blue, int tolerance = 40) {
   int count = 0;
   for (unsigned y = 0; y < screen.getHeight(); ++y) {
     for (unsigned x = 0; x < screen.getWidth(); ++x) {
-      count += std::abs(screen.at<std::uint8_t>(x, y, 2) - red) < 40 &&
-               std::abs(screen.at<std::uint8_t>(x, y, 1) - green) < 40 &&
-               std::abs(screen.at<std::uint8_t>(x, y, 0) - blue) < 40;
+      count += std::abs(screen.at<std::uint8_t>(x, y, 2) - red) < tolerance &&
+               std::abs(screen.at<std::uint8_t>(x, y, 1) - green) < tolerance &&
+               std::abs(screen.at<std::uint8_t>(x, y, 0) - blue) < tolerance;
     }
   }
   return count;
 }
 
-TEST(LiveWindow, showsPointsTrajectoryAndClosures) {
+TEST(LiveWindow, showsGridPointsTrajectoryAndClosures) {
   RUN_UNDER_XVFB();
   if (!succeeds("which import")) GTEST_SKIP() << "import is not on this machine (package imagemagick)";
   ScratchFolder folder;
@@ -77,6 +77,7 @@ TEST(LiveWindow, showsPointsTrajectoryAndClosures) {
   EXPECT_GT(pixelsNear(screen, 37, 99, 235), 50) << "trajectory";
   EXPECT_GT(pixelsNear(screen, 22, 163, 74), 30) << "accepted closure";
   EXPECT_GT(pixelsNear(screen, 24, 33, 47), 200) << "points";
+  EXPECT_GT(pixelsNear(screen, 255, 255, 255, 2), 50000) << "free floor";
 }
 
 TEST(LiveWindow, mayBeClosedAtAnyTimeAndTheRunGoesOn) {

@@ -7,10 +7,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <thread>
 #include <unordered_map>
 
+#include "GridFloor.h"
+#include "GridMapper.h"
 #include "SceneParts.h"
 
 IMPLEMENTS_MRPT_OBJECT(LiveWindowFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
@@ -25,6 +28,8 @@ const base::OptionTable<LiveWindowOptions>& LiveWindowOptions::table() {
           .integer("height_pixels", &Options::height, {200, 8000}, "Height of the window.")
           .integer("points_per_key_frame", &Options::points_per_key_frame, {1, 1000000}, "Points drawn of a key frame.")
           .number("max_range_m", &Options::max_range, {0.1, 1000}, "Points further from their sensor are not drawn.")
+          .flag("grid", &Options::grid, "Draw the occupancy grid of the 2D scans on the floor.")
+          .number("grid_resolution_m", &Options::grid_resolution, {0.005, 10}, "Side of its cells.")
           .flag("follow", &Options::follow, "Keep the whole map in view; false leaves the camera to the mouse.")
           .flag("keep_open", &Options::keep_open, "At the end wait until the window is closed.");
   return table;
@@ -35,6 +40,15 @@ namespace {
 bool isSet(const char* variable) {
   const char* value = std::getenv(variable);
   return value && *value;
+}
+
+/// What is nearer than this is not drawn, and this far apart things must be that are drawn over one another; both as
+/// parts of the camera's distance. Depths have 16 bits, which are spread from the nearest on.
+constexpr double kNearest = 1.0 / 30, kDepthStep = 4 / kNearest / (1 << 16);
+
+ScanGridOptions gridOptions(const LiveWindowOptions& options) {
+  constexpr double kMostCells = 4e6;  // what a window can show; a larger map gets coarser cells
+  return {options.grid_resolution, options.max_range, 0, kMostCells};
 }
 
 [[noreturn]] void failWithoutDisplay() {
@@ -60,11 +74,11 @@ std::unique_ptr<mrpt::gui::CDisplayWindow3D> openWindow(const std::string& title
 class LiveWindow::Scene {
  public:
   Scene(const LiveWindowOptions& options, const std::string& title)
-      : options_(options), window_(openWindow("OmniMapper: " + title, options)) {
+      : options_(options), grid_mapper_(gridOptions(options)), window_(openWindow("OmniMapper: " + title, options)) {
     mrpt::opengl::COpenGLScene::Ptr scene;
     mrpt::gui::CDisplayWindow3DLocker lock(*window_, scene);
     scene->getViewport()->setCustomBackgroundColor({0.96f, 0.97f, 0.98f});
-    for (const auto& object : {ground_, points_, trajectory_, refused_, accepted_, pose_}) scene->insert(object);
+    for (const auto& object : {grid_, ground_, points_, trajectory_, refused_, accepted_, pose_}) scene->insert(object);
     pose_->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 4.0f));
     window_->setCameraElevationDeg(70);
     window_->setCameraAzimuthDeg(-90);
@@ -74,11 +88,15 @@ class LiveWindow::Scene {
 
   void show(const mapper::View& view) {
     if (view.map.key_frames.empty()) return;
+    const Sight sight = sightOf(view.map);
     {
       mrpt::opengl::COpenGLScene::Ptr scene;
       mrpt::gui::CDisplayWindow3DLocker lock(*window_, scene);
       placePoints(view.map);
-      replace(*ground_, groundOf(view.map));
+      const auto ground = groundOf(view.map);
+      if (options_.grid) placeGrid(view.map, ground->getPlaneZcoord() - kDepthStep * sight.distance);
+      scene->getViewport()->setViewportClipDistances(static_cast<float>(kNearest * sight.distance), 10000);
+      replace(*ground_, ground);
       replace(*trajectory_, trajectoryLines(keyFramePoses(view.map)));
       const auto closures = closuresOf(view.map, view.decisions);
       replace(*accepted_, closureLines(closures, true));
@@ -93,7 +111,7 @@ class LiveWindow::Scene {
                                   " closures accepted, " + std::to_string(closures.size() - count) + " refused",
                               0, font);
     }
-    if (options_.follow) lookAtAll(view.map);
+    if (options_.follow) lookFrom(sight);
     window_->forceRepaint();
   }
 
@@ -123,6 +141,12 @@ class LiveWindow::Scene {
     }
   }
 
+  void placeGrid(const map::Map& map, double z) {
+    if (!grid_mapper_.update(map)) return;
+    grid_->clear();
+    if (const auto grid = grid_mapper_.scanGrid()) grid_->insert(gridFloor(*grid, z));
+  }
+
   mrpt::opengl::CPointCloud::Ptr cloudInBase(const map::KeyFrame& frame) const {
     const auto points = pointsInBase(frame, hasClouds(frame), options_.max_range);
     const std::size_t stride = 1 + points.size() / static_cast<std::size_t>(options_.points_per_key_frame);
@@ -133,22 +157,32 @@ class LiveWindow::Scene {
     return cloud;
   }
 
-  void lookAtAll(const map::Map& map) {
+  /// From where all key frames are seen.
+  struct Sight {
+    mrpt::math::TPoint3D target;
+    double distance;  // [m] of the camera from it
+  };
+  static Sight sightOf(const map::Map& map) {
     mrpt::math::TPoint3D low = map.key_frames.front().map_from_base.translation(), high = low;
     for (const map::KeyFrame& frame : map.key_frames) {
       const auto p = frame.map_from_base.translation();
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    const auto middle = 0.5 * (low + high);
-    window_->setCameraPointingToPoint(static_cast<float>(middle.x), static_cast<float>(middle.y),
-                                      static_cast<float>(middle.z));
-    window_->setCameraZoom(static_cast<float>(12 + 1.6 * (high - low).norm()));
+    return {0.5 * (low + high), 12 + 1.6 * (high - low).norm()};
+  }
+
+  void lookFrom(const Sight& sight) {
+    window_->setCameraPointingToPoint(static_cast<float>(sight.target.x), static_cast<float>(sight.target.y),
+                                      static_cast<float>(sight.target.z));
+    window_->setCameraZoom(static_cast<float>(sight.distance));
   }
 
   LiveWindowOptions options_;
-  Group::Ptr ground_ = Group::Create(), points_ = Group::Create(), trajectory_ = Group::Create(),
-             refused_ = Group::Create(), accepted_ = Group::Create(), pose_ = Group::Create();
+  GridMapper grid_mapper_;
+  Group::Ptr grid_ = Group::Create(), ground_ = Group::Create(), points_ = Group::Create(),
+             trajectory_ = Group::Create(), refused_ = Group::Create(), accepted_ = Group::Create(),
+             pose_ = Group::Create();
   std::unordered_map<base::KeyFrameId, mrpt::opengl::CPointCloud::Ptr> clouds_;
   std::unique_ptr<mrpt::gui::CDisplayWindow3D> window_;
 };

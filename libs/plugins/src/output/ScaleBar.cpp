@@ -44,6 +44,9 @@ void drawScaleBar(Image& image, const GridPicture& grid) {
   const double length = scaleBarLength(image.width * grid.metres_per_pixel);
   const double size = std::max(image.width, image.height) / 60.0, pen = std::max(1.5, size / 8);
   const double left = size, right = left + length / grid.metres_per_pixel, y = image.height - size;
+  // A light ground, so that it is read over walls too.
+  const double middle = y - 0.4 * size, end = right + 5.5 * size;
+  drawLine(image, {left, middle}, {end, middle}, {{255, 255, 255}, 2 * size, 0.85});
   drawPath(image, {{left, y - 0.5 * size}, {left, y}, {right, y}, {right, y - 0.5 * size}}, {kInk, pen});
   const double unit = size / 6;
   double x = right + size;

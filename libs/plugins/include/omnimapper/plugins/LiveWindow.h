@@ -11,14 +11,16 @@ struct LiveWindowOptions {
   int width = 1200, height = 900;  ///< [pixels]
   int points_per_key_frame = 400;
   double max_range = 30.0;  ///< [m]
+  bool grid = true;
+  double grid_resolution = 0.1;  ///< [m]
   bool follow = true;
   bool keep_open = false;
 
   static const base::OptionTable<LiveWindowOptions>& table();
 };
 
-/// A 3D window of MRPT that shows the map while it grows: points, trajectory, closures, the newest pose. Drawn anew
-/// after each solve. It may be closed at any time; the run goes on.
+/// A 3D window of MRPT that shows the map while it grows: occupancy grid, points, trajectory, closures, the newest
+/// pose. Drawn anew after each solve. It may be closed at any time; the run goes on.
 class LiveWindow : public mapper::OutputPlugin {
  public:
   /// Throws Error(command_line) if there is no display to open a window on.
