@@ -28,10 +28,11 @@ using matching::MapScan;
 using mrpt::math::TPose2D;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kLongest = 25;  // [m] of a beam: what lies further away is only known to be there
-constexpr double kNoEcho = 80;   // [m] from here on a SICK tells that it has no echo, near or far
-constexpr double kNear = 0.25;   // [m] of a right answer
-constexpr double kTurn = 3;      // [deg]
+constexpr double kLongest = 25;   // [m] of a beam: what lies further away is only known to be there
+constexpr double kNoEcho = 80;    // [m] from here on a SICK tells that it has no echo, near or far
+constexpr double kNear = 0.25;    // [m] of a right answer
+constexpr double kTurn = 3;       // [deg]
+constexpr double kElsewhere = 1;  // [m] of a mistake that is another place, not an error of the pose
 
 std::vector<MapScan> read(const std::string& log, const std::string& reference) {
   const auto truth = eval::readTum(reference);
@@ -112,7 +113,7 @@ double quantile(std::vector<double> values, double part) {
 }
 
 void printRow(const std::string& name, const std::vector<Outcome>& outcomes) {
-  int right = 0, wrong = 0, ambiguous = 0, none = 0, held = 0;
+  int right = 0, wrong = 0, elsewhere = 0, ambiguous = 0, none = 0, held = 0;
   std::vector<double> times, distances, turns;
   for (const Outcome& outcome : outcomes) {
     times.push_back(outcome.milliseconds);
@@ -125,11 +126,12 @@ void printRow(const std::string& name, const std::vector<Outcome>& outcomes) {
       turns.push_back(outcome.best_turn);
     } else {
       ++wrong;
+      if (outcome.best_distance > kElsewhere) ++elsewhere;
     }
   }
-  std::printf("| %s | %zu | %.1f %% | %d | %d + %d | %d | %.1f cm, %.2f deg | %.0f, %.0f |\n", name.c_str(),
-              outcomes.size(), 100.0 * right / static_cast<double>(outcomes.size()), wrong, ambiguous, none, held,
-              quantile(distances, 0.5), quantile(turns, 0.5), quantile(times, 0.5), quantile(times, 0.95));
+  std::printf("| %s | %zu | %.1f %% | %d (%d) | %d + %d | %d | %.1f cm, %.2f deg | %.0f, %.0f |\n", name.c_str(),
+              outcomes.size(), 100.0 * right / static_cast<double>(outcomes.size()), wrong, elsewhere, ambiguous, none,
+              held, quantile(distances, 0.5), quantile(turns, 0.5), quantile(times, 0.5), quantile(times, 0.95));
   std::fflush(stdout);
 }
 
@@ -212,7 +214,8 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(out);
   std::printf(
-      "| log | scans | answered and right | confident mistakes | not answered: ambiguous + nowhere | truth among their "
+      "| log | scans | answered and right | confident mistakes (at another place) | not answered: ambiguous + nowhere "
+      "| truth among their "
       "candidates | median error | ms per scan: median, 95 %% |\n|---|---|---|---|---|---|---|---|\n");
   for (const auto& name : names) {
     const auto scans = read(logs + "/" + name + ".clf.bz2", logs + "/" + name + ".reference.tum");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace omnimapper::matching {
 
@@ -10,7 +11,9 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kMetresPerRadian = 2;  // how far away a scan of the map counts that looks another way
+constexpr double kMetresPerRadian = 2;           // how far away a scan of the map counts that looks another way
+constexpr double kHand = 0.1, kHandTurn = 0.03;  // [m] [rad]
+constexpr double kHopeless = 0.3;                // mean logarithms of likelihoods by which a candidate is out
 constexpr std::size_t kSectors = 30;
 constexpr double kSpread = 0.05;  // of mean logarithms of likelihoods over a cell of the grid that they are read from
 
@@ -26,6 +29,11 @@ bool isNear(const LocationCandidate& a, const LocationCandidate& b, double most_
          turn(a.map_from_sensor, b.map_from_sensor) <= most_turn;
 }
 
+double mean(const std::vector<double>& values) {
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
 // By how much `best` is better than `other`, in the mean, less `doubt` standard errors of that mean. Beams beside each
 // other see the same things, so the error is that of the means of kSectors sectors.
 double leadOf(const std::vector<double>& best, const std::vector<double>& other, double doubt) {
@@ -39,9 +47,9 @@ double leadOf(const std::vector<double>& best, const std::vector<double>& other,
     sum += part;
     sectors.push_back(part / static_cast<double>(end - begin));
   }
-  const double mean = sum / static_cast<double>(best.size()), count = static_cast<double>(sectors.size());
-  for (const double sector : sectors) squares += (sector - mean) * (sector - mean);
-  return mean - doubt * std::sqrt(squares / std::max(1.0, count * (count - 1)));
+  const double lead = sum / static_cast<double>(best.size()), count = static_cast<double>(sectors.size());
+  for (const double sector : sectors) squares += (sector - lead) * (sector - lead);
+  return lead - doubt * std::sqrt(squares / std::max(1.0, count * (count - 1)));
 }
 
 }  // namespace
@@ -124,26 +132,66 @@ LocationCandidate Relocaliser::refined(const SearchResult& place, const PlanarSc
   return candidate;
 }
 
-Location Relocaliser::judged(std::vector<LocationCandidate> candidates, const BeamScan& scan) const {
-  Location location;
+// The beams' logarithms where they are best within kHand of a pose.
+std::vector<double> Relocaliser::evidence(const TPose2D& pose, const BeamScan& scan) const {
+  TPose2D best = pose;
+  auto logarithms = beams_->logLikelihoods(scan, pose);
+  double highest = mean(logarithms), step = 0.5 * kHand, turn_step = 0.01;
+  for (int halvings = 0; halvings < 3;) {
+    const double before = highest;
+    const TPose2D middle = best;
+    for (const TPose2D& offset : {TPose2D(step, 0, 0), TPose2D(-step, 0, 0), TPose2D(0, step, 0), TPose2D(0, -step, 0),
+                                  TPose2D(0, 0, turn_step), TPose2D(0, 0, -turn_step)}) {
+      const TPose2D tried(middle.x + offset.x, middle.y + offset.y, middle.phi + offset.phi);
+      if (distance(tried, pose) > kHand || turn(tried, pose) > kHandTurn) continue;
+      auto there = beams_->logLikelihoods(scan, tried);
+      if (mean(there) <= highest) continue;
+      highest = mean(there);
+      logarithms = std::move(there);
+      best = tried;
+    }
+    if (highest > before) continue;
+    ++halvings;
+    step /= 2;
+    turn_step /= 2;
+  }
+  return logarithms;
+}
+
+// Of candidates that are the same, the better one, best first.
+void Relocaliser::sortAndMerge(std::vector<LocationCandidate>& candidates) const {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.log_likelihood > b.log_likelihood; });
+  std::vector<LocationCandidate> distinct;
   for (const auto& candidate : candidates) {
     const auto isSame = [&](const LocationCandidate& other) {
       return isNear(candidate, other, options_.same_distance, options_.same_angle);
     };
-    if (std::none_of(location.candidates.begin(), location.candidates.end(), isSame)) {
-      location.candidates.push_back(candidate);
-    }
+    if (std::none_of(distinct.begin(), distinct.end(), isSame)) distinct.push_back(candidate);
   }
-  if (location.candidates.empty()) return location;
+  candidates = std::move(distinct);
+}
+
+Location Relocaliser::judged(std::vector<LocationCandidate> candidates, const BeamScan& scan) const {
+  Location location;
+  if (candidates.empty()) return location;
+  sortAndMerge(candidates);
+  const double hopeless = candidates.front().log_likelihood - kHopeless;
+  for (auto& candidate : candidates) {
+    if (candidate.log_likelihood < hopeless) break;
+    candidate.log_likelihood = mean(evidence(candidate.map_from_sensor, scan));
+  }
+  sortAndMerge(candidates);
+  location.candidates = std::move(candidates);
   const auto& first = location.candidates.front();
-  const auto best = beams_->logLikelihoods(scan, first.map_from_sensor);
+  const auto best = evidence(first.map_from_sensor, scan);
   const double beams = std::min(options_.most_beams, static_cast<int>(best.size()));
   const double nowhere = std::exp(std::min(50.0, beams * (options_.nowhere - first.log_likelihood)));
   double sum = nowhere, here = 0;
   for (auto& candidate : location.candidates) {
-    const double lead = leadOf(best, beams_->logLikelihoods(scan, candidate.map_from_sensor), options_.doubt);
+    const double lead = candidate.log_likelihood < hopeless
+                            ? first.log_likelihood - candidate.log_likelihood
+                            : leadOf(best, evidence(candidate.map_from_sensor, scan), options_.doubt);
     sum += candidate.probability = std::exp(-beams * std::max(0.0, lead));
     if (isNear(candidate, first, options_.place_distance, options_.place_angle)) here += candidate.probability;
   }

@@ -14,7 +14,7 @@ namespace omnimapper::matching {
 struct BeamModel {
   double cell = 0.05;                ///< [m]
   double tolerance = 0.3;            ///< [m] before a beam's end where the map's walls do not count as crossed
-  double near_wall = 0.1;            ///< [m] standard deviation of a beam's end from its wall
+  double near_wall = 0.06;           ///< [m] standard deviation of a beam's end from its wall
   double clutter = 0.02;             ///< probability that a beam ends where the map says that nothing is
   double unknown = 0.3;              ///< likelihood of an end where the map knows nothing
   double anything = 0.01;            ///< least likelihood of a beam

@@ -42,10 +42,12 @@ struct MapScan {
 
 struct LocationCandidate {
   mrpt::math::TPose2D map_from_sensor;
-  double score = 0;           ///< of the search: mean likelihood of the points, [0, 1]
-  double log_likelihood = 0;  ///< of all beams, free space included: BeamGrid::logLikelihood
-  double probability = 0;     ///< among the candidates and "nowhere in the map"
-  ScanMatch match;            ///< with the map around it; its reference is the map
+  double score = 0;  ///< of the search: mean likelihood of the points, [0, 1]
+  /// Mean of BeamGrid::logLikelihoods, free space included: the best within a hand's breadth of the pose, so that no
+  /// place is judged by the rounding of its pose.
+  double log_likelihood = 0;
+  double probability = 0;  ///< among the candidates and "nowhere in the map"
+  ScanMatch match;         ///< with the map around it; its reference is the map
 };
 
 struct Location {
@@ -76,6 +78,8 @@ class Relocaliser {
                                             int most) const;
   LocationCandidate refined(const SearchResult& place, const PlanarScan& lines, const BeamScan& scan) const;
   PlanarScan around(const mrpt::math::TPose2D& pose) const;
+  std::vector<double> evidence(const mrpt::math::TPose2D& pose, const BeamScan& scan) const;
+  void sortAndMerge(std::vector<LocationCandidate>& candidates) const;
   Location judged(std::vector<LocationCandidate> candidates, const BeamScan& scan) const;
 
   struct Placed {
