@@ -2,11 +2,8 @@
 // their reference poses. Prints a Markdown table, and writes a CSV of every scan and an SVG of where it failed.
 //
 // Example: bench-kidnapping --logs ../shared/data/laser2d -o out/kidnapping
-#include <mrpt/obs/CObservation2DRangeScan.h>
-#include <omnimapper/eval/TumFile.h>
 #include <omnimapper/matching/PointToLineMatcher.h>
 #include <omnimapper/matching/Relocaliser.h>
-#include <omnimapper/source/CarmenLog.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -20,6 +17,8 @@
 #include <thread>
 #include <vector>
 
+#include "ReferenceScans.h"
+
 namespace {
 
 using namespace omnimapper;
@@ -28,36 +27,9 @@ using matching::MapScan;
 using mrpt::math::TPose2D;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kLongest = 25;   // [m] of a beam: what lies further away is only known to be there
-constexpr double kNoEcho = 80;    // [m] from here on a SICK tells that it has no echo, near or far
 constexpr double kNear = 0.25;    // [m] of a right answer
 constexpr double kTurn = 3;       // [deg]
 constexpr double kElsewhere = 1;  // [m] of a mistake that is another place, not an error of the pose
-
-std::vector<MapScan> read(const std::string& log, const std::string& reference) {
-  const auto truth = eval::readTum(reference);
-  source::CarmenLog stream(log);
-  std::vector<MapScan> scans;
-  while (const auto observation = stream.next()) {
-    const auto* laser = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(observation.get());
-    if (!laser) continue;
-    const auto index = eval::nearestPose(truth, laser->timestamp, base::durationFromSeconds(2e-4));
-    if (!index) continue;
-    const auto& pose = truth[*index].world_from_body;
-    const Eigen::Matrix3d turned = pose.rotation.toRotationMatrix();
-    MapScan scan;
-    scan.map_from_sensor = {pose.translation.x(), pose.translation.y(), std::atan2(turned(1, 0), turned(0, 0))};
-    for (std::size_t i = 0; i < laser->getScanSize(); ++i) {
-      const double range = laser->getScanRange(i), length = std::min(range, kLongest);
-      const double angle = (static_cast<double>(i) / (laser->getScanSize() - 1) - 0.5) * laser->aperture;
-      if (!(range > 0.02) || range >= kNoEcho) continue;
-      auto& beams = range < kLongest && laser->getScanRangeValidity(i) ? scan.scan.hits : scan.scan.misses;
-      beams.emplace_back(length * std::cos(angle), length * std::sin(angle));
-    }
-    scans.push_back(std::move(scan));
-  }
-  return scans;
-}
 
 struct Outcome {
   Location location;
@@ -218,7 +190,7 @@ int main(int argc, char** argv) {
       "| truth among their "
       "candidates | median error | ms per scan: median, 95 %% |\n|---|---|---|---|---|---|---|---|\n");
   for (const auto& name : names) {
-    const auto scans = read(logs + "/" + name + ".clf.bz2", logs + "/" + name + ".reference.tum");
+    const auto scans = bench::referenceScans(logs, name);
     const auto outcomes = locateAll(scans, every, threads, options);
     printRow(name, outcomes);
     writeCsv(out + "/" + name + ".csv", outcomes, every);
