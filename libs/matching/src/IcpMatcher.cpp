@@ -37,7 +37,7 @@ ScanMatch IcpMatcher::match(const MatchReference& reference, const PlanarScan& s
   const auto& icp_reference = dynamic_cast<const IcpReference&>(reference);
   ScanMatch nothing;
   nothing.reference_from_scan = guess.reference_from_scan;
-  if (icp_reference.points().size() < 2 || scan.empty()) return nothing;
+  if (icp_reference.size() < 2 || scan.empty()) return nothing;
   mrpt::slam::CICP icp;
   auto& config = icp.options;
   config.ICP_algorithm =

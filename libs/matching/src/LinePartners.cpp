@@ -9,65 +9,123 @@
 
 namespace omnimapper::matching {
 
+using mrpt::math::TPose2D;
+
 namespace {
-// A reference point without a line holds a point of the scan from all sides, but by little: it is clutter, or an edge
+// A reference point without a line holds a point of the scan from all sides, but by less: it is clutter, or an edge
 // that the next beam passes.
-constexpr double kPointWeight = 0.1;
+constexpr float kPointWeight = 0.6F;
 // Normals are good to some 4 degrees: a direction that gets less than its square of all information gets noise.
 constexpr double kNoiseShare = 0.005;
+using Lane = Eigen::Array4f;
+constexpr std::size_t kLane = 4;
 }  // namespace
 
-double LinePartners::wallDistance() const {
+double LineEquations::wallDistance() const {
   return weight > 0 ? std::sqrt(squared_distance / weight) : 0;
 }
 
-LinePartners findPartners(const PointIndex& reference, const PlanarScan& scan, const mrpt::math::TPose2D& pose,
-                          double max_distance, double loss_scale) {
-  LinePartners partners;
-  const double c = std::cos(pose.phi), s = std::sin(pose.phi);
+LinePartners::LinePartners(const PointIndex& reference, const PlanarScan& scan)
+    : reference_(reference), scan_(scan), likely_(scan.size(), PointIndex::kNone) {
+  const std::size_t room = (scan.size() + kLane - 1) / kLane * kLane;
+  for (Values* values : {&px_, &py_, &qx_, &qy_, &nx_, &ny_, &on_line_, &alone_}) values->resize(room);
+}
+
+void LinePartners::find(const TPose2D& pose, double max_distance) {
+  const auto c = static_cast<float>(std::cos(pose.phi)), s = static_cast<float>(std::sin(pose.phi));
+  const auto tx = static_cast<float>(pose.x), ty = static_cast<float>(pose.y);
   const auto limit = static_cast<float>(max_distance);
-  const double scale = 1 / (loss_scale * loss_scale);
-  const auto add = [&](double distance, double weight, double nx, double ny, const Eigen::Vector2f& p) {
-    const Eigen::Vector3d row(c * nx + s * ny, -s * nx + c * ny,
-                              p.x() * (-s * nx + c * ny) - p.y() * (c * nx + s * ny));
-    partners.information += weight * row * row.transpose();
-    partners.gradient += weight * distance * row;
-    partners.squared_radius += weight * row.z() * row.z();
-  };
-  for (const auto& p : scan.points) {
-    const double x = pose.x + c * p.x() - s * p.y(), y = pose.y + s * p.x() + c * p.y();
-    const int nearest = reference.nearest(static_cast<float>(x), static_cast<float>(y), limit);
+  count_ = 0;
+  int before = PointIndex::kNone;
+  for (std::size_t i = 0; i < scan_.size(); ++i) {
+    const auto& p = scan_.points[i];
+    const int nearest = reference_.nearest(tx + c * p.x() - s * p.y(), ty + s * p.x() + c * p.y(), limit,
+                                           likely_[i] != PointIndex::kNone ? likely_[i] : before);
+    likely_[i] = before = nearest;
     if (nearest == PointIndex::kNone) continue;
-    ++partners.near;
-    const auto& q = reference.points()[nearest];
-    const auto& n = reference.normals()[nearest];
-    const double dx = x - q.x(), dy = y - q.y();
-    if (n.isZero()) {
-      const double weight = kPointWeight / (1 + (dx * dx + dy * dy) * scale);
-      add(dx, weight, 1, 0, p);
-      add(dy, weight, 0, 1, p);
-      continue;
-    }
-    const double across = n.x() * dx + n.y() * dy;
-    const double weight = 1 / (1 + across * across * scale);
-    add(across, weight, n.x(), n.y(), p);
-    partners.squared_distance += weight * across * across;
-    partners.weight += weight;
+    px_[count_] = p.x();
+    py_[count_] = p.y();
+    qx_[count_] = reference_.xs()[nearest];
+    qy_[count_] = reference_.ys()[nearest];
+    const float nx = nx_[count_] = reference_.normalXs()[nearest];
+    const float ny = ny_[count_] = reference_.normalYs()[nearest];
+    const bool has_line = nx != 0 || ny != 0;
+    on_line_[count_] = has_line ? 1 : 0;
+    alone_[count_] = has_line ? 0 : kPointWeight;
+    ++count_;
   }
-  return partners;
+  for (std::size_t i = count_; i % kLane != 0; ++i) {
+    for (Values* values : {&px_, &py_, &qx_, &qy_, &nx_, &ny_, &on_line_, &alone_}) (*values)[i] = 0;
+  }
+}
+
+double LinePartners::quantile(const TPose2D& pose, double share) const {
+  const auto c = static_cast<float>(std::cos(pose.phi)), s = static_cast<float>(std::sin(pose.phi));
+  const auto tx = static_cast<float>(pose.x), ty = static_cast<float>(pose.y);
+  scratch_.clear();
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (on_line_[i] == 0) continue;
+    const float dx = tx + c * px_[i] - s * py_[i] - qx_[i], dy = ty + s * px_[i] + c * py_[i] - qy_[i];
+    scratch_.push_back(std::abs(nx_[i] * dx + ny_[i] * dy));
+  }
+  if (scratch_.empty()) return 0;
+  const auto place = scratch_.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(scratch_.size() - 1));
+  std::nth_element(scratch_.begin(), place, scratch_.end());
+  return *place;
+}
+
+// Sums in the reference's frame about the scan's origin, then turned into the scan's.
+LineEquations LinePartners::equations(const TPose2D& pose, double loss_scale, double pull) const {
+  const double c = std::cos(pose.phi), s = std::sin(pose.phi);
+  const auto cf = static_cast<float>(c), sf = static_cast<float>(s);
+  const auto tx = static_cast<float>(pose.x), ty = static_cast<float>(pose.y);
+  const auto scale = static_cast<float>(1 / (loss_scale * loss_scale)), pulled = static_cast<float>(pull);
+  Lane xx = Lane::Zero(), xy = xx, yy = xx, xt = xx, yt = xx, tt = xx, gx = xx, gy = xx, gt = xx, squares = xx,
+       weights = xx;
+  for (std::size_t i = 0; i < count_; i += kLane) {
+    const auto load = [i](const Values& values) { return Eigen::Map<const Lane>(values.data() + i); };
+    const Lane x = cf * load(px_) - sf * load(py_), y = sf * load(px_) + cf * load(py_);
+    const Lane dx = x + tx - load(qx_), dy = y + ty - load(qy_), nx = load(nx_), ny = load(ny_);
+    const Lane across = nx * dx + ny * dy, lever = x * ny - y * nx;
+    const Lane distance = dx * dx + dy * dy, square = across * across;
+    const Lane weight = load(on_line_) / (1 + square * scale);
+    const Lane point = load(alone_) / (1 + distance * scale) + pulled * load(on_line_) / (1 + distance * scale);
+    const Lane wx = weight * nx, wy = weight * ny, wt = weight * lever, wa = weight * across;
+    xx += wx * nx + point;
+    xy += wx * ny;
+    yy += wy * ny + point;
+    xt += wx * lever - point * y;
+    yt += wy * lever + point * x;
+    tt += wt * lever + point * (x * x + y * y);
+    gx += wa * nx + point * dx;
+    gy += wa * ny + point * dy;
+    gt += wa * lever + point * (x * dy - y * dx);
+    squares += weight * square;
+    weights += weight;
+  }
+  LineEquations sums;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << c, -s, s, c;
+  Eigen::Matrix3d information;
+  information << xx.sum(), xy.sum(), xt.sum(), xy.sum(), yy.sum(), yt.sum(), xt.sum(), yt.sum(), tt.sum();
+  sums.information = turn.transpose() * information * turn;
+  sums.gradient = turn.transpose() * Eigen::Vector3d(gx.sum(), gy.sum(), gt.sum());
+  sums.squared_distance = squares.sum();
+  sums.weight = weights.sum();
+  return sums;
 }
 
 // Yaw counts by the lever it moves the points with, so that all three are metres.
-FixedDirections::FixedDirections(const LinePartners& partners) {
-  const double total = partners.information.topLeftCorner<2, 2>().trace();
+FixedDirections::FixedDirections(const LineEquations& equations) {
+  const double total = equations.information.topLeftCorner<2, 2>().trace();
   if (!(total > 0)) {
     basis_.setIdentity();
     fixed_.setZero();
     return;
   }
-  const double lever = std::max(0.5, std::sqrt(partners.squared_radius / total));
+  const double lever = std::max(0.5, std::sqrt(equations.information(2, 2) / total));
   const Eigen::Vector3d scale(1, 1, 1 / lever);
-  const Eigen::Matrix3d scaled = scale.asDiagonal() * partners.information * scale.asDiagonal();
+  const Eigen::Matrix3d scaled = scale.asDiagonal() * equations.information * scale.asDiagonal();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(scaled);
   basis_ = scale.asDiagonal() * eigen.eigenvectors();
@@ -79,16 +137,16 @@ FixedDirections::FixedDirections(const LinePartners& partners) {
   }
 }
 
-Eigen::Vector3d FixedDirections::step(const Eigen::Vector3d& gradient, const Eigen::Matrix3d& guess_information,
+Eigen::Vector3d FixedDirections::step(const LineEquations& equations, const Eigen::Matrix3d& guess_information,
                                       const Eigen::Vector3d& from_guess) const {
   constexpr double kNothing = 1e-9;
-  Eigen::Vector3d slope = basis_.transpose() * gradient;
-  for (int i = 0; i < 3; ++i) {
-    if (fixed_[i] == 0) slope[i] = 0;
-  }
-  slope += basis_.transpose() * (guess_information * from_guess);
-  Eigen::Matrix3d information = basis_.transpose() * guess_information * basis_;
-  information.diagonal() += fixed_ + Eigen::Vector3d::Constant(kNothing);
+  const Eigen::Array3d counts = (fixed_.array() > 0).cast<double>();
+  const Eigen::Matrix3d fixing = basis_ * counts.matrix().asDiagonal();
+  const Eigen::Vector3d slope =
+      fixing.transpose() * equations.gradient + basis_.transpose() * (guess_information * from_guess);
+  Eigen::Matrix3d information =
+      fixing.transpose() * equations.information * fixing + basis_.transpose() * guess_information * basis_;
+  information.diagonal().array() += kNothing;
   return -basis_ * information.ldlt().solve(slope);
 }
 

@@ -4,35 +4,57 @@
 #include <omnimapper/matching/PlanarScan.h>
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "PointIndex.h"
 
 namespace omnimapper::matching {
 
-/// Point-to-line normal equations of all points of a scan that have a partner in a reference, at one pose.
-struct LinePartners {
+/// Point-to-line normal equations of the points of a scan that have a partner in a reference, at one pose.
+struct LineEquations {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of x y yaw in the scan's frame, unit variance a point
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double squared_distance = 0, weight = 0;  ///< of the points on lines
-  double squared_radius = 0;                ///< [m2] of the points on lines from the scan's origin, weighted
-  std::size_t near = 0;                     ///< points with any partner
 
   /// [m] Root mean square across the lines.
   double wallDistance() const;
 };
 
-/// `max_distance` [m] of a partner; `loss_scale` [m] of the Cauchy weight.
-LinePartners findPartners(const PointIndex& reference, const PlanarScan& scan, const mrpt::math::TPose2D& pose,
-                          double max_distance, double loss_scale);
+/// The points of a scan, each with its nearest point of a reference.
+class LinePartners {
+ public:
+  /// Both must outlive it.
+  LinePartners(const PointIndex& reference, const PlanarScan& scan);
+
+  /// Finds the partners within `max_distance` [m] anew.
+  void find(const mrpt::math::TPose2D& reference_from_scan, double max_distance);
+  /// Points with a partner.
+  std::size_t count() const { return count_; }
+  /// [m] `share` of the distances across the lines are less than that.
+  double quantile(const mrpt::math::TPose2D& reference_from_scan, double share) const;
+  /// `loss_scale` [m] of the Cauchy weight; `pull`: how much of a distance along a line counts too, [0, 1].
+  LineEquations equations(const mrpt::math::TPose2D& reference_from_scan, double loss_scale, double pull) const;
+
+ private:
+  const PointIndex& reference_;
+  const PlanarScan& scan_;
+  std::vector<int> likely_;  // of each point, from the last search
+  using Values = std::vector<float>;
+  // Of each point with a partner, filled up to a whole number of lanes: the point in the scan, its partner, the
+  // partner's normal, the weight of the line and of the point itself.
+  Values px_, py_, qx_, qy_, nx_, ny_, on_line_, alone_;
+  mutable Values scratch_;
+  std::size_t count_ = 0;
+};
 
 /// Which directions the partners fix, as a change of basis in which x y yaw count alike.
 class FixedDirections {
  public:
-  explicit FixedDirections(const LinePartners& partners);
+  explicit FixedDirections(const LineEquations& equations);
   bool all() const { return count_ == 3; }
-  /// The Gauss-Newton step of the partners, and of a guess that knows so much and is that far away. Along directions
-  /// that the partners do not fix the guess alone counts; zero where it knows nothing either.
-  Eigen::Vector3d step(const Eigen::Vector3d& gradient, const Eigen::Matrix3d& guess_information,
+  /// The Gauss-Newton step of these equations, and of a guess that knows so much and is that far away. Along directions
+  /// that are not fixed the guess alone counts; zero where it knows nothing either.
+  Eigen::Vector3d step(const LineEquations& equations, const Eigen::Matrix3d& guess_information,
                        const Eigen::Vector3d& from_guess) const;
   /// Open directions have variance ScanMatch::kOpen.
   Eigen::Matrix3d covariance() const;

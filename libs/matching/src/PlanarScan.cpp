@@ -1,76 +1,141 @@
 #include <omnimapper/matching/PlanarScan.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace omnimapper::matching {
 
 namespace {
 
-constexpr float kLargestGap = 0.6F;    // [m] between neighbours on one wall
-constexpr float kLongestReach = 2.0F;  // [m] from a point to the end of its window
+// [m] between neighbours on one wall, and from a point to the end of its window; noise widens both.
+constexpr float kLargestGap = 0.6F, kLongestReach = 2.0F;
+constexpr float kGapOfNoise = 4.5F, kReachOfNoise = 10.0F;
+// Neighbours on each side.
+constexpr std::array<int, 6> kHalfWindows{2, 4, 8, 16, 32, 64};
+constexpr int kFewest = 4;
+// What a line must be: known to 8 degrees, both by how its points lie and by the noise of the sensor, without which
+// a few noisy points behind one another pass for a wall along the beam; and thinner than a corner.
+constexpr double kAngleVariance = 0.14 * 0.14;
+constexpr double kThinness = 0.15;  // squared width over squared length
 
-// Neighbours on each side, and how thin they have to lie for a line: squared width over squared length. The widest
-// window takes what a noisy sensor gives.
-struct WindowLimit {
-  int half;
-  float thinness;
-};
-constexpr WindowLimit kWindows[] = {{2, 0.01F}, {4, 0.01F}, {8, 0.02F}, {16, 0.04F}, {32, 0.15F}};
-
-// Mean and scatter of the neighbours of point `centre`, at most `half` on each side and none beyond a gap.
-struct Window {
-  Eigen::Vector2f mean = Eigen::Vector2f::Zero();
-  float xx = 0, xy = 0, yy = 0;
-  int count = 0;
-};
-
-Window gather(const std::vector<Eigen::Vector2f>& points, int centre, int half) {
-  int first = centre, last = centre;
-  const auto& middle = points[centre];
-  const auto joins = [&](int from, int to) {
-    return (points[to] - points[from]).norm() <= kLargestGap && (points[to] - middle).norm() <= kLongestReach;
-  };
-  while (first > 0 && centre - first < half && joins(first, first - 1)) --first;
-  while (last + 1 < static_cast<int>(points.size()) && last - centre < half && joins(last, last + 1)) ++last;
-  Window window;
-  window.count = last - first + 1;
-  for (int i = first; i <= last; ++i) window.mean += points[i];
-  window.mean /= static_cast<float>(window.count);
-  for (int i = first; i <= last; ++i) {
-    const Eigen::Vector2f d = points[i] - window.mean;
-    window.xx += d.x() * d.x();
-    window.xy += d.x() * d.y();
-    window.yy += d.y() * d.y();
+// Sums over the points before each one, so that those of a window are two differences.
+class Sums {
+ public:
+  explicit Sums(const std::vector<Eigen::Vector2f>& points) : sums_(points.size() + 1) {
+    Five sum{};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double x = points[i].x(), y = points[i].y();
+      sums_[i] = sum;
+      sum[0] += x;
+      sum[1] += y;
+      sum[2] += x * x;
+      sum[3] += x * y;
+      sum[4] += y * y;
+    }
+    sums_[points.size()] = sum;
   }
-  return window;
+  using Five = std::array<double, 5>;  // x y xx xy yy
+  Five between(int first, int end) const {
+    Five difference;
+    for (std::size_t k = 0; k < 5; ++k) difference[k] = sums_[end][k] - sums_[first][k];
+    return difference;
+  }
+
+ private:
+  std::vector<Five> sums_;
+};
+
+// [m] Standard deviation along the beams: half of all second differences are less than their expected median. Walls are
+// straight enough not to count; corners and edges are fewer than half of all points.
+float rangeNoise(const std::vector<Eigen::Vector2f>& points) {
+  if (points.size() < 3) return 0;
+  constexpr float kMedianOfSecondDifference = 1.652F;  // of noise of standard deviation 1: 0.6745 sqrt(1 + 4 + 1)
+  std::vector<float> squares(points.size() - 2);
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    squares[i] = (points[i] - 2 * points[i + 1] + points[i + 2]).squaredNorm();
+  }
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return std::sqrt(*middle) / kMedianOfSecondDifference;
 }
+
+// For each point the first and the last one of its stretch without gaps.
+struct Stretches {
+  std::vector<int> first, last;
+  Stretches(const std::vector<Eigen::Vector2f>& points, float gap) : first(points.size()), last(points.size()) {
+    const int count = static_cast<int>(points.size());
+    first[0] = 0;
+    for (int i = 1; i < count; ++i) {
+      first[i] = (points[i] - points[i - 1]).squaredNorm() <= gap * gap ? first[i - 1] : i;
+    }
+    last[count - 1] = count - 1;
+    for (int i = count - 1; i-- > 0;) last[i] = first[i + 1] == i + 1 ? i : last[i + 1];
+  }
+};
+
+// The line through a window of points, by the eigenvectors of their scatter.
+struct WindowLine {
+  double mean_x, mean_y;
+  double along, across;          // eigenvalues: sums of squares [m2]
+  double root, difference, xy_;  // half the difference of the eigenvalues, and its parts
+
+  WindowLine(const Sums::Five& sum, int count) {
+    const double inverse = 1.0 / count;
+    mean_x = sum[0] * inverse;
+    mean_y = sum[1] * inverse;
+    const double xx = sum[2] - sum[0] * mean_x, yy = sum[4] - sum[1] * mean_y;
+    xy_ = sum[3] - sum[0] * mean_y;
+    difference = 0.5 * (xx - yy);
+    root = std::sqrt(difference * difference + xy_ * xy_);
+    along = 0.5 * (xx + yy) + root;
+    across = std::max(0.0, 0.5 * (xx + yy) - root);
+  }
+  // Half of the angle whose cosine and sine are difference / root and xy / root is the direction along.
+  Eigen::Vector2f normal() const {
+    const double cosine = difference / root;
+    double c = std::sqrt(0.5 * (1 + std::abs(cosine))), s = 0.5 * xy_ / (root * c);
+    if (cosine < 0) std::swap(c, s);
+    return {static_cast<float>(-s), static_cast<float>(c)};
+  }
+};
 
 }  // namespace
 
 PlanarScan fitLines(const std::vector<Eigen::Vector2f>& points) {
-  PlanarScan scan;
-  scan.points.reserve(points.size());
-  scan.normals.reserve(points.size());
-  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
-    Eigen::Vector2f point = points[i], normal = Eigen::Vector2f::Zero();
-    int previous_count = 0;
-    for (const auto& [half, thinness] : kWindows) {
-      const Window window = gather(points, i, half);
-      if (window.count < 4 || window.count == previous_count) continue;
-      previous_count = window.count;
-      // Eigenvalues of the scatter: the larger along the wall, the smaller across.
-      const float mean = 0.5F * (window.xx + window.yy), half_difference = 0.5F * (window.xx - window.yy);
-      const float root = std::hypot(half_difference, window.xy);
-      if (!(mean - root < thinness * (mean + root))) continue;
-      const float along = 0.5F * std::atan2(window.xy, half_difference);
-      normal = {-std::sin(along), std::cos(along)};
-      point -= normal * normal.dot(point - window.mean);
+  PlanarScan scan{points, std::vector<Eigen::Vector2f>(points.size(), Eigen::Vector2f::Zero()), 1};
+  const int count = static_cast<int>(points.size());
+  if (count < kFewest) return scan;
+  const float noise = rangeNoise(points);
+  const float reach = std::max(kLongestReach, kReachOfNoise * noise);
+  const double variance = static_cast<double>(noise) * noise;
+  const Stretches stretches(points, std::max(kLargestGap, kGapOfNoise * noise));
+  const Sums sums(points);
+  int fitted = 0, taken = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto far = [&](int other) { return (points[other] - points[i]).squaredNorm() > reach * reach; };
+    int previous = 0;
+    for (const int half : kHalfWindows) {
+      int first = std::max(i - half, stretches.first[i]), last = std::min(i + half, stretches.last[i]);
+      while (far(first)) ++first;
+      while (far(last)) --last;
+      const int n = last - first + 1;
+      if (n == previous) break;
+      previous = n;
+      if (n < kFewest) continue;
+      const WindowLine line(sums.between(first, last + 1), n);
+      const double allowed = kAngleVariance * line.along;
+      if (line.across > kThinness * line.along || line.across > (n - 2) * allowed || variance > allowed) continue;
+      const Eigen::Vector2f normal = line.normal();
+      scan.normals[i] = normal;
+      scan.points[i] -= normal * (normal.x() * (points[i].x() - static_cast<float>(line.mean_x)) +
+                                  normal.y() * (points[i].y() - static_cast<float>(line.mean_y)));
+      taken += n;
+      ++fitted;
       break;
     }
-    scan.points.push_back(point);
-    scan.normals.push_back(normal);
   }
+  if (fitted > 0) scan.smoothing = static_cast<float>(taken) / static_cast<float>(fitted);
   return scan;
 }
 

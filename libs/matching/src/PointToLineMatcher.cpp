@@ -17,14 +17,40 @@ namespace {
 
 constexpr double kJudgedWithin = 0.3;  // [m] of a partner for the overlap
 constexpr double kJudgedLoss = 0.1;    // [m]
+// The loss has the scale of so many times what most points are away from their lines.
+constexpr double kMost = 0.7, kSpreads = 3;
+constexpr double kSmallestLoss = 0.07;  // [m]
+constexpr double kReachOfLoss = 3;
+constexpr double kShrink = 0.5;   // of the reach, from one search of partners to the next
+constexpr double kPull = 0.3;     // weight of the distances along the lines
+constexpr double kNear = 0.01;    // [m] a step that ends the wide search
+constexpr double kStill = 0.001;  // [m] a step that ends the match
+constexpr double kLever = 5;      // [m] that turns count by
+
+// Gauss-Newton with the partners as they are, twice, because the weights change. Tells the larger step [m].
+double refine(const LinePartners& partners, const MatchGuess& guess, double loss_scale, double pull, TPose2D& pose) {
+  double largest = 0;
+  for (int k = 0; k < 2; ++k) {
+    const TPose2D moved = pose - guess.reference_from_scan;
+    const Eigen::Vector3d from_guess(moved.x, moved.y, mrpt::math::wrapToPi(moved.phi));
+    // Which directions are open the lines alone tell.
+    const auto lines = partners.equations(pose, loss_scale, 0);
+    const Eigen::Vector3d step = FixedDirections(lines).step(
+        pull > 0 ? partners.equations(pose, loss_scale, pull) : lines, guess.information, from_guess);
+    pose = pose + TPose2D(step.x(), step.y(), step.z());
+    largest = std::max({largest, step.head<2>().norm(), kLever * std::abs(step.z())});
+  }
+  return largest;
+}
 
 ScanMatch toMatch(const LinePartners& partners, std::size_t points, const TPose2D& pose) {
   ScanMatch match;
   match.reference_from_scan = pose;
-  if (partners.near == 0) return match;
-  const FixedDirections directions(partners);
-  match.overlap = static_cast<double>(partners.near) / static_cast<double>(points);
-  match.wall_distance = partners.wallDistance();
+  if (partners.count() == 0) return match;
+  const auto equations = partners.equations(pose, kJudgedLoss, 0);
+  const FixedDirections directions(equations);
+  match.overlap = static_cast<double>(partners.count()) / static_cast<double>(points);
+  match.wall_distance = equations.wallDistance();
   match.unit_covariance = directions.covariance();
   match.degenerate = !directions.all();
   return match;
@@ -46,31 +72,31 @@ std::shared_ptr<const MatchReference> PointToLineMatcher::prepare(PlanarScan ref
   return std::make_shared<const PointIndex>(std::move(reference));
 }
 
+// Wide at first: partners from far, and what they are away along the walls counts too, which leads in from where lines
+// alone would lead astray. Then only what lies on the same wall as well as most points do.
 ScanMatch PointToLineMatcher::match(const MatchReference& reference, const PlanarScan& scan,
                                     const MatchGuess& guess) const {
-  const auto& index = dynamic_cast<const PointIndex&>(reference);
+  LinePartners partners(dynamic_cast<const PointIndex&>(reference), scan);
   TPose2D pose = guess.reference_from_scan;
   double reach = options_.max_distance, loss_scale = options_.max_distance;
+  bool wide = true;
   for (int i = 0; i < options_.max_iterations; ++i) {
-    const auto partners = findPartners(index, scan, pose, reach, loss_scale);
-    if (partners.near == 0) return toMatch(partners, scan.size(), guess.reference_from_scan);
-    const TPose2D moved = pose - guess.reference_from_scan;
-    const Eigen::Vector3d from_guess(moved.x, moved.y, mrpt::math::wrapToPi(moved.phi));
-    const Eigen::Vector3d step = FixedDirections(partners).step(partners.gradient, guess.information, from_guess);
-    pose = pose + TPose2D(step.x(), step.y(), step.z());
-    // Wide at first, then only what lies on the same wall as well as most points do.
-    const double spread = 3 * partners.wallDistance();
-    loss_scale = std::clamp(spread, options_.min_distance, 0.7 * loss_scale + 0.3 * options_.min_distance);
-    reach = std::max(options_.min_distance, std::min(reach, 3 * loss_scale));
-    const bool still = step.head<2>().norm() < 2e-4 && std::abs(step.z()) < 2e-5;
-    if (still && loss_scale < 1.01 * std::max(options_.min_distance, spread)) break;
+    partners.find(pose, reach);
+    if (partners.count() == 0) return toMatch(partners, scan.size(), guess.reference_from_scan);
+    const double spread = kSpreads * partners.quantile(pose, kMost);
+    loss_scale = std::clamp(spread, kSmallestLoss, std::max(kSmallestLoss, loss_scale));
+    const double moved = refine(partners, guess, loss_scale, wide ? kPull : 0, pose);
+    if (!wide && moved < kStill && reach < 1.01 * std::max(options_.min_distance, kReachOfLoss * loss_scale)) break;
+    wide = wide && moved > kNear;
+    if (!wide) reach = std::max(options_.min_distance, std::min(kShrink * reach, kReachOfLoss * loss_scale));
   }
   return judge(reference, scan, pose);
 }
 
 ScanMatch PointToLineMatcher::judge(const MatchReference& reference, const PlanarScan& scan, const TPose2D& pose) {
-  const auto& index = dynamic_cast<const PointIndex&>(reference);
-  return toMatch(findPartners(index, scan, pose, kJudgedWithin, kJudgedLoss), scan.size(), pose);
+  LinePartners partners(dynamic_cast<const PointIndex&>(reference), scan);
+  partners.find(pose, kJudgedWithin);
+  return toMatch(partners, scan.size(), pose);
 }
 
 mrpt::poses::CPosePDF::Ptr PointToLineMatcher::AlignPDF(const mrpt::maps::CMetricMap* m1,

@@ -12,13 +12,14 @@ namespace omnimapper::matching {
 struct PlanarScan {
   std::vector<Eigen::Vector2f> points;
   std::vector<Eigen::Vector2f> normals;  ///< one for each point: unit, sign open; zero where no line fits
+  float smoothing = 1;                   ///< points that went into a line, on average
 
   std::size_t size() const { return points.size(); }
   bool empty() const { return points.empty(); }
 };
 
-/// Fits the lines. `points` in the order of the beams; each point's window of neighbours grows until a line fits, so
-/// that clean corners stay sharp and noisy walls become straight.
+/// Fits the lines. `points` in the order of the beams; each point's window of neighbours grows until a line fits, for
+/// the noise that the scan itself shows: clean corners stay sharp and noisy walls become straight.
 PlanarScan fitLines(const std::vector<Eigen::Vector2f>& points);
 
 /// Appends `scan`, moved by target_from_scan, to `target`.

@@ -12,7 +12,7 @@ enum class IcpMethod { classic, levenberg_marquardt };
 
 struct ScanMatcherOptions {
   MatcherKind matcher = MatcherKind::point_to_line;
-  double max_distance = 0.5;  ///< [m] of a pair in the first iterations
+  double max_distance = 1.5;  ///< [m] of a pair in the first iterations
   double min_distance = 0.1;  ///< [m] of a pair in the last iterations
   int max_iterations = 30;
   IcpMethod icp_method = IcpMethod::classic;
