@@ -43,14 +43,15 @@ double refine(const LinePartners& partners, const MatchGuess& guess, double loss
   return largest;
 }
 
-ScanMatch toMatch(const LinePartners& partners, std::size_t points, const TPose2D& pose) {
+ScanMatch toMatch(const LinePartners& partners, const PlanarScan& scan, const TPose2D& pose) {
   ScanMatch match;
   match.reference_from_scan = pose;
   if (partners.count() == 0) return match;
   const auto equations = partners.equations(pose, kJudgedLoss, 0);
   const FixedDirections directions(equations);
-  match.overlap = static_cast<double>(partners.count()) / static_cast<double>(points);
+  match.overlap = static_cast<double>(partners.count()) / static_cast<double>(scan.size());
   match.wall_distance = equations.wallDistance();
+  match.point_sigma = match.wall_distance * std::sqrt(static_cast<double>(scan.smoothing));
   match.unit_covariance = directions.covariance();
   match.degenerate = !directions.all();
   return match;
@@ -82,7 +83,7 @@ ScanMatch PointToLineMatcher::match(const MatchReference& reference, const Plana
   bool wide = true;
   for (int i = 0; i < options_.max_iterations; ++i) {
     partners.find(pose, reach);
-    if (partners.count() == 0) return toMatch(partners, scan.size(), guess.reference_from_scan);
+    if (partners.count() == 0) return toMatch(partners, scan, guess.reference_from_scan);
     const double spread = kSpreads * partners.quantile(pose, kMost);
     loss_scale = std::clamp(spread, kSmallestLoss, std::max(kSmallestLoss, loss_scale));
     const double moved = refine(partners, guess, loss_scale, wide ? kPull : 0, pose);
@@ -96,7 +97,7 @@ ScanMatch PointToLineMatcher::match(const MatchReference& reference, const Plana
 ScanMatch PointToLineMatcher::judge(const MatchReference& reference, const PlanarScan& scan, const TPose2D& pose) {
   LinePartners partners(dynamic_cast<const PointIndex&>(reference), scan);
   partners.find(pose, kJudgedWithin);
-  return toMatch(partners, scan.size(), pose);
+  return toMatch(partners, scan, pose);
 }
 
 mrpt::poses::CPosePDF::Ptr PointToLineMatcher::AlignPDF(const mrpt::maps::CMetricMap* m1,
@@ -107,7 +108,7 @@ mrpt::poses::CPosePDF::Ptr PointToLineMatcher::AlignPDF(const mrpt::maps::CMetri
   auto pdf = std::make_shared<mrpt::poses::CPosePDFGaussian>();
   pdf->mean = mrpt::poses::CPose2D(found.reference_from_scan);
   // MRPT's covariance is of x, y in the frame of m1.
-  const double variance = std::max(1e-4, found.wall_distance * found.wall_distance);
+  const double variance = std::max(1e-4, found.point_sigma * found.point_sigma);
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(found.reference_from_scan.phi).toRotationMatrix();
   pdf->cov = mrpt::math::CMatrixDouble33(Eigen::Matrix3d(variance * turn * found.unit_covariance * turn.transpose()));

@@ -16,6 +16,9 @@ struct ScanMatch {
   /// Of the pose, in the scan's frame (x y yaw), were each partner good to 1 m: scale by the variance of a point [m2].
   /// Along a direction that the walls do not fix the pose stays where it was guessed, and the variance is kOpen.
   Eigen::Matrix3d unit_covariance = kOpen * Eigen::Matrix3d::Identity();
+  /// [m] Standard deviation of a point that makes an honest covariance of the pose: of the distances from the walls,
+  /// and of how many neighbours share one error because their line was fitted to the same points.
+  double point_sigma = 0;
   /// Whether there is such a direction: a bare corridor, a single wall, a round room, or no partners at all.
   bool degenerate = true;
 
