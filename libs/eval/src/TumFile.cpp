@@ -1,9 +1,9 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/eval/TumFile.h>
+#include <omnimapper/geometry/TumLine.h>
 
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "TextColumns.h"
@@ -68,14 +68,7 @@ Trajectory readTrajectory(const std::string& path) {
 void writeTum(const std::string& path, const Trajectory& trajectory) {
   base::writeFile(path, [&](std::ostream& out) {
     out << "# stamp x y z qx qy qz qw\n";
-    for (const auto& [stamp, pose] : trajectory) {
-      const auto& p = pose.translation;
-      const auto& q = pose.rotation;
-      char text[200];
-      std::snprintf(text, sizeof text, " %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", p.x(), p.y(), p.z(), q.x(), q.y(),
-                    q.z(), q.w());
-      out << base::formatUnix(stamp) << text;
-    }
+    for (const auto& [stamp, pose] : trajectory) out << geometry::tumLine(stamp, pose);
   });
 }
 

@@ -1,11 +1,12 @@
 #include "Chart.h"
 
+#include <omnimapper/base/Numbers.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "Html.h"
-#include "Numbers.h"
 
 namespace omnimapper::plugins {
 
@@ -68,27 +69,28 @@ class Axes {
 };
 
 std::string text(double x, double y, const std::string& anchor, const std::string& content) {
-  return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" text-anchor=\"" + anchor + "\">" +
+  return "<text x=\"" + base::fixed(x, 1) + "\" y=\"" + base::fixed(y, 1) + "\" text-anchor=\"" + anchor + "\">" +
          escapeHtml(content) + "</text>";
 }
 
 std::string rule(double x1, double y1, double x2, double y2) {
-  return "<line class=\"grid\" x1=\"" + fixed(x1, 1) + "\" y1=\"" + fixed(y1, 1) + "\" x2=\"" + fixed(x2, 1) +
-         "\" y2=\"" + fixed(y2, 1) + "\"/>";
+  return "<line class=\"grid\" x1=\"" + base::fixed(x1, 1) + "\" y1=\"" + base::fixed(y1, 1) + "\" x2=\"" +
+         base::fixed(x2, 1) + "\" y2=\"" + base::fixed(y2, 1) + "\"/>";
 }
 
 std::string drawAxes(const Chart& chart, const Axes& axes) {
   const double bottom = kHeight - kBottom, right = kWidth - kRight;
   std::string svg;
   for (const double tick : axes.yTicks()) {
-    svg += rule(kLeft, axes.py(tick), right, axes.py(tick)) + text(kLeft - 6, axes.py(tick) + 4, "end", brief(tick));
+    svg +=
+        rule(kLeft, axes.py(tick), right, axes.py(tick)) + text(kLeft - 6, axes.py(tick) + 4, "end", base::brief(tick));
   }
   for (const double tick : axes.xTicks()) {
     svg += rule(axes.px(tick), bottom, axes.px(tick), bottom + 4) +
-           text(axes.px(tick), bottom + 16, "middle", brief(tick, 6));
+           text(axes.px(tick), bottom + 16, "middle", base::brief(tick, 6));
   }
-  svg += "<line class=\"axis\" x1=\"" + fixed(kLeft, 1) + "\" y1=\"" + fixed(bottom, 1) + "\" x2=\"" + fixed(right, 1) +
-         "\" y2=\"" + fixed(bottom, 1) + "\"/>";
+  svg += "<line class=\"axis\" x1=\"" + base::fixed(kLeft, 1) + "\" y1=\"" + base::fixed(bottom, 1) + "\" x2=\"" +
+         base::fixed(right, 1) + "\" y2=\"" + base::fixed(bottom, 1) + "\"/>";
   return svg + text(0.5 * (kLeft + right), kHeight - 4, "middle", chart.x_label);
 }
 
@@ -114,7 +116,7 @@ std::string drawSeries(const ChartSeries& series, const Axes& axes) {
   const std::string colour = std::to_string(series.colour);
   std::string svg;
   for (const std::size_t i : visible(series, axes)) {
-    const std::string x = fixed(axes.px(series.x[i]), 1), y = fixed(axes.py(series.y[i]), 1);
+    const std::string x = base::fixed(axes.px(series.x[i]), 1), y = base::fixed(axes.py(series.y[i]), 1);
     // A dot is a line of no length with round ends: one path for all of them.
     if (series.form == ChartSeries::Form::dots) {
       svg += "M" + x + " " + y + "h0";
@@ -154,9 +156,9 @@ std::string drawChart(const Chart& chart) {
   }
   const std::string unit = chart.y_label.empty() ? "" : " <small>" + escapeHtml(chart.y_label) + "</small>";
   return "<figure class=\"card chart\"><figcaption><b>" + escapeHtml(chart.title) + "</b>" + unit +
-         "<span class=\"legend\">" + legend + "</span></figcaption><svg viewBox=\"0 0 " + brief(kWidth) + " " +
-         brief(kHeight) + "\" role=\"img\" aria-label=\"" + escapeHtml(chart.title) + "\">" + drawAxes(chart, axes) +
-         curves + "</svg></figure>\n";
+         "<span class=\"legend\">" + legend + "</span></figcaption><svg viewBox=\"0 0 " + base::brief(kWidth) + " " +
+         base::brief(kHeight) + "\" role=\"img\" aria-label=\"" + escapeHtml(chart.title) + "\">" +
+         drawAxes(chart, axes) + curves + "</svg></figure>\n";
 }
 
 std::string drawBars(const std::string& title, std::vector<Bar> bars) {
@@ -166,9 +168,9 @@ std::string drawBars(const std::string& title, std::vector<Bar> bars) {
   std::string html =
       "<figure class=\"card chart\"><figcaption><b>" + escapeHtml(title) + "</b></figcaption><div class=\"bars\">";
   for (const Bar& bar : bars) {
-    html += "<span>" + escapeHtml(bar.name) +
-            "</span><span class=\"track\"><i style=\"width:" + fixed(100 * std::max(0.0, bar.value) / longest, 2) +
-            "%\"></i></span><span class=\"num\">" + escapeHtml(bar.text) + "</span>";
+    html += "<span>" + escapeHtml(bar.name) + "</span><span class=\"track\"><i style=\"width:" +
+            base::fixed(100 * std::max(0.0, bar.value) / longest, 2) + "%\"></i></span><span class=\"num\">" +
+            escapeHtml(bar.text) + "</span>";
   }
   return html + "</div></figure>\n";
 }

@@ -1,6 +1,6 @@
 #include "DecisionText.h"
 
-#include "Numbers.h"
+#include <omnimapper/base/Numbers.h>
 
 namespace omnimapper::plugins {
 
@@ -13,7 +13,7 @@ std::string numbersText(const mapper::Decision& decision) {
   for (const auto& [name, value] : decision.numbers) {
     const std::size_t bracket = name.find(" [");
     const bool has_unit = bracket != std::string::npos && name.back() == ']';
-    text += (text.empty() ? "" : ", ") + name.substr(0, has_unit ? bracket : name.size()) + " " + brief(value, 3);
+    text += (text.empty() ? "" : ", ") + name.substr(0, has_unit ? bracket : name.size()) + " " + base::brief(value, 3);
     if (has_unit) text += " " + name.substr(bracket + 2, name.size() - bracket - 3);
   }
   return text;

@@ -1,6 +1,6 @@
 #include "MapServer.h"
 
-#include "Numbers.h"
+#include <omnimapper/base/Numbers.h>
 
 namespace omnimapper::plugins {
 
@@ -19,12 +19,13 @@ std::string encodePgm(const ScanGrid& grid) {
 std::string encodeMapServerYaml(const ScanGrid& grid, const std::string& image, double asked_resolution) {
   std::string out;
   if (grid.resolution > asked_resolution) {
-    out += "# Warning: cells of " + brief(asked_resolution) + " m were asked for; the map is so large that they are " +
-           brief(grid.resolution) + " m here. Raise max_megacells to change that.\n";
+    out += "# Warning: cells of " + base::brief(asked_resolution) +
+           " m were asked for; the map is so large that they are " + base::brief(grid.resolution) +
+           " m here. Raise max_megacells to change that.\n";
   }
   out += "image: " + image + "\n";
-  out += "resolution: " + brief(grid.resolution, 9) + "\n";
-  out += "origin: [" + fixed(grid.min_x, 6) + ", " + fixed(grid.min_y, 6) + ", 0.0]\n";
+  out += "resolution: " + base::brief(grid.resolution, 9) + "\n";
+  out += "origin: [" + base::fixed(grid.min_x, 6) + ", " + base::fixed(grid.min_y, 6) + ", 0.0]\n";
   out += "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\nmode: trinary\n";
   return out;
 }

@@ -1,12 +1,13 @@
 #include "ReportCurves.h"
 
+#include <omnimapper/base/Numbers.h>
+
 #include <algorithm>
 #include <map>
 #include <unordered_map>
 #include <vector>
 
 #include "Chart.h"
-#include "Numbers.h"
 
 namespace omnimapper::plugins {
 
@@ -80,7 +81,7 @@ std::string drawTimeCurves(const mapper::View& view) {
   chart.series = {solve, matching, engine};
   std::vector<Bar> bars;
   for (const auto& [stage, total] : view.times.totals()) {
-    bars.push_back({stage, total.seconds, fixed(total.seconds, total.seconds < 1 ? 3 : 2) + " s"});
+    bars.push_back({stage, total.seconds, base::fixed(total.seconds, total.seconds < 1 ? 3 : 2) + " s"});
   }
   return drawChart(chart) + drawBars("Time by stage", bars);
 }

@@ -1,12 +1,13 @@
 #include "ReportMap.h"
 
+#include <omnimapper/base/Numbers.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "DecisionText.h"
 #include "Html.h"
 #include "MapPicture.h"
-#include "Numbers.h"
 #include "ScaleBar.h"
 
 namespace omnimapper::plugins {
@@ -16,8 +17,8 @@ namespace {
 std::string closureLine(const GridPicture& grid, const Closure& closure) {
   const PixelPoint from = grid.pixelOf(closure.from.x, closure.from.y), to = grid.pixelOf(closure.to.x, closure.to.y);
   const mapper::Decision& d = *closure.decision;
-  return "<line x1=\"" + fixed(from.x, 1) + "\" y1=\"" + fixed(from.y, 1) + "\" x2=\"" + fixed(to.x, 1) + "\" y2=\"" +
-         fixed(to.y, 1) + "\"><title>" +
+  return "<line x1=\"" + base::fixed(from.x, 1) + "\" y1=\"" + base::fixed(from.y, 1) + "\" x2=\"" +
+         base::fixed(to.x, 1) + "\" y2=\"" + base::fixed(to.y, 1) + "\"><title>" +
          escapeHtml(d.kind + " " + toString(d.from) + " to " + toString(*d.to) + ": " + verdictText(d) + "\n" +
                     numbersText(d)) +
          "</title></line>\n";
@@ -36,13 +37,14 @@ std::string closureGroup(const GridPicture& grid, const std::vector<Closure>& cl
 
 std::string pathData(const std::vector<PixelPoint>& path) {
   std::string data;
-  for (const PixelPoint& point : path) data += (data.empty() ? "M" : "L") + fixed(point.x, 1) + " " + fixed(point.y, 1);
+  for (const PixelPoint& point : path)
+    data += (data.empty() ? "M" : "L") + base::fixed(point.x, 1) + " " + base::fixed(point.y, 1);
   return data;
 }
 
 std::string dot(const char* kind, PixelPoint at, double radius) {
-  return "<circle class=\"" + std::string(kind) + "\" cx=\"" + fixed(at.x, 1) + "\" cy=\"" + fixed(at.y, 1) +
-         "\" r=\"" + fixed(radius, 1) + "\"><title>" + kind + "</title></circle>\n";
+  return "<circle class=\"" + std::string(kind) + "\" cx=\"" + base::fixed(at.x, 1) + "\" cy=\"" +
+         base::fixed(at.y, 1) + "\" r=\"" + base::fixed(radius, 1) + "\"><title>" + kind + "</title></circle>\n";
 }
 
 /// A bar of a round length, about a sixth of the picture, in its lower left corner.
@@ -50,10 +52,11 @@ std::string scaleBar(const GridPicture& grid) {
   const double length = scaleBarLength(grid.image.width * grid.metres_per_pixel);
   const double size = std::max(grid.image.width, grid.image.height) / 50.0;
   const double x = size, y = grid.image.height - size, end = x + length / grid.metres_per_pixel;
-  return "<path class=\"scale\" d=\"M" + fixed(x, 1) + " " + fixed(y - 0.4 * size, 1) + "V" + fixed(y, 1) + "H" +
-         fixed(end, 1) + "V" + fixed(y - 0.4 * size, 1) + "\"/><text class=\"scale\" font-size=\"" + fixed(size, 1) +
-         "\" text-anchor=\"middle\" x=\"" + fixed(0.5 * (x + end), 1) + "\" y=\"" + fixed(y - 0.5 * size, 1) + "\">" +
-         brief(length) + " m</text>\n";
+  return "<path class=\"scale\" d=\"M" + base::fixed(x, 1) + " " + base::fixed(y - 0.4 * size, 1) + "V" +
+         base::fixed(y, 1) + "H" + base::fixed(end, 1) + "V" + base::fixed(y - 0.4 * size, 1) +
+         "\"/><text class=\"scale\" font-size=\"" + base::fixed(size, 1) + "\" text-anchor=\"middle\" x=\"" +
+         base::fixed(0.5 * (x + end), 1) + "\" y=\"" + base::fixed(y - 0.5 * size, 1) + "\">" + base::brief(length) +
+         " m</text>\n";
 }
 
 std::string toggle(const char* layer, const char* key, const std::string& label, bool on) {
@@ -82,10 +85,10 @@ std::string drawReportMap(const GridPicture& grid, const std::vector<map::Stampe
   const auto paths = simplifiedPaths(grid, trajectory, 0.3);
   const double radius = std::max(grid.image.width, grid.image.height) / 160.0;
   std::string svg = "<svg id=\"map\" viewBox=\"0 0 " + width + " " + height + "\" data-metres-per-pixel=\"" +
-                    brief(grid.metres_per_pixel, 9) + "\" data-min-x=\"" + brief(grid.min_x, 9) + "\" data-max-y=\"" +
-                    brief(grid.max_y, 9) + "\" role=\"img\" aria-label=\"map from above\">\n<image width=\"" + width +
-                    "\" height=\"" + height + "\" href=\"data:image/png;base64," + encodeBase64(encodePng(grid.image)) +
-                    "\"/>\n";
+                    base::brief(grid.metres_per_pixel, 9) + "\" data-min-x=\"" + base::brief(grid.min_x, 9) +
+                    "\" data-max-y=\"" + base::brief(grid.max_y, 9) +
+                    "\" role=\"img\" aria-label=\"map from above\">\n<image width=\"" + width + "\" height=\"" +
+                    height + "\" href=\"data:image/png;base64," + encodeBase64(encodePng(grid.image)) + "\"/>\n";
   svg += closureGroup(grid, closures, false, max_refused) + closureGroup(grid, closures, true, closures.size());
   std::string data;
   for (const auto& path : paths) data += pathData(path);

@@ -1,9 +1,10 @@
 #include "ReportPage.h"
 
+#include <omnimapper/base/Numbers.h>
+
 #include <cmath>
 
 #include "Html.h"
-#include "Numbers.h"
 #include "ReportCurves.h"
 #include "ReportMap.h"
 #include "ReportStyle.h"
@@ -21,24 +22,24 @@ std::string figure(const std::string& value, const std::string& name) {
 }
 
 std::string duration(double seconds) {
-  if (seconds < 120) return fixed(seconds, seconds < 10 ? 2 : 1) + " s";
+  if (seconds < 120) return base::fixed(seconds, seconds < 10 ? 2 : 1) + " s";
   const auto minutes = static_cast<long>(std::lround(seconds / 60));
   if (minutes < 120) return std::to_string(minutes) + " min";
-  return fixed(seconds / 3600, 1) + " h";
+  return base::fixed(seconds / 3600, 1) + " h";
 }
 
 std::string large(double value) {
-  return value < 1000 || value > 1e15 ? brief(value, 4) : grouped(static_cast<std::size_t>(std::llround(value)));
+  return value < 1000 || value > 1e15 ? base::brief(value, 4) : grouped(static_cast<std::size_t>(std::llround(value)));
 }
 
 std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
   const mapper::View& view = input.view;
   std::string html = figure(grouped(view.map.key_frames.size()), "key frames") +
-                     figure(fixed(figures.way, figures.way < 100 ? 1 : 0) + " m", "way driven") +
+                     figure(base::fixed(figures.way, figures.way < 100 ? 1 : 0) + " m", "way driven") +
                      figure(duration(figures.log_seconds), "recorded");
   if (input.picture) {
-    html += figure(fixed(input.picture->maxX() - input.picture->min_x, 0) + " &#215; " +
-                       fixed(input.picture->max_y - input.picture->minY(), 0) + " m",
+    html += figure(base::fixed(input.picture->maxX() - input.picture->min_x, 0) + " &#215; " +
+                       base::fixed(input.picture->max_y - input.picture->minY(), 0) + " m",
                    "mapped");
   }
   html += figure(grouped(figures.closures), "loop closures") +
@@ -47,7 +48,7 @@ std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
           figure(duration(figures.wall_seconds), "computed");
   if (figures.wall_seconds > 0 && figures.run_seconds > 0) {
     const double speed = figures.run_seconds / figures.wall_seconds;
-    html += figure(fixed(speed, speed < 10 ? 1 : 0) + " &#215;", "of real time");
+    html += figure(base::fixed(speed, speed < 10 ? 1 : 0) + " &#215;", "of real time");
   }
   return "<div class=\"figures\">" + html + "</div>\n";
 }

@@ -1,5 +1,6 @@
 #include "ReportTables.h"
 
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/map/SessionFigures.h>
 #include <omnimapper/mapper/Joining.h>
 
@@ -8,7 +9,6 @@
 
 #include "DecisionText.h"
 #include "Html.h"
-#include "Numbers.h"
 
 namespace omnimapper::plugins {
 
@@ -27,7 +27,7 @@ std::string verdict(bool accepted) {
 std::string row(const mapper::Decision& d, base::Stamp start) {
   return "<tr data-verdict=\"" + std::string(d.accepted ? "accepted" : "refused") + "\" data-kind=\"" +
          escapeHtml(d.kind) + "\">" + number(toString(d.from)) +
-         number(fixed(base::secondsBetween(start, d.stamp), 1)) + cell(escapeHtml(d.plugin)) +
+         number(base::fixed(base::secondsBetween(start, d.stamp), 1)) + cell(escapeHtml(d.plugin)) +
          cell(escapeHtml(d.kind)) + number(d.to ? toString(*d.to) : "") + verdict(d.accepted) +
          cell(escapeHtml(d.reason)) + cell(escapeHtml(numbersText(d))) + "</tr>\n";
 }
@@ -79,8 +79,9 @@ std::string drawSessionTable(const map::Map& map) {
     if (session == map.sessions.end()) continue;
     const bool first = session == map.sessions.begin();
     rows += "<tr>" + number(std::to_string(figures.number)) + cell(escapeHtml(session->title)) +
-            number(grouped(figures.key_frames)) + number(fixed(figures.way, 1)) + number(fixed(figures.seconds, 1)) +
-            cell(first ? "" : escapeHtml(mapper::joinedText(*session))) + "</tr>\n";
+            number(grouped(figures.key_frames)) + number(base::fixed(figures.way, 1)) +
+            number(base::fixed(figures.seconds, 1)) + cell(first ? "" : escapeHtml(mapper::joinedText(*session))) +
+            "</tr>\n";
   }
   return "<section class=\"card\"><h2>Sessions</h2><div class=\"scroll\"><table class=\"sortable\"><thead><tr>"
          "<th class=\"num\">session</th><th>log</th><th class=\"num\">key frames</th><th class=\"num\">way [m]</th>"

@@ -1,11 +1,11 @@
 #include "ScaleBar.h"
 
+#include <omnimapper/base/Numbers.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
-
-#include "Numbers.h"
 
 namespace omnimapper::plugins {
 
@@ -50,7 +50,7 @@ void drawScaleBar(Image& image, const GridPicture& grid) {
   drawPath(image, {{left, y - 0.5 * size}, {left, y}, {right, y}, {right, y - 0.5 * size}}, {kInk, pen});
   const double unit = size / 6;
   double x = right + size;
-  for (const char character : brief(length) + " m") {
+  for (const char character : base::brief(length) + " m") {
     for (auto stroke : strokesOf(character)) {
       for (PixelPoint& point : stroke) point = {x + point.x * unit, y - size + point.y * unit};
       drawPath(image, stroke, {kInk, pen});

@@ -1,8 +1,9 @@
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/TumLine.h>
 #include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugins/TrajectoryOutput.h>
 
 #include "OutputFile.h"
-#include "Tum.h"
 
 IMPLEMENTS_MRPT_OBJECT(TrajectoryOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
 
@@ -25,7 +26,9 @@ void TrajectoryOutput::finish(const mapper::View& view) {
   } else {
     trajectory = map::denseTrajectory(view.map);
   }
-  writeBytes(path_, encodeTum(trajectory));
+  std::string text;
+  for (const auto& pose : trajectory) text += geometry::tumLine(pose.stamp, geometry::fromMrpt(pose.map_from_base));
+  writeBytes(path_, text);
 }
 
 std::unique_ptr<mapper::OutputPlugin> TrajectoryOutputFactory::make(const base::ConfigSection& section,

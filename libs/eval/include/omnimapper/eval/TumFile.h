@@ -20,7 +20,7 @@ Trajectory readMrptGroundTruth(const std::string& path);
 /// Either of the two, told apart by the number of columns in the first line that holds a pose.
 Trajectory readTrajectory(const std::string& path);
 
-/// TUM RGB-D format, replaced as a whole (base::writeFile), 9 significant digits.
+/// TUM RGB-D format, replaced as a whole (base::writeFile).
 void writeTum(const std::string& path, const Trajectory& trajectory);
 
 }  // namespace omnimapper::eval

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace omnimapper::plugins {
+namespace omnimapper::base {
 
 /// Decimal text with that many decimals, whatever the locale; nothing but zeros has no sign.
 inline std::string fixed(double value, int decimals) {
@@ -21,4 +21,4 @@ inline std::string brief(double value, int digits = 4) {
   return {text, end};
 }
 
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::base

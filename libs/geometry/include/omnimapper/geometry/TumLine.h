@@ -1,0 +1,14 @@
+#pragma once
+
+#include <omnimapper/base/Stamp.h>
+#include <omnimapper/geometry/Se3.h>
+
+#include <string>
+
+namespace omnimapper::geometry {
+
+/// A line of a trajectory in the TUM RGB-D format, "stamp x y z qx qy qz qw" and a line feed: Unix time [s] to the tick
+/// of 100 ns, lengths [m] and a unit quaternion with qw >= 0, nine decimals each.
+std::string tumLine(base::Stamp stamp, const Se3& world_from_body);
+
+}  // namespace omnimapper::geometry
