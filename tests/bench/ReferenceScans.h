@@ -15,12 +15,12 @@ namespace omnimapper::bench {
 constexpr double kLongest = 25;  // [m] of a beam: what lies further away is only known to be there
 constexpr double kNoEcho = 80;   // [m] from here on a SICK tells that it has no echo, near or far
 
-/// The scans of FOLDER/NAME.clf.bz2 that have a pose in FOLDER/NAME.reference.tum, with that pose.
-inline std::vector<matching::MapScan> referenceScans(const std::string& folder, const std::string& name) {
-  const auto truth = eval::readTum(folder + "/" + name + ".reference.tum");
-  source::CarmenLog stream(folder + "/" + name + ".clf.bz2");
+/// The scans of a log that have a pose in `truth` (of the base), with the sensor's pose; of a standing robot's only the
+/// first: the next one is `way` [m] or `turn` [rad] from the last.
+inline std::vector<matching::MapScan> scansOf(source::ObservationSource& log, const eval::Trajectory& truth,
+                                              double way = 0, double turn = 0) {
   std::vector<matching::MapScan> scans;
-  while (const auto observation = stream.next()) {
+  while (const auto observation = log.next()) {
     const auto* laser = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(observation.get());
     if (!laser) continue;
     const auto index = eval::nearestPose(truth, laser->timestamp, base::durationFromSeconds(2e-4));
@@ -28,7 +28,13 @@ inline std::vector<matching::MapScan> referenceScans(const std::string& folder, 
     const auto& pose = truth[*index].world_from_body;
     const Eigen::Matrix3d turned = pose.rotation.toRotationMatrix();
     matching::MapScan scan;
-    scan.map_from_sensor = {pose.translation.x(), pose.translation.y(), std::atan2(turned(1, 0), turned(0, 0))};
+    scan.map_from_sensor =
+        mrpt::math::TPose2D(pose.translation.x(), pose.translation.y(), std::atan2(turned(1, 0), turned(0, 0))) +
+        mrpt::math::TPose2D(laser->sensorPose.asTPose());
+    if (!scans.empty()) {
+      const auto moved = scan.map_from_sensor - scans.back().map_from_sensor;
+      if (std::hypot(moved.x, moved.y) < way && std::abs(moved.phi) < turn) continue;
+    }
     for (std::size_t i = 0; i < laser->getScanSize(); ++i) {
       const double range = laser->getScanRange(i), length = std::min(range, kLongest);
       const double angle = (static_cast<double>(i) / (laser->getScanSize() - 1) - 0.5) * laser->aperture;
@@ -39,6 +45,12 @@ inline std::vector<matching::MapScan> referenceScans(const std::string& folder, 
     scans.push_back(std::move(scan));
   }
   return scans;
+}
+
+/// Those of FOLDER/NAME.clf.bz2 with FOLDER/NAME.reference.tum.
+inline std::vector<matching::MapScan> referenceScans(const std::string& folder, const std::string& name) {
+  source::CarmenLog log(folder + "/" + name + ".clf.bz2");
+  return scansOf(log, eval::readTum(folder + "/" + name + ".reference.tum"));
 }
 
 }  // namespace omnimapper::bench

@@ -1,9 +1,12 @@
 // Relocalisation without a guess: each scan that has a reference pose is located in the map made of all the others at
-// their reference poses. Prints a Markdown table, and writes a CSV of every scan and an SVG of where it failed.
+// their reference poses, or true ones. Prints a Markdown table, and writes a CSV of every scan and an SVG of where it
+// failed.
 //
 // Example: bench-kidnapping --logs ../shared/data/laser2d -o out/kidnapping
 #include <omnimapper/matching/PointToLineMatcher.h>
 #include <omnimapper/matching/Relocaliser.h>
+#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/testing/Fixtures.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -176,6 +179,7 @@ int main(int argc, char** argv) {
   std::string logs, out;
   int every = 1, threads = 1;
   std::vector<std::string> names{"aces", "intel"};
+  bool demos = false;
   matching::RelocaliserOptions options;
   CLI::App app("Locates each scan that has a reference pose in the map made of the others.");
   app.add_option("--logs", logs, "folder with NAME.clf.bz2 and NAME.reference.tum")->required();
@@ -183,17 +187,25 @@ int main(int argc, char** argv) {
   app.add_option("--names", names, "of the logs");
   app.add_option("--every", every, "every n-th scan is located")->check(CLI::PositiveNumber);
   app.add_option("--threads", threads)->check(CLI::PositiveNumber);
+  app.add_flag("--demos", demos, "MRPT's two simulated graph-SLAM logs as well, a scan every 0.5 m or 0.5 rad");
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(out);
   std::printf(
       "| log | scans | answered and right | confident mistakes (at another place) | not answered: ambiguous + nowhere "
       "| truth among their "
       "candidates | median error | ms per scan: median, 95 %% |\n|---|---|---|---|---|---|---|---|\n");
-  for (const auto& name : names) {
-    const auto scans = bench::referenceScans(logs, name);
+  const auto run = [&](const std::string& name, const std::vector<MapScan>& scans) {
     const auto outcomes = locateAll(scans, every, threads, options);
     printRow(name, outcomes);
     writeCsv(out + "/" + name + ".csv", outcomes, every);
     writeSvg(out + "/" + name + ".svg", scans, outcomes, every);
+  };
+  for (const auto& name : names) run(name, bench::referenceScans(logs, name));
+  for (const std::string name : {"simul", "range_030_bearing_015"}) {
+    const auto path =
+        omnimapper::testing::mrptDataset("graphslam-engine-demos/action_observations_map/" + name + ".rawlog");
+    if (!demos || !path) continue;
+    source::RawlogSource log(*path);
+    run(name, bench::scansOf(log, eval::readMrptGroundTruth(*path + ".GT.txt"), 0.5, 0.5));
   }
 }
