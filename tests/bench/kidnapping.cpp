@@ -173,39 +173,42 @@ void writeSvg(const std::string& path, const std::vector<MapScan>& scans, const 
   svg << "</svg>\n";
 }
 
+// Of MRPT's simulated logs, which have 10 scans a second, one every 0.5 m or 0.5 rad.
+std::vector<MapScan> scansOf(const std::string& folder, const std::string& name) {
+  if (std::filesystem::exists(folder + "/" + name + ".clf.bz2")) return bench::referenceScans(folder, name);
+  const auto path =
+      omnimapper::testing::mrptDataset("graphslam-engine-demos/action_observations_map/" + name + ".rawlog");
+  if (!path) return {};
+  source::RawlogSource log(*path);
+  return bench::scansOf(log, eval::readMrptGroundTruth(*path + ".GT.txt"), 0.5, 0.5);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::string logs, out;
   int every = 1, threads = 1;
-  std::vector<std::string> names{"aces", "intel"};
-  bool demos = false;
+  std::vector<std::string> names{"aces", "intel", "simul", "range_030_bearing_015"};
   matching::RelocaliserOptions options;
   CLI::App app("Locates each scan that has a reference pose in the map made of the others.");
   app.add_option("--logs", logs, "folder with NAME.clf.bz2 and NAME.reference.tum")->required();
   app.add_option("-o,--output", out, "folder for the CSV and SVG files")->required();
-  app.add_option("--names", names, "of the logs");
+  app.add_option("--names", names,
+                 "of the logs; one that is not in the folder is one of MRPT's simulated graph-SLAM logs");
   app.add_option("--every", every, "every n-th scan is located")->check(CLI::PositiveNumber);
   app.add_option("--threads", threads)->check(CLI::PositiveNumber);
-  app.add_flag("--demos", demos, "MRPT's two simulated graph-SLAM logs as well, a scan every 0.5 m or 0.5 rad");
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(out);
   std::printf(
       "| log | scans | answered and right | confident mistakes (at another place) | not answered: ambiguous + nowhere "
       "| truth among their "
       "candidates | median error | ms per scan: median, 95 %% |\n|---|---|---|---|---|---|---|---|\n");
-  const auto run = [&](const std::string& name, const std::vector<MapScan>& scans) {
+  for (const auto& name : names) {
+    const auto scans = scansOf(logs, name);
+    if (scans.empty()) continue;
     const auto outcomes = locateAll(scans, every, threads, options);
     printRow(name, outcomes);
     writeCsv(out + "/" + name + ".csv", outcomes, every);
     writeSvg(out + "/" + name + ".svg", scans, outcomes, every);
-  };
-  for (const auto& name : names) run(name, bench::referenceScans(logs, name));
-  for (const std::string name : {"simul", "range_030_bearing_015"}) {
-    const auto path =
-        omnimapper::testing::mrptDataset("graphslam-engine-demos/action_observations_map/" + name + ".rawlog");
-    if (!demos || !path) continue;
-    source::RawlogSource log(*path);
-    run(name, bench::scansOf(log, eval::readMrptGroundTruth(*path + ".GT.txt"), 0.5, 0.5));
   }
 }

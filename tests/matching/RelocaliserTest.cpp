@@ -41,7 +41,7 @@ std::vector<TPose2D> wayAroundTheRing() {
 
 void expectNear(const TPose2D& pose, const TPose2D& truth) {
   EXPECT_LT(std::hypot(pose.x - truth.x, pose.y - truth.y), 0.05) << pose << " is not " << truth;
-  EXPECT_LT(std::abs(std::remainder(pose.phi - truth.phi, 360 * kDegree)), 0.5 * kDegree) << pose << " " << truth;
+  EXPECT_LT(std::abs(std::remainder(pose.phi - truth.phi, 360 * kDegree)), 1.0 * kDegree) << pose << " " << truth;
 }
 
 TEST(Relocaliser, FindsScansInTheRing) {

@@ -11,9 +11,9 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kMetresPerRadian = 2;           // how far away a scan of the map counts that looks another way
-constexpr double kHand = 0.1, kHandTurn = 0.03;  // [m] [rad]
-constexpr double kHopeless = 0.3;                // mean logarithms of likelihoods by which a candidate is out
+constexpr double kMetresPerRadian = 2;              // how far away a scan of the map counts that looks another way
+constexpr double kAstray = 0.3, kAstrayTurn = 0.1;  // [m] [rad] by which the matcher may err along a corridor
+constexpr double kHopeless = 0.3;                   // mean logarithms of likelihoods by which a candidate is out
 constexpr std::size_t kSectors = 30;
 constexpr double kSpread = 0.05;  // of mean logarithms of likelihoods over a cell of the grid that they are read from
 
@@ -132,30 +132,32 @@ LocationCandidate Relocaliser::refined(const SearchResult& place, const PlanarSc
   return candidate;
 }
 
-// The beams' logarithms where they are best within kHand of a pose.
-std::vector<double> Relocaliser::evidence(const TPose2D& pose, const BeamScan& scan) const {
+// Moves a candidate, by at most kAstray, to where the beams are likeliest.
+void Relocaliser::settle(LocationCandidate& candidate, const BeamScan& scan) const {
+  const TPose2D pose = candidate.map_from_sensor;
   TPose2D best = pose;
   auto logarithms = beams_->logLikelihoods(scan, pose);
-  double highest = mean(logarithms), step = 0.5 * kHand, turn_step = 0.01;
-  for (int halvings = 0; halvings < 3;) {
-    const double before = highest;
-    const TPose2D middle = best;
-    for (const TPose2D& offset : {TPose2D(step, 0, 0), TPose2D(-step, 0, 0), TPose2D(0, step, 0), TPose2D(0, -step, 0),
-                                  TPose2D(0, 0, turn_step), TPose2D(0, 0, -turn_step)}) {
-      const TPose2D tried(middle.x + offset.x, middle.y + offset.y, middle.phi + offset.phi);
-      if (distance(tried, pose) > kHand || turn(tried, pose) > kHandTurn) continue;
+  double step = 0.05, turn_step = 0.01;
+  for (int pass = 0; pass < 5; ++pass) {
+    bool better = false;
+    for (int direction = 0; direction < 6; ++direction) {
+      const double sign = direction % 2 == 0 ? 1 : -1;
+      TPose2D tried = best;
+      (direction < 2 ? tried.x : direction < 4 ? tried.y : tried.phi) += sign * (direction < 4 ? step : turn_step);
+      if (distance(tried, pose) > kAstray || turn(tried, pose) > kAstrayTurn) continue;
       auto there = beams_->logLikelihoods(scan, tried);
-      if (mean(there) <= highest) continue;
-      highest = mean(there);
+      if (mean(there) <= mean(logarithms)) continue;
       logarithms = std::move(there);
       best = tried;
+      better = true;
     }
-    if (highest > before) continue;
-    ++halvings;
+    if (better) continue;
     step /= 2;
     turn_step /= 2;
   }
-  return logarithms;
+  candidate.map_from_sensor = best;
+  candidate.log_likelihood = mean(logarithms);
+  candidate.beams = std::move(logarithms);
 }
 
 // Of candidates that are the same, the better one, best first.
@@ -179,19 +181,17 @@ Location Relocaliser::judged(std::vector<LocationCandidate> candidates, const Be
   const double hopeless = candidates.front().log_likelihood - kHopeless;
   for (auto& candidate : candidates) {
     if (candidate.log_likelihood < hopeless) break;
-    candidate.log_likelihood = mean(evidence(candidate.map_from_sensor, scan));
+    settle(candidate, scan);
   }
   sortAndMerge(candidates);
   location.candidates = std::move(candidates);
   const auto& first = location.candidates.front();
-  const auto best = evidence(first.map_from_sensor, scan);
-  const double beams = std::min(options_.most_beams, static_cast<int>(best.size()));
+  const double beams = std::min(options_.most_beams, static_cast<int>(first.beams.size()));
   const double nowhere = std::exp(std::min(50.0, beams * (options_.nowhere - first.log_likelihood)));
   double sum = nowhere, here = 0;
   for (auto& candidate : location.candidates) {
-    const double lead = candidate.log_likelihood < hopeless
-                            ? first.log_likelihood - candidate.log_likelihood
-                            : leadOf(best, evidence(candidate.map_from_sensor, scan), options_.doubt);
+    const double lead = candidate.beams.empty() ? first.log_likelihood - candidate.log_likelihood
+                                                : leadOf(first.beams, candidate.beams, options_.doubt);
     sum += candidate.probability = std::exp(-beams * std::max(0.0, lead));
     if (isNear(candidate, first, options_.place_distance, options_.place_angle)) here += candidate.probability;
   }

@@ -29,7 +29,7 @@ struct RelocaliserOptions {
   double place_angle = 0.2;     ///< [rad] within which candidates do not speak against each other
   BeamModel beams;
   int most_beams = 180;          ///< that count as independent of each other
-  double doubt = 0.5;            ///< standard errors by which a lead over another candidate counts less
+  double doubt = 0.25;           ///< standard errors by which a lead over another candidate counts less
   double nowhere = -0.9;         ///< mean logarithm of the beams' likelihoods of a place that is not in the map
   double min_confidence = 0.95;  ///< of an answer
 };
@@ -42,12 +42,11 @@ struct MapScan {
 
 struct LocationCandidate {
   mrpt::math::TPose2D map_from_sensor;
-  double score = 0;  ///< of the search: mean likelihood of the points, [0, 1]
-  /// Mean of BeamGrid::logLikelihoods, free space included: the best within a hand's breadth of the pose, so that no
-  /// place is judged by the rounding of its pose.
-  double log_likelihood = 0;
-  double probability = 0;  ///< among the candidates and "nowhere in the map"
-  ScanMatch match;         ///< with the map around it; its reference is the map
+  double score = 0;           ///< of the search: mean likelihood of the points, [0, 1]
+  double log_likelihood = 0;  ///< of all beams, free space included: the mean of `beams`
+  std::vector<double> beams;  ///< BeamGrid::logLikelihoods; empty if others are much better
+  double probability = 0;     ///< among the candidates and "nowhere in the map"
+  ScanMatch match;            ///< with the map around it; its reference is the map
 };
 
 struct Location {
@@ -78,7 +77,7 @@ class Relocaliser {
                                             int most) const;
   LocationCandidate refined(const SearchResult& place, const PlanarScan& lines, const BeamScan& scan) const;
   PlanarScan around(const mrpt::math::TPose2D& pose) const;
-  std::vector<double> evidence(const mrpt::math::TPose2D& pose, const BeamScan& scan) const;
+  void settle(LocationCandidate& candidate, const BeamScan& scan) const;
   void sortAndMerge(std::vector<LocationCandidate>& candidates) const;
   Location judged(std::vector<LocationCandidate> candidates, const BeamScan& scan) const;
 
