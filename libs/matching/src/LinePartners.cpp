@@ -12,9 +12,6 @@ namespace omnimapper::matching {
 using mrpt::math::TPose2D;
 
 namespace {
-// A reference point without a line holds a point of the scan from all sides, but by less: it is clutter, or an edge
-// that the next beam passes.
-constexpr float kPointWeight = 0.6F;
 // Normals are good to some 4 degrees: a direction that gets less than its square of all information gets noise.
 constexpr double kNoiseShare = 0.005;
 using Lane = Eigen::Array4f;
@@ -51,7 +48,7 @@ void LinePartners::find(const TPose2D& pose, double max_distance) {
     const float ny = ny_[count_] = reference_.normalYs()[nearest];
     const bool has_line = nx != 0 || ny != 0;
     on_line_[count_] = has_line ? 1 : 0;
-    alone_[count_] = has_line ? 0 : kPointWeight;
+    alone_[count_] = has_line ? 0 : 1;
     ++count_;
   }
   for (std::size_t i = count_; i % kLane != 0; ++i) {
@@ -75,13 +72,14 @@ double LinePartners::quantile(const TPose2D& pose, double share) const {
 }
 
 // Sums in the reference's frame about the scan's origin, then turned into the scan's.
-LineEquations LinePartners::equations(const TPose2D& pose, double loss_scale, double pull) const {
+LineEquations LinePartners::equations(const TPose2D& pose, double loss_scale, double alone, double along) const {
   const double c = std::cos(pose.phi), s = std::sin(pose.phi);
   const auto cf = static_cast<float>(c), sf = static_cast<float>(s);
   const auto tx = static_cast<float>(pose.x), ty = static_cast<float>(pose.y);
-  const auto scale = static_cast<float>(1 / (loss_scale * loss_scale)), pulled = static_cast<float>(pull);
+  const auto scale = static_cast<float>(1 / (loss_scale * loss_scale)), held = static_cast<float>(alone),
+             pulled = static_cast<float>(along);
   Lane xx = Lane::Zero(), xy = xx, yy = xx, xt = xx, yt = xx, tt = xx, gx = xx, gy = xx, gt = xx, squares = xx,
-       weights = xx;
+       weights = xx, radii = xx;
   for (std::size_t i = 0; i < count_; i += kLane) {
     const auto load = [i](const Values& values) { return Eigen::Map<const Lane>(values.data() + i); };
     const Lane x = cf * load(px_) - sf * load(py_), y = sf * load(px_) + cf * load(py_);
@@ -89,7 +87,7 @@ LineEquations LinePartners::equations(const TPose2D& pose, double loss_scale, do
     const Lane across = nx * dx + ny * dy, lever = x * ny - y * nx;
     const Lane distance = dx * dx + dy * dy, square = across * across;
     const Lane weight = load(on_line_) / (1 + square * scale);
-    const Lane point = load(alone_) / (1 + distance * scale) + pulled * load(on_line_) / (1 + distance * scale);
+    const Lane point = (held * load(alone_) + pulled * load(on_line_)) / (1 + distance * scale);
     const Lane wx = weight * nx, wy = weight * ny, wt = weight * lever, wa = weight * across;
     xx += wx * nx + point;
     xy += wx * ny;
@@ -102,6 +100,7 @@ LineEquations LinePartners::equations(const TPose2D& pose, double loss_scale, do
     gt += wa * lever + point * (x * dy - y * dx);
     squares += weight * square;
     weights += weight;
+    radii += (weight + point) * (x * x + y * y);
   }
   LineEquations sums;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
@@ -112,6 +111,7 @@ LineEquations LinePartners::equations(const TPose2D& pose, double loss_scale, do
   sums.gradient = turn.transpose() * Eigen::Vector3d(gx.sum(), gy.sum(), gt.sum());
   sums.squared_distance = squares.sum();
   sums.weight = weights.sum();
+  sums.squared_radius = radii.sum();
   return sums;
 }
 
@@ -123,7 +123,7 @@ FixedDirections::FixedDirections(const LineEquations& equations) {
     fixed_.setZero();
     return;
   }
-  const double lever = std::max(0.5, std::sqrt(equations.information(2, 2) / total));
+  const double lever = std::max(0.5, std::sqrt(equations.squared_radius / total));
   const Eigen::Vector3d scale(1, 1, 1 / lever);
   const Eigen::Matrix3d scaled = scale.asDiagonal() * equations.information * scale.asDiagonal();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;

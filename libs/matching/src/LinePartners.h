@@ -15,6 +15,7 @@ struct LineEquations {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of x y yaw in the scan's frame, unit variance a point
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double squared_distance = 0, weight = 0;  ///< of the points on lines
+  double squared_radius = 0;                ///< [m2] of all points from the scan's origin, weighted
 
   /// [m] Root mean square across the lines.
   double wallDistance() const;
@@ -32,8 +33,10 @@ class LinePartners {
   std::size_t count() const { return count_; }
   /// [m] `share` of the distances across the lines are less than that.
   double quantile(const mrpt::math::TPose2D& reference_from_scan, double share) const;
-  /// `loss_scale` [m] of the Cauchy weight; `pull`: how much of a distance along a line counts too, [0, 1].
-  LineEquations equations(const mrpt::math::TPose2D& reference_from_scan, double loss_scale, double pull) const;
+  /// `loss_scale` [m] of the Cauchy weight; `alone`: weight of partners without a line, by their whole distance;
+  /// `along`: weight by which that counts of the others too.
+  LineEquations equations(const mrpt::math::TPose2D& reference_from_scan, double loss_scale, double alone,
+                          double along) const;
 
  private:
   const PointIndex& reference_;
@@ -41,7 +44,7 @@ class LinePartners {
   std::vector<int> likely_;  // of each point, from the last search
   using Values = std::vector<float>;
   // Of each point with a partner, filled up to a whole number of lanes: the point in the scan, its partner, the
-  // partner's normal, the weight of the line and of the point itself.
+  // partner's normal, and 1 or 0: on a line, alone.
   Values px_, py_, qx_, qy_, nx_, ny_, on_line_, alone_;
   mutable Values scratch_;
   std::size_t count_ = 0;

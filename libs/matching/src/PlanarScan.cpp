@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace omnimapper::matching {
 
@@ -46,18 +47,18 @@ class Sums {
   std::vector<Five> sums_;
 };
 
-// [m] Standard deviation along the beams: half of all second differences are less than their expected median. Walls are
-// straight enough not to count; corners and edges are fewer than half of all points.
+// [m] Standard deviation along the beams, from the quarter of the second differences that are least: walls are straight
+// enough not to count, and corners, edges and clutter may be most of all points.
 float rangeNoise(const std::vector<Eigen::Vector2f>& points) {
   if (points.size() < 3) return 0;
-  constexpr float kMedianOfSecondDifference = 1.652F;  // of noise of standard deviation 1: 0.6745 sqrt(1 + 4 + 1)
+  constexpr float kQuarter = 0.780F;  // of noise of standard deviation 1: 0.3186 sqrt(1 + 4 + 1)
   std::vector<float> squares(points.size() - 2);
   for (std::size_t i = 0; i < squares.size(); ++i) {
     squares[i] = (points[i] - 2 * points[i + 1] + points[i + 2]).squaredNorm();
   }
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  return std::sqrt(*middle) / kMedianOfSecondDifference;
+  const auto quarter = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 4);
+  std::nth_element(squares.begin(), quarter, squares.end());
+  return std::sqrt(*quarter) / kQuarter;
 }
 
 // For each point the first and the last one of its stretch without gaps.
@@ -80,8 +81,10 @@ struct WindowLine {
   double along, across;          // eigenvalues: sums of squares [m2]
   double root, difference, xy_;  // half the difference of the eigenvalues, and its parts
 
-  WindowLine(const Sums::Five& sum, int count) {
-    const double inverse = 1.0 / count;
+  int count;
+
+  WindowLine(const Sums::Five& sum, int points) : count(points) {
+    const double inverse = 1.0 / points;
     mean_x = sum[0] * inverse;
     mean_y = sum[1] * inverse;
     const double xx = sum[2] - sum[0] * mean_x, yy = sum[4] - sum[1] * mean_y;
@@ -100,40 +103,65 @@ struct WindowLine {
   }
 };
 
+// Those with a neighbour: a beam that ends alone (a person, glass, a thin leg) must not cut the wall behind it in two.
+std::vector<int> inCompany(const std::vector<Eigen::Vector2f>& points, float gap) {
+  const int count = static_cast<int>(points.size());
+  std::vector<int> kept;
+  kept.reserve(points.size());
+  bool joined = false;  // to the one before
+  for (int i = 0; i < count; ++i) {
+    const bool joins = i + 1 < count && (points[i + 1] - points[i]).squaredNorm() <= gap * gap;
+    if (joined || joins) kept.push_back(i);
+    joined = joins;
+  }
+  return kept;
+}
+
+// The smallest window around point i through which a line fits.
+std::optional<WindowLine> lineAround(const std::vector<Eigen::Vector2f>& points, const Stretches& stretches,
+                                     const Sums& sums, int i, float noise) {
+  const float reach = std::max(kLongestReach, kReachOfNoise * noise);
+  const auto far = [&](int other) { return (points[other] - points[i]).squaredNorm() > reach * reach; };
+  int previous = 0;
+  for (const int half : kHalfWindows) {
+    int first = std::max(i - half, stretches.first[i]), last = std::min(i + half, stretches.last[i]);
+    while (far(first)) ++first;
+    while (far(last)) --last;
+    const int count = last - first + 1;
+    if (count == previous) break;
+    previous = count;
+    if (count < kFewest) continue;
+    const WindowLine line(sums.between(first, last + 1), count);
+    const double allowed = kAngleVariance * line.along;
+    const bool fits = line.across <= kThinness * line.along && line.across <= (count - 2) * allowed &&
+                      static_cast<double>(noise) * noise <= allowed;
+    if (fits) return line;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 PlanarScan fitLines(const std::vector<Eigen::Vector2f>& points) {
   PlanarScan scan{points, std::vector<Eigen::Vector2f>(points.size(), Eigen::Vector2f::Zero()), 1};
-  const int count = static_cast<int>(points.size());
-  if (count < kFewest) return scan;
   const float noise = rangeNoise(points);
-  const float reach = std::max(kLongestReach, kReachOfNoise * noise);
-  const double variance = static_cast<double>(noise) * noise;
-  const Stretches stretches(points, std::max(kLargestGap, kGapOfNoise * noise));
-  const Sums sums(points);
+  const float gap = std::max(kLargestGap, kGapOfNoise * noise);
+  const auto kept = inCompany(points, gap);
+  if (kept.size() < kFewest) return scan;
+  std::vector<Eigen::Vector2f> walls;
+  walls.reserve(kept.size());
+  for (const int i : kept) walls.push_back(points[i]);
+  const Stretches stretches(walls, gap);
+  const Sums sums(walls);
   int fitted = 0, taken = 0;
-  for (int i = 0; i < count; ++i) {
-    const auto far = [&](int other) { return (points[other] - points[i]).squaredNorm() > reach * reach; };
-    int previous = 0;
-    for (const int half : kHalfWindows) {
-      int first = std::max(i - half, stretches.first[i]), last = std::min(i + half, stretches.last[i]);
-      while (far(first)) ++first;
-      while (far(last)) --last;
-      const int n = last - first + 1;
-      if (n == previous) break;
-      previous = n;
-      if (n < kFewest) continue;
-      const WindowLine line(sums.between(first, last + 1), n);
-      const double allowed = kAngleVariance * line.along;
-      if (line.across > kThinness * line.along || line.across > (n - 2) * allowed || variance > allowed) continue;
-      const Eigen::Vector2f normal = line.normal();
-      scan.normals[i] = normal;
-      scan.points[i] -= normal * (normal.x() * (points[i].x() - static_cast<float>(line.mean_x)) +
-                                  normal.y() * (points[i].y() - static_cast<float>(line.mean_y)));
-      taken += n;
-      ++fitted;
-      break;
-    }
+  for (std::size_t j = 0; j < walls.size(); ++j) {
+    const auto line = lineAround(walls, stretches, sums, static_cast<int>(j), noise);
+    if (!line) continue;
+    const Eigen::Vector2f normal = line->normal(), mean(line->mean_x, line->mean_y);
+    scan.normals[kept[j]] = normal;
+    scan.points[kept[j]] -= normal * normal.dot(walls[j] - mean);
+    taken += line->count;
+    ++fitted;
   }
   if (fitted > 0) scan.smoothing = static_cast<float>(taken) / static_cast<float>(fitted);
   return scan;

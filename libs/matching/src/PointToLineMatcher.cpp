@@ -18,8 +18,11 @@ namespace {
 constexpr double kJudgedWithin = 0.3;  // [m] of a partner for the overlap
 constexpr double kJudgedLoss = 0.1;    // [m]
 // The loss has the scale of so many times what most points are away from their lines.
-constexpr double kMost = 0.7, kSpreads = 3;
+constexpr double kMost = 0.5, kSpreads = 4.5;
 constexpr double kSmallestLoss = 0.07;  // [m]
+// A point of the reference without a line holds a point of the scan from all sides, but by less than a line: it is
+// clutter, or an edge that the next beam passes. It says little of which directions the walls fix.
+constexpr double kPointsHold = 0.6, kPointsFix = 0.1;
 constexpr double kReachOfLoss = 3;
 constexpr double kShrink = 0.5;   // of the reach, from one search of partners to the next
 constexpr double kPull = 0.3;     // weight of the distances along the lines
@@ -29,14 +32,13 @@ constexpr double kLever = 5;      // [m] that turns count by
 
 // Gauss-Newton with the partners as they are, twice, because the weights change. Tells the larger step [m].
 double refine(const LinePartners& partners, const MatchGuess& guess, double loss_scale, double pull, TPose2D& pose) {
+  const FixedDirections directions(partners.equations(pose, loss_scale, kPointsFix, 0));
   double largest = 0;
   for (int k = 0; k < 2; ++k) {
     const TPose2D moved = pose - guess.reference_from_scan;
     const Eigen::Vector3d from_guess(moved.x, moved.y, mrpt::math::wrapToPi(moved.phi));
-    // Which directions are open the lines alone tell.
-    const auto lines = partners.equations(pose, loss_scale, 0);
-    const Eigen::Vector3d step = FixedDirections(lines).step(
-        pull > 0 ? partners.equations(pose, loss_scale, pull) : lines, guess.information, from_guess);
+    const Eigen::Vector3d step =
+        directions.step(partners.equations(pose, loss_scale, kPointsHold, pull), guess.information, from_guess);
     pose = pose + TPose2D(step.x(), step.y(), step.z());
     largest = std::max({largest, step.head<2>().norm(), kLever * std::abs(step.z())});
   }
@@ -47,7 +49,7 @@ ScanMatch toMatch(const LinePartners& partners, const PlanarScan& scan, const TP
   ScanMatch match;
   match.reference_from_scan = pose;
   if (partners.count() == 0) return match;
-  const auto equations = partners.equations(pose, kJudgedLoss, 0);
+  const auto equations = partners.equations(pose, kJudgedLoss, kPointsFix, 0);
   const FixedDirections directions(equations);
   match.overlap = static_cast<double>(partners.count()) / static_cast<double>(scan.size());
   match.wall_distance = equations.wallDistance();
