@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +13,6 @@ namespace omnimapper::matching {
 using mrpt::math::TPose2D;
 
 namespace {
-// Normals are good to some 4 degrees: a direction that gets less than its square of all information gets noise.
-constexpr double kNoiseShare = 0.005;
 using Lane = Eigen::Array4f;
 constexpr std::size_t kLane = 4;
 }  // namespace
@@ -116,7 +115,7 @@ LineEquations LinePartners::equations(const TPose2D& pose, double loss_scale, do
 }
 
 // Yaw counts by the lever it moves the points with, so that all three are metres.
-FixedDirections::FixedDirections(const LineEquations& equations) {
+FixedDirections::FixedDirections(const LineEquations& equations, double noise_share) {
   const double total = equations.information.topLeftCorner<2, 2>().trace();
   if (!(total > 0)) {
     basis_.setIdentity();
@@ -131,7 +130,7 @@ FixedDirections::FixedDirections(const LineEquations& equations) {
   basis_ = scale.asDiagonal() * eigen.eigenvectors();
   for (int i = 0; i < 3; ++i) {
     const double value = eigen.eigenvalues()[i];
-    const bool fixed = value > kNoiseShare * total && value > 1e-6;
+    const bool fixed = value > noise_share * total && value > 1e-6;
     fixed_[i] = fixed ? value : 0;
     count_ += fixed;
   }
@@ -148,6 +147,11 @@ Eigen::Vector3d FixedDirections::step(const LineEquations& equations, const Eige
       fixing.transpose() * equations.information * fixing + basis_.transpose() * guess_information * basis_;
   information.diagonal().array() += kNothing;
   return -basis_ * information.ldlt().solve(slope);
+}
+
+Eigen::Vector3d FixedDirections::fixedPart(const Eigen::Vector3d& motion) const {
+  const Eigen::Array3d counts = (fixed_.array() > 0).cast<double>();
+  return basis_ * (counts * (basis_.inverse() * motion).array()).matrix();
 }
 
 Eigen::Matrix3d FixedDirections::covariance() const {

@@ -53,8 +53,13 @@ class LinePartners {
 /// Which directions the partners fix, as a change of basis in which x y yaw count alike.
 class FixedDirections {
  public:
-  explicit FixedDirections(const LineEquations& equations);
+  /// What gets less than `noise_share` of all information counts as open.
+  explicit FixedDirections(const LineEquations& equations, double noise_share = kNoiseShare);
+  /// Normals are good to some 6 degrees: a direction that gets less than its square of all information gets noise.
+  static constexpr double kNoiseShare = 0.01;
   bool all() const { return count_ == 3; }
+  /// The part of a small motion that is not along open directions.
+  Eigen::Vector3d fixedPart(const Eigen::Vector3d& motion) const;
   /// The Gauss-Newton step of these equations, and of a guess that knows so much and is that far away. Along directions
   /// that are not fixed the guess alone counts; zero where it knows nothing either.
   Eigen::Vector3d step(const LineEquations& equations, const Eigen::Matrix3d& guess_information,

@@ -22,7 +22,8 @@ constexpr double kMost = 0.5, kSpreads = 4.5;
 constexpr double kSmallestLoss = 0.07;  // [m]
 // A point of the reference without a line holds a point of the scan from all sides, but by less than a line: it is
 // clutter, or an edge that the next beam passes. It says little of which directions the walls fix.
-constexpr double kPointsHold = 0.6, kPointsFix = 0.1;
+constexpr double kPointsHold = 0.6, kPointsFix = 0.03;
+constexpr double kWideNoiseShare = 0.003;  // what is open is hard to tell from far away
 constexpr double kReachOfLoss = 3;
 constexpr double kShrink = 0.5;   // of the reach, from one search of partners to the next
 constexpr double kPull = 0.3;     // weight of the distances along the lines
@@ -30,15 +31,20 @@ constexpr double kNear = 0.01;    // [m] a step that ends the wide search
 constexpr double kStill = 0.001;  // [m] a step that ends the match
 constexpr double kLever = 5;      // [m] that turns count by
 
+// From where it was guessed, in the scan's frame.
+Eigen::Vector3d motion(const TPose2D& guess, const TPose2D& pose) {
+  const TPose2D moved = pose - guess;
+  return {moved.x, moved.y, mrpt::math::wrapToPi(moved.phi)};
+}
+
 // Gauss-Newton with the partners as they are, twice, because the weights change. Tells the larger step [m].
-double refine(const LinePartners& partners, const MatchGuess& guess, double loss_scale, double pull, TPose2D& pose) {
-  const FixedDirections directions(partners.equations(pose, loss_scale, kPointsFix, 0));
+double refine(const LinePartners& partners, const MatchGuess& guess, double loss_scale, bool wide, TPose2D& pose) {
+  const FixedDirections directions(partners.equations(pose, loss_scale, kPointsFix, 0),
+                                   wide ? kWideNoiseShare : FixedDirections::kNoiseShare);
   double largest = 0;
   for (int k = 0; k < 2; ++k) {
-    const TPose2D moved = pose - guess.reference_from_scan;
-    const Eigen::Vector3d from_guess(moved.x, moved.y, mrpt::math::wrapToPi(moved.phi));
-    const Eigen::Vector3d step =
-        directions.step(partners.equations(pose, loss_scale, kPointsHold, pull), guess.information, from_guess);
+    const Eigen::Vector3d step = directions.step(partners.equations(pose, loss_scale, kPointsHold, wide ? kPull : 0),
+                                                 guess.information, motion(guess.reference_from_scan, pose));
     pose = pose + TPose2D(step.x(), step.y(), step.z());
     largest = std::max({largest, step.head<2>().norm(), kLever * std::abs(step.z())});
   }
@@ -82,14 +88,22 @@ ScanMatch PointToLineMatcher::match(const MatchReference& reference, const Plana
   LinePartners partners(dynamic_cast<const PointIndex&>(reference), scan);
   TPose2D pose = guess.reference_from_scan;
   double reach = options_.max_distance, loss_scale = options_.max_distance;
-  bool wide = true;
+  bool wide = true, settled = false;
   for (int i = 0; i < options_.max_iterations; ++i) {
     partners.find(pose, reach);
     if (partners.count() == 0) return toMatch(partners, scan, guess.reference_from_scan);
     const double spread = kSpreads * partners.quantile(pose, kMost);
     loss_scale = std::clamp(spread, kSmallestLoss, std::max(kSmallestLoss, loss_scale));
-    const double moved = refine(partners, guess, loss_scale, wide ? kPull : 0, pose);
-    if (!wide && moved < kStill && reach < 1.01 * std::max(options_.min_distance, kReachOfLoss * loss_scale)) break;
+    const double moved = refine(partners, guess, loss_scale, wide, pose);
+    if (!wide && moved < kStill && reach < 1.01 * std::max(options_.min_distance, kReachOfLoss * loss_scale)) {
+      if (settled) break;
+      settled = true;
+      const FixedDirections directions(partners.equations(pose, loss_scale, kPointsFix, 0));
+      if (directions.all()) break;
+      // What the wide search moved along a direction that has turned out to be open is taken back.
+      const Eigen::Vector3d told = directions.fixedPart(motion(guess.reference_from_scan, pose));
+      pose = guess.reference_from_scan + TPose2D(told.x(), told.y(), told.z());
+    }
     wide = wide && moved > kNear;
     if (!wide) reach = std::max(options_.min_distance, std::min(kShrink * reach, kReachOfLoss * loss_scale));
   }
