@@ -107,7 +107,8 @@ ScanMatch PointToLineMatcher::match(const MatchReference& reference, const Plana
     wide = wide && moved > kNear;
     if (!wide) reach = std::max(options_.min_distance, std::min(kShrink * reach, kReachOfLoss * loss_scale));
   }
-  return judge(reference, scan, pose);
+  partners.find(pose, kJudgedWithin);
+  return toMatch(partners, scan, pose);
 }
 
 ScanMatch PointToLineMatcher::judge(const MatchReference& reference, const PlanarScan& scan, const TPose2D& pose) {
