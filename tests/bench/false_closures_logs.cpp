@@ -149,7 +149,7 @@ Outcome run(const Request& request, double per_key_frame, int group, int seed,
   auto config = base::Config::fromFile(request.ini);
   for (const auto& setting : request.settings) config.set(setting);
   if (per_key_frame > 0) {
-    config.set("mapper.measurement_plugins=scan_matching, false_closures");
+    config.set("mapper.measurement_plugins=loop_closure, false_closures");
     config.set("false_closures.class=FalseClosures");
     config.set("false_closures.per_key_frame=" + std::to_string(per_key_frame));
     config.set("false_closures.group=" + std::to_string(group));

@@ -97,7 +97,7 @@ TEST(Scans, OfATiltedPlaneAreLeftOut) {
   tilted.base_from_sensor = CPose3D(0.2, 0, 1, 0, 0.6, 0);
   const Checked checked(halfALap({level, tilted}));
   EXPECT_TRUE(checked.says("problem: 'tilted': scans a plane tilted by 34 deg")) << checked.text();
-  EXPECT_EQ(checked.proposed("scan_matching", "labels"), "laser.points");
+  EXPECT_EQ(checked.proposed("loop_closure", "labels"), "laser.points");
 }
 
 TEST(Scans, OfTwoLasersTheOneThatSeesMoreIsTheReference) {

@@ -100,7 +100,7 @@ TEST_F(Continue, AWrongStartLeavesTheSessionApartAndTheMapAsItWas) {
   const auto [first, second] = cut(log, 0.5);
   const auto before = map(first);
   start_.start = SessionOptions::Start::pose;
-  start_.start_x = 3, start_.start_y = 4, start_.start_yaw = 0;  // 5 m off
+  start_.start_x = 30, start_.start_y = 40, start_.start_yaw = 0;  // beyond what is searched
   const auto both = goOn(*before, second);
   const auto view = both->view();
   EXPECT_FALSE(view.map.sessions[1].joined);
@@ -109,18 +109,21 @@ TEST_F(Continue, AWrongStartLeavesTheSessionApartAndTheMapAsItWas) {
     EXPECT_LT(moved.translation().norm(), 1e-3) << frame.id;
   }
   const auto start = view.map.key_frames[before->view().map.key_frames.size()].map_from_base;
-  EXPECT_NEAR(start.x(), 3, 1e-3);
-  EXPECT_NEAR(start.y(), 4, 1e-3);
+  EXPECT_NEAR(start.x(), 30, 1e-3);
+  EXPECT_NEAR(start.y(), 40, 1e-3);
 }
 
-TEST_F(Continue, AStartHalfAMetreOffIsSetRight) {
+TEST_F(Continue, AStartThatIsOffIsSetRight) {
   const SimulatedLog log(ring(2));
   const auto [first, second] = cut(log, 0.5);
   start_.start = SessionOptions::Start::pose;
-  start_.start_x = 0.4, start_.start_y = 0.3, start_.start_yaw = 0.2;
-  const auto both = goOn(*map(first), second);
-  EXPECT_TRUE(both->view().map.sessions[1].joined);
-  EXPECT_LT(testing::trajectoryError(both->view(), log), 0.1);
+  for (const double metres : {0.5, 2.5, 5.0}) {
+    start_.start_x = 0.8 * metres, start_.start_y = 0.6 * metres, start_.start_yaw = 0.2;
+    start_.start_sigma = std::max(1.0, metres / 2);
+    const auto both = goOn(*map(first), second);
+    EXPECT_TRUE(both->view().map.sessions[1].joined) << metres;
+    EXPECT_LT(testing::trajectoryError(both->view(), log), 0.1) << metres;
+  }
 }
 
 TEST_F(Continue, AThirdSessionGoesOnFromTheSecond) {

@@ -30,7 +30,7 @@ class Engine : public ::testing::Test {
     options.place = SimulatedLogOptions::Place::box;
     const SimulatedLog log(options);
     observations_ = log.observations();
-    engine_ = makeEngine(kLaserIni);
+    engine_ = makeEngine(kLaserIni, {"mapper.pose_plugins=odometry, no_motion"});
     testing::run(*engine_, observations_);
     odometry_ = std::make_unique<plugins::OdometryPlugin>(plugins::OdometryOptions{});
     for (const auto& observation : observations_) odometry_->add(*observation);

@@ -39,7 +39,7 @@ TEST(Joining, ASessionIsJoinedByAFactorToTheFirstOneThatActs) {
   ThreeSessions world;
   EXPECT_TRUE(world.joined(0));
   EXPECT_FALSE(world.joined(1));
-  const auto id = world.bind({0, 1}, {1, 1}, "scan_matching");
+  const auto id = world.bind({0, 1}, {1, 1}, "loop_closure");
   EXPECT_TRUE(world.joined(1));
   EXPECT_EQ(world.map.sessions[1].joined_at, (base::KeyFrameId{1, 1}));
   EXPECT_EQ(joinedText(world.map.sessions[1]), "session 1 was joined at key frame 1:1");
@@ -52,10 +52,10 @@ TEST(Joining, ASessionIsJoinedByAFactorToTheFirstOneThatActs) {
 
 TEST(Joining, ASessionIsJoinedByWayOfAnother) {
   ThreeSessions world;
-  world.bind({1, 0}, {2, 0}, "scan_matching");
+  world.bind({1, 0}, {2, 0}, "loop_closure");
   EXPECT_FALSE(world.joined(1));
   EXPECT_FALSE(world.joined(2)) << "tied to each other, but not to the map";
-  world.bind({0, 0}, {2, 1}, "scan_matching");
+  world.bind({0, 0}, {2, 1}, "loop_closure");
   EXPECT_TRUE(world.joined(1));
   EXPECT_TRUE(world.joined(2));
   EXPECT_EQ(world.map.sessions[1].joined_at, (base::KeyFrameId{2, 1}));

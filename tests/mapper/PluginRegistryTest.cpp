@@ -45,7 +45,7 @@ TEST_F(PluginRegistry, AnUnknownClassIsAnsweredWithPlaceNearestAndKnownNames) {
                                  "NoMotionPlugin", "pose plugin", "plugin_libraries"}) {
     EXPECT_TRUE(holds(error.what(), part)) << part << " is not in: " << error.what();
   }
-  EXPECT_FALSE(holds(error.what(), "ScanMatchingPlugin")) << "another kind: " << error.what();
+  EXPECT_FALSE(holds(error.what(), "LoopClosurePlugin")) << "another kind: " << error.what();
 }
 
 TEST_F(PluginRegistry, AMissingLibraryIsAnsweredWithItsName) {
@@ -64,7 +64,7 @@ TEST_F(PluginRegistry, AFileThatIsNoLibraryIsRefused) {
 TEST_F(PluginRegistry, MakesThePluginsOfAnIniInItsOrderUnderTheNamesOfTheirSections) {
   const auto config = base::Config::fromText(
       "[wheels]\nclass = OdometryPlugin\n[rest]\nclass = NoMotionPlugin\n[points]\nclass = LaserPointsExtractor\n"
-      "[match]\nclass = ScanMatchingPlugin\n[gps]\nclass = GpsPlugin\n",
+      "[match]\nclass = LoopClosurePlugin\n[gps]\nclass = GpsPlugin\n",
       "my.ini");
   const auto set = makePlugins({{"rest", "wheels"}, {"points"}, {"gps", "match"}, {}}, config, {});
   ASSERT_EQ(set.pose.size(), 2U);
@@ -92,7 +92,7 @@ TEST_F(PluginRegistry, ASectionThatIsMissingOrHasNoClassIsNamed) {
 
 TEST_F(PluginRegistry, AWrongOptionOfAPluginIsRefusedWhenItIsMade) {
   const auto make = [](const std::string& line) {
-    const auto config = base::Config::fromText("[m]\nclass = ScanMatchingPlugin\n" + line + "\n", "my.ini");
+    const auto config = base::Config::fromText("[m]\nclass = LoopClosurePlugin\n" + line + "\n", "my.ini");
     return errorOf([&] { makePlugins({{}, {}, {"m"}, {}}, config, {}); }).code();
   };
   EXPECT_EQ(make("min_overlapp = 0.5"), base::ExitCode::unknown_key);
@@ -138,9 +138,9 @@ TEST_F(PluginRegistry, PrintedSectionsHoldEveryOptionAndReadBackAsTheDefaults) {
     }
     EXPECT_NO_THROW(makePlugins(sections, config, {})) << ini;
   }
-  const auto error = errorOf([] { printIni("ScanMatchinPlugin"); });
+  const auto error = errorOf([] { printIni("LoopClosurPlugin"); });
   EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
-  EXPECT_TRUE(holds(error.what(), "did you mean 'ScanMatchingPlugin'")) << error.what();
+  EXPECT_TRUE(holds(error.what(), "did you mean 'LoopClosurePlugin'")) << error.what();
 }
 
 TEST_F(PluginRegistry, TheReferenceHoldsEverySectionEveryClassAndEveryKey) {

@@ -77,5 +77,15 @@ TEST(PlanarScan, AppendingMovesPointsAndTurnsNormals) {
   }
 }
 
+TEST(PlanarScan, OncePerCellKeepsTheFirstPointOfEach) {
+  PlanarScan scan;
+  scan.points = {{0.01F, 0.01F}, {0.09F, 0.09F}, {0.11F, 0.01F}, {-0.01F, 0.01F}, {0.05F, 0.02F}};
+  scan.normals = {{1, 0}, {0, 1}, {0, 0}, {0, -1}, {1, 0}};
+  const auto kept = oncePerCell(scan, 0.1);
+  EXPECT_EQ(kept.points, (std::vector<Vector2f>{{0.01F, 0.01F}, {0.11F, 0.01F}, {-0.01F, 0.01F}}));
+  EXPECT_EQ(kept.normals, (std::vector<Vector2f>{{1, 0}, {0, 0}, {0, -1}}));
+  EXPECT_TRUE(oncePerCell({}, 0.1).empty());
+}
+
 }  // namespace
 }  // namespace omnimapper::matching

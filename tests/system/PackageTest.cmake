@@ -42,7 +42,7 @@ endforeach()
 file(WRITE "${SCRATCH}/foreign.ini" "
 [mapper]
 pose_plugins     = odometry
-measurement_plugins = scan_matching
+measurement_plugins = loop_closure
 output_plugins   = pose_count
 plugin_libraries = ${SCRATCH}/build/libforeign-plugins.so
 [perception]
@@ -51,8 +51,8 @@ extractors = laser_points
 class = OdometryPlugin
 [laser_points]
 class = LaserPointsExtractor
-[scan_matching]
-class = ScanMatchingPlugin
+[loop_closure]
+class = LoopClosurePlugin
 [pose_count]
 class = PoseCountOutput
 file  = count.txt

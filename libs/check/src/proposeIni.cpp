@@ -83,7 +83,7 @@ class Proposal {
     if (!lasers_.empty() && lasers_.size() < facts_.scans.size()) {
       std::vector<std::string> labels;
       for (const auto& laser : lasers_) labels.push_back(laser + ".points");
-      set("scan_matching", "labels", joined(labels, ", "), "the other lasers see nothing that can be matched");
+      set("loop_closure", "labels", joined(labels, ", "), "the other lasers see nothing that can be matched");
     }
     double limit = 0, median = 0;
     for (const auto& laser : lasers_) {

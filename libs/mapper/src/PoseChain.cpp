@@ -1,7 +1,10 @@
+#include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/mapper/PoseChain.h>
 #include <omnimapper/mapper/PoseFactors.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 
 namespace omnimapper::mapper {
 
@@ -9,12 +12,21 @@ namespace {
 
 using mrpt::poses::CPose3D;
 
-// The most certain of what the sources say.
-const RelativeMotion& best(const std::vector<std::pair<std::string, RelativeMotion>>& told) {
-  return std::min_element(
-             told.begin(), told.end(),
-             [](const auto& a, const auto& b) { return a.second.covariance.trace() < b.second.covariance.trace(); })
-      ->second;
+// Whether two sources tell of one motion what cannot both be true. In the plane: few know of height and tilt.
+bool contradict(const RelativeMotion& a, const RelativeMotion& b) {
+  constexpr double kBeyondChance = 30;                 // chi-square of three degrees of freedom: one in a million
+  constexpr double kPosition = 0.005, kAngle = 0.003;  // [m] [rad] that nobody is better than
+  const auto apart = geometry::minus(geometry::fromMrpt(a.begin_from_end), geometry::fromMrpt(b.begin_from_end));
+  const std::array<int, 3> planar{0, 1, 5};
+  Eigen::Vector3d difference;
+  Eigen::Matrix3d covariance = Eigen::Vector3d(kPosition, kPosition, kAngle).cwiseAbs2().asDiagonal();
+  for (int row = 0; row < 3; ++row) {
+    difference[row] = apart[planar[row]];
+    for (int column = 0; column < 3; ++column) {
+      covariance(row, column) += a.covariance(planar[row], planar[column]) + b.covariance(planar[row], planar[column]);
+    }
+  }
+  return difference.dot(covariance.ldlt().solve(difference)) > kBeyondChance;
 }
 
 std::vector<base::Stamp> stampsOf(const std::vector<map::HangingFrame>& hanging) {
@@ -64,16 +76,16 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
   Told to, from;
   if (before) {
     place.before = before->id;
-    to = motionBetween(before->stamp, stamp, true);
+    to = toLink(before->stamp, stamp);
     if (to.motions.empty()) return std::nullopt;
   }
   if (after) {
     place.after = after->id;
-    from = motionBetween(stamp, after->stamp, true);
+    from = toLink(stamp, after->stamp);
     if (from.motions.empty()) return std::nullopt;
   }
-  const CPose3D guess = before   ? before->map_from_base + best(to.motions).begin_from_end
-                        : after  ? after->map_from_base + (-best(from.motions).begin_from_end)
+  const CPose3D guess = before   ? before->map_from_base + to.motions.front().second.begin_from_end
+                        : after  ? after->map_from_base + (-from.motions.front().second.begin_from_end)
                         : start_ ? start_->map_from_base
                                  : CPose3D();
   if (before && after) {
@@ -201,7 +213,7 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
     const base::KeyFrameId id = map_.key_frames[position].id;
     if (position + 1 < map_.key_frames.size()) {
       const map::KeyFrame& next = map_.key_frames[position + 1];
-      const auto told = motionBetween(map_.key_frames[position].stamp, next.stamp, true);
+      const auto told = toLink(map_.key_frames[position].stamp, next.stamp);
       const bool worse = told.motions.empty() || (told.by_fallback && !links_[id].by_fallback);
       if (worse) continue;  // what was told before is all there is
       unlink(id);
@@ -221,6 +233,20 @@ PoseChain::Told PoseChain::motionBetween(base::Stamp begin, base::Stamp end, boo
       if (fallback && !told.motions.empty()) break;  // the first that can
       if (const auto motion = plugin->between(begin, end)) told.motions.emplace_back(section, *motion);
     }
+  }
+  return told;
+}
+
+PoseChain::Told PoseChain::toLink(base::Stamp begin, base::Stamp end) {
+  Told told = motionBetween(begin, end, true);
+  auto& motions = told.motions;
+  for (std::size_t i = 1; i < motions.size();) {
+    const bool contradicted = std::any_of(motions.begin(), motions.begin() + i, [&](const auto& trusted) {
+      return contradict(trusted.second, motions[i].second);
+    });
+    if (contradicted) motions.erase(motions.begin() + i);
+    contradicted_ += contradicted;
+    i += !contradicted;
   }
   return told;
 }

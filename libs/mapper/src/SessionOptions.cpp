@@ -13,10 +13,8 @@ const base::OptionTable<SessionOptions>& SessionOptions::table() {
           .number("start_x_m", &Options::start_x, {}, "Position in the map, for start = pose.")
           .number("start_y_m", &Options::start_y, {}, "Position in the map, for start = pose.")
           .number("start_yaw_deg", &Options::start_yaw, {}, "Heading in the map, for start = pose.")
-          .number(
-              "start_sigma_m", &Options::start_sigma, base::Range::positive(),
-              "Standard deviation of the position: how far off the start may be. Closures are sought only within "
-              "[scan_matching] loop_radius_m and loop_max_correction_m: where more is needed, raise both to twice it.")
+          .number("start_sigma_m", &Options::start_sigma, base::Range::positive(),
+                  "Standard deviation of the position: how far off the start may be, and how far closures are sought.")
           .number("start_sigma_deg", &Options::start_angle_sigma, base::Range::positive(),
                   "Standard deviation of the angles.");
   return table;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <cstdint>
+#include <unordered_set>
 
 namespace omnimapper::matching {
 
@@ -179,6 +181,20 @@ void append(const PlanarScan& scan, const mrpt::math::TPose2D& target_from_scan,
     target.points.emplace_back(tx + c * p.x() - s * p.y(), ty + s * p.x() + c * p.y());
     target.normals.emplace_back(c * n.x() - s * n.y(), s * n.x() + c * n.y());
   }
+}
+
+PlanarScan oncePerCell(const PlanarScan& scan, double side) {
+  std::unordered_set<std::int64_t> taken;
+  PlanarScan kept;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const auto& p = scan.points[i];
+    const auto column = static_cast<std::int64_t>(std::floor(p.x() / side)),
+               row = static_cast<std::int64_t>(std::floor(p.y() / side));
+    if (!taken.insert((column << 32) ^ (row & 0xFFFFFFFF)).second) continue;
+    kept.points.push_back(p);
+    kept.normals.push_back(scan.normals[i]);
+  }
+  return kept;
 }
 
 }  // namespace omnimapper::matching

@@ -6,13 +6,13 @@
 #include <omnimapper/plugins/GridOutput.h>
 #include <omnimapper/plugins/LaserPointsPlugin.h>
 #include <omnimapper/plugins/LiveWindow.h>
+#include <omnimapper/plugins/LoopClosurePlugin.h>
 #include <omnimapper/plugins/MapOutput.h>
 #include <omnimapper/plugins/NoMotionPlugin.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
 #include <omnimapper/plugins/PointsOutput.h>
 #include <omnimapper/plugins/ReportOutput.h>
 #include <omnimapper/plugins/RobotPosePlugin.h>
-#include <omnimapper/plugins/ScanMatchingPlugin.h>
 #include <omnimapper/plugins/ScanOdometryPlugin.h>
 #include <omnimapper/plugins/SceneOutput.h>
 #include <omnimapper/plugins/SummaryOutput.h>
@@ -29,7 +29,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(NoMotionPluginFactory));
   registerClass(CLASS_ID(ScanOdometryPluginFactory));
   registerClass(CLASS_ID(LaserPointsPluginFactory));
-  registerClass(CLASS_ID(ScanMatchingPluginFactory));
+  registerClass(CLASS_ID(LoopClosurePluginFactory));
   registerClass(CLASS_ID(RobotPosePluginFactory));
   registerClass(CLASS_ID(GpsPluginFactory));
   registerClass(CLASS_ID(GraphOutputFactory));

@@ -67,8 +67,8 @@ TEST_F(IniMistakes, WrongTypesAreRefusedWithWhatIsExpected) {
 TEST_F(IniMistakes, ValuesOutOfRangeAreRefusedWithTheRange) {
   expectRefused(laser2d("distance_m = 0.6", "distance_m = -1"), ExitCode::out_of_range,
                 {"[trigger] distance_m", "'-1'", "must be", "default"});
-  expectRefused(laser2d("class = ScanMatchingPlugin", "class = ScanMatchingPlugin\nmin_overlap = 1.5"),
-                ExitCode::out_of_range, {"[scan_matching] min_overlap", "'1.5'", "[0, 1]"});
+  expectRefused(laser2d("class = LoopClosurePlugin", "class = LoopClosurePlugin\nmin_overlap = 1.5"),
+                ExitCode::out_of_range, {"[loop_closure] min_overlap", "'1.5'", "[0, 1]"});
 }
 
 TEST_F(IniMistakes, UnknownPluginsAreRefusedWithTheNearest) {
@@ -78,7 +78,7 @@ TEST_F(IniMistakes, UnknownPluginsAreRefusedWithTheNearest) {
                 {"[odometry]", "no pose plugin is called 'GridOutput'"});
   expectRefused(laser2d("odometry, no_motion", "odometry, no_motion, magic"), ExitCode::unknown_plugin,
                 {"[magic]", "class = ..."});
-  EXPECT_TRUE(endedWith(ExitCode::unknown_plugin, mapWith(laser2d("_plugins = scan_matching", "_plugins =")),
+  EXPECT_TRUE(endedWith(ExitCode::unknown_plugin, mapWith(laser2d("_plugins = loop_closure", "_plugins =")),
                         {"[mapper] names no measurement_plugins", "--list-plugins"}));
 }
 

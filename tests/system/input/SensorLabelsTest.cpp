@@ -25,7 +25,7 @@ class SensorLabels : public ::testing::Test {
 };
 
 TEST_F(SensorLabels, ThatTheLogHasNeedNoWord) {
-  const auto ended = mapWith({"odometry.label=odometry", "scan_matching.labels=laser.points",
+  const auto ended = mapWith({"odometry.label=odometry", "loop_closure.labels=laser.points",
                               "mapper.reference_sensor=laser", "source.labels=laser, odometry"});
   EXPECT_TRUE(endedWith(ExitCode::ok, ended));
   EXPECT_EQ(ended.err, "");
@@ -35,10 +35,10 @@ TEST_F(SensorLabels, ThatNothingHasAreNamedWithTheNearestAndAll) {
   EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"odometry.label=odometri"}),
                         {"warning: [odometry] label", "'odometri'", "did you mean 'odometry'?",
                          "there are: laser, laser.points, odometry"}));
-  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"scan_matching.labels=laser"}), {"nothing was measured"}))
+  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"loop_closure.labels=laser"}), {"nothing was measured"}))
       << "the points have a label of their own";
-  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"scan_matching.labels=lasr.points, laser.points"}),
-                        {"[scan_matching] labels", "'lasr.points'", "'laser.points'?"}));
+  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"loop_closure.labels=lasr.points, laser.points"}),
+                        {"[loop_closure] labels", "'lasr.points'", "'laser.points'?"}));
   EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"mapper.sensors=front", "front.label=Laser"}), {"[front] label"}));
 }
 

@@ -1,8 +1,15 @@
+#include <omnimapper/matching/CorrelativeSearch.h>
 #include <omnimapper/plugins/LoopSearch.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 #include "ScanFactor.h"
 
 namespace omnimapper::plugins {
+
+using mrpt::math::TPose2D;
 
 matching::PlanarScan localMap(const std::vector<LoopSearch::Sight>& sights, base::KeyFrameId centre,
                               const mapper::State& state) {
@@ -16,28 +23,136 @@ matching::PlanarScan localMap(const std::vector<LoopSearch::Sight>& sights, base
 
 mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
   mapper::Batch batch;
-  for (const auto& place : places_) tryPlace(place, state, batch);
+  int tried = 0;
+  for (const auto& place : places_) {
+    tried += tryPlace(place, state, batch);
+    if (tried == options_.candidates) break;
+  }
   return batch;
 }
 
-void LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper::Batch& batch) const {
-  const auto& frame = state.map.keyFrame(newest_.frame);
-  const auto& centre = state.map.keyFrame(place.centre);
+LoopSearch::Doubt LoopSearch::doubtAt(const Place& place, const mapper::State& state) const {
+  constexpr double kSigmas = 3;
+  const auto covariance = state.covarianceBetween(place.centre.frame, newest_.back().frame);
+  if (!covariance) return {options_.max_window, options_.max_window_angle};
+  const Eigen::Matrix2d position = covariance->topLeftCorner<2, 2>();
+  return {kSigmas * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]),
+          kSigmas * std::sqrt((*covariance)(5, 5))};
+}
+
+matching::PlanarScan LoopSearch::localMapOf(const Place& place, const Doubt& doubt, const mapper::State& state) const {
+  const double reach = 2 * options_.context + doubt.position;
+  std::vector<Sight> sights;
+  std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(sights),
+               [&](const Sight& sight) { return std::abs(sight.way - place.centre.way) <= reach; });
+  return localMap(sights, place.centre.frame, state);
+}
+
+matching::PlanarScan LoopSearch::query(const Doubt& doubt, const mapper::State& state) const {
+  const double reach = options_.context + doubt.position;
+  std::vector<Sight> sights;
+  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sights),
+               [&](const Sight& sight) { return newest_.back().way - sight.way <= reach; });
+  return localMap(sights, newest_.back().frame, state);
+}
+
+// Within what the fine matcher reaches by itself the guess will do.
+std::vector<TPose2D> LoopSearch::starts(const matching::PlanarScan& local, const matching::PlanarScan& query,
+                                        const TPose2D& guess, const Doubt& doubt) const {
+  constexpr double kReach = 0.4;       // [m]
+  constexpr double kAngleReach = 0.2;  // [rad]
+  constexpr double kSpacing = 0.25;    // [m] between the points that are searched with
+  if (doubt.position < kReach && doubt.yaw < kAngleReach) return {guess};
+  matching::LikelihoodOptions grid;
+  grid.cell = 0.1;
+  grid.sigma = 0.1;
+  const matching::LikelihoodPyramid pyramid(local.points, grid);
+  matching::SearchWindow window;
+  window.centre = guess;
+  window.half_x = window.half_y = std::min(doubt.position, options_.max_window);
+  window.half_yaw = std::min(doubt.yaw, options_.max_window_angle);
+  matching::SearchOptions limits;
+  limits.min_score = 0.5;
+  limits.min_share_of_best = 0.9;
+  std::vector<TPose2D> found;
+  for (const auto& result : matching::search(pyramid, matching::oncePerCell(query, kSpacing).points, window, limits)) {
+    found.push_back(result.map_from_scan);
+  }
+  return found;
+}
+
+bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper::Batch& batch) const {
+  const auto& frame = state.map.keyFrame(newest_.back().frame);
+  const auto& centre = state.map.keyFrame(place.centre.frame);
   const auto guess = planar(frame.map_from_base - centre.map_from_base);
-  const auto reference = matcher_->prepare(localMap(place.around, place.centre, state));
-  const auto match = matcher_->match(*reference, *newest_.scan, {guess});
-  auto decision =
-      judge(match, guess, {options_.loop_min_overlap, options_.loop_max_correction, options_.loop_max_turn_correction});
+  const Doubt doubt = doubtAt(place, state);
+  const double apart = std::hypot(guess.x, guess.y);
+  if (apart > options_.radius + doubt.position) return false;
+
+  mapper::Decision decision;
   decision.stamp = frame.stamp;
   decision.plugin = context_.section;
   decision.kind = "loop closure";
   decision.from = frame.id;
   decision.to = centre.id;
-  if (!decision.accepted) return batch.log(std::move(decision));
-  auto closure = scanFactor(options_, options_.loop_position_sigma_floor, options_.loop_angle_sigma_floor, context_,
-                            centre.pose, frame.pose, match);
-  closure.loss = graph::Loss::cauchy(options_.loop_loss_scale);
+  decision.numbers = {{"may be off by [m]", doubt.position},
+                      {"may be off by [deg]", doubt.yaw / base::option_text::kRadiansPerDegree}};
+  constexpr double kSpacing = 0.08;  // [m]
+  const auto local = matching::oncePerCell(localMapOf(place, doubt, state), kSpacing / 2),
+             query = matching::oncePerCell(this->query(doubt, state), kSpacing);
+  const auto reference = matcher_->prepare(local);
+  std::vector<matching::ScanMatch> matches;
+  for (const auto& start : starts(local, query, guess, doubt))
+    matches.push_back(matcher_->match(*reference, query, start));
+  std::sort(matches.begin(), matches.end(), [](const auto& a, const auto& b) { return a.overlap > b.overlap; });
+  judge(matches, guess, decision);
+  if (!decision.accepted) {
+    batch.log(std::move(decision));
+    return true;
+  }
+  auto closure = scanFactor(options_, context_, centre.pose, frame.pose, matches.front());
+  closure.loss = graph::Loss::cauchy(options_.loss_scale);
   batch.addHypothesis(std::move(closure), std::move(decision));
+  return true;
+}
+
+// The best of them, unless another is elsewhere and as good: alike corridors, rooms with a symmetry.
+void LoopSearch::judge(const std::vector<matching::ScanMatch>& matches, const TPose2D& guess,
+                       mapper::Decision& decision) const {
+  constexpr double kAlike = 0.05;  // of overlap
+  if (matches.empty()) {
+    decision.reason = "nothing alike";
+    return;
+  }
+  const auto& best = matches.front();
+  const auto correction = best.reference_from_scan - guess;
+  decision.numbers.insert(decision.numbers.end(), {{"overlap", best.overlap},
+                                                   {"distance from walls [m]", best.wall_distance},
+                                                   {"correction [m]", std::hypot(correction.x, correction.y)},
+                                                   {"correction [deg]", std::abs(mrpt::math::wrapToPi(correction.phi)) /
+                                                                            base::option_text::kRadiansPerDegree}});
+  if (best.overlap < options_.min_overlap) {
+    decision.reason = "too little overlap";
+    return;
+  }
+  for (std::size_t i = 1; i < matches.size() && matches[i].overlap > best.overlap - kAlike; ++i) {
+    const auto apart = matches[i].reference_from_scan - best.reference_from_scan;
+    if (std::hypot(apart.x, apart.y) < 0.3 && std::abs(mrpt::math::wrapToPi(apart.phi)) < 0.1) continue;
+    decision.reason = "ambiguous: it fits as well elsewhere";
+    decision.numbers.emplace_back("overlap elsewhere", matches[i].overlap);
+    return;
+  }
+  // What slides along a corridor says nothing of where in it.
+  const Eigen::Matrix2d position = best.unit_covariance.topLeftCorner<2, 2>();
+  const double sigma =
+      options_.point_sigma * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]);
+  decision.numbers.emplace_back("uncertainty of the match [m]", sigma);
+  if (sigma > options_.max_sigma) {
+    decision.reason = best.degenerate ? "the walls leave a direction open" : "the walls hardly fix it";
+    return;
+  }
+  decision.accepted = true;
+  decision.reason = "matched";
 }
 
 }  // namespace omnimapper::plugins

@@ -11,28 +11,6 @@ namespace omnimapper::plugins {
 
 using mrpt::math::TPose2D;
 
-mapper::Decision judge(const matching::ScanMatch& match, const TPose2D& guess, const MatchGate& gate) {
-  const TPose2D correction = match.reference_from_scan - guess;
-  const double moved = std::hypot(correction.x, correction.y);
-  const double turned = std::abs(mrpt::math::wrapToPi(correction.phi));
-  mapper::Decision decision;
-  decision.numbers = {{"overlap", match.overlap},
-                      {"distance from walls [m]", match.wall_distance},
-                      {"correction [m]", moved},
-                      {"correction [deg]", turned / base::option_text::kRadiansPerDegree}};
-  if (match.overlap < gate.min_overlap) {
-    decision.reason = "too little overlap";
-  } else if (moved > gate.max_correction) {
-    decision.reason = "too far from the prediction";
-  } else if (turned > gate.max_turn_correction) {
-    decision.reason = "turned too far from the prediction";
-  } else {
-    decision.accepted = true;
-    decision.reason = "matched";
-  }
-  return decision;
-}
-
 mapper::RelativeMotion planarMotion(const TPose2D& begin_from_end, const Eigen::Matrix3d& covariance) {
   mapper::RelativeMotion motion;
   motion.begin_from_end = mrpt::poses::CPose3D(mrpt::poses::CPose2D(begin_from_end));
@@ -48,15 +26,14 @@ mapper::RelativeMotion planarMotion(const TPose2D& begin_from_end, const Eigen::
   return motion;
 }
 
-graph::FactorRecord scanFactor(const ScanMatchingOptions& options, double position_floor, double angle_floor,
-                               const mapper::PluginContext& context, base::VariableId reference, base::VariableId scan,
-                               const matching::ScanMatch& match) {
+graph::FactorRecord scanFactor(const LoopClosureOptions& options, const mapper::PluginContext& context,
+                               base::VariableId reference, base::VariableId scan, const matching::ScanMatch& match) {
   const auto squared = [](double value) { return value * value; };
   Eigen::Matrix3d planar_covariance =
       match.unit_covariance *
       std::max(squared(options.point_sigma), squared(options.wall_sigma_factor * match.wall_distance));
-  planar_covariance.diagonal() +=
-      Eigen::Vector3d(squared(position_floor), squared(position_floor), squared(angle_floor));
+  planar_covariance.diagonal() += Eigen::Vector3d(
+      squared(options.position_sigma_floor), squared(options.position_sigma_floor), squared(options.angle_sigma_floor));
   return mapper::betweenPoses(context.motion, reference, scan,
                               planarMotion(match.reference_from_scan, planar_covariance), context.section);
 }

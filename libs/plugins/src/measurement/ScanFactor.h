@@ -7,7 +7,7 @@
 #include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/mapper/RelativeMotion.h>
 #include <omnimapper/matching/ScanMatcher.h>
-#include <omnimapper/plugins/ScanMatchingOptions.h>
+#include <omnimapper/plugins/LoopClosureOptions.h>
 
 namespace omnimapper::plugins {
 
@@ -15,23 +15,11 @@ inline mrpt::math::TPose2D planar(const mrpt::poses::CPose3D& pose) {
   return {pose.x(), pose.y(), pose.yaw()};
 }
 
-/// Limits a match has to keep.
-struct MatchGate {
-  double min_overlap;
-  double max_correction;       ///< [m]
-  double max_turn_correction;  ///< [rad]
-};
-
-/// Whether a match keeps the limits around what was predicted, with its numbers. Who, when and where is the caller's.
-mapper::Decision judge(const matching::ScanMatch& match, const mrpt::math::TPose2D& guess, const MatchGate& gate);
-
 /// A motion in the plane, covariance of x y yaw. Height and tilt stay open, as far as a spatial map asks for them.
 mapper::RelativeMotion planarMotion(const mrpt::math::TPose2D& begin_from_end, const Eigen::Matrix3d& covariance);
 
 /// The motion between two poses that a match measured. In a spatial map height and tilt stay open.
-/// `position_floor` [m] and `angle_floor` [rad]: standard deviations that are added to those of the match.
-graph::FactorRecord scanFactor(const ScanMatchingOptions& options, double position_floor, double angle_floor,
-                               const mapper::PluginContext& context, base::VariableId reference, base::VariableId scan,
-                               const matching::ScanMatch& match);
+graph::FactorRecord scanFactor(const LoopClosureOptions& options, const mapper::PluginContext& context,
+                               base::VariableId reference, base::VariableId scan, const matching::ScanMatch& match);
 
 }  // namespace omnimapper::plugins

@@ -101,9 +101,12 @@ void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
 void ScanOdometryPlugin::follow(base::Stamp stamp, const matching::PlanarScan& scan) {
   if (!last_) return restart(stamp, scan);
   const double seconds = base::secondsBetween(*last_, stamp);
-  const auto match = tracker_.track(scan, guesses(stamp));
+  const auto guesses = this->guesses(stamp);
+  const bool is_gap = seconds > options_.max_gap;
+  // Across a gap steady motion is no prediction.
+  const auto match = is_gap && !by_odometry_.motion ? std::nullopt : tracker_.track(scan, guesses);
   if (!match) {
-    if (seconds > options_.max_gap) restart(stamp, scan);
+    if (is_gap) restart(stamp, scan);
     return;
   }
   timeline_.insert(*last_, stamp, motionOf(*match));

@@ -25,4 +25,7 @@ PlanarScan fitLines(const std::vector<Eigen::Vector2f>& points);
 /// Appends `scan`, moved by target_from_scan, to `target`.
 void append(const PlanarScan& scan, const mrpt::math::TPose2D& target_from_scan, PlanarScan& target);
 
+/// The first point of each square cell of `side` [m]: what many scans saw over and over counts once.
+PlanarScan oncePerCell(const PlanarScan& scan, double side);
+
 }  // namespace omnimapper::matching

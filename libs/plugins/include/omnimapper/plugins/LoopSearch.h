@@ -3,7 +3,7 @@
 #include <omnimapper/mapper/Job.h>
 #include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/matching/ScanMatcher.h>
-#include <omnimapper/plugins/ScanMatchingOptions.h>
+#include <omnimapper/plugins/LoopClosureOptions.h>
 
 #include <memory>
 #include <utility>
@@ -11,22 +11,24 @@
 
 namespace omnimapper::plugins {
 
-/// One search for loop closures, as a job: a key frame's scan is matched against local maps of places seen long ago.
+/// One search for loop closures, as a job: what the newest key frames saw is sought in local maps of places seen long
+/// ago, as far around the estimate as it may be wrong (Olson 2009; Hess et al. 2016), and the best is matched finely.
 class LoopSearch {
  public:
   /// What a key frame saw, in its base.
   struct Sight {
     base::KeyFrameId frame;
     std::shared_ptr<const matching::PlanarScan> scan;
+    double way;  // [m] driven until there
   };
-  /// A place to try: the key frame it is about, and those around it that make its local map.
+  /// A place to try: the key frame it is about, and those before and after it that its local map is made of.
   struct Place {
-    base::KeyFrameId centre;
+    Sight centre;
     std::vector<Sight> around;
   };
 
-  LoopSearch(const ScanMatchingOptions& options, const mapper::PluginContext& context,
-             std::shared_ptr<const matching::ScanMatcher> matcher, Sight newest, std::vector<Place> places)
+  LoopSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
+             std::shared_ptr<const matching::ScanMatcher> matcher, std::vector<Sight> newest, std::vector<Place> places)
       : options_(options),
         context_(context),
         matcher_(std::move(matcher)),
@@ -37,12 +39,25 @@ class LoopSearch {
   mapper::Batch operator()(const mapper::State& state) const;
 
  private:
-  void tryPlace(const Place& place, const mapper::State& state, mapper::Batch& batch) const;
+  /// How far off the newest key frame may be, seen from a place [m] [rad].
+  struct Doubt {
+    double position, yaw;
+  };
+  Doubt doubtAt(const Place& place, const mapper::State& state) const;
+  /// Whether the place was tried, rather than passed over for what the estimate says.
+  /// As much of what was seen as leaves no doubt where along a corridor it was: the more, the vaguer the estimate.
+  matching::PlanarScan localMapOf(const Place& place, const Doubt& doubt, const mapper::State& state) const;
+  matching::PlanarScan query(const Doubt& doubt, const mapper::State& state) const;
+  bool tryPlace(const Place& place, const mapper::State& state, mapper::Batch& batch) const;
+  std::vector<mrpt::math::TPose2D> starts(const matching::PlanarScan& local, const matching::PlanarScan& query,
+                                          const mrpt::math::TPose2D& guess, const Doubt& doubt) const;
+  void judge(const std::vector<matching::ScanMatch>& matches, const mrpt::math::TPose2D& guess,
+             mapper::Decision& decision) const;
 
-  ScanMatchingOptions options_;
+  LoopClosureOptions options_;
   mapper::PluginContext context_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
-  Sight newest_;
+  std::vector<Sight> newest_;  // the newest last
   std::vector<Place> places_;
 };
 

@@ -38,12 +38,12 @@ struct SourceReport {
 
   std::map<std::pair<std::string, std::string>, SensorCounts> sensors;  ///< by (label, class)
   std::map<std::string, std::uint64_t> other_objects;                   ///< things that are no observation, by class
-  std::uint64_t repaired_stamps = 0;  ///< observations that got a stamp which was not their own
-  std::uint64_t filtered_out = 0;     ///< observations outside of the wanted labels and times
+  std::uint64_t repaired_stamps = 0;      ///< observations that got a stamp which was not their own
+  std::uint64_t filtered_out = 0;         ///< observations outside of the wanted labels and times
   std::set<std::string> filtered_labels;  ///< of these
-  std::uint64_t dropped_actions = 0;  ///< actions that span nothing: before the first or after the last frame
-  std::uint64_t missing_images = 0;   ///< observations left out because an external file cannot be read
-  std::string first_missing_image;    ///< the first such file
+  std::uint64_t dropped_actions = 0;      ///< actions that span nothing: before the first or after the last frame
+  std::uint64_t missing_images = 0;       ///< observations left out because an external file cannot be read
+  std::string first_missing_image;        ///< the first such file
 
   /// Observations handed out.
   std::uint64_t observations() const;

@@ -17,21 +17,24 @@
 // For test binaries that link omnimapper::plugins: an engine to feed by hand, and what came out of it.
 namespace omnimapper::testing {
 
-/// Odometry, the null motion model and scan matching, as ini/laser2d.ini has them, without outputs.
+/// Laser and wheel odometry, the null motion model and loop closures, as ini/laser2d.ini has them, without outputs.
 inline const std::string kLaserIni = R"(
 [mapper]
-pose_plugins        = odometry, no_motion
-measurement_plugins = scan_matching
+pose_plugins        = scan_odometry, odometry, no_motion
+measurement_plugins = loop_closure
 [perception]
 extractors = laser_points
+[scan_odometry]
+class = ScanOdometryPlugin
+spacing_m = 0.1
 [odometry]
 class = OdometryPlugin
 [no_motion]
 class = NoMotionPlugin
 [laser_points]
 class = LaserPointsExtractor
-[scan_matching]
-class = ScanMatchingPlugin
+[loop_closure]
+class = LoopClosurePlugin
 )";
 
 /// An engine made from the text of an INI as runMapping() makes it; `settings` are "section.key=value".

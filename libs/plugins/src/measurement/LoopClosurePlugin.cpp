@@ -1,0 +1,168 @@
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/plugins/LoopClosurePlugin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "ScanFactor.h"
+#include "ScanInBase.h"
+
+IMPLEMENTS_MRPT_OBJECT(LoopClosurePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+namespace {
+
+constexpr const char* kCloudSuffix = ".points";
+constexpr std::size_t kPlacesAsked = 3;
+
+struct PreparedScan : mapper::Prepared {
+  std::shared_ptr<const matching::PlanarScan> scan;  // in the base
+};
+
+}  // namespace
+
+LoopClosurePlugin::LoopClosurePlugin(const LoopClosureOptions& options, const matching::ScanMatcherOptions& matching,
+                                     const mapper::PluginContext& context)
+    : options_(options), context_(context), matcher_(matching::makeMatcher(matching)) {}
+
+bool LoopClosurePlugin::wants(const mrpt::obs::CObservation& observation) const {
+  if (!dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation)) return false;
+  const std::string& label = observation.sensorLabel;
+  if (!options_.labels.empty()) {
+    return std::find(options_.labels.begin(), options_.labels.end(), label) != options_.labels.end();
+  }
+  const std::string suffix = kCloudSuffix;
+  return label.size() >= suffix.size() && label.compare(label.size() - suffix.size(), suffix.size(), suffix) == 0;
+}
+
+std::unique_ptr<const mapper::Prepared> LoopClosurePlugin::prepare(const mrpt::obs::CObservation& observation) const {
+  auto prepared = std::make_unique<PreparedScan>();
+  prepared->scan = std::make_shared<const matching::PlanarScan>(
+      scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(observation)));
+  return prepared;
+}
+
+mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                                         const mapper::View& view) {
+  History& history = histories_[observed.observation.sensorLabel];
+  const auto& scan = dynamic_cast<const PreparedScan&>(*observed.prepared).scan;
+  const std::size_t index = remember(frame, scan, view, history);
+  if (scan->empty()) return {};
+  auto places = loopPlaces(frame, history, index, view);
+  if (!places.empty()) {
+    searches_.emplace_back(options_, context_, matcher_,
+                           sights(history, index, options_.context + options_.max_window, 0), std::move(places));
+  }
+  return {};
+}
+
+std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state,
+                                        History& history) const {
+  const auto after = std::upper_bound(
+      history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
+      [](const auto& wanted, const Seen& seen) { return wanted < std::tuple(seen.sight.frame.session, seen.stamp); });
+  double way = 0;
+  if (after != history.begin()) {
+    const auto& before = *std::prev(after);
+    const auto& map_from_before = state.map.keyFrame(before.sight.frame).map_from_base;
+    // How far the base was carried between sessions nobody knows: all of an earlier one counts as left long ago.
+    const bool same_session = before.sight.frame.session == frame.id.session;
+    way = before.sight.way +
+          (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_way);
+  }
+  const auto place = history.insert(after, {{frame.id, scan, way}, frame.stamp});
+  return static_cast<std::size_t>(place - history.begin());
+}
+
+void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view) {
+  for (const auto& frame : view.map.key_frames) {
+    for (const auto& observation : frame.observations) {
+      if (!wants(*observation)) continue;
+      const auto prepared = prepare(*observation);
+      remember(frame, dynamic_cast<const PreparedScan&>(*prepared).scan, view, histories_[observation->sensorLabel]);
+    }
+  }
+}
+
+mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, const mapper::View&) {
+  mapper::FollowUp follow_up;
+  for (auto& search : searches_) follow_up.jobs.push_back({"loop closure of " + toString(frame.id), std::move(search)});
+  searches_.clear();
+  return follow_up;
+}
+
+std::vector<LoopSearch::Sight> LoopClosurePlugin::sights(const History& history, std::size_t centre, double before,
+                                                         double after) {
+  const auto& middle = history[centre].sight;
+  const auto belongs = [&](std::size_t i) {
+    const auto& sight = history[i].sight;
+    return sight.frame.session == middle.frame.session && sight.way >= middle.way - before &&
+           sight.way <= middle.way + after;
+  };
+  std::size_t first = centre, end = centre + 1;
+  while (first > 0 && belongs(first - 1)) --first;
+  while (end < history.size() && belongs(end)) ++end;
+  std::vector<LoopSearch::Sight> all;
+  for (std::size_t i = first; i < end; ++i) all.push_back(history[i].sight);
+  return all;
+}
+
+// The nearest place of each earlier pass, with the scans around it: some more than are tried, for how uncertain they
+// are is not known here.
+std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame& frame, const History& history,
+                                                             std::size_t index, const mapper::State& state) const {
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t i = 0; i < index; ++i) {
+    if (history[index].sight.way - history[i].sight.way < options_.min_way) break;
+    const auto& place = state.map.keyFrame(history[i].sight.frame).map_from_base;
+    const double distance = (place.translation() - frame.map_from_base.translation()).norm();
+    if (distance <= options_.radius + options_.max_window) near.emplace_back(distance, i);
+  }
+  std::sort(near.begin(), near.end());
+  const double around = 2 * options_.context + options_.max_window;
+  std::vector<std::size_t> chosen;
+  std::vector<LoopSearch::Place> places;
+  for (const auto& [distance, i] : near) {
+    // Neighbours along the path would only repeat it.
+    const bool repeats = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
+      return std::abs(history[other].sight.way - history[i].sight.way) < options_.min_way;
+    });
+    if (repeats) continue;
+    chosen.push_back(i);
+    // Not so far that it reaches what is sought there.
+    const double after = std::min(around, history[index].sight.way - history[i].sight.way - options_.min_way / 2);
+    places.push_back({history[i].sight, sights(history, i, around, after)});
+    if (places.size() == kPlacesAsked * static_cast<std::size_t>(options_.candidates)) break;
+  }
+  return places;
+}
+
+namespace {
+std::vector<base::OptionSpec> joined(std::vector<base::OptionSpec> a, const std::vector<base::OptionSpec>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::vector<std::string> keysOf(const std::vector<base::OptionSpec>& specs) {
+  std::vector<std::string> keys = mapper::sectionKeysOfEngine();
+  for (const auto& spec : specs) keys.push_back(spec.key);
+  return keys;
+}
+}  // namespace
+
+const std::vector<base::OptionSpec>& LoopClosurePluginFactory::options() const {
+  static const auto specs = joined(LoopClosureOptions::table().specs(), matching::ScanMatcherOptions::table().specs());
+  return specs;
+}
+
+std::unique_ptr<mapper::MeasurementPlugin> LoopClosurePluginFactory::make(const base::ConfigSection& section,
+                                                                          const mapper::PluginContext& context) const {
+  const auto keys = keysOf(options());
+  return std::make_unique<LoopClosurePlugin>(section.read<LoopClosureOptions>(keys),
+                                             section.read<matching::ScanMatcherOptions>(keys), context);
+}
+
+}  // namespace omnimapper::plugins

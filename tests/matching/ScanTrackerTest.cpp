@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+#include <omnimapper/matching/ScanMatcherOptions.h>
+#include <omnimapper/matching/ScanTracker.h>
+
+#include "Scans.h"
+
+namespace omnimapper::matching {
+namespace {
+
+using mrpt::math::TPose2D;
+using testing::FloorPlan;
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+ScanTracker makeTracker(const ScanTrackerOptions& options = {}) {
+  return {options, makeMatcher({})};
+}
+
+// Along the first straight of the ring and into it, a step every 7 cm and 0.6 degrees.
+TPose2D wayAt(int step) {
+  return {-3 + 0.07 * step, 0.002 * step, 0.01 * step - 0.3};
+}
+
+TEST(ScanTracker, FollowsAWayWithGuessesThatAreAlwaysTooShort) {
+  const auto plan = FloorPlan::ring();
+  auto tracker = makeTracker();
+  tracker.restart(scanFrom(plan, wayAt(0), 0.01, 0));
+  TPose2D start_from_last;
+  constexpr int kSteps = 80;
+  for (int i = 1; i <= kSteps; ++i) {
+    const TPose2D motion = wayAt(i) - wayAt(i - 1);
+    const auto match = tracker.track(scanFrom(plan, wayAt(i), 0.01, i), {TPose2D(0.5 * motion.x, 0, 0)});
+    ASSERT_TRUE(match) << "step " << i;
+    start_from_last = start_from_last + match->reference_from_scan;
+  }
+  const auto error = start_from_last - (wayAt(kSteps) - wayAt(0));
+  EXPECT_LT(std::hypot(error.x, error.y), 0.03) << "over 5.6 m";
+  EXPECT_LT(std::abs(error.phi), 0.5 * kDegree);
+}
+
+TEST(ScanTracker, TakesTheNextGuessWhereOneLeadsNowhere) {
+  const auto plan = FloorPlan::ring();
+  auto tracker = makeTracker();
+  tracker.restart(scanFrom(plan, wayAt(0)));
+  const auto scan = scanFrom(plan, wayAt(1));
+  const TPose2D nonsense(40, 40, 2), truth = wayAt(1) - wayAt(0);
+  EXPECT_FALSE(tracker.track(scan, {nonsense}));
+  EXPECT_FALSE(tracker.track(scan, {}));
+  EXPECT_FALSE(tracker.track({}, {truth})) << "a scan without points";
+  const auto match = tracker.track(scan, {nonsense, truth});
+  ASSERT_TRUE(match) << "what failed before changed nothing";
+  EXPECT_LT(std::abs(match->reference_from_scan.x - truth.x), 0.01);
+}
+
+TEST(ScanTracker, MatchesBeyondItsLimitsAreRefused) {
+  const auto plan = FloorPlan::ring();
+  ScanTrackerOptions strict;
+  strict.max_correction = 0.05;
+  auto tracker = makeTracker(strict);
+  EXPECT_FALSE(tracker.track(scanFrom(plan, wayAt(0)), {TPose2D()})) << "before the first scan";
+  tracker.restart(scanFrom(plan, wayAt(0)));
+  EXPECT_FALSE(tracker.track(scanFrom(plan, wayAt(3)), {TPose2D()})) << "20 cm from the guess";
+  EXPECT_TRUE(tracker.track(scanFrom(plan, wayAt(3)), {wayAt(3) - wayAt(0)}));
+}
+
+// The guess says how far along the corridor, the walls how far across.
+TEST(ScanTracker, AlongABareCorridorTheGuessCounts) {
+  FloorPlan corridor;
+  corridor.addPolygon({{-90, -1.5}, {90, -1.5}, {90, 1.5}, {-90, 1.5}});
+  auto tracker = makeTracker();
+  tracker.restart(scanFrom(corridor, {0, 0, 0}, 0.005, 1, 8));
+  TPose2D start_from_last;
+  for (int i = 1; i <= 30; ++i) {
+    const MatchGuess guess{TPose2D(0.1, 0.02, 0), Eigen::Vector3d(1, 1, 1).asDiagonal()};
+    const auto match = tracker.track(scanFrom(corridor, {0.1 * i, 0, 0}, 0.005, i + 1, 8), {guess});
+    ASSERT_TRUE(match);
+    EXPECT_TRUE(match->degenerate);
+    start_from_last = start_from_last + match->reference_from_scan;
+  }
+  EXPECT_NEAR(start_from_last.x, 3, 0.05);
+  EXPECT_NEAR(start_from_last.y, 0, 0.02);
+}
+
+}  // namespace
+}  // namespace omnimapper::matching

@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/geometry/Angle.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/graph/Between.h>
+#include <omnimapper/plugins/LoopClosurePlugin.h>
+#include <omnimapper/testing/MapperRun.h>
+
+#include <algorithm>
+
+namespace omnimapper::plugins {
+namespace {
+
+constexpr double kDegree = base::option_text::kRadiansPerDegree;
+
+LoopClosurePlugin makePlugin(const LoopClosureOptions& options = {}) {
+  mapper::PluginContext context;
+  context.section = "loop_closure";
+  return LoopClosurePlugin(options, {}, context);
+}
+
+TEST(LoopClosurePlugin, WantsCloudsOfScansOrThoseOfItsLabels) {
+  const auto cloud = mrpt::obs::CObservationPointCloud::Create();
+  cloud->sensorLabel = "laser.points";
+  EXPECT_TRUE(makePlugin().wants(*cloud));
+  EXPECT_FALSE(makePlugin().wants(mrpt::obs::CObservation2DRangeScan()));
+  LoopClosureOptions options;
+  options.labels = {"rear.points"};
+  EXPECT_FALSE(makePlugin(options).wants(*cloud));
+  cloud->sensorLabel = "rear.points";
+  EXPECT_TRUE(makePlugin(options).wants(*cloud));
+  cloud->sensorLabel = "velodyne";
+  EXPECT_FALSE(makePlugin().wants(*cloud));
+}
+
+std::vector<mapper::Decision> loopClosures(const mapper::View& view) {
+  std::vector<mapper::Decision> found;
+  std::copy_if(view.decisions.begin(), view.decisions.end(), std::back_inserter(found),
+               [](const auto& decision) { return decision.kind == "loop closure"; });
+  return found;
+}
+
+TEST(LoopClosurePlugin, NoLoopIsTriedOnAFirstStraightAndBend) {
+  testing::SimulatedLogOptions options;
+  options.laps = 0.35;
+  const auto engine = testing::makeEngine(testing::kLaserIni);
+  testing::run(*engine, testing::SimulatedLog(options).observations());
+  EXPECT_GT(engine->view().map.key_frames.size(), 35U);
+  EXPECT_TRUE(loopClosures(engine->view()).empty());
+}
+
+TEST(LoopClosurePlugin, OnTheSecondLapClosuresLieOnTheTruth) {
+  testing::SimulatedLogOptions options;
+  options.laps = 1.4;
+  const testing::SimulatedLog log(options);
+  const auto engine = testing::makeEngine(testing::kLaserIni);
+  testing::run(*engine, log.observations());
+  const auto view = engine->view();
+  std::size_t accepted = 0;
+  for (const auto& decision : loopClosures(view)) {
+    EXPECT_FALSE(decision.reason.empty());
+    if (!decision.accepted) continue;
+    ++accepted;
+    const auto from = log.truthAt(decision.stamp);
+    const auto to = log.truthAt(view.map.keyFrame(*decision.to).stamp);
+    EXPECT_LT((from - to).norm(), LoopClosureOptions().radius) << "a false closure";
+  }
+  EXPECT_GT(accepted, 10U);
+  std::size_t hypotheses = 0, wrong = 0;
+  for (const auto& [id, record] : view.graph.factors()) {
+    if (!record.tags.hypothesis || record.weight == 0) continue;
+    ++hypotheses;
+    EXPECT_EQ(record.loss.kind(), graph::Loss::Kind::cauchy);
+    const auto stamp = [&](base::VariableId pose) {
+      const auto& frames = view.map.key_frames;
+      return std::find_if(frames.begin(), frames.end(), [&](const auto& f) { return f.pose == pose; })->stamp;
+    };
+    const auto truth =
+        geometry::fromMrpt(log.truthAt(stamp(record.variables[1])) - log.truthAt(stamp(record.variables[0])));
+    const auto error = minus(dynamic_cast<const graph::BetweenSe2&>(*record.factor).measured(), truth);
+    if (error.head<2>().norm() < 0.1 && std::abs(error.z()) < 1.5 * kDegree) continue;
+    ++wrong;
+  }
+  EXPECT_EQ(hypotheses, accepted);
+  EXPECT_EQ(wrong, 0U) << "a wrong closure that acts";
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins

@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/plugins/ScanOdometryPlugin.h>
+#include <omnimapper/testing/SimulatedLog.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace omnimapper::plugins {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationOdometry;
+using mrpt::poses::CPose2D;
+using testing::SimulatedLog;
+
+constexpr double kDegree = base::option_text::kRadiansPerDegree;
+
+SimulatedLog halfALap() {
+  testing::SimulatedLogOptions options;
+  options.laps = 0.5;
+  return SimulatedLog(options);
+}
+
+using Change = std::function<CObservation::Ptr(CObservation::Ptr)>;
+
+// The motion over the log, from its first scan to its last, by a plugin that hears all of it first.
+struct Told {
+  CPose2D motion, truth;
+  Eigen::Matrix3d covariance;
+};
+Told follow(const SimulatedLog& log, const Change& change) {
+  ScanOdometryPlugin plugin({}, {}, {});
+  std::vector<base::Stamp> scans;
+  for (auto observation : log.observations()) {
+    observation = change(observation);
+    if (!observation) continue;
+    plugin.add(*observation);
+    if (dynamic_cast<const CObservation2DRangeScan*>(observation.get())) scans.push_back(observation->timestamp);
+  }
+  plugin.processUntil(scans.back());
+  const auto told = plugin.between(scans.front(), scans.back());
+  if (!told) return {};
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  const int planar[] = {0, 1, 5};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) covariance(i, j) = told->covariance(planar[i], planar[j]);
+  return {CPose2D(told->begin_from_end), log.truthAt(scans.back()) - log.truthAt(scans.front()), covariance};
+}
+
+void expectNear(const Told& told, const std::string& what) {
+  const CPose2D error = told.motion - told.truth;
+  EXPECT_GT(told.truth.norm(), 5) << what;
+  EXPECT_LT(error.norm(), 0.25) << what;
+  EXPECT_LT(std::abs(error.phi()), 1.5 * kDegree) << what;
+}
+
+CObservation::Ptr withOdometry(CObservation::Ptr observation, const std::function<CPose2D(const CPose2D&)>& change) {
+  auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation);
+  if (odometry) odometry->odometry = change(odometry->odometry);
+  return observation;
+}
+
+TEST(ScanOdometryPlugin, FollowsTheLaserWhateverTheWheelsSay) {
+  const auto log = halfALap();
+  expectNear(follow(log, [](auto observation) { return observation; }), "as it is");
+  expectNear(follow(log,
+                    [](auto observation) {
+                      return std::dynamic_pointer_cast<CObservationOdometry>(observation) ? nullptr : observation;
+                    }),
+             "absent");
+  expectNear(follow(log, [](auto o) { return withOdometry(o, [](const CPose2D&) { return CPose2D(); }); }), "frozen");
+  expectNear(
+      follow(log,
+             [](auto o) { return withOdometry(o, [](const CPose2D& p) { return CPose2D(-p.x(), -p.y(), p.phi()); }); }),
+      "reversed");
+  const base::Stamp middle = log.begin() + (log.end() - log.begin()) / 2;
+  expectNear(follow(log,
+                    [&](auto o) {
+                      return withOdometry(o, [&](const CPose2D& p) {
+                        return o->timestamp < middle ? p : CPose2D(p.x() + 5, p.y(), p.phi());
+                      });
+                    }),
+             "a jump of 5 m");
+}
+
+TEST(ScanOdometryPlugin, SpansAddUpAndScansInBetweenAreInterpolated) {
+  const auto log = halfALap();
+  ScanOdometryPlugin plugin({}, {}, {});
+  for (const auto& observation : log.observations()) plugin.add(*observation);
+  const auto at = [&](double seconds) { return log.begin() + base::durationFromSeconds(seconds); };
+  EXPECT_FALSE(plugin.between(at(2), at(3))) << "nothing is worked on before its time";
+  plugin.processUntil(at(6));
+  EXPECT_FALSE(plugin.between(at(5), at(7)));
+  const auto whole = plugin.between(at(2.03), at(5.56)), first = plugin.between(at(2.03), at(4.4)),
+             second = plugin.between(at(4.4), at(5.56));
+  ASSERT_TRUE(whole && first && second);
+  const auto sum = mapper::compose(*first, *second);
+  EXPECT_LT((sum.begin_from_end - whole->begin_from_end).norm(), 1e-9);
+  EXPECT_LT((sum.covariance - whole->covariance).norm(), 1e-6 * whole->covariance.norm());
+  const auto error = CPose2D(whole->begin_from_end) - (log.truthAt(at(5.56)) - log.truthAt(at(2.03)));
+  EXPECT_LT(error.norm(), 0.05);
+}
+
+TEST(ScanOdometryPlugin, AScanAfterItsTimeIsLeftOutAndOrderBeforeItDoesNotMatter) {
+  std::vector<CObservation::Ptr> scans;
+  for (const auto& observation : halfALap().observations()) {
+    if (std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) scans.push_back(observation);
+  }
+  scans.resize(80);
+  const auto told = [&](const std::vector<CObservation::Ptr>& order) {
+    ScanOdometryPlugin plugin({}, {}, {});
+    for (const auto& scan : order) plugin.add(*scan);
+    plugin.processUntil(scans.back()->timestamp);
+    for (int i = 0; i < 30; ++i) EXPECT_EQ(plugin.add(*scans[i]), mapper::PosePlugin::Taken::taken);
+    plugin.processUntil(scans.back()->timestamp);
+    return plugin.between(scans.front()->timestamp, scans.back()->timestamp);
+  };
+  auto shuffled = scans;
+  std::reverse(shuffled.begin() + 20, shuffled.begin() + 40);
+  const auto plain = told(scans), other = told(shuffled);
+  ASSERT_TRUE(plain && other);
+  EXPECT_EQ(plain->begin_from_end, other->begin_from_end);
+}
+
+TEST(ScanOdometryPlugin, ALongGapIsBridgedByTheWheelsAloneOrNotAtAll) {
+  const auto log = halfALap();
+  const auto broken = [&](bool wheels) {
+    return [&log, wheels](CObservation::Ptr observation) {
+      const double into = base::secondsBetween(log.begin(), observation->timestamp);
+      const bool is_odometry = observation->sensorLabel == "odometry";
+      return (into > 8 && into < 11) || (is_odometry && !wheels) ? nullptr : observation;
+    };
+  };
+  expectNear(follow(log, broken(true)), "with wheels");
+  EXPECT_EQ(follow(log, broken(false)).motion, CPose2D());
+}
+
+TEST(ScanOdometryPlugin, TheCovarianceCoversTheErrors) {
+  double squares = 0;
+  constexpr int kLogs = 8;
+  for (int seed = 1; seed <= kLogs; ++seed) {
+    testing::SimulatedLogOptions options;
+    options.laps = 0.3;
+    options.seed = seed;
+    const auto told = follow(SimulatedLog(options), [](auto observation) { return observation; });
+    const CPose2D difference = told.motion - told.truth;
+    // Both in the frame of the end, as the covariance is.
+    const CPose2D error = told.truth - told.motion;
+    EXPECT_LT(difference.norm(), 0.2);
+    const Eigen::Vector3d e(error.x(), error.y(), error.phi());
+    squares += e.dot(told.covariance.ldlt().solve(e));
+  }
+  EXPECT_LT(squares / kLogs, 6) << "of three degrees of freedom";
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins
