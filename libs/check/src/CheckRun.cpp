@@ -17,7 +17,7 @@ namespace omnimapper::check {
 namespace {
 
 // Of ini/laser2d.ini.
-const std::vector<std::string> kPosePlugins{"odometry", "no_motion"};
+const std::vector<std::string> kPosePlugins{"scan_odometry", "odometry", "no_motion"};
 
 base::ExitCode codeOf(const source::SourceReport& report, const LogFacts& facts, const std::vector<Finding>& findings) {
   if (report.exitCode() != base::ExitCode::ok) return report.exitCode();

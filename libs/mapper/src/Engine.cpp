@@ -207,7 +207,6 @@ void Engine::process(Moment& moment) {
     return;
   }
   if (moment.reference) map_.key_frames.edit(place->id).reference = true;
-  counts_.contradicted = chain_.contradicted();
   const bool is_alone = place->is_new && !place->before && !place->after;
   if (is_alone) estimator_.begin();  // of its session, whose place is known to so much
   if (place->is_new && place->after) {

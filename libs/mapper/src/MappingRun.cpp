@@ -105,11 +105,6 @@ void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
   warn(counts.no_stamp, "have no stamp and were left out");
   warn(counts.repeated_stamp, "repeat the stamp of the one before and were left out");
   warn(counts.too_late, "came later than [mapper] horizon_s and were left out");
-  constexpr std::size_t kOften = 20;  // one in so many key frames
-  if (kOften * counts.contradicted > key_frames) {
-    engine.warn("the pose plugins contradict each other at " + std::to_string(counts.contradicted) + " of " +
-                std::to_string(key_frames) + " key frames; the first of [mapper] pose_plugins was believed there");
-  }
   warn(counts.hurried,
        "could not wait for [mapper] window_s, more than queue_limit waited: do the stamps stand still?");
   warn(counts.unusable, "(odometry or sensor poses) are not finite or run backwards in time and were left out");

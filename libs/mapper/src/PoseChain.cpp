@@ -1,33 +1,13 @@
-#include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/mapper/PoseChain.h>
 #include <omnimapper/mapper/PoseFactors.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 
 namespace omnimapper::mapper {
 
 namespace {
 
 using mrpt::poses::CPose3D;
-
-// Whether two sources tell of one motion what cannot both be true. In the plane: few know of height and tilt.
-bool contradict(const RelativeMotion& a, const RelativeMotion& b) {
-  constexpr double kBeyondChance = 30;                 // chi-square of three degrees of freedom: one in a million
-  constexpr double kPosition = 0.005, kAngle = 0.003;  // [m] [rad] that nobody is better than
-  const auto apart = geometry::minus(geometry::fromMrpt(a.begin_from_end), geometry::fromMrpt(b.begin_from_end));
-  const std::array<int, 3> planar{0, 1, 5};
-  Eigen::Vector3d difference;
-  Eigen::Matrix3d covariance = Eigen::Vector3d(kPosition, kPosition, kAngle).cwiseAbs2().asDiagonal();
-  for (int row = 0; row < 3; ++row) {
-    difference[row] = apart[planar[row]];
-    for (int column = 0; column < 3; ++column) {
-      covariance(row, column) += a.covariance(planar[row], planar[column]) + b.covariance(planar[row], planar[column]);
-    }
-  }
-  return difference.dot(covariance.ldlt().solve(difference)) > kBeyondChance;
-}
 
 std::vector<base::Stamp> stampsOf(const std::vector<map::HangingFrame>& hanging) {
   std::vector<base::Stamp> stamps;
@@ -76,12 +56,12 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
   Told to, from;
   if (before) {
     place.before = before->id;
-    to = toLink(before->stamp, stamp);
+    to = motionBetween(before->stamp, stamp, true);
     if (to.motions.empty()) return std::nullopt;
   }
   if (after) {
     place.after = after->id;
-    from = toLink(stamp, after->stamp);
+    from = motionBetween(stamp, after->stamp, true);
     if (from.motions.empty()) return std::nullopt;
   }
   const CPose3D guess = before   ? before->map_from_base + to.motions.front().second.begin_from_end
@@ -213,7 +193,7 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
     const base::KeyFrameId id = map_.key_frames[position].id;
     if (position + 1 < map_.key_frames.size()) {
       const map::KeyFrame& next = map_.key_frames[position + 1];
-      const auto told = toLink(map_.key_frames[position].stamp, next.stamp);
+      const auto told = motionBetween(map_.key_frames[position].stamp, next.stamp, true);
       const bool worse = told.motions.empty() || (told.by_fallback && !links_[id].by_fallback);
       if (worse) continue;  // what was told before is all there is
       unlink(id);
@@ -233,20 +213,6 @@ PoseChain::Told PoseChain::motionBetween(base::Stamp begin, base::Stamp end, boo
       if (fallback && !told.motions.empty()) break;  // the first that can
       if (const auto motion = plugin->between(begin, end)) told.motions.emplace_back(section, *motion);
     }
-  }
-  return told;
-}
-
-PoseChain::Told PoseChain::toLink(base::Stamp begin, base::Stamp end) {
-  Told told = motionBetween(begin, end, true);
-  auto& motions = told.motions;
-  for (std::size_t i = 1; i < motions.size();) {
-    const bool contradicted = std::any_of(motions.begin(), motions.begin() + i, [&](const auto& trusted) {
-      return contradict(trusted.second, motions[i].second);
-    });
-    if (contradicted) motions.erase(motions.begin() + i);
-    contradicted_ += contradicted;
-    i += !contradicted;
   }
   return told;
 }

@@ -65,7 +65,6 @@ std::vector<std::pair<std::string, std::size_t>> namedCounts(const mapper::RunCo
           {"late", counts.late},
           {"spliced", counts.spliced},
           {"hurried", counts.hurried},
-          {"contradicted", counts.contradicted},
           {"unusable", counts.unusable},
           {"unconnected", counts.unconnected},
           {"solves", counts.solves}};

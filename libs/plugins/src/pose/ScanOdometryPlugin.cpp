@@ -2,6 +2,7 @@
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/plugins/ScanOdometryPlugin.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +21,10 @@ namespace {
 double sizeOf(const TPose2D& motion) {
   constexpr double kLever = 3;  // [m]
   return std::hypot(motion.x, motion.y) + kLever * std::abs(mrpt::math::wrapToPi(motion.phi));
+}
+
+double squared(double value) {
+  return value * value;
 }
 
 OdometryOptions odometryOf(const ScanOdometryOptions& options) {
@@ -139,11 +144,7 @@ std::vector<matching::MatchGuess> ScanOdometryPlugin::guesses(base::Stamp stamp)
   by_velocity_.motion = TPose2D(velocity_.x * seconds, velocity_.y * seconds, velocity_.phi * seconds);
   // What wheels and inertia tell counts where walls tell little, such as along a corridor.
   const auto guess = [&](const TPose2D& motion) {
-    const double position = options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y);
-    const double angle = options_.guess_angle_sigma + options_.guess_sigma_per_m * std::abs(motion.phi);
-    const Eigen::Vector3d sigmas(position, position, angle);
-    return matching::MatchGuess{
-        motion, Eigen::Matrix3d((options_.point_sigma * sigmas.cwiseInverse()).cwiseAbs2().asDiagonal())};
+    return matching::MatchGuess{motion, squared(options_.point_sigma) * informationOfGuess(motion)};
   };
   std::vector<matching::MatchGuess> all;
   if (by_odometry_.motion) all.push_back(guess(*by_odometry_.motion));
@@ -153,16 +154,22 @@ std::vector<matching::MatchGuess> ScanOdometryPlugin::guesses(base::Stamp stamp)
   return all;
 }
 
+Eigen::Matrix3d ScanOdometryPlugin::informationOfGuess(const TPose2D& motion) const {
+  const double position = options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y);
+  const double angle = options_.guess_angle_sigma + options_.guess_sigma_per_m * std::abs(motion.phi);
+  return Eigen::Vector3d(position, position, angle).cwiseAbs2().cwiseInverse().asDiagonal();
+}
+
 // Variances grow with the way, the turn and time so that spans add up: the match of a scan counts by the share of the
-// way to the next scan of the local map that it stands for.
+// way to the next scan of the local map that it stands for. What the walls leave open is as good as the guess.
 mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanMatch& match) const {
-  const auto squared = [](double value) { return value * value; };
   const TPose2D& motion = match.reference_from_scan;
   const double way = std::hypot(motion.x, motion.y), turn = std::abs(mrpt::math::wrapToPi(motion.phi));
   const double share =
       std::min(1.0, way / options_.tracker.local_distance + turn / options_.tracker.local_angle + 0.02);
   const double sigma = std::max(options_.point_sigma, options_.wall_sigma_factor * match.wall_distance);
-  Eigen::Matrix3d covariance = share * squared(sigma) * match.unit_covariance;
+  Eigen::Matrix3d covariance =
+      ((share * squared(sigma) * match.unit_covariance).inverse() + informationOfGuess(motion)).inverse();
   const double position = squared(options_.position_noise_per_root_m) * way;
   covariance.diagonal() +=
       Eigen::Vector3d(position, position,

@@ -52,8 +52,6 @@ class PoseChain {
   std::optional<base::Stamp> newest() const;
   /// Stamp of the session's last key frame that is not after `stamp`.
   std::optional<base::Stamp> lastAtOrBefore(base::Stamp stamp) const;
-  /// Motions between key frames that were left out because a source named before contradicts them.
-  std::size_t contradicted() const { return contradicted_; }
   /// What the first source that covers the span says; fallbacks are asked if `or_fallback`.
   std::optional<RelativeMotion> motion(base::Stamp begin, base::Stamp end, bool or_fallback) const;
 
@@ -67,8 +65,6 @@ class PoseChain {
     bool by_fallback = false;
   };
   Told motionBetween(base::Stamp begin, base::Stamp end, bool or_fallback) const;
-  /// The same for a link, without what a source named before contradicts beyond chance.
-  Told toLink(base::Stamp begin, base::Stamp end);
   std::uint16_t session() const { return map_.sessions.back().number; }
   const map::KeyFrame* frameBefore(base::Stamp stamp) const;
   const map::KeyFrame* frameAfter(base::Stamp stamp) const;
@@ -85,7 +81,6 @@ class PoseChain {
   std::map<base::KeyFrameId, Link> links_;  // to the next key frame
   std::optional<SessionStart> start_;
   bool absolute_ = false;
-  std::size_t contradicted_ = 0;
   // What holds the session's first pose: a factor, or that it is fixed.
   std::optional<base::FactorId> hold_;
   std::optional<base::VariableId> held_;

@@ -25,7 +25,6 @@ struct RunCounts {
   std::size_t hurried = 0;         ///< stamps worked on before their window was over, [mapper] queue_limit
   std::size_t unusable = 0;  ///< refused: odometry not finite or backwards in time, or a sensor pose that is not finite
   std::size_t unconnected = 0;   ///< refused: no pose plugin tells the motion since the key frame before
-  std::size_t contradicted = 0;  ///< motions between key frames left out: a pose plugin named before says otherwise
   std::size_t solves = 0;
 };
 

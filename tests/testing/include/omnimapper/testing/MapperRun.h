@@ -29,6 +29,7 @@ class = ScanOdometryPlugin
 spacing_m = 0.1
 [odometry]
 class = OdometryPlugin
+fallback = true
 [no_motion]
 class = NoMotionPlugin
 [laser_points]
