@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <cstdint>
+#include <optional>
 #include <unordered_set>
 
 namespace omnimapper::matching {

@@ -23,11 +23,6 @@ using rawlogs::Observations;
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Laser odometry tells the motion, and wheels where it does not.
-const Words kLaserOdometry{"--set", "mapper.pose_plugins=scan_odometry, odometry, no_motion",
-                           "--set", "scan_odometry.class=ScanOdometryPlugin",
-                           "--set", "odometry.fallback=true"};
-
 /// Two laps of the ring of rooms.
 class BadData : public ::testing::Test {
  protected:
@@ -58,9 +53,7 @@ class BadData : public ::testing::Test {
   }
   Ended mapThem(const Words& more = {}) {
     writeFile(scratch_ / "bad.rawlog", rawlogs::bytesOf(observations_).text);
-    Words words = kLaserOdometry;
-    words.insert(words.end(), more.begin(), more.end());
-    return map({scratch_ / "bad.rawlog"}, folder_, words);
+    return map({scratch_ / "bad.rawlog"}, folder_, more);
   }
   /// Maps the observations, which ends well and on the truth.
   void expectMap(const Words& words = {}, double largest_error = 0.15) {

@@ -24,7 +24,7 @@ struct RunCounts {
   std::size_t spliced = 0;         ///< key frames that late observations made between others
   std::size_t hurried = 0;         ///< stamps worked on before their window was over, [mapper] queue_limit
   std::size_t unusable = 0;  ///< refused: odometry not finite or backwards in time, or a sensor pose that is not finite
-  std::size_t unconnected = 0;   ///< refused: no pose plugin tells the motion since the key frame before
+  std::size_t unconnected = 0;  ///< refused: no pose plugin tells the motion since the key frame before
   std::size_t solves = 0;
 };
 

@@ -36,7 +36,8 @@ struct ScanOdometryOptions {
 /// Laser odometry as a continuous pose source (thesis 5.3.4): every scan of one laser, not those of key frames alone,
 /// is matched against a local map of the scans before it. Scans are worked on in the order of their stamps; one that
 /// comes after its time was worked on is left out. Wheel odometry, or steady motion where that is better or there is
-/// none, says where to begin, and nothing more: what the walls leave open is open in the covariance.
+/// none, says where a match begins, and counts where the walls leave a direction open: beside this it should be a
+/// fallback.
 class ScanOdometryPlugin : public mapper::PosePlugin {
  public:
   ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
@@ -60,6 +61,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   void follow(base::Stamp stamp, const matching::PlanarScan& scan);
   std::vector<matching::MatchGuess> guesses(base::Stamp stamp);
   void restart(base::Stamp stamp, const matching::PlanarScan& scan);
+  Eigen::Matrix3d informationOfGuess(const mrpt::math::TPose2D& motion) const;
   mapper::RelativeMotion motionOf(const matching::ScanMatch& match) const;
 
   ScanOdometryOptions options_;
