@@ -70,8 +70,8 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
                                  : CPose3D();
   if (before && after) {
     // What a source told of the whole span is not given up for the guess of a fallback.
-    const bool guessed = to.by_fallback || from.by_fallback;
-    if (guessed && !links_[*place.before].by_fallback) return std::nullopt;
+    const bool guessed = to.by_guess || from.by_guess;
+    if (guessed && !links_[*place.before].by_guess) return std::nullopt;
     unlink(*place.before);
   }
   map::KeyFrame frame = newFrame(stamp, guess);
@@ -139,7 +139,7 @@ void PoseChain::hold(base::VariableId first_pose) {
 void PoseChain::link(base::KeyFrameId begin, base::KeyFrameId end, const Told& told) {
   map::KeyFrame& frame = map_.key_frames.edit(begin);
   const base::VariableId end_pose = map_.keyFrame(end).pose;
-  links_[begin].by_fallback = told.by_fallback;
+  links_[begin].by_guess = told.by_guess;
   for (const auto& [section, motion] : told.motions) {
     links_[begin].factors.push_back(graph_.addFactor(betweenPoses(motion_, frame.pose, end_pose, motion, section)));
   }
@@ -194,7 +194,7 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
     if (position + 1 < map_.key_frames.size()) {
       const map::KeyFrame& next = map_.key_frames[position + 1];
       const auto told = motionBetween(map_.key_frames[position].stamp, next.stamp, true);
-      const bool worse = told.motions.empty() || (told.by_fallback && !links_[id].by_fallback);
+      const bool worse = told.motions.empty() || (told.by_guess && !links_[id].by_guess);
       if (worse) continue;  // what was told before is all there is
       unlink(id);
       link(id, next.id, told);
@@ -203,22 +203,25 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
   }
 }
 
-PoseChain::Told PoseChain::motionBetween(base::Stamp begin, base::Stamp end, bool or_fallback) const {
+// Every source that covers the span; else the first fallback that does.
+PoseChain::Told PoseChain::motionBetween(base::Stamp begin, base::Stamp end, bool or_guess) const {
   Told told;
   for (const bool fallback : {false, true}) {
-    if (fallback && (!told.motions.empty() || !or_fallback)) break;
-    told.by_fallback = fallback;
+    if (!told.motions.empty()) break;
     for (const auto& [section, plugin] : sources_) {
-      if (plugin->isFallback() != fallback) continue;
-      if (fallback && !told.motions.empty()) break;  // the first that can
-      if (const auto motion = plugin->between(begin, end)) told.motions.emplace_back(section, *motion);
+      if (plugin->isFallback() != fallback || !(or_guess || plugin->measures())) continue;
+      const auto motion = plugin->between(begin, end);
+      if (!motion) continue;
+      told.motions.emplace_back(section, *motion);
+      told.by_guess = !plugin->measures();
+      if (fallback) break;
     }
   }
   return told;
 }
 
-std::optional<RelativeMotion> PoseChain::motion(base::Stamp begin, base::Stamp end, bool or_fallback) const {
-  auto told = motionBetween(begin, end, or_fallback);
+std::optional<RelativeMotion> PoseChain::motion(base::Stamp begin, base::Stamp end, bool or_guess) const {
+  auto told = motionBetween(begin, end, or_guess);
   if (told.motions.empty()) return std::nullopt;
   return std::move(told.motions.front().second);
 }

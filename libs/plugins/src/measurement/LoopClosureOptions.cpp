@@ -20,6 +20,10 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
                   "However uncertain the estimate is, a place is sought no farther from it.")
           .number("max_window_deg", &Options::max_window_angle, base::Range{0, 180},
                   "However uncertain the estimate is, a heading is sought no farther from it.")
+          .number("known_sigma_m", &Options::known_sigma, base::Range::notNegative(),
+                  "Where the estimate is as good as this and the next, no closure is sought: it would tell little.")
+          .number("known_sigma_deg", &Options::known_angle_sigma, base::Range::notNegative(),
+                  "The same of the heading.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
                   "Share of the points that must find a partner.")
           .number("max_sigma_m", &Options::max_sigma, base::Range::positive(),

@@ -11,6 +11,10 @@ namespace omnimapper::plugins {
 
 using mrpt::math::TPose2D;
 
+namespace {
+constexpr double kSigmas = 3;  // standard deviations that an estimate may be off by
+}
+
 matching::PlanarScan localMap(const std::vector<LoopSearch::Sight>& sights, base::KeyFrameId centre,
                               const mapper::State& state) {
   const auto& map_from_centre = state.map.keyFrame(centre).map_from_base;
@@ -32,7 +36,6 @@ mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
 }
 
 LoopSearch::Doubt LoopSearch::doubtAt(const Place& place, const mapper::State& state) const {
-  constexpr double kSigmas = 3;
   const auto covariance = state.covarianceBetween(place.centre.frame, newest_.back().frame);
   if (!covariance) return {options_.max_window, options_.max_window_angle};
   const Eigen::Matrix2d position = covariance->topLeftCorner<2, 2>();
@@ -97,6 +100,12 @@ bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   decision.to = centre.id;
   decision.numbers = {{"may be off by [m]", doubt.position},
                       {"may be off by [deg]", doubt.yaw / base::option_text::kRadiansPerDegree}};
+  // A closure that tells what the map knows as well only makes every solve dearer.
+  if (doubt.position < kSigmas * options_.known_sigma && doubt.yaw < kSigmas * options_.known_angle_sigma) {
+    decision.reason = "the map knows this as well";
+    batch.log(std::move(decision));
+    return true;
+  }
   constexpr double kSpacing = 0.08;  // [m]
   const auto local = matching::oncePerCell(localMapOf(place, doubt, state), kSpacing / 2),
              query = matching::oncePerCell(this->query(doubt, state), kSpacing);

@@ -52,19 +52,19 @@ class PoseChain {
   std::optional<base::Stamp> newest() const;
   /// Stamp of the session's last key frame that is not after `stamp`.
   std::optional<base::Stamp> lastAtOrBefore(base::Stamp stamp) const;
-  /// What the first source that covers the span says; fallbacks are asked if `or_fallback`.
-  std::optional<RelativeMotion> motion(base::Stamp begin, base::Stamp end, bool or_fallback) const;
+  /// What the first source that covers the span says; those that do not measure are asked if `or_guess`.
+  std::optional<RelativeMotion> motion(base::Stamp begin, base::Stamp end, bool or_guess) const;
 
  private:
   struct Told {
     std::vector<std::pair<std::string, RelativeMotion>> motions;  // by section of the source
-    bool by_fallback = false;
+    bool by_guess = false;
   };
   struct Link {
     std::vector<base::FactorId> factors;
-    bool by_fallback = false;
+    bool by_guess = false;
   };
-  Told motionBetween(base::Stamp begin, base::Stamp end, bool or_fallback) const;
+  Told motionBetween(base::Stamp begin, base::Stamp end, bool or_guess) const;
   std::uint16_t session() const { return map_.sessions.back().number; }
   const map::KeyFrame* frameBefore(base::Stamp stamp) const;
   const map::KeyFrame* frameAfter(base::Stamp stamp) const;

@@ -37,6 +37,8 @@ class PosePlugin {
   /// A fallback is asked only for a span that no other source covers, and never holds up the queue. Of several
   /// the first in the order of the INI that covers it answers alone.
   virtual bool isFallback() const { return false; }
+  /// Whether it tells what it measured. One that only guesses is not asked whether the base has moved.
+  virtual bool measures() const { return true; }
   /// Spans before `stamp` will not be asked for any more.
   virtual void forgetBefore(base::Stamp /*stamp*/) {}
 };

@@ -15,6 +15,8 @@ struct LoopClosureOptions {
   double context = 2.0;                                                   ///< [m]
   double max_window = 10.0;                                               ///< [m]
   double max_window_angle = 60.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
+  double known_sigma = 0.02;                                              ///< [m]
+  double known_angle_sigma = 0.3 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double min_overlap = 0.75;
   double max_sigma = 0.06;    ///< [m]
   double point_sigma = 0.05;  ///< [m]

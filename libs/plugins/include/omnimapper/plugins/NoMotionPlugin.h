@@ -22,6 +22,7 @@ class NoMotionPlugin : public mapper::PosePlugin {
   std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override;
   std::optional<base::Stamp> coveredUntil() const override { return std::nullopt; }
   bool isFallback() const override { return true; }
+  bool measures() const override { return false; }
 
  private:
   NoMotionOptions options_;

@@ -26,7 +26,6 @@ measurement_plugins = loop_closure
 extractors = laser_points
 [scan_odometry]
 class = ScanOdometryPlugin
-spacing_m = 0.1
 [odometry]
 class = OdometryPlugin
 fallback = true
