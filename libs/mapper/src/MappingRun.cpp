@@ -13,6 +13,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <thread>
 
 namespace omnimapper::mapper {
@@ -121,17 +122,17 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
   return sections;
 }
 
-// A map without a single measurement is what odometry says, and nobody should take it for more.
-void warnOfNothingMeasured(const std::vector<std::string>& measurement_plugins, Engine& engine) {
+// A map without a single measurement is what the fallbacks say, and nobody should take it for more.
+void warnOfNothingMeasured(const std::set<std::string>& measuring, Engine& engine) {
   const auto& view = engine.view();
   if (view.map.key_frames.size() < 3) return;
   for (const auto& [id, record] : view.graph.factors()) {
     const auto& owner = record.tags.owner;
     if (id.session != view.map.sessions.back().number) continue;
-    if (std::find(measurement_plugins.begin(), measurement_plugins.end(), owner) != measurement_plugins.end()) return;
+    if (measuring.count(owner) > 0) return;
   }
-  engine.warn("nothing was measured: no measurement plugin made anything of any observation, the map is what the " +
-              std::string("motion sources say; are the sensors blind? omnimapper-graphslam --check LOG tells"));
+  engine.warn("nothing was measured: no plugin but the fallbacks made anything of any observation, the map is what " +
+              std::string("they say; are the sensors blind? omnimapper-graphslam --check LOG tells"));
 }
 
 // What follows becomes a new session of a saved map.
@@ -213,6 +214,10 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   auto plugins =
       makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, outputs}, config, context);
   config.refuseUnreadSections();
+  std::set<std::string> measuring(options.measurement_plugins.begin(), options.measurement_plugins.end());
+  for (const auto& [section, plugin] : plugins.pose) {
+    if (!plugin->isFallback()) measuring.insert(section);
+  }
   Engine engine(settings, context.title, std::move(sensor_poses), std::move(plugins), request.threads);
   engine.setStop(stop);
   if (const auto off = config.switchedOffPlugins(); !off.empty()) {
@@ -234,7 +239,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   warnOf(report, stopped, engine);
   const auto unknown_labels = unknownLabels(config, labelledSections(options, perception), report, engine.view().map);
   for (const auto& sentence : unknown_labels) engine.warn(sentence);
-  warnOfNothingMeasured(options.measurement_plugins, engine);
+  warnOfNothingMeasured(measuring, engine);
   auto result = resultOf(engine.view());
   warnOf(engine.view().counts, result.new_key_frames, engine);
   warnOf(result.sessions.back(), engine);

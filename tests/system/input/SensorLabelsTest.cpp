@@ -35,7 +35,8 @@ TEST_F(SensorLabels, ThatNothingHasAreNamedWithTheNearestAndAll) {
   EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"odometry.label=odometri"}),
                         {"warning: [odometry] label", "'odometri'", "did you mean 'odometry'?",
                          "there are: laser, laser.points, odometry"}));
-  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"loop_closure.labels=laser"}), {"nothing was measured"}))
+  EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"loop_closure.labels=laser", "scan_odometry.label=odometry"}),
+                        {"nothing was measured"}))
       << "the points have a label of their own";
   EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"loop_closure.labels=lasr.points, laser.points"}),
                         {"[loop_closure] labels", "'lasr.points'", "'laser.points'?"}));

@@ -104,7 +104,7 @@ TEST_F(CommandLine, EveryListedPluginPrintsASectionThatRuns) {
 
 TEST_F(CommandLine, UnknownPluginToPrintIsAnsweredWithTheNearest) {
   EXPECT_TRUE(
-      endedWith(ExitCode::unknown_plugin, graphslam({"--print-ini", "ScanMatchPlugin"}), {"'LoopClosurePlugin'"}));
+      endedWith(ExitCode::unknown_plugin, graphslam({"--print-ini", "LoopClosePlugin"}), {"'LoopClosurePlugin'"}));
 }
 
 TEST_F(CommandLine, SetOverrulesTheIni) {

@@ -126,8 +126,8 @@ TEST_F(Continue, IntoTheFolderOfTheOldMapItTakesItsPlace) {
 TEST_F(Continue, ALogThatStartsFarFromWhereItIsSaidToStaysApartWithAWarning) {
   const auto ended =
       goOn(file("first"), file("apart"),
-           {"--set", "session.start=pose", "--set", "session.start_x_m=3", "--set", "session.start_y_m=4"});
-  EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"session 1 was never joined", "[session] start", "loop_radius_m"}));
+           {"--set", "session.start=pose", "--set", "session.start_x_m=30", "--set", "session.start_y_m=40"});
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"session 1 was never joined", "[session] start", "max_window_m"}));
   EXPECT_NE(ended.out.find("session 1 was never joined"), std::string::npos);
   EXPECT_FALSE(loadSummary(file("apart"))["sessions"][1]["joined"]);
   const auto before = loadMap(file("first")), after = loadMap(file("apart"));
