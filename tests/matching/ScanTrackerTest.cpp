@@ -31,7 +31,7 @@ TEST(ScanTracker, FollowsAWayWithGuessesThatAreAlwaysTooShort) {
     const TPose2D motion = wayAt(i) - wayAt(i - 1);
     const auto match = tracker.track(scanFrom(plan, wayAt(i), 0.01, i), {TPose2D(0.5 * motion.x, 0, 0)});
     ASSERT_TRUE(match) << "step " << i;
-    start_from_last = start_from_last + match->reference_from_scan;
+    start_from_last = start_from_last + match->match.reference_from_scan;
   }
   const auto error = start_from_last - (wayAt(kSteps) - wayAt(0));
   EXPECT_LT(std::hypot(error.x, error.y), 0.03) << "over 5.6 m";
@@ -49,7 +49,8 @@ TEST(ScanTracker, TakesTheNextGuessWhereOneLeadsNowhere) {
   EXPECT_FALSE(tracker.track({}, {truth})) << "a scan without points";
   const auto match = tracker.track(scan, {nonsense, truth});
   ASSERT_TRUE(match) << "what failed before changed nothing";
-  EXPECT_LT(std::abs(match->reference_from_scan.x - truth.x), 0.01);
+  EXPECT_EQ(match->guess, 1U);
+  EXPECT_LT(std::abs(match->match.reference_from_scan.x - truth.x), 0.01);
 }
 
 TEST(ScanTracker, MatchesBeyondItsLimitsAreRefused) {
@@ -74,8 +75,8 @@ TEST(ScanTracker, AlongABareCorridorTheGuessCounts) {
     const MatchGuess guess{TPose2D(0.1, 0.02, 0), Eigen::Vector3d(1, 1, 1).asDiagonal()};
     const auto match = tracker.track(scanFrom(corridor, {0.1 * i, 0, 0}, 0.005, i + 1, 8), {guess});
     ASSERT_TRUE(match);
-    EXPECT_TRUE(match->degenerate);
-    start_from_last = start_from_last + match->reference_from_scan;
+    EXPECT_TRUE(match->match.degenerate);
+    start_from_last = start_from_last + match->match.reference_from_scan;
   }
   EXPECT_NEAR(start_from_last.x, 3, 0.05);
   EXPECT_NEAR(start_from_last.y, 0, 0.02);

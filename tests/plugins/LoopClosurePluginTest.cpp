@@ -54,7 +54,7 @@ TEST(LoopClosurePlugin, OnTheSecondLapClosuresLieOnTheTruth) {
   testing::SimulatedLogOptions options;
   options.laps = 1.4;
   const testing::SimulatedLog log(options);
-  const auto engine = testing::makeEngine(testing::kLaserIni);
+  const auto engine = testing::makeEngine(testing::kLaserIni, {"loop_closure.spacing_m=0"});
   testing::run(*engine, log.observations());
   const auto view = engine->view();
   std::size_t accepted = 0;

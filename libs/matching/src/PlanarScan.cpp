@@ -184,13 +184,15 @@ void append(const PlanarScan& scan, const mrpt::math::TPose2D& target_from_scan,
 }
 
 PlanarScan oncePerCell(const PlanarScan& scan, double side) {
-  std::unordered_set<std::int64_t> taken;
+  std::unordered_set<std::uint64_t> taken;
   PlanarScan kept;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const auto& p = scan.points[i];
-    const auto column = static_cast<std::int64_t>(std::floor(p.x() / side)),
-               row = static_cast<std::int64_t>(std::floor(p.y() / side));
-    if (!taken.insert((column << 32) ^ (row & 0xFFFFFFFF)).second) continue;
+    const auto column = static_cast<std::int32_t>(std::floor(p.x() / side)),
+               row = static_cast<std::int32_t>(std::floor(p.y() / side));
+    const std::uint64_t cell =
+        (std::uint64_t{static_cast<std::uint32_t>(column)} << 32) | static_cast<std::uint32_t>(row);
+    if (!taken.insert(cell).second) continue;
     kept.points.push_back(p);
     kept.normals.push_back(scan.normals[i]);
   }

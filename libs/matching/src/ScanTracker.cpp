@@ -1,6 +1,7 @@
 #include <omnimapper/matching/ScanTracker.h>
 
 #include <cmath>
+#include <cstddef>
 
 namespace omnimapper::matching {
 
@@ -37,19 +38,19 @@ void ScanTracker::restart(const PlanarScan& scan) {
   remember(scan);
 }
 
-std::optional<ScanMatch> ScanTracker::track(const PlanarScan& scan, const std::vector<MatchGuess>& guesses) {
+std::optional<ScanTracker::Tracked> ScanTracker::track(const PlanarScan& scan, const std::vector<MatchGuess>& guesses) {
   if (!reference_ || scan.empty()) return std::nullopt;
   const TPose2D local_from_last = track_from_last_ - locals_.back().track_from_scan;
-  for (const auto& guess : guesses) {
-    const TPose2D local_from_guess = local_from_last + guess.reference_from_scan;
-    auto match = matcher_->match(*reference_, scan, {local_from_guess, guess.information});
+  for (std::size_t i = 0; i < guesses.size(); ++i) {
+    const TPose2D local_from_guess = local_from_last + guesses[i].reference_from_scan;
+    auto match = matcher_->match(*reference_, scan, {local_from_guess, guesses[i].information});
     if (match.overlap < options_.min_overlap) continue;
     if (isBeyond(match.reference_from_scan - local_from_guess, options_.max_correction, options_.max_turn_correction))
       continue;
     track_from_last_ = locals_.back().track_from_scan + match.reference_from_scan;
     if (isBeyond(match.reference_from_scan, options_.local_distance, options_.local_angle)) remember(scan);
     match.reference_from_scan = match.reference_from_scan - local_from_last;
-    return match;
+    return Tracked{match, i};
   }
   return std::nullopt;
 }

@@ -11,6 +11,9 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
                   "Places so far from where the base may be are tried.")
           .number("min_way_m", &Options::min_way, base::Range::positive(),
                   "Places left less than this way ago are no loop.")
+          .number(
+              "spacing_m", &Options::spacing, base::Range::notNegative(),
+              "Way between the key frames that search: closures side by side tell the same, and make solves dearer.")
           .integer("candidates", &Options::candidates, base::Range{1, 1000}, "Places tried per key frame.")
           .number(
               "context_m", &Options::context, base::Range::positive(),

@@ -51,8 +51,12 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   const auto& scan = dynamic_cast<const PreparedScan&>(*observed.prepared).scan;
   const std::size_t index = remember(frame, scan, view, history);
   if (scan->empty()) return {};
+  const double way = history[index].sight.way;
+  const auto [last, is_first] = searched_.emplace(observed.observation.sensorLabel, way);
+  if (!is_first && std::abs(way - last->second) < options_.spacing) return {};
   auto places = loopPlaces(frame, history, index, view);
   if (!places.empty()) {
+    last->second = way;
     searches_.emplace_back(options_, context_, matcher_,
                            sights(history, index, options_.context + options_.max_window, 0), std::move(places));
   }
@@ -132,9 +136,7 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
     });
     if (repeats) continue;
     chosen.push_back(i);
-    // Not so far that it reaches what is sought there.
-    const double after = std::min(around, history[index].sight.way - history[i].sight.way - options_.min_way / 2);
-    places.push_back({history[i].sight, sights(history, i, around, after)});
+    places.push_back({history[i].sight, sights(history, i, around, around)});
     if (places.size() == kPlacesAsked * static_cast<std::size_t>(options_.candidates)) break;
   }
   return places;

@@ -43,19 +43,25 @@ LoopSearch::Doubt LoopSearch::doubtAt(const Place& place, const mapper::State& s
           kSigmas * std::sqrt((*covariance)(5, 5))};
 }
 
+double LoopSearch::queryWay(const Doubt& doubt) const {
+  return options_.context + doubt.position;
+}
+
+// What is sought is no part of where it is sought: it would fit itself wherever the estimate has it.
 matching::PlanarScan LoopSearch::localMapOf(const Place& place, const Doubt& doubt, const mapper::State& state) const {
-  const double reach = 2 * options_.context + doubt.position;
+  const double reach = 2 * options_.context + doubt.position, end = newest_.back().way - queryWay(doubt);
   std::vector<Sight> sights;
-  std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(sights),
-               [&](const Sight& sight) { return std::abs(sight.way - place.centre.way) <= reach; });
+  std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(sights), [&](const Sight& sight) {
+    const bool is_sought = sight.frame.session == newest_.back().frame.session && sight.way >= end;
+    return !is_sought && std::abs(sight.way - place.centre.way) <= reach;
+  });
   return localMap(sights, place.centre.frame, state);
 }
 
 matching::PlanarScan LoopSearch::query(const Doubt& doubt, const mapper::State& state) const {
-  const double reach = options_.context + doubt.position;
   std::vector<Sight> sights;
   std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sights),
-               [&](const Sight& sight) { return newest_.back().way - sight.way <= reach; });
+               [&](const Sight& sight) { return newest_.back().way - sight.way <= queryWay(doubt); });
   return localMap(sights, newest_.back().frame, state);
 }
 
@@ -91,6 +97,8 @@ bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   const Doubt doubt = doubtAt(place, state);
   const double apart = std::hypot(guess.x, guess.y);
   if (apart > options_.radius + doubt.position) return false;
+  // A closure that tells what the map knows as well only makes every solve dearer.
+  if (doubt.position < kSigmas * options_.known_sigma && doubt.yaw < kSigmas * options_.known_angle_sigma) return false;
 
   mapper::Decision decision;
   decision.stamp = frame.stamp;
@@ -100,12 +108,6 @@ bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   decision.to = centre.id;
   decision.numbers = {{"may be off by [m]", doubt.position},
                       {"may be off by [deg]", doubt.yaw / base::option_text::kRadiansPerDegree}};
-  // A closure that tells what the map knows as well only makes every solve dearer.
-  if (doubt.position < kSigmas * options_.known_sigma && doubt.yaw < kSigmas * options_.known_angle_sigma) {
-    decision.reason = "the map knows this as well";
-    batch.log(std::move(decision));
-    return true;
-  }
   constexpr double kSpacing = 0.08;  // [m]
   const auto local = matching::oncePerCell(localMapOf(place, doubt, state), kSpacing / 2),
              query = matching::oncePerCell(this->query(doubt, state), kSpacing);
@@ -152,11 +154,12 @@ void LoopSearch::judge(const std::vector<matching::ScanMatch>& matches, const TP
     return;
   }
   // What slides along a corridor says nothing of where in it.
+  const double point_sigma = std::max(options_.point_sigma, best.point_sigma);
   const Eigen::Matrix2d position = best.unit_covariance.topLeftCorner<2, 2>();
   const double sigma =
-      options_.point_sigma * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]);
+      point_sigma * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]);
   decision.numbers.emplace_back("uncertainty of the match [m]", sigma);
-  if (sigma > options_.max_sigma) {
+  if (best.degenerate || sigma > options_.max_sigma) {
     decision.reason = best.degenerate ? "the walls leave a direction open" : "the walls hardly fix it";
     return;
   }

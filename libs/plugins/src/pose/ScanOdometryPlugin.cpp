@@ -54,10 +54,7 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
           .number("guess_sigma_per_m", &Options::guess_sigma_per_m, zero_or_more,
                   "Both grow by this share of the motion that is predicted.")
           .number("point_sigma_m", &Options::point_sigma, base::Range::positive(),
-                  "Standard deviation of a point from the wall it lies on.")
-          .number("wall_sigma_factor", &Options::wall_sigma_factor, zero_or_more,
-                  "The same as a multiple of the distance that the points of a match have from the walls; the larger "
-                  "counts.")
+                  "Standard deviation of a point from the wall it lies on, at least; a match may find more.")
           .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
                   "Standard deviation of the position after 1 m of way [m] beside that of the matches.")
           .number("yaw_noise_per_root_m_deg", &Options::yaw_noise_per_root_m, zero_or_more,
@@ -84,19 +81,20 @@ ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation&
   odometry_.add(observation);
   const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation);
   if (!scan || !isOurs(*scan)) return Taken::not_mine;
-  if (!last_ || scan->timestamp > *last_) wait_.emplace(scan->timestamp, *scan);
+  if (!reached_ || scan->timestamp > *reached_) wait_.emplace(scan->timestamp, *scan);
   return Taken::taken;
 }
 
 std::optional<base::Stamp> ScanOdometryPlugin::coveredUntil() const {
   if (!wait_.empty()) return wait_.rbegin()->first;
-  return last_;
+  return reached_;
 }
 
 // One scan beyond it, so that the motion to between two scans is known.
 void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
-  while (!wait_.empty() && (!last_ || *last_ < stamp)) {
+  while (!wait_.empty() && (!reached_ || *reached_ < stamp)) {
     const auto next = wait_.extract(wait_.begin());
+    reached_ = next.key();
     const auto cloud = extractor_.extract(next.mapped());
     follow(next.key(), scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*cloud)));
   }
@@ -109,24 +107,33 @@ void ScanOdometryPlugin::follow(base::Stamp stamp, const matching::PlanarScan& s
   const auto guesses = this->guesses(stamp);
   const bool is_gap = seconds > options_.max_gap;
   // Across a gap steady motion is no prediction.
-  const auto match = is_gap && !by_odometry_.motion ? std::nullopt : tracker_.track(scan, guesses);
-  if (!match) {
+  const auto tracked = is_gap && !by_odometry_.motion ? std::nullopt : tracker_.track(scan, guesses);
+  if (!tracked) {
     if (is_gap) restart(stamp, scan);
     return;
   }
-  timeline_.insert(*last_, stamp, motionOf(*match));
-  const TPose2D& motion = match->reference_from_scan;
+  timeline_.insert(*last_, stamp, motionOf(tracked->match, guesses[tracked->guess]));
+  const TPose2D& motion = tracked->match.reference_from_scan;
   for (auto* predictor : {&by_odometry_, &by_velocity_}) {
     constexpr double kMemory = 0.9;
-    if (predictor->motion) {
+    // Where a direction is open the match agrees with whatever it began with.
+    if (predictor->motion && !tracked->match.degenerate) {
       predictor->error = kMemory * predictor->error + (1 - kMemory) * sizeOf(*predictor->motion - motion);
     }
   }
-  velocity_ = TPose2D(motion.x / seconds, motion.y / seconds, mrpt::math::wrapToPi(motion.phi) / seconds);
+  // Of stamps that nearly coincide the noise would be a speed.
+  constexpr double kShortest = 0.02;  // [s]
+  if (seconds > kShortest) {
+    velocity_ = TPose2D(motion.x / seconds, motion.y / seconds, mrpt::math::wrapToPi(motion.phi) / seconds);
+  }
   last_ = stamp;
 }
 
+// Not from a scan that sees nothing: those after it would find nothing in it.
 void ScanOdometryPlugin::restart(base::Stamp stamp, const matching::PlanarScan& scan) {
+  constexpr std::size_t kFewPoints = 10;
+  last_.reset();
+  if (scan.size() < kFewPoints) return;
   tracker_.restart(scan);
   velocity_ = {};
   last_ = stamp;
@@ -142,34 +149,41 @@ std::vector<matching::MatchGuess> ScanOdometryPlugin::guesses(base::Stamp stamp)
     if (std::hypot(motion.x, motion.y) <= kSlack + options_.max_speed * seconds) by_odometry_.motion = motion;
   }
   by_velocity_.motion = TPose2D(velocity_.x * seconds, velocity_.y * seconds, velocity_.phi * seconds);
-  // What wheels and inertia tell counts where walls tell little, such as along a corridor.
-  const auto guess = [&](const TPose2D& motion) {
-    return matching::MatchGuess{motion, squared(options_.point_sigma) * informationOfGuess(motion)};
+  // What wheels and inertia tell counts where walls tell little, such as along a corridor. A base that goes on as it
+  // did may have braked or turned.
+  constexpr double kAcceleration = 1, kTurnAcceleration = 1;  // [m/s2] [rad/s2]
+  const auto guess = [&](const TPose2D& motion, double change, double turn_change) {
+    const double position = options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y) + change;
+    const double angle = options_.guess_angle_sigma + options_.guess_sigma_per_m * std::abs(motion.phi) + turn_change;
+    const Eigen::Vector3d sigmas(position, position, angle);
+    return matching::MatchGuess{
+        motion, Eigen::Matrix3d((options_.point_sigma * sigmas.cwiseInverse()).cwiseAbs2().asDiagonal())};
   };
+  const double change = 0.5 * kAcceleration * squared(seconds),
+               turn_change = 0.5 * kTurnAcceleration * squared(seconds);
   std::vector<matching::MatchGuess> all;
-  if (by_odometry_.motion) all.push_back(guess(*by_odometry_.motion));
+  if (by_odometry_.motion) all.push_back(guess(*by_odometry_.motion, 0, 0));
   const bool steady_is_better = !by_odometry_.motion || by_velocity_.error < 0.5 * by_odometry_.error;
-  all.insert(steady_is_better ? all.begin() : all.end(), guess(*by_velocity_.motion));
+  all.insert(steady_is_better ? all.begin() : all.end(), guess(*by_velocity_.motion, change, turn_change));
   all.push_back({});
   return all;
 }
 
-Eigen::Matrix3d ScanOdometryPlugin::informationOfGuess(const TPose2D& motion) const {
-  const double position = options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y);
-  const double angle = options_.guess_angle_sigma + options_.guess_sigma_per_m * std::abs(motion.phi);
-  return Eigen::Vector3d(position, position, angle).cwiseAbs2().cwiseInverse().asDiagonal();
-}
-
-// Variances grow with the way, the turn and time so that spans add up: the match of a scan counts by the share of the
-// way to the next scan of the local map that it stands for. What the walls leave open is as good as the guess.
-mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanMatch& match) const {
+// Variances grow with the way and the turn so that spans add up: what a match is uncertain by is taken up once in half
+// the length of the local map, to which the scans in between are all matched alike. What the walls leave open is as
+// good as the guess.
+mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanMatch& match,
+                                                    const matching::MatchGuess& guess) const {
   const TPose2D& motion = match.reference_from_scan;
   const double way = std::hypot(motion.x, motion.y), turn = std::abs(mrpt::math::wrapToPi(motion.phi));
   const double share =
-      std::min(1.0, way / options_.tracker.local_distance + turn / options_.tracker.local_angle + 0.02);
-  const double sigma = std::max(options_.point_sigma, options_.wall_sigma_factor * match.wall_distance);
+      std::min(1.0, 2 / static_cast<double>(options_.tracker.local_scans) *
+                            (way / options_.tracker.local_distance + turn / options_.tracker.local_angle) +
+                        0.001);
+  const double sigma = std::max(options_.point_sigma, match.point_sigma);
   Eigen::Matrix3d covariance =
-      ((share * squared(sigma) * match.unit_covariance).inverse() + informationOfGuess(motion)).inverse();
+      ((share * squared(sigma) * match.unit_covariance).inverse() + guess.information / squared(options_.point_sigma))
+          .inverse();
   const double position = squared(options_.position_noise_per_root_m) * way;
   covariance.diagonal() +=
       Eigen::Vector3d(position, position,

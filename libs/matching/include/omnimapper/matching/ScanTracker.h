@@ -30,10 +30,13 @@ class ScanTracker {
 
   /// Forgets all scans; this one is the first.
   void restart(const PlanarScan& scan);
+  struct Tracked {
+    ScanMatch match;    ///< of the motion since the last scan; covariance and all are of the scan in the local map
+    std::size_t guess;  ///< that led to it
+  };
   /// Matches a scan and takes it for the last one. `guesses`: of the motion since the last scan, that most trusted
-  /// first; the next is tried where one does not lead to a match. None, and nothing changes, if none does. What is told
-  /// is the match of the motion since the last scan: covariance and all are of the scan in the local map.
-  std::optional<ScanMatch> track(const PlanarScan& scan, const std::vector<MatchGuess>& guesses);
+  /// first; the next is tried where one does not lead to a match. None, and nothing changes, if none does.
+  std::optional<Tracked> track(const PlanarScan& scan, const std::vector<MatchGuess>& guesses);
 
  private:
   struct Local {

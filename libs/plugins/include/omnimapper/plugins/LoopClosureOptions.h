@@ -11,12 +11,13 @@ struct LoopClosureOptions {
   std::vector<std::string> labels;  ///< of the clouds; empty: every cloud made from a 2D scan
   double radius = 4.0;              ///< [m]
   double min_way = 8.0;             ///< [m]
+  double spacing = 1.5;             ///< [m]
   int candidates = 2;
   double context = 2.0;                                                   ///< [m]
   double max_window = 10.0;                                               ///< [m]
   double max_window_angle = 60.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double known_sigma = 0.02;                                              ///< [m]
-  double known_angle_sigma = 0.3 * base::option_text::kRadiansPerDegree;  ///< [rad]
+  double known_sigma = 0.05;                                              ///< [m]
+  double known_angle_sigma = 1.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double min_overlap = 0.75;
   double max_sigma = 0.06;    ///< [m]
   double point_sigma = 0.05;  ///< [m]

@@ -50,6 +50,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   mapper::PluginContext context_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
   std::map<std::string, History> histories_;  // by label
+  std::map<std::string, double> searched_;    // [m] way of the last search, by label
   std::vector<LoopSearch> searches_;          // of the key frame being measured
 };
 

@@ -44,10 +44,11 @@ class LoopSearch {
     double position, yaw;
   };
   Doubt doubtAt(const Place& place, const mapper::State& state) const;
-  /// Whether the place was tried, rather than passed over for what the estimate says.
   /// As much of what was seen as leaves no doubt where along a corridor it was: the more, the vaguer the estimate.
   matching::PlanarScan localMapOf(const Place& place, const Doubt& doubt, const mapper::State& state) const;
   matching::PlanarScan query(const Doubt& doubt, const mapper::State& state) const;
+  double queryWay(const Doubt& doubt) const;  // [m] back from the newest key frame
+  /// Whether the place was tried, rather than passed over for what the estimate says.
   bool tryPlace(const Place& place, const mapper::State& state, mapper::Batch& batch) const;
   std::vector<mrpt::math::TPose2D> starts(const matching::PlanarScan& local, const matching::PlanarScan& query,
                                           const mrpt::math::TPose2D& guess, const Doubt& doubt) const;

@@ -20,11 +20,10 @@ struct ScanOdometryOptions {
   std::string odometry_label;  ///< of the odometry that predicts; empty: the first that comes
   double max_gap = 1.0;        ///< [s] between scans that are matched
   double max_speed = 10.0;     ///< [m/s] of a prediction
-  double guess_sigma = 0.02;   ///< [m]
-  double guess_angle_sigma = 1.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
+  double guess_sigma = 0.01;   ///< [m]
+  double guess_angle_sigma = 0.5 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double guess_sigma_per_m = 0.1;
-  double point_sigma = 0.05;  ///< [m]
-  double wall_sigma_factor = 2;
+  double point_sigma = 0.02;                                                 ///< [m] at least
   double position_noise_per_root_m = 0.01;                                   ///< [m / sqrt(m)]
   double yaw_noise_per_root_m = 0.2 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(m)]
   double yaw_noise_per_root_turn = 0.005;                                    ///< [rad / sqrt(rad)]
@@ -61,8 +60,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   void follow(base::Stamp stamp, const matching::PlanarScan& scan);
   std::vector<matching::MatchGuess> guesses(base::Stamp stamp);
   void restart(base::Stamp stamp, const matching::PlanarScan& scan);
-  Eigen::Matrix3d informationOfGuess(const mrpt::math::TPose2D& motion) const;
-  mapper::RelativeMotion motionOf(const matching::ScanMatch& match) const;
+  mapper::RelativeMotion motionOf(const matching::ScanMatch& match, const matching::MatchGuess& guess) const;
 
   ScanOdometryOptions options_;
   perception::LaserPointsExtractor extractor_;
@@ -70,6 +68,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   OdometryPlugin odometry_;
   std::optional<std::string> label_;                                // of the first that came
   std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan> wait_;  // for their time
+  std::optional<base::Stamp> reached_;                              // scan that was worked on last
   std::optional<base::Stamp> last_;                                 // scan that was matched
   mrpt::math::TPose2D velocity_;                                    // [m/s] [rad/s] in the base
   Predictor by_odometry_, by_velocity_;
