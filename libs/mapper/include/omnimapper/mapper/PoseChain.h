@@ -22,8 +22,9 @@ struct SessionStart {
 };
 
 /// The key frames of the running session and the continuous factors that link each to the next (thesis 5.2.3): between
-/// neighbours in time, and only there, each continuous source that covers the span has one factor. A key frame that
-/// comes late is spliced in: the factors across its stamp are replaced by two, and nothing else changes.
+/// neighbours in time, and only there, each continuous source that covers the span has one factor, or the first
+/// fallback if none does. A key frame that comes late is spliced in: the factors across its stamp are replaced by two,
+/// and nothing else changes.
 class PoseChain {
  public:
   /// `sources`, `map` and `graph` stay the caller's.
