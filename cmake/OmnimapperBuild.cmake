@@ -24,6 +24,9 @@ function(omnimapper_compile_options target)
   if(OMNIMAPPER_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE} -fno-omit-frame-pointer -g1 -O1)
     target_link_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE})
+    # Under a sanitizer Eigen would allocate in another way than in MRPT's libraries, whose instances of its templates are
+    # taken for ours where they are loaded first.
+    target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   endif()
 endfunction()
 
