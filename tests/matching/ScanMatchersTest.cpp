@@ -26,8 +26,6 @@ struct Which {
   const char* name;
   MatcherKind matcher;
   IcpMethod method;
-  double position, angle;  // [m] [rad] that a match without noise may err
-  double surprise;         // mean squared error over the covariance of a noisy one, 3 degrees of freedom
 };
 std::ostream& operator<<(std::ostream& out, const Which& which) {
   return out << which.name;
@@ -49,9 +47,9 @@ class ScanMatchers : public ::testing::TestWithParam<Which> {
 };
 INSTANTIATE_TEST_SUITE_P(
     All, ScanMatchers,
-    ::testing::Values(Which{"point_to_line", MatcherKind::point_to_line, {}, 0.01, 0.2 * kDegree, 3},
-                      Which{"icp", MatcherKind::icp, IcpMethod::classic, 0.06, 1.5 * kDegree, 6},
-                      Which{"icp_lm", MatcherKind::icp, IcpMethod::levenberg_marquardt, 0.06, 1.5 * kDegree, 18}),
+    ::testing::Values(Which{"point_to_line", MatcherKind::point_to_line, {}},
+                      Which{"icp", MatcherKind::icp, IcpMethod::classic},
+                      Which{"icp_lm", MatcherKind::icp, IcpMethod::levenberg_marquardt}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(ScanMatchers, FindsAKnownMotionFromAGridOfStarts) {
@@ -63,9 +61,9 @@ TEST_P(ScanMatchers, FindsAKnownMotionFromAGridOfStarts) {
         for (const double turn : {-6 * kDegree, 0.0, 6 * kDegree}) {
           const auto found = match(reference, scan, motion + TPose2D(dx, dy, turn));
           const auto error = found.reference_from_scan - motion;
-          EXPECT_LT(std::hypot(error.x, error.y), GetParam().position)
+          EXPECT_LT(std::hypot(error.x, error.y), 0.01)
               << pose << " from " << dx << ", " << dy << ", " << turn;
-          EXPECT_LT(std::abs(error.phi), GetParam().angle) << pose << " from " << dx << ", " << dy << ", " << turn;
+          EXPECT_LT(std::abs(error.phi), 0.2 * kDegree) << pose << " from " << dx << ", " << dy << ", " << turn;
           EXPECT_GT(found.overlap, 0.7);
           EXPECT_LT(found.wall_distance, 0.03);
         }
@@ -92,7 +90,7 @@ TEST_P(ScanMatchers, ErrorsOfNoisyMatchesAreWithinTheCovarianceItClaims) {
       ++count;
     }
   }
-  EXPECT_LT(squares / count, GetParam().surprise);
+  EXPECT_LT(squares / count, 3) << "mean of the squared error over its covariance, 3 degrees of freedom";
 }
 
 TEST_P(ScanMatchers, AlongABareCorridorThePoseStaysWhereItWasGuessedAndIsCalledUncertain) {
@@ -114,8 +112,8 @@ TEST_P(ScanMatchers, AStraightWallAloneFixesItsDistanceAndTheHeading) {
   wall.walls.push_back({{2, -30}, {2, 30}});
   const auto reference = scanFrom(wall, {0, 0, 0}, 0, 1, 8), scan = scanFrom(wall, {0.3, 0, 0.1}, 0, 1, 8);
   const auto found = match(reference, scan, {0.2, 0, 0.05});
-  EXPECT_NEAR(found.reference_from_scan.x, 0.3, GetParam().position);
-  EXPECT_NEAR(found.reference_from_scan.phi, 0.1, GetParam().angle);
+  EXPECT_NEAR(found.reference_from_scan.x, 0.3, 0.01);
+  EXPECT_NEAR(found.reference_from_scan.phi, 0.1, 0.2 * kDegree);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(found.unit_covariance);
   EXPECT_GT(eigen.eigenvalues()[2], 100 * eigen.eigenvalues()[1]) << "one direction is free, the others are not";
   EXPECT_GT(std::abs(eigen.eigenvectors()(1, 2)), 0.9) << "the free one lies along the wall";

@@ -4,6 +4,7 @@
 #include <omnimapper/matching/IcpMatcher.h>
 #include <omnimapper/matching/PointToLineMatcher.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 
@@ -12,6 +13,8 @@
 namespace omnimapper::matching {
 
 namespace {
+
+constexpr double kRefinedWithin = 0.3;  // [m] of a point from its wall
 
 mrpt::maps::CSimplePointsMap pointsMap(const PlanarScan& scan) {
   mrpt::maps::CSimplePointsMap map;
@@ -56,7 +59,10 @@ ScanMatch IcpMatcher::match(const MatchReference& reference, const PlanarScan& s
   const auto found = icp.Align(&icp_reference.map, &scan_map, mrpt::poses::CPose2D(guess.reference_from_scan));
   const auto pose = found->getMeanVal().asTPose();
   if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.phi)) return nothing;
-  auto match = PointToLineMatcher::judge(reference, scan, pose);
+  // Sampling draws it along the walls: their lines say where it is.
+  auto refining = options_;
+  refining.max_distance = std::min(options_.max_distance, kRefinedWithin);
+  auto match = PointToLineMatcher(refining).match(reference, scan, pose);
   if (match.overlap == 0) match.reference_from_scan = guess.reference_from_scan;
   return match;
 }
