@@ -45,12 +45,11 @@ class ScanMatchers : public ::testing::TestWithParam<Which> {
     return makeMatcher(options);
   }();
 };
-INSTANTIATE_TEST_SUITE_P(
-    All, ScanMatchers,
-    ::testing::Values(Which{"point_to_line", MatcherKind::point_to_line, {}},
-                      Which{"icp", MatcherKind::icp, IcpMethod::classic},
-                      Which{"icp_lm", MatcherKind::icp, IcpMethod::levenberg_marquardt}),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, ScanMatchers,
+                         ::testing::Values(Which{"point_to_line", MatcherKind::point_to_line, {}},
+                                           Which{"icp", MatcherKind::icp, IcpMethod::classic},
+                                           Which{"icp_lm", MatcherKind::icp, IcpMethod::levenberg_marquardt}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(ScanMatchers, FindsAKnownMotionFromAGridOfStarts) {
   const auto plan = FloorPlan::ring();
@@ -61,8 +60,7 @@ TEST_P(ScanMatchers, FindsAKnownMotionFromAGridOfStarts) {
         for (const double turn : {-6 * kDegree, 0.0, 6 * kDegree}) {
           const auto found = match(reference, scan, motion + TPose2D(dx, dy, turn));
           const auto error = found.reference_from_scan - motion;
-          EXPECT_LT(std::hypot(error.x, error.y), 0.01)
-              << pose << " from " << dx << ", " << dy << ", " << turn;
+          EXPECT_LT(std::hypot(error.x, error.y), 0.01) << pose << " from " << dx << ", " << dy << ", " << turn;
           EXPECT_LT(std::abs(error.phi), 0.2 * kDegree) << pose << " from " << dx << ", " << dy << ", " << turn;
           EXPECT_GT(found.overlap, 0.7);
           EXPECT_LT(found.wall_distance, 0.03);

@@ -1,9 +1,9 @@
 #include "ScanPairs.h"
 
-#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/matching/PointToLineMatcher.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
+#include <omnimapper/plugins/ScanInBase.h>
 
 #include <cmath>
 
@@ -16,18 +16,9 @@ constexpr std::size_t kMostPairs = 400;
 constexpr double kLeastOverlap = 0.6;
 constexpr double kWallDistance = 0.1;  // [m]
 
-matching::PlanarScan scanInBase(const mrpt::obs::CObservation2DRangeScan& scan) {
+matching::PlanarScan wallsOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   static const perception::LaserPointsExtractor extractor{perception::LaserPointsOptions()};
-  const auto extracted = extractor.extract(scan);
-  const auto& cloud = *dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*extracted).pointcloud;
-  std::vector<Eigen::Vector2f> points;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    float x, y, z;
-    cloud.getPointFast(i, x, y, z);
-    const auto p = scan.sensorPose.composePoint({x, y, z});
-    if (std::isfinite(p.x) && std::isfinite(p.y)) points.emplace_back(p.x, p.y);
-  }
-  return matching::fitLines(points);
+  return plugins::scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*extractor.extract(scan)));
 }
 
 bool fits(const matching::ScanMatch& match) {
@@ -66,8 +57,8 @@ std::vector<MatchedMotion> matchPairs(const std::vector<ScanPair>& pairs, const 
   const matching::PointToLineMatcher matcher(wideOptions());
   std::vector<MatchedMotion> motions;
   for (const auto& pair : pairs) {
-    const auto from = matcher.prepare(scanInBase(*pair.begin));
-    const auto to = scanInBase(*pair.end);
+    const auto from = matcher.prepare(wallsOf(*pair.begin));
+    const auto to = wallsOf(*pair.end);
     const auto by_odometry = odometry(pair.begin->timestamp, pair.end->timestamp);
     auto match = matcher.match(*from, to, mrpt::math::TPose2D(0, 0, 0));
     if (by_odometry) {

@@ -1,13 +1,13 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/plugins/LoopClosurePlugin.h>
+#include <omnimapper/plugins/ScanInBase.h>
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <utility>
 
-#include "ScanFactor.h"
-#include "ScanInBase.h"
+#include "../SharedSection.h"
 
 IMPLEMENTS_MRPT_OBJECT(LoopClosurePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -142,29 +142,16 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
   return places;
 }
 
-namespace {
-std::vector<base::OptionSpec> joined(std::vector<base::OptionSpec> a, const std::vector<base::OptionSpec>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-std::vector<std::string> keysOf(const std::vector<base::OptionSpec>& specs) {
-  std::vector<std::string> keys = mapper::sectionKeysOfEngine();
-  for (const auto& spec : specs) keys.push_back(spec.key);
-  return keys;
-}
-}  // namespace
+using Section = SharedSection<LoopClosureOptions, matching::ScanMatcherOptions>;
 
 const std::vector<base::OptionSpec>& LoopClosurePluginFactory::options() const {
-  static const auto specs = joined(LoopClosureOptions::table().specs(), matching::ScanMatcherOptions::table().specs());
-  return specs;
+  return Section::options();
 }
 
 std::unique_ptr<mapper::MeasurementPlugin> LoopClosurePluginFactory::make(const base::ConfigSection& section,
                                                                           const mapper::PluginContext& context) const {
-  const auto keys = keysOf(options());
-  return std::make_unique<LoopClosurePlugin>(section.read<LoopClosureOptions>(keys),
-                                             section.read<matching::ScanMatcherOptions>(keys), context);
+  return std::make_unique<LoopClosurePlugin>(Section::read<LoopClosureOptions>(section),
+                                             Section::read<matching::ScanMatcherOptions>(section), context);
 }
 
 }  // namespace omnimapper::plugins

@@ -1,13 +1,14 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/geometry/Covariance.h>
+#include <omnimapper/plugins/ScanInBase.h>
 #include <omnimapper/plugins/ScanOdometryPlugin.h>
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "../measurement/ScanFactor.h"
-#include "../measurement/ScanInBase.h"
+#include "../PlanarMotion.h"
+#include "../SharedSection.h"
 
 IMPLEMENTS_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
 
@@ -191,27 +192,19 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanMatch& m
   return planarMotion(motion, covariance);
 }
 
+using Section = SharedSection<ScanOdometryOptions, matching::ScanTrackerOptions, matching::ScanMatcherOptions,
+                              perception::LaserPointsOptions>;
+
 const std::vector<base::OptionSpec>& ScanOdometryPluginFactory::options() const {
-  static const auto specs = [] {
-    auto all = ScanOdometryOptions::table().specs();
-    for (const auto* more :
-         {&matching::ScanTrackerOptions::table().specs(), &matching::ScanMatcherOptions::table().specs(),
-          &perception::LaserPointsOptions::table().specs()}) {
-      all.insert(all.end(), more->begin(), more->end());
-    }
-    return all;
-  }();
-  return specs;
+  return Section::options();
 }
 
 std::unique_ptr<mapper::PosePlugin> ScanOdometryPluginFactory::make(const base::ConfigSection& section,
                                                                     const mapper::PluginContext&) const {
-  std::vector<std::string> keys = mapper::sectionKeysOfEngine();
-  for (const auto& spec : options()) keys.push_back(spec.key);
-  auto options = section.read<ScanOdometryOptions>(keys);
-  options.tracker = section.read<matching::ScanTrackerOptions>(keys);
-  return std::make_unique<ScanOdometryPlugin>(options, section.read<matching::ScanMatcherOptions>(keys),
-                                              section.read<perception::LaserPointsOptions>(keys));
+  auto options = Section::read<ScanOdometryOptions>(section);
+  options.tracker = Section::read<matching::ScanTrackerOptions>(section);
+  return std::make_unique<ScanOdometryPlugin>(options, Section::read<matching::ScanMatcherOptions>(section),
+                                              Section::read<perception::LaserPointsOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

@@ -1,4 +1,4 @@
-#include "ScanInBase.h"
+#include <omnimapper/plugins/ScanInBase.h>
 
 #include <cmath>
 #include <vector>
