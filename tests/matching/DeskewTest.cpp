@@ -30,6 +30,11 @@ TEST(Deskew, HalfOfATurnLiesOnTheArc) {
   EXPECT_LT((still[0] - Eigen::Vector2f(std::sin(kPi / 4), 1 - std::cos(kPi / 4))).norm(), 1e-6);
 }
 
+TEST(Deskew, WhatWasMeasuredBeforeTheInstantMovesBackAlongTheArc) {
+  const auto still = deskew({{0, 0}}, {-0.5F}, {1, 1, kPi / 2});
+  EXPECT_LT((still[0] - Eigen::Vector2f(-std::sin(kPi / 4), 1 - std::cos(kPi / 4))).norm(), 1e-6);
+}
+
 TEST(Deskew, RefusesPointsWithoutTheirFraction) {
   EXPECT_THROW(deskew({{1, 2}, {3, 4}}, {0.5F}, {0, 0, 0}), base::Error);
   EXPECT_TRUE(deskew({}, {}, {1, 1, 1}).empty());

@@ -133,9 +133,14 @@ CObservation::Ptr SimulatedLog::scan(const SimulatedLaser& laser, base::Stamp st
   scan->stdError = static_cast<float>(laser.sigma);
   scan->rightToLeft = true;
   scan->resizeScan(static_cast<std::size_t>(laser.beams));
-  const CPose3D map_from_sensor = CPose3D(truthAt(stamp)) + laser.base_from_sensor;
-  const auto rotation = map_from_sensor.getRotationMatrix();
+  CPose3D map_from_sensor = CPose3D(truthAt(stamp)) + laser.base_from_sensor;
+  auto rotation = map_from_sensor.getRotationMatrix();
   for (int i = 0; i < laser.beams; ++i) {
+    if (laser.sweep > 0) {
+      const double seconds = laser.sweep * i / (laser.beams - 1);
+      map_from_sensor = CPose3D(truthAt(stamp + base::durationFromSeconds(seconds))) + laser.base_from_sensor;
+      rotation = map_from_sensor.getRotationMatrix();
+    }
     const double angle = laser.aperture * (static_cast<double>(i) / (laser.beams - 1) - 0.5);
     // The walls are upright: the way along the floor, over the part of the beam that runs along it.
     const Eigen::Vector2d on_floor(rotation(0, 0) * std::cos(angle) + rotation(0, 1) * std::sin(angle),

@@ -24,6 +24,14 @@ double sizeOf(const TPose2D& motion) {
   return std::hypot(motion.x, motion.y) + kLever * std::abs(mrpt::math::wrapToPi(motion.phi));
 }
 
+TPose2D scaled(const TPose2D& motion, double factor) {
+  return {factor * motion.x, factor * motion.y, factor * motion.phi};
+}
+
+TPose2D perSecond(const TPose2D& motion, double seconds) {
+  return {motion.x / seconds, motion.y / seconds, mrpt::math::wrapToPi(motion.phi) / seconds};
+}
+
 double squared(double value) {
   return value * value;
 }
@@ -44,6 +52,9 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
           .text("label", &Options::label, "Sensor label of the laser; empty for the first that comes.")
           .text("odometry_label", &Options::odometry_label,
                 "Sensor label of the odometry that predicts; empty for the first that comes.")
+          .number("sweep_s", &Options::sweep, zero_or_more,
+                  "Time from the first beam of a scan, when it is stamped, to the last: the motion meanwhile is taken "
+                  "out of it. 0: all at once.")
           .number("max_gap_s", &Options::max_gap, base::Range::positive(),
                   "After a longer time without a match the laser begins anew, and other sources tell the motion.")
           .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
@@ -96,25 +107,49 @@ void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
   while (!wait_.empty() && (!reached_ || *reached_ < stamp)) {
     const auto next = wait_.extract(wait_.begin());
     reached_ = next.key();
-    const auto cloud = extractor_.extract(next.mapped());
-    follow(next.key(), scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*cloud)));
+    follow(next.mapped());
   }
   odometry_.forgetBefore(last_.value_or(stamp));
 }
 
-void ScanOdometryPlugin::follow(base::Stamp stamp, const matching::PlanarScan& scan) {
-  if (!last_) return restart(stamp, scan);
+base::Stamp ScanOdometryPlugin::middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const {
+  return scan.timestamp + base::durationFromSeconds(0.5 * options_.sweep);
+}
+
+matching::PlanarScan ScanOdometryPlugin::wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
+                                                 const TPose2D& velocity) const {
+  const auto derived = extractor_.extract(scan);
+  const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*derived);
+  if (options_.sweep == 0) return scanInBase(cloud);
+  return scanInBase(cloud, {scan.aperture, scan.rightToLeft, scaled(velocity, options_.sweep)});
+}
+
+void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) {
+  if (!last_) return restart(scan);
+  const base::Stamp stamp = middleOf(scan);
   const double seconds = base::secondsBetween(*last_, stamp);
   const auto guesses = this->guesses(stamp);
   const bool is_gap = seconds > options_.max_gap;
+  // Of stamps that nearly coincide the noise would be a speed.
+  constexpr double kShortest = 0.02;  // [s]
+  const bool is_long = seconds > kShortest;
+  const TPose2D velocity = is_long ? perSecond(guesses.front().reference_from_scan, seconds) : velocity_;
   // Across a gap steady motion is no prediction.
-  const auto tracked = is_gap && !by_odometry_.motion ? std::nullopt : tracker_.track(scan, guesses);
+  const auto tracked = is_gap && !by_odometry_.motion ? std::nullopt : tracker_.track(wallsOf(scan, velocity), guesses);
   if (!tracked) {
-    if (is_gap) restart(stamp, scan);
+    if (is_gap) restart(scan);
     return;
   }
-  timeline_.insert(*last_, stamp, motionOf(tracked->match, guesses[tracked->guess]));
   const TPose2D& motion = tracked->match.reference_from_scan;
+  const auto told = motionOf(tracked->match, guesses[tracked->guess]);
+  if (is_first_) {
+    // From its stamp on, as the base went on.
+    const auto before = mrpt::poses::CPose2D(scaled(motion, 0.5 * options_.sweep / seconds));
+    timeline_.insert(*last_ - base::durationFromSeconds(0.5 * options_.sweep), *last_,
+                     {mrpt::poses::CPose3D(before), told.covariance});
+  }
+  is_first_ = false;
+  timeline_.insert(*last_, stamp, told);
   for (auto* predictor : {&by_odometry_, &by_velocity_}) {
     constexpr double kMemory = 0.9;
     // Where a direction is open the match agrees with whatever it began with.
@@ -122,22 +157,20 @@ void ScanOdometryPlugin::follow(base::Stamp stamp, const matching::PlanarScan& s
       predictor->error = kMemory * predictor->error + (1 - kMemory) * sizeOf(*predictor->motion - motion);
     }
   }
-  // Of stamps that nearly coincide the noise would be a speed.
-  constexpr double kShortest = 0.02;  // [s]
-  if (seconds > kShortest) {
-    velocity_ = TPose2D(motion.x / seconds, motion.y / seconds, mrpt::math::wrapToPi(motion.phi) / seconds);
-  }
+  if (is_long) velocity_ = perSecond(motion, seconds);
   last_ = stamp;
 }
 
-// Not from a scan that sees nothing: those after it would find nothing in it.
-void ScanOdometryPlugin::restart(base::Stamp stamp, const matching::PlanarScan& scan) {
+// Not from a scan that sees nothing: those after it would find nothing in it. How the base moves is not known yet.
+void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan& scan) {
   constexpr std::size_t kFewPoints = 10;
   last_.reset();
-  if (scan.size() < kFewPoints) return;
-  tracker_.restart(scan);
+  const auto walls = wallsOf(scan, {});
+  if (walls.size() < kFewPoints) return;
+  tracker_.restart(walls);
   velocity_ = {};
-  last_ = stamp;
+  last_ = middleOf(scan);
+  is_first_ = true;
 }
 
 // That which was nearer to the truth of late first; last that the base stands still.
@@ -149,7 +182,7 @@ std::vector<matching::MatchGuess> ScanOdometryPlugin::guesses(base::Stamp stamp)
     const TPose2D motion = planar(told->begin_from_end);
     if (std::hypot(motion.x, motion.y) <= kSlack + options_.max_speed * seconds) by_odometry_.motion = motion;
   }
-  by_velocity_.motion = TPose2D(velocity_.x * seconds, velocity_.y * seconds, velocity_.phi * seconds);
+  by_velocity_.motion = scaled(velocity_, seconds);
   // What wheels and inertia tell counts where walls tell little, such as along a corridor. A base that goes on as it
   // did may have braked or turned.
   constexpr double kAcceleration = 1, kTurnAcceleration = 1;  // [m/s2] [rad/s2]

@@ -7,9 +7,10 @@
 
 namespace omnimapper::matching {
 
-/// A scan as it would look had all of it been taken where the sweep began. Point i was measured, in the sensor's frame
-/// of that moment, after `fractions[i]` of the sweep (0 to 1), in which the sensor moved steadily, along an arc of a
-/// circle, by `begin_from_end`. Throws base::Error unless there is a fraction for each point.
+/// A scan as it would look had all of it been taken at one instant of its sweep, in which the sensor moved steadily,
+/// along an arc of a circle, by `begin_from_end`. Point i was measured, in the sensor's frame of that moment,
+/// `fractions[i]` of the sweep after that instant: 0 to 1 if it is the sweep's begin, -0.5 to 0.5 its middle. Throws
+/// base::Error unless there is a fraction for each point.
 std::vector<Eigen::Vector2f> deskew(const std::vector<Eigen::Vector2f>& points, const std::vector<float>& fractions,
                                     const mrpt::math::TPose2D& begin_from_end);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt/math/TPose2D.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/matching/PlanarScan.h>
 
@@ -7,5 +8,16 @@ namespace omnimapper::plugins {
 
 /// The cloud of a 2D scan in the plane of the base, lines fitted. Points that are not finite are left out.
 matching::PlanarScan scanInBase(const mrpt::obs::CObservationPointCloud& cloud);
+
+/// How the base moved while a laser turned from its first beam to its last.
+struct Sweep {
+  double aperture;     ///< [rad], even to both sides of the sensor's x axis
+  bool right_to_left;  ///< the way it turned, in the sensor's frame
+  mrpt::math::TPose2D begin_from_end;
+};
+
+/// The same, as it would look had all beams been taken in the middle of the sweep: there an error of the motion that is
+/// told moves the scan least. When a point was measured is told by its direction.
+matching::PlanarScan scanInBase(const mrpt::obs::CObservationPointCloud& cloud, const Sweep& sweep);
 
 }  // namespace omnimapper::plugins

@@ -18,6 +18,7 @@ namespace omnimapper::plugins {
 struct ScanOdometryOptions {
   std::string label;           ///< of the laser; empty: the first that comes
   std::string odometry_label;  ///< of the odometry that predicts; empty: the first that comes
+  double sweep = 0;            ///< [s] from the first beam of a scan, when it is stamped, to the last
   double max_gap = 1.0;        ///< [s] between scans that are matched
   double max_speed = 10.0;     ///< [m/s] of a prediction
   double guess_sigma = 0.01;   ///< [m]
@@ -37,6 +38,10 @@ struct ScanOdometryOptions {
 /// comes after its time was worked on is left out. Wheel odometry, or steady motion where that is better or there is
 /// none, says where a match begins, and counts where the walls leave a direction open: beside this it should be a
 /// fallback.
+///
+/// Of a laser that takes its time (`sweep`) the same prediction tells how the base moved during a scan. The stamp is
+/// the instant of the first beam; the scan counts for the middle of the sweep, half of it later. Only what is matched
+/// here is straightened: the clouds that loop closures and maps use stay as they were measured.
 class ScanOdometryPlugin : public mapper::PosePlugin {
  public:
   ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
@@ -57,9 +62,13 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     double error = 0;  // [m], a mean over some scans
   };
   bool isOurs(const mrpt::obs::CObservation2DRangeScan& scan);
-  void follow(base::Stamp stamp, const matching::PlanarScan& scan);
+  void follow(const mrpt::obs::CObservation2DRangeScan& scan);
+  base::Stamp middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
+  /// In the base; `velocity` [m/s] [rad/s] during the scan.
+  matching::PlanarScan wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
+                               const mrpt::math::TPose2D& velocity) const;
   std::vector<matching::MatchGuess> guesses(base::Stamp stamp);
-  void restart(base::Stamp stamp, const matching::PlanarScan& scan);
+  void restart(const mrpt::obs::CObservation2DRangeScan& scan);
   mapper::RelativeMotion motionOf(const matching::ScanMatch& match, const matching::MatchGuess& guess) const;
 
   ScanOdometryOptions options_;
@@ -69,7 +78,8 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   std::optional<std::string> label_;                                // of the first that came
   std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan> wait_;  // for their time
   std::optional<base::Stamp> reached_;                              // scan that was worked on last
-  std::optional<base::Stamp> last_;                                 // scan that was matched
+  std::optional<base::Stamp> last_;                                 // middle of the scan that was matched last
+  bool is_first_ = true;                                            // and whether none was before it
   mrpt::math::TPose2D velocity_;                                    // [m/s] [rad/s] in the base
   Predictor by_odometry_, by_velocity_;
   mapper::PoseTimeline timeline_;

@@ -36,6 +36,7 @@ struct SimulatedLaser {
   double sigma = 0.01;                       ///< [m]
   double rate = 10;                          ///< [1/s]
   double phase = 0.013;                      ///< [s] of the first scan after the start of the log
+  double sweep = 0;                          ///< [s] from the first beam, which has the stamp, to the last
 };
 
 /// An antenna, as CObservationGPS with a GGA message. Altitudes are exact.
