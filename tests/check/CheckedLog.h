@@ -60,7 +60,7 @@ struct Checked {
     MemorySource source(observations);
     facts = gatherFacts(source);
     findings = judge(facts);
-    settings = proposeIni(facts, {"odometry", "no_motion"});
+    settings = proposeIni(facts, {"scan_odometry", "odometry", "no_motion"});
   }
   /// All findings, a line each.
   std::string text() const {

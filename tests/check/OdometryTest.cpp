@@ -7,7 +7,7 @@ namespace {
 using mrpt::poses::CPose2D;
 using testing::SimulatedLogOptions;
 
-constexpr const char* kWithoutOdometry = "no_motion";
+constexpr const char* kWithoutOdometry = "scan_odometry, no_motion";
 
 TEST(Odometry, ThatIsAbsentIsSaidAndItsPluginLeftOut) {
   auto log = halfALap();
@@ -103,7 +103,9 @@ TEST(Odometry, OfTwoTheOneNearerToTheScansIsProposed) {
     other->odometry = CPose2D(1.3 * other->odometry.x(), 0.7 * other->odometry.y(), other->odometry.phi());
     all.push_back(other);
   }
-  EXPECT_EQ(Checked(all).proposed("odometry", "label"), "odometry");
+  const Checked checked(all);
+  EXPECT_EQ(checked.proposed("odometry", "label"), "odometry");
+  EXPECT_EQ(checked.proposed("scan_odometry", "odometry_label"), "odometry");
 }
 
 TEST(Odometry, ThatIsNoNumberIsCounted) {

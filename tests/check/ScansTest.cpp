@@ -89,6 +89,7 @@ TEST(Scans, WhoseMissesAreMarkedAsValidGetALimit) {
   const Checked checked(log);
   EXPECT_TRUE(checked.says("exactly 8.18 m")) << checked.text();
   EXPECT_EQ(checked.proposed("laser_points", "max_range_m"), "8.10");
+  EXPECT_EQ(checked.proposed("scan_odometry", "max_range_m"), "8.10");
 }
 
 TEST(Scans, OfATiltedPlaneAreLeftOut) {
@@ -98,6 +99,7 @@ TEST(Scans, OfATiltedPlaneAreLeftOut) {
   const Checked checked(halfALap({level, tilted}));
   EXPECT_TRUE(checked.says("problem: 'tilted': scans a plane tilted by 34 deg")) << checked.text();
   EXPECT_EQ(checked.proposed("loop_closure", "labels"), "laser.points");
+  EXPECT_EQ(checked.proposed("scan_odometry", "label"), "laser");
 }
 
 TEST(Scans, OfTwoLasersTheOneThatSeesMoreIsTheReference) {
@@ -108,6 +110,10 @@ TEST(Scans, OfTwoLasersTheOneThatSeesMoreIsTheReference) {
   const Checked checked(halfALap({narrow, wide}));
   EXPECT_EQ(checked.text(), "");
   EXPECT_EQ(checked.proposed("mapper", "reference_sensor"), "b_wide");
+  EXPECT_EQ(checked.proposed("scan_odometry", "label"), "b_wide");
+  const auto without = proposeIni(checked.facts, {"odometry", "no_motion"});
+  EXPECT_TRUE(std::none_of(without.begin(), without.end(), [](const auto& s) { return s.section == "scan_odometry"; }))
+      << "an INI without laser odometry gets no keys for it";
 }
 
 TEST(SensorPose, ThatIsMissingIsSaidAndMeasuredByTheMotion) {

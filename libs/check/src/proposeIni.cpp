@@ -19,6 +19,7 @@ class Proposal {
   explicit Proposal(const LogFacts& facts) : facts_(facts), lasers_(usableLasers(facts)) {}
 
   std::vector<Setting> settings(const std::vector<std::string>& pose_plugins) {
+    laser_odometry_ = std::count(pose_plugins.begin(), pose_plugins.end(), kLaserOdometry) > 0;
     proposeEngine(pose_plugins);
     proposeSensorPoses();
     proposeLasers();
@@ -27,6 +28,8 @@ class Proposal {
   }
 
  private:
+  static constexpr const char* kLaserOdometry = "scan_odometry";
+
   void set(const std::string& section, const std::string& key, const std::string& value, const std::string& reason) {
     settings_.push_back({section, key, value, reason});
   }
@@ -85,13 +88,19 @@ class Proposal {
       for (const auto& laser : lasers_) labels.push_back(laser + ".points");
       set("loop_closure", "labels", joined(labels, ", "), "the other lasers see nothing that can be matched");
     }
+    if (laser_odometry_ && !lasers_.empty() && facts_.scans.size() > 1 && !lasers_.front().empty()) {
+      set(kLaserOdometry, "label", lasers_.front(), "it follows one laser: that which sees most");
+    }
     double limit = 0, median = 0;
     for (const auto& laser : lasers_) {
       const auto& scans = facts_.scans.at(laser);
       if (saturates(scans)) limit = std::max(limit, 0.99 * scans.longest);
       median = std::max(median, scans.median_range);
     }
-    if (limit > 0) set("laser_points", "max_range_m", fixed(limit, 2), "beams at more met nothing");
+    if (limit > 0) {
+      set("laser_points", "max_range_m", fixed(limit, 2), "beams at more met nothing");
+      if (laser_odometry_) set(kLaserOdometry, "max_range_m", fixed(limit, 2), "the same");
+    }
     if (median > 0 && median < 1.2) {
       set("trigger", "distance_m", "0.3", "the sensor sees little at once");
       set("trigger", "angle_deg", "15", "");
@@ -111,8 +120,10 @@ class Proposal {
       }
       return;
     }
-    if (facts_.odometry.size() > 1 && !label->empty())
+    if (facts_.odometry.size() > 1 && !label->empty()) {
       set("odometry", "label", *label, "of several the one nearest to the scans");
+      if (laser_odometry_) set(kLaserOdometry, "odometry_label", *label, "the same");
+    }
     if (motions.empty()) return;
     const plugins::OdometryOptions defaults;
     const auto propose = [&](const std::string& key, const std::optional<double>& measured, double value, double unit) {
@@ -130,6 +141,7 @@ class Proposal {
 
   const LogFacts& facts_;
   std::vector<std::string> lasers_;
+  bool laser_odometry_ = false;  // whether the INI has it
   std::vector<Setting> settings_;
 };
 

@@ -18,6 +18,7 @@ using mrpt::poses::CPose3D;
 using omnimapper::testing::mrptDataset;
 using omnimapper::testing::ScratchFolder;
 using omnimapper::testing::sharedData;
+using omnimapper::testing::SimulatedLaser;
 using omnimapper::testing::SimulatedLogOptions;
 using rawlogs::Observations;
 
@@ -87,6 +88,33 @@ TEST_F(Check, OdometryThatIsWorseThanNoneIsLeftOutByTheProposal) {
   std::smatch found;
   ASSERT_TRUE(std::regex_search(ini, found, std::regex(R"(pose_plugins\s*= (.*\b)odometry, (.*)\n)"))) << ini;
   expectRemedy(observations, "pose_plugins = " + found.str(1) + found.str(2));
+}
+
+// A tilted laser comes first, and with it odometry that turns half as far.
+TEST_F(Check, OfTwoLasersAndTwoOdometriesTheProposalNamesThoseThatMap) {
+  SimulatedLogOptions options;
+  options.laps = 0.5;
+  SimulatedLaser tilted;
+  tilted.label = "a_tilted";
+  tilted.base_from_sensor = CPose3D(0.2, 0, 1, 0, 0.6, 0);
+  tilted.phase = 0.002;
+  options.lasers.push_back(tilted);
+  const SimulatedLog log(options);
+  Observations observations;
+  for (const auto& observation : log.observations()) {
+    if (dynamic_cast<const CObservationOdometry*>(observation.get())) {
+      auto worse = std::dynamic_pointer_cast<CObservationOdometry>(observation->duplicateGetSmartPtr());
+      worse->sensorLabel = "a_worse_one";
+      const auto& p = worse->odometry;
+      worse->odometry = mrpt::poses::CPose2D(1.5 * p.x(), 0.5 * p.y(), 0.5 * p.phi());
+      observations.push_back(worse);
+    }
+    observations.push_back(observation);
+  }
+  expectRemedy(observations, "[scan_odometry]\nlabel = laser ");
+  const std::string ini = readFile(scratch_ / "checked/check.ini");
+  EXPECT_NE(ini.find("odometry_label = odometry "), std::string::npos) << ini;
+  EXPECT_LT(errorAgainst(log, loadTrajectory(scratch_ / "map")), 0.05);
 }
 
 TEST_F(Check, ALogWithoutAnythingToMapHasItsCode) {
