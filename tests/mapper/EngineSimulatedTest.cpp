@@ -4,6 +4,9 @@
 #include <omnimapper/testing/MapperRun.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <string>
 
 // Whole maps of simulated logs against the truth. The bounds are about twice what was measured.
 namespace omnimapper::mapper {
@@ -73,7 +76,7 @@ TEST(EngineSimulated, AMapInSpaceHasThePlanarTrajectory) {
 }
 
 TEST(EngineSimulated, TwoLasersAtOnceMapAsWellAsOne) {
-  auto options = ring(1);
+  auto options = ring(1.4);
   options.lasers.resize(2);
   options.lasers[1].label = "rear";
   options.lasers[1].base_from_sensor = CPose3D(-0.25, 0.05, 0.2, geometry::kPi, 0, 0);
@@ -83,6 +86,20 @@ TEST(EngineSimulated, TwoLasersAtOnceMapAsWellAsOne) {
   testing::run(*engine, log.observations());
   RecordProperty("trajectory_error_m", std::to_string(trajectoryError(engine->view(), log)));
   EXPECT_LT(trajectoryError(engine->view(), log), 0.06);
+  std::map<std::string, std::size_t> owners;
+  for (const auto& [id, record] : engine->view().graph.factors()) ++owners[record.tags.owner];
+  EXPECT_EQ(owners["scan_odometry"] + 1, engine->view().map.key_frames.size()) << "one laser tells all links";
+  std::set<std::string> closed;
+  for (const auto& decision : engine->view().decisions) {
+    if (!decision.accepted) continue;
+    for (const auto& observation : engine->view().map.keyFrame(decision.from).observations) {
+      closed.insert(observation->sensorLabel);
+    }
+  }
+  EXPECT_EQ(owners["loop_closure"], closures(engine->view(), true));
+  EXPECT_EQ(owners.size(), 2U) << "no other factors";
+  EXPECT_GT(closures(engine->view(), true), 4U);
+  EXPECT_TRUE(closed.count("laser.points") == 1 && closed.count("rear.points") == 1) << "both find loops";
 }
 
 TEST(EngineSimulated, ALaserUpsideDownSeesTheSamePlace) {

@@ -59,11 +59,20 @@ TEST_F(MappingRun, ALogBecomesAMapAndItsFiguresAreTold) {
   EXPECT_EQ(result.code, base::ExitCode::ok);
   EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
   EXPECT_GT(result.key_frames, 30U);
-  EXPECT_GE(result.factors + 1, result.key_frames);
+  EXPECT_EQ(result.factors, result.key_frames - 1 + result.closures) << "a link between neighbours, and the closures";
   EXPECT_NEAR(result.way, log_.lapLength(), 0.5);
   EXPECT_NEAR(result.log_seconds, base::secondsBetween(log_.begin(), log_.end()), 1.5);
   const std::string text = toText(result, "out");
   EXPECT_NE(text.find(std::to_string(result.key_frames)), std::string::npos) << text;
+}
+
+TEST_F(MappingRun, FactorsAreOneLinkBetweenNeighboursAndTheClosures) {
+  SimulatedLogOptions options;
+  options.laps = 1.4;
+  SimulatedLog(options).writeRawlog(path_);
+  const auto result = run();
+  EXPECT_GT(result.closures, 5U);
+  EXPECT_EQ(result.factors, result.key_frames - 1 + result.closures);
 }
 
 TEST_F(MappingRun, ActionsAndFramesGiveTheMapThatObservationsGive) {

@@ -127,5 +127,36 @@ TEST(ShuffledArrival, WithLoopClosuresTheTrajectoryIsAsGoodAndNoOdometryIsUsedTw
   EXPECT_LT(shuffled_sum / kSeeds, 1.05 * ordered_sum / kLogs);
 }
 
+// Scans that come after their time are none for laser odometry, which bridges them.
+TEST(ShuffledArrival, LaserOdometryIsNearlyAsGoodAndFarBetterThanWheelsInOrder) {
+  constexpr int kLogs = testing::kIsSanitized ? 1 : 10;
+  double wheels_sum = 0, ordered_sum = 0, shuffled_sum = 0;
+  for (int number = 1; number <= kLogs; ++number) {
+    SimulatedLogOptions options;
+    options.laps = 1.2;
+    options.seed = static_cast<std::uint64_t>(number);
+    const SimulatedLog simulated(options);
+    const auto log = simulated.observations();
+    const auto wheels = makeEngine(testing::kLaserIni, {"mapper.pose_plugins=odometry, no_motion"});
+    testing::run(*wheels, log);
+    wheels_sum += testing::trajectoryError(wheels->view(), simulated);
+    const auto ordered = makeEngine(testing::kLaserIni);
+    testing::run(*ordered, log);
+    ordered_sum += testing::trajectoryError(ordered->view(), simulated);
+    const auto engine = makeEngine(testing::kLaserIni);
+    testing::run(*engine, shuffled(log, options.seed));
+    shuffled_sum += testing::trajectoryError(engine->view(), simulated);
+    testing::expectOneChain(engine->view(), {"scan_odometry", "odometry", "no_motion"});
+    testing::expectNothingDangles(engine->view());
+    EXPECT_GT(engine->view().counts.late, log.size() / 10) << "else the test shows nothing";
+  }
+  RecordProperty("wheels_error_m", std::to_string(wheels_sum / kLogs));
+  RecordProperty("ordered_error_m", std::to_string(ordered_sum / kLogs));
+  RecordProperty("shuffled_error_m", std::to_string(shuffled_sum / kLogs));
+  EXPECT_LT(shuffled_sum, 0.2 * wheels_sum);
+  if (testing::kIsSanitized) GTEST_SKIP() << "the mean over one log says little: the release build judges ten";
+  EXPECT_LT(shuffled_sum, 1.5 * ordered_sum);
+}
+
 }  // namespace
 }  // namespace omnimapper::mapper

@@ -52,9 +52,9 @@ TEST(LoopClosurePlugin, NoLoopIsTriedOnAFirstStraightAndBend) {
 
 TEST(LoopClosurePlugin, OnTheSecondLapClosuresLieOnTheTruth) {
   testing::SimulatedLogOptions options;
-  options.laps = 1.4;
+  options.laps = 1.6;
   const testing::SimulatedLog log(options);
-  const auto engine = testing::makeEngine(testing::kLaserIni, {"loop_closure.spacing_m=0"});
+  const auto engine = testing::makeEngine(testing::kLaserIni);
   testing::run(*engine, log.observations());
   const auto view = engine->view();
   std::size_t accepted = 0;
