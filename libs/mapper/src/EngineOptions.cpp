@@ -50,7 +50,7 @@ const base::OptionTable<HypothesisOptions>& HypothesisOptions::table() {
                   "A hypothesis acts when what it measures is so many times likelier if it is true than if it lies "
                   "anywhere in the map; else it waits for another that bears it out. 1 lets a lone one in.")
           .number("inflation", &Options::inflation, base::Range{1, 100},
-                  "Factor on the standard deviations of the trajectory: odometry and matches in sequence are surer of "
+                  "Factor on the standard deviations of the trajectory: odometry and laser odometry are surer of "
                   "themselves than they should be.");
   return table;
 }

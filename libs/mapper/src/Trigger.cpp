@@ -10,12 +10,14 @@ const base::OptionTable<TriggerOptions>& TriggerOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .flag("every_observation", &Options::every_observation, "Every observation becomes a key frame.")
-          .number("distance_m", &Options::distance, base::Range::positive(), "A key frame after this way, by odometry.")
-          .number("angle_deg", &Options::angle, base::Range{0.01, 180}, "A key frame after this turn, by odometry.")
+          .number("distance_m", &Options::distance, base::Range::positive(),
+                  "A key frame after this way, by the pose plugins.")
+          .number("angle_deg", &Options::angle, base::Range{0.01, 180},
+                  "A key frame after this turn, by the pose plugins.")
           .number("period_s", &Options::period, base::Range::notNegative(),
                   "A key frame after this time even at rest; 0 for never.")
           .number("period_without_odometry_s", &Options::period_without_odometry, base::Range::notNegative(),
-                  "A key frame after this time where no odometry tells the motion.");
+                  "A key frame after this time where no pose plugin has measured the motion.");
   return table;
 }
 

@@ -15,7 +15,7 @@ class PointIndex : public MatchReference {
 
   static constexpr int kNone = -1;
   /// Index of the nearest point within `max_distance` [m], or kNone. `likely`: a point that may be it, or kNone; a good
-  /// one makes the search short and changes no result.
+  /// one makes the search short. It is the one that is found if others are exactly as near.
   int nearest(float x, float y, float max_distance, int likely = kNone) const;
 
   std::size_t size() const { return xs_.size(); }

@@ -14,7 +14,7 @@ namespace omnimapper::mapper {
 struct Decision {
   base::Stamp stamp;                                    ///< of the key frame it was made at
   std::string plugin;                                   ///< INI section of who decided
-  std::string kind;                                     ///< "sequential match", "loop closure", ...
+  std::string kind;                                     ///< "loop closure", "absolute pose", ...
   base::KeyFrameId from;                                ///< the key frame it was made at
   std::optional<base::KeyFrameId> to;                   ///< the other one, of a closure
   bool accepted = false;                                ///< of a hypothesis: as it stands now

@@ -22,8 +22,9 @@ struct TriggerOptions {
   static const base::OptionTable<TriggerOptions>& table();
 };
 
-/// Decides which observations earn a pose of their own, from stamp and odometry alone (thesis 5.3.2.1): never from the
-/// estimate, so that the decision does not depend on what was matched. Each sensor label has its own state.
+/// Decides which observations earn a pose of their own, from stamp and the motion that pose plugins measured alone
+/// (thesis 5.3.2.1): never from the estimate, so that the decision does not depend on what the graph makes of it. Each
+/// sensor label has its own state.
 class Trigger {
  public:
   explicit Trigger(const TriggerOptions& options) : options_(options) {}
