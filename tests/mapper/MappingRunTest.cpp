@@ -75,6 +75,17 @@ TEST_F(MappingRun, FactorsAreOneLinkBetweenNeighboursAndTheClosures) {
   EXPECT_EQ(result.factors, result.key_frames - 1 + result.closures);
 }
 
+TEST_F(MappingRun, OfATiltedLaserTheUserIsToldThatItsOdometryIsLeftToTheWheels) {
+  auto options = boxLap();
+  options.lasers.front().base_from_sensor = mrpt::poses::CPose3D(0.2, 0, 0.3, 0, 0.5, 0);
+  SimulatedLog(options).writeRawlog(path_);
+  const auto result = run();
+  EXPECT_EQ(result.code, base::ExitCode::ok);
+  EXPECT_EQ(std::count_if(result.warnings.begin(), result.warnings.end(),
+                          [](const auto& w) { return w.find("[scan_odometry] ") == 0; }),
+            1);
+}
+
 TEST_F(MappingRun, ActionsAndFramesGiveTheMapThatObservationsGive) {
   const auto observations = run();
   log_.writeRawlog(path_, SimulatedLog::Format::actions_and_frames);

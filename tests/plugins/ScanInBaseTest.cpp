@@ -34,6 +34,15 @@ TEST(ScanInBase, PointsArePutWhereTheSensorIsAndWhatIsNotFiniteIsLeftOut) {
   expectPoints(scanInBase(cloud), {{1.5, 0}, {0.5, 2}, {-0.5, 0}});
 }
 
+TEST(ScanInBase, TheTiltIsThatOfThePlaneWhicheverSideIsUp) {
+  for (const double roll : {0.0, kPi}) {
+    EXPECT_NEAR(tiltOf({1, 2, 3, 0.7, 0, roll}), 0, 1e-7);
+    EXPECT_NEAR(tiltOf({1, 2, 3, 0.7, 0.3, roll}), 0.3, 1e-9);
+    EXPECT_NEAR(tiltOf({1, 2, 3, -2, 0, roll - 0.4}), 0.4, 1e-9);
+  }
+  EXPECT_NEAR(tiltOf({0, 0, 0, 0, 0, kPi / 2}), kPi / 2, 1e-9);
+}
+
 TEST(ScanInBase, AnUpsideDownSensorSeesItsLeftOnTheRight) {
   expectPoints(scanInBase(threePoints({0, 0, 0.3, 0, 0, kPi})), {{0, 1}, {2, 0}, {0, -1}});
 }

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace omnimapper::plugins {
 namespace {
@@ -85,6 +88,60 @@ TEST(ScanOdometryPlugin, FollowsTheLaserWhateverTheWheelsSay) {
                       });
                     }),
              "a jump of 5 m");
+}
+
+SimulatedLog halfALapWith(std::vector<testing::SimulatedLaser> lasers) {
+  testing::SimulatedLogOptions options;
+  options.laps = 0.5;
+  options.lasers = std::move(lasers);
+  return SimulatedLog(options);
+}
+
+testing::SimulatedLaser laserAt(const std::string& label, double pitch, double roll) {
+  testing::SimulatedLaser laser;
+  laser.label = label;
+  laser.base_from_sensor = mrpt::poses::CPose3D(0.2, 0.1, 0.3, 0.4, pitch, roll);
+  return laser;
+}
+
+TEST(ScanOdometryPlugin, FollowsALaserThatIsUpsideDownOrALittleTilted) {
+  const auto as_it_is = [](auto observation) { return observation; };
+  expectNear(follow(halfALapWith({laserAt("laser", 0, 180 * kDegree)}), as_it_is), "upside down");
+  expectNear(follow(halfALapWith({laserAt("laser", 5 * kDegree, 0)}), as_it_is), "tilted by 5 degrees");
+}
+
+TEST(ScanOdometryPlugin, OfATiltedLaserNothingIsTakenAndTheUserIsTold) {
+  const auto log = halfALapWith({laserAt("tilted", 30 * kDegree, 0)});
+  ScanOdometryPlugin plugin({}, {}, {});
+  std::size_t scans = 0;
+  for (const auto& observation : log.observations()) {
+    EXPECT_EQ(plugin.add(*observation), mapper::PosePlugin::Taken::not_mine);
+    scans += observation->sensorLabel == "tilted";
+  }
+  plugin.processUntil(log.end());
+  EXPECT_FALSE(plugin.coveredUntil()) << "else the queue would wait for it";
+  ASSERT_EQ(plugin.warnings().size(), 1U) << "one for all scans";
+  for (const auto& words : {std::to_string(scans) + " scans", std::string("'tilted'"), std::string("30 deg"),
+                            std::string("[mapper] sensors")}) {
+    EXPECT_NE(plugin.warnings().front().find(words), std::string::npos) << plugin.warnings().front();
+  }
+}
+
+TEST(ScanOdometryPlugin, OfATiltedAndALevelLaserTheLevelOneIsTaken) {
+  auto tilted = laserAt("tilted", 30 * kDegree, 0);
+  tilted.phase = 0.001;  // comes first
+  const auto log = halfALapWith({tilted, laserAt("level", 0, 0)});
+  const auto told = [&](const std::string& label) {
+    ScanOdometryOptions options;
+    options.label = label;
+    ScanOdometryPlugin plugin(options, {}, {});
+    for (const auto& observation : log.observations()) plugin.add(*observation);
+    plugin.processUntil(log.end());
+    return std::pair(plugin.coveredUntil().has_value(), plugin.warnings().size());
+  };
+  EXPECT_EQ(told(""), std::pair(true, std::size_t{0}));
+  EXPECT_EQ(told("level"), std::pair(true, std::size_t{0}));
+  EXPECT_EQ(told("tilted"), std::pair(false, std::size_t{1}));
 }
 
 TEST(ScanOdometryPlugin, SpansAddUpAndScansInBetweenAreInterpolated) {

@@ -2,6 +2,7 @@
 #include "Conclusions.h"
 
 #include <omnimapper/check/judge.h>
+#include <omnimapper/plugins/ScanInBase.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@ namespace omnimapper::check {
 
 namespace {
 
-constexpr double kLargestTilt = 15 * base::option_text::kRadiansPerDegree;
 constexpr double kFewestValid = 0.02;  // share of the beams
 constexpr std::size_t kFewestPairs = 8;
 constexpr double kMost = 0.7;  // share of the pairs that has to agree on a contradiction
@@ -32,7 +32,7 @@ const MotionFacts* motionOf(const LogFacts& facts, const std::string& laser, con
 }  // namespace
 
 bool isTilted(const ScanFacts& scans) {
-  return scans.tilt() > kLargestTilt;
+  return scans.tilt() > plugins::kLargestTilt;
 }
 
 bool saturates(const ScanFacts& scans) {

@@ -1,6 +1,7 @@
 #include "ScanTally.h"
 
 #include <omnimapper/perception/LaserPointsExtractor.h>
+#include <omnimapper/plugins/ScanInBase.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,7 @@ bool ScanFacts::isUpsideDown() const {
 }
 
 double ScanFacts::tilt() const {
-  return std::acos(std::min(1.0, std::abs(base_from_sensor.getRotationMatrix()(2, 2))));
+  return plugins::tiltOf(base_from_sensor);
 }
 
 void ScanTally::add(const mrpt::obs::CObservation2DRangeScan& scan) {

@@ -215,7 +215,9 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
       makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, outputs}, config, context);
   config.refuseUnreadSections();
   std::set<std::string> measuring(options.measurement_plugins.begin(), options.measurement_plugins.end());
+  std::vector<std::pair<std::string, const PosePlugin*>> sources;
   for (const auto& [section, plugin] : plugins.pose) {
+    sources.emplace_back(section, plugin.get());
     if (!plugin->isFallback()) measuring.insert(section);
   }
   Engine engine(settings, context.title, std::move(sensor_poses), std::move(plugins), request.threads);
@@ -239,6 +241,9 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   warnOf(report, stopped, engine);
   const auto unknown_labels = unknownLabels(config, labelledSections(options, perception), report, engine.view().map);
   for (const auto& sentence : unknown_labels) engine.warn(sentence);
+  for (const auto& [section, plugin] : sources) {
+    for (const auto& sentence : plugin->warnings()) engine.warn("[" + section + "] " + sentence);
+  }
   warnOfNothingMeasured(measuring, engine);
   auto result = resultOf(engine.view());
   warnOf(engine.view().counts, result.new_key_frames, engine);

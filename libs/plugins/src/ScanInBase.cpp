@@ -34,6 +34,10 @@ Points pointsOf(const mrpt::obs::CObservationPointCloud& cloud) {
 
 }  // namespace
 
+double tiltOf(const mrpt::poses::CPose3D& base_from_sensor) {
+  return std::acos(std::min(1.0, std::abs(base_from_sensor.getRotationMatrix()(2, 2))));
+}
+
 matching::PlanarScan scanInBase(const mrpt::obs::CObservationPointCloud& cloud) {
   return matching::fitLines(pointsOf(cloud).in_base);
 }

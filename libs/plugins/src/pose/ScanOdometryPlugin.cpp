@@ -84,9 +84,33 @@ ScanOdometryPlugin::ScanOdometryPlugin(const ScanOdometryOptions& options, const
       odometry_(odometryOf(options)) {}
 
 bool ScanOdometryPlugin::isOurs(const mrpt::obs::CObservation2DRangeScan& scan) {
-  if (!options_.label.empty()) return scan.sensorLabel == options_.label;
-  if (!label_) label_ = scan.sensorLabel;
-  return scan.sensorLabel == *label_;
+  if (label_ && scan.sensorLabel != *label_) return false;
+  if (!options_.label.empty() && scan.sensorLabel != options_.label) return false;
+  const double tilt = tiltOf(scan.sensorPose);
+  if (!(tilt <= kLargestTilt)) {
+    auto& tilted = tilted_[scan.sensorLabel];
+    ++tilted.scans;
+    tilted.tilt = std::max(tilted.tilt, tilt);
+    return false;
+  }
+  label_ = scan.sensorLabel;
+  return true;
+}
+
+// Nothing of a tilted laser beside a level one that was taken instead.
+std::vector<std::string> ScanOdometryPlugin::warnings() const {
+  std::vector<std::string> sentences;
+  for (const auto& [label, tilted] : tilted_) {
+    if (label_ && label != *label_) continue;
+    const auto degrees = std::lround(tilted.tilt / base::option_text::kRadiansPerDegree);
+    sentences.push_back(std::to_string(tilted.scans) + " scans of the laser '" + label +
+                        "' were left out: by its sensor pose it is tilted by " + std::to_string(degrees) +
+                        " deg, more than " +
+                        std::to_string(std::lround(kLargestTilt / base::option_text::kRadiansPerDegree)) +
+                        ", and does not tell motion on a floor; name a level laser as label, correct its pose by " +
+                        "[mapper] sensors, or take the plugin out of [mapper] pose_plugins");
+  }
+  return sentences;
 }
 
 ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation& observation) {

@@ -5,6 +5,8 @@
 #include <omnimapper/mapper/RelativeMotion.h>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace omnimapper::mapper {
 
@@ -39,6 +41,8 @@ class PosePlugin {
   virtual bool isFallback() const { return false; }
   /// Whether it tells what it measured. One that only guesses is not asked whether the base has moved.
   virtual bool measures() const { return true; }
+  /// What a user should know at the end of a run: sentences that name the sensor and the remedy.
+  virtual std::vector<std::string> warnings() const { return {}; }
   /// Spans before `stamp` will not be asked for any more.
   virtual void forgetBefore(base::Stamp /*stamp*/) {}
 };

@@ -8,6 +8,7 @@
 #include <omnimapper/perception/LaserPointsExtractor.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -42,6 +43,8 @@ struct ScanOdometryOptions {
 /// Of a laser that takes its time (`sweep`) the same prediction tells how the base moved during a scan. The stamp is
 /// the instant of the first beam; the scan counts for the middle of the sweep, half of it later. Only what is matched
 /// here is straightened: the clouds that loop closures and maps use stay as they were measured.
+///
+/// The plane of the laser must be nearly that of the floor (kLargestTilt), either side up; other scans are left out.
 class ScanOdometryPlugin : public mapper::PosePlugin {
  public:
   ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
@@ -53,6 +56,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     return timeline_.between(begin, end);
   }
   std::optional<base::Stamp> coveredUntil() const override;
+  std::vector<std::string> warnings() const override;
   void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }
 
  private:
@@ -60,6 +64,11 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   struct Predictor {
     std::optional<mrpt::math::TPose2D> motion;
     double error = 0;  // [m], a mean over some scans
+  };
+  /// Scans of a laser that were left out.
+  struct Tilted {
+    std::size_t scans = 0;
+    double tilt = 0;  // [rad] the largest
   };
   bool isOurs(const mrpt::obs::CObservation2DRangeScan& scan);
   void follow(const mrpt::obs::CObservation2DRangeScan& scan);
@@ -76,6 +85,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   matching::ScanTracker tracker_;
   OdometryPlugin odometry_;
   std::optional<std::string> label_;                                // of the first that came
+  std::map<std::string, Tilted> tilted_;                            // by label
   std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan> wait_;  // for their time
   std::optional<base::Stamp> reached_;                              // scan that was worked on last
   std::optional<base::Stamp> last_;                                 // middle of the scan that was matched last
