@@ -38,6 +38,10 @@ class Check {
     for (const auto id : batch_.retiredLandmarks()) needLandmark(id, "retired landmark");
     for (const auto& [from, into] : batch_.merges()) checkMerge(from, into);
     for (const auto id : batch_.removedVariables()) checkRemoved(id);
+    if (const auto& place = batch_.sessionPlace()) {
+      const std::string why = whyFixed(*place, graph_, map_);
+      need(why.empty(), "place of a session", why);
+    }
     return problem_;
   }
 
@@ -173,7 +177,7 @@ void addToGraph(const Batch& batch, const BatchOrigin& origin, graph::Graph& gra
 bool Batch::empty() const {
   return added_variables_.empty() && added_factors_.empty() && added_landmarks_.empty() && removed_factors_.empty() &&
          removed_variables_.empty() && weights_.empty() && evidence_.empty() && retired_landmarks_.empty() &&
-         merges_.empty() && decisions_.empty();
+         merges_.empty() && decisions_.empty() && !session_place_;
 }
 
 base::VariableId Batch::addVariable(std::shared_ptr<const graph::Variable> kind, const Eigen::VectorXd& value,
@@ -236,6 +240,7 @@ AppliedBatch apply(const Batch& batch, const BatchOrigin& origin, graph::Graph& 
   }
   for (const auto& [from, into] : batch.merges()) merge(from, into, graph, map);
   for (const auto id : batch.removedVariables()) graph.removeVariable(id);
+  if (batch.sessionPlace()) placeSession(*batch.sessionPlace(), graph, map);
   return applied;
 }
 

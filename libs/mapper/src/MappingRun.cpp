@@ -94,9 +94,10 @@ void warnOf(const source::SourceReport& report, bool stopped, Engine& engine) {
 void warnOf(const map::Session& session, Engine& engine) {
   if (session.joined) return;
   engine.warn(
-      joinedText(session) + " to the map: it lies where [session] start says; see the refused " +
-      "closures in the report, and give a better start (origin, or pose) or a larger start_sigma_m: closures are " +
-      "sought within three times that, and [loop_closure] max_window_m, of it");
+      joinedText(session) + " to the map: it lies where [session] start or a single " +
+      "relocalisation says, which may be wrong; see the refused closures and relocalisations in the report. Is it of " +
+      "another place? If not, drive on where the map was made, or give a better start (origin, or pose) or a larger " +
+      "start_sigma_m");
 }
 
 void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {

@@ -104,23 +104,16 @@ map::KeyFrame PoseChain::newFrame(base::Stamp stamp, const CPose3D& map_from_bas
 // The first pose of a session has nothing before it. Where another one was first until now, that one is let go.
 void PoseChain::hold(base::VariableId first_pose) {
   constexpr char kOwner[] = "engine";
-  // [sigma] A guess that measurements contradict by more is not to pull at the map for ever.
-  constexpr double kStartLossScale = 3;
   // Where measurements place the map, the first pose is only a start: a kilometre and a turn either way.
-  const Eigen::Matrix<double, 6, 6> anywhere = 1e6 * Eigen::Matrix<double, 6, 6>::Identity();
+  constexpr double kAnywhere = 1e3;
+  const Eigen::Matrix<double, 6, 6> anywhere = kAnywhere * kAnywhere * Eigen::Matrix<double, 6, 6>::Identity();
   map::Session& session = map_.sessions.back();
   if (start_) {
     // The session begins where the first pose that came was; one before it moves nothing.
     if (hold_) return;
     session.anchor = graph_.addVariable(poseVariable(motion_), poseValue(motion_, start_->map_from_base));
-    Eigen::Matrix<double, 6, 6> covariance = anywhere;
-    if (!absolute_) {
-      covariance.diagonal().head<3>().setConstant(start_->position_sigma * start_->position_sigma);
-      covariance.diagonal().tail<3>().setConstant(start_->angle_sigma * start_->angle_sigma);
-    }
-    auto guess = posePrior(motion_, session.anchor, start_->map_from_base, covariance, kOwner);
-    guess.loss = graph::Loss::cauchy(kStartLossScale);
-    graph_.addFactor(std::move(guess));
+    graph_.addFactor(startFactor(motion_, session.anchor,
+                                 absolute_ ? SessionStart{start_->map_from_base, kAnywhere, kAnywhere} : *start_));
     RelativeMotion none{{}, Eigen::Matrix<double, 6, 6>::Zero()};
     hold_ = graph_.addFactor(betweenPoses(motion_, session.anchor, first_pose, none, kOwner));
     return;

@@ -7,9 +7,12 @@ const base::OptionTable<SessionOptions>& SessionOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .choice("start", &Options::start,
-                  {{"end", Options::Start::end}, {"origin", Options::Start::origin}, {"pose", Options::Start::pose}},
-                  "Where a session that continues a map begins: where the last one ended, at the map's origin, or at "
-                  "the pose below.")
+                  {{"end", Options::Start::end},
+                   {"origin", Options::Start::origin},
+                   {"pose", Options::Start::pose},
+                   {"anywhere", Options::Start::anywhere}},
+                  "Where a session that continues a map begins: where the last one ended, at the map's origin, at the "
+                  "pose below, or where nobody knows: then it is sought in the whole map.")
           .number("start_x_m", &Options::start_x, {}, "Position in the map, for start = pose.")
           .number("start_y_m", &Options::start_y, {}, "Position in the map, for start = pose.")
           .number("start_yaw_deg", &Options::start_yaw, {}, "Heading in the map, for start = pose.")
@@ -21,6 +24,7 @@ const base::OptionTable<SessionOptions>& SessionOptions::table() {
 }
 
 SessionStart SessionOptions::startOn(const map::Map& map) const {
+  if (start == Start::anywhere) return startAnywhere(map);
   SessionStart session{{}, start_sigma, start_angle_sigma};
   if (start == Start::pose) session.map_from_base = mrpt::poses::CPose3D(start_x, start_y, 0, start_yaw, 0, 0);
   if (start != Start::end) return session;

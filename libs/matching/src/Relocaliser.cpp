@@ -73,28 +73,56 @@ Relocaliser::Relocaliser(std::vector<MapScan> map, std::shared_ptr<const ScanMat
   beams_ = std::make_unique<const BeamGrid>(placed, options.beams);
 }
 
-Location Relocaliser::locate(const BeamScan& all_beams, const std::optional<SearchWindow>& window) const {
-  const BeamScan scan = finitePart(all_beams);
+Location Relocaliser::locate(const BeamScan& scan, const std::optional<SearchWindow>& window) const {
+  return locate(std::vector<LocalScan>{{{}, scan}}, window);
+}
+
+Location Relocaliser::locate(std::vector<LocalScan> scans, const std::optional<SearchWindow>& window) const {
+  const Query query = queryOf(std::move(scans));
   const SearchWindow searched = window ? *window : SearchWindow::everywhere(*pyramid_, 0);
-  auto found = candidates(scan, searched, options_.min_share_of_best, options_.max_candidates);
+  auto found = candidates(query, searched, options_.min_share_of_best, options_.max_candidates);
   const bool explained = std::any_of(found.begin(), found.end(),
                                      [&](const LocationCandidate& one) { return one.log_likelihood >= options_.poor; });
   if (!found.empty() && !explained) {
-    found = candidates(scan, searched, options_.min_share_if_poor, 2 * options_.max_candidates);
+    found = candidates(query, searched, options_.min_share_if_poor, 2 * options_.max_candidates);
   }
-  return judged(std::move(found), scan);
+  return judged(std::move(found), query);
 }
 
-std::vector<LocationCandidate> Relocaliser::candidates(const BeamScan& scan, const SearchWindow& window,
-                                                       double min_share, int most) const {
+Relocaliser::Query Relocaliser::queryOf(std::vector<LocalScan> scans) const {
+  Query query;
+  PlanarScan sought;
+  for (LocalScan& scan : scans) {
+    scan.scan = finitePart(std::move(scan.scan));
+    const PlanarScan lines = fitLines(scan.scan.hits);
+    append(lines, scan.local_from_sensor, query.lines);
+    const auto points = thinned(lines.points, options_.spacing);
+    append({points, {points.size(), Eigen::Vector2f::Zero()}}, scan.local_from_sensor, sought);
+  }
+  if (scans.size() > 1) sought = oncePerCell(sought, options_.spacing);
+  query.sought = std::move(sought.points);
+  query.scans = std::move(scans);
+  return query;
+}
+
+std::vector<double> Relocaliser::logLikelihoods(const Query& query, const TPose2D& map_from_local) const {
+  std::vector<double> all;
+  for (const LocalScan& scan : query.scans) {
+    const auto some = beams_->logLikelihoods(scan.scan, map_from_local + scan.local_from_sensor);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+std::vector<LocationCandidate> Relocaliser::candidates(const Query& query, const SearchWindow& window, double min_share,
+                                                       int most) const {
   SearchOptions search_options;
   search_options.min_score = options_.min_score;
   search_options.min_share_of_best = min_share;
   search_options.max_results = most;
-  const PlanarScan lines = fitLines(scan.hits);
   std::vector<LocationCandidate> result;
-  for (const auto& place : search(*pyramid_, thinned(lines.points, options_.spacing), window, search_options)) {
-    result.push_back(refined(place, lines, scan));
+  for (const auto& place : search(*pyramid_, query.sought, window, search_options)) {
+    result.push_back(refined(place, query));
   }
   return result;
 }
@@ -117,14 +145,14 @@ PlanarScan Relocaliser::around(const TPose2D& pose) const {
 }
 
 // Where the beams speak against what the matcher finds, the candidate stays where it is.
-LocationCandidate Relocaliser::refined(const SearchResult& place, const PlanarScan& lines, const BeamScan& scan) const {
+LocationCandidate Relocaliser::refined(const SearchResult& place, const Query& query) const {
   const TPose2D& pose = place.map_from_scan;
   LocationCandidate candidate;
   candidate.score = place.score;
-  candidate.match = matcher_->match(*matcher_->prepare(around(pose)), lines, {pose});
+  candidate.match = matcher_->match(*matcher_->prepare(around(pose)), query.lines, {pose});
   candidate.map_from_sensor = candidate.match.reference_from_scan;
-  candidate.log_likelihood = beams_->logLikelihood(scan, candidate.map_from_sensor);
-  const double unmoved = beams_->logLikelihood(scan, pose);
+  candidate.log_likelihood = mean(logLikelihoods(query, candidate.map_from_sensor));
+  const double unmoved = mean(logLikelihoods(query, pose));
   if (candidate.log_likelihood < unmoved - kSpread) {
     candidate.map_from_sensor = pose;
     candidate.log_likelihood = unmoved;
@@ -133,10 +161,10 @@ LocationCandidate Relocaliser::refined(const SearchResult& place, const PlanarSc
 }
 
 // Moves a candidate, by at most kAstray, to where the beams are likeliest.
-void Relocaliser::settle(LocationCandidate& candidate, const BeamScan& scan) const {
+void Relocaliser::settle(LocationCandidate& candidate, const Query& query) const {
   const TPose2D pose = candidate.map_from_sensor;
   TPose2D best = pose;
-  auto logarithms = beams_->logLikelihoods(scan, pose);
+  auto logarithms = logLikelihoods(query, pose);
   double step = 0.05, turn_step = 0.01;
   for (int pass = 0; pass < 5; ++pass) {
     bool better = false;
@@ -145,7 +173,7 @@ void Relocaliser::settle(LocationCandidate& candidate, const BeamScan& scan) con
       TPose2D tried = best;
       (direction < 2 ? tried.x : direction < 4 ? tried.y : tried.phi) += sign * (direction < 4 ? step : turn_step);
       if (distance(tried, pose) > kAstray || turn(tried, pose) > kAstrayTurn) continue;
-      auto there = beams_->logLikelihoods(scan, tried);
+      auto there = logLikelihoods(query, tried);
       if (mean(there) <= mean(logarithms)) continue;
       logarithms = std::move(there);
       best = tried;
@@ -174,14 +202,14 @@ void Relocaliser::sortAndMerge(std::vector<LocationCandidate>& candidates) const
   candidates = std::move(distinct);
 }
 
-Location Relocaliser::judged(std::vector<LocationCandidate> candidates, const BeamScan& scan) const {
+Location Relocaliser::judged(std::vector<LocationCandidate> candidates, const Query& query) const {
   Location location;
   if (candidates.empty()) return location;
   sortAndMerge(candidates);
   const double hopeless = candidates.front().log_likelihood - kHopeless;
   for (auto& candidate : candidates) {
     if (candidate.log_likelihood < hopeless) break;
-    settle(candidate, scan);
+    settle(candidate, query);
   }
   sortAndMerge(candidates);
   location.candidates = std::move(candidates);

@@ -51,6 +51,7 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   const auto& scan = dynamic_cast<const PreparedScan&>(*observed.prepared).scan;
   const std::size_t index = remember(frame, scan, view, history);
   if (scan->empty()) return {};
+  seekInMap(observed.observation.sensorLabel, history, index, view);
   const double way = history[index].sight.way;
   const auto [last, is_first] = searched_.emplace(observed.observation.sensorLabel, way);
   if (!is_first && std::abs(way - last->second) < options_.spacing) return {};
@@ -81,6 +82,23 @@ std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& 
   return static_cast<std::size_t>(place - history.begin());
 }
 
+// Ever more rarely: a session of another place is never joined.
+void LoopClosurePlugin::seekInMap(const std::string& label, const History& history, std::size_t index,
+                                  const mapper::State& state) {
+  constexpr double kSpacing = 3, kShareOfWay = 0.05;  // [m] [1] of the session's way, from one search to the next
+  constexpr double kSought = 4;                       // [m] of the way whose scans are sought together
+  const auto& session = state.map.sessions.back();
+  const auto& sight = history[index].sight;
+  if (!places_ || session.joined || sight.frame.session != session.number) return;
+  const auto first = std::find_if(history.begin(), history.end(),
+                                  [&](const Seen& seen) { return seen.sight.frame.session == session.number; });
+  const double way = sight.way - first->sight.way;
+  const auto [last, is_first] = sought_in_map_.emplace(label, way);
+  if (!is_first && way - last->second < std::max(kSpacing, kShareOfWay * way)) return;
+  last->second = way;
+  map_searches_.emplace_back(options_, context_, matcher_, places_, label, sights(history, index, kSought, 0), way);
+}
+
 void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view) {
   for (const auto& frame : view.map.key_frames) {
     for (const auto& observation : frame.observations) {
@@ -89,12 +107,21 @@ void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view
       remember(frame, dynamic_cast<const PreparedScan&>(*prepared).scan, view, histories_[observation->sensorLabel]);
     }
   }
+  std::map<std::string, std::vector<LoopSearch::Sight>> sights;
+  for (const auto& [label, history] : histories_) {
+    for (const auto& seen : history) sights[label].push_back(seen.sight);
+  }
+  auto places = std::make_shared<const KnownPlaces>(view.map, sights, matcher_);
+  if (!places->empty()) places_ = std::move(places);
 }
 
 mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, const mapper::View&) {
   mapper::FollowUp follow_up;
   for (auto& search : searches_) follow_up.jobs.push_back({"loop closure of " + toString(frame.id), std::move(search)});
+  for (auto& search : map_searches_)
+    follow_up.jobs.push_back({"relocalisation of " + toString(frame.id), std::move(search)});
   searches_.clear();
+  map_searches_.clear();
   return follow_up;
 }
 

@@ -97,6 +97,10 @@ bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   const Doubt doubt = doubtAt(place, state);
   const double apart = std::hypot(guess.x, guess.y);
   if (apart > options_.radius + doubt.position) return false;
+  // In a window smaller than the doubt a wrong place would fit as well: that is for MapSearch.
+  const auto& session = state.map.sessions.back();
+  const bool is_apart = !session.joined && centre.id.session != session.number && frame.id.session == session.number;
+  if (is_apart && doubt.position > options_.max_window) return false;
   // A closure that tells what the map knows as well only makes every solve dearer.
   if (doubt.position < kSigmas * options_.known_sigma && doubt.yaw < kSigmas * options_.known_angle_sigma) return false;
 
@@ -116,7 +120,7 @@ bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   for (const auto& start : starts(local, query, guess, doubt))
     matches.push_back(matcher_->match(*reference, query, start));
   std::sort(matches.begin(), matches.end(), [](const auto& a, const auto& b) { return a.overlap > b.overlap; });
-  judge(matches, guess, decision);
+  judgeClosure(options_, matches, guess, decision);
   if (!decision.accepted) {
     batch.log(std::move(decision));
     return true;
@@ -128,8 +132,8 @@ bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
 }
 
 // The best of them, unless another is elsewhere and as good: alike corridors, rooms with a symmetry.
-void LoopSearch::judge(const std::vector<matching::ScanMatch>& matches, const TPose2D& guess,
-                       mapper::Decision& decision) const {
+void judgeClosure(const LoopClosureOptions& options, const std::vector<matching::ScanMatch>& matches,
+                  const TPose2D& guess, mapper::Decision& decision) {
   constexpr double kAlike = 0.05;  // of overlap
   if (matches.empty()) {
     decision.reason = "nothing alike";
@@ -142,7 +146,7 @@ void LoopSearch::judge(const std::vector<matching::ScanMatch>& matches, const TP
                                                    {"correction [m]", std::hypot(correction.x, correction.y)},
                                                    {"correction [deg]", std::abs(mrpt::math::wrapToPi(correction.phi)) /
                                                                             base::option_text::kRadiansPerDegree}});
-  if (best.overlap < options_.min_overlap) {
+  if (best.overlap < options.min_overlap) {
     decision.reason = "too little overlap";
     return;
   }
@@ -154,12 +158,12 @@ void LoopSearch::judge(const std::vector<matching::ScanMatch>& matches, const TP
     return;
   }
   // What slides along a corridor says nothing of where in it.
-  const double point_sigma = std::max(options_.point_sigma, best.point_sigma);
+  const double point_sigma = std::max(options.point_sigma, best.point_sigma);
   const Eigen::Matrix2d position = best.unit_covariance.topLeftCorner<2, 2>();
   const double sigma =
       point_sigma * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]);
   decision.numbers.emplace_back("uncertainty of the match [m]", sigma);
-  if (best.degenerate || sigma > options_.max_sigma) {
+  if (best.degenerate || sigma > options.max_sigma) {
     decision.reason = best.degenerate ? "the walls leave a direction open" : "the walls hardly fix it";
     return;
   }

@@ -3,9 +3,11 @@
 #include <omnimapper/graph/Graph.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/DecisionLog.h>
+#include <omnimapper/mapper/SessionStart.h>
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +29,8 @@ class Batch {
   /// Once nothing binds it any more.
   void removeVariable(base::VariableId id) { removed_variables_.push_back(id); }
   void setWeight(base::FactorId id, double weight) { weights_.emplace_back(id, weight); }
+  /// A better guess of where the newest session lies in the map, as long as nothing ties it to that.
+  void placeSession(const SessionPlace& place) { session_place_ = place; }
   void log(Decision decision) { decisions_.push_back(std::move(decision)); }
 
   /// A new landmark; the sighting that made it is its first evidence.
@@ -64,6 +68,7 @@ class Batch {
   const std::vector<Evidence>& evidence() const { return evidence_; }
   const std::vector<base::LandmarkId>& retiredLandmarks() const { return retired_landmarks_; }
   const std::vector<std::pair<base::LandmarkId, base::LandmarkId>>& merges() const { return merges_; }
+  const std::optional<SessionPlace>& sessionPlace() const { return session_place_; }
   /// A decision's `hypothesis`, where it has one, is the number of the factor in addedFactors().
   const std::vector<Decision>& decisions() const { return decisions_; }
 
@@ -85,6 +90,7 @@ class Batch {
   std::vector<base::LandmarkId> retired_landmarks_;
   std::vector<std::pair<base::LandmarkId, base::LandmarkId>> merges_;
   std::vector<Decision> decisions_;
+  std::optional<SessionPlace> session_place_;
 };
 
 /// What applying a batch gave: final ids in the order they were added.

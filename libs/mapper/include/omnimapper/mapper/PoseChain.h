@@ -5,6 +5,7 @@
 #include <omnimapper/mapper/Motion.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/PosePlugin.h>
+#include <omnimapper/mapper/SessionStart.h>
 
 #include <map>
 #include <optional>
@@ -13,13 +14,6 @@
 #include <vector>
 
 namespace omnimapper::mapper {
-
-/// Where a session begins on a map that is continued.
-struct SessionStart {
-  mrpt::poses::CPose3D map_from_base;  ///< the guess
-  double position_sigma = 1;           ///< [m]
-  double angle_sigma = 0.5;            ///< [rad]
-};
 
 /// The key frames of the running session and the continuous factors that link each to the next (thesis 5.2.3): between
 /// neighbours in time, and only there, each continuous source that covers the span has one factor, or the first

@@ -2,16 +2,17 @@
 
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/map/Map.h>
-#include <omnimapper/mapper/PoseChain.h>
+#include <omnimapper/mapper/SessionStart.h>
 
 namespace omnimapper::mapper {
 
 /// Section [session] of an INI: where a session that continues a map begins, until something ties it to the map.
 struct SessionOptions {
   enum class Start {
-    end,     ///< where the last session ended
-    origin,  ///< at the map's origin
-    pose     ///< at the pose below
+    end,      ///< where the last session ended
+    origin,   ///< at the map's origin
+    pose,     ///< at the pose below
+    anywhere  ///< nobody knows: it is sought in the whole map
   };
   Start start = Start::end;
   double start_x = 0, start_y = 0;                                       ///< [m] in the map

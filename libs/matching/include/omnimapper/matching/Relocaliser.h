@@ -40,13 +40,19 @@ struct MapScan {
   BeamScan scan;
 };
 
+/// What was seen from several places close to each other, in a frame of its own: one of the sensor poses, say.
+struct LocalScan {
+  mrpt::math::TPose2D local_from_sensor;
+  BeamScan scan;
+};
+
 struct LocationCandidate {
-  mrpt::math::TPose2D map_from_sensor;
-  double score = 0;           ///< of the search: mean likelihood of the points, [0, 1]
-  double log_likelihood = 0;  ///< of all beams, free space included: the mean of `beams`
-  std::vector<double> beams;  ///< BeamGrid::logLikelihoods; empty if others are much better
-  double probability = 0;     ///< among the candidates and "nowhere in the map"
-  ScanMatch match;            ///< with the map around it; its reference is the map
+  mrpt::math::TPose2D map_from_sensor;  ///< of the single scan; map_from_local of several
+  double score = 0;                     ///< of the search: mean likelihood of the points, [0, 1]
+  double log_likelihood = 0;            ///< of all beams, free space included: the mean of `beams`
+  std::vector<double> beams;            ///< BeamGrid::logLikelihoods; empty if others are much better
+  double probability = 0;               ///< among the candidates and "nowhere in the map"
+  ScanMatch match;                      ///< with the map around it; its reference is the map
 };
 
 struct Location {
@@ -59,10 +65,11 @@ struct Location {
   std::vector<LocationCandidate> candidates;  ///< the most probable first
 };
 
-/// Finds where in a whole map a single scan was taken: a correlative search for the places that its points fit,
-/// refined by the fine matcher, and judged by what each beam says of free space and walls (BeamGrid). Probabilities are
-/// those of Bayes, all candidates and "nowhere in the map" being equally likely before; but a lead that some beams
-/// give and others take away counts for less than its mean. Never changes, so threads may share it.
+/// Finds where in a whole map a single scan was taken, or several on a short way: a correlative search for the places
+/// that its points fit, refined by the fine matcher, and judged by what each beam says of free space and walls
+/// (BeamGrid). Probabilities are those of Bayes, all candidates and "nowhere in the map" being equally likely before;
+/// but a lead that some beams give and others take away counts for less than its mean. Never changes, so threads may
+/// share it.
 class Relocaliser {
  public:
   /// Throws Error(out_of_range) for a map too large for the grids (BeamModel::max_cells).
@@ -71,15 +78,24 @@ class Relocaliser {
 
   /// In the whole map, or in the window if it is given. Points that are not finite are left out.
   Location locate(const BeamScan& scan, const std::optional<SearchWindow>& window = std::nullopt) const;
+  /// The same for several scans: what looks alike from one spot seldom does along a way.
+  Location locate(std::vector<LocalScan> scans, const std::optional<SearchWindow>& window = std::nullopt) const;
 
  private:
-  std::vector<LocationCandidate> candidates(const BeamScan& scan, const SearchWindow& window, double min_share,
+  struct Query {
+    std::vector<LocalScan> scans;
+    PlanarScan lines;                     // in the local frame
+    std::vector<Eigen::Vector2f> sought;  // those that are searched with
+  };
+  Query queryOf(std::vector<LocalScan> scans) const;
+  std::vector<double> logLikelihoods(const Query& query, const mrpt::math::TPose2D& map_from_local) const;
+  std::vector<LocationCandidate> candidates(const Query& query, const SearchWindow& window, double min_share,
                                             int most) const;
-  LocationCandidate refined(const SearchResult& place, const PlanarScan& lines, const BeamScan& scan) const;
+  LocationCandidate refined(const SearchResult& place, const Query& query) const;
   PlanarScan around(const mrpt::math::TPose2D& pose) const;
-  void settle(LocationCandidate& candidate, const BeamScan& scan) const;
+  void settle(LocationCandidate& candidate, const Query& query) const;
   void sortAndMerge(std::vector<LocationCandidate>& candidates) const;
-  Location judged(std::vector<LocationCandidate> candidates, const BeamScan& scan) const;
+  Location judged(std::vector<LocationCandidate> candidates, const Query& query) const;
 
   struct Placed {
     mrpt::math::TPose2D map_from_sensor;

@@ -4,6 +4,7 @@
 #include <omnimapper/matching/ScanMatcherOptions.h>
 #include <omnimapper/plugins/LoopClosureOptions.h>
 #include <omnimapper/plugins/LoopSearch.h>
+#include <omnimapper/plugins/MapSearch.h>
 
 #include <map>
 #include <memory>
@@ -13,8 +14,9 @@
 namespace omnimapper::plugins {
 
 /// Closes loops with 2D scans (thesis 5.3.3.2): what was just seen is sought at places seen long ago, wherever the
-/// covariance of the estimate allows them to be. Scans are matched in the plane of the base; in a spatial map z, roll
-/// and pitch stay open. The motion from key frame to key frame is ScanOdometryPlugin's.
+/// covariance of the estimate allows them to be; a session that nothing ties to the saved map, in all of it. Scans are
+/// matched in the plane of the base; in a spatial map z, roll and pitch stay open. The motion from key frame to key
+/// frame is ScanOdometryPlugin's.
 class LoopClosurePlugin : public mapper::MeasurementPlugin {
  public:
   LoopClosurePlugin(const LoopClosureOptions& options, const matching::ScanMatcherOptions& matching,
@@ -41,6 +43,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   std::size_t remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state,
                        History& history) const;
 
+  void seekInMap(const std::string& label, const History& history, std::size_t index, const mapper::State& state);
   std::vector<LoopSearch::Place> loopPlaces(const map::KeyFrame& frame, const History& history, std::size_t index,
                                             const mapper::State& state) const;
   /// What was seen in the session of the one at `centre`, so much way [m] before and after it.
@@ -49,9 +52,12 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   LoopClosureOptions options_;
   mapper::PluginContext context_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
-  std::map<std::string, History> histories_;  // by label
-  std::map<std::string, double> searched_;    // [m] way of the last search, by label
-  std::vector<LoopSearch> searches_;          // of the key frame being measured
+  std::map<std::string, History> histories_;     // by label
+  std::map<std::string, double> searched_;       // [m] way of the last search, by label
+  std::vector<LoopSearch> searches_;             // of the key frame being measured
+  std::shared_ptr<const KnownPlaces> places_;    // of a map that is continued
+  std::map<std::string, double> sought_in_map_;  // [m] way of the last search in all of it, by label
+  std::vector<MapSearch> map_searches_;          // of the key frame being measured
 };
 
 class LoopClosurePluginFactory : public mapper::MeasurementPluginFactory {

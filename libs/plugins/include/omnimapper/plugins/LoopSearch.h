@@ -52,8 +52,6 @@ class LoopSearch {
   bool tryPlace(const Place& place, const mapper::State& state, mapper::Batch& batch) const;
   std::vector<mrpt::math::TPose2D> starts(const matching::PlanarScan& local, const matching::PlanarScan& query,
                                           const mrpt::math::TPose2D& guess, const Doubt& doubt) const;
-  void judge(const std::vector<matching::ScanMatch>& matches, const mrpt::math::TPose2D& guess,
-             mapper::Decision& decision) const;
 
   LoopClosureOptions options_;
   mapper::PluginContext context_;
@@ -65,5 +63,10 @@ class LoopSearch {
 /// The scans of some key frames together, in the frame of `centre`, by the estimate in `state`.
 matching::PlanarScan localMap(const std::vector<LoopSearch::Sight>& sights, base::KeyFrameId centre,
                               const mapper::State& state);
+
+/// Whether the best of `matches`, best first, is a closure, told in `decision`: enough overlap, walls that fix it, and
+/// no other as good elsewhere. `guess`: where the estimate has it.
+void judgeClosure(const LoopClosureOptions& options, const std::vector<matching::ScanMatch>& matches,
+                  const mrpt::math::TPose2D& guess, mapper::Decision& decision);
 
 }  // namespace omnimapper::plugins
