@@ -108,6 +108,24 @@ TEST_F(Continue, ASessionThatMayBeAnywhereIsFoundInTheMap) {
   }
 }
 
+TEST_F(Continue, ASessionOfAnotherBuildingIsNotJoinedAndTheMapStaysAsItWas) {
+  const auto before = map(SimulatedLog(ring(1)).observations());
+  SimulatedLogOptions other;
+  other.place = SimulatedLogOptions::Place::box;
+  other.laps = 3;
+  start_.start = SessionOptions::Start::anywhere;
+  const auto both = goOn(*before, SimulatedLog(other).observations());
+  EXPECT_FALSE(both->view().map.sessions[1].joined);
+  for (const auto& frame : before->view().map.key_frames) {
+    const CPose3D moved = both->view().map.keyFrame(frame.id).map_from_base - frame.map_from_base;
+    EXPECT_LT(moved.translation().norm(), 1e-3) << frame.id;
+  }
+  const auto& decisions = both->view().decisions;
+  EXPECT_TRUE(std::any_of(decisions.begin(), decisions.end(), [](const auto& decision) {
+    return decision.kind == "relocalisation" && !decision.accepted && !decision.reason.empty();
+  }));
+}
+
 TEST_F(Continue, AStartThatIsWrongByFarIsSetRightInTheWholeMap) {
   const SimulatedLog log(ring(2));
   const auto [first, second] = cut(log, 0.5);
@@ -145,9 +163,10 @@ TEST_F(Continue, AThirdSessionGoesOnFromTheSecond) {
 }
 
 TEST_F(Continue, TheMapOfTwoSessionsIsTheSameInEveryBitWithMoreThreads) {
-  const SimulatedLog log(ring(1.3));
-  const auto [first, second] = cut(log, 0.75);
+  const SimulatedLog log(ring(1.5));
+  const auto [first, second] = cut(log, 0.65);
   const auto before = map(first);
+  start_.start = SessionOptions::Start::anywhere;
   const auto once = goOn(*before, second);
   auto saved = readMap(path_, registeredKinds());
   const auto start = start_.startOn(saved.map);

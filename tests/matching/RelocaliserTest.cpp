@@ -70,6 +70,24 @@ TEST(Relocaliser, ASymmetricRoomIsAmbiguousAndBothPosesAreTold) {
   expectNear(location.candidates[first_is_truth ? 1 : 0].map_from_sensor, twin);
 }
 
+// Two equal rooms side by side; the lobby before one of them has a bend.
+TEST(Relocaliser, OfTwoEqualRoomsTheWayThereTellsWhich) {
+  FloorPlan plan;
+  for (const double x : {0.0, 20.0}) {
+    plan.addPolygon({{x, 0}, {x + 5, 0}, {x + 5, 4}, {x, 4}, {x, 2.6}, {x + 0.6, 2.2}, {x, 1.8}});
+    plan.addPolygon({{x, -5}, {x + 5, -5}, {x + 5, -1}, {x + (x > 0 ? 3 : 4), -1}, {x + 2, -2}, {x, -2}});
+  }
+  const auto relocaliser = mapOf(
+      plan,
+      {{1.5, 1, 0}, {3.5, 3, 0}, {1.5, -4, 0}, {3.5, -3, 0}, {21.5, 1, 0}, {23.5, 3, 0}, {21.5, -4, 0}, {23.5, -3, 0}});
+  const TPose2D in_room(22.5, 2.2, 0.4), in_lobby(23.2, -3.2, -0.2);
+  const auto room = beamsFrom(plan, in_room, 360, 8, 0.01, 7), lobby = beamsFrom(plan, in_lobby, 360, 8, 0.01, 8);
+  EXPECT_EQ(relocaliser.locate(room).answer, Answer::ambiguous);
+  const auto location = relocaliser.locateTogether({{{}, room}, {in_lobby - in_room, lobby}});
+  ASSERT_EQ(location.answer, Answer::found);
+  expectNear(location.candidates[0].map_from_sensor, in_room);
+}
+
 TEST(Relocaliser, AWindowLeavesOneOfTwoAlikePlaces) {
   FloorPlan room;
   room.addPolygon({{-3, -2}, {3, -2}, {3, 2}, {-3, 2}});

@@ -74,10 +74,10 @@ Relocaliser::Relocaliser(std::vector<MapScan> map, std::shared_ptr<const ScanMat
 }
 
 Location Relocaliser::locate(const BeamScan& scan, const std::optional<SearchWindow>& window) const {
-  return locate(std::vector<LocalScan>{{{}, scan}}, window);
+  return locateTogether({{{}, scan}}, window);
 }
 
-Location Relocaliser::locate(std::vector<LocalScan> scans, const std::optional<SearchWindow>& window) const {
+Location Relocaliser::locateTogether(std::vector<LocalScan> scans, const std::optional<SearchWindow>& window) const {
   const Query query = queryOf(std::move(scans));
   const SearchWindow searched = window ? *window : SearchWindow::everywhere(*pyramid_, 0);
   auto found = candidates(query, searched, options_.min_share_of_best, options_.max_candidates);

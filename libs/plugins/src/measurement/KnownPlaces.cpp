@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "../PlanarMotion.h"
@@ -51,7 +52,9 @@ const matching::Relocaliser& KnownPlaces::relocaliser() const {
       auto seen = beamsInBase(map_.keyFrame(places_[i].sight.frame), labels_[i]);
       scans.push_back({places_[i].map_from_base + seen.local_from_sensor, std::move(seen.scan)});
     }
-    relocaliser_ = std::make_unique<const matching::Relocaliser>(std::move(scans), matcher_);
+    matching::RelocaliserOptions options;
+    options.poor = -std::numeric_limits<double>::infinity();  // no second, wider search: there will be better scans
+    relocaliser_ = std::make_unique<const matching::Relocaliser>(std::move(scans), matcher_, options);
   });
   return *relocaliser_;
 }

@@ -26,6 +26,8 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
           .number("lost_way_m", &Options::lost_way, base::Range::notNegative(),
                   "A session that continues a map and was not joined on this way is sought in the whole map; at once "
                   "if its start is vaguer than the windows.")
+          .number("join_way_m", &Options::join_way, base::Range::notNegative(),
+                  "Where much of the map is alike, what such a session saw on this way must fit before it is joined.")
           .number("known_sigma_m", &Options::known_sigma, base::Range::notNegative(),
                   "Where the estimate is as good as this and the next, no closure is sought: it would tell little.")
           .number("known_sigma_deg", &Options::known_angle_sigma, base::Range::notNegative(),

@@ -1,4 +1,5 @@
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/mapper/PoseFactors.h>
 #include <omnimapper/plugins/LoopClosurePlugin.h>
 #include <omnimapper/plugins/ScanInBase.h>
 
@@ -82,21 +83,28 @@ std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& 
   return static_cast<std::size_t>(place - history.begin());
 }
 
-// Ever more rarely: a session of another place is never joined.
+// Ever more rarely, for a session of another place is never joined; often again once it was moved to where it was
+// found.
 void LoopClosurePlugin::seekInMap(const std::string& label, const History& history, std::size_t index,
                                   const mapper::State& state) {
-  constexpr double kSpacing = 3, kShareOfWay = 0.05;  // [m] [1] of the session's way, from one search to the next
-  constexpr double kSought = 4;                       // [m] of the way whose scans are sought together
+  constexpr double kSpacing = 3,
+                   kShareOfWay = 0.1;  // [m] [1] of the way without an answer, from one search to the next
+  constexpr double kMoved = 1;         // [m]
   const auto& session = state.map.sessions.back();
   const auto& sight = history[index].sight;
   if (!places_ || session.joined || sight.frame.session != session.number) return;
   const auto first = std::find_if(history.begin(), history.end(),
                                   [&](const Seen& seen) { return seen.sight.frame.session == session.number; });
   const double way = sight.way - first->sight.way;
-  const auto [last, is_first] = sought_in_map_.emplace(label, way);
-  if (!is_first && way - last->second < std::max(kSpacing, kShareOfWay * way)) return;
-  last->second = way;
-  map_searches_.emplace_back(options_, context_, matcher_, places_, label, sights(history, index, kSought, 0), way);
+  const auto begun_at = mapper::poseOf(state.graph, session.anchor).translation();
+  const auto [entry, is_first] = sought_in_map_.try_emplace(label, Sought{way, way, begun_at});
+  Sought& last = entry->second;
+  if ((begun_at - last.begun_at).norm() > kMoved) last.answered = last.way;
+  last.begun_at = begun_at;
+  if (!is_first && way - last.way < std::max(kSpacing, kShareOfWay * (way - last.answered))) return;
+  last.way = way;
+  map_searches_.emplace_back(options_, context_, matcher_, places_, label,
+                             sights(history, index, options_.join_way + kSpacing, 0), way);
 }
 
 void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view) {

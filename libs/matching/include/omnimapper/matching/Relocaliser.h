@@ -79,7 +79,7 @@ class Relocaliser {
   /// In the whole map, or in the window if it is given. Points that are not finite are left out.
   Location locate(const BeamScan& scan, const std::optional<SearchWindow>& window = std::nullopt) const;
   /// The same for several scans: what looks alike from one spot seldom does along a way.
-  Location locate(std::vector<LocalScan> scans, const std::optional<SearchWindow>& window = std::nullopt) const;
+  Location locateTogether(std::vector<LocalScan> scans, const std::optional<SearchWindow>& window = std::nullopt) const;
 
  private:
   struct Query {

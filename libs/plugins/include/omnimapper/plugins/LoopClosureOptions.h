@@ -17,6 +17,7 @@ struct LoopClosureOptions {
   double max_window = 10.0;                                               ///< [m]
   double max_window_angle = 60.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double lost_way = 15.0;                                                 ///< [m]
+  double join_way = 15.0;                                                 ///< [m]
   double known_sigma = 0.05;                                              ///< [m]
   double known_angle_sigma = 1.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double min_overlap = 0.75;

@@ -36,6 +36,11 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
     LoopSearch::Sight sight;
     base::Stamp stamp;
   };
+  /// The last search in all of the saved map.
+  struct Sought {
+    double way, answered;           // [m] of the session, then and when an answer last moved it
+    mrpt::math::TPoint3D begun_at;  // where the session began, as it was then
+  };
   using History = std::vector<Seen>;  // in order of session, then stamp
   using Scan = std::shared_ptr<const matching::PlanarScan>;
 
@@ -56,7 +61,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   std::map<std::string, double> searched_;       // [m] way of the last search, by label
   std::vector<LoopSearch> searches_;             // of the key frame being measured
   std::shared_ptr<const KnownPlaces> places_;    // of a map that is continued
-  std::map<std::string, double> sought_in_map_;  // [m] way of the last search in all of it, by label
+  std::map<std::string, Sought> sought_in_map_;  // by label
   std::vector<MapSearch> map_searches_;          // of the key frame being measured
 };
 
