@@ -110,10 +110,18 @@ void printRow(const std::string& name, const std::vector<Outcome>& outcomes) {
   std::fflush(stdout);
 }
 
+// [m] [rad] by which the beams moved a candidate from where the matcher had it.
+std::pair<double, double> settled(const matching::LocationCandidate& candidate) {
+  const auto& matched = candidate.match.reference_from_scan;
+  const auto& pose = candidate.map_from_sensor;
+  return {std::hypot(pose.x - matched.x, pose.y - matched.y),
+          std::abs(std::remainder(pose.phi - matched.phi, 2 * kPi))};
+}
+
 void writeCsv(const std::string& path, const std::vector<Outcome>& outcomes, int every) {
   std::ofstream csv(path);
   csv << "scan,answer,rank_of_truth,distance_m,turn_deg,milliseconds,candidates (probability log_likelihood score "
-         "overlap wall_distance_m x y yaw)\n";
+         "overlap wall_distance_m x y yaw settled_m settled_rad)\n";
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     const Outcome& outcome = outcomes[k];
     csv << k * every << "," << static_cast<int>(outcome.location.answer) << "," << outcome.rank << ","
@@ -121,7 +129,7 @@ void writeCsv(const std::string& path, const std::vector<Outcome>& outcomes, int
     for (const auto& c : outcome.location.candidates) {
       csv << "," << c.probability << " " << c.log_likelihood << " " << c.score << " " << c.match.overlap << " "
           << c.match.wall_distance << " " << c.map_from_sensor.x << " " << c.map_from_sensor.y << " "
-          << c.map_from_sensor.phi;
+          << c.map_from_sensor.phi << " " << settled(c).first << " " << settled(c).second;
     }
     csv << "\n";
   }

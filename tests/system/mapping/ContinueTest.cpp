@@ -91,6 +91,15 @@ TEST_F(Continue, TheRingCutInTwoIsTheMapOfTheRingInOnePiece) {
   EXPECT_LT(apart, 0.02);
 }
 
+TEST_F(Continue, ASessionOfWhichNobodyKnowsWhereItBeginsIsFoundAndJoined) {
+  const auto ended = goOn(file("first/map.omnimap"), file("anywhere"), {"--set", "session.start=anywhere"});
+  ASSERT_TRUE(endedWith(ExitCode::ok, ended));
+  EXPECT_NE(ended.out.find("session 1 was joined at key frame 1:"), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.err, "") << "nothing to warn of";
+  EXPECT_LT(distanceBetween(loadTrajectory(file("anywhere")), loadTrajectory(file("whole"))), 0.03);
+  EXPECT_NE(readFile(file("anywhere/report.html")).find("relocalisation"), std::string::npos);
+}
+
 TEST_F(Continue, EveryOutputHasBothSessions) {
   EXPECT_EQ(filesIn(file("both")), allOutputs());
   const auto summary = loadSummary(file("both"));
