@@ -90,9 +90,10 @@ void LoopClosurePlugin::seekInMap(const std::string& label, const History& histo
   constexpr double kSpacing = 3,
                    kShareOfWay = 0.1;  // [m] [1] of the way without an answer, from one search to the next
   constexpr double kMoved = 1;         // [m]
+  if (!places_) return;
   const auto& session = state.map.sessions.back();
   const auto& sight = history[index].sight;
-  if (!places_ || session.joined || sight.frame.session != session.number) return;
+  if (session.joined || sight.frame.session != session.number) return;
   const auto first = std::find_if(history.begin(), history.end(),
                                   [&](const Seen& seen) { return seen.sight.frame.session == session.number; });
   const double way = sight.way - first->sight.way;
@@ -115,6 +116,7 @@ void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view
       remember(frame, dynamic_cast<const PreparedScan&>(*prepared).scan, view, histories_[observation->sensorLabel]);
     }
   }
+  if (view.map.key_frames.empty()) return;
   std::map<std::string, std::vector<LoopSearch::Sight>> sights;
   for (const auto& [label, history] : histories_) {
     for (const auto& seen : history) sights[label].push_back(seen.sight);

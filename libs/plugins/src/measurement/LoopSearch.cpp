@@ -90,6 +90,14 @@ std::vector<TPose2D> LoopSearch::starts(const matching::PlanarScan& local, const
   return found;
 }
 
+namespace {
+// Whether one of them is of the newest session, which nothing ties to the other's.
+bool isApart(base::KeyFrameId place, base::KeyFrameId newest, const map::Map& map) {
+  if (map.sessions.empty() || map.sessions.back().joined) return false;
+  return newest.session == map.sessions.back().number && place.session != newest.session;
+}
+}  // namespace
+
 bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper::Batch& batch) const {
   const auto& frame = state.map.keyFrame(newest_.back().frame);
   const auto& centre = state.map.keyFrame(place.centre.frame);
@@ -98,9 +106,7 @@ bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   const double apart = std::hypot(guess.x, guess.y);
   if (apart > options_.radius + doubt.position) return false;
   // In a window smaller than the doubt a wrong place would fit as well: that is for MapSearch.
-  const auto& session = state.map.sessions.back();
-  const bool is_apart = !session.joined && centre.id.session != session.number && frame.id.session == session.number;
-  if (is_apart && doubt.position > options_.max_window) return false;
+  if (isApart(centre.id, frame.id, state.map) && doubt.position > options_.max_window) return false;
   // A closure that tells what the map knows as well only makes every solve dearer.
   if (doubt.position < kSigmas * options_.known_sigma && doubt.yaw < kSigmas * options_.known_angle_sigma) return false;
 
