@@ -19,7 +19,8 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
       "Maps a robot's log: reads rawlogs, configured by an INI file, and leaves map, pictures and report in a folder.\n"
       "Example: omnimapper-graphslam -i ini/laser2d.ini -r office.rawlog -o out/office\n"
       "Check:   omnimapper-graphslam --check office.rawlog\n"
-      "Go on:   omnimapper-graphslam -i ini/laser2d.ini -r next_day.rawlog --continue out/office -o out/both");
+      "Go on:   omnimapper-graphslam -i ini/laser2d.ini -r next_day.rawlog --continue out/office -o out/both\n"
+      "Locate:  omnimapper-graphslam -i ini/laser2d.ini -r next_day.rawlog --localize out/office -o out/located");
   app.add_option("-i,--ini", arguments.inis,
                  "INI file: which plugins, with which options; a further one counts over it");
   app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
@@ -27,6 +28,8 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--check", arguments.checked_logs,
                  "judge a log, map nothing: what is wrong, what to set; -o keeps it");
   app.add_option("--continue", arguments.run.continue_map, "map (or its folder) that the logs go on from: [session]");
+  app.add_option("--localize", arguments.run.localize_map,
+                 "map (or its folder) that stays as it is: only where the robot is in it is sought: [session]");
   app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
   app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the map does not depend on them")
       ->check(CLI::Range(1, 256));

@@ -30,11 +30,13 @@ void flood(const Graph& graph, std::vector<VariableId> open, std::unordered_set<
 void checkAnchored(const Graph& graph) {
   std::unordered_set<VariableId> reached;
   std::vector<VariableId> anchors;
-  for (const auto& [id, record] : graph.variables())
-    if (record.fixed && reached.insert(id).second) anchors.push_back(id);
-  for (const auto& [id, record] : graph.factors())
-    if (record.weight > 0 && record.variables.size() == 1 && reached.insert(record.variables[0]).second)
-      anchors.push_back(record.variables[0]);
+  for (const auto& [id, record] : graph.factors()) {
+    if (record.weight == 0) continue;
+    for (const VariableId variable : record.variables) {
+      const bool is_held = record.variables.size() == 1 || graph.variable(variable).fixed;
+      if (is_held && reached.insert(variable).second) anchors.push_back(variable);
+    }
+  }
   flood(graph, std::move(anchors), reached);
   for (const auto& [id, record] : graph.factors())
     if (record.weight > 0 && reached.count(record.variables[0]) == 0)

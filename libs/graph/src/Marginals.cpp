@@ -2,7 +2,9 @@
 
 #include <omnimapper/base/Error.h>
 
+#include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 #include "Anchors.h"
 #include "NormalEquations.h"
@@ -12,19 +14,23 @@ namespace omnimapper::graph {
 
 struct Marginals::State {
   struct Span {
-    int offset;  // in the information matrix, -1 for a fixed variable
+    int offset;  // in the information matrix, -1 for a fixed one
     int size;
   };
-  std::unordered_map<base::VariableId, Span> spans;
-  int rows = 0;  // of the information matrix
+  std::unordered_map<base::VariableId, Span> spans;     // of those that are not fixed
+  std::vector<std::pair<base::VariableId, int>> fixed;  // with their sizes, in the order of ids
+  int rows = 0;                                         // of the information matrix
   std::unique_ptr<SparseCholesky> cholesky;
 
   Span span(base::VariableId id) const {
     const auto found = spans.find(id);
-    if (found == spans.end())
+    if (found != spans.end()) return found->second;
+    const auto held = std::lower_bound(fixed.begin(), fixed.end(), id,
+                                       [](const auto& one, base::VariableId wanted) { return one.first < wanted; });
+    if (held == fixed.end() || held->first != id)
       throw base::Error(base::ExitCode::internal, "marginals: variable " + toString(id) +
                                                       " is bound by no factor of positive weight, or not here");
-    return found->second;
+    return {-1, held->second};
   }
   /// The half-solved columns of a variable, none for a fixed one.
   std::vector<SparseVector> halves(Span span) const {
@@ -63,8 +69,14 @@ Marginals::Marginals(const Graph& graph) : state_(std::make_unique<State>()) {
   checkAnchored(graph);
   NormalEquations equations(graph);
   equations.linearise(equations.values(graph));
-  for (const auto& [id, record] : graph.variables())
-    if (equations.contains(id)) state_->spans[id] = {equations.offset(id), record.kind->tangentSize()};
+  for (const auto& [id, record] : graph.variables()) {
+    const int size = record.kind->tangentSize();
+    if (record.fixed) {
+      state_->fixed.emplace_back(id, size);
+    } else if (equations.contains(id)) {
+      state_->spans[id] = {equations.offset(id), size};
+    }
+  }
   state_->rows = equations.information().size;
   if (state_->rows == 0) return;
   state_->cholesky = std::make_unique<SparseCholesky>(equations.information(), equations.groups());

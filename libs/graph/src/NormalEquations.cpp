@@ -41,11 +41,16 @@ NormalEquations::NormalEquations(const Graph& graph) {
 }
 
 void NormalEquations::addPlaces(const Graph& graph) {
+  // By the factors: of the variables there may be many that nothing binds any more.
+  std::vector<base::VariableId> bound;
+  for (const auto& [id, record] : graph.factors()) {
+    if (record.weight > 0) bound.insert(bound.end(), record.variables.begin(), record.variables.end());
+  }
+  std::sort(bound.begin(), bound.end());
+  bound.erase(std::unique(bound.begin(), bound.end()), bound.end());
   int rows = 0;
-  for (const auto& [id, record] : graph.variables()) {
-    const bool bound = std::any_of(record.factors.begin(), record.factors.end(),
-                                   [&](base::FactorId factor) { return graph.factor(factor).weight > 0; });
-    if (!bound) continue;
+  for (const base::VariableId id : bound) {
+    const VariableRecord& record = graph.variable(id);
     Place place{id, record.kind.get(), value_size_, -1, -1};
     value_size_ += place.kind->ambientSize();
     if (!record.fixed) {

@@ -63,6 +63,19 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
 }
 
 void Engine::continueFrom(SavedMap saved, const SessionStart& start) {
+  takeUp(std::move(saved), start);
+  restorePlugins();
+}
+
+void Engine::localizeIn(SavedMap saved, const SessionStart& start, int key_frames) {
+  takeUp(std::move(saved), start);
+  window_.emplace(settings_.engine.motion, static_cast<std::size_t>(key_frames), map_, graph_);
+  window_->holdMap();
+  estimator_.hold(window_->held());
+  restorePlugins();
+}
+
+void Engine::takeUp(SavedMap saved, const SessionStart& start) {
   map::Session session = map_.sessions.back();
   map_ = std::move(saved.map);
   graph_ = std::move(saved.graph);
@@ -72,6 +85,9 @@ void Engine::continueFrom(SavedMap saved, const SessionStart& start) {
   graph_.setSession(session.number);
   estimator_.takeUp();
   chain_.beginSession(session, start, !absoluteOwners().empty());
+}
+
+void Engine::restorePlugins() {
   for (auto& [section, plugin] : plugins_.measurement) {
     const auto found = std::find_if(sections_.begin(), sections_.end(), [&name = section](const auto& other) {
       return other.name == kPluginSectionPrefix + name;
@@ -218,6 +234,7 @@ void Engine::process(Moment& moment) {
   const auto perceived = gather(moment, place->id);
   measure(place->id, perceived);
   commit(place->id);
+  if (window_ && place->is_new && !place->after) noteFix(place->id);
   forget();
   const double plugins = busy_.plugins - before.plugins, solve = busy_.solve - before.solve;
   const double waited = busy_.perception + busy_.jobs - before.perception - before.jobs;
@@ -232,6 +249,22 @@ void Engine::forget() {
   if (!kept) return;
   for (auto& [section, plugin] : plugins_.pose) plugin->forgetBefore(*kept);
   trigger_.forgetBefore(*kept);
+  if (window_) retire(*kept);
+}
+
+void Engine::retire(base::Stamp stamp) {
+  const auto retired = window_->retire(stamp);
+  for (const auto id : retired) {
+    chain_.retire(id);
+    for (auto& [section, plugin] : plugins_.measurement) plugin->retired(map_.keyFrame(id));
+  }
+  estimator_.hold(window_->held());
+}
+
+void Engine::noteFix(base::KeyFrameId id) {
+  const auto& frame = map_.keyFrame(id);
+  const auto covariance = view().covarianceBetween(map_.key_frames.front().id, id);
+  fixes_.push_back({id, frame.stamp, frame.map_from_base, covariance, map_.sessions.back().joined});
 }
 
 // The raw observations, then what the pool made of them, without what the key frame has already: a perceived log
@@ -287,7 +320,7 @@ void Engine::commit(base::KeyFrameId id) {
 void Engine::solveNow(const graph::SolveOptions& options) {
   const StopWatch watch;
   estimator_.solve(options);
-  markJoined(map_, graph_, absoluteOwners());
+  window_ ? markLocated(map_, graph_, absoluteOwners()) : markJoined(map_, graph_, absoluteOwners());
   busy_.solve += watch.seconds();
   times_.add("solve", watch.seconds());
   ++counts_.solves;
@@ -327,6 +360,7 @@ std::set<std::string> Engine::absoluteOwners() const {
 void Engine::writeOutputs() {
   std::optional<base::Error> failed;
   for (auto& [section, plugin] : plugins_.output) {
+    if (window_ && plugin->isOfMap()) continue;
     const StopWatch watch;
     try {
       plugin->finish(view());

@@ -26,7 +26,9 @@ void Estimator::applied(const Batch& batch, const AppliedBatch& ids) {
 bool Estimator::isDue() const {
   const auto& options = settings_.engine;
   const double since_solve = static_cast<double>(map_.key_frames.size() - key_frames_at_solve_);
-  const double growth = options.solve_growth * static_cast<double>(map_.key_frames.size());
+  // In a window every solve is cheap, and where the robot is counts now.
+  if (held_ > 0 && hypotheses_.anyFresh()) return true;
+  const double growth = options.solve_growth * static_cast<double>(map_.key_frames.size() - held_);
   if (!hypotheses_.anyFresh()) return since_solve >= std::max<double>(options.solve_every, growth);
   return since_solve >= std::max<double>(options.solve_after_closure, contradicted_ ? growth / 4 : growth);
 }
@@ -36,7 +38,7 @@ void Estimator::solve(graph::SolveOptions options) {
   options.stop = stop_;
   const double initial_cost = graph_.cost();
   hypotheses_.solve(graph_, options, map_, decisions_);
-  for (std::size_t i = 0; i < map_.key_frames.size(); ++i) {
+  for (std::size_t i = held_; i < map_.key_frames.size(); ++i) {
     auto& frame = map_.key_frames.edit(map_.key_frames[i].id);
     frame.map_from_base = poseOf(graph_, frame.pose);
   }

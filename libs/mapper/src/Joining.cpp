@@ -45,6 +45,18 @@ void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::st
   }
 }
 
+void markLocated(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute) {
+  auto& session = map.sessions.back();
+  for (const auto& [id, record] : graph.factors()) {
+    if (session.joined) return;
+    const bool ties = std::any_of(record.variables.begin(), record.variables.end(),
+                                  [&](base::VariableId other) { return other.session != session.number; });
+    if (record.weight <= 0 || (!ties && absolute.count(record.tags.owner) == 0)) continue;
+    session.joined = true;
+    session.joined_at = frameOf(record, session.number, map);
+  }
+}
+
 std::string joinedText(const map::Session& session) {
   const std::string name = "session " + std::to_string(session.number);
   if (!session.joined) return name + " was never joined";

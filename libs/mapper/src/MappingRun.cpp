@@ -16,6 +16,8 @@
 #include <set>
 #include <thread>
 
+#include "TakeUp.h"
+
 namespace omnimapper::mapper {
 
 namespace {
@@ -136,20 +138,6 @@ void warnOfNothingMeasured(const std::set<std::string>& measuring, Engine& engin
               std::string("they say; are the sensors blind? omnimapper-graphslam --check LOG tells"));
 }
 
-// What follows becomes a new session of a saved map.
-void continueMap(const std::string& path, const SessionOptions& session, const std::string& ini, Motion motion,
-                 Engine& engine) {
-  auto saved = readMap(path, registeredKinds());
-  if (saved.motion() != motion) {
-    const std::string of_map = saved.motion() == Motion::planar ? "planar" : "spatial";
-    throw base::Error(base::ExitCode::unreadable_input,
-                      path + ": the map is " + of_map + ", which [mapper] motion of " + ini +
-                          " is not: continue it with " + "motion = " + of_map + ", or map its log again");
-  }
-  const auto start = session.startOn(saved.map);
-  engine.continueFrom(std::move(saved), start);
-}
-
 // An empty map is not written: it would take the place of a good one.
 [[noreturn]] void failWithNothingToMap(const RunRequest& request, const std::string& ini, const RunResult& result,
                                        const std::vector<std::string>& unknown_labels) {
@@ -165,6 +153,14 @@ void continueMap(const std::string& path, const SessionOptions& session, const s
           "; nothing was written.\n" + labels + "What was read:\n" + result.source.text());
 }
 
+// The trajectory is written all the same: in the map's frame only by what [session] start says.
+[[noreturn]] void failWithNoPlace(const RunRequest& request, const RunResult& result) {
+  throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code,
+                    request.localize_map + ": the log was located nowhere in the map: give a better [session] start " +
+                        "(anywhere seeks the whole map), or was it made elsewhere? See the refused closures in " +
+                        request.output_folder + "/report.html");
+}
+
 RunResult resultOf(const View& view) {
   RunResult result;
   result.key_frames = view.map.key_frames.size();
@@ -174,6 +170,8 @@ RunResult resultOf(const View& view) {
     ++(decision.accepted ? result.closures : result.refused_closures);
   }
   result.sessions = view.map.sessions;
+  result.fixes = view.fixes.size();
+  for (const auto& fix : view.fixes) result.located += fix.located();
   const auto figures = map::sessionFigures(view.map);
   if (!figures.empty() && figures.back().number == result.sessions.back().number) {
     result.new_key_frames = figures.back().key_frames;
@@ -197,6 +195,7 @@ const FixedSections& fixedSections() {
 RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
                      const std::function<bool()>& stop) {
   const StopWatch watch;
+  checkRequest(request);
   const auto settings = EngineSettings::read(config);
   const auto& options = settings.engine;
   const auto perception = config.section("perception").read<PerceptionOptions>();
@@ -209,6 +208,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
 
   PluginContext context;
   context.motion = options.motion;
+  context.map_is_held = !request.localize_map.empty();
   context.output_folder = request.output_folder;
   context.title = titleOf(request.logs);
   context.config_text = config.text();
@@ -227,7 +227,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
     engine.warn(config.file() + ": no list of [mapper] or [perception] names the plugins " +
                 base::option_text::format(off) + ": they are switched off");
   }
-  if (!request.continue_map.empty()) continueMap(request.continue_map, session, config.file(), options.motion, engine);
+  takeUpMap(request, session, config.file(), options.motion, engine);
   const auto stop_opening = [&](double part) {
     progress.report(part, "checking the log");
     return stop();
@@ -248,7 +248,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   warnOfNothingMeasured(measuring, engine);
   auto result = resultOf(engine.view());
   warnOf(engine.view().counts, result.new_key_frames, engine);
-  warnOf(result.sessions.back(), engine);
+  if (!context.map_is_held) warnOf(result.sessions.back(), engine);
   result.warnings = engine.view().warnings;
   result.source = report;
   result.code = stopped ? base::ExitCode::interrupted : report.exitCode();
@@ -261,13 +261,19 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   engine.writeOutputs();
   if (failure) std::rethrow_exception(failure);
   if (failure_at_end) std::rethrow_exception(failure_at_end);
+  if (context.map_is_held && result.located == 0) failWithNoPlace(request, result);
   result.wall_seconds = watch.seconds();
   return result;
 }
 
 std::string toText(const RunResult& result, const std::string& output_folder) {
   std::string sessions;
-  if (result.sessions.size() > 1) {
+  if (result.fixes > 0) {
+    char located[128];
+    std::snprintf(located, sizeof located, "located           %.1f %% of %zu key frames\n",
+                  100.0 * static_cast<double>(result.located) / static_cast<double>(result.fixes), result.fixes);
+    sessions = located;
+  } else if (result.sessions.size() > 1) {
     const auto& session = result.sessions.back();
     sessions = "sessions          " + std::to_string(result.sessions.size()) + ", of " +
                std::to_string(result.new_key_frames) + " key frames the new one; " + joinedText(session) + "\n";

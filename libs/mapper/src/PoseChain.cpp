@@ -24,6 +24,12 @@ void PoseChain::beginSession(const map::Session& session, const std::optional<Se
   links_.clear();
   hold_.reset();
   held_.reset();
+  retired_.reset();
+}
+
+void PoseChain::retire(base::KeyFrameId id) {
+  links_.erase(id);
+  retired_ = id;
 }
 
 const map::KeyFrame* PoseChain::frameBefore(base::Stamp stamp) const {
@@ -53,6 +59,7 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
   const map::KeyFrame *before = frameBefore(stamp), *after = frameAfter(stamp);
   Place place{{}, true, {}, {}};
   if (after && after->stamp == stamp) return Place{after->id, false, {}, {}};
+  if (retired_ && (!before || before->stamp <= map_.keyFrame(*retired_).stamp)) return std::nullopt;
   Told to, from;
   if (before) {
     place.before = before->id;
@@ -184,6 +191,7 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
   std::size_t position = first ? map_.key_frames.position(first->id) : map_.key_frames.lowerBound(session(), begin);
   for (; position < map_.key_frames.size() && map_.key_frames[position].stamp < end; ++position) {
     const base::KeyFrameId id = map_.key_frames[position].id;
+    if (retired_ && map_.key_frames[position].stamp <= map_.keyFrame(*retired_).stamp) continue;
     if (position + 1 < map_.key_frames.size()) {
       const map::KeyFrame& next = map_.key_frames[position + 1];
       const auto told = motionBetween(map_.key_frames[position].stamp, next.stamp, true);

@@ -89,10 +89,11 @@ std::optional<Matrix6d> Uncertainty::between(const map::Map& map, const graph::G
 std::optional<Eigen::MatrixXd> Uncertainty::joint(const std::vector<base::VariableId>& ids) const {
   const bool all_known = solved_ && std::all_of(ids.begin(), ids.end(), [&](base::VariableId id) {
                            if (!solved_->graph.contains(id)) return false;
-                           const auto& factors = solved_->graph.factorsOf(id);
-                           return std::any_of(factors.begin(), factors.end(), [&](base::FactorId factor) {
-                             return solved_->graph.factor(factor).weight > 0;
-                           });
+                           const auto& variable = solved_->graph.variable(id);
+                           const auto& factors = variable.factors;
+                           return variable.fixed || std::any_of(factors.begin(), factors.end(), [&](auto factor) {
+                                    return solved_->graph.factor(factor).weight > 0;
+                                  });
                          });
   if (!all_known || !solved_->marginals()) return std::nullopt;
   return solved_->marginals()->jointCovariance(ids);

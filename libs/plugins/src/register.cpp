@@ -6,6 +6,7 @@
 #include <omnimapper/plugins/GridOutput.h>
 #include <omnimapper/plugins/LaserPointsPlugin.h>
 #include <omnimapper/plugins/LiveWindow.h>
+#include <omnimapper/plugins/LocalizationOutput.h>
 #include <omnimapper/plugins/LoopClosurePlugin.h>
 #include <omnimapper/plugins/MapOutput.h>
 #include <omnimapper/plugins/NoMotionPlugin.h>
@@ -35,6 +36,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(GraphOutputFactory));
   registerClass(CLASS_ID(GridOutputFactory));
   registerClass(CLASS_ID(LiveWindowFactory));
+  registerClass(CLASS_ID(LocalizationOutputFactory));
   registerClass(CLASS_ID(MapOutputFactory));
   registerClass(CLASS_ID(PointsOutputFactory));
   registerClass(CLASS_ID(ReportOutputFactory));

@@ -2,35 +2,22 @@
 // what is refused. Interrupted or killed, the old map stays whole.
 #include <mrpt/opengl/COpenGLScene.h>
 #include <omnimapper/eval/RelationError.h>
-#include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <signal.h>
 
 #include <chrono>
 #include <thread>
 
+#include "../CutLog.h"
 #include "../MapFolder.h"
 
 namespace {
 
 using namespace runs;
-using omnimapper::base::Stamp;
 using omnimapper::testing::Program;
 using omnimapper::testing::ScratchFolder;
 using omnimapper::testing::sharedData;
 using omnimapper::testing::SimulatedLogOptions;
-
-/// Writes the observations of a log before `cut` to one rawlog, the others to another.
-void cutLog(const std::string& log, Stamp cut, const std::string& first, const std::string& second) {
-  for (const bool early : {true, false}) {
-    omnimapper::source::RawlogSource source(log);
-    omnimapper::source::writeRawlog(early ? first : second, [&](omnimapper::source::RawlogWriter& writer) {
-      while (const auto observation = source.next()) {
-        if ((observation->timestamp < cut) == early) writer.add(*observation);
-      }
-    });
-  }
-}
 
 double distanceBetween(const omnimapper::eval::Trajectory& a, const omnimapper::eval::Trajectory& b) {
   return omnimapper::eval::absoluteTrajectoryError(a, b).translation.rmse;

@@ -55,7 +55,9 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   seekInMap(observed.observation.sensorLabel, history, index, view);
   const double way = history[index].sight.way;
   const auto [last, is_first] = searched_.emplace(observed.observation.sensorLabel, way);
-  if (!is_first && std::abs(way - last->second) < options_.spacing) return {};
+  // In a map that is held every one is sought: where the base is counts now, and costs the same always.
+  const bool is_soon = !is_first && std::abs(way - last->second) < options_.spacing;
+  if (is_soon && !context_.map_is_held) return {};
   auto places = loopPlaces(frame, history, index, view);
   if (!places.empty()) {
     last->second = way;
@@ -125,6 +127,15 @@ void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view
   if (!places->empty()) places_ = std::move(places);
 }
 
+void LoopClosurePlugin::retired(const map::KeyFrame& frame) {
+  for (auto& [label, history] : histories_) {
+    const auto seen = std::lower_bound(
+        history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
+        [](const Seen& one, const auto& wanted) { return std::tuple(one.sight.frame.session, one.stamp) < wanted; });
+    if (seen != history.end() && seen->sight.frame == frame.id) history.erase(seen);
+  }
+}
+
 mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, const mapper::View&) {
   mapper::FollowUp follow_up;
   for (auto& search : searches_) follow_up.jobs.push_back({"loop closure of " + toString(frame.id), std::move(search)});
@@ -158,6 +169,7 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t i = 0; i < index; ++i) {
     if (history[index].sight.way - history[i].sight.way < options_.min_way) break;
+    if (context_.map_is_held && history[i].sight.frame.session == frame.id.session) break;
     const auto& place = state.map.keyFrame(history[i].sight.frame).map_from_base;
     const double distance = (place.translation() - frame.map_from_base.translation()).norm();
     if (distance <= options_.radius + options_.max_window) near.emplace_back(distance, i);

@@ -108,7 +108,9 @@ bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   // In a window smaller than the doubt a wrong place would fit as well: that is for MapSearch.
   if (isApart(centre.id, frame.id, state.map) && doubt.position > options_.max_window) return false;
   // A closure that tells what the map knows as well only makes every solve dearer.
-  if (doubt.position < kSigmas * options_.known_sigma && doubt.yaw < kSigmas * options_.known_angle_sigma) return false;
+  const bool is_known =
+      doubt.position < kSigmas * options_.known_sigma && doubt.yaw < kSigmas * options_.known_angle_sigma;
+  if (is_known && !context_.map_is_held) return false;
 
   mapper::Decision decision;
   decision.stamp = frame.stamp;

@@ -1,9 +1,9 @@
-#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugins/ReportOutput.h>
 
 #include "MapPicture.h"
 #include "OutputFile.h"
 #include "ReportPage.h"
+#include "RunFigures.h"
 #include "ScanGrid.h"
 
 IMPLEMENTS_MRPT_OBJECT(ReportOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
@@ -27,7 +27,7 @@ ReportOutput::ReportOutput(const ReportOptions& options, const mapper::PluginCon
 }
 
 void ReportOutput::finish(const mapper::View& view) {
-  const auto trajectory = map::denseTrajectory(view.map);
+  const auto trajectory = trajectoryOf(view);
   const auto closures = closuresOf(view.map, view.decisions);
   ScanGridOptions grid_options;
   grid_options.resolution = options_.resolution;

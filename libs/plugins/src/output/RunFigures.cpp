@@ -12,6 +12,7 @@ RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPos
   RunFigures figures;
   figures.trajectory_poses = trajectory.size();
   for (const auto& session : map::sessionFigures(view.map)) {
+    if (view.map_is_held && session.number != view.map.sessions.back().number) continue;
     figures.log_seconds += session.seconds;
     figures.run_seconds = session.seconds;
     figures.way += session.way;
@@ -32,6 +33,15 @@ RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPos
   }
   for (const auto& [stage, total] : view.times.totals()) figures.wall_seconds += total.seconds;
   return figures;
+}
+
+std::vector<map::StampedPose> trajectoryOf(const mapper::View& view) {
+  auto trajectory = map::denseTrajectory(view.map);
+  if (!view.map_is_held) return trajectory;
+  const auto own = std::find_if(trajectory.begin(), trajectory.end(), [&](const map::StampedPose& pose) {
+    return pose.session == view.map.sessions.back().number;
+  });
+  return {own, trajectory.end()};
 }
 
 std::vector<ReasonCount> countReasons(const mapper::DecisionLog& decisions) {

@@ -22,6 +22,9 @@ struct RunFigures {
 };
 RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPose>& trajectory);
 
+/// The dense trajectory of the map, or of this run alone if it only localizes in one.
+std::vector<map::StampedPose> trajectoryOf(const mapper::View& view);
+
 /// How often each decision was made for each reason, by plugin, kind, accepted first, reason.
 struct ReasonCount {
   std::string plugin, kind;

@@ -2,6 +2,7 @@
 #include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugins/SummaryOutput.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "OutputFile.h"
@@ -97,7 +98,7 @@ Json sessionsOf(const map::Map& map) {
 }
 
 Json summaryOf(const mapper::View& view, const std::string& title) {
-  const auto trajectory = map::denseTrajectory(view.map);
+  const auto trajectory = trajectoryOf(view);
   const RunFigures figures = figuresOf(view, trajectory);
   Json counts = Json::object();
   for (const auto& [name, count] : namedCounts(view.counts)) counts[name] = count;
@@ -112,6 +113,11 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   summary["extent_m"] = {{"min", {figures.min_x, figures.min_y, figures.min_z}},
                          {"max", {figures.max_x, figures.max_y, figures.max_z}}};
   summary["sessions"] = sessionsOf(view.map);
+  if (view.map_is_held) {
+    const auto located =
+        std::count_if(view.fixes.begin(), view.fixes.end(), [](const auto& fix) { return fix.located(); });
+    summary["localization"] = {{"key_frames", view.fixes.size()}, {"located", located}};
+  }
   summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
   summary["counts"] = counts;
   summary["graph"] = graphOf(view);

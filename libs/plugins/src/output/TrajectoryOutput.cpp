@@ -4,6 +4,7 @@
 #include <omnimapper/plugins/TrajectoryOutput.h>
 
 #include "OutputFile.h"
+#include "RunFigures.h"
 
 IMPLEMENTS_MRPT_OBJECT(TrajectoryOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
 
@@ -21,10 +22,12 @@ TrajectoryOutput::TrajectoryOutput(const TrajectoryOptions& options, const mappe
 void TrajectoryOutput::finish(const mapper::View& view) {
   std::vector<map::StampedPose> trajectory;
   if (options_.key_frames_only) {
-    for (const auto& frame : view.map.key_frames)
+    for (const auto& frame : view.map.key_frames) {
+      if (view.map_is_held && frame.id.session != view.map.sessions.back().number) continue;
       trajectory.push_back({frame.stamp, frame.map_from_base, frame.id.session});
+    }
   } else {
-    trajectory = map::denseTrajectory(view.map);
+    trajectory = trajectoryOf(view);
   }
   std::string text;
   for (const auto& pose : trajectory) text += geometry::tumLine(pose.stamp, geometry::fromMrpt(pose.map_from_base));

@@ -23,6 +23,7 @@ enum class ExitCode : int {
   disk_full = 13,           ///< an output could not be written whole
   nothing_to_map = 14,      ///< no observation that any plugin wants
   doubtful_input = 15,      ///< --check: a log that is likely mapped wrong without the remedies it names
+  not_located = 16,         ///< --localize: the log was found nowhere in the map
   interrupted = 130,        ///< Ctrl-C: the map so far is written
 };
 

@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/Id.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -13,18 +14,22 @@
 namespace omnimapper::base {
 
 /// Things by their id. Look-up, insertion and removal take constant time; iteration is in the order of ids; an index is
-/// never given twice. A copy shares what it holds until one of the two changes it, chunk by chunk: copying costs a
-/// pointer for every 64 things. A copy may be read in another thread while the original changes, as long as the thread
-/// that changes it is the one that destroys the copy.
+/// never given twice, and where many were removed their room is free again. A copy shares what it holds until one of
+/// the two changes it, chunk by chunk: copying costs a pointer for every 64 things. A copy may be read in another
+/// thread while the original changes, as long as the thread that changes it is the one that destroys the copy.
 template <class IdType, class Value>
 class IdTable {
   static constexpr std::uint32_t kChunkSize = 64;
   using Chunk = std::array<std::optional<Value>, kChunkSize>;
   struct Session {
-    std::vector<std::shared_ptr<Chunk>> chunks;
+    std::vector<std::shared_ptr<Chunk>> chunks;  // null where all 64 are holes
     std::uint32_t next = 0;
-    const std::optional<Value>& at(std::uint32_t index) const {
-      return (*chunks[index / kChunkSize])[index % kChunkSize];
+    // Null if there is none.
+    const Value* at(std::uint32_t index) const {
+      const auto& chunk = chunks[index / kChunkSize];
+      if (!chunk) return nullptr;
+      const std::optional<Value>& value = (*chunk)[index % kChunkSize];
+      return value ? &*value : nullptr;
     }
   };
   using Sessions = std::map<std::uint16_t, Session>;
@@ -50,7 +55,10 @@ class IdTable {
     Iterator(Place session, Place end) : session_(session), end_(end) { skipHoles(); }
     void skipHoles() {
       while (session_ != end_) {
-        while (index_ < session_->second.next && !session_->second.at(index_)) ++index_;
+        const Session& session = session_->second;
+        while (index_ < session.next && !session.at(index_)) {
+          index_ = session.chunks[index_ / kChunkSize] ? index_ + 1 : (index_ / kChunkSize + 1) * kChunkSize;
+        }
         if (index_ < session_->second.next) return;
         index_ = 0;
         ++session_;
@@ -80,15 +88,18 @@ class IdTable {
   /// False, and nothing done, if there is no such id.
   bool erase(IdType id) {
     if (!find(id)) return false;
-    ownChunk(sessions_[id.session], id.index)[id.index % kChunkSize].reset();
+    Session& session = sessions_[id.session];
+    Chunk& chunk = ownChunk(session, id.index);
+    chunk[id.index % kChunkSize].reset();
+    const bool is_empty = std::none_of(chunk.begin(), chunk.end(), [](const auto& value) { return value.has_value(); });
+    if (is_empty) session.chunks[id.index / kChunkSize].reset();
     --size_;
     return true;
   }
   const Value* find(IdType id) const {
     const auto session = sessions_.find(id.session);
     if (session == sessions_.end() || id.index >= session->second.next) return nullptr;
-    const std::optional<Value>& value = session->second.at(id.index);
-    return value ? &*value : nullptr;
+    return session->second.at(id.index);
   }
   /// To change it: until the table is copied again. Null if there is no such id.
   Value* edit(IdType id) {
@@ -105,13 +116,14 @@ class IdTable {
   /// Leaves a hole where add() would have put something; how a table is rebuilt with the ids it had.
   std::uint32_t skip(std::uint16_t session) {
     Session& values = sessions_[session];
-    if (values.next % kChunkSize == 0) values.chunks.push_back(std::make_shared<Chunk>());
+    if (values.next % kChunkSize == 0) values.chunks.push_back(nullptr);
     return values.next++;
   }
 
  private:
   Chunk& ownChunk(Session& session, std::uint32_t index) {
     std::shared_ptr<Chunk>& chunk = session.chunks[index / kChunkSize];
+    if (!chunk) chunk = std::make_shared<Chunk>();
     if (chunk.use_count() > 1) chunk = std::make_shared<Chunk>(*chunk);
     return *chunk;
   }

@@ -12,6 +12,7 @@
 #include <omnimapper/mapper/ReleaseQueue.h>
 #include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/mapper/SensorPoses.h>
+#include <omnimapper/mapper/SlidingWindow.h>
 #include <omnimapper/mapper/Trigger.h>
 #include <omnimapper/mapper/View.h>
 #include <omnimapper/mapper/WorkerPool.h>
@@ -39,6 +40,9 @@ class Engine {
   /// Before the first observation: takes up a map as it was saved; what follows is a new session of it, which begins
   /// at `start`. Throws Error(unreadable_input) if a plugin cannot make use of its section.
   void continueFrom(SavedMap saved, const SessionStart& start);
+  /// As continueFrom(), but the map is held as it is: what follows is only localized in it, and no more than about
+  /// `key_frames` of it are kept free.
+  void localizeIn(SavedMap saved, const SessionStart& start, int key_frames);
   /// Takes one observation, in order of arrival, and works on whatever that releases. What cannot be used is counted.
   void add(const mrpt::obs::CObservation::Ptr& observation);
   /// The end of the log: everything still queued is worked off, jobs in order, and the graph is solved to the end.
@@ -61,7 +65,9 @@ class Engine {
             counts_,
             estimator_.solves(),
             warnings_,
-            sections_};
+            sections_,
+            window_.has_value(),
+            fixes_};
   }
 
  private:
@@ -84,11 +90,15 @@ class Engine {
   void processNext();
   void process(Moment& moment);
   void forget();
+  void retire(base::Stamp stamp);
+  void noteFix(base::KeyFrameId id);
   std::vector<Perceived> gather(Moment& moment, base::KeyFrameId id);
   void measure(base::KeyFrameId id, const std::vector<Perceived>& perceived);
   void commit(base::KeyFrameId id);
   void solveNow(const graph::SolveOptions& options);
   void collectSections();
+  void takeUp(SavedMap saved, const SessionStart& start);
+  void restorePlugins();
   std::set<std::string> absoluteOwners() const;
 
   /// Seconds in the engine's thread.
@@ -115,6 +125,8 @@ class Engine {
   std::vector<map::MapSection> sections_;
   std::string reference_sensor_;
   BusyTimes busy_;
+  std::optional<SlidingWindow> window_;  // of a run that localizes
+  std::vector<Fix> fixes_;
 
   Perception perception_;
   Committer committer_;

@@ -31,6 +31,8 @@ class Estimator {
     begin();
     key_frames_at_solve_ = map_.key_frames.size();
   }
+  /// The first so many key frames of the map are held, in a graph that binds them no more (SlidingWindow).
+  void hold(std::size_t key_frames) { held_ = key_frames; }
   /// Takes note of a batch that was just applied; its decisions are the last of the log.
   void applied(const Batch& batch, const AppliedBatch& ids);
   /// Moves one key frame to where all factors that bind it want it, all others held.
@@ -56,6 +58,7 @@ class Estimator {
   std::vector<SolveRecord> solves_;
   std::function<bool()> stop_;
   std::size_t key_frames_at_solve_ = 0;
+  std::size_t held_ = 0;       // key frames
   bool contradicted_ = false;  // by a hypothesis since the last solve
 };
 

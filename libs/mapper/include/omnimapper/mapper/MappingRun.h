@@ -21,6 +21,7 @@ struct RunRequest {
   std::string output_folder;
   std::vector<std::string> more_outputs;  ///< sections of outputs beside those of the INI, such as the live window
   std::string continue_map;               ///< map file that the logs are a new session of; empty: a new map
+  std::string localize_map;               ///< map file that the logs are only localized in, which stays as it is
   /// Workers for perception and jobs; the map does not depend on their number.
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   double speed = 0;  ///< times the log's own pace; 0: as fast as possible
@@ -33,6 +34,7 @@ struct RunResult {
   source::SourceReport source;
   std::size_t key_frames = 0, factors = 0;  ///< of the whole map
   std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;
+  std::size_t fixes = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
   std::vector<map::Session> sessions;  ///< of the whole map; the last is this run
   double log_seconds = 0;              ///< from first to last stamp
   double wall_seconds = 0;             ///< of the whole run

@@ -48,6 +48,8 @@ class MeasurementPlugin {
   /// by two. `before` or `after` is none at the ends.
   virtual void spliced(const map::KeyFrame& /*frame*/, std::optional<base::KeyFrameId> /*before*/,
                        std::optional<base::KeyFrameId> /*after*/) {}
+  /// A key frame left the window of a run that localizes: nothing may be measured between it and another any more.
+  virtual void retired(const map::KeyFrame& /*frame*/) {}
   /// After all batches of `frame` were applied, and after the solve if there was one.
   virtual FollowUp afterCommit(const map::KeyFrame& /*frame*/, const View& /*view*/) { return {}; }
 

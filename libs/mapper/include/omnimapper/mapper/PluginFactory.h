@@ -20,6 +20,7 @@ namespace omnimapper::mapper {
 struct PluginContext {
   std::string section;  ///< its section of the INI; owner of its factors and decisions
   Motion motion = Motion::planar;
+  bool map_is_held = false;   ///< the run localizes in a map that stands
   std::string output_folder;  ///< exists; empty in a run without outputs
   std::string title;          ///< of the run, for reports: the log's name
   std::string config_text;    ///< the INI of the run

@@ -43,6 +43,10 @@ class PoseChain {
   /// A source tells other than before of that span: what links the key frames there is made anew.
   void relink(base::Stamp begin, base::Stamp end);
 
+  /// That key frame of the session and those before it are held (SlidingWindow): nothing links them any more, and a
+  /// stamp before the next one has no place in the chain.
+  void retire(base::KeyFrameId id);
+
   /// Stamp of the session's newest key frame; none before the first.
   std::optional<base::Stamp> newest() const;
   /// Stamp of the session's last key frame that is not after `stamp`.
@@ -79,6 +83,7 @@ class PoseChain {
   // What holds the session's first pose: a factor, or that it is fixed.
   std::optional<base::FactorId> hold_;
   std::optional<base::VariableId> held_;
+  std::optional<base::KeyFrameId> retired_;  // the last one
 };
 
 }  // namespace omnimapper::mapper

@@ -2,6 +2,7 @@
 
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/mapper/DecisionLog.h>
+#include <omnimapper/mapper/Fix.h>
 #include <omnimapper/mapper/StageTimes.h>
 #include <omnimapper/mapper/State.h>
 
@@ -46,6 +47,10 @@ struct View : State {
   const std::vector<std::string>& warnings;
   /// What a map file holds beside graph, frames and landmarks: sections of plugins, and those that nobody here knows.
   const std::vector<map::MapSection>& sections;
+  /// The run only finds its way in a map that stands: what earlier sessions made is not its own.
+  bool map_is_held = false;
+  /// Of such a run, one for each key frame in the order they came.
+  const std::vector<Fix>& fixes;
 };
 
 }  // namespace omnimapper::mapper

@@ -15,6 +15,7 @@ struct GraphOutputOptions {
 class GraphOutput : public mapper::OutputPlugin {
  public:
   GraphOutput(const GraphOutputOptions& options, const mapper::PluginContext& context);
+  bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
 
  private:

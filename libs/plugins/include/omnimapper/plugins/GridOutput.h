@@ -22,6 +22,7 @@ struct GridOptions {
 class GridOutput : public mapper::OutputPlugin {
  public:
   GridOutput(const GridOptions& options, const mapper::PluginContext& context);
+  bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
 
  private:

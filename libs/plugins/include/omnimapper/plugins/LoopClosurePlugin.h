@@ -26,6 +26,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   std::unique_ptr<const mapper::Prepared> prepare(const mrpt::obs::CObservation& observation) const override;
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
+  void retired(const map::KeyFrame& frame) override;
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
   /// What earlier sessions saw: places to close loops with.
   void restore(const map::MapSection* saved, const mapper::View& view) override;

@@ -15,6 +15,7 @@ struct MapOutputOptions {
 class MapOutput : public mapper::OutputPlugin {
  public:
   MapOutput(const MapOutputOptions& options, const mapper::PluginContext& context);
+  bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
 
  private:

@@ -23,6 +23,7 @@ struct PointsOptions {
 class PointsOutput : public mapper::OutputPlugin {
  public:
   PointsOutput(const PointsOptions& options, const mapper::PluginContext& context);
+  bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
 
  private:

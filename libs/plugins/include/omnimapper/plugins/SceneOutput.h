@@ -21,6 +21,7 @@ struct SceneOptions {
 class SceneOutput : public mapper::OutputPlugin {
  public:
   SceneOutput(const SceneOptions& options, const mapper::PluginContext& context);
+  bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
 
  private:

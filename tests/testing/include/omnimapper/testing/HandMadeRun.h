@@ -19,10 +19,12 @@ struct HandMadeRun {
   std::vector<mapper::SolveRecord> solves;
   std::vector<std::string> warnings;
   std::vector<map::MapSection> sections;
+  bool map_is_held = false;
+  std::vector<mapper::Fix> fixes;
   mapper::Uncertainty uncertainty;  ///< of nothing, until a test sets it
 
   mapper::View view() const {
-    return {{map, graph, uncertainty}, decisions, times, counts, solves, warnings, sections};
+    return {{map, graph, uncertainty}, decisions, times, counts, solves, warnings, sections, map_is_held, fixes};
   }
 
   /// A key frame at that estimate, one second after the one before.

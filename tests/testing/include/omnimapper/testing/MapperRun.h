@@ -39,7 +39,7 @@ class = LoopClosurePlugin
 
 /// An engine made from the text of an INI as runMapping() makes it; `settings` are "section.key=value".
 inline std::unique_ptr<mapper::Engine> makeEngine(const std::string& ini, const std::vector<std::string>& settings = {},
-                                                  int threads = 1) {
+                                                  int threads = 1, bool map_is_held = false) {
   plugins::registerPlugins();
   auto config = base::Config::fromText(ini, "test.ini");
   for (const auto& setting : settings) config.set(setting);
@@ -48,6 +48,7 @@ inline std::unique_ptr<mapper::Engine> makeEngine(const std::string& ini, const 
   const auto perception = config.section("perception").read<mapper::PerceptionOptions>();
   mapper::PluginContext context;
   context.motion = options.motion;
+  context.map_is_held = map_is_held;
   auto plugins = mapper::makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, {}},
                                      config, context);
   return std::make_unique<mapper::Engine>(options_of_engine, "test", mapper::SensorPoses(options.sensors, config),
