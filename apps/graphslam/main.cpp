@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 
 #include "Arguments.h"
@@ -74,7 +75,11 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : exitCode(base::ExitCode::command_line);
   }
   try {
-    return run(arguments);
+    const int code = run(arguments);
+    if (!arguments.gui) return code;
+    // MRPT's window thread may still paint, and cannot be waited for: what it uses must not go before it does.
+    std::cout.flush();
+    std::_Exit(code);
   } catch (const base::Error& error) {
     std::cerr << "omnimapper-graphslam: " << error.what() << "\n";
     return exitCode(error.code());

@@ -56,7 +56,8 @@ TEST_F(Localize, GivesTheTrajectoryInTheMapsFrameWithItsAccuracyAndLeavesTheMapA
   for (const auto& pose : trajectory) {
     EXPECT_GT(pose.stamp, log_->begin() + omnimapper::base::durationFromSeconds(10)) << "of this log alone";
     const mrpt::poses::CPose3D map_from_base(log_->truthAt(pose.stamp) - log_->truthAt(log_->begin()));
-    const Eigen::Vector3d away = omnimapper::geometry::fromMrpt(map_from_base).translation - pose.world_from_body.translation;
+    const Eigen::Vector3d away =
+        omnimapper::geometry::fromMrpt(map_from_base).translation - pose.world_from_body.translation;
     EXPECT_LT(away.norm(), 0.25);
   }
   const auto summary = loadSummary(file("located"));
