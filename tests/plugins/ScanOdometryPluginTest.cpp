@@ -90,6 +90,48 @@ TEST(ScanOdometryPlugin, FollowsTheLaserWhateverTheWheelsSay) {
              "a jump of 5 m");
 }
 
+// A log that holds odometry twice, as CARMEN's do: each scan repeats what was last told, however old that is.
+TEST(ScanOdometryPlugin, OfTwoOdometriesThatWhichAgreesWithTheMatchesBridgesAGap) {
+  testing::SimulatedLogOptions options;
+  options.laps = 0.8;
+  const SimulatedLog log(options);
+  // 3 s without a scan, where the base turns.
+  const auto heading = [&](double seconds) {
+    return log.truthAt(log.begin() + base::durationFromSeconds(seconds)).phi();
+  };
+  double gap = 5;
+  while (std::abs(mrpt::math::wrapToPi(heading(gap + 3) - heading(gap))) < 45 * kDegree) gap += 0.5;
+  const auto in_gap = [&](base::Stamp stamp) {
+    const double seconds = base::secondsBetween(log.begin(), stamp);
+    return seconds > gap && seconds < gap + 3;
+  };
+  ScanOdometryPlugin plugin({}, {}, {});
+  std::vector<base::Stamp> scans;
+  CPose2D last_told;
+  for (const auto& observation : log.observations()) {
+    const bool is_scan = observation->sensorLabel == "laser";
+    if (is_scan && in_gap(observation->timestamp)) continue;
+    if (is_scan) {
+      CObservationOdometry stale;
+      stale.sensorLabel = "laser_ODOM";
+      stale.timestamp = observation->timestamp;
+      stale.odometry = last_told;
+      plugin.add(stale);
+      scans.push_back(observation->timestamp);
+    } else {
+      const auto& wheels = dynamic_cast<const CObservationOdometry&>(*observation);
+      if (!in_gap(wheels.timestamp)) last_told = wheels.odometry;
+    }
+    plugin.add(*observation);
+  }
+  plugin.processUntil(scans.back());
+  const auto told = plugin.between(scans.front(), scans.back());
+  ASSERT_TRUE(told) << "the gap was not bridged";
+  const CPose2D error = CPose2D(told->begin_from_end) - (log.truthAt(scans.back()) - log.truthAt(scans.front()));
+  EXPECT_LT(error.norm(), 0.3);
+  EXPECT_LT(std::abs(error.phi()), 2 * kDegree);
+}
+
 SimulatedLog halfALapWith(std::vector<testing::SimulatedLaser> lasers) {
   testing::SimulatedLogOptions options;
   options.laps = 0.5;

@@ -157,8 +157,13 @@ std::vector<LoopSearch::Sight> LoopClosurePlugin::sights(const History& history,
   std::size_t first = centre, end = centre + 1;
   while (first > 0 && belongs(first - 1)) --first;
   while (end < history.size() && belongs(end)) ++end;
+  // A base that turns on the spot sees the same again and again: of many sights some do.
+  constexpr std::size_t kMost = 200;
+  const std::size_t stride = 1 + (end - first) / kMost;
   std::vector<LoopSearch::Sight> all;
-  for (std::size_t i = first; i < end; ++i) all.push_back(history[i].sight);
+  for (std::size_t i = first; i < end; ++i) {
+    if (i == centre || (i - first) % stride == 0) all.push_back(history[i].sight);
+  }
   return all;
 }
 

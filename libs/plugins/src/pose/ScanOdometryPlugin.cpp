@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "../PlanarMotion.h"
 #include "../SharedSection.h"
@@ -36,12 +37,6 @@ double squared(double value) {
   return value * value;
 }
 
-OdometryOptions odometryOf(const ScanOdometryOptions& options) {
-  OdometryOptions odometry;
-  odometry.label = options.odometry_label;
-  return odometry;
-}
-
 }  // namespace
 
 const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
@@ -51,7 +46,7 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
       base::OptionTable<Options>()
           .text("label", &Options::label, "Sensor label of the laser; empty for the first that comes.")
           .text("odometry_label", &Options::odometry_label,
-                "Sensor label of the odometry that predicts; empty for the first that comes.")
+                "Sensor label of the odometry that predicts; empty for that which agrees best with the matches.")
           .number("sweep_s", &Options::sweep, zero_or_more,
                   "Time from the first beam of a scan, when it is stamped, to the last: the motion meanwhile is taken "
                   "out of it. 0: all at once.")
@@ -78,10 +73,7 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
 
 ScanOdometryPlugin::ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
                                        const perception::LaserPointsOptions& points)
-    : options_(options),
-      extractor_(points),
-      tracker_(options.tracker, matching::makeMatcher(matching)),
-      odometry_(odometryOf(options)) {}
+    : options_(options), extractor_(points), tracker_(options.tracker, matching::makeMatcher(matching)) {}
 
 bool ScanOdometryPlugin::isOurs(const mrpt::obs::CObservation2DRangeScan& scan) {
   if (label_ && scan.sensorLabel != *label_) return false;
@@ -114,8 +106,8 @@ std::vector<std::string> ScanOdometryPlugin::warnings() const {
 }
 
 ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation& observation) {
-  odometry_.add(observation);
   const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation);
+  if (!scan) addOdometry(observation);
   if (!scan || !isOurs(*scan)) return Taken::not_mine;
   if (!reached_ || scan->timestamp > *reached_) wait_.emplace(scan->timestamp, *scan);
   return Taken::taken;
@@ -133,7 +125,7 @@ void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
     reached_ = next.key();
     follow(next.mapped());
   }
-  odometry_.forgetBefore(last_.value_or(stamp));
+  for (auto& odometry : odometries_) odometry.source.forgetBefore(last_.value_or(stamp));
 }
 
 base::Stamp ScanOdometryPlugin::middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const {
@@ -148,20 +140,39 @@ matching::PlanarScan ScanOdometryPlugin::wallsOf(const mrpt::obs::CObservation2D
   return scanInBase(cloud, {scan.aperture, scan.rightToLeft, scaled(velocity, options_.sweep)});
 }
 
+void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation) {
+  const std::string& label = observation.sensorLabel;
+  if (!options_.odometry_label.empty() && label != options_.odometry_label) return;
+  for (auto& known : odometries_) {
+    if (known.label != label) continue;
+    known.source.add(observation);
+    return;
+  }
+  OdometryOptions odometry;
+  odometry.label = label;
+  OdometryPlugin source(odometry);
+  if (source.add(observation) != Taken::not_mine) odometries_.push_back({label, std::move(source), {}});
+}
+
+void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
+  constexpr double kMemory = 0.9;
+  if (!predictor.motion) return;
+  predictor.error = kMemory * predictor.error + (1 - kMemory) * sizeOf(*predictor.motion - motion);
+}
+
 void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) {
   if (!last_) return restart(scan);
   const base::Stamp stamp = middleOf(scan);
   const double seconds = base::secondsBetween(*last_, stamp);
   const auto guesses = this->guesses(stamp);
-  const bool is_gap = seconds > options_.max_gap;
   // Of stamps that nearly coincide the noise would be a speed.
   constexpr double kShortest = 0.02;  // [s]
   const bool is_long = seconds > kShortest;
-  const TPose2D velocity = is_long ? perSecond(guesses.front().reference_from_scan, seconds) : velocity_;
-  // Across a gap steady motion is no prediction.
-  const auto tracked = is_gap && !by_odometry_.motion ? std::nullopt : tracker_.track(wallsOf(scan, velocity), guesses);
+  const TPose2D velocity =
+      is_long && !guesses.empty() ? perSecond(guesses.front().reference_from_scan, seconds) : velocity_;
+  const auto tracked = tracker_.track(wallsOf(scan, velocity), guesses);
   if (!tracked) {
-    if (is_gap) restart(scan);
+    if (seconds > options_.max_gap) restart(scan);
     return;
   }
   const TPose2D& motion = tracked->match.reference_from_scan;
@@ -174,12 +185,10 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   }
   is_first_ = false;
   timeline_.insert(*last_, stamp, told);
-  for (auto* predictor : {&by_odometry_, &by_velocity_}) {
-    constexpr double kMemory = 0.9;
-    // Where a direction is open the match agrees with whatever it began with.
-    if (predictor->motion && !tracked->match.degenerate) {
-      predictor->error = kMemory * predictor->error + (1 - kMemory) * sizeOf(*predictor->motion - motion);
-    }
+  // Where a direction is open the match agrees with whatever it began with.
+  if (!tracked->match.degenerate) {
+    for (auto& odometry : odometries_) judge(odometry.predictor, motion);
+    judge(by_velocity_, motion);
   }
   if (is_long) velocity_ = perSecond(motion, seconds);
   last_ = stamp;
@@ -200,12 +209,19 @@ void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan& scan)
 // That which was nearer to the truth of late first; last that the base stands still.
 std::vector<matching::MatchGuess> ScanOdometryPlugin::guesses(base::Stamp stamp) {
   const double seconds = base::secondsBetween(*last_, stamp);
-  constexpr double kSlack = 1;  // [m] for stamps that are not exact
-  by_odometry_.motion.reset();
-  if (const auto told = odometry_.between(*last_, stamp)) {
+  constexpr double kSlack = 1;                // [m] for stamps that are not exact
+  std::vector<const Predictor*> by_odometry;  // the best of late first
+  for (auto& [label, source, predictor] : odometries_) {
+    predictor.motion.reset();
+    const auto told = source.between(*last_, stamp);
+    if (!told) continue;
     const TPose2D motion = planar(told->begin_from_end);
-    if (std::hypot(motion.x, motion.y) <= kSlack + options_.max_speed * seconds) by_odometry_.motion = motion;
+    if (std::hypot(motion.x, motion.y) > kSlack + options_.max_speed * seconds) continue;
+    predictor.motion = motion;
+    by_odometry.push_back(&predictor);
   }
+  std::stable_sort(by_odometry.begin(), by_odometry.end(),
+                   [](const Predictor* a, const Predictor* b) { return a->error < b->error; });
   by_velocity_.motion = scaled(velocity_, seconds);
   // What wheels and inertia tell counts where walls tell little, such as along a corridor. A base that goes on as it
   // did may have braked or turned.
@@ -220,8 +236,13 @@ std::vector<matching::MatchGuess> ScanOdometryPlugin::guesses(base::Stamp stamp)
   const double change = 0.5 * kAcceleration * squared(seconds),
                turn_change = 0.5 * kTurnAcceleration * squared(seconds);
   std::vector<matching::MatchGuess> all;
-  if (by_odometry_.motion) all.push_back(guess(*by_odometry_.motion, 0, 0));
-  const bool steady_is_better = !by_odometry_.motion || by_velocity_.error < 0.5 * by_odometry_.error;
+  for (const auto* predictor : by_odometry) all.push_back(guess(*predictor->motion, 0, 0));
+  // Across a gap neither steady motion nor rest is a prediction: a match that begins with one finds some wall or other.
+  if (seconds > options_.max_gap) {
+    by_velocity_.motion.reset();
+    return all;
+  }
+  const bool steady_is_better = by_odometry.empty() || by_velocity_.error < 0.5 * by_odometry.front()->error;
   all.insert(steady_is_better ? all.begin() : all.end(), guess(*by_velocity_.motion, change, turn_change));
   all.push_back({});
   return all;

@@ -18,7 +18,7 @@ namespace omnimapper::plugins {
 
 struct ScanOdometryOptions {
   std::string label;           ///< of the laser; empty: the first that comes
-  std::string odometry_label;  ///< of the odometry that predicts; empty: the first that comes
+  std::string odometry_label;  ///< of the odometry that predicts; empty: the best of all
   double sweep = 0;            ///< [s] from the first beam of a scan, when it is stamped, to the last
   double max_gap = 1.0;        ///< [s] between scans that are matched
   double max_speed = 10.0;     ///< [m/s] of a prediction
@@ -36,9 +36,9 @@ struct ScanOdometryOptions {
 
 /// Laser odometry as a continuous pose source (thesis 5.3.4): every scan of one laser, not those of key frames alone,
 /// is matched against a local map of the scans before it. Scans are worked on in the order of their stamps; one that
-/// comes after its time was worked on is left out. Wheel odometry, or steady motion where that is better or there is
-/// none, says where a match begins, and counts where the walls leave a direction open: beside this it should be a
-/// fallback.
+/// comes after its time was worked on is left out. Odometry, of several that which agreed best with the matches of
+/// late, or steady motion where that is better or there is none, says where a match begins, and counts where the walls
+/// leave a direction open: beside this it should be a fallback.
 ///
 /// Of a laser that takes its time (`sweep`) the same prediction tells how the base moved during a scan. The stamp is
 /// the instant of the first beam; the scan counts for the middle of the sweep, half of it later. Only what is matched
@@ -65,12 +65,19 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     std::optional<mrpt::math::TPose2D> motion;
     double error = 0;  // [m], a mean over some scans
   };
+  struct Odometry {
+    std::string label;
+    OdometryPlugin source;
+    Predictor predictor;
+  };
   /// Scans of a laser that were left out.
   struct Tilted {
     std::size_t scans = 0;
     double tilt = 0;  // [rad] the largest
   };
+  static void judge(Predictor& predictor, const mrpt::math::TPose2D& motion);
   bool isOurs(const mrpt::obs::CObservation2DRangeScan& scan);
+  void addOdometry(const mrpt::obs::CObservation& observation);
   void follow(const mrpt::obs::CObservation2DRangeScan& scan);
   base::Stamp middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
   /// In the base; `velocity` [m/s] [rad/s] during the scan.
@@ -83,7 +90,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   ScanOdometryOptions options_;
   perception::LaserPointsExtractor extractor_;
   matching::ScanTracker tracker_;
-  OdometryPlugin odometry_;
+  std::vector<Odometry> odometries_;                                // in the order they came
   std::optional<std::string> label_;                                // of the first that came
   std::map<std::string, Tilted> tilted_;                            // by label
   std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan> wait_;  // for their time
@@ -91,7 +98,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   std::optional<base::Stamp> last_;                                 // middle of the scan that was matched last
   bool is_first_ = true;                                            // and whether none was before it
   mrpt::math::TPose2D velocity_;                                    // [m/s] [rad/s] in the base
-  Predictor by_odometry_, by_velocity_;
+  Predictor by_velocity_;
   mapper::PoseTimeline timeline_;
 };
 
