@@ -173,8 +173,6 @@ void append(const PlanarScan& scan, const mrpt::math::TPose2D& target_from_scan,
   const auto c = static_cast<float>(std::cos(target_from_scan.phi)),
              s = static_cast<float>(std::sin(target_from_scan.phi));
   const auto tx = static_cast<float>(target_from_scan.x), ty = static_cast<float>(target_from_scan.y);
-  target.points.reserve(target.size() + scan.size());
-  target.normals.reserve(target.size() + scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const auto& p = scan.points[i];
     const auto& n = scan.normals[i];

@@ -119,11 +119,21 @@ TEST_F(Continue, IntoTheFolderOfTheOldMapItTakesItsPlace) {
   EXPECT_TRUE(readFile(folder + "/map.omnimap") == readFile(file("both/map.omnimap")));
 }
 
-TEST_F(Continue, ALogThatStartsFarFromWhereItIsSaidToStaysApartWithAWarning) {
-  const auto ended =
-      goOn(file("first"), file("apart"),
-           {"--set", "session.start=pose", "--set", "session.start_x_m=30", "--set", "session.start_y_m=40"});
-  EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"session 1 was never joined", "[session] start", "max_window_m"}));
+TEST_F(Continue, ALogThatStartsFarFromWhereItIsSaidToIsFoundInTheWholeMap) {
+  ASSERT_TRUE(endedWith(ExitCode::ok, goOn(file("first"), file("far"),
+                                           {"--set", "session.start=pose", "--set", "session.start_x_m=30", "--set",
+                                            "session.start_y_m=40"})));
+  EXPECT_TRUE(loadSummary(file("far"))["sessions"][1]["joined"]);
+  EXPECT_NEAR(errorAgainst(*log_, loadTrajectory(file("far"))), errorAgainst(*log_, loadTrajectory(file("whole"))),
+              0.02);
+}
+
+TEST_F(Continue, ALogOfAnotherBuildingStaysApartWithAWarning) {
+  SimulatedLogOptions options;
+  options.place = SimulatedLogOptions::Place::box;
+  SimulatedLog(options).writeRawlog(file("box.rawlog"));
+  const auto ended = map({file("box.rawlog")}, file("apart"), {"--continue", file("first")});
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"session 1 was never joined", "[session] start", "of another place"}));
   EXPECT_NE(ended.out.find("session 1 was never joined"), std::string::npos);
   EXPECT_FALSE(loadSummary(file("apart"))["sessions"][1]["joined"]);
   const auto before = loadMap(file("first")), after = loadMap(file("apart"));
