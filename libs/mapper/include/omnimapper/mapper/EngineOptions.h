@@ -25,7 +25,7 @@ struct EngineOptions {
   int job_delay = 5;             ///< key frames
   int solve_every = 100;         ///< key frames
   int solve_after_closure = 10;  ///< key frames
-  double solve_growth = 0.05;    ///< share of the key frames
+  double solve_growth = 0.1;     ///< share of the key frames
 
   static const base::OptionTable<EngineOptions>& table();
 };
