@@ -127,5 +127,55 @@ TEST_F(Localize, WhatComesTooLateForTheWindowIsRefusedAndCounted) {
   EXPECT_LT(errorOf(engine->view().fixes, log), 0.1);
 }
 
+// Neither scans nor closures: the map and the log have the earth in common.
+TEST_F(Localize, ByGpsAloneFromAStartThatIsFarOff) {
+  auto options = ring(1, 1);
+  options.lasers.clear();
+  options.gps.on = true;
+  const SimulatedLog mapped(options);
+  options.seed = 7;
+  const SimulatedLog log(options);
+  const std::string ini =
+      "[mapper]\npose_plugins = odometry\nmeasurement_plugins = gps\n[odometry]\nclass = OdometryPlugin\n[gps]\n"
+      "class = GpsPlugin\n";
+  const auto mapping = testing::makeEngine(ini);
+  testing::run(*mapping, mapped.observations());
+  const auto view = mapping->view();
+  mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "gps.omnimap");
+  auto map = readMap(*folder_ / "gps.omnimap", registeredKinds());
+  SessionOptions session;
+  session.start = SessionOptions::Start::pose;
+  session.start_x = 30, session.start_y = -20, session.start_yaw = 2;
+  const auto start = session.startOn(map.map);
+  const auto engine = testing::makeEngine(ini, {}, 1, true);
+  engine->localizeIn(std::move(map), start, kFreeKeyFrames);
+  testing::run(*engine, log.observations());
+  const auto& fixes = engine->view().fixes;
+  const auto located = std::count_if(fixes.begin(), fixes.end(), [](const Fix& fix) { return fix.located(); });
+  EXPECT_GT(static_cast<double>(located), 0.5 * static_cast<double>(fixes.size()));
+  EXPECT_LT(errorOf(fixes, log), 0.5);
+}
+
+// What nobody tied to the map lies anywhere: to be found in it says nothing.
+TEST_F(Localize, ASessionOfTheMapThatWasNeverJoinedIsNoPlaceToBeLocatedIn) {
+  SimulatedLogOptions elsewhere;
+  elsewhere.place = SimulatedLogOptions::Place::box;
+  const SimulatedLog box(elsewhere);
+  auto first = saved();
+  const auto begin = SessionOptions().startOn(first.map);
+  const auto both = testing::makeEngine(testing::kLaserIni);
+  both->continueFrom(std::move(first), begin);
+  testing::run(*both, box.observations());
+  ASSERT_FALSE(both->view().map.sessions.back().joined);
+  const auto view = both->view();
+  mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "apart.omnimap");
+  auto map = readMap(*folder_ / "apart.omnimap", registeredKinds());
+  SessionStart start{map.map.key_frames[saved().map.key_frames.size()].map_from_base, 1, 0.5};
+  const auto engine = testing::makeEngine(testing::kLaserIni, {}, 1, true);
+  engine->localizeIn(std::move(map), start, kFreeKeyFrames);
+  testing::run(*engine, box.observations());
+  for (const auto& fix : engine->view().fixes) EXPECT_FALSE(fix.located()) << fix.key_frame;
+}
+
 }  // namespace
 }  // namespace omnimapper::mapper

@@ -112,6 +112,17 @@ TEST(SlidingWindow, TheMapStaysInEveryBitAndTheGraphDoesNotGrow) {
   }
 }
 
+TEST(SlidingWindow, NothingRetiresUntilWhatJoinedTheSessionHasStood) {
+  Session session;
+  session.drive(15);
+  session.map_.sessions[1].joined_at = session.frame(kMapFrames + 8).id;
+  EXPECT_TRUE(session.window_.retire(kLater).empty()) << "6 key frames ago";
+  session.drive(5);
+  EXPECT_FALSE(session.window_.hasRetired());
+  EXPECT_EQ(session.window_.retire(kLater).size(), 17U);
+  EXPECT_TRUE(session.window_.hasRetired());
+}
+
 TEST(SlidingWindow, NothingRetiresBeforeTheSessionIsJoinedNorWhatIsTooNew) {
   Session session;
   session.map_.sessions[1].joined = false;

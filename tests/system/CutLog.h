@@ -4,7 +4,10 @@
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 
+#include <memory>
 #include <string>
+
+#include "MapFolder.h"
 
 namespace runs {
 
@@ -20,5 +23,30 @@ inline void cutLog(const std::string& log, omnimapper::base::Stamp cut, const st
     });
   }
 }
+
+/// Two laps of the simulated ring: ring.rawlog, its first lap a.rawlog and its second b.rawlog, and the map of the
+/// first in the folder first.
+class CutRing : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = std::make_unique<omnimapper::testing::ScratchFolder>();
+    omnimapper::testing::SimulatedLogOptions options;
+    options.laps = 2;
+    log_ = std::make_unique<SimulatedLog>(options);
+    log_->writeRawlog(file("ring.rawlog"));
+    const double seconds = omnimapper::base::secondsBetween(log_->begin(), log_->end());
+    cutLog(file("ring.rawlog"), log_->begin() + omnimapper::base::durationFromSeconds(seconds / 2), file("a.rawlog"),
+           file("b.rawlog"));
+    ASSERT_TRUE(endedWith(ExitCode::ok, map({file("a.rawlog")}, file("first"))));
+  }
+  static void TearDownTestSuite() {
+    scratch_.reset();
+    log_.reset();
+  }
+  static std::string file(const std::string& name) { return *scratch_ / name; }
+
+  static inline std::unique_ptr<omnimapper::testing::ScratchFolder> scratch_;
+  static inline std::unique_ptr<SimulatedLog> log_;
+};
 
 }  // namespace runs

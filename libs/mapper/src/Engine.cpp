@@ -69,10 +69,12 @@ void Engine::continueFrom(SavedMap saved, const SessionStart& start) {
 
 void Engine::localizeIn(SavedMap saved, const SessionStart& start, int key_frames) {
   takeUp(std::move(saved), start);
-  window_.emplace(settings_.engine.motion, static_cast<std::size_t>(key_frames), map_, graph_);
+  restorePlugins();
+  // What a job finds of a key frame must find it free.
+  const int free = std::max(key_frames, settings_.engine.job_delay + 1);
+  window_.emplace(settings_.engine.motion, static_cast<std::size_t>(free), map_, graph_);
   window_->holdMap();
   estimator_.hold(window_->held());
-  restorePlugins();
 }
 
 void Engine::takeUp(SavedMap saved, const SessionStart& start) {
@@ -320,7 +322,11 @@ void Engine::commit(base::KeyFrameId id) {
 void Engine::solveNow(const graph::SolveOptions& options) {
   const StopWatch watch;
   estimator_.solve(options);
-  window_ ? markLocated(map_, graph_, absoluteOwners()) : markJoined(map_, graph_, absoluteOwners());
+  if (!window_) {
+    markJoined(map_, graph_, absoluteOwners());
+  } else if (!window_->hasRetired()) {
+    markLocated(map_, graph_, absoluteOwners());
+  }
   busy_.solve += watch.seconds();
   times_.add("solve", watch.seconds());
   ++counts_.solves;

@@ -26,10 +26,15 @@ void Estimator::applied(const Batch& batch, const AppliedBatch& ids) {
 bool Estimator::isDue() const {
   const auto& options = settings_.engine;
   const double since_solve = static_cast<double>(map_.key_frames.size() - key_frames_at_solve_);
-  // In a window every solve is cheap, and where the robot is counts now; so does what may join a session to the map.
-  const bool is_urgent = held_ > 0 || (!map_.sessions.empty() && !map_.sessions.back().joined);
-  if (is_urgent && hypotheses_.anyFresh()) return true;
-  const double growth = options.solve_growth * static_cast<double>(map_.key_frames.size() - held_);
+  // In a window a solve is cheap, and where the robot is counts now; so does what may join a session to the map.
+  const bool is_joined = map_.sessions.empty() || map_.sessions.back().joined;
+  if (held_ > 0 && hypotheses_.anyFresh()) {
+    // Nothing leaves the window of a session that is not joined yet.
+    const double own = static_cast<double>(map_.key_frames.size() - held_);
+    return is_joined || since_solve >= options.solve_growth * own;
+  }
+  if (held_ > 0 || (!is_joined && hypotheses_.anyFresh())) return since_solve >= options.solve_after_closure;
+  const double growth = options.solve_growth * static_cast<double>(map_.key_frames.size());
   if (!hypotheses_.anyFresh()) return since_solve >= std::max<double>(options.solve_every, growth);
   return since_solve >= std::max<double>(options.solve_after_closure, contradicted_ ? growth / 4 : growth);
 }

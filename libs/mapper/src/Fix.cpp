@@ -4,11 +4,18 @@
 
 namespace omnimapper::mapper {
 
+std::optional<Eigen::Matrix3d> Fix::positionCovariance() const {
+  if (!covariance) return std::nullopt;
+  const Eigen::Matrix3d rotation = map_from_base.getRotationMatrix().asEigen();
+  return rotation * covariance->topLeftCorner<3, 3>() * rotation.transpose();
+}
+
 bool Fix::located() const {
-  if (!joined || !covariance) return false;
-  const Eigen::Matrix3d position = covariance->topLeftCorner<3, 3>();
+  const auto position = positionCovariance();
+  if (!joined || !position) return false;
+  const Eigen::Matrix2d on_floor = position->topLeftCorner<2, 2>();
   const double worst =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(position, Eigen::EigenvaluesOnly).eigenvalues()[2];
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(on_floor, Eigen::EigenvaluesOnly).eigenvalues()[1];
   return worst <= kLocatedSigma * kLocatedSigma;
 }
 

@@ -47,13 +47,19 @@ void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::st
 
 void markLocated(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute) {
   auto& session = map.sessions.back();
+  session.joined = false;
+  session.joined_at.reset();
+  const auto is_joined = [&](base::VariableId id) {
+    return id.session != session.number &&
+           std::any_of(map.sessions.begin(), map.sessions.end(),
+                       [&](const auto& other) { return other.number == id.session && other.joined; });
+  };
   for (const auto& [id, record] : graph.factors()) {
-    if (session.joined) return;
-    const bool ties = std::any_of(record.variables.begin(), record.variables.end(),
-                                  [&](base::VariableId other) { return other.session != session.number; });
+    const bool ties = std::any_of(record.variables.begin(), record.variables.end(), is_joined);
     if (record.weight <= 0 || (!ties && absolute.count(record.tags.owner) == 0)) continue;
     session.joined = true;
     session.joined_at = frameOf(record, session.number, map);
+    return;
   }
 }
 

@@ -245,10 +245,12 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   for (const auto& [section, plugin] : sources) {
     for (const auto& sentence : plugin->warnings()) engine.warn("[" + section + "] " + sentence);
   }
-  warnOfNothingMeasured(measuring, engine);
+  if (!context.map_is_held) warnOfNothingMeasured(measuring, engine);
   auto result = resultOf(engine.view());
   warnOf(engine.view().counts, result.new_key_frames, engine);
   if (!context.map_is_held) warnOf(result.sessions.back(), engine);
+  const bool is_lost = context.map_is_held && result.located == 0;
+  if (is_lost) engine.warn(request.localize_map + ": the log was located nowhere in the map");
   result.warnings = engine.view().warnings;
   result.source = report;
   result.code = stopped ? base::ExitCode::interrupted : report.exitCode();
@@ -261,7 +263,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   engine.writeOutputs();
   if (failure) std::rethrow_exception(failure);
   if (failure_at_end) std::rethrow_exception(failure_at_end);
-  if (context.map_is_held && result.located == 0) failWithNoPlace(request, result);
+  if (is_lost) failWithNoPlace(request, result);
   result.wall_seconds = watch.seconds();
   return result;
 }

@@ -1,3 +1,4 @@
+#include <omnimapper/geometry/Angle.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/PoseFactors.h>
 #include <omnimapper/mapper/SessionStart.h>
@@ -12,7 +13,7 @@ using mrpt::poses::CPose3D;
 
 SessionStart startAnywhere(const map::Map& map) {
   constexpr double kLeast = 10;  // [m]; the robot may stand beside a map that is a single spot
-  constexpr double kAnyHeading = 3.14159265358979323846;
+  constexpr double kAnyHeading = geometry::kPi;
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const auto& frame : map.key_frames) {
     const auto& pose = frame.map_from_base;
@@ -41,6 +42,15 @@ std::string whyFixed(const SessionPlace& place, const graph::Graph& graph, const
   if (session.joined) return name + " is joined to the map";
   if (!map.key_frames.find(place.frame)) return name + " has no key frame " + toString(place.frame);
   if (!graph.contains(session.anchor)) return name + " has no anchor";
+  for (const auto& frame : map.key_frames) {
+    if (frame.id.session != session.number) continue;
+    for (const auto id : graph.factorsOf(frame.pose)) {
+      const auto& record = graph.factor(id);
+      const bool ties = std::any_of(record.variables.begin(), record.variables.end(),
+                                    [&](base::VariableId other) { return other.session != session.number; });
+      if (ties && record.weight > 0) return name + " is tied to another, which would stay behind";
+    }
+  }
   return {};
 }
 

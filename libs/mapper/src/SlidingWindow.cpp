@@ -58,18 +58,25 @@ void SlidingWindow::holdMap() {
   std::vector<base::VariableId> variables;
   for (const auto& [id, record] : graph_.variables()) variables.push_back(id);
   for (const auto id : variables) graph_.setFixed(id, true);
-  held_ = map_.key_frames.size();
+  held_ = of_map_ = map_.key_frames.size();
+}
+
+bool SlidingWindow::mayRetire() const {
+  constexpr std::size_t kStanding = 10;  // key frames since that which joined the session
+  const auto& session = map_.sessions.back();
+  if (hasRetired()) return true;
+  if (!session.joined) return false;
+  if (!session.joined_at || !map_.key_frames.find(*session.joined_at)) return true;
+  return map_.key_frames.position(*session.joined_at) + kStanding < map_.key_frames.size();
 }
 
 std::vector<base::KeyFrameId> SlidingWindow::retire(base::Stamp stamp) {
   std::vector<base::KeyFrameId> retired;
-  const auto& session = map_.sessions.back();
-  while (session.joined && map_.key_frames.size() > held_ + size_ && map_.key_frames[held_ + 1].stamp < stamp) {
+  if (!mayRetire()) return retired;
+  while (map_.key_frames.size() > held_ + size_ && map_.key_frames[held_ + 1].stamp < stamp) {
+    if (!hasRetired()) retireAnchor();
     const auto id = map_.key_frames[held_].id;
-    const auto pose = map_.keyFrame(id).pose;
-    // The first pose hangs on where the session began.
-    if (!graph_.variable(session.anchor).fixed) retire(session.anchor, pose);
-    retire(pose, map_.key_frames[held_ + 1].pose);
+    retire(map_.keyFrame(id).pose, map_.key_frames[held_ + 1].pose);
     map_.key_frames.edit(id).observations.clear();
     retired.push_back(id);
     ++held_;
@@ -77,13 +84,29 @@ std::vector<base::KeyFrameId> SlidingWindow::retire(base::Stamp stamp) {
   return retired;
 }
 
+// The first pose that came hangs on where the session began.
+void SlidingWindow::retireAnchor() {
+  const auto anchor = map_.sessions.back().anchor;
+  const auto factors = graph_.factorsOf(anchor);
+  for (const auto id : factors) {
+    const auto variables = graph_.factor(id).variables;
+    for (const auto heir : variables) {
+      if (heir != anchor && !graph_.variable(heir).fixed) return retire(anchor, heir);
+    }
+  }
+}
+
 void SlidingWindow::retire(base::VariableId gone, base::VariableId heir) {
   constexpr char kOwner[] = "engine";
-  const auto belief = marginalOf(heir, gone, graph_);
+  // Where they leave a direction of it open: anywhere.
+  constexpr double kAnywhere = 1e3;
+  const auto belief =
+      marginalOf(heir, gone, graph_)
+          .value_or(Belief{poseOf(graph_, heir), kAnywhere * kAnywhere * geometry::Matrix6d::Identity()});
   const std::vector<base::FactorId> factors = graph_.factorsOf(gone);
   for (const auto id : factors) graph_.removeFactor(id);
   graph_.setFixed(gone, true);
-  if (belief) graph_.addFactor(posePrior(motion_, heir, belief->map_from_base, belief->covariance, kOwner));
+  graph_.addFactor(posePrior(motion_, heir, belief.map_from_base, belief.covariance, kOwner));
 }
 
 }  // namespace omnimapper::mapper

@@ -34,14 +34,10 @@ void checkRequest(const RunRequest& request) {
                       "--continue adds to a map, --localize leaves it as it is: give one of them");
   }
   std::error_code error;
-  const fs::path map = request.localize_map;
-  const fs::path folder = fs::is_directory(map, error) ? map
-                          : map.has_parent_path()      ? map.parent_path()
-                                                       : fs::path(".");
-  if (fs::equivalent(folder, request.output_folder, error)) {
+  if (fs::exists(fs::path(request.output_folder) / "map.omnimap", error)) {
     throw base::Error(base::ExitCode::command_line,
                       "-o " + request.output_folder +
-                          " is the folder of the map itself, whose trajectory and report would be lost: give another");
+                          " is the folder of a map, whose trajectory and report would be lost: give another");
   }
 }
 

@@ -14,7 +14,7 @@ void takeUpMap(const RunRequest& request, const SessionOptions& session, const s
                Engine& engine);
 
 /// Throws Error(command_line) if both are asked for, or if the outputs of a run that localizes would take the place of
-/// those of the map.
+/// those of a map.
 void checkRequest(const RunRequest& request);
 
 }  // namespace omnimapper::mapper

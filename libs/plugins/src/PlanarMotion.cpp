@@ -3,13 +3,16 @@
 #include <mrpt/poses/CPose2D.h>
 
 #include <array>
+#include <cmath>
 
 namespace omnimapper::plugins {
 
 using mrpt::math::TPose2D;
 
 TPose2D planar(const mrpt::poses::CPose3D& pose) {
-  return {pose.x(), pose.y(), pose.yaw()};
+  // Not yaw(): it is worked out when first asked for, and threads share poses.
+  const auto& rotation = pose.getRotationMatrix();
+  return {pose.x(), pose.y(), std::atan2(rotation(1, 0), rotation(0, 0))};
 }
 
 mapper::RelativeMotion planarMotion(const TPose2D& begin_from_end, const Eigen::Matrix3d& covariance) {

@@ -23,28 +23,15 @@ double distanceBetween(const omnimapper::eval::Trajectory& a, const omnimapper::
   return omnimapper::eval::absoluteTrajectoryError(a, b).translation.rmse;
 }
 
-// Two laps of the simulated ring, in one piece and cut after the first.
-class Continue : public ::testing::Test {
+// Of the ring also the map in one piece, whole, and that of the second lap going on from the first, both.
+class Continue : public CutRing {
  protected:
   static void SetUpTestSuite() {
-    scratch_ = std::make_unique<ScratchFolder>();
-    SimulatedLogOptions options;
-    options.laps = 2;
-    log_ = std::make_unique<SimulatedLog>(options);
-    log_->writeRawlog(file("ring.rawlog"));
-    const double seconds = omnimapper::base::secondsBetween(log_->begin(), log_->end());
-    cutLog(file("ring.rawlog"), log_->begin() + omnimapper::base::durationFromSeconds(seconds / 2), file("a.rawlog"),
-           file("b.rawlog"));
+    CutRing::SetUpTestSuite();
     ASSERT_TRUE(endedWith(ExitCode::ok, map({file("ring.rawlog")}, file("whole"))));
-    ASSERT_TRUE(endedWith(ExitCode::ok, map({file("a.rawlog")}, file("first"))));
     continued_ = map({file("b.rawlog")}, file("both"), {"--continue", file("first/map.omnimap")});
     ASSERT_TRUE(endedWith(ExitCode::ok, continued_));
   }
-  static void TearDownTestSuite() {
-    scratch_.reset();
-    log_.reset();
-  }
-  static std::string file(const std::string& name) { return *scratch_ / name; }
   static Ended goOn(const std::string& from, const std::string& to, Words more = {}) {
     more.insert(more.end(), {"--continue", from});
     return map({file("b.rawlog")}, to, more);
@@ -54,8 +41,6 @@ class Continue : public ::testing::Test {
     return file(name);
   }
 
-  static inline std::unique_ptr<ScratchFolder> scratch_;
-  static inline std::unique_ptr<SimulatedLog> log_;
   static inline Ended continued_;
 };
 

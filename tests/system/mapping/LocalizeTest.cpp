@@ -1,7 +1,5 @@
 // Logs that are localized in a map on the command line with --localize: what is written, what is refused, and that the
 // map stays as it is.
-#include <omnimapper/eval/RelationError.h>
-
 #include <sstream>
 
 #include "../CutLog.h"
@@ -10,37 +8,19 @@
 namespace {
 
 using namespace runs;
-using omnimapper::testing::ScratchFolder;
-using omnimapper::testing::sharedData;
 using omnimapper::testing::SimulatedLogOptions;
 
-// Two laps of the simulated ring; the map is of the first.
-class Localize : public ::testing::Test {
+class Localize : public CutRing {
  protected:
   static void SetUpTestSuite() {
-    scratch_ = std::make_unique<ScratchFolder>();
-    SimulatedLogOptions options;
-    options.laps = 2;
-    log_ = std::make_unique<SimulatedLog>(options);
-    log_->writeRawlog(file("ring.rawlog"));
-    const double seconds = omnimapper::base::secondsBetween(log_->begin(), log_->end());
-    cutLog(file("ring.rawlog"), log_->begin() + omnimapper::base::durationFromSeconds(seconds / 2), file("a.rawlog"),
-           file("b.rawlog"));
-    ASSERT_TRUE(endedWith(ExitCode::ok, map({file("a.rawlog")}, file("first"))));
+    CutRing::SetUpTestSuite();
     map_bytes_ = readFile(file("first/map.omnimap"));
   }
-  static void TearDownTestSuite() {
-    scratch_.reset();
-    log_.reset();
-  }
-  static std::string file(const std::string& name) { return *scratch_ / name; }
   static Ended localize(const std::string& to, Words more = {}) {
     more.insert(more.end(), {"--localize", file("first")});
     return map({file("b.rawlog")}, file(to), more);
   }
 
-  static inline std::unique_ptr<ScratchFolder> scratch_;
-  static inline std::unique_ptr<SimulatedLog> log_;
   static inline std::string map_bytes_;
 };
 
@@ -82,7 +62,7 @@ TEST_F(Localize, ALogOfAnotherBuildingIsLocatedNowhereWithAnExitCodeOfItsOwn) {
 }
 
 TEST_F(Localize, WhatWouldHarmTheMapIsRefused) {
-  EXPECT_TRUE(endedWith(ExitCode::command_line, localize("first"), {"folder of the map itself"}));
+  EXPECT_TRUE(endedWith(ExitCode::command_line, localize("first"), {"folder of a map"}));
   EXPECT_TRUE(endedWith(ExitCode::command_line, localize("none", {"--continue", file("first")}), {"give one of them"}));
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input,
                         map({file("b.rawlog")}, file("none"), {"--localize", file("absent.omnimap")}),

@@ -1,5 +1,6 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/base/Error.h>
 #include <omnimapper/plugins/KnownPlaces.h>
 
 #include <algorithm>
@@ -54,8 +55,13 @@ const matching::Relocaliser& KnownPlaces::relocaliser() const {
     }
     matching::RelocaliserOptions options;
     options.poor = -std::numeric_limits<double>::infinity();  // no second, wider search: there will be better scans
-    relocaliser_ = std::make_unique<const matching::Relocaliser>(std::move(scans), matcher_, options);
+    try {
+      relocaliser_ = std::make_unique<const matching::Relocaliser>(std::move(scans), matcher_, options);
+    } catch (const base::Error& error) {
+      too_large_ = error.what();  // what is thrown from here would be tried again by all who ask
+    }
   });
+  if (!relocaliser_) throw base::Error(base::ExitCode::out_of_range, too_large_);
   return *relocaliser_;
 }
 

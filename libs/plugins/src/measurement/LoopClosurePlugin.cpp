@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -111,7 +112,13 @@ void LoopClosurePlugin::seekInMap(const std::string& label, const History& histo
 }
 
 void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view) {
+  std::set<std::uint16_t> lying_apart;
+  for (const auto& session : view.map.sessions) {
+    if (!session.joined) lying_apart.insert(session.number);
+  }
   for (const auto& frame : view.map.key_frames) {
+    // In a map that is held it stays where nobody knows that it is.
+    if (context_.map_is_held && lying_apart.count(frame.id.session) > 0) continue;
     for (const auto& observation : frame.observations) {
       if (!wants(*observation)) continue;
       const auto prepared = prepare(*observation);

@@ -17,11 +17,9 @@ std::string lineOf(const mapper::Fix& fix) {
   std::string line = base::formatUnix(fix.stamp);
   for (const double metres : {pose.x(), pose.y(), pose.z()}) line += "," + base::fixed(metres, 4);
   for (const double angle : {pose.yaw(), pose.pitch(), pose.roll()}) line += "," + base::fixed(angle * kDegrees, 3);
-  if (fix.covariance) {
-    const Eigen::Matrix3d map_from_base = pose.getRotationMatrix().asEigen();
-    const Eigen::Matrix3d position = map_from_base * fix.covariance->topLeftCorner<3, 3>() * map_from_base.transpose();
-    line += "," + base::fixed(std::sqrt(position(0, 0)), 4) + "," + base::fixed(std::sqrt(position(1, 1)), 4) + "," +
-            base::fixed(std::sqrt((*fix.covariance)(5, 5)) * kDegrees, 3);
+  if (const auto position = fix.positionCovariance()) {
+    line += "," + base::fixed(std::sqrt((*position)(0, 0)), 4) + "," + base::fixed(std::sqrt((*position)(1, 1)), 4) +
+            "," + base::fixed(std::sqrt((*fix.covariance)(5, 5)) * kDegrees, 3);
   } else {
     line += ",,,";
   }

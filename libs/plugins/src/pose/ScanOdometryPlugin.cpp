@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "../PlanarMotion.h"
@@ -158,6 +159,7 @@ void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
   constexpr double kMemory = 0.9;
   if (!predictor.motion) return;
   predictor.error = kMemory * predictor.error + (1 - kMemory) * sizeOf(*predictor.motion - motion);
+  predictor.is_judged = true;
 }
 
 void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) {
@@ -177,7 +179,7 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   }
   const TPose2D& motion = tracked->match.reference_from_scan;
   const auto told = motionOf(tracked->match, guesses[tracked->guess]);
-  if (is_first_) {
+  if (is_first_ && is_long) {
     // From its stamp on, as the base went on.
     const auto before = mrpt::poses::CPose2D(scaled(motion, 0.5 * options_.sweep / seconds));
     timeline_.insert(*last_ - base::durationFromSeconds(0.5 * options_.sweep), *last_,
@@ -220,8 +222,9 @@ std::vector<matching::MatchGuess> ScanOdometryPlugin::guesses(base::Stamp stamp)
     predictor.motion = motion;
     by_odometry.push_back(&predictor);
   }
-  std::stable_sort(by_odometry.begin(), by_odometry.end(),
-                   [](const Predictor* a, const Predictor* b) { return a->error < b->error; });
+  std::stable_sort(by_odometry.begin(), by_odometry.end(), [](const Predictor* a, const Predictor* b) {
+    return std::tuple(!a->is_judged, a->error) < std::tuple(!b->is_judged, b->error);
+  });
   by_velocity_.motion = scaled(velocity_, seconds);
   // What wheels and inertia tell counts where walls tell little, such as along a corridor. A base that goes on as it
   // did may have braked or turned.

@@ -19,7 +19,10 @@ struct Fix {
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
   bool joined = false;  ///< something measured had tied the session to the map
 
-  /// Joined, and the position known to within kLocatedSigma [m] (standard deviation in the worst direction).
+  /// Of the position, along the map's axes [m^2]; none as above.
+  std::optional<Eigen::Matrix3d> positionCovariance() const;
+  /// Joined, and the position on the floor known to within kLocatedSigma [m] (standard deviation in the worst
+  /// direction): a laser in the plane never tells the height.
   bool located() const;
   static constexpr double kLocatedSigma = 0.5;
 };

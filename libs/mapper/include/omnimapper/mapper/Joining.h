@@ -12,7 +12,7 @@ namespace omnimapper::mapper {
 /// key frame was first to. What the plugins `absolute` measure ties a session to the map itself.
 void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
 
-/// The same of the last session of a map that is held: joined once anything tied it to another, and for good.
+/// The same of the last session of a map that is held: whether something ties it to a session that is joined.
 void markLocated(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
 
 /// "session 1 was joined at key frame 1:4", or that it was never joined.

@@ -43,6 +43,7 @@ class KnownPlaces {
   mapper::SessionStart anywhere_;
   mutable std::once_flag once_;
   mutable std::unique_ptr<const matching::Relocaliser> relocaliser_;
+  mutable std::string too_large_;
 };
 
 /// What a laser saw from a key frame, in its base; it stands where the sensor is and is turned as the base: the beams

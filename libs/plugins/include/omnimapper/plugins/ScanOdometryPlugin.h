@@ -64,6 +64,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   struct Predictor {
     std::optional<mrpt::math::TPose2D> motion;
     double error = 0;  // [m], a mean over some scans
+    bool is_judged = false;
   };
   struct Odometry {
     std::string label;
