@@ -98,8 +98,18 @@ void warnOf(const map::Session& session, Engine& engine) {
   engine.warn(
       joinedText(session) + " to the map: it lies where [session] start or a single " +
       "relocalisation says, which may be wrong; see the refused closures and relocalisations in the report. Is it of " +
-      "another place? If not, drive on where the map was made, or give a better start (origin, or pose) or a larger " +
-      "start_sigma_m");
+      "another place? If not, drive on where the map was made, or give a better start (origin, pose, or anywhere)");
+}
+
+// Of a run that localizes.
+void warnOfPlace(const RunResult& result, Engine& engine) {
+  const std::string of_all = std::to_string(result.located) + " of " + std::to_string(result.fixes) + " key frames";
+  if (result.located == 0) {
+    engine.warn("the log was located nowhere in the map: its trajectory lies where [session] start says");
+  } else if (2 * result.located < result.fixes) {
+    engine.warn("only " + of_all + " were located: was much of the way outside the map, or is [session] start wrong? " +
+                "start = anywhere seeks the whole map");
+  }
 }
 
 void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
@@ -156,9 +166,10 @@ void warnOfNothingMeasured(const std::set<std::string>& measuring, Engine& engin
 // The trajectory is written all the same: in the map's frame only by what [session] start says.
 [[noreturn]] void failWithNoPlace(const RunRequest& request, const RunResult& result) {
   throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code,
-                    request.localize_map + ": the log was located nowhere in the map: give a better [session] start " +
-                        "(anywhere seeks the whole map), or was it made elsewhere? See the refused closures in " +
-                        request.output_folder + "/report.html");
+                    request.localize_map +
+                        ": the log was located nowhere in the map: is it of another place? If not, " +
+                        "say [session] start = anywhere, which seeks the whole map, or where it begins. Why: the " +
+                        "refused closures in " + request.output_folder + "/report.html");
 }
 
 RunResult resultOf(const View& view) {
@@ -250,7 +261,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   warnOf(engine.view().counts, result.new_key_frames, engine);
   if (!context.map_is_held) warnOf(result.sessions.back(), engine);
   const bool is_lost = context.map_is_held && result.located == 0;
-  if (is_lost) engine.warn(request.localize_map + ": the log was located nowhere in the map");
+  if (context.map_is_held) warnOfPlace(result, engine);
   result.warnings = engine.view().warnings;
   result.source = report;
   result.code = stopped ? base::ExitCode::interrupted : report.exitCode();

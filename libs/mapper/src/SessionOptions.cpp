@@ -11,7 +11,8 @@ const base::OptionTable<SessionOptions>& SessionOptions::table() {
                    {"origin", Options::Start::origin},
                    {"pose", Options::Start::pose},
                    {"anywhere", Options::Start::anywhere}},
-                  "Where a session that continues a map begins: where the last one ended, at the map's origin, at the "
+                  "Where a session that continues a map, or is localized in one, begins: where the last one ended, at "
+                  "the map's origin, at the "
                   "pose below, or where nobody knows: then it is sought in the whole map.")
           .number("start_x_m", &Options::start_x, {}, "Position in the map, for start = pose.")
           .number("start_y_m", &Options::start_y, {}, "Position in the map, for start = pose.")

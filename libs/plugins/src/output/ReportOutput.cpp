@@ -26,13 +26,27 @@ ReportOutput::ReportOutput(const ReportOptions& options, const mapper::PluginCon
   outputPath(context_, "report.html");
 }
 
+namespace {
+// Without what a run saw that only localizes in it.
+map::Map mapOnly(const mapper::View& view) {
+  map::Map map = view.map;
+  if (!view.map_is_held) return map;
+  for (const auto& frame : view.map.key_frames) {
+    if (frame.id.session == map.sessions.back().number) map.key_frames.edit(frame.id).observations.clear();
+  }
+  return map;
+}
+}  // namespace
+
 void ReportOutput::finish(const mapper::View& view) {
-  const auto trajectory = trajectoryOf(view);
+  auto trajectory = trajectoryOf(view);
+  // What was located nowhere is not drawn into the map.
+  if (view.map_is_held && figuresOf(view, trajectory).located == 0) trajectory.clear();
   const auto closures = closuresOf(view.map, view.decisions);
   ScanGridOptions grid_options;
   grid_options.resolution = options_.resolution;
   grid_options.max_range = options_.max_range;
-  const auto grid = buildScanGrid(view.map, grid_options);
+  const auto grid = buildScanGrid(mapOnly(view), grid_options);
   std::vector<mrpt::math::TPoint3D> places;
   for (const auto& pose : trajectory) places.push_back(pose.map_from_base.translation());
   const auto picture = grid ? std::optional(drawGridToSize(focused(*grid, places), options_.picture_side))

@@ -37,6 +37,9 @@ std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
   std::string html = figure(grouped(view.map.key_frames.size()), "key frames") +
                      figure(base::fixed(figures.way, figures.way < 100 ? 1 : 0) + " m", "way driven") +
                      figure(duration(figures.log_seconds), "recorded");
+  if (view.map_is_held) {
+    html += figure(grouped(figures.located) + " of " + grouped(figures.fixes), "new key frames located");
+  }
   if (input.picture) {
     html += figure(base::fixed(input.picture->maxX() - input.picture->min_x, 0) + " &#215; " +
                        base::fixed(input.picture->max_y - input.picture->minY(), 0) + " m",

@@ -2,7 +2,6 @@
 #include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugins/SummaryOutput.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "OutputFile.h"
@@ -113,11 +112,7 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   summary["extent_m"] = {{"min", {figures.min_x, figures.min_y, figures.min_z}},
                          {"max", {figures.max_x, figures.max_y, figures.max_z}}};
   summary["sessions"] = sessionsOf(view.map);
-  if (view.map_is_held) {
-    const auto located =
-        std::count_if(view.fixes.begin(), view.fixes.end(), [](const auto& fix) { return fix.located(); });
-    summary["localization"] = {{"key_frames", view.fixes.size()}, {"located", located}};
-  }
+  if (view.map_is_held) summary["localization"] = {{"key_frames", figures.fixes}, {"located", figures.located}};
   summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
   summary["counts"] = counts;
   summary["graph"] = graphOf(view);
