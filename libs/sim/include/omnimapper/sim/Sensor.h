@@ -1,0 +1,112 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Stamp.h>
+#include <omnimapper/sim/Random.h>
+#include <omnimapper/sim/Scene.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// What every sensor of an INI has: where it is on the base, and when it measures.
+struct SensorOptions {
+  std::string label;                    ///< of its observations; empty: the name of its section
+  double x = 0, y = 0, z = 0;           ///< of the sensor in the base [m]
+  double yaw = 0, pitch = 0, roll = 0;  ///< [rad]
+  double rate = 10;                     ///< [1/s]
+  double first = 0;                     ///< time of the first measurement [s]
+  double latency = 0;                   ///< from stamp to arrival [s]
+  double jitter = 0;                    ///< standard deviation of the latency [s]; it is never below 0
+  double dropout = 0;                   ///< part of the measurements that never arrive
+  static const base::OptionTable<SensorOptions>& table();
+  geometry::Se3 baseFromSensor() const;
+};
+
+/// What a sensor may know of the run.
+struct SensorContext {
+  std::string section;           ///< of the INI
+  std::uint64_t seed = 0;        ///< of the run
+  std::uint64_t number = 0;      ///< of the sensor in the INI's list: names its random streams
+  base::Stamp start;             ///< the stamp of time 0
+  double duration = 0;           ///< of the run [s]
+  const World* world = nullptr;  ///< these three outlive the sensor
+  const Scenes* scenes = nullptr;
+  const Track* map_from_base = nullptr;  ///< the robot's true way
+};
+
+/// A file of truth beside the log.
+struct TruthFile {
+  std::string name;  ///< below the folder of truth, "labels/camera_000012.png"
+  std::string bytes;
+};
+
+/// One measurement and what was true.
+struct Measurement {
+  mrpt::obs::CObservation::Ptr observation;
+  std::string truth;  ///< one JSON object on one line, for truth/<label>.jsonl; empty: nothing to tell
+  std::vector<TruthFile> truth_files;
+};
+
+/// A simulated sensor. measure() is const and thread-safe, and depends on nothing but context, options and k.
+class Sensor {
+ public:
+  Sensor(const SensorOptions& options, const SensorContext& context);
+  virtual ~Sensor() = default;
+
+  const std::string& label() const { return options_.label; }
+  int count() const { return count_; }
+  /// Time of measurement k [s].
+  double timeOf(int k) const { return options_.first + k / options_.rate; }
+  base::Stamp stampOf(int k) const;
+  /// When it arrives in the log [s]; negative: never.
+  double arrivalOf(int k) const;
+  /// With stamp, label and pose set. Null if the sensor sees nothing that makes an observation.
+  virtual Measurement measure(int k) const = 0;
+
+ protected:
+  const SensorOptions& options() const { return options_; }
+  const SensorContext& context() const { return context_; }
+  const geometry::Se3& baseFromSensor() const { return base_from_sensor_; }
+  geometry::Se3 mapFromSensor(double time) const;
+  /// The stream of measurement k; `purpose` tells apart streams of one measurement.
+  Random randomOf(int k, std::uint64_t purpose = 0) const;
+  /// Sets stamp and label.
+  void stamp(mrpt::obs::CObservation& observation, int k) const;
+
+ private:
+  SensorOptions options_;
+  SensorContext context_;
+  geometry::Se3 base_from_sensor_;
+  int count_;
+};
+
+/// A class of sensors, as an INI names it.
+struct SensorClass {
+  std::string name;                       ///< "Laser2d"
+  std::string summary;                    ///< one sentence
+  std::vector<base::OptionSpec> options;  ///< its own, without SensorOptions
+  std::function<std::unique_ptr<Sensor>(const base::ConfigSection&, const SensorOptions&, const SensorContext&)> make;
+};
+/// Every class of sensors there is; src/sensors/sensorClasses.cpp is the list.
+const std::vector<SensorClass>& sensorClasses();
+
+/// The sensor of section [name]. Throws base::Error unknown_plugin, unknown_key, wrong_type or out_of_range.
+std::unique_ptr<Sensor> makeSensor(const base::Config& config, const std::string& name, SensorContext context);
+
+/// A class whose sensor is made from (Options, SensorOptions, SensorContext); for the list.
+template <class SensorType, class Options>
+SensorClass sensorClass(const std::string& name, const std::string& summary) {
+  return {name, summary, Options::table().specs(),
+          [](const base::ConfigSection& section, const SensorOptions& mount, const SensorContext& context) {
+            std::vector<std::string> others{"class"};
+            for (const auto& spec : SensorOptions::table().specs()) others.push_back(spec.key);
+            return std::make_unique<SensorType>(section.read<Options>(others), mount, context);
+          }};
+}
+
+}  // namespace omnimapper::sim

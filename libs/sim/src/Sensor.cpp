@@ -1,0 +1,90 @@
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/sim/Sensor.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace omnimapper::sim {
+
+namespace {
+
+// Streams of one sensor: its measurements, and their arrival.
+constexpr std::uint64_t kArrivalStream = 0xA55, kMeasurementStream = 0x3EA;
+
+}  // namespace
+
+const base::OptionTable<SensorOptions>& SensorOptions::table() {
+  using base::Range;
+  static const auto table =
+      base::OptionTable<SensorOptions>()
+          .text("label", &SensorOptions::label, "Sensor label of its observations; empty: the name of the section.")
+          .number("x_m", &SensorOptions::x, {}, "Where the sensor is in the base, forward.")
+          .number("y_m", &SensorOptions::y, {}, "The same, to the left.")
+          .number("z_m", &SensorOptions::z, {}, "The same, up.")
+          .number("yaw_deg", &SensorOptions::yaw, {}, "How it is turned, to the left.")
+          .number("pitch_deg", &SensorOptions::pitch, {}, "How it is tilted, down.")
+          .number("roll_deg", &SensorOptions::roll, {}, "How it is rolled, to the right.")
+          .number("rate_hz", &SensorOptions::rate, Range::positive(), "Measurements in a second.")
+          .number("first_s", &SensorOptions::first, Range::notNegative(), "When it measures first.")
+          .number("latency_s", &SensorOptions::latency, Range::notNegative(), "From its stamp to its place in the log.")
+          .number("jitter_s", &SensorOptions::jitter, Range::notNegative(), "Standard deviation of the latency.")
+          .number("dropout", &SensorOptions::dropout, {0, 1}, "Part of its measurements that never arrive.");
+  return table;
+}
+
+geometry::Se3 SensorOptions::baseFromSensor() const {
+  return geometry::fromMrpt(mrpt::poses::CPose3D(x, y, z, yaw, pitch, roll));
+}
+
+Sensor::Sensor(const SensorOptions& options, const SensorContext& context)
+    : options_(options),
+      context_(context),
+      base_from_sensor_(options.baseFromSensor()),
+      count_(std::max(0, static_cast<int>(std::floor((context.duration - options.first) * options.rate + 1e-9)) + 1)) {}
+
+base::Stamp Sensor::stampOf(int k) const {
+  return context_.start + base::durationFromSeconds(timeOf(k));
+}
+
+double Sensor::arrivalOf(int k) const {
+  Random random(context_.seed, {context_.number, kArrivalStream, static_cast<std::uint64_t>(k)});
+  if (random.chance(options_.dropout)) return -1;
+  return timeOf(k) + std::max(0.0, options_.latency + random.gaussian(options_.jitter));
+}
+
+geometry::Se3 Sensor::mapFromSensor(double time) const {
+  return *context_.map_from_base->at(time) * base_from_sensor_;
+}
+
+Random Sensor::randomOf(int k, std::uint64_t purpose) const {
+  return {context_.seed, {context_.number, kMeasurementStream + purpose, static_cast<std::uint64_t>(k)}};
+}
+
+void Sensor::stamp(mrpt::obs::CObservation& observation, int k) const {
+  observation.timestamp = stampOf(k);
+  observation.sensorLabel = label();
+}
+
+std::unique_ptr<Sensor> makeSensor(const base::Config& config, const std::string& name, SensorContext context) {
+  const base::ConfigSection section = config.section(name);
+  std::string class_name;
+  section.find("class", class_name);
+  std::vector<std::string> known;
+  for (const SensorClass& candidate : sensorClasses()) {
+    known.push_back(candidate.name);
+    if (candidate.name != class_name) continue;
+    std::vector<std::string> others{"class"};
+    for (const auto& spec : candidate.options) others.push_back(spec.key);
+    SensorOptions mount = section.read<SensorOptions>(others);
+    if (mount.label.empty()) mount.label = name;
+    context.section = name;
+    return candidate.make(section, mount, context);
+  }
+  const std::string near = base::nearestName(class_name, known);
+  throw base::Error(base::ExitCode::unknown_plugin, config.file() + ": [" + name + "] class = " + class_name +
+                                                        ": no sensor is called so" +
+                                                        (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                                        " (omnimapper-simulate --list lists them)");
+}
+
+}  // namespace omnimapper::sim
