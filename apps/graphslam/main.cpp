@@ -49,10 +49,6 @@ int run(Arguments& arguments) {
     arguments.run.more_outputs.push_back("live_window");
     if (!config.has("live_window")) config.set("live_window.class=LiveWindow");
   }
-  if (!arguments.run.localize_map.empty()) {
-    arguments.run.more_outputs.push_back("localization");
-    if (!config.has("localization")) config.set("localization.class=LocalizationOutput");
-  }
   const auto result = mapper::runMapping(arguments.run, config, progress, stop);
   if (arguments.verbose) std::cout << result.source.text();
   if (!arguments.quiet) std::cout << mapper::toText(result, arguments.run.output_folder);

@@ -26,7 +26,7 @@ std::shared_ptr<const Snapshot> snapshotOf(const graph::Graph& graph) {
 class JobQueueOf : public ::testing::TestWithParam<int> {};
 
 TEST_P(JobQueueOf, JobsAreTakenInOrderWhenTheyAreDueWhicheverIsDoneFirst) {
-  WorkerPool pool(GetParam());
+  base::WorkerPool pool(GetParam());
   JobQueue jobs(pool, 3);
   jobs.add(10, {"owner", {}}, {0, 9}, counting("slow", 20), snapshotOf(graph::Graph()));
   jobs.add(11, {"owner", {}}, {0, 10}, counting("quick"), snapshotOf(graph::Graph()));
@@ -41,7 +41,7 @@ TEST_P(JobQueueOf, JobsAreTakenInOrderWhenTheyAreDueWhicheverIsDoneFirst) {
 }
 
 TEST_P(JobQueueOf, AJobSeesTheStateItWasGivenWhateverHappensAfterwards) {
-  WorkerPool pool(GetParam());
+  base::WorkerPool pool(GetParam());
   JobQueue jobs(pool, 0);
   graph::Graph graph;
   const auto id = graph.addVariable(graph::point2(), Eigen::Vector2d::Zero());
@@ -54,7 +54,7 @@ TEST_P(JobQueueOf, AJobSeesTheStateItWasGivenWhateverHappensAfterwards) {
 }
 
 TEST_P(JobQueueOf, WhatAJobThrowsComesOutWhenItIsTakenAndTheOthersGoOn) {
-  WorkerPool pool(GetParam());
+  base::WorkerPool pool(GetParam());
   JobQueue jobs(pool, 0);
   jobs.add(0, {}, {}, {"bad", [](const State&) -> Batch { throw std::runtime_error("cannot"); }},
            snapshotOf(graph::Graph()));

@@ -55,7 +55,7 @@ class Pool : public ::testing::TestWithParam<int> {};
 
 TEST_P(Pool, GivesTheSameResultsInTheSameOrderWithAnyNumberOfThreads) {
   const Suffix one(".one"), two(".two");
-  WorkerPool workers(GetParam());
+  base::WorkerPool workers(GetParam());
   const Perception perception({&one, &two}, {}, workers);
   std::vector<std::future<Result>> results;
   for (int i = 0; i < 200; ++i) results.push_back(perception.submit(comment(std::to_string(i))));
@@ -68,7 +68,7 @@ TEST_P(Pool, GivesTheSameResultsInTheSameOrderWithAnyNumberOfThreads) {
 
 TEST_P(Pool, AnExceptionComesOutOfItsFutureAndOfNoOther) {
   const Suffix one(".one");
-  WorkerPool workers(GetParam());
+  base::WorkerPool workers(GetParam());
   const Perception perception({&one}, {}, workers);
   auto before = perception.submit(comment("a")), bad = perception.submit(comment("bad")),
        after = perception.submit(comment("b"));
@@ -80,7 +80,7 @@ TEST_P(Pool, AnExceptionComesOutOfItsFutureAndOfNoOther) {
 TEST_P(Pool, WhatHasNotBegunAtTheEndIsLeftOutAndItsFutureSaysSo) {
   std::vector<std::future<Result>> results;
   const Suffix one(".one");
-  auto workers = std::make_unique<WorkerPool>(GetParam());
+  auto workers = std::make_unique<base::WorkerPool>(GetParam());
   const Perception perception({&one}, {}, *workers);
   for (int i = 0; i < 200; ++i) results.push_back(perception.submit(comment(std::to_string(i))));
   workers.reset();  // before what its tasks use
@@ -115,7 +115,7 @@ class Counter : public MeasurementPlugin {
 TEST_P(Pool, PluginsPrepareWhatTheyWantOfTheRawAndTheDerived) {
   const Suffix one(".one");
   const Counter counter;
-  WorkerPool workers(GetParam());
+  base::WorkerPool workers(GetParam());
   const Perception perception({&one}, {&counter}, workers);
   const auto result = perception.submit(comment("abc")).get();
   ASSERT_EQ(result.size(), 2U);
@@ -129,7 +129,7 @@ TEST_P(Pool, PluginsPrepareWhatTheyWantOfTheRawAndTheDerived) {
 
 TEST_P(Pool, WhatNoExtractorWantsGivesNothing) {
   const Suffix one(".one");
-  WorkerPool workers(GetParam());
+  base::WorkerPool workers(GetParam());
   const Perception perception({&one}, {}, workers);
   const auto odometry = mrpt::obs::CObservationOdometry::Create();
   EXPECT_FALSE(perception.wants(*odometry));

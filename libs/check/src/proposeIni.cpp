@@ -1,6 +1,7 @@
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
 #include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/perception/LaserPointsExtractor.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
 
 #include <algorithm>
@@ -85,7 +86,7 @@ class Proposal {
   void proposeLasers() {
     if (!lasers_.empty() && lasers_.size() < facts_.scans.size()) {
       std::vector<std::string> labels;
-      for (const auto& laser : lasers_) labels.push_back(laser + ".points");
+      for (const auto& laser : lasers_) labels.push_back(laser + perception::kPointsSuffix);
       set("loop_closure", "labels", joined(labels, ", "), "the other lasers see nothing that can be matched");
     }
     if (laser_odometry_ && !lasers_.empty() && facts_.scans.size() > 1 && !lasers_.front().empty()) {

@@ -82,7 +82,7 @@ mrpt::obs::CObservation::Ptr LaserPointsExtractor::extract(const mrpt::obs::CObs
   derived->pointcloud = cloud;
   derived->sensorPose = scan.sensorPose;
   derived->timestamp = scan.timestamp;
-  derived->sensorLabel = scan.sensorLabel + ".points";
+  derived->sensorLabel = scan.sensorLabel + kPointsSuffix;
   return derived;
 }
 

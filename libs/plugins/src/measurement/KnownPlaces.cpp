@@ -1,6 +1,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/perception/LaserPointsExtractor.h>
 #include <omnimapper/plugins/KnownPlaces.h>
 
 #include <algorithm>
@@ -99,7 +100,7 @@ matching::LocalScan beamsInBase(const map::KeyFrame& frame, const std::string& c
   const mrpt::obs::CObservationPointCloud* cloud = nullptr;
   for (const auto& observation : frame.observations) {
     const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(observation.get());
-    if (scan && scan->sensorLabel + ".points" == cloud_label) return beamsOf(*scan);
+    if (scan && scan->sensorLabel + perception::kPointsSuffix == cloud_label) return beamsOf(*scan);
     if (observation->sensorLabel != cloud_label) continue;
     if (const auto* points = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get())) cloud = points;
   }

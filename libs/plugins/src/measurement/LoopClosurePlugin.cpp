@@ -1,5 +1,6 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/perception/LaserPointsExtractor.h>
 #include <omnimapper/plugins/LoopClosurePlugin.h>
 #include <omnimapper/plugins/ScanInBase.h>
 
@@ -17,7 +18,6 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr const char* kCloudSuffix = ".points";
 constexpr std::size_t kPlacesAsked = 3;
 
 struct PreparedScan : mapper::Prepared {
@@ -36,7 +36,7 @@ bool LoopClosurePlugin::wants(const mrpt::obs::CObservation& observation) const 
   if (!options_.labels.empty()) {
     return std::find(options_.labels.begin(), options_.labels.end(), label) != options_.labels.end();
   }
-  const std::string suffix = kCloudSuffix;
+  const std::string suffix = perception::kPointsSuffix;
   return label.size() >= suffix.size() && label.compare(label.size() - suffix.size(), suffix.size(), suffix) == 0;
 }
 

@@ -14,7 +14,7 @@ class Committer {
  public:
   /// All of them stay the caller's.
   Committer(std::vector<Named<MeasurementPlugin>>& plugins, map::Map& map, graph::Graph& graph, Estimator& estimator,
-            DecisionLog& decisions, WorkerPool& pool, std::size_t job_delay)
+            DecisionLog& decisions, base::WorkerPool& pool, std::size_t job_delay)
       : plugins_(plugins),
         map_(map),
         graph_(graph),

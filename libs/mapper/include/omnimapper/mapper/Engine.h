@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/graph/Graph.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/Committer.h>
@@ -15,7 +16,6 @@
 #include <omnimapper/mapper/SlidingWindow.h>
 #include <omnimapper/mapper/Trigger.h>
 #include <omnimapper/mapper/View.h>
-#include <omnimapper/mapper/WorkerPool.h>
 
 #include <deque>
 #include <functional>
@@ -131,7 +131,7 @@ class Engine {
   Perception perception_;
   Committer committer_;
   // Last, so that it ends first: its tasks use what stands above.
-  WorkerPool pool_;
+  base::WorkerPool pool_;
 };
 
 }  // namespace omnimapper::mapper

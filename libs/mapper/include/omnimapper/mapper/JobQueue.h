@@ -1,7 +1,7 @@
 #pragma once
 
+#include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/mapper/Job.h>
-#include <omnimapper/mapper/WorkerPool.h>
 
 #include <cstddef>
 #include <deque>
@@ -16,7 +16,7 @@ namespace omnimapper::mapper {
 /// many key frames later, in the order the jobs were given, so that what comes out does not depend on the workers.
 class JobQueue {
  public:
-  JobQueue(WorkerPool& pool, std::size_t delay) : pool_(pool), delay_(delay) {}
+  JobQueue(base::WorkerPool& pool, std::size_t delay) : pool_(pool), delay_(delay) {}
 
   /// `now`: the number of key frames so far. The snapshot is kept until the job is taken.
   void add(std::size_t now, const BatchOrigin& origin, base::KeyFrameId frame, Job job,
@@ -42,7 +42,7 @@ class JobQueue {
     std::shared_ptr<const Snapshot> snapshot;
     std::future<Batch> batch;
   };
-  WorkerPool& pool_;
+  base::WorkerPool& pool_;
   std::size_t delay_;
   std::deque<Waiting> waiting_;
 };

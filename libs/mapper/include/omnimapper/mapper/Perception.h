@@ -1,9 +1,9 @@
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
+#include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/mapper/Extractor.h>
 #include <omnimapper/mapper/MeasurementPlugin.h>
-#include <omnimapper/mapper/WorkerPool.h>
 
 #include <future>
 #include <memory>
@@ -22,7 +22,8 @@ struct Perceived {
 class Perception {
  public:
   /// All of them stay the caller's and must outlive this, and this the tasks in the pool.
-  Perception(std::vector<const Extractor*> extractors, std::vector<const MeasurementPlugin*> plugins, WorkerPool& pool)
+  Perception(std::vector<const Extractor*> extractors, std::vector<const MeasurementPlugin*> plugins,
+             base::WorkerPool& pool)
       : extractors_(std::move(extractors)), plugins_(std::move(plugins)), pool_(pool) {}
 
   /// Whether an extractor or a plugin takes it.
@@ -35,7 +36,7 @@ class Perception {
 
   std::vector<const Extractor*> extractors_;
   std::vector<const MeasurementPlugin*> plugins_;
-  WorkerPool& pool_;
+  base::WorkerPool& pool_;
 };
 
 }  // namespace omnimapper::mapper

@@ -14,6 +14,9 @@ struct LaserPointsOptions {
   static const base::OptionTable<LaserPointsOptions>& table();
 };
 
+/// What the label of a scan's points has behind the scan's own.
+inline constexpr char kPointsSuffix[] = ".points";
+
 /// The valid beams of a 2D scan as points, evenly spaced along the walls: near walls would otherwise outweigh far ones.
 class LaserPointsExtractor {
  public:

@@ -4,11 +4,12 @@
 #include <deque>
 #include <functional>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
-namespace omnimapper::mapper {
+namespace omnimapper::base {
 
 /// Threads that run tasks in the order they were submitted. What a task gives is fetched by its future, so results do
 /// not depend on the number of threads.
@@ -41,4 +42,4 @@ class WorkerPool {
   std::vector<std::thread> threads_;
 };
 
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::base

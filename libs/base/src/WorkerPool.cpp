@@ -1,8 +1,8 @@
-#include <omnimapper/mapper/WorkerPool.h>
+#include <omnimapper/base/WorkerPool.h>
 
 #include <utility>
 
-namespace omnimapper::mapper {
+namespace omnimapper::base {
 
 WorkerPool::WorkerPool(int threads) {
   for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
@@ -40,4 +40,4 @@ void WorkerPool::work() {
   }
 }
 
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::base
