@@ -1,49 +1,11 @@
+#include <omnimapper/base/OptionHelp.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 
 namespace omnimapper::mapper {
-
-namespace {
-
-// '|' separates the columns of a Markdown table.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
-  return result;
-}
-
-void writeTable(std::ostream& out, const std::vector<base::OptionSpec>& specs) {
-  if (specs.empty()) {
-    out << "No options.\n\n";
-    return;
-  }
-  out << "| key | type | default | range | meaning |\n|---|---|---|---|---|\n";
-  for (const auto& spec : specs) {
-    out << "| `" << spec.key << "` | " << spec.type << " | " << escaped(spec.default_value) << " | "
-        << escaped(spec.range) << " | " << escaped(spec.help) << " |\n";
-  }
-  out << "\n";
-}
-
-std::string sectionNameFor(const std::string& class_name) {
-  std::string name;
-  for (const char c : class_name) {
-    if (std::isupper(static_cast<unsigned char>(c)) && !name.empty()) name += '_';
-    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  for (const std::string end : {"_plugin", "_output", "_extractor"}) {
-    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
-      name.resize(name.size() - end.size());
-    }
-  }
-  return name;
-}
-
-}  // namespace
 
 std::string listPlugins() {
   const auto factories = registeredFactories();
@@ -67,13 +29,8 @@ std::string printIni(const std::string& class_name) {
   for (const auto& factory : registeredFactories()) {
     known.push_back(factory->name());
     if (factory->name() != class_name) continue;
-    std::ostringstream out;
-    out << "; " << factory->summary() << "\n[" << sectionNameFor(class_name) << "]\nclass = " << class_name << "\n";
-    for (const auto& spec : factory->options()) {
-      out << "; " << spec.help << (spec.range.empty() ? "" : " (" + spec.range + ")") << "\n"
-          << spec.key << " = " << spec.default_value << "\n";
-    }
-    return out.str();
+    return base::optionsAsIni(base::sectionNameFor(class_name, {"_plugin", "_output", "_extractor"}), class_name,
+                              factory->summary(), factory->options());
   }
   const std::string near = base::nearestName(class_name, known);
   throw base::Error(base::ExitCode::unknown_plugin, "--print-ini: no plugin class is called '" + class_name + "'" +
@@ -88,14 +45,14 @@ std::string iniReference(const FixedSections& fixed) {
          "A number is in the unit its key ends with. Unknown keys, wrong types and values out of range are errors.\n"
          "Comments start with `;`, `#` or `//`.\n\n";
   for (const auto& [name, specs] : fixed) {
-    out << "## [" << name << "]\n\n";
-    writeTable(out, specs);
+    out << "## [" << name << "]\n\n" << base::optionsAsMarkdown(specs);
   }
   out << "# Plugin classes\n\nEach plugin has a section of its own, named in `[mapper]` or `[perception]`, with a line "
          "`class = ...`.\n\n";
   for (const auto& factory : registeredFactories()) {
-    out << "## " << factory->name() << " (" << toString(factory->kind()) << ")\n\n" << factory->summary() << "\n\n";
-    writeTable(out, factory->options());
+    out << "## " << factory->name() << " (" << toString(factory->kind()) << ")\n\n"
+        << factory->summary() << "\n\n"
+        << base::optionsAsMarkdown(factory->options());
   }
   return out.str();
 }
