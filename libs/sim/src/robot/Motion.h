@@ -1,0 +1,62 @@
+#pragma once
+
+#include <omnimapper/geometry/Se2.h>
+
+#include <vector>
+
+#include "FloorPlan.h"
+
+namespace omnimapper::sim {
+
+/// What the drives can do.
+struct MotionLimits {
+  double speed, turn;                      ///< [m/s], [rad/s]
+  double acceleration, turn_acceleration;  ///< [m/s^2], [rad/s^2]
+};
+
+/// A motion of the plane over time, put together from what a robot with two driven wheels can do, each from rest to
+/// rest.
+class Motion {
+ public:
+  Motion(const geometry::Se2& start, const MotionLimits& limits);
+
+  void wait(double seconds);
+  /// By this much, in place; any sign, more than a turn too [rad].
+  void turn(double angle);
+  void turnTo(double yaw);
+  /// Along a polyline that begins where the motion ends: corners are rounded where the plan leaves room, driven with a
+  /// stop and a turn in place where not.
+  void follow(const Polyline& corners, const FloorPlan& plan);
+
+  double duration() const { return duration_; }
+  const geometry::Se2& end() const { return end_; }
+  /// Poses at 0, step, 2 step, ... until the end is reached.
+  std::vector<geometry::Se2> sampled(double step) const;
+
+ private:
+  /// A place on a path. Between two of them acceleration along the path is constant.
+  struct Knot {
+    Eigen::Vector2d position;
+    double yaw, curvature;    // [rad], not wrapped; [1/m], to the left
+    double way, speed, time;  // [m], [m/s], [s]
+  };
+  struct Turn {
+    double begin, duration, from, angle;
+    Eigen::Vector2d position;
+  };
+  struct Leg {
+    double begin;
+    std::vector<Knot> knots;  // none: a turn
+    Turn turn;
+  };
+
+  void drive(std::vector<Knot> knots);
+  geometry::Se2 poseIn(const Leg& leg, double time) const;
+
+  MotionLimits limits_;
+  geometry::Se2 end_;
+  double duration_ = 0;
+  std::vector<Leg> legs_;
+};
+
+}  // namespace omnimapper::sim
