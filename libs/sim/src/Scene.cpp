@@ -94,10 +94,10 @@ namespace {
 
 // Rays first to first + kPacket of a list, in Embree's layout. Lanes beyond the list are off.
 template <class Packet>
-void load(const std::vector<Ray>& rays, std::size_t first, Packet& packet, int* valid) {
+void load(const Ray* rays, std::size_t count, std::size_t first, Packet& packet, int* valid) {
   for (int lane = 0; lane < kPacket; ++lane) {
-    valid[lane] = first + lane < rays.size() ? -1 : 0;
-    const Ray& ray = rays[std::min(first + lane, rays.size() - 1)];
+    valid[lane] = first + lane < count ? -1 : 0;
+    const Ray& ray = rays[std::min(first + lane, count - 1)];
     packet.org_x[lane] = static_cast<float>(ray.origin_in_map.x());
     packet.org_y[lane] = static_cast<float>(ray.origin_in_map.y());
     packet.org_z[lane] = static_cast<float>(ray.origin_in_map.z());
@@ -123,14 +123,19 @@ RTCIntersectContext coherentContext() {
 }  // namespace
 
 void Scene::cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
-  hits.assign(rays.size(), Hit{});
+  hits.resize(rays.size());
+  cast(rays.data(), rays.size(), hits.data());
+}
+
+void Scene::cast(const Ray* rays, std::size_t count, Hit* hits) const {
+  std::fill(hits, hits + count, Hit{});
   RTCIntersectContext context = coherentContext();
   alignas(32) int valid[kPacket];
   RTCRayHit8 packet;
   for (const auto& part : parts_) {
     if (part->isEmpty()) continue;
-    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-      load(rays, first, packet.ray, valid);
+    for (std::size_t first = 0; first < count; first += kPacket) {
+      load(rays, count, first, packet.ray, valid);
       std::fill(packet.hit.geomID, packet.hit.geomID + kPacket, RTC_INVALID_GEOMETRY_ID);
       rtcIntersect8(valid, part->handle(), &context, &packet);
       for (int lane = 0; lane < kPacket && valid[lane]; ++lane) {
@@ -143,20 +148,25 @@ void Scene::cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
 }
 
 Hit Scene::cast(const Ray& ray) const {
-  std::vector<Hit> hits;
-  cast({ray}, hits);
-  return hits.front();
+  Hit hit;
+  cast(&ray, 1, &hit);
+  return hit;
 }
 
 void Scene::findBlocked(const std::vector<Ray>& rays, std::vector<char>& blocked) const {
-  blocked.assign(rays.size(), 0);
+  blocked.resize(rays.size());
+  findBlocked(rays.data(), rays.size(), blocked.data());
+}
+
+void Scene::findBlocked(const Ray* rays, std::size_t count, char* blocked) const {
+  std::fill(blocked, blocked + count, 0);
   RTCIntersectContext context = coherentContext();
   alignas(32) int valid[kPacket];
   RTCRay8 packet;
   for (const auto& part : parts_) {
     if (part->isEmpty()) continue;
-    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-      load(rays, first, packet, valid);
+    for (std::size_t first = 0; first < count; first += kPacket) {
+      load(rays, count, first, packet, valid);
       rtcOccluded8(valid, part->handle(), &context, &packet);
       for (int lane = 0; lane < kPacket && valid[lane]; ++lane) {
         if (packet.tfar[lane] < 0) blocked[first + lane] = 1;  // Embree's sign of a ray that is blocked: -infinity

@@ -1,9 +1,16 @@
 #include <omnimapper/sim/Sensor.h>
 
+#include "ColourCamera.h"
+#include "RgbdCamera.h"
+
 namespace omnimapper::sim {
 
 const std::vector<SensorClass>& sensorClasses() {
-  static const std::vector<SensorClass> classes{};
+  static const std::vector<SensorClass> classes{
+      sensorClass<ColourCamera, ColourCameraOptions>("ColourCamera",
+                                                     "A colour camera on a pan-tilt: CObservationImage."),
+      sensorClass<RgbdCamera, RgbdOptions>("RgbdCamera", "A camera of depth and colour: CObservation3DRangeScan."),
+  };
   return classes;
 }
 

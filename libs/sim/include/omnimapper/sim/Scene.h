@@ -31,9 +31,13 @@ class Scene {
 
   /// The nearest hit of each ray. Neighbouring rays in one call are faster than calls of their own.
   void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
+  /// The same for arrays of `count`.
+  void cast(const Ray* rays, std::size_t count, Hit* hits) const;
   Hit cast(const Ray& ray) const;
   /// blocked[i] != 0: something lies on ray i between near and far. Glass blocks too.
   void findBlocked(const std::vector<Ray>& rays, std::vector<char>& blocked) const;
+  /// The same for arrays of `count`.
+  void findBlocked(const Ray* rays, std::size_t count, char* blocked) const;
 
  private:
   std::vector<std::shared_ptr<const Part>> parts_;

@@ -1,0 +1,189 @@
+#include "DisparityModel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Noise.h"
+
+namespace omnimapper::sim {
+
+namespace {
+
+constexpr float kSameDepth = 1.0f;  // disparities that far apart or less match in one window [pixel]
+
+/// Disparities on a grid of pixels; 0: nothing that could be matched.
+struct Disparities {
+  int width, height;
+  std::vector<float> values;
+  float at(int column, int row) const { return values[static_cast<std::size_t>(row) * width + column]; }
+};
+
+/// The least and the greatest value in the square window around each pixel, inside the picture.
+class WindowExtremes {
+ public:
+  WindowExtremes(const Disparities& of, int half) : low_(of.values), high_(of.values) {
+    const int width = of.width, height = of.height;
+    std::vector<float> low(low_), high(high_);
+    for (int row = 0; row < height; ++row) {
+      const std::size_t line = static_cast<std::size_t>(row) * width;
+      for (int by = -half; by <= half; ++by) {
+        for (int i = std::max(0, -by); i < std::min(width, width - by); ++i) {
+          low[line + i] = std::min(low[line + i], of.values[line + i + by]);
+          high[line + i] = std::max(high[line + i], of.values[line + i + by]);
+        }
+      }
+    }
+    low_ = low;
+    high_ = high;
+    for (int row = 0; row < height; ++row) {
+      for (int other = std::max(0, row - half); other <= std::min(height - 1, row + half); ++other) {
+        const std::size_t line = static_cast<std::size_t>(row) * width, from = static_cast<std::size_t>(other) * width;
+        for (int i = 0; i < width; ++i) {
+          low_[line + i] = std::min(low_[line + i], low[from + i]);
+          high_[line + i] = std::max(high_[line + i], high[from + i]);
+        }
+      }
+    }
+  }
+  /// Nothing is missing in the window, and all of it matches at once.
+  bool isSmooth(std::size_t pixel) const { return low_[pixel] > 0 && high_[pixel] - low_[pixel] <= kSameDepth; }
+  float highest(std::size_t pixel) const { return high_[pixel]; }
+
+ private:
+  std::vector<float> low_, high_;
+};
+
+/// What a window at an edge agrees on: its middle's depth if enough of it is there, else the nearest, else nothing.
+float matchAtEdge(const Disparities& disparities, int column, int row, int half, float nearest, double need) {
+  const float middle = disparities.at(column, row);
+  float middle_sum = 0, nearest_sum = 0;
+  int middle_count = 0, nearest_count = 0, all = 0;
+  for (int y = std::max(0, row - half); y <= std::min(disparities.height - 1, row + half); ++y) {
+    for (int x = std::max(0, column - half); x <= std::min(disparities.width - 1, column + half); ++x) {
+      const float value = disparities.at(x, y);
+      ++all;
+      if (value <= 0) continue;
+      if (middle > 0 && std::abs(value - middle) <= kSameDepth) middle_sum += value, ++middle_count;
+      if (nearest - value <= kSameDepth) nearest_sum += value, ++nearest_count;
+    }
+  }
+  if (middle_count > 0 && middle_count >= need * all) return middle_sum / static_cast<float>(middle_count);
+  if (nearest_count > 0 && nearest_count >= need * all) return nearest_sum / static_cast<float>(nearest_count);
+  return 0;
+}
+
+// What each pixel's ray meets that both eyes see, where the signal suffices. Weak signals fail in patches, not in dots.
+Disparities visibleDisparities(const Frame& frame, const Scene& scene, const std::vector<float>& signal,
+                               const DisparitySettings& settings, Random& random) {
+  const Pinhole& camera = frame.camera;
+  Disparities disparities{camera.width, camera.height, std::vector<float>(frame.pixels.size(), 0.0f)};
+  const std::vector<char> shadow = findShadow(frame, scene, {settings.baseline, 0, 0});
+  const std::vector<float> fine = smoothNoise(camera.width, camera.height, 3, random),
+                           coarse = smoothNoise(camera.width, camera.height, 11, random);
+  const auto spread = static_cast<float>(settings.signal_spread * std::sqrt(0.5));
+  for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
+    const double depth = frame.pixels[i].depth;
+    if (depth <= 0 || shadow[i] || signal[i] <= 0) continue;
+    const float chance = spread * (fine[i] + coarse[i]);
+    if (chance < std::log(static_cast<float>(settings.signal_floor) / signal[i])) continue;
+    disparities.values[i] = static_cast<float>(camera.fx * settings.baseline / depth);
+  }
+  return disparities;
+}
+
+}  // namespace
+
+std::vector<float> patternSignal(const Scenes& scenes, const Frame& frame) {
+  std::vector<float> signal(frame.pixels.size(), 0.0f);
+  for (std::size_t i = 0; i < signal.size(); ++i) {
+    const PixelHit& hit = frame.pixels[i];
+    if (hit.surface < 0) continue;
+    const Material& material = scenes.material(hit.surface);
+    const float back = material.infrared * (1 - material.transmission) * (1 - material.transmission);
+    signal[i] = back * hit.cosine / static_cast<float>(hit.depth * hit.depth);
+  }
+  return signal;
+}
+
+std::vector<float> textureSignal(const std::vector<Eigen::Vector3f>& colours, int width, int height, int window) {
+  std::vector<float> grey(colours.size());
+  for (std::size_t i = 0; i < grey.size(); ++i)
+    grey[i] = std::sqrt(std::max(0.0f, colours[i].dot(Eigen::Vector3f(0.21f, 0.72f, 0.07f))));
+  // Sums over the window by a table of sums from the upper left.
+  std::vector<double> sums(static_cast<std::size_t>(width + 1) * (height + 1), 0.0);
+  const auto sum = [&](int column, int row) -> double& {
+    return sums[static_cast<std::size_t>(row) * (width + 1) + column];
+  };
+  for (int row = 0; row < height; ++row) {
+    const float* line = &grey[static_cast<std::size_t>(row) * width];
+    for (int column = 0; column < width; ++column) {
+      const float slope = 0.5f * (line[std::min(column + 1, width - 1)] - line[std::max(column - 1, 0)]);
+      sum(column + 1, row + 1) = slope * slope + sum(column, row + 1) + sum(column + 1, row) - sum(column, row);
+    }
+  }
+  std::vector<float> signal(colours.size());
+  for (int row = 0; row < height; ++row) {
+    const int top = std::max(0, row - window / 2), bottom = std::min(height, row + window / 2 + 1);
+    for (int column = 0; column < width; ++column) {
+      const int left = std::max(0, column - window / 2), right = std::min(width, column + window / 2 + 1);
+      signal[static_cast<std::size_t>(row) * width + column] =
+          static_cast<float>((sum(right, bottom) - sum(left, bottom) - sum(right, top) + sum(left, top)) /
+                             ((right - left) * (bottom - top)));
+    }
+  }
+  return signal;
+}
+
+std::vector<float> senseDepth(const Frame& frame, const Scene& scene, const std::vector<float>& signal,
+                              const DisparitySettings& settings, Random random) {
+  const Pinhole& camera = frame.camera;
+  const Disparities disparities = visibleDisparities(frame, scene, signal, settings, random);
+  const std::vector<float> error = smoothNoise(camera.width, camera.height, settings.reach, random),
+                           ragged = smoothNoise(camera.width, camera.height, 4, random);
+  const int half = settings.window / 2;
+  const WindowExtremes extremes(disparities, half);
+  const double focal_baseline = camera.fx * settings.baseline;
+  std::vector<float> depths(frame.pixels.size(), 0.0f);
+  for (int row = 0; row < camera.height; ++row) {
+    for (int column = 0; column < camera.width - settings.blank_columns; ++column) {
+      const std::size_t i = static_cast<std::size_t>(row) * camera.width + column;
+      if (extremes.highest(i) <= 0) continue;
+      const double need = settings.need + settings.need_spread * ragged[i];
+      const float matched = extremes.isSmooth(i)
+                                ? disparities.values[i]
+                                : matchAtEdge(disparities, column, row, half, extremes.highest(i), need);
+      if (matched <= 0) continue;
+      // Near the floor of the signal the errors double.
+      const double weakness = signal[i] > 0 ? std::min(1.0, settings.signal_floor / signal[i]) : 1.0;
+      double disparity = matched + settings.sigma * (1 + weakness) * error[i];
+      if (settings.step > 0) disparity = settings.step * std::round(disparity / settings.step);
+      if (disparity <= 0) continue;
+      const double depth = focal_baseline / disparity;
+      if (depth >= settings.min_range && depth <= settings.max_range) depths[i] = static_cast<float>(depth);
+    }
+  }
+  return depths;
+}
+
+std::vector<float> registerDepth(const std::vector<float>& depths, const Pinhole& from, const Pinhole& to,
+                                 const geometry::Se3& to_from_from) {
+  std::vector<float> registered(to.count(), 0.0f);
+  const Eigen::Matrix3d rotation = to_from_from.rotation.toRotationMatrix();
+  for (int row = 0; row < from.height; ++row) {
+    for (int column = 0; column < from.width; ++column) {
+      const float depth = depths[static_cast<std::size_t>(row) * from.width + column];
+      if (depth <= 0) continue;
+      const Eigen::Vector3d point = rotation * (depth * from.through(column, row)) + to_from_from.translation;
+      const auto pixel = to.project(point);
+      if (!pixel || !to.contains(*pixel)) continue;
+      const auto u = static_cast<std::size_t>(std::lround(pixel->x())),
+                 v = static_cast<std::size_t>(std::lround(pixel->y()));
+      float& there = registered[v * to.width + u];
+      const auto z = static_cast<float>(point.z());
+      if (there == 0 || z < there) there = z;
+    }
+  }
+  return registered;
+}
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <omnimapper/sim/Scene.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "Pinhole.h"
+
+namespace omnimapper::sim {
+
+/// What the ray through the middle of a pixel meets first.
+struct PixelHit {
+  double depth = 0;  ///< along the optical axis, exact; 0: nothing is there [m]
+  int surface = -1;  ///< number as numberSurfaces() counts; -1: nothing
+  float cosine = 0;  ///< of the angle between the ray and the surface's normal
+  Eigen::Vector3f normal_in_map = Eigen::Vector3f::Zero();
+  Eigen::Vector2f texture_at = Eigen::Vector2f::Zero();
+};
+
+/// What is seen through glass.
+struct SeenThrough {
+  int pixel = 0;           ///< its number, row by row
+  float transmission = 1;  ///< part of the light that comes through, once
+  PixelHit hit;            ///< the first thing that is not glass; depth 0: nothing
+};
+
+/// A pinhole image of hits: geometry, before any sensor.
+struct Frame {
+  Pinhole camera;
+  geometry::Se3 map_from_optical;
+  std::vector<PixelHit> pixels;  ///< row by row
+  std::vector<SeenThrough> seen_through;
+
+  const PixelHit& at(int column, int row) const {
+    return pixels[static_cast<std::size_t>(row) * camera.width + column];
+  }
+};
+
+/// Casts one ray for each pixel, and further ones through glass.
+Frame castFrame(const Scenes& scenes, const Scene& scene, const Pinhole& camera, const geometry::Se3& map_from_optical);
+
+/// The first thing on a ray that is not glass, with the part of the light that gets there.
+std::pair<Hit, float> castThroughGlass(const Scenes& scenes, const Scene& scene, Ray ray);
+
+/// For each pixel with a depth: whether something stands between what it sees and a point beside the camera.
+std::vector<char> findShadow(const Frame& frame, const Scene& scene, const Eigen::Vector3d& other_in_optical);
+
+/// Surface numbers plus one, row by row; 0: nothing. Throws base::Error(out_of_range) above 65534 surfaces.
+std::vector<std::uint16_t> labelsOf(const Frame& frame);
+
+/// Depths row by row, 0: nothing [m].
+std::vector<float> exactDepth(const Frame& frame);
+
+/// Depths in units of `unit` [m], rounded; 0: nothing, or too far for 16 bits.
+std::vector<std::uint16_t> depthsOf(const Frame& frame, double unit);
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,138 @@
+#include "Photograph.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Noise.h"
+#include "Srgb.h"
+
+namespace omnimapper::sim {
+
+namespace {
+
+using Picture = std::vector<Eigen::Vector3f>;
+constexpr float kReadNoise = 0.25f;  // part of the noise at full white that is there in the dark too
+constexpr int kMostTaps = 15;
+constexpr double kFarAway = 100;  // where nothing is seen, the motion is that of something as far as this [m]
+
+/// Where the point of a pixel was in the picture when the exposure began and ended, as an offset to either side.
+class Smear {
+ public:
+  Smear(const Frame& frame, const geometry::Se3& map_from_begin, const geometry::Se3& map_from_end)
+      : frame_(frame),
+        begin_from_optical_(geometry::inverse(map_from_begin) * frame.map_from_optical),
+        end_from_optical_(geometry::inverse(map_from_end) * frame.map_from_optical),
+        begin_rotation_(begin_from_optical_.rotation.toRotationMatrix()),
+        end_rotation_(end_from_optical_.rotation.toRotationMatrix()) {}
+
+  Eigen::Vector2f at(int column, int row) const {
+    const double depth = frame_.at(column, row).depth;
+    const Eigen::Vector3d point = (depth > 0 ? depth : kFarAway) * frame_.camera.through(column, row);
+    const auto begin = frame_.camera.project(begin_rotation_ * point + begin_from_optical_.translation);
+    const auto end = frame_.camera.project(end_rotation_ * point + end_from_optical_.translation);
+    if (!begin || !end) return Eigen::Vector2f::Zero();
+    return (*end - *begin).cast<float>();
+  }
+
+  /// The longest on a coarse grid [pixel].
+  float longest() const {
+    float most = 0;
+    for (int row = 0; row < frame_.camera.height; row += 16) {
+      for (int column = 0; column < frame_.camera.width; column += 16) most = std::max(most, at(column, row).norm());
+    }
+    return most;
+  }
+
+ private:
+  const Frame& frame_;
+  geometry::Se3 begin_from_optical_, end_from_optical_;
+  Eigen::Matrix3d begin_rotation_, end_rotation_;
+};
+
+Picture smeared(const Picture& sharp, const Pinhole& camera, const Smear& smear) {
+  Picture picture(sharp.size());
+  for (int row = 0; row < camera.height; ++row) {
+    for (int column = 0; column < camera.width; ++column) {
+      const Eigen::Vector2f way = smear.at(column, row);
+      const int taps = std::clamp(static_cast<int>(std::ceil(way.norm())) + 1, 1, kMostTaps);
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      for (int tap = 0; tap < taps; ++tap) {
+        const float share = (tap + 0.5f) / taps - 0.5f;
+        const int x = std::clamp(static_cast<int>(std::lround(column + share * way.x())), 0, camera.width - 1);
+        const int y = std::clamp(static_cast<int>(std::lround(row + share * way.y())), 0, camera.height - 1);
+        sum += sharp[static_cast<std::size_t>(y) * camera.width + x];
+      }
+      picture[static_cast<std::size_t>(row) * camera.width + column] = sum / static_cast<float>(taps);
+    }
+  }
+  return picture;
+}
+
+// The lens: a point lights its neighbours too, by weights 1 4 1 along each axis.
+void soften(Picture& picture, int width, int height) {
+  for (int row = 0; row < height; ++row) {
+    Eigen::Vector3f* line = &picture[static_cast<std::size_t>(row) * width];
+    Eigen::Vector3f left = line[0];
+    for (int i = 0; i < width; ++i) {
+      const Eigen::Vector3f here = line[i];
+      line[i] = (left + 4 * here + line[std::min(i + 1, width - 1)]) / 6;
+      left = here;
+    }
+  }
+  Picture above(picture.begin(), picture.begin() + width);
+  for (int row = 0; row < height; ++row) {
+    Eigen::Vector3f* line = &picture[static_cast<std::size_t>(row) * width];
+    const Eigen::Vector3f* below = row + 1 < height ? line + width : line;
+    for (int i = 0; i < width; ++i) {
+      const Eigen::Vector3f here = line[i];
+      line[i] = (above[i] + 4 * here + below[i]) / 6;
+      above[i] = here;
+    }
+  }
+}
+
+// sRGB of linear values 0 to 1 in steps of 1/4095.
+const std::vector<std::uint8_t>& srgbTable() {
+  static const std::vector<std::uint8_t> table = [] {
+    std::vector<std::uint8_t> made(4096);
+    for (int i = 0; i < 4096; ++i) made[i] = static_cast<std::uint8_t>(std::lround(255 * srgbFromLinear(i / 4095.0)));
+    return made;
+  }();
+  return table;
+}
+
+std::uint8_t coded(float value) {
+  return srgbTable()[static_cast<std::size_t>(std::clamp(value, 0.0f, 1.0f) * 4095 + 0.5f)];
+}
+
+}  // namespace
+
+mrpt::img::CImage photograph(const Frame& frame, std::vector<Eigen::Vector3f> colours,
+                             const geometry::Se3& map_from_begin, const geometry::Se3& map_from_end,
+                             const PhotographSettings& settings, Random random) {
+  constexpr float kVisible = 0.3f;  // pixels
+  const Pinhole& camera = frame.camera;
+  const Smear smear(frame, map_from_begin, map_from_end);
+  if (smear.longest() > kVisible) colours = smeared(colours, camera, smear);
+  soften(colours, camera.width, camera.height);
+  mrpt::img::CImage image(camera.width, camera.height, mrpt::img::CH_RGB);
+  const auto gain = static_cast<float>(settings.gain), noise = static_cast<float>(settings.noise);
+  const float corner = std::hypot(0.5f * camera.width, 0.5f * camera.height);
+  const float loss = static_cast<float>(settings.vignetting) / (corner * corner);
+  for (int row = 0; row < camera.height; ++row) {
+    auto* out = image.ptrLine<std::uint8_t>(row);
+    const float dy = row - 0.5f * (camera.height - 1);
+    for (int column = 0; column < camera.width; ++column) {
+      const float dx = column - 0.5f * (camera.width - 1), light = gain * (1 - loss * (dx * dx + dy * dy));
+      const Eigen::Vector3f value = light * colours[static_cast<std::size_t>(row) * camera.width + column];
+      for (int channel = 0; channel < 3; ++channel) {  // the file's order is blue, green, red
+        const float v = value[2 - channel];
+        const float sigma = noise * (kReadNoise + (1 - kReadNoise) * std::sqrt(std::max(v, 0.0f)));
+        *out++ = coded(v + sigma * quickGaussian(random));
+      }
+    }
+  }
+  return image;
+}
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,102 @@
+#include "ColourCamera.h"
+
+#include <mrpt/obs/CObservationImage.h>
+#include <omnimapper/geometry/Conversions.h>
+
+#include <cmath>
+
+#include "../camera/Png16.h"
+#include "../camera/ViewTruth.h"
+#include "FrameName.h"
+
+namespace omnimapper::sim {
+
+namespace {
+
+constexpr std::uint64_t kPoseStream = 1, kPictureStream = 2;
+
+}  // namespace
+
+const base::OptionTable<ColourCameraOptions>& ColourCameraOptions::table() {
+  using base::Range;
+  using O = ColourCameraOptions;
+  static const auto table =
+      base::OptionTable<O>()
+          .integer("width_px", &O::width, {16, 4096}, "Columns of the picture.")
+          .integer("height_px", &O::height, {16, 4096}, "Rows of the picture.")
+          .number("focal_px", &O::focal, Range::positive(), "Focal length at 640 columns; in proportion to them else.")
+          .number("pan_deg", &O::pan, {-360, 360}, "Middle of its pan, to the left.")
+          .number("tilt_deg", &O::tilt, {-180, 180}, "Middle of its tilt, down.")
+          .number("pan_sweep_deg", &O::pan_sweep, {0, 360}, "How far it sweeps to either side.")
+          .number("tilt_sweep_deg", &O::tilt_sweep, {0, 90}, "The same, up and down.")
+          .number("pan_period_s", &O::pan_period, Range::positive(), "Time of a sweep to both sides and back.")
+          .number("tilt_period_s", &O::tilt_period, Range::positive(), "The same, up and down.")
+          .number("arm_m", &O::arm, {-10, 10}, "How far before the crossing of the axes the camera is.")
+          .number("pan_sigma_deg", &O::pan_sigma, {0, 45}, "Standard deviation of the pan that is told.")
+          .number("tilt_sigma_deg", &O::tilt_sigma, {0, 45}, "The same of the tilt.")
+          .number("pan_bias_deg", &O::pan_bias, {-45, 45}, "How much more is told than is true, always.")
+          .number("tilt_bias_deg", &O::tilt_bias, {-45, 45}, "The same of the tilt.")
+          .number("gain", &O::gain, Range::positive(), "Times the light: 1 shows a white wall bright.")
+          .number("exposure_s", &O::exposure, {0, 1}, "How long the picture takes light.")
+          .number("noise", &O::noise, {0, 1}, "Noise at full white, as part of full white.")
+          .number("vignetting", &O::vignetting, {0, 1}, "Part of the light that the corners lose.")
+          .flag("labels", &O::labels, "Truth: a picture of surface numbers for each frame.");
+  return table;
+}
+
+ColourCamera::ColourCamera(const ColourCameraOptions& options, const SensorOptions& mount, const SensorContext& context)
+    : Sensor(mount, context),
+      options_of_camera_(options),
+      camera_(Pinhole::centred(options.width, options.height, options.focal * options.width / 640.0)),
+      shader_(*context.world, *context.scenes) {}
+
+ColourCamera::Angles ColourCamera::anglesAt(double time) const {
+  const ColourCameraOptions& o = options_of_camera_;
+  return {o.pan + o.pan_sweep * std::sin(2 * M_PI * time / o.pan_period),
+          o.tilt + o.tilt_sweep * std::sin(2 * M_PI * time / o.tilt_period)};
+}
+
+geometry::Se3 ColourCamera::baseFromCamera(const Angles& angles) const {
+  const geometry::Se3 mount_from_turned{Eigen::AngleAxisd(angles.pan, Eigen::Vector3d::UnitZ()) *
+                                            Eigen::AngleAxisd(angles.tilt, Eigen::Vector3d::UnitY()),
+                                        Eigen::Vector3d::Zero()};
+  const geometry::Se3 turned_from_camera{Eigen::Quaterniond::Identity(), {options_of_camera_.arm, 0, 0}};
+  return baseFromSensor() * mount_from_turned * turned_from_camera * sensorFromOptical();
+}
+
+geometry::Se3 ColourCamera::mapFromCamera(double time) const {
+  return *context().map_from_base->at(time) * baseFromCamera(anglesAt(time));
+}
+
+Measurement ColourCamera::measure(int k) const {
+  const ColourCameraOptions& o = options_of_camera_;
+  const double time = timeOf(k), half = 0.5 * o.exposure;
+  const Angles angles = anglesAt(time);
+  const Scene scene = context().scenes->at(time);
+  const Frame frame = castFrame(*context().scenes, scene, camera_, mapFromCamera(time));
+  Random random = randomOf(k, kPoseStream);
+  const double told_pan = angles.pan + o.pan_bias + random.gaussian(o.pan_sigma);
+  const double told_tilt = angles.tilt + o.tilt_bias + random.gaussian(o.tilt_sigma);
+
+  auto picture = mrpt::obs::CObservationImage::Create();
+  stamp(*picture, k);
+  picture->cameraParams = camera_.toMrpt();
+  picture->cameraPose = geometry::toMrpt(baseFromCamera({told_pan, told_tilt}));
+  picture->image = photograph(frame, shader_.shade(frame), mapFromCamera(time - half), mapFromCamera(time + half),
+                              {o.gain, o.exposure, o.noise, o.vignetting}, randomOf(k, kPictureStream));
+
+  nlohmann::json truth = facesInView(*context().world, *context().scenes, scene, camera_, frame.map_from_optical, time);
+  truth["time_s"] = time;
+  truth["pan_deg"] = angles.pan * 180 / M_PI;
+  truth["tilt_deg"] = angles.tilt * 180 / M_PI;
+  truth["base_from_camera"] = poseJson(baseFromCamera(angles));
+  truth["map_from_camera"] = poseJson(frame.map_from_optical);
+  Measurement measurement{picture, truth.dump(), {}};
+  if (o.labels) {
+    measurement.truth_files.push_back(
+        {frameName("labels", label(), k), png16(labelsOf(frame), camera_.width, camera_.height)});
+  }
+  return measurement;
+}
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,136 @@
+#include "RgbdCamera.h"
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/geometry/Conversions.h>
+
+#include <cmath>
+#include <optional>
+
+#include "../camera/Png16.h"
+#include "../camera/ViewTruth.h"
+#include "FrameName.h"
+
+namespace omnimapper::sim {
+
+namespace {
+
+constexpr std::uint64_t kDepthStream = 1, kColourStream = 2;
+
+}  // namespace
+
+/// The geometry of one measurement.
+struct RgbdCamera::Pictures {
+  double time, colour_time;         // [s]
+  Frame depth;                      // of the depth camera
+  std::optional<Frame> colour;      // of the picture; none: the depth camera's serves
+  std::optional<Frame> handed_out;  // of the range image, if that is neither
+  const Frame& picture() const { return colour ? *colour : depth; }
+};
+
+RgbdCamera::RgbdCamera(const RgbdOptions& options, const SensorOptions& mount, const SensorContext& context)
+    : Sensor(mount, context),
+      options_of_camera_(options),
+      settings_(settle(options, context.section)),
+      shader_(*context.world, *context.scenes),
+      sensor_from_colour_{Eigen::Quaterniond::Identity(), {0, -settings_.colour_right, 0}},
+      hands_out_colour_view_(options.registered && !settings_.coincide) {}
+
+geometry::Se3 RgbdCamera::mapFromColour(double time) const {
+  return mapFromSensor(time) * sensor_from_colour_ * sensorFromOptical();
+}
+
+RgbdCamera::Pictures RgbdCamera::cast(double time) const {
+  const Scenes& scenes = *context().scenes;
+  const Scene scene = scenes.at(time);
+  const double colour_time = time + options_of_camera_.colour_delay;
+  Pictures pictures{time,
+                    colour_time,
+                    castFrame(scenes, scene, settings_.depth_camera, mapFromSensor(time) * sensorFromOptical()),
+                    {},
+                    {}};
+  const bool at_once = options_of_camera_.colour_delay == 0;
+  if (options_of_camera_.colour && !(settings_.coincide && at_once)) {
+    pictures.colour = castFrame(scenes, at_once ? scene : scenes.at(colour_time), settings_.colour_camera,
+                                mapFromColour(colour_time));
+  }
+  const bool wanted = settings_.exact || options_of_camera_.labels || options_of_camera_.true_depth;
+  if (hands_out_colour_view_ && wanted && !(options_of_camera_.colour && at_once))
+    pictures.handed_out = castFrame(scenes, scene, settings_.colour_camera, mapFromColour(time));
+  return pictures;
+}
+
+std::vector<float> RgbdCamera::sense(const Pictures& pictures, int k) const {
+  const Frame& frame = pictures.depth;
+  const DisparitySettings& disparity = settings_.disparity;
+  const Scene scene = context().scenes->at(pictures.time);
+  const std::vector<float> signal = settings_.from_texture ? textureSignal(shader_.shade(frame), frame.camera.width,
+                                                                           frame.camera.height, disparity.window)
+                                                           : patternSignal(*context().scenes, frame);
+  std::vector<float> depths = senseDepth(frame, scene, signal, disparity, randomOf(k, kDepthStream));
+  if (!hands_out_colour_view_) return depths;
+  const geometry::Se3 colour_from_depth{Eigen::Quaterniond::Identity(), {-settings_.colour_right, 0, 0}};
+  return registerDepth(depths, settings_.depth_camera, settings_.colour_camera, colour_from_depth);
+}
+
+void RgbdCamera::fillDepth(const std::vector<float>& depths, mrpt::obs::CObservation& observation) const {
+  auto& scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan&>(observation);
+  const Pinhole& camera = hands_out_colour_view_ ? settings_.colour_camera : settings_.depth_camera;
+  scan.hasRangeImage = true;
+  scan.range_is_depth = true;
+  scan.rangeUnits = static_cast<float>(settings_.unit);
+  scan.maxRange = static_cast<float>(settings_.disparity.max_range);
+  scan.cameraParams = camera.toMrpt();
+  scan.cameraParamsIntensity = settings_.colour_camera.toMrpt();
+  scan.sensorPose =
+      geometry::toMrpt(hands_out_colour_view_ ? baseFromSensor() * sensor_from_colour_ : baseFromSensor());
+  const double right = hands_out_colour_view_ ? 0 : settings_.colour_right;
+  scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, -right, 0, -0.5 * M_PI, 0, -0.5 * M_PI);
+  scan.rangeImage.resize(camera.height, camera.width);
+  for (int row = 0; row < camera.height; ++row) {
+    for (int column = 0; column < camera.width; ++column) {
+      const float depth = depths[static_cast<std::size_t>(row) * camera.width + column];
+      scan.rangeImage(row, column) = static_cast<std::uint16_t>(std::lround(depth / settings_.unit));
+    }
+  }
+}
+
+void RgbdCamera::fillColour(const Pictures& pictures, int k, mrpt::obs::CObservation& observation) const {
+  auto& scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan&>(observation);
+  const double half = 0.5 * settings_.photograph.exposure;
+  scan.hasIntensityImage = true;
+  scan.intensityImage =
+      photograph(pictures.picture(), shader_.shade(pictures.picture()), mapFromColour(pictures.colour_time - half),
+                 mapFromColour(pictures.colour_time + half), settings_.photograph, randomOf(k, kColourStream));
+}
+
+Measurement RgbdCamera::measure(int k) const {
+  const Pictures pictures = cast(timeOf(k));
+  const Frame& exact = pictures.handed_out                         ? *pictures.handed_out
+                       : hands_out_colour_view_ && pictures.colour ? *pictures.colour
+                                                                   : pictures.depth;
+  auto scan = mrpt::obs::CObservation3DRangeScan::Create();
+  stamp(*scan, k);
+  fillDepth(settings_.exact ? exactDepth(exact) : sense(pictures, k), *scan);
+  nlohmann::json truth{{"time_s", pictures.time}};
+  if (options_of_camera_.colour) {
+    fillColour(pictures, k, *scan);
+    truth.update(facesInView(*context().world, *context().scenes, context().scenes->at(pictures.colour_time),
+                             settings_.colour_camera, pictures.picture().map_from_optical, pictures.colour_time));
+    truth["picture_time_s"] = pictures.colour_time;
+  }
+  const geometry::Se3 sensor_from_handed_out = hands_out_colour_view_ ? sensor_from_colour_ : geometry::Se3{};
+  truth["map_from_sensor"] = poseJson(mapFromSensor(pictures.time) * sensor_from_handed_out);
+  Measurement measurement{scan, truth.dump(), {}};
+  const Pinhole& camera = exact.camera;
+  if (options_of_camera_.labels) {
+    measurement.truth_files.push_back(
+        {frameName("labels", label(), k), png16(labelsOf(exact), camera.width, camera.height)});
+  }
+  if (options_of_camera_.true_depth) {
+    measurement.truth_files.push_back(
+        {frameName("depth", label(), k), png16(depthsOf(exact, 0.0002), camera.width, camera.height)});
+  }
+  return measurement;
+}
+
+}  // namespace omnimapper::sim

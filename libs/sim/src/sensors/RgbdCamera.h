@@ -1,0 +1,34 @@
+#pragma once
+
+#include <omnimapper/sim/Sensor.h>
+
+#include "../camera/Shader.h"
+#include "RgbdOptions.h"
+
+namespace omnimapper::sim {
+
+/// A camera of depth and colour: mrpt::obs::CObservation3DRangeScan. The mount of the INI is that of the depth camera,
+/// which looks along x; the observation's sensorPose too, or, where depth is registered, that of the colour camera.
+/// Truth: time_s, picture_time_s, map_from_sensor of the range image, faces in the picture (facesInView()); files
+/// labels/ and depth/, pixel by pixel as the range image.
+class RgbdCamera : public Sensor {
+ public:
+  RgbdCamera(const RgbdOptions& options, const SensorOptions& mount, const SensorContext& context);
+  Measurement measure(int k) const override;
+
+ private:
+  struct Pictures;
+  geometry::Se3 mapFromColour(double time) const;
+  Pictures cast(double time) const;
+  std::vector<float> sense(const Pictures& pictures, int k) const;
+  void fillDepth(const std::vector<float>& depths, mrpt::obs::CObservation& observation) const;
+  void fillColour(const Pictures& pictures, int k, mrpt::obs::CObservation& observation) const;
+
+  RgbdOptions options_of_camera_;
+  RgbdSettings settings_;
+  Shader shader_;
+  geometry::Se3 sensor_from_colour_;  // both look along x
+  bool hands_out_colour_view_;        // the range image is that of the colour camera
+};
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,146 @@
+#include "RgbdOptions.h"
+
+#include <omnimapper/base/Error.h>
+
+namespace omnimapper::sim {
+
+namespace {
+
+constexpr double kAsModel = -1, kNoOffset = -1000;
+
+/// What a model of sensor is, at 640 pixels of width.
+struct Preset {
+  double focal, colour_focal, colour_right, unit, colour_noise;
+  DisparitySettings disparity;
+};
+
+// Focal lengths and baseline: Khoshelham and Elberink, Accuracy and resolution of Kinect depth data for indoor mapping
+// applications, Sensors 2012; the colour camera stands 2.5 cm to the right of the infrared one, and the 8 columns at
+// the right edge stay empty: the technical page of the kinect_calibration package of ROS. The rest is fitted to
+// recordings: doc/results/simulator.md.
+Preset preset(RgbdModel model) {
+  Preset kinect{580, 525, 0.025, 0.001, 0.02, {}};
+  kinect.disparity.blank_columns = 8;
+  switch (model) {
+    case RgbdModel::kinect:
+      return kinect;
+    case RgbdModel::xtion: {
+      Preset xtion = kinect;
+      xtion.focal = 570;
+      xtion.colour_focal = 540;
+      xtion.disparity.sigma *= 0.9;
+      xtion.disparity.max_range = 8;
+      xtion.colour_noise = 0.015;
+      return xtion;
+    }
+    case RgbdModel::stereo: {
+      Preset stereo{500, 500, 0, 0.001, 0.012, {}};
+      stereo.disparity = {0.12, 1.0 / 16, 0.25, 4, 11, 0.5, 0.1, 2e-5, 1.0, 0, 0.4, 20};
+      return stereo;
+    }
+    case RgbdModel::ideal:
+      break;
+  }
+  Preset ideal{525, 525, 0, 0.0002, 0, {}};
+  ideal.disparity.min_range = 0.05;
+  ideal.disparity.max_range = 13;
+  return ideal;
+}
+
+double chosen(double option, double of_model) {
+  return option == kAsModel ? of_model : option;
+}
+
+}  // namespace
+
+const base::OptionTable<RgbdOptions>& RgbdOptions::table() {
+  using base::Range;
+  const Range as_model_or_more{kAsModel, 1e6};
+  static const auto table =
+      base::OptionTable<RgbdOptions>()
+          .choice("model", &RgbdOptions::model,
+                  {{"kinect", RgbdModel::kinect},
+                   {"xtion", RgbdModel::xtion},
+                   {"stereo", RgbdModel::stereo},
+                   {"ideal", RgbdModel::ideal}},
+                  "The kind of sensor; keys that are -1 are as it has them.")
+          .integer("width_px", &RgbdOptions::width, {16, 4096}, "Columns of both pictures.")
+          .integer("height_px", &RgbdOptions::height, {16, 4096}, "Rows of both pictures.")
+          .number("focal_px", &RgbdOptions::focal, as_model_or_more, "Focal length of the depth camera.")
+          .number("colour_focal_px", &RgbdOptions::colour_focal, as_model_or_more, "Focal length of the colour camera.")
+          .number("colour_right_m", &RgbdOptions::colour_right, {kNoOffset, 1},
+                  "How far right of the depth camera the colour camera stands; -1000: as the model has it.")
+          .flag("registered", &RgbdOptions::registered, "Hand depth out as the colour camera would see it.")
+          .flag("colour", &RgbdOptions::colour, "Add a colour picture.")
+          .number("colour_delay_s", &RgbdOptions::colour_delay, {-1, 1},
+                  "How much later than the depths, whose stamp counts, the picture is taken.")
+          .number("baseline_m", &RgbdOptions::baseline, as_model_or_more, "From the camera to its second eye.")
+          .number("disparity_step_px", &RgbdOptions::disparity_step, as_model_or_more,
+                  "Disparities are multiples of it; 0: not rounded.")
+          .number("disparity_sigma_px", &RgbdOptions::disparity_sigma, as_model_or_more,
+                  "Standard deviation of disparities on bright surfaces.")
+          .number("signal_floor", &RgbdOptions::signal_floor, as_model_or_more,
+                  "Brightness of the pattern (1: white wall at 1 m) or mean square slope of the picture below which "
+                  "there is no depth.")
+          .number("min_range_m", &RgbdOptions::min_range, as_model_or_more, "Nearest depth that is reported.")
+          .number("max_range_m", &RgbdOptions::max_range, as_model_or_more, "Farthest depth that is reported.")
+          .number("range_unit_m", &RgbdOptions::unit, {kAsModel, 0.1}, "Unit of the range image.")
+          .number("gain", &RgbdOptions::gain, Range::positive(), "Times the light: 1 shows a white wall bright.")
+          .number("exposure_s", &RgbdOptions::exposure, {0, 1}, "How long the picture takes light.")
+          .number("colour_noise", &RgbdOptions::colour_noise, {kAsModel, 1},
+                  "Noise at full white, as part of full white.")
+          .number("vignetting", &RgbdOptions::vignetting, {0, 1}, "Part of the light that the corners lose.")
+          .flag("labels", &RgbdOptions::labels, "Truth: a picture of surface numbers for each frame.")
+          .flag("true_depth", &RgbdOptions::true_depth,
+                "Truth: a picture of exact depth (5000 a metre) for each frame.");
+  return table;
+}
+
+RgbdSettings settle(const RgbdOptions& options, const std::string& section) {
+  const Preset model = preset(options.model);
+  const double scale = options.width / 640.0;
+  RgbdSettings settings;
+  settings.exact = options.model == RgbdModel::ideal;
+  settings.from_texture = options.model == RgbdModel::stereo;
+  const double focal = chosen(options.focal, scale * model.focal);
+  const double colour_focal = settings.from_texture ? focal : chosen(options.colour_focal, scale * model.colour_focal);
+  const auto positive = [&](const char* key, double value) {
+    if (value > 0) return;
+    throw base::Error(base::ExitCode::out_of_range, "[" + section + "] " + key + " = " +
+                                                        base::option_text::format(value) +
+                                                        ": must be above 0, or -1 for what the model has");
+  };
+  positive("focal_px", focal);
+  positive("colour_focal_px", colour_focal);
+  settings.depth_camera = Pinhole::centred(options.width, options.height, focal);
+  settings.colour_camera = Pinhole::centred(options.width, options.height, colour_focal);
+  settings.colour_right = options.colour_right == kNoOffset ? model.colour_right : options.colour_right;
+  if (settings.from_texture) settings.colour_right = 0;  // the left eye makes both
+  settings.unit = chosen(options.unit, model.unit);
+  positive("range_unit_m", settings.unit);
+  DisparitySettings& disparity = settings.disparity = model.disparity;
+  disparity.baseline = chosen(options.baseline, disparity.baseline);
+  positive("baseline_m", disparity.baseline);
+  disparity.step = chosen(options.disparity_step, disparity.step);
+  disparity.sigma = chosen(options.disparity_sigma, disparity.sigma);
+  disparity.signal_floor = chosen(options.signal_floor, disparity.signal_floor);
+  disparity.min_range = chosen(options.min_range, disparity.min_range);
+  disparity.max_range = chosen(options.max_range, disparity.max_range);
+  if (!(disparity.min_range < disparity.max_range)) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      "[" + section + "] min_range_m = " + base::option_text::format(disparity.min_range) +
+                          ": must be below max_range_m = " + base::option_text::format(disparity.max_range));
+  }
+  if (disparity.max_range / settings.unit > 65535) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      "[" + section + "] max_range_m = " + base::option_text::format(disparity.max_range) +
+                          ": does not fit into 16 bits of range_unit_m = " + base::option_text::format(settings.unit) +
+                          "; make the unit larger");
+  }
+  settings.photograph = {options.gain, options.exposure, chosen(options.colour_noise, model.colour_noise),
+                         options.vignetting};
+  settings.coincide = settings.colour_right == 0 && focal == colour_focal;
+  return settings;
+}
+
+}  // namespace omnimapper::sim
