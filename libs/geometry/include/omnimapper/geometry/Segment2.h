@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+
+namespace omnimapper::geometry {
+
+/// A straight stretch of the plane between two points [m].
+struct Segment2 {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
+};
+
+inline double length(const Segment2& segment) {
+  return (segment.to - segment.from).norm();
+}
+
+/// Unit, from `from` to `to`; zero where both are the same point.
+inline Eigen::Vector2d direction(const Segment2& segment) {
+  const double way = length(segment);
+  return way > 0 ? Eigen::Vector2d((segment.to - segment.from) / way) : Eigen::Vector2d::Zero();
+}
+
+inline Eigen::Vector2d middle(const Segment2& segment) {
+  return 0.5 * (segment.from + segment.to);
+}
+
+/// The point of the segment, ends included, that is nearest to `point`.
+inline Eigen::Vector2d nearestPoint(const Segment2& segment, const Eigen::Vector2d& point) {
+  const Eigen::Vector2d way = segment.to - segment.from;
+  const double squared = way.squaredNorm();
+  if (!(squared > 0)) return segment.from;
+  return segment.from + std::clamp((point - segment.from).dot(way) / squared, 0.0, 1.0) * way;
+}
+
+/// Distance of a point from the segment, ends included [m].
+inline double distance(const Segment2& segment, const Eigen::Vector2d& point) {
+  return (point - nearestPoint(segment, point)).norm();
+}
+
+}  // namespace omnimapper::geometry
