@@ -1,0 +1,146 @@
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/source/RgbdFolder.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "RgbdFolderForms.h"
+
+namespace omnimapper::source {
+
+namespace {
+
+using mrpt::obs::CObservation3DRangeScan;
+
+struct Intrinsics {
+  double fx, fy, cx, cy;  // [pixel]
+};
+
+// Freiburg: the TUM RGB-D benchmark's own calibration of its three cameras. ICL-NUIM tells fy = -480 for an image whose
+// y runs up; its files run down as all others. 7-Scenes: as its authors tell. OpenNI's default.
+const std::map<std::string, Intrinsics>& knownIntrinsics() {
+  static const std::map<std::string, Intrinsics> known{
+      {"freiburg1", {517.3, 516.5, 318.6, 255.3}}, {"freiburg2", {520.9, 521.0, 325.1, 249.7}},
+      {"freiburg3", {535.4, 539.2, 320.1, 247.6}}, {"icl_nuim", {481.2, 480.0, 319.5, 239.5}},
+      {"7_scenes", {585.0, 585.0, 320.0, 240.0}},  {"openni", {525.0, 525.0, 319.5, 239.5}}};
+  return known;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+  throw base::Error(base::ExitCode::unreadable_input, path + ": " + reason);
+}
+
+Intrinsics readIntrinsics(const std::string& path) {
+  std::ifstream in(path);
+  if (!in)
+    refuse(path,
+           "is neither the name of a known camera (freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, "
+           "openni) nor a file that can be read");
+  std::stringstream text;
+  text << in.rdbuf();
+  double values[4];
+  bool has_all = true;
+  const char* const names[] = {"fx", "fy", "cx", "cy"};
+  for (int i = 0; i < 4; ++i) {
+    std::smatch found;
+    const std::string content = text.str();
+    if (std::regex_search(content, found, std::regex(std::string("\\b") + names[i] + R"(["']?\s*[:=]\s*([-+.\deE]+))")))
+      values[i] = std::stod(found[1]);
+    else
+      has_all = false;
+  }
+  if (!has_all) {
+    for (double& value : values) {
+      if (!(text >> value)) refuse(path, "holds neither fx, fy, cx, cy by name nor four numbers");
+    }
+  }
+  return {values[0], values[1], values[2], values[3]};
+}
+
+Intrinsics intrinsicsOf(const std::string& folder, const std::string& asked, const std::string& usual) {
+  const std::string& name = asked.empty() ? usual : asked;
+  if (name.empty()) {
+    refuse(folder,
+           "does not tell which camera took its images; name it (--intrinsics freiburg1, ..., or a file with fx, "
+           "fy, cx, cy)");
+  }
+  const auto known = knownIntrinsics().find(name);
+  return known != knownIntrinsics().end() ? known->second : readIntrinsics(name);
+}
+
+// MRPT's axes of a range camera (x forward, y left, z up) in the optical frame (x right, y down, z forward).
+geometry::Se3 opticalFromSensor() {
+  Eigen::Matrix3d r;
+  r << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return {Eigen::Quaterniond(r), Eigen::Vector3d::Zero()};
+}
+
+bool load(mrpt::img::CImage& image, const std::string& path, int how) {
+  try {
+    return image.loadFromFile(path, how) && !image.isEmpty();
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+RgbdFolder::RgbdFolder(const std::string& folder, const RgbdFolderOptions& options) : options_(options) {
+  auto content = readRgbdFolder(folder, options);
+  const Intrinsics intrinsics = intrinsicsOf(folder, options.intrinsics, content.usual_intrinsics);
+  camera_.setIntrinsicParamsFromValues(intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy);
+  if (options_.depth_units <= 0) options_.depth_units = content.usual_depth_units;
+  pairs_ = std::move(content.pairs);
+  unpaired_ = content.unpaired;
+  for (const auto& [stamp, world_from_optical] : content.world_from_optical)
+    ground_truth_.emplace_back(stamp, world_from_optical * opticalFromSensor());
+}
+
+mrpt::obs::CObservation::Ptr RgbdFolder::next() {
+  constexpr int kAsItIs = -1, kColour = 1;
+  while (next_ < pairs_.size()) {
+    const RgbdPair& pair = pairs_[next_++];
+    mrpt::img::CImage depth;
+    auto scan = CObservation3DRangeScan::Create();
+    const bool has_depth =
+        load(depth, pair.depth, kAsItIs) && depth.getPixelDepth() == mrpt::img::PixelDepth::D16U && !depth.isColor();
+    if (!has_depth || !load(scan->intensityImage, pair.colour, kColour)) {
+      const std::string& missing = has_depth ? pair.colour : pair.depth;
+      if (report_.missing_images++ == 0) report_.first_missing_image = missing;
+      continue;
+    }
+    const int width = static_cast<int>(depth.getWidth()), height = static_cast<int>(depth.getHeight());
+    scan->timestamp = pair.stamp;
+    scan->sensorLabel = options_.label;
+    scan->hasIntensityImage = true;
+    scan->hasRangeImage = true;
+    scan->range_is_depth = true;
+    scan->rangeUnits = static_cast<float>(1 / options_.depth_units);
+    scan->maxRange = static_cast<float>(65535 / options_.depth_units);
+    scan->rangeImage_setSize(height, width);
+    for (int row = 0; row < height; ++row) {
+      for (int column = 0; column < width; ++column)
+        scan->rangeImage(row, column) = depth.at<std::uint16_t>(column, row);
+    }
+    scan->cameraParams = camera_;
+    scan->cameraParams.ncols = width;
+    scan->cameraParams.nrows = height;
+    scan->cameraParamsIntensity = scan->cameraParams;
+    scan->cameraParamsIntensity.ncols = scan->intensityImage.getWidth();
+    scan->cameraParamsIntensity.nrows = scan->intensityImage.getHeight();
+    ++report_.objects;
+    report_.count(scan->sensorLabel, scan->GetRuntimeClass()->className, scan->timestamp);
+    return scan;
+  }
+  report_.ending = SourceReport::Ending::complete;
+  return nullptr;
+}
+
+double RgbdFolder::progress() const {
+  return pairs_.empty() ? 1.0 : static_cast<double>(next_) / static_cast<double>(pairs_.size());
+}
+
+}  // namespace omnimapper::source

@@ -1,0 +1,213 @@
+#include "RgbdFolderForms.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace omnimapper::source {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  throw base::Error(base::ExitCode::unreadable_input, path.string() + ": " + reason);
+}
+
+/// A list of "stamp ..." lines; '#' begins a comment.
+std::vector<std::pair<base::Stamp, std::string>> readList(const fs::path& path) {
+  std::ifstream in(path);
+  if (!in) refuse(path, "cannot be read");
+  std::vector<std::pair<base::Stamp, std::string>> list;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream words(line);
+    std::string stamp, rest;
+    if (!(words >> stamp) || stamp.front() == '#') continue;
+    std::getline(words >> std::ws, rest);
+    while (!rest.empty() && std::isspace(static_cast<unsigned char>(rest.back()))) rest.pop_back();
+    try {
+      list.emplace_back(base::parseUnix(stamp), rest);
+    } catch (const base::Error&) {
+      refuse(path, "line " + std::to_string(number) + " begins with '" + stamp + "', which is no stamp in seconds");
+    }
+  }
+  return list;
+}
+
+geometry::Se3 parsePose(const std::string& text, const fs::path& path) {
+  std::istringstream in(text);
+  double v[7];
+  for (double& value : v) {
+    if (!(in >> value)) refuse(path, "'" + text + "' is no pose x y z qx qy qz qw");
+  }
+  const Eigen::Quaterniond rotation(v[6], v[3], v[4], v[5]);
+  if (!(rotation.norm() > 0.5)) refuse(path, "'" + text + "' has no unit quaternion");
+  return {rotation.normalized(), {v[0], v[1], v[2]}};
+}
+
+std::vector<std::pair<base::Stamp, geometry::Se3>> readPoses(const fs::path& path) {
+  std::vector<std::pair<base::Stamp, geometry::Se3>> poses;
+  for (const auto& [stamp, text] : readList(path)) poses.emplace_back(stamp, parsePose(text, path));
+  return poses;
+}
+
+using Image = std::pair<base::Stamp, std::string>;
+
+/// Each depth image takes the nearest colour image; a colour image serves the nearest depth image alone.
+std::vector<RgbdPair> pairImages(const fs::path& folder, const std::vector<Image>& depths,
+                                 const std::vector<Image>& colours, double largest_difference) {
+  struct Candidate {
+    double difference;
+    std::size_t depth, colour;
+  };
+  std::vector<Candidate> candidates;
+  for (std::size_t d = 0; d < depths.size(); ++d) {
+    for (std::size_t c = 0; c < colours.size(); ++c) {
+      const double difference = std::abs(base::secondsBetween(depths[d].first, colours[c].first));
+      if (difference <= largest_difference) candidates.push_back({difference, d, c});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.difference < b.difference; });
+  std::vector<bool> colour_taken(colours.size(), false);
+  std::vector<std::string> colour_of(depths.size());
+  for (const Candidate& candidate : candidates) {
+    if (colour_taken[candidate.colour] || !colour_of[candidate.depth].empty()) continue;
+    colour_taken[candidate.colour] = true;
+    colour_of[candidate.depth] = (folder / colours[candidate.colour].second).string();
+  }
+  std::vector<RgbdPair> pairs;
+  for (std::size_t d = 0; d < depths.size(); ++d) {
+    if (!colour_of[d].empty())
+      pairs.push_back({depths[d].first, (folder / depths[d].second).string(), colour_of[d], {}});
+  }
+  return pairs;
+}
+
+std::string freiburgOf(const fs::path& folder) {
+  const std::string name = fs::absolute(folder).lexically_normal().string();
+  for (const char number : {'1', '2', '3'}) {
+    for (const char* word : {"freiburg", "fr"}) {
+      if (name.find(word + std::string(1, number)) != std::string::npos) return std::string("freiburg") + number;
+    }
+  }
+  return "";
+}
+
+RgbdFolderContent readTum(const fs::path& folder, const RgbdFolderOptions& options) {
+  RgbdFolderContent content;
+  auto depths = readList(folder / "depth.txt"), colours = readList(folder / "rgb.txt");
+  const fs::path key_frame_poses = folder / "truth_cam_poses.txt", poses = folder / "groundtruth.txt";
+  if (fs::exists(poses)) {
+    content.world_from_optical = readPoses(poses);
+  } else if (fs::exists(key_frame_poses)) {
+    content.world_from_optical = readPoses(key_frame_poses);
+    const auto& known = content.world_from_optical;
+    if (known.size() != depths.size() || known.size() != colours.size())
+      refuse(key_frame_poses, "has another number of lines than depth.txt and rgb.txt");
+    for (std::size_t i = 0; i < known.size(); ++i) depths[i].first = colours[i].first = known[i].first;
+  }
+  content.pairs = pairImages(folder, depths, colours, options.largest_difference);
+  content.unpaired = depths.size() - content.pairs.size();
+  content.usual_intrinsics = freiburgOf(folder);
+  return content;
+}
+
+std::map<std::string, std::string> filesByStem(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file()) files[entry.path().stem().string()] = entry.path().string();
+  }
+  return files;
+}
+
+base::Stamp stampOfImage(std::size_t index, const RgbdFolderOptions& options) {
+  constexpr double kFirst = 1e9;  // [s] some moment: there is no other
+  return base::stampFromUnix(kFirst) + base::durationFromSeconds(static_cast<double>(index) / options.rate);
+}
+
+RgbdFolderContent readEqualNames(const fs::path& folder, const RgbdFolderOptions& options) {
+  RgbdFolderContent content;
+  const auto depths = filesByStem(folder / "depth");
+  const auto colours = filesByStem(fs::is_directory(folder / "rgb") ? folder / "rgb" : folder / "image");
+  std::size_t index = 0;
+  for (const auto& [stem, depth] : depths) {
+    const auto colour = colours.find(stem);
+    if (colour == colours.end())
+      ++content.unpaired;
+    else
+      content.pairs.push_back({stampOfImage(index, options), depth, colour->second, {}});
+    ++index;
+  }
+  const std::string name = fs::absolute(folder).lexically_normal().string();
+  if (name.find("icl") != std::string::npos || name.find("ICL") != std::string::npos) {
+    content.usual_intrinsics = "icl_nuim";
+  }
+  return content;
+}
+
+geometry::Se3 readMatrix(const fs::path& path) {
+  std::ifstream in(path);
+  Eigen::Matrix4d m;
+  for (int i = 0; i < 16; ++i) {
+    if (!(in >> m(i / 4, i % 4))) refuse(path, "is no 4 x 4 matrix");
+  }
+  return {Eigen::Quaterniond(m.topLeftCorner<3, 3>()).normalized(), m.topRightCorner<3, 1>()};
+}
+
+RgbdFolderContent readSevenScenes(const fs::path& folder, const RgbdFolderOptions& options) {
+  RgbdFolderContent content;
+  content.usual_intrinsics = "7_scenes";
+  content.usual_depth_units = 1000;
+  std::vector<std::string> stems;
+  for (const auto& [stem, path] : filesByStem(folder)) {
+    const std::string end = ".depth";
+    if (stem.size() > end.size() && stem.compare(stem.size() - end.size(), end.size(), end) == 0)
+      stems.push_back(stem.substr(0, stem.size() - end.size()));
+  }
+  for (std::size_t i = 0; i < stems.size(); ++i) {
+    const std::string stem = (folder / stems[i]).string();
+    if (!fs::exists(stem + ".color.png")) {
+      ++content.unpaired;
+      continue;
+    }
+    content.pairs.push_back({stampOfImage(i, options), stem + ".depth.png", stem + ".color.png", {}});
+    if (fs::exists(stem + ".pose.txt"))
+      content.world_from_optical.emplace_back(content.pairs.back().stamp, readMatrix(stem + ".pose.txt"));
+  }
+  return content;
+}
+
+bool isSevenScenes(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("frame-", 0) == 0 && name.find(".depth.png") != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions& options) {
+  if (!fs::is_directory(folder)) refuse(folder, "is no folder");
+  RgbdFolderContent content;
+  if (fs::exists(folder / "depth.txt"))
+    content = readTum(folder, options);
+  else if (fs::is_directory(folder / "depth") &&
+           (fs::is_directory(folder / "rgb") || fs::is_directory(folder / "image")))
+    content = readEqualNames(folder, options);
+  else if (isSevenScenes(folder))
+    content = readSevenScenes(folder, options);
+  else
+    refuse(folder,
+           "is of no form that is known: depth.txt and rgb.txt (TUM), depth/ and rgb/ or image/ (ICL-NUIM), "
+           "frame-*.depth.png (7-Scenes)");
+  std::stable_sort(content.pairs.begin(), content.pairs.end(),
+                   [](const RgbdPair& a, const RgbdPair& b) { return a.stamp < b.stamp; });
+  return content;
+}
+
+}  // namespace omnimapper::source

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <omnimapper/source/RgbdFolder.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::source {
+
+/// What a form of folder tells, however it tells it.
+struct RgbdFolderContent {
+  std::vector<RgbdPair> pairs;  ///< in order of stamps
+  std::vector<std::pair<base::Stamp, geometry::Se3>> world_from_optical;
+  std::size_t unpaired = 0;
+  std::string usual_intrinsics;  ///< empty: unknown
+  double usual_depth_units = 5000;
+};
+
+/// Throws Error(unreadable_input).
+RgbdFolderContent readRgbdFolder(const std::filesystem::path& folder, const RgbdFolderOptions& options);
+
+}  // namespace omnimapper::source

@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/testing/Fixtures.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace omnimapper::source {
+namespace {
+
+using mrpt::img::CImage;
+using mrpt::obs::CObservation3DRangeScan;
+
+class RgbdFolderTest : public ::testing::Test {
+ protected:
+  void writeText(const std::string& name, const std::string& text) {
+    const std::filesystem::path path(folder_ / name);
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+  }
+  void writeDepth(const std::string& name, std::uint16_t value) {
+    CImage image;
+    image.resize(4, 3, mrpt::img::CH_GRAY, mrpt::img::PixelDepth::D16U);
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 4; ++x) image.at<std::uint16_t>(x, y) = static_cast<std::uint16_t>(value + x + 10 * y);
+    save(image, name);
+  }
+  void writeColour(const std::string& name, std::uint8_t red) {
+    CImage image(4, 3, mrpt::img::CH_RGB);
+    image.filledRectangle(0, 0, 3, 2, mrpt::img::TColor(red, 20, 30));
+    save(image, name);
+  }
+  /// Three depth images, the colour of the second 30 ms late.
+  void writeTum() {
+    writeText("depth.txt", "# depth maps\n10.0 depth/a.png\n10.1 depth/b.png\n10.2 depth/c.png\n");
+    writeText("rgb.txt", "# colour\n10.01 rgb/a.png\n10.13 rgb/b.png\n10.195 rgb/c.png\n");
+    for (const char* name : {"a", "b", "c"}) {
+      writeDepth(std::string("depth/") + name + ".png", 5000);
+      writeColour(std::string("rgb/") + name + ".png", static_cast<std::uint8_t>(name[0]));
+    }
+  }
+  std::string failure(const RgbdFolderOptions& options = {}) {
+    try {
+      RgbdFolder source(folder_.path(), options);
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::unreadable_input);
+      return error.what();
+    }
+    return "no failure";
+  }
+
+  testing::ScratchFolder folder_;
+
+ private:
+  void save(const CImage& image, const std::string& name) {
+    const std::filesystem::path path(folder_ / name);
+    std::filesystem::create_directories(path.parent_path());
+    ASSERT_TRUE(image.saveToFile(path.string()));
+  }
+};
+
+RgbdFolderOptions freiburg1() {
+  RgbdFolderOptions options;
+  options.intrinsics = "freiburg1";
+  return options;
+}
+
+TEST_F(RgbdFolderTest, depthTakesTheColourImageOfItsTime) {
+  writeTum();
+  RgbdFolder source(folder_.path(), freiburg1());
+  EXPECT_EQ(source.unpaired(), 1U);
+  std::vector<CObservation3DRangeScan::Ptr> scans;
+  while (auto observation = source.next())
+    scans.push_back(std::dynamic_pointer_cast<CObservation3DRangeScan>(observation));
+  ASSERT_EQ(scans.size(), 2U);
+  EXPECT_EQ(base::formatUnix(scans[0]->timestamp, 2), "10.00");
+  EXPECT_EQ(base::formatUnix(scans[1]->timestamp, 2), "10.20");
+  EXPECT_EQ(*scans[1]->intensityImage(1, 1, 2), 'c') << "red is the last of MRPT's channels";
+  EXPECT_EQ(scans[0]->rangeImage(2, 3), 5023);
+  EXPECT_FLOAT_EQ(scans[0]->rangeUnits, 1 / 5000.0f);
+  EXPECT_TRUE(scans[0]->range_is_depth);
+  EXPECT_DOUBLE_EQ(scans[0]->cameraParams.fx(), 517.3);
+  EXPECT_DOUBLE_EQ(scans[0]->cameraParamsIntensity.cy(), 255.3);
+  EXPECT_EQ(source.report().ending, SourceReport::Ending::complete);
+
+  RgbdFolderOptions wide = freiburg1();
+  wide.largest_difference = 0.05;
+  EXPECT_EQ(RgbdFolder(folder_.path(), wide).pairs().size(), 3U);
+}
+
+TEST_F(RgbdFolderTest, truthIsOfTheBaseThatLooksAlongX) {
+  writeTum();
+  // The camera looks along the world's y: optical x along the world's x, y down.
+  writeText("groundtruth.txt", "# truth\n10.0 1 2 3 -0.70710678 0 0 0.70710678\n");
+  const RgbdFolder source(folder_.path(), freiburg1());
+  ASSERT_EQ(source.groundTruth().size(), 1U);
+  const geometry::Se3& world_from_base = source.groundTruth().front().second;
+  EXPECT_TRUE((world_from_base * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(1, 3, 3), 1e-6)) << "ahead";
+  EXPECT_TRUE((world_from_base * Eigen::Vector3d(0, 1, 0)).isApprox(Eigen::Vector3d(0, 2, 3), 1e-6)) << "left";
+  EXPECT_TRUE((world_from_base * Eigen::Vector3d(0, 0, 1)).isApprox(Eigen::Vector3d(1, 2, 4), 1e-6)) << "up";
+}
+
+TEST_F(RgbdFolderTest, pairsOfEqualNamesAndSevenScenesAreForms) {
+  writeDepth("depth/0001.png", 700);
+  writeDepth("depth/0002.png", 700);
+  writeColour("image/0001.png", 9);
+  RgbdFolderOptions options;
+  options.intrinsics = folder_ / "camera.yaml";
+  writeText("camera.yaml", "%YAML:1.0\nCamera.fx: 500.5\nCamera.fy: 501\nCamera.cx: 1.5\nCamera.cy: 1\n");
+  RgbdFolder equal_names(folder_.path(), options);
+  EXPECT_EQ(equal_names.pairs().size(), 1U);
+  EXPECT_EQ(equal_names.unpaired(), 1U);
+  const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(equal_names.next());
+  ASSERT_TRUE(scan);
+  EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 500.5);
+
+  std::filesystem::remove_all(folder_ / "depth");
+  writeDepth("frame-000000.depth.png", 1000);
+  writeColour("frame-000000.color.png", 9);
+  writeText("frame-000000.pose.txt", "1 0 0 5\n0 1 0 6\n0 0 1 7\n0 0 0 1\n");
+  RgbdFolder seven_scenes(folder_.path());
+  ASSERT_EQ(seven_scenes.groundTruth().size(), 1U);
+  EXPECT_TRUE(seven_scenes.groundTruth().front().second.translation.isApprox(Eigen::Vector3d(5, 6, 7)));
+  const auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(seven_scenes.next());
+  ASSERT_TRUE(frame);
+  EXPECT_FLOAT_EQ(frame->rangeUnits, 0.001f);
+}
+
+TEST_F(RgbdFolderTest, imagesThatCannotBeReadAreLeftOutAndCounted) {
+  writeTum();
+  std::filesystem::remove(folder_ / "rgb/a.png");
+  writeText("depth/c.png", "no image");
+  RgbdFolder source(folder_.path(), freiburg1());
+  EXPECT_FALSE(source.next());
+  EXPECT_EQ(source.report().missing_images, 2U);
+  EXPECT_EQ(source.report().first_missing_image, folder_ / "rgb/a.png");
+  EXPECT_EQ(source.report().exitCode(), base::ExitCode::missing_images);
+}
+
+TEST_F(RgbdFolderTest, whatIsWrongIsSaidWithItsPlace) {
+  EXPECT_NE(failure().find("is of no form that is known"), std::string::npos);
+  writeTum();
+  EXPECT_NE(failure().find("name it (--intrinsics"), std::string::npos) << failure();
+  RgbdFolderOptions options;
+  options.intrinsics = "freiburg7";
+  EXPECT_NE(failure(options).find("freiburg7: is neither the name of a known camera"), std::string::npos);
+  writeText("rgb.txt", "10.0 rgb/a.png\nten rgb/b.png\n");
+  EXPECT_NE(failure(freiburg1()).find("rgb.txt: line 2 begins with 'ten'"), std::string::npos) << failure(freiburg1());
+}
+
+TEST(RgbdFolderRecording, freiburg1RpyIsWholeWithTruth) {
+  const auto folder = testing::sharedData("rgbd/tum_fr1_rpy");
+  OMNIMAPPER_NEEDS(folder);
+  RgbdFolder source(*folder);
+  EXPECT_EQ(source.pairs().size() + source.unpaired(), 450U);
+  EXPECT_GT(source.pairs().size(), 430U);
+  EXPECT_GT(source.groundTruth().size(), 1000U);
+  const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(source.next());
+  ASSERT_TRUE(scan);
+  EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 517.3);
+  EXPECT_EQ(scan->rangeImage.cols(), 640);
+}
+
+TEST(RgbdFolderRecording, keyFramesTakeTheStampsOfTheirPoses) {
+  const auto folder = testing::sharedData("rgbd/tum_fr3_cabinet58");
+  OMNIMAPPER_NEEDS(folder);
+  const RgbdFolder source(*folder);
+  ASSERT_EQ(source.pairs().size(), 58U);
+  EXPECT_EQ(base::formatUnix(source.pairs().front().stamp, 4), "1341841278.8427");
+}
+
+}  // namespace
+}  // namespace omnimapper::source
