@@ -29,12 +29,14 @@ float awayFromEdges(double share, double width) {
   return static_cast<float>(std::clamp(std::min(share, 1 - share) / width, 0.0, 1.0));
 }
 
-Colour woodColour(Random& random) {
-  return colourOf(random.uniform(0.06, 0.1), random.uniform(0.4, 0.65), random.uniform(0.45, 0.85));
+// Of hues near each other. Drawn in statements of their own: the order of a call's arguments is the compiler's choice.
+Colour earthColour(Random& random, double hue_low, double hue_high) {
+  const double hue = random.uniform(hue_low, hue_high), saturation = random.uniform(0.4, 0.65);
+  return colourOf(hue, saturation, random.uniform(0.45, 0.8));
 }
 
 Texture wood(Random& random, int side, int boards) {
-  const Colour base = woodColour(random);
+  const Colour base = earthColour(random, 0.06, 0.1);
   const PeriodicNoise bend(random, 2, 3, 2), fibre(random, 4, 64, 2);
   std::vector<double> shift, shade;
   for (int i = 0; i < boards; ++i) {
@@ -80,7 +82,7 @@ Texture tiles(Random& random, int side) {
 
 Texture bricks(Random& random, int side) {
   const int across = 4, up = 12;
-  const Colour base = colourOf(random.uniform(0.0, 0.06), random.uniform(0.45, 0.65), random.uniform(0.5, 0.7));
+  const Colour base = earthColour(random, 0.0, 0.05);
   const Colour mortar = Colour::Constant(0.72f);
   std::vector<float> shade;
   for (int i = 0; i < across * up; ++i) shade.push_back(static_cast<float>(random.uniform(0.75, 1.15)));
@@ -104,7 +106,7 @@ Texture mottled(Random& random, int side, const Colour& base, float coarse, floa
 Texture concrete(Random& random, int side) {
   Texture texture = mottled(random, side, Colour::Constant(static_cast<float>(random.uniform(0.5, 0.7))), 0.12f, 0.03f);
   for (int crack = 0; crack < 3; ++crack) {
-    Eigen::Vector2d at(random.uniform(0.1, 0.9) * side, random.uniform(0.1, 0.9) * side);
+    Eigen::Vector2d at{random.uniform(0.1, 0.9) * side, random.uniform(0.1, 0.9) * side};
     double heading = random.uniform(0, 2 * M_PI);
     for (int step = 0; step < 12; ++step) {
       heading += random.gaussian(0.5);
