@@ -47,9 +47,10 @@ function(omnimapper_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
-# omnimapper_app(NAME <targets...>): program NAME from main.cpp, target app-NAME (a library may be called NAME too).
+# omnimapper_app(NAME <targets...>): program NAME from the folder's sources, target app-NAME (a library may be called NAME too).
 function(omnimapper_app name)
-  add_executable(app-${name} main.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  add_executable(app-${name} ${sources})
   set_target_properties(app-${name} PROPERTIES OUTPUT_NAME ${name})
   target_link_libraries(app-${name} PRIVATE ${ARGN})
   omnimapper_compile_options(app-${name})

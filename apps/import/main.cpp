@@ -1,13 +1,9 @@
 // omnimapper-import: makes MRPT rawlogs of other programs' logs.
-#include <omnimapper/base/Error.h>
-#include <omnimapper/base/Progress.h>
-#include <omnimapper/source/CarmenLog.h>
-#include <omnimapper/source/RawlogWriter.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <map>
+
+#include "Imports.h"
 
 namespace {
 
@@ -17,48 +13,60 @@ using source::CarmenOdometry;
 const std::map<std::string, CarmenOdometry> kOdometryNames = {
     {"automatic", CarmenOdometry::automatic}, {"lines", CarmenOdometry::lines}, {"scans", CarmenOdometry::scans}};
 
-void printSummary(const source::CarmenLog& log) {
-  const auto report = log.report();
-  std::cout << "lines read: " << report.objects << ", bad: " << log.badLineCount() << "\n" << report.text();
-  for (const auto& bad : log.badLines()) std::cout << "line " << bad.number << " left out: it " << bad.reason << "\n";
-  if (log.badLineCount() > log.badLines().size())
-    std::cout << "... and " << log.badLineCount() - log.badLines().size() << " more bad lines\n";
-  std::cout << "odometry: of the "
-            << (log.odometry() == CarmenOdometry::lines ? "ODOM lines, and again of each scan" : "scans' own lines")
-            << "; ODOM lines or repetitions left out: " << log.unusedOdometry() << "\n";
+struct Arguments {
+  std::string input, output, odometry = "automatic", images = "embedded";
+  source::RgbdFolderOptions rgbd;
+};
+
+CLI::App* addCarmen(CLI::App& app, Arguments& arguments) {
+  auto* carmen = app.add_subcommand("carmen", "CARMEN log: scans (FLASER, RLASER, ROBOTLASER1, 2) and odometry");
+  carmen->add_option("IN", arguments.input, "CARMEN log; may be compressed (.gz, .bz2)")->required();
+  carmen->add_option("OUT", arguments.output, "rawlog to write")->required();
+  carmen
+      ->add_option("--odometry", arguments.odometry,
+                   "automatic: lines if no stamp of the log runs backwards, else scans")
+      ->check(CLI::IsMember(kOdometryNames))
+      ->type_name("NAME");
+  return carmen;
 }
 
-base::ExitCode importCarmen(const std::string& input, const std::string& output, CarmenOdometry odometry) {
-  source::CarmenLog log(input, odometry);
-  base::TerminalProgress progress(std::cerr, isatty(STDERR_FILENO) != 0);
-  source::writeRawlog(output, [&](source::RawlogWriter& rawlog) {
-    while (const auto observation = log.next()) {
-      rawlog.add(*observation);
-      progress.report(log.progress(), "importing " + input);
-    }
-  });
-  printSummary(log);
-  return log.report().exitCode();
+CLI::App* addTum(CLI::App& app, Arguments& arguments) {
+  auto* tum = app.add_subcommand("tum", "folder of depth and colour images: TUM RGB-D, ICL-NUIM, 7-Scenes");
+  tum->add_option("DIR", arguments.input, "folder")->required();
+  tum->add_option("OUT", arguments.output, "rawlog to write; ground truth goes beside it as OUT.truth.tum")->required();
+  tum->add_option(
+      "--intrinsics", arguments.rgbd.intrinsics,
+      "freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file with fx, fy, cx, cy; default: "
+      "as the folder's name tells");
+  tum->add_option("--tolerance", arguments.rgbd.largest_difference, "between stamps of depth and colour [s]")
+      ->check(CLI::NonNegativeNumber);
+  tum->add_option("--depth-units", arguments.rgbd.depth_units, "values of a depth image in a metre; 0: as usual")
+      ->check(CLI::NonNegativeNumber);
+  tum->add_option("--rate", arguments.rgbd.rate, "of images without stamps [1/s]")->check(CLI::PositiveNumber);
+  tum->add_option("--label", arguments.rgbd.label, "sensor label");
+  tum->add_option("--images", arguments.images, "embedded in the rawlog, or external files beside it")
+      ->check(CLI::IsMember({"embedded", "external"}));
+  return tum;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Makes MRPT rawlogs of other programs' logs.\nExample: omnimapper-import carmen intel.clf.bz2 intel.rawlog",
+      "Makes MRPT rawlogs of other programs' logs.\n"
+      "Example: omnimapper-import carmen intel.clf.bz2 intel.rawlog\n"
+      "         omnimapper-import tum rgbd_dataset_freiburg1_rpy rpy.rawlog",
       "omnimapper-import");
   app.require_subcommand(1);
-  std::string input, output;
-  std::string odometry = "automatic";
-  auto* carmen = app.add_subcommand("carmen", "CARMEN log: scans (FLASER, RLASER, ROBOTLASER1, 2) and odometry");
-  carmen->add_option("IN", input, "CARMEN log; may be compressed (.gz, .bz2)")->required();
-  carmen->add_option("OUT", output, "rawlog to write")->required();
-  carmen->add_option("--odometry", odometry, "automatic: lines if no stamp of the log runs backwards, else scans")
-      ->check(CLI::IsMember(kOdometryNames))
-      ->type_name("NAME");
+  Arguments arguments;
+  const auto* carmen = addCarmen(app, arguments);
+  addTum(app, arguments);
   try {
     app.parse(argc, argv);
-    return static_cast<int>(importCarmen(input, output, kOdometryNames.at(odometry)));
+    if (carmen->parsed())
+      return static_cast<int>(importCarmen(arguments.input, arguments.output, kOdometryNames.at(arguments.odometry)));
+    return static_cast<int>(
+        importRgbd(arguments.input, arguments.output, arguments.rgbd, arguments.images == "external"));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);
   } catch (const base::Error& error) {

@@ -1,3 +1,4 @@
+#include <mrpt/img/CImage.h>
 #include <mrpt/serialization/CArchive.h>
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/source/RawlogWriter.h>
@@ -73,6 +74,28 @@ Digest digestOf(const std::string& path) {
   return digest;
 }
 
+/// MRPT's settings for images while this lives.
+class ImageSettings {
+ public:
+  explicit ImageSettings(ColourImages images)
+      : was_lossless_(CImage::DISABLE_JPEG_COMPRESSION()), old_quality_(CImage::SERIALIZATION_JPEG_QUALITY()) {
+    constexpr int kQuality = 95;
+    CImage::DISABLE_JPEG_COMPRESSION(images == ColourImages::lossless);
+    CImage::SERIALIZATION_JPEG_QUALITY(kQuality);
+  }
+  ~ImageSettings() {
+    CImage::DISABLE_JPEG_COMPRESSION(was_lossless_);
+    CImage::SERIALIZATION_JPEG_QUALITY(old_quality_);
+  }
+  ImageSettings(const ImageSettings&) = delete;
+  ImageSettings& operator=(const ImageSettings&) = delete;
+
+ private:
+  using CImage = mrpt::img::CImage;
+  bool was_lossless_;
+  int old_quality_;
+};
+
 }  // namespace
 
 void RawlogWriter::add(const mrpt::obs::CObservation& observation) {
@@ -83,7 +106,8 @@ void RawlogWriter::add(const mrpt::obs::CActionCollection& actions, const mrpt::
   archive_ << actions << frame;
 }
 
-void writeRawlog(const std::string& path, const std::function<void(RawlogWriter&)>& fill) {
+void writeRawlog(const std::string& path, const std::function<void(RawlogWriter&)>& fill, ColourImages images) {
+  const ImageSettings settings(images);
   base::replaceFile(path, [&](const std::string& temporary) {
     GzipArchive archive(temporary);
     RawlogWriter writer(archive);

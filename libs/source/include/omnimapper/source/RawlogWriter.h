@@ -21,8 +21,16 @@ class RawlogWriter {
   mrpt::serialization::CArchive& archive_;
 };
 
+/// How colour images inside a rawlog are kept.
+enum class ColourImages {
+  lossless,
+  jpeg,  ///< quality 95: a twentieth of the room, and of the time
+};
+
 /// Writes a rawlog (gzip) in whole or not at all: to a temporary file that is read back, byte by byte the same, before
 /// it takes the place of `path`. The same content gives the same bytes. Throws Error(disk_full) as base::replaceFile.
-void writeRawlog(const std::string& path, const std::function<void(RawlogWriter&)>& fill);
+/// How images are kept is a setting of MRPT's for the whole process while it writes.
+void writeRawlog(const std::string& path, const std::function<void(RawlogWriter&)>& fill,
+                 ColourImages images = ColourImages::lossless);
 
 }  // namespace omnimapper::source

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/source/CarmenLog.h>
+#include <omnimapper/source/RgbdFolder.h>
+
+#include <string>
+
+/// The kinds of logs that omnimapper-import takes: each writes a rawlog and prints a summary.
+
+omnimapper::base::ExitCode importCarmen(const std::string& input, const std::string& output,
+                                        omnimapper::source::CarmenOdometry odometry);
+
+/// Leaves the ground truth, if the folder has one, beside the rawlog as <output>.truth.tum, and with `external_images`
+/// the images in <output>_Images.
+omnimapper::base::ExitCode importRgbd(const std::string& folder, const std::string& output,
+                                      const omnimapper::source::RgbdFolderOptions& options, bool external_images);
