@@ -1,3 +1,4 @@
+#include <omnimapper/sim/Laser2d.h>
 #include <omnimapper/sim/Sensor.h>
 
 #include "ColourCamera.h"
@@ -10,6 +11,7 @@ const std::vector<SensorClass>& sensorClasses() {
       sensorClass<ColourCamera, ColourCameraOptions>("ColourCamera",
                                                      "A colour camera on a pan-tilt: CObservationImage."),
       sensorClass<RgbdCamera, RgbdOptions>("RgbdCamera", "A camera of depth and colour: CObservation3DRangeScan."),
+      laser2dClass(),
   };
   return classes;
 }

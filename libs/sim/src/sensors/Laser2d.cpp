@@ -1,0 +1,174 @@
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/sim/Laser2d.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "TruthText.h"
+
+namespace omnimapper::sim {
+
+namespace {
+
+constexpr double kDegree = base::option_text::kRadiansPerDegree;
+constexpr std::uint64_t kBeamStreams = 0x100;  // and one for each beam above it
+constexpr double kSceneAge = 0.005;            // [s] of a sweep in which people may be taken as standing
+
+bool somethingMoves(const World& world) {
+  return std::any_of(world.bodies.begin(), world.bodies.end(),
+                     [](const Body& body) { return body.track.kind() == Track::Kind::motion; });
+}
+
+}  // namespace
+
+Laser2dOptions::Laser2dOptions() {
+  *this = ofModel(Laser2dModel::sick_lms291);
+}
+
+// Apertures, times and ranges are those of the makers' data sheets; noise, mixing and losses of the SICK are tuned to
+// recordings (doc/results/simulator.md), those of the Hokuyos are their data sheets' and Kneip et al.,
+// "Characterization of the compact Hokuyo URG-04LX 2D laser range scanner", ICRA 2009.
+Laser2dOptions Laser2dOptions::ofModel(Laser2dModel model) {
+  Laser2dOptions o{std::in_place};
+  o.model = model;
+  switch (model) {
+    case Laser2dModel::sick_lms291:
+      // 75 turns in a second, half a turn for the scan.
+      o.beams = 181, o.aperture = 180 * kDegree, o.sweep = 0.5 / 75;
+      o.min_range = 0.05, o.max_range = 81.83, o.white_range = 85, o.divergence = 0.6 * kDegree;
+      o.noise = 0.006, o.noise_per_metre = 0.0004, o.step = 0.01;
+      o.mixing_gap = 1.5, o.mixing = 0.7, o.lost = 0.0005, o.glass_angle = 6 * kDegree;
+      break;
+    case Laser2dModel::hokuyo_utm30:
+      o.beams = 1081, o.aperture = 270 * kDegree, o.sweep = 0.75 / 40;
+      o.min_range = 0.1, o.max_range = 30, o.white_range = 35, o.divergence = 0.25 * kDegree;
+      o.noise = 0.005, o.noise_per_metre = 0.001, o.step = 0.001;
+      o.mixing_gap = 0.5, o.mixing = 0.6, o.lost = 0.001, o.glass_angle = 8 * kDegree;
+      break;
+    case Laser2dModel::hokuyo_urg04:
+      o.beams = 682, o.aperture = 681 * 360.0 / 1024 * kDegree, o.sweep = 681.0 / 1024 / 10;
+      o.min_range = 0.02, o.max_range = 4.095, o.white_range = 5.6, o.divergence = 0.5 * kDegree;
+      o.noise = 0.003, o.noise_per_metre = 0.004, o.step = 0.001;
+      o.mixing_gap = 1.0, o.mixing = 0.8, o.lost = 0.003, o.glass_angle = 10 * kDegree;
+      break;
+    case Laser2dModel::ideal:
+      o.beams = 361, o.aperture = 180 * kDegree;
+      break;
+  }
+  return o;
+}
+
+const base::OptionTable<Laser2dOptions>& Laser2dOptions::table() {
+  using base::Range;
+  using Options = Laser2dOptions;
+  const Range positive = Range::positive(), zero_or_more = Range::notNegative(), part{0, 1};
+  static const auto table =
+      base::OptionTable<Options>()
+          .choice("model", &Options::model,
+                  {{"sick_lms291", Laser2dModel::sick_lms291},
+                   {"hokuyo_utm30", Laser2dModel::hokuyo_utm30},
+                   {"hokuyo_urg04", Laser2dModel::hokuyo_urg04},
+                   {"ideal", Laser2dModel::ideal}},
+                  "Whose figures count for keys that are not given; the defaults listed are the first one's.")
+          .integer("beams", &Options::beams, {2, 100000}, "Beams of a scan.")
+          .number("aperture_deg", &Options::aperture, {1, 360}, "From the first beam to the last.")
+          .flag("counter_clockwise", &Options::counter_clockwise, "Sweeps from right to left.")
+          .number("sweep_s", &Options::sweep, zero_or_more, "From the first beam, at the stamp, to the last.")
+          .number("min_range_m", &Options::min_range, zero_or_more, "Nearer things are not measured.")
+          .number("max_range_m", &Options::max_range, positive, "Nor farther ones.")
+          .number("white_range_m", &Options::white_range, zero_or_more,
+                  "Range at which a white wall can only just be measured; dark ones nearer. 0: all alike.")
+          .number("divergence_deg", &Options::divergence, {0, 10}, "Full angle of a beam's cone; 0: a line.")
+          .number("noise_m", &Options::noise, zero_or_more, "Standard deviation of ranges.")
+          .number("noise_per_m", &Options::noise_per_metre, zero_or_more, "What each metre of range adds to it [m].")
+          .number("step_m", &Options::step, zero_or_more, "Ranges are multiples of it; 0: not rounded.")
+          .number("mixing_gap_m", &Options::mixing_gap, zero_or_more,
+                  "Two things in one beam are mixed up to this distance of one behind the other.")
+          .number("mixing", &Options::mixing, part, "Part of such beams whose range is a mean of both.")
+          .number("lost", &Options::lost, part, "Part of the echoes that are missed.")
+          .number("glass_deg", &Options::glass_angle, zero_or_more,
+                  "Incidence up to which panes are seen themselves, one sigma; 0: never, and they never mirror.")
+          .flag("no_echo_is_max", &Options::no_echo_is_max, "Range of a beam without echo: max_range_m, else 0.")
+          .flag("intensity", &Options::intensity, "Intensities of the echoes, 0 to 255.")
+          .flag("truth_ranges", &Options::truth_ranges, "The truth has the true range of each beam.");
+  return table;
+}
+
+Laser2d::Laser2d(const Laser2dOptions& options, const SensorOptions& mount, const SensorContext& context)
+    : Sensor(mount, context), options_(options), optics_(options, *context.scenes, 3) {}
+
+std::vector<Echo> Laser2d::echoes(int k) const {
+  // MRPT keeps the aperture in single precision: the beams are those that a reader of the log will assume.
+  const double aperture = static_cast<double>(static_cast<float>(options_.aperture));
+  const double sign = options_.counter_clockwise ? 1 : -1;
+  const int slices = options_.sweep > kSceneAge && somethingMoves(*context().world)
+                         ? static_cast<int>(std::ceil(options_.sweep / kSceneAge))
+                         : 1;
+  std::vector<Echo> all;
+  for (int slice = 0; slice < slices; ++slice) {
+    const int first = options_.beams * slice / slices, end = options_.beams * (slice + 1) / slices;
+    std::vector<Beam> beams;
+    std::vector<Random> randoms;
+    double middle = 0;
+    for (int i = first; i < end; ++i) {
+      const double part = static_cast<double>(i) / (options_.beams - 1), time = timeOf(k) + options_.sweep * part;
+      const double angle = sign * aperture * (part - 0.5);
+      const geometry::Se3 map_from_sensor = mapFromSensor(time);
+      beams.push_back({map_from_sensor.translation,
+                       (map_from_sensor.rotation * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0)).normalized()});
+      randoms.push_back(randomOf(k, kBeamStreams + static_cast<std::uint64_t>(i)));
+      middle += time / (end - first);
+    }
+    const auto echoes = optics_.measure(context().scenes->at(middle), beams, std::move(randoms));
+    all.insert(all.end(), echoes.begin(), echoes.end());
+  }
+  return all;
+}
+
+Measurement Laser2d::measure(int k) const {
+  const std::vector<Echo> all = echoes(k);
+  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+  stamp(*scan, k);
+  scan->sensorPose = geometry::toMrpt(baseFromSensor());
+  scan->aperture = static_cast<float>(options_.aperture);
+  scan->rightToLeft = options_.counter_clockwise;
+  scan->maxRange = static_cast<float>(options_.max_range);
+  scan->stdError = static_cast<float>(std::max(options_.noise, 1e-3));
+  scan->beamAperture = static_cast<float>(options_.divergence);
+  scan->resizeScan(all.size());
+  scan->setScanHasIntensity(options_.intensity);
+  const auto none = static_cast<float>(options_.no_echo_is_max ? options_.max_range : 0);
+  auto truth_ranges = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    scan->setScanRange(i, all[i].is_valid ? static_cast<float>(all[i].range) : none);
+    scan->setScanRangeValidity(i, all[i].is_valid);
+    if (options_.intensity)
+      scan->setScanIntensity(i, all[i].is_valid ? static_cast<int>(255 * std::min(1.0, all[i].reflected)) : 0);
+    if (options_.truth_ranges) truth_ranges.push_back(rounded(all[i].true_range));
+  }
+  nlohmann::ordered_json truth{{"k", k}, {"stamp", base::formatUnix(scan->timestamp)}};
+  truth.update(truthOf(all));
+  if (options_.truth_ranges) truth["ranges"] = truth_ranges;
+  return {scan, truth.dump(), {}};
+}
+
+SensorClass laser2dClass() {
+  const auto make = [](const base::ConfigSection& section, const SensorOptions& mount,
+                       const SensorContext& context) -> std::unique_ptr<Sensor> {
+    std::vector<std::string> others{"class"};
+    for (const auto& spec : SensorOptions::table().specs()) others.push_back(spec.key);
+    const auto& specs = Laser2dOptions::table().specs();
+    // read() checks all; what was given is then put over the model's figures.
+    Laser2dOptions options = Laser2dOptions::ofModel(section.read<Laser2dOptions>(others).model);
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+      std::string text;
+      if (section.find(specs[i].key, text)) Laser2dOptions::table().set(options, i, text);
+    }
+    return std::make_unique<Laser2d>(options, mount, context);
+  };
+  return {"Laser2d", "A 2D laser with the noise, mixed pixels, glass and dark surfaces of a real one.",
+          Laser2dOptions::table().specs(), make};
+}
+
+}  // namespace omnimapper::sim
