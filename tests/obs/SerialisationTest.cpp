@@ -1,13 +1,15 @@
 #include <gtest/gtest.h>
 #include <mrpt/io/CMemoryStream.h>
-#include <mrpt/random/RandomGenerators.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/opengl/Visualizable.h>
 #include <mrpt/serialization/CArchive.h>
-#include <omnimapper/obs/CObservationRelativeMotion.h>
 #include <omnimapper/obs/registerClasses.h>
 
 #include <cstring>
-#include <functional>
-#include <map>
+#include <sstream>
+
+#include "FilledObjects.h"
 
 namespace omnimapper::obs {
 namespace {
@@ -25,21 +27,6 @@ std::vector<char> bytesOf(const CSerializable& object) {
 CSerializable::Ptr objectFrom(const std::vector<char>& bytes) {
   mrpt::io::CMemoryStream stream(bytes.data(), bytes.size());
   return archiveFrom(stream).ReadObject();
-}
-
-// An object of each class with every field off its default.
-std::map<std::string, std::function<CSerializable::Ptr()>> filledObjects() {
-  return {{"omnimapper::obs::CObservationRelativeMotion", [] {
-             auto& random = mrpt::random::getRandomGenerator();
-             random.randomize(7);
-             auto motion = CObservationRelativeMotion::Create();
-             motion->timestamp = base::parseUnix("1137834225.9737601");
-             motion->begin = base::parseUnix("1137834225.8737603");
-             motion->sensorLabel = "visual odometry";
-             motion->begin_from_end = mrpt::poses::CPose3D(0.1, -1.0 / 3.0, 1e-17, 3.0, -1.5, 0.7);
-             for (int i = 0; i < 36; ++i) motion->covariance(i) = random.drawUniform(-1.0, 1.0);
-             return motion;
-           }}};
 }
 
 TEST(Serialisation, everyClassIsRegisteredUnderItsQualifiedName) {
@@ -80,6 +67,56 @@ TEST(Serialisation, everyClassRefusesAVersionFromTheFuture) {
     // MRPT's header: length of the name with its top bit set, the name, the version.
     bytes[1 + name.size()] = 100;
     EXPECT_ANY_THROW(objectFrom(bytes)) << name;
+  }
+}
+
+// Describes, exports and draws it, as a stock tool would.
+void useAsStockToolsDo(const CSerializable& object) {
+  const auto& observation = dynamic_cast<const mrpt::obs::CObservation&>(object);
+  EXPECT_FALSE(observation.asString().empty());
+  EXPECT_FALSE(observation.exportTxtDataRow().empty());
+  EXPECT_TRUE(dynamic_cast<const mrpt::opengl::Visualizable&>(object).getVisualization());
+}
+
+TEST(Serialisation, damagedBytesAreRefusedOrReadAndNeverTakeMoreMemoryThanThereIsData) {
+  std::mt19937_64 engine(11);
+  for (const auto& [name, make] : filledObjects()) {
+    const auto bytes = bytesOf(*make());
+    const std::size_t begin = name.size() + 2;
+    int refused = 0;
+    const auto tryBytes = [&](const std::vector<char>& damaged) {
+      CSerializable::Ptr object;
+      try {
+        object = objectFrom(damaged);
+      } catch (const std::exception&) {
+        ++refused;
+        return;
+      }
+      useAsStockToolsDo(*object);
+    };
+    for (std::size_t i = begin; i + 4 <= bytes.size(); i += 3) {
+      auto damaged = bytes;
+      std::memset(damaged.data() + i, 0xff, 4);  // whichever of them is a count says four thousand million
+      tryBytes(damaged);
+    }
+    for (int i = 0; i < 500; ++i) {
+      auto damaged = bytes;
+      for (int k = 0; k < 4; ++k) damaged[begin + engine() % (bytes.size() - begin)] = static_cast<char>(engine());
+      tryBytes(damaged);
+    }
+    EXPECT_GT(refused, 0) << name;
+  }
+}
+
+TEST(Serialisation, whatIsReadCanBeUsedAsWhatWasWritten) {
+  for (const auto& [name, make] : filledObjects()) {
+    const auto object = make();
+    const auto copy = objectFrom(bytesOf(*object));
+    const auto& was = dynamic_cast<const mrpt::obs::CObservation&>(*object);
+    const auto& is = dynamic_cast<const mrpt::obs::CObservation&>(*copy);
+    EXPECT_EQ(is.asString(), was.asString()) << name;
+    EXPECT_EQ(is.exportTxtDataRow(), was.exportTxtDataRow()) << name;
+    useAsStockToolsDo(is);
   }
 }
 

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "Fields.h"
+
 IMPLEMENTS_SERIALIZABLE(CObservationRelativeMotion, mrpt::obs::CObservation, omnimapper::obs)
 
 namespace omnimapper::obs {
@@ -41,29 +43,17 @@ uint8_t CObservationRelativeMotion::serializeGetVersion() const {
 
 void CObservationRelativeMotion::serializeTo(mrpt::serialization::CArchive& out) const {
   out << timestamp << sensorLabel << begin;
-  const auto& rotation = begin_from_end.getRotationMatrix();
-  for (int i = 0; i < 3; ++i) out << begin_from_end.m_coords[i];
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) out << rotation(i, j);
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) out << covariance(i, j);
+  writePose(out, begin_from_end);
+  writeMatrix(out, covariance);
 }
 
 void CObservationRelativeMotion::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
-  if (version != 0) {
-    throw base::Error(base::ExitCode::damaged_input,
-                      "CObservationRelativeMotion of version " + std::to_string(int{version}) +
-                          ", newer than this program: read it with the version of OmniMapper that wrote it.");
-  }
-  in >> timestamp >> sensorLabel >> begin;
-  mrpt::math::CVectorFixedDouble<3> translation;
-  mrpt::math::CMatrixDouble33 rotation;
-  for (int i = 0; i < 3; ++i) in >> translation[i];
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) in >> rotation(i, j);
-  begin_from_end = mrpt::poses::CPose3D(rotation, translation);
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) in >> covariance(i, j);
+  if (version != 0) refuseVersion("CObservationRelativeMotion", version);
+  in >> timestamp;
+  sensorLabel = readText(in);
+  in >> begin;
+  begin_from_end = readPose(in);
+  covariance = readMatrix<Eigen::Matrix<double, 6, 6>>(in);
 }
 
 void CObservationRelativeMotion::getSensorPose(mrpt::poses::CPose3D& sensor_pose) const {

@@ -1,4 +1,8 @@
 #include <mrpt/core/initializer.h>
+#include <omnimapper/obs/CObservationDoorSigns.h>
+#include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/obs/CObservationObjects.h>
+#include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
 #include <omnimapper/obs/registerClasses.h>
 
@@ -6,7 +10,8 @@ namespace omnimapper::obs {
 
 const std::vector<const mrpt::rtti::TRuntimeClassId*>& allClasses() {
   static const std::vector<const mrpt::rtti::TRuntimeClassId*> classes = {
-      CLASS_ID(CObservationRelativeMotion),
+      CLASS_ID(CObservationRelativeMotion), CLASS_ID(CObservationPlanes),    CLASS_ID(CObservationLaserLines),
+      CLASS_ID(CObservationObjects),        CLASS_ID(CObservationDoorSigns),
   };
   return classes;
 }

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <mrpt/img/CImage.h>
+#include <omnimapper/obs/CDerivedObservation.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace omnimapper::obs {
+
+/// One line of text that was read.
+struct ReadText {
+  std::string text;       ///< UTF-8
+  double confidence = 0;  ///< 0 to 1
+};
+
+/// A sign on or beside a door.
+struct ObservedDoorSign {
+  /// [px] corners of its region in the image, x to the right and y down, (0, 0) the middle of the upper left pixel:
+  /// upper left, upper right, lower right, lower left, as the text is read.
+  std::array<Eigen::Vector2f, 4> corners_px{Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(),
+                                            Eigen::Vector2f::Zero()};
+  Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();  ///< unit, from the camera to the middle of the sign
+  std::optional<double> range;                     ///< [m] along the ray, where something measured it
+  double range_sigma = 0;                          ///< [m]
+  double score = 0;                                ///< of the classifier that says it is a sign, 0 to 1
+  std::vector<ReadText> texts;                     ///< from top to bottom
+  mrpt::img::CImage patch;                         ///< what the region shows, 8 bit, grey or colour; may be empty
+};
+
+/// The door signs that were found in one image. The sensor is the camera as a lens looks: z forward, x to the right,
+/// y down; sensorPose is where it was on the base when the image was taken, which a pan-tilt unit changes.
+class CObservationDoorSigns : public CDerivedObservation {
+  DEFINE_SERIALIZABLE(CObservationDoorSigns, omnimapper::obs)
+
+ public:
+  std::vector<ObservedDoorSign> signs;
+
+  std::string exportTxtHeader() const override;
+  std::string exportTxtDataRow() const override;
+
+ protected:
+  void describe(std::ostream& out) const override;
+  /// Ray, stretch of the ray that the sign is in by two sigma, framed patch and text; a sign without range is drawn at
+  /// 2 m.
+  void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const override;
+};
+
+}  // namespace omnimapper::obs

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <omnimapper/geometry/Segment2.h>
+#include <omnimapper/obs/CDerivedObservation.h>
+
+#include <vector>
+
+namespace omnimapper::obs {
+
+/// Why a line ends where it does. The numbers are those of the file.
+enum class LineEnd : std::uint8_t {
+  wall = 0,      ///< the wall ends: what the next beam meets lies behind it, or joins it as a corner
+  occluded = 1,  ///< something nearer hides how it goes on
+  view = 2       ///< the scan ends, or the next beam met nothing
+};
+
+/// A straight stretch of what a 2D laser scan met.
+struct LaserLine {
+  geometry::Segment2 segment_in_sensor;  ///< [m] in the plane of the scan (z = 0), from the first beam to the last
+  /// The line: x cos(angle) + y sin(angle) = distance. The angle [rad], in (-pi, pi], is the way from the sensor to the
+  /// line's nearest point; distance [m] >= 0. As a geometry::Plane3 that is normal -(cos, sin), distance `distance`.
+  double angle = 0;
+  double distance = 0;
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (angle [rad], distance [m])
+  LineEnd from_end = LineEnd::wall;
+  LineEnd to_end = LineEnd::wall;
+  std::uint32_t first_beam = 0;  ///< index in the scan
+  std::uint32_t last_beam = 0;   ///< inclusive
+  std::uint32_t inliers = 0;     ///< beams among them that lie on the line
+  double rms = 0;                ///< [m] distance of their points from it
+};
+
+/// The straight lines of one 2D laser scan, in the order of its beams.
+class CObservationLaserLines : public CDerivedObservation {
+  DEFINE_SERIALIZABLE(CObservationLaserLines, omnimapper::obs)
+
+ public:
+  std::vector<LaserLine> lines;
+
+  std::string exportTxtHeader() const override;
+  std::string exportTxtDataRow() const override;
+
+ protected:
+  void describe(std::ostream& out) const override;
+  /// Thick segments in a colour by index. An end that is the wall's own has a cross bar, others a point: grey where
+  /// hidden, white where the view ends.
+  void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const override;
+};
+
+}  // namespace omnimapper::obs

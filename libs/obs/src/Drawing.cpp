@@ -1,0 +1,83 @@
+#include "Drawing.h"
+
+#include <mrpt/opengl/CArrow.h>
+#include <mrpt/opengl/CSphere.h>
+#include <mrpt/opengl/CText.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace omnimapper::obs {
+
+mrpt::img::TColor indexColour(std::size_t index, std::uint8_t alpha) {
+  // Turns of the hue by the golden section never come near one another soon.
+  const double hue = 6 * std::fmod(0.05 + 0.6180339887498949 * static_cast<double>(index % 1000), 1.0);
+  const auto part = [&](double shift) {
+    const double way = std::fmod(hue + shift, 6.0);
+    const double height = std::clamp(std::min(way, 4 - way), 0.0, 1.0);
+    return static_cast<std::uint8_t>(std::lround(255 * (0.1 + 0.8 * height)));
+  };
+  return {part(2), part(0), part(4), alpha};
+}
+
+mrpt::img::TColor asColor(const Rgb& colour) {
+  return {colour.red, colour.green, colour.blue};
+}
+
+bool isFinite(const Eigen::Vector3d& point) {
+  return point.allFinite();
+}
+
+void addLine(mrpt::opengl::CSetOfLines& lines, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  if (isFinite(from) && isFinite(to)) lines.appendLine(from.x(), from.y(), from.z(), to.x(), to.y(), to.z());
+}
+
+void addClosed(mrpt::opengl::CSetOfLines& lines, const geometry::Polygon3& polygon) {
+  const auto& vertices = polygon.vertices;
+  for (std::size_t i = 0, j = vertices.size() - 1; i < vertices.size(); j = i++)
+    addLine(lines, vertices[j], vertices[i]);
+}
+
+mrpt::opengl::CSetOfLines::Ptr makeLines(const mrpt::img::TColor& colour, float width) {
+  auto lines = mrpt::opengl::CSetOfLines::Create();
+  lines->setColor_u8(colour);
+  lines->setLineWidth(width);
+  return lines;
+}
+
+void addArrow(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+              const mrpt::img::TColor& colour) {
+  const double way = (to - from).norm();
+  if (!isFinite(from) || !isFinite(to) || !(way > 1e-3)) return;
+  auto arrow = mrpt::opengl::CArrow::Create();
+  mrpt::math::CVectorFixedDouble<3> begin, end;
+  for (int i = 0; i < 3; ++i) {
+    begin[i] = from[i];
+    end[i] = to[i];
+  }
+  arrow->setArrowEnds(begin, end);
+  arrow->setSmallRadius(static_cast<float>(0.03 * way));
+  arrow->setLargeRadius(static_cast<float>(0.09 * way));
+  arrow->setColor_u8(colour);
+  scene.insert(arrow);
+}
+
+void addBall(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middle, double radius,
+             const mrpt::img::TColor& colour) {
+  if (!isFinite(middle)) return;
+  auto ball = mrpt::opengl::CSphere::Create(static_cast<float>(radius));
+  ball->setLocation(middle.x(), middle.y(), middle.z());
+  ball->setColor_u8(colour);
+  scene.insert(ball);
+}
+
+void addText(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& place, const std::string& text,
+             const mrpt::img::TColor& colour) {
+  if (!isFinite(place) || text.empty()) return;
+  auto label = mrpt::opengl::CText::Create(text);
+  label->setLocation(place.x(), place.y(), place.z());
+  label->setColor_u8(colour);
+  scene.insert(label);
+}
+
+}  // namespace omnimapper::obs

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <mrpt/img/TColor.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/geometry/Polygon3.h>
+#include <omnimapper/obs/Rgb.h>
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::obs {
+
+/// Shapes of what was observed, in MRPT's scenes. Whatever is not a finite number is left out.
+
+/// A colour for each index, neighbours far apart.
+mrpt::img::TColor indexColour(std::size_t index, std::uint8_t alpha = 255);
+mrpt::img::TColor asColor(const Rgb& colour);
+
+bool isFinite(const Eigen::Vector3d& point);
+/// Adds a line where both ends are finite.
+void addLine(mrpt::opengl::CSetOfLines& lines, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+void addClosed(mrpt::opengl::CSetOfLines& lines, const geometry::Polygon3& polygon);
+/// Lines of that colour and width [px] as one object.
+mrpt::opengl::CSetOfLines::Ptr makeLines(const mrpt::img::TColor& colour, float width);
+
+/// What lies in an odd number of the walks, all on about that plane, as triangles of a translucent colour.
+void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane,
+               const std::vector<geometry::Polygon3>& walks, const mrpt::img::TColor& colour);
+void addArrow(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+              const mrpt::img::TColor& colour);
+/// A small ball.
+void addBall(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middle, double radius,
+             const mrpt::img::TColor& colour);
+/// Text that always faces who looks.
+void addText(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& place, const std::string& text,
+             const mrpt::img::TColor& colour);
+
+}  // namespace omnimapper::obs
