@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+namespace omnimapper::perception {
+
+/// How a camera sees, in pixels. The centre of the pixel in column u and row v has the image point (u, v); the ray
+/// through it is ((u - cx) / fx, (v - cy) / fy, 1) in the optical frame: x right, y down, z forward.
+struct Pinhole {
+  double fx = 525, fy = 525, cx = 319.5, cy = 239.5;
+};
+
+/// A depth image somebody else owns: rows from the top without gaps, the z coordinate of what each pixel sees. Zero,
+/// negative and not finite depths are no measurement; so is 65535, at which 16-bit depths are saturated.
+class DepthImage {
+ public:
+  /// Both throw Error(unreadable_input) for a negative size, more than 4096 columns or rows, missing pixels, a focal
+  /// length or a unit that is zero or not finite.
+  DepthImage(const std::uint16_t* units, double metres_per_unit, int width, int height, const Pinhole& camera);
+  DepthImage(const float* metres, int width, int height, const Pinhole& camera);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  const Pinhole& camera() const { return camera_; }
+  /// One of the two is null.
+  const std::uint16_t* units() const { return units_; }
+  const float* metres() const { return metres_; }
+  double metresPerUnit() const { return metres_per_unit_; }
+
+ private:
+  const std::uint16_t* units_ = nullptr;
+  const float* metres_ = nullptr;
+  double metres_per_unit_ = 1;
+  int width_, height_;
+  Pinhole camera_;
+};
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <omnimapper/geometry/Plane3.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace omnimapper::perception {
+
+/// The upper left corner of the pixel in column x and row y: the image point (x - 0.5, y - 0.5).
+struct PixelCorner {
+  int x = 0, y = 0;
+  bool operator==(const PixelCorner& other) const { return x == other.x && y == other.y; }
+};
+
+/// A closed line along the edges of pixels, with a corner where it turns; the last is joined to the first. The region
+/// lies on its right as the image is seen: outer lines run clockwise, those around holes counter-clockwise.
+struct Contour {
+  std::vector<PixelCorner> corners;
+  std::vector<Eigen::Vector3d> points;  ///< [m], one for each corner, on the plane, in the sensor's optical frame
+};
+
+/// A connected part of the image that is flat to what the sensor can tell.
+/// Frame: the camera's optical frame, x right, y down, z forward.
+struct PlaneRegion {
+  geometry::Plane3 plane_in_sensor;  ///< normal towards the sensor, distance > 0
+  /// Of (turn of the normal in the two columns of geometry::tangentBasis(normal) [rad], distance [m]).
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m], of the inliers
+  int inliers = 0;                                     ///< pixels
+  double rms = 0;                                      ///< [m], distance of the inliers from the plane
+  Contour outline;
+  std::vector<Contour> holes;
+};
+
+struct PlaneSegmentation {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> labels;  ///< of each pixel, row by row: i + 1 on planes[i], 0 on none
+  std::vector<PlaneRegion> planes;    ///< the one with most pixels first
+};
+
+}  // namespace omnimapper::perception

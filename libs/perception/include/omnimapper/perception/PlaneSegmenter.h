@@ -1,0 +1,42 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/perception/DepthNoise.h>
+#include <omnimapper/perception/PlaneRegion.h>
+
+namespace omnimapper::perception {
+
+struct PlaneOptions {
+  double noise_at_1m = DepthNoise().sigma;             ///< [m]
+  double step_at_1m = DepthNoise().step;               ///< [m]
+  double bend_at_1m = DepthNoise().bend;               ///< [m]
+  double correlation_area = DepthNoise().correlation;  ///< [px^2]
+  double min_depth = 0.2;                              ///< [m]
+  double max_depth = 12;                               ///< [m]
+  int min_pixels = 1000;                               ///< of a plane
+  int min_hole_pixels = 30;                            ///< smaller holes are not outlined
+
+  DepthNoise noise() const { return {noise_at_1m, step_at_1m, bend_at_1m, correlation_area}; }
+  static const base::OptionTable<PlaneOptions>& table();
+};
+
+/// Finds all planes of an organised depth image (thesis 3.4.3 and 3.4.4), to the pixel.
+/// A plane is linear in inverse depth, 1/z = a u + b v + c, and the noise of triangulating sensors is the same
+/// everywhere in inverse depth: least squares there are exact for planes, and each threshold is one number of the noise
+/// model, near and far. Cells of 16 x 16 pixels are fitted and grown to regions, regions that one plane explains are
+/// merged, borders are decided pixel by pixel, and what remains is fitted again and traced. The same bits on every
+/// x86-64, with AVX2 and without.
+class PlaneSegmenter {
+ public:
+  /// Throws Error(out_of_range) for min_depth >= max_depth.
+  explicit PlaneSegmenter(const PlaneOptions& options);
+
+  /// Thread-safe. An image without a plane, of whatever size, gives none.
+  PlaneSegmentation segment(const DepthImage& image) const;
+
+ private:
+  PlaneOptions options_;
+};
+
+}  // namespace omnimapper::perception

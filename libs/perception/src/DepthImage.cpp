@@ -1,0 +1,44 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/perception/DepthImage.h>
+
+#include <cmath>
+#include <string>
+
+namespace omnimapper::perception {
+
+namespace {
+
+constexpr int kLongestSide = 4096;
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw base::Error(base::ExitCode::unreadable_input, "depth image: " + why);
+}
+
+void check(const void* pixels, int width, int height, const Pinhole& camera) {
+  if (width < 0 || height < 0 || width > kLongestSide || height > kLongestSide) {
+    refuse("a size of " + std::to_string(width) + " x " + std::to_string(height) + " is outside 0 to " +
+           std::to_string(kLongestSide));
+  }
+  if (pixels == nullptr && width > 0 && height > 0) refuse("it has a size but no pixels");
+  for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) {
+    if (!std::isfinite(value)) refuse("an intrinsic parameter is not finite; calibrate the camera");
+  }
+  if (camera.fx == 0 || camera.fy == 0) refuse("a focal length is 0; calibrate the camera");
+}
+
+}  // namespace
+
+DepthImage::DepthImage(const std::uint16_t* units, double metres_per_unit, int width, int height, const Pinhole& camera)
+    : units_(units), metres_per_unit_(metres_per_unit), width_(width), height_(height), camera_(camera) {
+  check(units, width, height, camera);
+  if (!std::isfinite(metres_per_unit) || metres_per_unit <= 0) {
+    refuse("a depth unit of " + std::to_string(metres_per_unit) + " m is not positive");
+  }
+}
+
+DepthImage::DepthImage(const float* metres, int width, int height, const Pinhole& camera)
+    : metres_(metres), width_(width), height_(height), camera_(camera) {
+  check(metres, width, height, camera);
+}
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <omnimapper/perception/DepthNoise.h>
+
+#include <vector>
+
+#include "InverseDepth.h"
+#include "PlaneMoments.h"
+
+namespace omnimapper::perception::planes {
+
+struct Cell {
+  PlaneMoments moments;  ///< of its measured pixels, counted from the principal point
+  double squares = 0;    ///< from its own plane [1/m^2]
+  bool flat = false;     ///< one plane explains it
+};
+
+struct CellGrid {
+  int columns = 0, rows = 0;
+  std::vector<Cell> cells;
+
+  int index(int column, int row) const { return row * columns + column; }
+  const Cell& at(int column, int row) const { return cells[static_cast<std::size_t>(index(column, row))]; }
+};
+
+/// The image in cells of kCell x kCell pixels, each with its own plane.
+CellGrid fitCells(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise);
+
+}  // namespace omnimapper::perception::planes

@@ -1,0 +1,80 @@
+#include "Outlines.h"
+
+#include <utility>
+
+namespace omnimapper::perception::planes {
+
+namespace {
+
+// Directions along the edges of pixels, each a right turn after the one before it.
+enum Direction { up, right, down, left };
+constexpr int kStepX[] = {0, 1, 0, -1};
+constexpr int kStepY[] = {-1, 0, 1, 0};
+// From a corner, the pixel ahead on the right hand and the one on the left hand.
+constexpr int kRightX[] = {0, 0, -1, -1}, kRightY[] = {-1, 0, 0, -1};
+constexpr int kLeftX[] = {-1, 0, 0, -1}, kLeftY[] = {-1, -1, 0, 0};
+
+class Tracer {
+ public:
+  Tracer(const std::vector<std::uint16_t>& labels, int width, int height)
+      : labels_(labels.data()), width_(width), height_(height), traced_(labels.size(), false) {}
+
+  bool isTraced(int x, int y) const { return traced_[index(x, y)]; }
+
+  // From the left edge of the pixel, upwards, with the region on the right hand.
+  TracedLine trace(int x, int y) {
+    TracedLine line;
+    line.label = labels_[index(x, y)];
+    const PixelCorner start{x, y + 1};
+    PixelCorner at = start;
+    int direction = up;
+    // The line is closed when it comes to its first edge again: corners may be passed twice.
+    do {
+      if (direction == up) traced_[index(at.x, at.y - 1)] = true;
+      at.x += kStepX[direction];
+      at.y += kStepY[direction];
+      line.area += at.x * kStepY[direction];  // edges that go down on the right enclose what is left of them
+      const int next = turn(at, direction, line.label);
+      if (next != direction) line.corners.push_back(at);
+      direction = next;
+    } while (!(at == start) || direction != up);
+    return line;
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  bool has(int x, int y, std::uint16_t label) const {
+    return x >= 0 && y >= 0 && x < width_ && y < height_ && labels_[index(x, y)] == label;
+  }
+
+  // Pixels that only touch at a corner are not connected, so a right turn comes first.
+  int turn(const PixelCorner& at, int direction, std::uint16_t label) const {
+    if (!has(at.x + kRightX[direction], at.y + kRightY[direction], label)) return (direction + 1) % 4;
+    if (has(at.x + kLeftX[direction], at.y + kLeftY[direction], label)) return (direction + 3) % 4;
+    return direction;
+  }
+
+  const std::uint16_t* labels_;
+  int width_, height_;
+  std::vector<bool> traced_;  // left edges of pixels
+};
+
+}  // namespace
+
+std::vector<TracedLine> traceOutlines(const std::vector<std::uint16_t>& labels, int width, int height,
+                                      const std::vector<PixelRun>& runs, int min_hole) {
+  std::vector<TracedLine> lines;
+  Tracer tracer(labels, width, height);
+  for (const PixelRun& run : runs) {
+    const auto pixel = static_cast<std::size_t>(run.row) * static_cast<std::size_t>(width);
+    if (labels[pixel + static_cast<std::size_t>(run.begin)] == 0 || tracer.isTraced(run.begin, run.row)) continue;
+    TracedLine line = tracer.trace(run.begin, run.row);
+    if (line.area > 0 || -line.area >= min_hole) lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace omnimapper::perception::planes

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "PlaneMoments.h"
+
+namespace omnimapper::perception::planes {
+
+/// Sums over the pixels of a run of their residuals r from a plane [1/m] and depths z [m]; x counts from the run's
+/// begin.
+struct RunSums {
+  double r = 0, xr = 0, rr = 0;
+  double z = 0, xz = 0;
+  double zr_zr = 0;
+};
+
+/// `values` are those of the run's pixels, all measured; the plane is `start` + `slope` x.
+RunSums sumRun(const float* values, int n, float start, float slope);
+
+}  // namespace omnimapper::perception::planes
