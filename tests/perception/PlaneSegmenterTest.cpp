@@ -44,7 +44,7 @@ double areaOf(const Contour& contour) {
     const PixelCorner &a = contour.corners[i], &b = contour.corners[(i + 1) % contour.corners.size()];
     twice += a.x * b.y - b.x * a.y;
   }
-  return twice / 2;
+  return -twice / 2;  // y is down
 }
 
 TEST(PlaneSegmenter, AWallStraightAheadIsOnePlaneAsWorkedByHand) {
@@ -56,10 +56,12 @@ TEST(PlaneSegmenter, AWallStraightAheadIsOnePlaneAsWorkedByHand) {
   EXPECT_LT((wall.centroid - Eigen::Vector3d(0, 0, 2)).norm(), 1e-5);
   EXPECT_EQ(wall.inliers, kWidth * kHeight);
   EXPECT_LT(wall.rms, 1e-5);
-  EXPECT_EQ(wall.outline.corners, (std::vector<PixelCorner>{{0, 0}, {160, 0}, {160, 120}, {0, 120}}));
-  ASSERT_EQ(wall.outline.points.size(), 4U);
-  EXPECT_LT((wall.outline.points[0] - Eigen::Vector3d(-1.6, -1.2, 2)).norm(), 1e-4);
-  EXPECT_LT((wall.outline.points[2] - Eigen::Vector3d(1.6, 1.2, 2)).norm(), 1e-4);
+  EXPECT_EQ(wall.outline.corners, (std::vector<PixelCorner>{{0, 120}, {160, 120}, {160, 0}, {0, 0}}));
+  const auto& corners = wall.outline.polygon_in_sensor.vertices;
+  ASSERT_EQ(corners.size(), 4U);
+  EXPECT_LT((corners[1] - Eigen::Vector3d(1.6, 1.2, 2)).norm(), 1e-4);
+  EXPECT_LT((corners[3] - Eigen::Vector3d(-1.6, -1.2, 2)).norm(), 1e-4);
+  EXPECT_LT((areaVector(wall.outline.polygon_in_sensor) - 3.2 * 2.4 * wall.plane_in_sensor.normal).norm(), 1e-4);
   EXPECT_TRUE(wall.holes.empty());
   for (const std::uint16_t label : found.labels) EXPECT_EQ(label, 1);
 }
@@ -129,7 +131,7 @@ TEST(PlaneSegmenter, AHoleIsOutlinedTheOtherWayRound) {
   ASSERT_EQ(wall.holes.size(), 1U);
   EXPECT_EQ(areaOf(wall.holes[0]), -70);
   EXPECT_EQ(wall.holes[0].corners.size(), 4U);
-  for (const auto& point : wall.holes[0].points) {
+  for (const auto& point : wall.holes[0].polygon_in_sensor.vertices) {
     EXPECT_NEAR(signedDistance(wall.plane_in_sensor, point), 0, 1e-9);
   }
 }
@@ -247,7 +249,7 @@ TEST(PlaneSegmenter, ThreadsAndRepetitionChangeNoBit) {
     for (std::size_t i = 0; i < result.planes.size(); ++i) {
       EXPECT_EQ(result.planes[i].plane_in_sensor.normal, expected.planes[i].plane_in_sensor.normal);
       EXPECT_EQ(result.planes[i].covariance, expected.planes[i].covariance);
-      EXPECT_EQ(result.planes[i].outline.points, expected.planes[i].outline.points);
+      EXPECT_EQ(result.planes[i].outline.corners, expected.planes[i].outline.corners);
     }
   }
 }

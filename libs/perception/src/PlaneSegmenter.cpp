@@ -49,12 +49,12 @@ void paint(const Components& components, const std::vector<planes::FittedRegion>
 Contour onPlane(std::vector<PixelCorner> corners, const planes::ImagePlane& plane, const Pinhole& camera,
                 double max_depth) {
   Contour contour;
-  contour.points.reserve(corners.size());
+  contour.polygon_in_sensor.vertices.reserve(corners.size());
   for (const PixelCorner& corner : corners) {
     const double u = corner.x - 0.5 - camera.cx, v = corner.y - 0.5 - camera.cy;
     // A corner of a pixel that sees a plane edge-on can lie beyond the plane's horizon.
     const double inverse = std::max(plane.at(u, v), 0.5 / max_depth);
-    contour.points.emplace_back(u / (camera.fx * inverse), v / (camera.fy * inverse), 1 / inverse);
+    contour.polygon_in_sensor.vertices.emplace_back(u / (camera.fx * inverse), v / (camera.fy * inverse), 1 / inverse);
   }
   contour.corners = std::move(corners);
   return contour;

@@ -21,23 +21,23 @@ class Tracer {
 
   bool isTraced(int x, int y) const { return traced_[index(x, y)]; }
 
-  // From the left edge of the pixel, upwards, with the region on the right hand.
+  // From the left edge of the pixel, downwards, with the region on the left hand.
   TracedLine trace(int x, int y) {
     TracedLine line;
     line.label = labels_[index(x, y)];
-    const PixelCorner start{x, y + 1};
+    const PixelCorner start{x, y};
     PixelCorner at = start;
-    int direction = up;
+    int direction = down;
     // The line is closed when it comes to its first edge again: corners may be passed twice.
     do {
-      if (direction == up) traced_[index(at.x, at.y - 1)] = true;
+      if (direction == down) traced_[index(at.x, at.y)] = true;
       at.x += kStepX[direction];
       at.y += kStepY[direction];
-      line.area += at.x * kStepY[direction];  // edges that go down on the right enclose what is left of them
+      line.area -= at.x * kStepY[direction];  // edges that go up on the right enclose what is left of them
       const int next = turn(at, direction, line.label);
       if (next != direction) line.corners.push_back(at);
       direction = next;
-    } while (!(at == start) || direction != up);
+    } while (!(at == start) || direction != down);
     return line;
   }
 
@@ -50,10 +50,10 @@ class Tracer {
     return x >= 0 && y >= 0 && x < width_ && y < height_ && labels_[index(x, y)] == label;
   }
 
-  // Pixels that only touch at a corner are not connected, so a right turn comes first.
+  // Pixels that only touch at a corner are not connected, so a left turn comes first.
   int turn(const PixelCorner& at, int direction, std::uint16_t label) const {
-    if (!has(at.x + kRightX[direction], at.y + kRightY[direction], label)) return (direction + 1) % 4;
-    if (has(at.x + kLeftX[direction], at.y + kLeftY[direction], label)) return (direction + 3) % 4;
+    if (!has(at.x + kLeftX[direction], at.y + kLeftY[direction], label)) return (direction + 3) % 4;
+    if (has(at.x + kRightX[direction], at.y + kRightY[direction], label)) return (direction + 1) % 4;
     return direction;
   }
 

@@ -1,6 +1,6 @@
 #include "RegionFit.h"
 
-#include <omnimapper/geometry/TangentBasis.h>
+#include <omnimapper/geometry/PlaneTangent.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -75,10 +75,12 @@ FittedRegion fit(const RegionSums& sums, const ImagePlane& of_cells, const Pinho
   FittedRegion fitted;
   fitted.plane = {of_cells.a + correction.a, of_cells.b + correction.b, of_cells.c + correction.c};
   setPlane(fitted.plane, m, camera, noise, fitted.result);
-  fitted.result.centroid = Eigen::Vector3d(sums.uz / camera.fx, sums.vz / camera.fy, sums.z) / m.n;
+  const Eigen::Vector3d mean = Eigen::Vector3d(sums.uz / camera.fx, sums.vz / camera.fy, sums.z) / m.n;
+  const geometry::Plane3& plane = fitted.result.plane_in_sensor;
+  fitted.result.centroid = mean - signedDistance(plane, mean) * plane.normal;
   fitted.result.inliers = static_cast<int>(m.n);
   // A pixel's distance from the plane is d z times its residual in inverse depth.
-  fitted.result.rms = fitted.result.plane_in_sensor.distance * std::sqrt(sums.zr_zr / m.n);
+  fitted.result.rms = plane.distance * std::sqrt(sums.zr_zr / m.n);
   return fitted;
 }
 

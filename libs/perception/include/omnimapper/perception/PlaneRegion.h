@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/geometry/Polygon3.h>
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -15,19 +16,19 @@ struct PixelCorner {
 };
 
 /// A closed line along the edges of pixels, with a corner where it turns; the last is joined to the first. The region
-/// lies on its right as the image is seen: outer lines run clockwise, those around holes counter-clockwise.
+/// lies on its left as the image is seen: outer lines run counter-clockwise, those around holes clockwise.
 struct Contour {
   std::vector<PixelCorner> corners;
-  std::vector<Eigen::Vector3d> points;  ///< [m], one for each corner, on the plane, in the sensor's optical frame
+  geometry::Polygon3 polygon_in_sensor;  ///< [m], a vertex for each corner, on the plane
 };
 
 /// A connected part of the image that is flat to what the sensor can tell.
 /// Frame: the camera's optical frame, x right, y down, z forward.
 struct PlaneRegion {
   geometry::Plane3 plane_in_sensor;  ///< normal towards the sensor, distance > 0
-  /// Of (turn of the normal in the two columns of geometry::tangentBasis(normal) [rad], distance [m]).
+  /// Of the two changes of the normal [rad] and that of the distance [m], as geometry/PlaneTangent.h defines them.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m], of the inliers
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m], mean of the inliers, put on the plane
   int inliers = 0;                                     ///< pixels
   double rms = 0;                                      ///< [m], distance of the inliers from the plane
   Contour outline;
