@@ -2,7 +2,9 @@
 
 #include <omnimapper/sim/Sensor.h>
 
+#include <map>
 #include <memory>
+#include <sstream>
 #include <string>
 
 /// A sensor on a robot in a world, made from the text of its section.
@@ -19,8 +21,16 @@ class SensorRun {
     context.world = &world_;
     context.scenes = &scenes_;
     context.map_from_base = &map_from_base_;
-    sensor_ = omnimapper::sim::makeSensor(omnimapper::base::Config::fromText("[sensor]\n" + keys + "\n", "test.ini"),
-                                          "sensor", context);
+    // A key that comes twice counts as it comes last.
+    std::map<std::string, std::string> values;
+    std::istringstream lines(keys);
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t equals = line.find(" = ");
+      if (equals != std::string::npos) values[line.substr(0, equals)] = line.substr(equals);
+    }
+    std::string text = "[sensor]\n";
+    for (const auto& [key, value] : values) text += key + value + "\n";
+    sensor_ = omnimapper::sim::makeSensor(omnimapper::base::Config::fromText(text, "test.ini"), "sensor", context);
   }
   SensorRun(const SensorRun&) = delete;
   SensorRun& operator=(const SensorRun&) = delete;

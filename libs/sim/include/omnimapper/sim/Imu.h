@@ -1,0 +1,41 @@
+#pragma once
+
+#include <omnimapper/sim/Sensor.h>
+
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// Figures of a small MEMS unit.
+struct ImuOptions {
+  double gyro_noise = 1e-4;           ///< density of white noise [rad/s/sqrt(Hz)]
+  double accelerometer_noise = 1e-3;  ///< [m/s^2/sqrt(Hz)]
+  double gyro_bias = 2e-3;            ///< standard deviation of the bias at the start [rad/s]
+  double accelerometer_bias = 0.03;   ///< [m/s^2]
+  double gyro_walk = 2e-5;           ///< of what the bias has changed by after 1 s [rad/s]; grows with the root of time
+  double accelerometer_walk = 3e-4;  ///< [m/s^2]
+  double gravity = 9.80665;          ///< [m/s^2]
+  static const base::OptionTable<ImuOptions>& table();
+};
+
+/// A gyroscope and accelerometer: CObservationIMU with WX, WY, WZ and X_ACC, Y_ACC, Z_ACC in the sensor's frame. The
+/// accelerometer measures specific force: standing still and level its z is +gravity. Rates and accelerations are means
+/// around the stamp over 1 / rate_hz, or two steps of the robot's track if that is longer.
+/// Truth, one line each: "gyro", "acceleration" (without bias and noise), "gyro_bias", "acceleration_bias".
+class Imu : public Sensor {
+ public:
+  Imu(const ImuOptions& options, const SensorOptions& mount, const SensorContext& context);
+  Measurement measure(int k) const override;
+
+ private:
+  struct Rates {
+    Eigen::Vector3d gyro, acceleration;  // in the sensor [rad/s], [m/s^2]
+  };
+  Rates ratesAt(double time) const;
+
+  ImuOptions options_;
+  double span_;                // [s] over which means are taken
+  std::vector<Rates> biases_;  // at each measurement
+};
+
+}  // namespace omnimapper::sim

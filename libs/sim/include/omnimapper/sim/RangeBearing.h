@@ -1,0 +1,49 @@
+#pragma once
+
+#include <omnimapper/sim/Sensor.h>
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+struct RangeBearingOptions {
+  bool points = true;                       ///< measures World::point_landmarks
+  bool markers = true;                      ///< and the middles of World::markers, seen from in front
+  bool known_ids = true;                    ///< else each measurement's id is -1
+  bool planar = false;                      ///< pitch is 0 and the range horizontal
+  double min_range = 0.2;                   ///< [m]
+  double max_range = 10;                    ///< [m]
+  double fov_yaw = 3.14159265358979323846;  ///< whole field of view [rad]
+  double fov_pitch = 1.0;                   ///< [rad]
+  double sigma_range = 0.05;                ///< [m]
+  double sigma_angle = 0.01;                ///< of yaw and pitch [rad]
+  double missed = 0;                        ///< part of what is seen that is not reported
+  double false_alarms = 0;                  ///< mean number of measurements of nothing
+  bool occlusion = true;                    ///< what stands in front hides
+  static const base::OptionTable<RangeBearingOptions>& table();
+};
+
+/// Ranges and bearings of landmarks: CObservationBearingRange, in MRPT's convention (yaw to the left, pitch down). No
+/// observation where nothing is seen. Measurements stand in random order. Truth, one line each: "landmarks", the name
+/// of what each measurement is of, "" for a false alarm, and "ids".
+class RangeBearing : public Sensor {
+ public:
+  RangeBearing(const RangeBearingOptions& options, const SensorOptions& mount, const SensorContext& context);
+  Measurement measure(int k) const override;
+
+ private:
+  struct Landmark {
+    std::string name;
+    int id;
+    const Track* map_from_body;  // none: in_body is in the map
+    Eigen::Vector3d in_body;
+    bool is_marker;
+  };
+  std::vector<Landmark> visible(int k, std::vector<Eigen::Vector3d>& in_sensor) const;
+
+  RangeBearingOptions options_;
+  std::vector<Landmark> landmarks_;
+};
+
+}  // namespace omnimapper::sim

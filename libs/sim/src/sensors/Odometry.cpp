@@ -1,0 +1,93 @@
+#include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/sim/Odometry.h>
+
+#include <cmath>
+
+#include "TruthText.h"
+
+namespace omnimapper::sim {
+
+namespace {
+constexpr std::uint64_t kBiasStream = 1, kSlipStream = 2;
+}
+
+const base::OptionTable<OdometryOptions>& OdometryOptions::table() {
+  using base::Range;
+  using Options = OdometryOptions;
+  const Range positive = Range::positive(), zero_or_more = Range::notNegative();
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("wheel_base_m", &Options::wheel_base, positive, "Between the two wheels.")
+          .number("radius_bias", &Options::radius_bias, {0, 0.5},
+                  "Standard deviation of the relative error of each wheel's radius, drawn once.")
+          .number("base_bias", &Options::base_bias, {0, 0.2}, "The same of the wheel base.")
+          .number("slip_per_root_m", &Options::slip_per_root_m, zero_or_more,
+                  "Standard deviation of the way after 1 m [m]; grows with its root.")
+          .number("turn_slip_per_root_m_deg", &Options::turn_slip_per_root_m, zero_or_more,
+                  "Standard deviation of the heading after 1 m; grows with its root.")
+          .number("turn_slip_per_root_turn", &Options::turn_slip_per_root_turn, zero_or_more,
+                  "Standard deviation of the heading after 1 rad of turning [rad]; grows with its root.")
+          .number("ticks_per_m", &Options::ticks_per_metre, zero_or_more,
+                  "Ticks of each wheel's encoder in a metre, to which it rounds; 0: no encoders.")
+          .flag("velocities", &Options::velocities, "Each reading tells the mean velocity since the one before.");
+  return table;
+}
+
+Odometry::Odometry(const OdometryOptions& options, const SensorOptions& mount, const SensorContext& context)
+    : Sensor(mount, context), options_(options) {
+  Random bias = randomOf(0, kBiasStream);
+  bias_.left = 1 + bias.gaussian(options.radius_bias);
+  bias_.right = 1 + bias.gaussian(options.radius_bias);
+  bias_.base = 1 + bias.gaussian(options.base_bias);
+  const double base = options.wheel_base;
+  const auto ticked = [&](double way) {
+    return options.ticks_per_metre > 0 ? std::round(way * options.ticks_per_metre) / options.ticks_per_metre : way;
+  };
+  Reading reading;
+  for (int k = 0; k < count(); ++k) {
+    const geometry::Se2 truth = trueIncrement(k);
+    const double way = truth.translation().norm(), turn = std::abs(truth.yaw);
+    Random slip = randomOf(k, kSlipStream);
+    const double along = truth.x + slip.gaussian(options.slip_per_root_m * std::sqrt(way));
+    const double turned = truth.yaw + slip.gaussian(std::hypot(options.turn_slip_per_root_m * std::sqrt(way),
+                                                               options.turn_slip_per_root_turn * std::sqrt(turn)));
+    // What the wheels did, and what a reader makes of it who takes radius and base for right.
+    const double left = bias_.left * (along - 0.5 * base * turned), right = bias_.right * (along + 0.5 * base * turned);
+    const double told_left = ticked(reading.left + left) - ticked(reading.left);
+    const double told_right = ticked(reading.right + right) - ticked(reading.right);
+    reading.left += left, reading.right += right;
+    const geometry::Se2 told{0.5 * (told_left + told_right), truth.y, bias_.base * (told_right - told_left) / base};
+    reading.odom_from_base = reading.odom_from_base * told;
+    readings_.push_back(reading);
+  }
+}
+
+geometry::Se2 Odometry::trueIncrement(int k) const {
+  if (k == 0) return {};
+  const Track& track = *context().map_from_base;
+  return geometry::project(geometry::inverse(*track.at(timeOf(k - 1))) * *track.at(timeOf(k)));
+}
+
+Measurement Odometry::measure(int k) const {
+  auto odometry = mrpt::obs::CObservationOdometry::Create();
+  stamp(*odometry, k);
+  const Reading& reading = readings_[k];
+  odometry->odometry = mrpt::poses::CPose2D(geometry::toMrpt(reading.odom_from_base));
+  odometry->hasVelocities = options_.velocities;
+  if (options_.velocities && k > 0) {
+    const geometry::Se2 moved = geometry::inverse(readings_[k - 1].odom_from_base) * reading.odom_from_base;
+    const double rate = options().rate;
+    odometry->velocityLocal = {rate * moved.x, rate * moved.y, rate * moved.yaw};
+  }
+  odometry->hasEncodersInfo = options_.ticks_per_metre > 0;
+  odometry->encoderLeftTicks = static_cast<int>(std::lround(reading.left * options_.ticks_per_metre));
+  odometry->encoderRightTicks = static_cast<int>(std::lround(reading.right * options_.ticks_per_metre));
+  const geometry::Se2 truth = trueIncrement(k);
+  const nlohmann::ordered_json line{{"k", k},
+                                    {"stamp", base::formatUnix(odometry->timestamp)},
+                                    {"increment", {rounded(truth.x), rounded(truth.y), rounded(truth.yaw)}}};
+  return {odometry, line.dump(), {}};
+}
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,158 @@
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/sim/RangeBearing.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "TruthText.h"
+
+namespace omnimapper::sim {
+
+namespace {
+
+constexpr double kOnSurface = 0.02;   // [m] a landmark may lie so deep in what it is fixed to
+constexpr double kMarkerAngle = 1.3;  // [rad] from a marker's normal: flatter ones are not made out
+constexpr std::uint64_t kFalseStream = 1;
+
+// Knuth's way: the number of uniform numbers whose product stays above e^-mean.
+int poisson(double mean, Random& random) {
+  int count = 0;
+  for (double product = random.uniform(); product > std::exp(-mean); product *= random.uniform()) ++count;
+  return count;
+}
+
+}  // namespace
+
+const base::OptionTable<RangeBearingOptions>& RangeBearingOptions::table() {
+  using base::Range;
+  using Options = RangeBearingOptions;
+  const Range zero_or_more = Range::notNegative();
+  static const auto table =
+      base::OptionTable<Options>()
+          .flag("points", &Options::points, "Measures the world's point landmarks.")
+          .flag("markers", &Options::markers, "Measures the middles of its markers, from in front.")
+          .flag("known_ids", &Options::known_ids, "Tells which landmark it is; else the id is -1.")
+          .flag("planar", &Options::planar, "Pitch is 0 and the range horizontal.")
+          .number("min_range_m", &Options::min_range, zero_or_more, "Nearer ones are not measured.")
+          .number("max_range_m", &Options::max_range, Range::positive(), "Nor farther ones.")
+          .number("fov_yaw_deg", &Options::fov_yaw, {1, 360}, "Whole field of view to the sides.")
+          .number("fov_pitch_deg", &Options::fov_pitch, {1, 180}, "Whole field of view up and down.")
+          .number("sigma_range_m", &Options::sigma_range, zero_or_more, "Standard deviation of ranges.")
+          .number("sigma_deg", &Options::sigma_angle, zero_or_more, "Standard deviation of yaw and pitch.")
+          .number("missed", &Options::missed, {0, 1}, "Part of what is seen that is not reported.")
+          .number("false_alarms", &Options::false_alarms, {0, 100}, "Mean number of measurements of nothing.")
+          .flag("occlusion", &Options::occlusion, "What stands in front of a landmark hides it.");
+  return table;
+}
+
+RangeBearing::RangeBearing(const RangeBearingOptions& options, const SensorOptions& mount, const SensorContext& context)
+    : Sensor(mount, context), options_(options) {
+  const World& world = *context.world;
+  const auto trackOf = [&](const std::string& name) -> const Track* {
+    for (const Body& body : world.bodies) {
+      if (body.name == name) return &body.track;
+    }
+    return nullptr;
+  };
+  for (const PointLandmark& point : world.point_landmarks) {
+    if (options.points) landmarks_.push_back({point.name, point.id, trackOf(point.body), point.in_body, false});
+  }
+  for (const Marker& marker : world.markers) {
+    if (options.markers) landmarks_.push_back({marker.name, marker.id, trackOf(marker.name), {0, 0, 0}, true});
+  }
+}
+
+std::vector<RangeBearing::Landmark> RangeBearing::visible(int k, std::vector<Eigen::Vector3d>& in_sensor) const {
+  const double time = timeOf(k);
+  const geometry::Se3 map_from_sensor = mapFromSensor(time), sensor_from_map = geometry::inverse(map_from_sensor);
+  std::vector<Landmark> found;
+  std::vector<Ray> rays;
+  for (const Landmark& landmark : landmarks_) {
+    const auto map_from_body = landmark.map_from_body ? landmark.map_from_body->at(time) : geometry::Se3{};
+    if (!map_from_body) continue;
+    const Eigen::Vector3d in_map = *map_from_body * landmark.in_body, seen = sensor_from_map * in_map;
+    const double range = seen.norm(), yaw = std::atan2(seen.y(), seen.x()), pitch = std::asin(-seen.z() / range);
+    if (!(range >= options_.min_range && range <= options_.max_range) || std::abs(yaw) > 0.5 * options_.fov_yaw ||
+        std::abs(pitch) > 0.5 * options_.fov_pitch)
+      continue;
+    const Eigen::Vector3d direction = (in_map - map_from_sensor.translation) / range;
+    if (landmark.is_marker &&
+        -(map_from_body->rotation * Eigen::Vector3d::UnitZ()).dot(direction) < std::cos(kMarkerAngle))
+      continue;
+    found.push_back(landmark);
+    in_sensor.push_back(seen);
+    rays.push_back({map_from_sensor.translation, direction, 0, std::max(0.0, range - kOnSurface)});
+  }
+  if (!options_.occlusion || rays.empty()) return found;
+  std::vector<char> blocked;
+  context().scenes->at(time).findBlocked(rays, blocked);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (blocked[i]) continue;
+    found[kept] = found[i], in_sensor[kept] = in_sensor[i];
+    ++kept;
+  }
+  found.erase(found.begin() + static_cast<std::ptrdiff_t>(kept), found.end());
+  in_sensor.resize(kept);
+  return found;
+}
+
+Measurement RangeBearing::measure(int k) const {
+  struct One {
+    double range, yaw, pitch;
+    int id;
+    std::string name;
+  };
+  std::vector<Eigen::Vector3d> in_sensor;
+  const std::vector<Landmark> seen = visible(k, in_sensor);
+  std::vector<One> all;
+  Random random = randomOf(k);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Eigen::Vector3d& p = in_sensor[i];
+    const double noise_range = random.gaussian(options_.sigma_range), noise_yaw = random.gaussian(options_.sigma_angle);
+    const double noise_pitch = random.gaussian(options_.sigma_angle);
+    if (random.chance(options_.missed)) continue;
+    const double range = options_.planar ? p.head<2>().norm() : p.norm();
+    const double pitch = options_.planar ? 0 : std::asin(-p.z() / p.norm()) + noise_pitch;
+    all.push_back({range + noise_range, std::atan2(p.y(), p.x()) + noise_yaw, pitch, seen[i].id, seen[i].name});
+  }
+  Random ghosts = randomOf(k, kFalseStream);
+  for (int i = poisson(options_.false_alarms, ghosts); i > 0; --i) {
+    const double range = ghosts.uniform(options_.min_range, options_.max_range);
+    const double yaw = options_.fov_yaw * (ghosts.uniform() - 0.5);
+    const double pitch = options_.planar ? 0 : options_.fov_pitch * (ghosts.uniform() - 0.5);
+    all.push_back({range, yaw, pitch, -1, ""});
+  }
+  if (all.empty()) return {};
+  // The order must not tell which is which.
+  for (int i = static_cast<int>(all.size()) - 1; i > 0; --i) std::swap(all[i], all[ghosts.integer(0, i)]);
+
+  auto observation = mrpt::obs::CObservationBearingRange::Create();
+  stamp(*observation, k);
+  observation->sensorLocationOnRobot = geometry::toMrpt(baseFromSensor());
+  observation->minSensorDistance = static_cast<float>(options_.min_range);
+  observation->maxSensorDistance = static_cast<float>(options_.max_range);
+  observation->fieldOfView_yaw = static_cast<float>(options_.fov_yaw);
+  observation->fieldOfView_pitch = static_cast<float>(options_.fov_pitch);
+  observation->sensor_std_range = static_cast<float>(options_.sigma_range);
+  observation->sensor_std_yaw = static_cast<float>(options_.sigma_angle);
+  observation->sensor_std_pitch = static_cast<float>(options_.planar ? 0 : options_.sigma_angle);
+  auto names = nlohmann::ordered_json::array(), ids = nlohmann::ordered_json::array();
+  for (const One& one : all) {
+    mrpt::obs::CObservationBearingRange::TMeasurement measurement;
+    measurement.range = static_cast<float>(one.range);
+    measurement.yaw = static_cast<float>(one.yaw);
+    measurement.pitch = static_cast<float>(one.pitch);
+    measurement.landmarkID = options_.known_ids ? one.id : -1;
+    measurement.covariance.setZero();
+    observation->sensedData.push_back(measurement);
+    names.push_back(one.name);
+    ids.push_back(one.id);
+  }
+  const nlohmann::ordered_json line{
+      {"k", k}, {"stamp", base::formatUnix(observation->timestamp)}, {"landmarks", names}, {"ids", ids}};
+  return {observation, line.dump(), {}};
+}
+
+}  // namespace omnimapper::sim
