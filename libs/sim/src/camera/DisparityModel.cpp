@@ -53,22 +53,37 @@ class WindowExtremes {
   std::vector<float> low_, high_;
 };
 
-/// What a window at an edge agrees on: its middle's depth if enough of it is there, else the nearest, else nothing.
-float matchAtEdge(const Disparities& disparities, int column, int row, int half, float nearest, double need) {
-  const float middle = disparities.at(column, row);
-  float middle_sum = 0, nearest_sum = 0;
-  int middle_count = 0, nearest_count = 0, all = 0;
-  for (int y = std::max(0, row - half); y <= std::min(disparities.height - 1, row + half); ++y) {
-    for (int x = std::max(0, column - half); x <= std::min(disparities.width - 1, column + half); ++x) {
+/// What a window at an edge agrees on: the depth of its middle if enough of it is there, else the nearest, else the
+/// farthest that is, else nothing. So edges grow by a few pixels here, lose some there, and narrow shadows close.
+float matchAtEdge(const Disparities& disparities, int column, int row, int half, double need) {
+  const int top = std::max(0, row - half), bottom = std::min(disparities.height - 1, row + half);
+  const int left = std::max(0, column - half), right = std::min(disparities.width - 1, column + half);
+  float nearest = 0, farthest = 1e9f;
+  for (int y = top; y <= bottom; ++y) {
+    for (int x = left; x <= right; ++x) {
       const float value = disparities.at(x, y);
-      ++all;
       if (value <= 0) continue;
-      if (middle > 0 && std::abs(value - middle) <= kSameDepth) middle_sum += value, ++middle_count;
-      if (nearest - value <= kSameDepth) nearest_sum += value, ++nearest_count;
+      nearest = std::max(nearest, value);
+      farthest = std::min(farthest, value);
     }
   }
-  if (middle_count > 0 && middle_count >= need * all) return middle_sum / static_cast<float>(middle_count);
-  if (nearest_count > 0 && nearest_count >= need * all) return nearest_sum / static_cast<float>(nearest_count);
+  const double enough = need * (bottom - top + 1) * (right - left + 1);
+  const auto agreeing = [&](float with) {
+    float sum = 0;
+    int count = 0;
+    for (int y = top; y <= bottom; ++y) {
+      for (int x = left; x <= right; ++x) {
+        const float value = disparities.at(x, y);
+        if (value > 0 && std::abs(value - with) <= kSameDepth) sum += value, ++count;
+      }
+    }
+    return count > 0 && count >= enough ? sum / static_cast<float>(count) : 0.0f;
+  };
+  const float middle = disparities.at(column, row);
+  for (const float candidate : {middle, nearest, farthest}) {
+    if (candidate <= 0) continue;
+    if (const float matched = agreeing(candidate); matched > 0) return matched;
+  }
   return 0;
 }
 
@@ -149,9 +164,8 @@ std::vector<float> senseDepth(const Frame& frame, const Scene& scene, const std:
       const std::size_t i = static_cast<std::size_t>(row) * camera.width + column;
       if (extremes.highest(i) <= 0) continue;
       const double need = settings.need + settings.need_spread * ragged[i];
-      const float matched = extremes.isSmooth(i)
-                                ? disparities.values[i]
-                                : matchAtEdge(disparities, column, row, half, extremes.highest(i), need);
+      const float matched =
+          extremes.isSmooth(i) ? disparities.values[i] : matchAtEdge(disparities, column, row, half, need);
       if (matched <= 0) continue;
       // Near the floor of the signal the errors double.
       const double weakness = signal[i] > 0 ? std::min(1.0, settings.signal_floor / signal[i]) : 1.0;

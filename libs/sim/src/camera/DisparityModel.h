@@ -12,13 +12,13 @@ namespace omnimapper::sim {
 struct DisparitySettings {
   double baseline = 0.075;                 ///< of the second eye, to the right of the camera [m]
   double step = 0.125;                     ///< disparities are multiples of this; 0: not rounded [pixel]
-  double sigma = 0.1;                      ///< standard deviation of the disparity on a bright surface [pixel]
+  double sigma = 0.06;                     ///< standard deviation of the disparity on a bright surface [pixel]
   int reach = 5;                           ///< pixels over which its errors resemble one another
   int window = 9;                          ///< side of the square that is matched [pixel]
-  double need = 0.55;                      ///< part of the window that must be of one depth for a match
-  double need_spread = 0.1;                ///< standard deviation of that part
-  double signal_floor = 0.006;             ///< below it nothing is matched: see patternSignal() and textureSignal()
-  double signal_spread = 0.5;              ///< standard deviation of the logarithm of the signal
+  double need = 0.33;                      ///< part of the window that must be of one depth for a match
+  double need_spread = 0.08;               ///< standard deviation of that part
+  double signal_floor = 0.013;             ///< below it nothing is matched: see patternSignal() and textureSignal()
+  double signal_spread = 0.8;              ///< standard deviation of the logarithm of the signal
   int blank_columns = 0;                   ///< at the right edge, without depth
   double min_range = 0.5, max_range = 10;  ///< depths outside are not reported [m]
 };

@@ -175,8 +175,8 @@ std::vector<float> exactDepth(const Frame& frame) {
 std::vector<std::uint16_t> depthsOf(const Frame& frame, double unit) {
   std::vector<std::uint16_t> depths(frame.pixels.size());
   for (std::size_t i = 0; i < depths.size(); ++i) {
-    const double units = std::round(frame.pixels[i].depth / unit);
-    depths[i] = units <= 65535 ? static_cast<std::uint16_t>(units) : 0;
+    const double units = frame.pixels[i].depth / unit + 0.5;
+    depths[i] = units < 65536 ? static_cast<std::uint16_t>(units) : 0;
   }
   return depths;
 }

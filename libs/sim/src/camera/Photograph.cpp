@@ -13,25 +13,26 @@ namespace {
 using Picture = std::vector<Eigen::Vector3f>;
 constexpr float kReadNoise = 0.25f;  // part of the noise at full white that is there in the dark too
 constexpr int kMostTaps = 15;
-constexpr double kFarAway = 100;  // where nothing is seen, the motion is that of something as far as this [m]
+constexpr float kFarAway = 100;  // where nothing is seen, the motion is that of something as far as this [m]
 
-/// Where the point of a pixel was in the picture when the exposure began and ended, as an offset to either side.
+/// How far the point of a pixel went in the picture while it was exposed.
 class Smear {
  public:
   Smear(const Frame& frame, const geometry::Se3& map_from_begin, const geometry::Se3& map_from_end)
-      : frame_(frame),
-        begin_from_optical_(geometry::inverse(map_from_begin) * frame.map_from_optical),
-        end_from_optical_(geometry::inverse(map_from_end) * frame.map_from_optical),
-        begin_rotation_(begin_from_optical_.rotation.toRotationMatrix()),
-        end_rotation_(end_from_optical_.rotation.toRotationMatrix()) {}
+      : frame_(frame), begin_(frame, map_from_begin), end_(frame, map_from_end) {
+    const Pinhole& camera = frame.camera;
+    first_ = camera.through(0, 0).cast<float>();
+    step_x_ = static_cast<float>(1 / camera.fx);
+    step_y_ = static_cast<float>(1 / camera.fy);
+  }
 
   Eigen::Vector2f at(int column, int row) const {
-    const double depth = frame_.at(column, row).depth;
-    const Eigen::Vector3d point = (depth > 0 ? depth : kFarAway) * frame_.camera.through(column, row);
-    const auto begin = frame_.camera.project(begin_rotation_ * point + begin_from_optical_.translation);
-    const auto end = frame_.camera.project(end_rotation_ * point + end_from_optical_.translation);
-    if (!begin || !end) return Eigen::Vector2f::Zero();
-    return (*end - *begin).cast<float>();
+    const auto seen = static_cast<float>(frame_.at(column, row).depth);
+    const float depth = seen > 0 ? seen : kFarAway;
+    const Eigen::Vector3f point = depth * Eigen::Vector3f(first_.x() + column * step_x_, first_.y() + row * step_y_, 1);
+    const Eigen::Vector3f begin = begin_.project * point + begin_.shift, end = end_.project * point + end_.shift;
+    if (begin.z() < kNear || end.z() < kNear) return Eigen::Vector2f::Zero();
+    return end.head<2>() / end.z() - begin.head<2>() / begin.z();
   }
 
   /// The longest on a coarse grid [pixel].
@@ -44,22 +45,40 @@ class Smear {
   }
 
  private:
+  static constexpr float kNear = 1e-3f;  // behind it nothing is projected [m]
+  /// From the optical frame to a picture's homogeneous pixels.
+  struct Projection {
+    Projection(const Frame& frame, const geometry::Se3& map_from_other) {
+      const geometry::Se3 other_from_optical = geometry::inverse(map_from_other) * frame.map_from_optical;
+      Eigen::Matrix3d intrinsic = Eigen::Matrix3d::Identity();
+      intrinsic(0, 0) = frame.camera.fx;
+      intrinsic(1, 1) = frame.camera.fy;
+      intrinsic(0, 2) = frame.camera.cx;
+      intrinsic(1, 2) = frame.camera.cy;
+      project = (intrinsic * other_from_optical.rotation.toRotationMatrix()).cast<float>();
+      shift = (intrinsic * other_from_optical.translation).cast<float>();
+    }
+    Eigen::Matrix3f project;
+    Eigen::Vector3f shift;
+  };
   const Frame& frame_;
-  geometry::Se3 begin_from_optical_, end_from_optical_;
-  Eigen::Matrix3d begin_rotation_, end_rotation_;
+  Projection begin_, end_;
+  Eigen::Vector3f first_;
+  float step_x_, step_y_;
 };
 
 Picture smeared(const Picture& sharp, const Pinhole& camera, const Smear& smear) {
   Picture picture(sharp.size());
+  const auto nearest = [](float at, int size) { return std::clamp(static_cast<int>(at + 0.5f), 0, size - 1); };
   for (int row = 0; row < camera.height; ++row) {
     for (int column = 0; column < camera.width; ++column) {
       const Eigen::Vector2f way = smear.at(column, row);
-      const int taps = std::clamp(static_cast<int>(std::ceil(way.norm())) + 1, 1, kMostTaps);
+      const int taps = std::min(static_cast<int>(way.norm()) + 1, kMostTaps);
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int tap = 0; tap < taps; ++tap) {
         const float share = (tap + 0.5f) / taps - 0.5f;
-        const int x = std::clamp(static_cast<int>(std::lround(column + share * way.x())), 0, camera.width - 1);
-        const int y = std::clamp(static_cast<int>(std::lround(row + share * way.y())), 0, camera.height - 1);
+        const int x = nearest(column + share * way.x(), camera.width),
+                  y = nearest(row + share * way.y(), camera.height);
         sum += sharp[static_cast<std::size_t>(y) * camera.width + x];
       }
       picture[static_cast<std::size_t>(row) * camera.width + column] = sum / static_cast<float>(taps);
@@ -125,10 +144,11 @@ mrpt::img::CImage photograph(const Frame& frame, std::vector<Eigen::Vector3f> co
     for (int column = 0; column < camera.width; ++column) {
       const float dx = column - 0.5f * (camera.width - 1), light = gain * (1 - loss * (dx * dx + dy * dy));
       const Eigen::Vector3f value = light * colours[static_cast<std::size_t>(row) * camera.width + column];
+      const std::array<float, 3> errors = quickGaussians(random);
       for (int channel = 0; channel < 3; ++channel) {  // the file's order is blue, green, red
         const float v = value[2 - channel];
         const float sigma = noise * (kReadNoise + (1 - kReadNoise) * std::sqrt(std::max(v, 0.0f)));
-        *out++ = coded(v + sigma * quickGaussian(random));
+        *out++ = coded(v + sigma * errors[channel]);
       }
     }
   }

@@ -1,6 +1,7 @@
 #include "Shader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -54,7 +55,7 @@ float Shader::footprint(const Frame& frame, int column, int row, const TexturePy
     const PixelHit& there = frame.at(x, y);
     if (there.surface != here.surface) return 1e9f;
     const Eigen::Vector2f by = there.texture_at - here.texture_at;
-    return std::hypot(by.x() * texture.width(), by.y() * texture.height());
+    return by.cwiseProduct(Eigen::Vector2f(texture.width(), texture.height())).norm();
   };
   const float across = std::min(step(1, 0), step(-1, 0)), down = std::min(step(0, 1), step(0, -1));
   if (across >= 1e9f || down >= 1e9f) return std::min({across, down, 1e3f});

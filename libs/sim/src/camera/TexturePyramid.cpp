@@ -1,16 +1,35 @@
 #include "TexturePyramid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "Srgb.h"
 
 namespace omnimapper::sim {
 
+namespace {
+
+const std::array<std::uint16_t, 256>& linearTable() {
+  static const std::array<std::uint16_t, 256> table = [] {
+    std::array<std::uint16_t, 256> made{};
+    for (int i = 0; i < 256; ++i) made[i] = static_cast<std::uint16_t>(std::lround(65535 * linearFromSrgb(i / 255.0)));
+    return made;
+  }();
+  return table;
+}
+
+// std::floor is a call on the oldest processors of this kind.
+int floorOf(float value) {
+  const int cut = static_cast<int>(value);
+  return cut - (value < static_cast<float>(cut));
+}
+
+}  // namespace
+
 TexturePyramid::TexturePyramid(const Texture& texture) {
   Level first{texture.width, texture.height, std::vector<std::uint16_t>(texture.rgb.size())};
-  for (std::size_t i = 0; i < texture.rgb.size(); ++i)
-    first.rgb[i] = static_cast<std::uint16_t>(std::lround(65535 * linearFromSrgb(texture.rgb[i] / 255.0)));
+  for (std::size_t i = 0; i < texture.rgb.size(); ++i) first.rgb[i] = linearTable()[texture.rgb[i]];
   levels_.push_back(std::move(first));
   while (levels_.back().width > 1 || levels_.back().height > 1) levels_.push_back(halved(levels_.back()));
 }
@@ -36,11 +55,12 @@ TexturePyramid::Level TexturePyramid::halved(const Level& level) {
 }
 
 Eigen::Vector3f TexturePyramid::Level::at(float u, float v) const {
-  const float x = (u - std::floor(u)) * width - 0.5f, y = (1.0f - (v - std::floor(v))) * height - 0.5f;
-  const float left = std::floor(x), top = std::floor(y), right_share = x - left, bottom_share = y - top;
+  const float x = (u - floorOf(u)) * width - 0.5f, y = (1.0f - (v - floorOf(v))) * height - 0.5f;
+  const int left = floorOf(x), top = floorOf(y);
+  const float right_share = x - left, bottom_share = y - top;
   const auto wrapped = [](int i, int size) { return i < 0 ? i + size : i >= size ? i - size : i; };
-  const int x0 = wrapped(static_cast<int>(left), width), x1 = wrapped(static_cast<int>(left) + 1, width);
-  const int y0 = wrapped(static_cast<int>(top), height), y1 = wrapped(static_cast<int>(top) + 1, height);
+  const int x0 = wrapped(left, width), x1 = wrapped(left + 1, width);
+  const int y0 = wrapped(top, height), y1 = wrapped(top + 1, height);
   const auto texel = [&](int column, int row) {
     const std::uint16_t* p = &rgb[3 * (static_cast<std::size_t>(row) * width + column)];
     return Eigen::Vector3f(p[0], p[1], p[2]);

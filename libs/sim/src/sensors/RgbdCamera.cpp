@@ -89,7 +89,7 @@ void RgbdCamera::fillDepth(const std::vector<float>& depths, mrpt::obs::CObserva
   for (int row = 0; row < camera.height; ++row) {
     for (int column = 0; column < camera.width; ++column) {
       const float depth = depths[static_cast<std::size_t>(row) * camera.width + column];
-      scan.rangeImage(row, column) = static_cast<std::uint16_t>(std::lround(depth / settings_.unit));
+      scan.rangeImage(row, column) = static_cast<std::uint16_t>(depth / settings_.unit + 0.5);
     }
   }
 }

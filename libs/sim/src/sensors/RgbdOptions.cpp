@@ -79,6 +79,10 @@ const base::OptionTable<RgbdOptions>& RgbdOptions::table() {
                   "Disparities are multiples of it; 0: not rounded.")
           .number("disparity_sigma_px", &RgbdOptions::disparity_sigma, as_model_or_more,
                   "Standard deviation of disparities on bright surfaces.")
+          .integer("disparity_reach_px", &RgbdOptions::disparity_reach, {-1, 100},
+                   "How far apart errors of disparities still resemble one another.")
+          .number("match_share", &RgbdOptions::match_share, {kAsModel, 1},
+                  "Part of the matching window that has to be of one depth, or there is a hole.")
           .number("signal_floor", &RgbdOptions::signal_floor, as_model_or_more,
                   "Brightness of the pattern (1: white wall at 1 m) or mean square slope of the picture below which "
                   "there is no depth.")
@@ -123,6 +127,8 @@ RgbdSettings settle(const RgbdOptions& options, const std::string& section) {
   positive("baseline_m", disparity.baseline);
   disparity.step = chosen(options.disparity_step, disparity.step);
   disparity.sigma = chosen(options.disparity_sigma, disparity.sigma);
+  if (options.disparity_reach >= 0) disparity.reach = options.disparity_reach;
+  disparity.need = chosen(options.match_share, disparity.need);
   disparity.signal_floor = chosen(options.signal_floor, disparity.signal_floor);
   disparity.min_range = chosen(options.min_range, disparity.min_range);
   disparity.max_range = chosen(options.max_range, disparity.max_range);

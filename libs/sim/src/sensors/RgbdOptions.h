@@ -22,6 +22,8 @@ struct RgbdOptions {
   double baseline = -1;                   ///< [m]
   double disparity_step = -1;             ///< [pixel]
   double disparity_sigma = -1;            ///< [pixel]
+  int disparity_reach = -1;               ///< over which errors resemble one another [pixel]
+  double match_share = -1;                ///< of the window that has to be of one depth
   double signal_floor = -1;               ///< see DisparitySettings
   double min_range = -1, max_range = -1;  ///< [m]
   double unit = -1;                       ///< of the range image [m]

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Svg.h>
+
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace omnimapper::bench {
+
+/// One line of a plot: x -> y.
+struct PlottedCurve {
+  std::string name, colour;
+  std::map<double, double> points;
+};
+
+/// Writes an SVG of curves over common axes that begin at 0, with a legend.
+inline void plotCurves(const std::string& path, const std::string& title, const std::string& x_name,
+                       const std::string& y_name, const std::vector<PlottedCurve>& curves) {
+  Eigen::Vector2d high(1e-9, 1e-9);
+  for (const PlottedCurve& curve : curves) {
+    for (const auto& [x, y] : curve.points) high = high.cwiseMax(Eigen::Vector2d(x, y));
+  }
+  std::ofstream out(path);
+  eval::Svg svg(out, 640, 360);
+  svg.text({60, 20}, title, eval::Svg::Anchor::start, 14);
+  const eval::Axes axes({60, 35}, {380, 270}, {0, 0}, 1.05 * high);
+  axes.draw(svg, x_name, y_name);
+  double y = 50;
+  for (const PlottedCurve& curve : curves) {
+    std::vector<Eigen::Vector2d> line;
+    for (const auto& [at, value] : curve.points) line.push_back(axes.pixel({at, value}));
+    svg.polyline(line, curve.colour, 1.5);
+    for (const auto& point : line) svg.dot(point, 2.5, curve.colour);
+    svg.line({455, y - 4}, {475, y - 4}, curve.colour, 3);
+    svg.text({480, y}, curve.name, eval::Svg::Anchor::start);
+    y += 18;
+  }
+}
+
+}  // namespace omnimapper::bench

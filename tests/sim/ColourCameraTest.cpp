@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/sim/Textures.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "CameraFixture.h"
+
+namespace {
+
+using namespace omnimapper;
+using sim::CameraFixture;
+
+std::shared_ptr<mrpt::obs::CObservationImage> pictureOf(const sim::Measurement& measurement) {
+  return std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(measurement.observation);
+}
+
+double brightness(const mrpt::img::CImage& image, int column, int row) {
+  return image.getAsFloat(column, row);
+}
+
+// Mean of the squared difference of pixels that far apart.
+double contrast(const mrpt::img::CImage& image, int dx, int dy) {
+  double sum = 0;
+  int count = 0;
+  for (int row = 10; row + 10 < static_cast<int>(image.getHeight()); row += 3) {
+    for (int column = 10; column + 10 < static_cast<int>(image.getWidth()); column += 3) {
+      const double difference = brightness(image, column + dx, row + dy) - brightness(image, column, row);
+      sum += difference * difference;
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
+sim::Material checked() {
+  sim::Material material;
+  material.colour.setOnes();
+  material.texture = sim::makeTexture(sim::TextureKind::checker, 1);
+  return material;
+}
+
+// A marker 2 m ahead and 2 m to the left: with the pan at 45 degrees it is in the middle.
+TEST(ColourCamera, thePanTiltAimsAndMarkersHaveTheirTrueCorners) {
+  CameraFixture fixture;
+  sim::Material white, black;
+  white.colour.setConstant(0.9f);
+  black.colour.setConstant(0.02f);
+  const geometry::Se3 aside{Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 4, Eigen::Vector3d::UnitZ())), {2, 2, 1}};
+  // The marker's frame: x to the reader's right, y up, z to the reader; the board's faces -x of its own.
+  Eigen::Matrix3d axes;
+  axes << 0, 0, -1, -1, 0, 0, 0, 1, 0;
+  const geometry::Se3 map_from_marker = aside * geometry::Se3{Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()};
+  sim::MeshBuilder marker("marker", sim::Track(map_from_marker));
+  marker.addPlane("", sim::SurfaceKind::marker, black,
+                  {{-0.1, -0.1, 0}, {0.1, -0.1, 0}, {0.1, 0.1, 0}, {-0.1, 0.1, 0}});
+  fixture.world.bodies.push_back(marker.build());
+  fixture.addFacing("wall", sim::SurfaceKind::wall, aside * geometry::Se3{Eigen::Quaterniond::Identity(), {0.5, 0, 0}},
+                    9, 9, white);
+  fixture.world.markers.push_back({"marker", 17, 0.2});
+  const auto measurement = fixture.make("ColourCamera\nz_m = 1\npan_deg = 45\nfocal_px = 600")->measure(0);
+  const auto picture = pictureOf(measurement);
+  const auto truth = nlohmann::json::parse(measurement.truth);
+  ASSERT_EQ(truth["markers"].size(), 1u);
+  const auto& seen = truth["markers"][0];
+  EXPECT_EQ(seen["id"], 17);
+  EXPECT_EQ(seen["visible"], 1.0);
+  EXPECT_NEAR(seen["distance_m"], std::sqrt(8), 1e-9);
+  EXPECT_NEAR(seen["incidence_deg"], 0, 1e-5);
+  // 0.1 m at sqrt(8) m and a focal length of 600: 21.2132 pixels to either side; upper left first, clockwise.
+  const double half = 600 * 0.1 / std::sqrt(8);
+  const double corners[4][2] = {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(seen["corners"][i][0], 319.5 + corners[i][0], 1e-6) << i;
+    EXPECT_NEAR(seen["corners"][i][1], 239.5 + corners[i][1], 1e-6) << i;
+  }
+  EXPECT_LT(brightness(picture->image, 320, 240), 0.3);
+  EXPECT_LT(brightness(picture->image, 320 + 18, 240 - 18), 0.3);
+  EXPECT_GT(brightness(picture->image, 320 + 25, 240), 0.6);
+  EXPECT_GT(brightness(picture->image, 320, 240 + 25), 0.6);
+  // The pose that MRPT is told looks along z: the marker lies straight ahead.
+  const auto ahead = picture->cameraPose.inverseComposePoint({2, 2, 1});
+  EXPECT_NEAR(ahead.x, 0, 1e-9);
+  EXPECT_NEAR(ahead.y, 0, 1e-9);
+  EXPECT_NEAR(ahead.z, std::sqrt(8), 1e-9);
+}
+
+TEST(ColourCamera, signsTellTheirTextAndWhatHidesThem) {
+  CameraFixture fixture;
+  Eigen::Matrix3d axes;
+  axes << 0, 0, -1, -1, 0, 0, 0, 1, 0;
+  const geometry::Se3 map_from_sign{Eigen::Quaterniond(axes), {3, 0, 0}};
+  sim::MeshBuilder body("sign", sim::Track(map_from_sign));
+  body.addPlane("", sim::SurfaceKind::sign, {}, {{-0.2, -0.1, 0}, {0.2, -0.1, 0}, {0.2, 0.1, 0}, {-0.2, 0.1, 0}});
+  fixture.world.bodies.push_back(body.build());
+  fixture.world.signs.push_back({"sign", {"R 118", "Workshop"}, "workshop", map_from_sign, 0.4, 0.2});
+  fixture.addBoard("post", 1.5, 0.1, 0, 0.2, 4);  // hides y from 0 to 0.4 m of what is at 3 m: the left half
+  const auto truth = nlohmann::json::parse(fixture.make("ColourCamera")->measure(0).truth);
+  ASSERT_EQ(truth["signs"].size(), 1u);
+  EXPECT_EQ(truth["signs"][0]["lines"], (std::vector<std::string>{"R 118", "Workshop"}));
+  EXPECT_EQ(truth["signs"][0]["room"], "workshop");
+  EXPECT_NEAR(truth["signs"][0]["visible"], 0.4, 0.11);
+  const auto behind = nlohmann::json::parse(fixture.make("ColourCamera\npan_deg = 180")->measure(0).truth);
+  EXPECT_TRUE(behind["signs"].empty());
+}
+
+TEST(ColourCamera, sweepsAndTellsItsAnglesWithNoiseAndBias) {
+  CameraFixture fixture;
+  fixture.addBoard("wall", 2, 0, 0, 9, 9);
+  const auto camera = fixture.make(
+      "ColourCamera\nwidth_px = 16\nheight_px = 16\npan_sweep_deg = 40\npan_period_s = 4\npan_sigma_deg = 1\n"
+      "pan_bias_deg = 2\nrate_hz = 50");
+  double sum = 0, squares = 0;
+  for (int k = 0; k < camera->count(); ++k) {
+    const auto measurement = camera->measure(k);
+    const auto truth = nlohmann::json::parse(measurement.truth);
+    EXPECT_NEAR(truth["pan_deg"], 40 * std::sin(2 * M_PI * camera->timeOf(k) / 4), 1e-9);
+    // The way the camera is told to look, in the base.
+    const auto ahead = pictureOf(measurement)->cameraPose.composePoint({0, 0, 1});
+    const double error = std::atan2(ahead.y, ahead.x) * 180 / M_PI - truth["pan_deg"].get<double>();
+    sum += error;
+    squares += error * error;
+  }
+  const double mean = sum / camera->count();
+  EXPECT_NEAR(mean, 2, 0.2);
+  EXPECT_NEAR(std::sqrt(squares / camera->count() - mean * mean), 1, 0.15);
+}
+
+// Turning at 60 deg/s for 20 ms is 1.2 degrees, 12.6 pixels at a focal length of 600.
+TEST(ColourCamera, turningBlursAcrossAndNotDown) {
+  CameraFixture fixture;
+  fixture.addBoard("wall", 2, 0, 0, 1.2, 1.2, checked());
+  fixture.map_from_base = sim::Track(
+      sim::Track::Kind::motion,
+      {{0, geometry::Se3{}},
+       {2, geometry::Se3{Eigen::Quaterniond(Eigen::AngleAxisd(2 * M_PI / 3, Eigen::Vector3d::UnitZ())), {0, 0, 0}}}});
+  const std::string ini = "ColourCamera\nnoise = 0\nfirst_s = 0.1\nexposure_s = ";
+  const auto sharp = pictureOf(fixture.make(ini + "0")->measure(0)),
+             blurred = pictureOf(fixture.make(ini + "0.02")->measure(0));
+  EXPECT_GT(contrast(sharp->image, 4, 0), 1.6 * contrast(blurred->image, 4, 0));
+  EXPECT_GT(contrast(blurred->image, 0, 4), 0.75 * contrast(sharp->image, 0, 4));
+}
+
+TEST(ColourCamera, gainBrightensCornersDarkenNoiseIsAsTold) {
+  CameraFixture fixture;
+  fixture.addBoard("wall", 2, 0, 0, 20, 20);
+  const auto image = [&](const std::string& ini) {
+    return pictureOf(fixture.make("ColourCamera\n" + ini)->measure(0))->image;
+  };
+  const auto dim = image("gain = 0.5\nnoise = 0"), bright = image("gain = 1\nnoise = 0"),
+             open = image("vignetting = 0");
+  EXPECT_GT(brightness(bright, 320, 240), brightness(dim, 320, 240) + 0.1);
+  EXPECT_LT(brightness(bright, 1, 1), brightness(bright, 320, 240) - 0.03);
+  EXPECT_LT(contrast(bright, 1, 0), 1e-5);
+  EXPECT_GT(contrast(open, 1, 0), 3e-5);
+}
+
+}  // namespace
