@@ -8,6 +8,7 @@
 
 #include "ColourCamera.h"
 #include "RgbdCamera.h"
+#include "SkeletonTracker.h"
 
 namespace omnimapper::sim {
 
@@ -23,6 +24,8 @@ const std::vector<SensorClass>& sensorClasses() {
       sensorClass<Gps, GpsOptions>("Gps", "A satellite receiver: CObservationGPS with GGA."),
       sensorClass<RangeBearing, RangeBearingOptions>("RangeBearing",
                                                      "Ranges and bearings of landmarks: CObservationBearingRange."),
+      sensorClass<SkeletonTracker, SkeletonTrackerOptions>(
+          "SkeletonTracker", "Software that finds people's joints in depth images: CObservationSkeleton."),
   };
   return classes;
 }
