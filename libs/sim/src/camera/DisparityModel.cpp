@@ -11,11 +11,13 @@ namespace {
 
 constexpr float kSameDepth = 1.0f;  // disparities that far apart or less match in one window [pixel]
 
-/// Disparities on a grid of pixels; 0: nothing that could be matched.
+constexpr float kNoDisparity = -1e6f;  // far from every other
+
+/// Disparities on a grid of pixels; kNoDisparity: nothing that could be matched.
 struct Disparities {
   int width, height;
   std::vector<float> values;
-  float at(int column, int row) const { return values[static_cast<std::size_t>(row) * width + column]; }
+  const float* line(int row) const { return &values[static_cast<std::size_t>(row) * width]; }
 };
 
 /// The least and the greatest value in the square window around each pixel, inside the picture.
@@ -53,37 +55,62 @@ class WindowExtremes {
   std::vector<float> low_, high_;
 };
 
-/// What a window at an edge agrees on: the depth of its middle if enough of it is there, else the nearest, else the
-/// farthest that is, else nothing. So edges grow by a few pixels here, lose some there, and narrow shadows close.
-float matchAtEdge(const Disparities& disparities, int column, int row, int half, double need) {
-  const int top = std::max(0, row - half), bottom = std::min(disparities.height - 1, row + half);
-  const int left = std::max(0, column - half), right = std::min(disparities.width - 1, column + half);
-  float nearest = 0, farthest = 1e9f;
-  for (int y = top; y <= bottom; ++y) {
-    for (int x = left; x <= right; ++x) {
-      const float value = disparities.at(x, y);
-      if (value <= 0) continue;
-      nearest = std::max(nearest, value);
-      farthest = std::min(farthest, value);
+/// The square around a pixel, as far as it is in the picture.
+class Window {
+ public:
+  Window(const Disparities& disparities, int column, int row, int half)
+      : disparities_(disparities),
+        left_(std::max(0, column - half)),
+        right_(std::min(disparities.width - 1, column + half)),
+        top_(std::max(0, row - half)),
+        bottom_(std::min(disparities.height - 1, row + half)) {}
+
+  int size() const { return (right_ - left_ + 1) * (bottom_ - top_ + 1); }
+
+  bool hasEnough(float with, double enough) const {
+    int count = 0;
+    for (int row = top_; row <= bottom_; ++row) {
+      const float* line = disparities_.line(row);
+      for (int i = left_; i <= right_; ++i) count += std::abs(line[i] - with) <= kSameDepth;
+      if (count >= enough) return count > 0;
     }
+    return false;
   }
-  const double enough = need * (bottom - top + 1) * (right - left + 1);
-  const auto agreeing = [&](float with) {
+  float meanOf(float with) const {
     float sum = 0;
     int count = 0;
-    for (int y = top; y <= bottom; ++y) {
-      for (int x = left; x <= right; ++x) {
-        const float value = disparities.at(x, y);
-        if (value > 0 && std::abs(value - with) <= kSameDepth) sum += value, ++count;
+    for (int row = top_; row <= bottom_; ++row) {
+      const float* line = disparities_.line(row);
+      for (int i = left_; i <= right_; ++i) {
+        if (std::abs(line[i] - with) <= kSameDepth) sum += line[i], ++count;
       }
     }
-    return count > 0 && count >= enough ? sum / static_cast<float>(count) : 0.0f;
-  };
-  const float middle = disparities.at(column, row);
-  for (const float candidate : {middle, nearest, farthest}) {
-    if (candidate <= 0) continue;
-    if (const float matched = agreeing(candidate); matched > 0) return matched;
+    return sum / static_cast<float>(count);
   }
+  float farthest() const {
+    float least = 1e9f;
+    for (int row = top_; row <= bottom_; ++row) {
+      const float* line = disparities_.line(row);
+      for (int i = left_; i <= right_; ++i) least = line[i] > 0 ? std::min(least, line[i]) : least;
+    }
+    return least;
+  }
+
+ private:
+  const Disparities& disparities_;
+  int left_, right_, top_, bottom_;
+};
+
+/// What a window at an edge agrees on: the depth of its middle if enough of it is there, else the nearest, else the
+/// farthest that is, else nothing. So edges grow by a few pixels here, lose some there, and narrow shadows close.
+float matchAtEdge(const Disparities& disparities, int column, int row, int half, float nearest, double need) {
+  const Window window(disparities, column, row, half);
+  const double enough = need * window.size();
+  const float middle = disparities.line(row)[column];
+  if (middle > 0 && window.hasEnough(middle, enough)) return middle;
+  if (window.hasEnough(nearest, enough)) return window.meanOf(nearest);
+  const float farthest = window.farthest();
+  if (window.hasEnough(farthest, enough)) return window.meanOf(farthest);
   return 0;
 }
 
@@ -91,7 +118,7 @@ float matchAtEdge(const Disparities& disparities, int column, int row, int half,
 Disparities visibleDisparities(const Frame& frame, const Scene& scene, const std::vector<float>& signal,
                                const DisparitySettings& settings, Random& random) {
   const Pinhole& camera = frame.camera;
-  Disparities disparities{camera.width, camera.height, std::vector<float>(frame.pixels.size(), 0.0f)};
+  Disparities disparities{camera.width, camera.height, std::vector<float>(frame.pixels.size(), kNoDisparity)};
   const std::vector<char> shadow = findShadow(frame, scene, {settings.baseline, 0, 0});
   const std::vector<float> fine = smoothNoise(camera.width, camera.height, 3, random),
                            coarse = smoothNoise(camera.width, camera.height, 11, random);
@@ -164,8 +191,9 @@ std::vector<float> senseDepth(const Frame& frame, const Scene& scene, const std:
       const std::size_t i = static_cast<std::size_t>(row) * camera.width + column;
       if (extremes.highest(i) <= 0) continue;
       const double need = settings.need + settings.need_spread * ragged[i];
-      const float matched =
-          extremes.isSmooth(i) ? disparities.values[i] : matchAtEdge(disparities, column, row, half, need);
+      const float matched = extremes.isSmooth(i)
+                                ? disparities.values[i]
+                                : matchAtEdge(disparities, column, row, half, extremes.highest(i), need);
       if (matched <= 0) continue;
       // Near the floor of the signal the errors double.
       const double weakness = signal[i] > 0 ? std::min(1.0, settings.signal_floor / signal[i]) : 1.0;
