@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "CellRegions.h"
 
@@ -12,11 +12,12 @@ namespace {
 constexpr double kChi2 = 16.27;         // 99.9 %, 3 degrees of freedom
 constexpr double kMostAstray = 1 / 3.;  // of a region's cells, off its plane: it is curved
 
-// Where two regions meet: how many cells of one are explained by the plane of the other, of how many.
+// Two regions that meet: pairs of cells, one of each, and by how much one plane for both is worse than two; see
+// misfit().
 struct Meeting {
-  int cells = 0, explained = 0;
+  std::vector<std::pair<int, int>> cells;
+  double misfit = 0;
 };
-using Meetings = std::map<std::pair<int, int>, Meeting>;
 
 class Merging {
  public:
@@ -24,6 +25,7 @@ class Merging {
       : grid_(grid), noise_(noise), r_(regions) {}
 
   void mergeAll() {
+    findMeetings();
     while (mergeBest()) {
     }
   }
@@ -53,27 +55,33 @@ class Merging {
     return cell.moments.squaresFrom(region(index).plane) - cell.squares <= excessAllowed(noise_, cell.moments.n);
   }
 
-  Meetings meetings() const {
-    Meetings met;
+  void findMeetings() {
     for (int row = 0; row < grid_.rows; ++row) {
       for (int column = 0; column < grid_.columns; ++column) {
+        if (r_.of_cell[static_cast<std::size_t>(grid_.index(column, row))] == kNoRegion) continue;
         // One cell between two regions is often at the border and belongs to neither.
         for (int step = 1; step <= 2; ++step) {
-          if (column + step < grid_.columns) meet(grid_.index(column, row), grid_.index(column + step, row), met);
-          if (row + step < grid_.rows) meet(grid_.index(column, row), grid_.index(column, row + step), met);
+          if (column + step < grid_.columns) meet(grid_.index(column, row), grid_.index(column + step, row));
+          if (row + step < grid_.rows) meet(grid_.index(column, row), grid_.index(column, row + step));
         }
       }
     }
-    return met;
+    for (auto& [pair, meeting] : meetings_) meeting.misfit = misfit(pair.first, pair.second);
   }
 
-  void meet(int cell_a, int cell_b, Meetings& met) const {
-    const auto i = static_cast<std::size_t>(cell_a), j = static_cast<std::size_t>(cell_b);
-    const int a = r_.of_cell[i], b = r_.of_cell[j];
-    if (a == b || a == kNoRegion || b == kNoRegion) return;
-    Meeting& meeting = met[std::minmax(a, b)];
-    meeting.cells += 2;
-    meeting.explained += explains(b, grid_.cells[i]) + explains(a, grid_.cells[j]);
+  void meet(int cell_a, int cell_b) {
+    const int a = r_.of_cell[static_cast<std::size_t>(cell_a)], b = r_.of_cell[static_cast<std::size_t>(cell_b)];
+    if (a != b && b != kNoRegion) meetings_[std::minmax(a, b)].cells.emplace_back(cell_a, cell_b);
+  }
+
+  // Whether the plane of one region explains at least half of the cells of the other where they meet.
+  bool continues(const Meeting& meeting) const {
+    std::size_t explained = 0;
+    for (const auto& [i, j] : meeting.cells) {
+      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      explained += explains(r_.of_cell[b], grid_.cells[a]) + explains(r_.of_cell[a], grid_.cells[b]);
+    }
+    return explained >= meeting.cells.size();
   }
 
   // Squares that one plane for both leaves beyond those of two planes, in parts of what may be. Below 1: they are one.
@@ -89,25 +97,42 @@ class Merging {
   bool mergeBest() {
     double least = 1;
     std::pair<int, int> best{kNoRegion, kNoRegion};
-    for (const auto& [pair, meeting] : meetings()) {
-      if (2 * meeting.explained < meeting.cells) continue;
-      const double found = misfit(pair.first, pair.second);
-      if (found < least) {
-        least = found;
+    for (const auto& [pair, meeting] : meetings_) {
+      if (meeting.misfit < least && continues(meeting)) {
+        least = meeting.misfit;
         best = pair;
       }
     }
     if (best.first == kNoRegion) return false;
-    auto& kept = r_.regions[static_cast<std::size_t>(best.first)];
-    kept.moments += region(best.second).moments;
-    kept.plane = kept.moments.fit().plane;
-    std::replace(r_.of_cell.begin(), r_.of_cell.end(), best.second, best.first);
+    merge(best.first, best.second);
     return true;
+  }
+
+  void merge(int kept, int gone) {
+    auto& region_kept = r_.regions[static_cast<std::size_t>(kept)];
+    region_kept.moments += region(gone).moments;
+    region_kept.plane = region_kept.moments.fit().plane;
+    std::replace(r_.of_cell.begin(), r_.of_cell.end(), gone, kept);
+    meetings_.erase({kept, gone});
+    for (auto i = meetings_.begin(); i != meetings_.end();) {
+      const auto [a, b] = i->first;
+      if (a != gone && b != gone) {
+        ++i;
+        continue;
+      }
+      auto& cells = meetings_[std::minmax(kept, a == gone ? b : a)].cells;
+      cells.insert(cells.end(), i->second.cells.begin(), i->second.cells.end());
+      i = meetings_.erase(i);
+    }
+    for (auto& [pair, meeting] : meetings_) {
+      if (pair.first == kept || pair.second == kept) meeting.misfit = misfit(pair.first, pair.second);
+    }
   }
 
   const CellGrid& grid_;
   const DepthNoise& noise_;
   CellRegions& r_;
+  std::map<std::pair<int, int>, Meeting> meetings_;  // by the lower and the higher index of the two
 };
 
 }  // namespace

@@ -13,7 +13,17 @@ struct SameLabel {
   bool similar(int a, int b) const { return labels[a] == labels[b]; }
 };
 
-/// Four pixels at a time.
+/// Zeros and equal labels are skipped four pixels at a time.
+inline int beginOfRun(const SameLabel& comparator, int begin, int end_of_row) {
+  for (; begin + 4 <= end_of_row; begin += 4) {
+    std::uint64_t next;
+    std::memcpy(&next, comparator.labels + begin, sizeof(next));
+    if (next != 0) break;
+  }
+  while (begin < end_of_row && comparator.labels[begin] == 0) ++begin;
+  return begin;
+}
+
 inline int endOfRun(const SameLabel& comparator, int begin, int end_of_row) {
   const std::uint64_t four = comparator.labels[begin] * 0x0001000100010001ULL;
   int end = begin + 1;
@@ -24,6 +34,10 @@ inline int endOfRun(const SameLabel& comparator, int begin, int end_of_row) {
   }
   while (end < end_of_row && comparator.labels[end] == comparator.labels[begin]) ++end;
   return end;
+}
+
+inline bool touch(const SameLabel& comparator, int above, int below, int) {
+  return comparator.labels[above] == comparator.labels[below];
 }
 
 }  // namespace omnimapper::perception::planes

@@ -49,13 +49,32 @@ void numberComponents(UnionFind& sets, Components& components);
 
 }  // namespace detail
 
-/// One past the last pixel of the run that begins with the valid pixel `begin`. A comparator that can jump ahead, such
-/// as one of equal labels, brings an overload of its own.
+/// What connectComponents() asks of a row. A comparator that can answer for many pixels at once, such as one of equal
+/// labels, brings overloads of its own.
+
+/// The first valid pixel from `begin` on, or `end_of_row`.
+template <class Comparator>
+int beginOfRun(const Comparator& comparator, int begin, int end_of_row) {
+  while (begin < end_of_row && !comparator.valid(begin)) ++begin;
+  return begin;
+}
+
+/// One past the last pixel of the run that begins with the valid pixel `begin`.
 template <class Comparator>
 int endOfRun(const Comparator& comparator, int begin, int end_of_row) {
   int end = begin + 1;
   while (end < end_of_row && comparator.valid(end) && comparator.similar(end - 1, end)) ++end;
   return end;
+}
+
+/// Whether any of `n` pixels from `below` on is similar to the one above it; the upper ones are of one run, and the
+/// lower ones too.
+template <class Comparator>
+bool touch(const Comparator& comparator, int above, int below, int n) {
+  for (int i = 0; i < n; ++i) {
+    if (comparator.similar(above + i, below + i)) return true;
+  }
+  return false;
 }
 
 /// Connected components of an image in two passes with union-find, 4-connected (thesis 3.4.2). What belongs together is
@@ -72,21 +91,18 @@ Components connectComponents(int width, int height, const Comparator& comparator
   for (int row = 0, first = 0; row < height; ++row, first += width) {
     const std::size_t here = result.runs.size();
     std::size_t upper = above;
-    for (int pixel = first; pixel < first + width;) {
-      if (!comparator.valid(pixel)) {
-        ++pixel;
-        continue;
-      }
-      const int end = endOfRun(comparator, pixel, first + width);
+    const int end_of_row = first + width;
+    int pixel = first;
+    while ((pixel = beginOfRun(comparator, pixel, end_of_row)) < end_of_row) {
+      const int end = endOfRun(comparator, pixel, end_of_row);
       const PixelRun run{row, pixel - first, end - first, sets.add()};
       while (upper < here && result.runs[upper].end <= run.begin) ++upper;
       for (std::size_t i = upper; i < here && result.runs[i].begin < run.end; ++i) {
         const PixelRun& over = result.runs[i];
         if (sets.find(over.component) == sets.find(run.component)) continue;
-        const int last = first + (over.end < run.end ? over.end : run.end);
-        int x = first + (over.begin > run.begin ? over.begin : run.begin);
-        while (x < last && !comparator.similar(x - width, x)) ++x;
-        if (x < last) sets.unite(over.component, run.component);
+        const int from = over.begin > run.begin ? over.begin : run.begin;
+        const int to = over.end < run.end ? over.end : run.end;
+        if (touch(comparator, first - width + from, first + from, to - from)) sets.unite(over.component, run.component);
       }
       result.runs.push_back(run);
       pixel = end;
