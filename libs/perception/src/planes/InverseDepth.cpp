@@ -71,8 +71,8 @@ InverseDepth invert(const DepthImage& image, double min_depth, double max_depth)
   inverse.values.reset(new float[stride * static_cast<std::size_t>(inverse.rows)]);
   const double unit = image.units() != nullptr ? image.metresPerUnit() : 1.0;
   const double highest = image.units() != nullptr ? 65534.0 : 1e30;
-  const Bounds bounds{static_cast<float>(min_depth / unit), static_cast<float>(std::min(max_depth / unit, highest)),
-                      static_cast<float>(1 / unit)};
+  const Bounds bounds{static_cast<float>(std::max(min_depth / unit, 1e-30)),
+                      static_cast<float>(std::min(max_depth / unit, highest)), static_cast<float>(1 / unit)};
   for (int y = 0; y < inverse.rows; ++y) {
     float* row = inverse.values.get() + static_cast<std::size_t>(y) * stride;
     const auto from = static_cast<std::size_t>(y) * width;

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <omnimapper/perception/ConnectedComponents.h>
+#include <omnimapper/perception/OrganisedPoints.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace omnimapper::perception {
+
+/// Comparator: neighbours close together in space and on no masked surface (thesis 3.4.6): things on a table, once its
+/// plane is masked.
+struct ClusterComparator {
+  const OrganisedPoints& points;
+  const std::vector<std::uint16_t>& labels;  ///< of each pixel, such as those of PlaneSegmentation
+  const std::vector<bool>& masked;           ///< for each label, 0 included, whether its pixels are left out
+  float max_gap = 0.02F;                     ///< [m]
+  float max_gap_at_1m = 0.0069F;             ///< [m] of noise, times the squared depth; it adds to max_gap
+
+  bool valid(int pixel) const {
+    const auto i = static_cast<std::size_t>(pixel);
+    return !masked[labels[i]] && !std::isnan(points.z[i]);
+  }
+
+  bool similar(int a, int b) const {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    const float x = points.x[i] - points.x[j], y = points.y[i] - points.y[j], z = points.z[i] - points.z[j];
+    const float gap = max_gap + max_gap_at_1m * points.z[i] * points.z[j];
+    return x * x + y * y + z * z <= gap * gap;
+  }
+};
+
+extern template Components connectComponents(int, int, const ClusterComparator&);
+
+}  // namespace omnimapper::perception

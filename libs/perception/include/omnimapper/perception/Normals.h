@@ -1,0 +1,43 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/perception/DepthNoise.h>
+
+#include <vector>
+
+namespace omnimapper::perception {
+
+struct NormalOptions {
+  double noise_at_1m = DepthNoise().sigma;  ///< [m]
+  double step_at_1m = DepthNoise().step;    ///< [m]
+  double min_depth = 0.2;                   ///< [m]
+  double max_depth = 12;                    ///< [m]
+  int radius = 4;                           ///< [px] of the square window, of 2 radius + 1 pixels a side; 1 to 7
+
+  static const base::OptionTable<NormalOptions>& table();
+};
+
+/// Unit normals in the order of an image's pixels, towards the sensor, in its optical frame. Not a number where none
+/// could be told.
+struct NormalImage {
+  int width = 0, height = 0;
+  std::vector<float> x, y, z;
+};
+
+/// The normal of each pixel, from the plane fitted in inverse depth to the window around it (see PlaneSegmenter on why
+/// there). Where the window reaches over an edge, over pixels that were not measured or over the image's border, the
+/// normal is that of a neighbour on whose plane the pixel lies, up to
+/// 2 radius steps away. Images narrower than the window and seven pixels have none.
+class NormalEstimator {
+ public:
+  explicit NormalEstimator(const NormalOptions& options) : options_(options) {}
+
+  /// Thread-safe.
+  NormalImage estimate(const DepthImage& image) const;
+
+ private:
+  NormalOptions options_;
+};
+
+}  // namespace omnimapper::perception

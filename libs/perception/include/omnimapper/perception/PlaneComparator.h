@@ -1,0 +1,37 @@
+#pragma once
+
+#include <omnimapper/perception/ConnectedComponents.h>
+#include <omnimapper/perception/Normals.h>
+#include <omnimapper/perception/OrganisedPoints.h>
+
+#include <cmath>
+
+namespace omnimapper::perception {
+
+/// Comparator: neighbours on one smooth surface, as the planes through them say (thesis 3.4.3).
+struct PlaneComparator {
+  const OrganisedPoints& points;
+  const NormalImage& normals;
+  float min_cosine = 0.9986F;        ///< of the angle between the normals: 3 deg
+  float max_offset_at_1m = 0.0069F;  ///< [m] between the planes' distances, times the squared depth: 3 sigma of noise
+
+  bool valid(int pixel) const {
+    const auto i = static_cast<std::size_t>(pixel);
+    return !std::isnan(normals.z[i]) && !std::isnan(points.z[i]);
+  }
+
+  bool similar(int a, int b) const {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    const float cosine = normals.x[i] * normals.x[j] + normals.y[i] * normals.y[j] + normals.z[i] * normals.z[j];
+    return cosine >= min_cosine && std::abs(offset(i) - offset(j)) <= max_offset_at_1m * points.z[j] * points.z[j];
+  }
+
+  /// [m], of the plane through a pixel's point, along its normal.
+  float offset(std::size_t i) const {
+    return normals.x[i] * points.x[i] + normals.y[i] * points.y[i] + normals.z[i] * points.z[i];
+  }
+};
+
+extern template Components connectComponents(int, int, const PlaneComparator&);
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,130 @@
+#include <omnimapper/perception/Normals.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "planes/WindowPlanes.h"
+
+namespace omnimapper::perception {
+
+const base::OptionTable<NormalOptions>& NormalOptions::table() {
+  using base::Range;
+  static const auto table =
+      base::OptionTable<NormalOptions>()
+          .number("noise_at_1m_m", &NormalOptions::noise_at_1m, Range::positive(),
+                  "Standard deviation of a pixel's depth at 1 m; it grows with the square of the depth.")
+          .number("step_at_1m_m", &NormalOptions::step_at_1m, Range::notNegative(),
+                  "Step between two depths that the sensor can tell apart at 1 m; 0 if it has none.")
+          .number("min_depth_m", &NormalOptions::min_depth, Range::positive(), "Nearer pixels are left out.")
+          .number("max_depth_m", &NormalOptions::max_depth, Range::positive(), "Farther pixels are left out.")
+          .integer("window_radius_px", &NormalOptions::radius, {1, 7}, "The window has 2 radius + 1 pixels a side.");
+  return table;
+}
+
+namespace {
+
+// A pixel is on a plane within so many standard deviations.
+constexpr double kSigmas = 4;
+
+/// Hands normals on to pixels that have none of their own, from pixel to pixel, each on the plane of the one before.
+class Spreading {
+ public:
+  Spreading(const planes::InverseDepth& inverse, const Pinhole& camera, double tolerance, int most_steps,
+            NormalImage& normals)
+      : inverse_(inverse),
+        camera_(camera),
+        tolerance_(static_cast<float>(tolerance)),
+        most_steps_(static_cast<std::uint8_t>(most_steps)),
+        normals_(normals),
+        steps_(normals.x.size(), 0) {}
+
+  void spread() {
+    const int width = normals_.width, height = normals_.height;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (needsOne(x, y)) takeFrom(x, y, -1);
+      }
+    }
+    for (int y = height - 1; y >= 0; --y) {
+      for (int x = width - 1; x >= 0; --x) {
+        if (needsOne(x, y)) takeFrom(x, y, 1);
+      }
+    }
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(normals_.width) + static_cast<std::size_t>(x);
+  }
+
+  bool needsOne(int x, int y) const { return std::isnan(normals_.z[index(x, y)]) && *inverse_.at(x, y) > 0; }
+
+  // Of the plane through the origin's unit distance: what the normal says of 1/z but for its scale.
+  float slant(std::size_t normal, int x, int y) const {
+    return normals_.x[normal] * static_cast<float>((x - camera_.cx) / camera_.fx) +
+           normals_.y[normal] * static_cast<float>((y - camera_.cy) / camera_.fy) + normals_.z[normal];
+  }
+
+  // From the neighbour beside it or the one below or above it: first the one whose normal came a shorter way.
+  void takeFrom(int x, int y, int step) {
+    const bool beside = x + step >= 0 && x + step < normals_.width,
+               beyond = y + step >= 0 && y + step < normals_.height;
+    if (!beside || !beyond) {
+      if (beside) take(x, y, x + step, y);
+      if (beyond) take(x, y, x, y + step);
+    } else if (steps_[index(x + step, y)] <= steps_[index(x, y + step)]) {
+      if (!take(x, y, x + step, y)) take(x, y, x, y + step);
+    } else {
+      if (!take(x, y, x, y + step)) take(x, y, x + step, y);
+    }
+  }
+
+  bool take(int x, int y, int from_x, int from_y) {
+    const std::size_t from = index(from_x, from_y), to = index(x, y);
+    if (std::isnan(normals_.z[from]) || steps_[from] >= most_steps_) return false;
+    const float expected = *inverse_.at(from_x, from_y) * slant(from, x, y) / slant(from, from_x, from_y);
+    if (!(std::abs(*inverse_.at(x, y) - expected) <= tolerance_)) return false;
+    normals_.x[to] = normals_.x[from];
+    normals_.y[to] = normals_.y[from];
+    normals_.z[to] = normals_.z[from];
+    steps_[to] = static_cast<std::uint8_t>(steps_[from] + 1);
+    return true;
+  }
+
+  const planes::InverseDepth& inverse_;
+  const Pinhole& camera_;
+  float tolerance_;
+  std::uint8_t most_steps_;
+  NormalImage& normals_;
+  std::vector<std::uint8_t> steps_;
+};
+
+}  // namespace
+
+NormalImage NormalEstimator::estimate(const DepthImage& image) const {
+  NormalImage normals;
+  normals.width = image.width();
+  normals.height = image.height();
+  const auto width = static_cast<std::size_t>(image.width()), height = static_cast<std::size_t>(image.height());
+  normals.x.resize(width * height);
+  normals.y.resize(width * height);
+  normals.z.resize(width * height);
+  if (normals.x.empty()) return normals;
+  const planes::InverseDepth inverse = planes::invert(image, options_.min_depth, options_.max_depth);
+  const DepthNoise noise{options_.noise_at_1m, options_.step_at_1m, 0, 1};
+  const double tolerance = kSigmas * std::sqrt(noise.pixelVariance());
+  planes::WindowPlanes windows(inverse, image.camera(), options_.radius, 1 / options_.min_depth, tolerance);
+  std::vector<float> row(3 * static_cast<std::size_t>(inverse.stride));
+  const planes::NormalRow to{row.data(), row.data() + inverse.stride, row.data() + 2 * inverse.stride};
+  for (std::size_t y = 0; y < height; ++y) {
+    windows.next(to);
+    std::copy(to.x, to.x + width, normals.x.begin() + static_cast<std::ptrdiff_t>(y * width));
+    std::copy(to.y, to.y + width, normals.y.begin() + static_cast<std::ptrdiff_t>(y * width));
+    std::copy(to.z, to.z + width, normals.z.begin() + static_cast<std::ptrdiff_t>(y * width));
+  }
+  Spreading(inverse, image.camera(), tolerance, 2 * options_.radius, normals).spread();
+  return normals;
+}
+
+}  // namespace omnimapper::perception
