@@ -17,6 +17,8 @@ using Eigen::Vector3d;
 using geometry::Se3;
 using PoseOf = std::function<Se3(const Posture&)>;
 
+constexpr int kSides = 12;  // of a limb: people move, and what moves is built anew for each moment
+
 struct Clothes {
   Material skin, shirt, trousers, shoes, hair;
 };
@@ -47,7 +49,7 @@ Clothes clothesOf(std::uint64_t seed) {
 
 // A limb along -z from the origin, round at both ends.
 std::vector<ProfilePoint> limbProfile(double length, double radius_above, double radius_below) {
-  constexpr int kSteps = 4;
+  constexpr int kSteps = 3;
   std::vector<ProfilePoint> profile;
   for (int i = 0; i <= kSteps; ++i) {
     const double angle = 0.5 * M_PI * i / kSteps;
@@ -107,7 +109,7 @@ class Dresser {
                double above, double below) {
     MeshBuilder mesh = builder(sideOf(right) + part, poseOfLimb(right, from, to));
     mesh.addRevolution(mesh.addSurface("", SurfaceKind::person, material),
-                       limbProfile(length, scaled(above), scaled(below)), 16);
+                       limbProfile(length, scaled(above), scaled(below)), kSides);
     bodies_.push_back(mesh.build());
   }
 
@@ -115,11 +117,11 @@ class Dresser {
   void addForearm(bool right) {
     MeshBuilder mesh = builder(sideOf(right) + "forearm", poseOfLimb(right, Limb::elbow, Limb::hand));
     mesh.addRevolution(mesh.addSurface("", SurfaceKind::person, clothes_.shirt),
-                       limbProfile(0.55 * anatomy_.forearm, scaled(0.042), scaled(0.036)), 16);
+                       limbProfile(0.55 * anatomy_.forearm, scaled(0.042), scaled(0.036)), kSides);
     const int skin = mesh.addSurface("hand", SurfaceKind::person, clothes_.skin);
-    mesh.addRevolution(skin, limbProfile(anatomy_.forearm, scaled(0.03), scaled(0.028)), 12);
+    mesh.addRevolution(skin, limbProfile(anatomy_.forearm, scaled(0.03), scaled(0.028)), kSides);
     mesh.at({Eigen::Quaterniond::Identity(), {0, 0, -anatomy_.forearm}});
-    mesh.addSphere(skin, scaled(0.042), 12);
+    mesh.addSphere(skin, scaled(0.042), 10);
     bodies_.push_back(mesh.build());
   }
 
@@ -149,7 +151,7 @@ class Dresser {
     const auto flat = [&](int surface, const std::vector<ProfilePoint>& profile) {
       std::vector<ProfilePoint> scaled;
       for (const ProfilePoint& p : profile) scaled.push_back({p.radius * h, p.z * h});
-      mesh.addRevolution(surface, scaled, 24);
+      mesh.addRevolution(surface, scaled, 20);
     };
     flat(mesh.addSurface("", SurfaceKind::person, clothes_.shirt), {{0, -0.005},
                                                                     {0.095, -0.004},
@@ -176,11 +178,11 @@ class Dresser {
     };
     MeshBuilder mesh = builder("head", pose);
     const double radius = 0.06 * anatomy_.height;
-    mesh.addSphere(mesh.addSurface("", SurfaceKind::person, clothes_.skin), radius, 20);
+    mesh.addSphere(mesh.addSurface("", SurfaceKind::person, clothes_.skin), radius, 16);
     mesh.at({Eigen::Quaterniond::Identity(), {radius, 0, -0.15 * radius}});
     mesh.addSphere(mesh.addSurface("nose", SurfaceKind::person, clothes_.skin), 0.18 * radius, 8);
     mesh.at({Eigen::Quaterniond::Identity(), {-0.16 * radius, 0, 0.14 * radius}});
-    mesh.addSphere(mesh.addSurface("hair", SurfaceKind::person, clothes_.hair), radius, 20);
+    mesh.addSphere(mesh.addSurface("hair", SurfaceKind::person, clothes_.hair), radius, 16);
     Body body = mesh.build();
     for (Vector3d& p : body.vertices_in_body) p = p.cwiseProduct(Vector3d(0.95, 0.8, 1.12));
     bodies_.push_back(std::move(body));

@@ -17,7 +17,7 @@ constexpr double kPeriod = 0.05;     // [s]
 constexpr double kTurnRate = 3;      // at most [rad/s]
 constexpr double kTurnTime = 1.3;    // so long before an act or a way the body begins to turn [s]
 constexpr double kLookAhead = 0.25;  // on a way the body turns so long before the way does [s]
-constexpr double kArmStretch = 0.985;
+constexpr double kArmStretch = 0.995;
 // How far an arm points beside the body's heading: outwards and across [rad].
 constexpr double kOutwards = 1.9, kAcross = 0.6;
 

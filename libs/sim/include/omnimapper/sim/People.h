@@ -43,9 +43,11 @@ struct MadePerson {
 ///
 /// Pointing: the head turns to the target and the hand lies on the line from the head (its middle, which for a head
 /// that looks at the target is on the line of sight) to the target, as people do who aim with the fingertip: the
-/// head-hand ray is exact. Shoulder, elbow and hand are stretched to 98.5 % of the arm, the elbow hanging down and out.
-/// As the shoulder is below and beside the eyes, the elbow-hand ray then passes above the target, and, of a right arm,
-/// to the left of it, by ten to thirty degrees. A person turns before pointing if the target is out of the arm's reach.
+/// head-hand ray is exact. Shoulder, elbow and hand are stretched to 99.5 % of the arm, the elbow hanging down and out.
+/// As the shoulder is below and beside the eyes, the elbow-hand ray passes above the target, by 5 to 28 degrees, and,
+/// of a right arm, to the left of it, by up to 22 (targets 1.5 to 2.5 m away at 0.2 to 1.5 m above the floor). What
+/// people and skeleton trackers do less exactly is in the sensor SkeletonTracker. A person turns before pointing if the
+/// target is out of the arm's reach.
 ///
 /// Throws base::Error(out_of_range) for a height out of [0.8, 2.3] m, times that do not increase, more than 2.5 m/s, an
 /// act while it walks or that overlaps another, and a target nearer than 0.6 m to the head.
