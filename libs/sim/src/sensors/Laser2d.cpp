@@ -37,14 +37,21 @@ Laser2dOptions Laser2dOptions::ofModel(Laser2dModel model) {
       // 75 turns in a second, half a turn for the scan.
       o.beams = 181, o.aperture = 180 * kDegree, o.sweep = 0.5 / 75;
       o.min_range = 0.05, o.max_range = 81.83, o.white_range = 85, o.divergence = 0.6 * kDegree;
-      o.noise = 0.006, o.noise_per_metre = 0.0004, o.step = 0.01;
-      o.mixing_gap = 1.5, o.mixing = 0.7, o.lost = 0.0005, o.glass_angle = 6 * kDegree;
+      o.noise = 0.007, o.noise_per_metre = 0.0007, o.step = 0.01;
+      o.mixing_gap = 4, o.mixing = 0.5, o.lost = 0.0005, o.glass_angle = 6 * kDegree;
+      break;
+    case Laser2dModel::sick_pls:
+      // The older one, with steps of 5 cm: ACES was recorded with such a laser. 25 turns in a second.
+      o.beams = 180, o.aperture = 179 * kDegree, o.sweep = 0.5 / 25;
+      o.min_range = 0.05, o.max_range = 50, o.white_range = 55, o.divergence = 0.7 * kDegree;
+      o.noise = 0.016, o.noise_per_metre = 0.0003, o.step = 0.05;
+      o.mixing_gap = 5, o.mixing = 0.65, o.lost = 0.0005, o.glass_angle = 6 * kDegree;
       break;
     case Laser2dModel::hokuyo_utm30:
       o.beams = 1081, o.aperture = 270 * kDegree, o.sweep = 0.75 / 40;
       o.min_range = 0.1, o.max_range = 30, o.white_range = 35, o.divergence = 0.25 * kDegree;
-      o.noise = 0.005, o.noise_per_metre = 0.001, o.step = 0.001;
-      o.mixing_gap = 0.5, o.mixing = 0.6, o.lost = 0.001, o.glass_angle = 8 * kDegree;
+      o.noise = 0.009, o.noise_per_metre = 0.0002, o.step = 0.001;
+      o.mixing_gap = 5, o.mixing = 0.4, o.lost = 0.001, o.glass_angle = 8 * kDegree;
       break;
     case Laser2dModel::hokuyo_urg04:
       o.beams = 682, o.aperture = 681 * 360.0 / 1024 * kDegree, o.sweep = 681.0 / 1024 / 10;
@@ -67,6 +74,7 @@ const base::OptionTable<Laser2dOptions>& Laser2dOptions::table() {
       base::OptionTable<Options>()
           .choice("model", &Options::model,
                   {{"sick_lms291", Laser2dModel::sick_lms291},
+                   {"sick_pls", Laser2dModel::sick_pls},
                    {"hokuyo_utm30", Laser2dModel::hokuyo_utm30},
                    {"hokuyo_urg04", Laser2dModel::hokuyo_urg04},
                    {"ideal", Laser2dModel::ideal}},

@@ -7,7 +7,7 @@
 
 namespace omnimapper::sim {
 
-enum class Laser2dModel { sick_lms291, hokuyo_utm30, hokuyo_urg04, ideal };
+enum class Laser2dModel { sick_lms291, sick_pls, hokuyo_utm30, hokuyo_urg04, ideal };
 
 struct Laser2dOptions : LaserOpticsOptions {
   Laser2dModel model = Laser2dModel::sick_lms291;
