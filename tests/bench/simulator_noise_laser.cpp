@@ -259,9 +259,9 @@ void run(const std::string& data, const std::string& folder) {
   source::CarmenLog aces_log(data + "/aces.clf.bz2");
   source::RawlogSource ual_log(data + "/ual.rawlog"), office_log(data + "/driving_in_office.rawlog");
   std::vector<Recording> all;
-  all.push_back(read(aces_log, "ACES: steps of 5 cm", "#c0392b", 50));
-  all.push_back(read(ual_log, "ual: SICK, steps of 1 cm", "#8e44ad"));
-  all.push_back(read(office_log, "driving_in_office: steps of 1 mm", "#1e8449"));
+  all.push_back(read(aces_log, "ACES, 5 cm", "#c0392b", 50));
+  all.push_back(read(ual_log, "ual, 1 cm", "#8e44ad"));
+  all.push_back(read(office_log, "driving_in_office, 1 mm", "#1e8449"));
   const Simulated simulated(1);
   all.push_back(simulated.record("model = sick_pls\nrate_hz = 5\n", "simulated sick_pls", "#e59866"));
   all.push_back(
