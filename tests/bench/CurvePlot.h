@@ -24,7 +24,7 @@ inline void plotCurves(const std::string& path, const std::string& title, const 
   }
   std::ofstream out(path);
   eval::Svg svg(out, 640, 360);
-  svg.text({60, 20}, title, eval::Svg::Anchor::start, 14);
+  svg.text({110, 20}, title, eval::Svg::Anchor::start, 14);
   const eval::Axes axes({60, 35}, {380, 270}, {0, 0}, 1.05 * high);
   axes.draw(svg, x_name, y_name);
   double y = 50;

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/sim/MarkerMaking.h>
 #include <omnimapper/sim/Textures.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <opencv2/aruco.hpp>
 
 #include "CameraFixture.h"
 
@@ -85,6 +88,44 @@ TEST(ColourCamera, thePanTiltAimsAndMarkersHaveTheirTrueCorners) {
   EXPECT_NEAR(ahead.x, 0, 1e-9);
   EXPECT_NEAR(ahead.y, 0, 1e-9);
   EXPECT_NEAR(ahead.z, std::sqrt(8), 1e-9);
+}
+
+// Markers at three slants before a wall, found by OpenCV in the finished picture with noise and blur of the lens.
+TEST(ColourCamera, opencvFindsMarkersWhereTruthHasThem) {
+  CameraFixture fixture;
+  Eigen::Matrix3d axes;
+  axes << 0, 0, -1, -1, 0, 0, 0, 1, 0;
+  for (int i = 0; i < 3; ++i) {
+    sim::MarkerSpec spec;
+    spec.name = "marker_" + std::to_string(i);
+    spec.id = 10 + i;
+    const Eigen::AngleAxisd slant(0.35 * (i - 1), Eigen::Vector3d(0.2, 0.3, 1).normalized());
+    spec.map_from_marker = {Eigen::Quaterniond(slant * Eigen::Quaterniond(axes)),
+                            {2.0 + 0.4 * i, 0.6 * (i - 1), 0.1 * i}};
+    const sim::MadeMarker made = sim::makeMarker(spec);
+    fixture.world.bodies.push_back(made.body);
+    fixture.world.markers.push_back(made.marker);
+  }
+  fixture.addBoard("wall", 4, 0, 0, 20, 20);
+  const auto measurement = fixture.make("ColourCamera")->measure(0);
+  const auto truth = nlohmann::json::parse(measurement.truth);
+  ASSERT_EQ(truth["markers"].size(), 3u);
+  std::vector<std::vector<cv::Point2f>> corners;
+  std::vector<int> ids;
+  const auto parameters = cv::aruco::DetectorParameters::create();
+  parameters->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
+  parameters->cornerRefinementWinSize = 3;
+  cv::aruco::detectMarkers(pictureOf(measurement)->image.asCvMatRef(),
+                           cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50), corners, ids, parameters);
+  ASSERT_EQ(ids.size(), 3u);
+  for (const auto& seen : truth["markers"]) {
+    const auto at = std::find(ids.begin(), ids.end(), seen["id"].get<int>()) - ids.begin();
+    ASSERT_LT(at, 3);
+    for (int corner = 0; corner < 4; ++corner) {
+      EXPECT_NEAR(corners[at][corner].x, seen["corners"][corner][0].get<double>(), 0.5);
+      EXPECT_NEAR(corners[at][corner].y, seen["corners"][corner][1].get<double>(), 0.5);
+    }
+  }
 }
 
 TEST(ColourCamera, signsTellTheirTextAndWhatHidesThem) {

@@ -46,13 +46,13 @@ double visiblePart(const Eye& eye, const Face& face) {
 }
 
 // Null if nothing of it is seen.
-nlohmann::json view(const Eye& eye, const Face& face) {
+nlohmann::ordered_json view(const Eye& eye, const Face& face) {
   const geometry::Se3 optical_from_face = geometry::inverse(eye.map_from_optical) * face.map_from_face;
   const double distance = optical_from_face.translation.norm();
   const Eigen::Vector3d normal = optical_from_face.rotation * Eigen::Vector3d::UnitZ();
   const double cosine = -normal.dot(optical_from_face.translation) / distance;
   if (!(cosine > 0)) return nullptr;
-  nlohmann::json corners = nlohmann::json::array();
+  nlohmann::ordered_json corners = nlohmann::ordered_json::array();
   for (const auto& [x, y] : {std::pair{-0.5, 0.5}, {0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}}) {
     const auto pixel = eye.camera.project(optical_from_face * Eigen::Vector3d(x * face.width, y * face.height, 0));
     if (!pixel) return nullptr;
@@ -83,9 +83,10 @@ std::map<std::string, BodyAt> bodiesByName(const World& world) {
 
 }  // namespace
 
-nlohmann::json facesInView(const World& world, const Scenes& scenes, const Scene& scene, const Pinhole& camera,
-                           const geometry::Se3& map_from_optical, double time) {
-  nlohmann::json faces{{"markers", nlohmann::json::array()}, {"signs", nlohmann::json::array()}};
+nlohmann::ordered_json facesInView(const World& world, const Scenes& scenes, const Scene& scene, const Pinhole& camera,
+                                   const geometry::Se3& map_from_optical, double time) {
+  nlohmann::ordered_json faces{{"markers", nlohmann::ordered_json::array()},
+                               {"signs", nlohmann::ordered_json::array()}};
   if (world.markers.empty() && world.signs.empty()) return faces;
   const Eye eye{scenes, scene, camera, map_from_optical};
   const auto bodies = bodiesByName(world);
@@ -94,7 +95,7 @@ nlohmann::json facesInView(const World& world, const Scenes& scenes, const Scene
     const BodyAt& at = bodies.at(marker.name);
     const auto map_from_body = at.body->track.at(time);
     if (!map_from_body) continue;
-    nlohmann::json seen = view(eye, {*map_from_body, marker.side, marker.side, at.first_surface, past(at)});
+    nlohmann::ordered_json seen = view(eye, {*map_from_body, marker.side, marker.side, at.first_surface, past(at)});
     if (seen.is_null()) continue;
     seen["name"] = marker.name;
     seen["id"] = marker.id;
@@ -102,7 +103,7 @@ nlohmann::json facesInView(const World& world, const Scenes& scenes, const Scene
   }
   for (const Sign& sign : world.signs) {
     const BodyAt& at = bodies.at(sign.name);
-    nlohmann::json seen = view(eye, {sign.map_from_sign, sign.width, sign.height, at.first_surface, past(at)});
+    nlohmann::ordered_json seen = view(eye, {sign.map_from_sign, sign.width, sign.height, at.first_surface, past(at)});
     if (seen.is_null()) continue;
     seen["name"] = sign.name;
     seen["room"] = sign.room;
@@ -112,7 +113,7 @@ nlohmann::json facesInView(const World& world, const Scenes& scenes, const Scene
   return faces;
 }
 
-nlohmann::json poseJson(const geometry::Se3& pose) {
+nlohmann::ordered_json poseJson(const geometry::Se3& pose) {
   const Eigen::Vector3d& t = pose.translation;
   const Eigen::Quaterniond& q = pose.rotation;
   return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};

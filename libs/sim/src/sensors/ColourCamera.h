@@ -26,9 +26,10 @@ struct ColourCameraOptions {
 };
 
 /// A colour camera on a pan-tilt: mrpt::obs::CObservationImage. The mount of the INI is that of the pan-tilt, x along
-/// its middle; the observation's cameraPose is the optical frame, which looks along z, as the pan-tilt tells it. Truth:
-/// time_s, pan_deg, tilt_deg, base_from_camera and map_from_camera (optical frame), faces in the picture
-/// (facesInView()); files labels/.
+/// its middle; the observation's cameraPose is the optical frame, which looks along z, as the pan-tilt tells it.
+///
+/// Truth: k, stamp, time_s, pan_deg, tilt_deg, base_from_camera and map_from_camera (optical frame), faces in the
+/// picture (facesInView()); files labels/.
 class ColourCamera : public Sensor {
  public:
   ColourCamera(const ColourCameraOptions& options, const SensorOptions& mount, const SensorContext& context);

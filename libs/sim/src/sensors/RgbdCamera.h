@@ -9,8 +9,8 @@ namespace omnimapper::sim {
 
 /// A camera of depth and colour: mrpt::obs::CObservation3DRangeScan. The mount of the INI is that of the depth camera,
 /// which looks along x; the observation's sensorPose too, or, where depth is registered, that of the colour camera.
-/// Truth: time_s, picture_time_s, map_from_sensor of the range image, faces in the picture (facesInView()); files
-/// labels/ and depth/, pixel by pixel as the range image.
+/// Truth: k, stamp, time_s, picture_time_s, map_from_sensor of the range image, faces in the picture (facesInView());
+/// files labels/ and depth/, pixel by pixel as the range image.
 class RgbdCamera : public Sensor {
  public:
   RgbdCamera(const RgbdOptions& options, const SensorOptions& mount, const SensorContext& context);
