@@ -121,10 +121,17 @@ TEST(ColourCamera, opencvFindsMarkersWhereTruthHasThem) {
   for (const auto& seen : truth["markers"]) {
     const auto at = std::find(ids.begin(), ids.end(), seen["id"].get<int>()) - ids.begin();
     ASSERT_LT(at, 3);
+    // White runs over into the black square, in the lens and by the sRGB curve: each corner is found a little inside.
+    double mean_x = 0, mean_y = 0;
     for (int corner = 0; corner < 4; ++corner) {
-      EXPECT_NEAR(corners[at][corner].x, seen["corners"][corner][0].get<double>(), 0.5);
-      EXPECT_NEAR(corners[at][corner].y, seen["corners"][corner][1].get<double>(), 0.5);
+      const double dx = corners[at][corner].x - seen["corners"][corner][0].get<double>(),
+                   dy = corners[at][corner].y - seen["corners"][corner][1].get<double>();
+      EXPECT_LT(std::hypot(dx, dy), 1.2);
+      mean_x += dx / 4;
+      mean_y += dy / 4;
     }
+    EXPECT_NEAR(mean_x, 0, 0.25);
+    EXPECT_NEAR(mean_y, 0, 0.25);
   }
 }
 
