@@ -217,12 +217,20 @@ double FloorPlan::costOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to)
 
 // Best first over the free cells; ends when `arrived(cell, cost)` says so. Ties go by the cell's number.
 template <class Estimate, class Arrived>
-void FloorPlan::grow(int from, const Estimate& estimate, const Arrived& arrived, std::vector<int>& came_from) const {
+void FloorPlan::grow(int from, const Estimate& estimate, const Arrived& arrived) const {
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  std::vector<float> cost(clearance_.size(), std::numeric_limits<float>::infinity());
-  std::vector<char> closed(clearance_.size(), 0);
-  came_from.assign(clearance_.size(), -1);
+  auto& [cost, closed, came_from, touched] = scratch_;
+  // Most searches see little of a large plan: only what the last one touched is made new.
+  cost.resize(clearance_.size(), std::numeric_limits<float>::infinity());
+  closed.resize(clearance_.size(), 0);
+  came_from.resize(clearance_.size(), -1);
+  for (const int cell : touched) {
+    cost[cell] = std::numeric_limits<float>::infinity();
+    closed[cell] = 0;
+    came_from[cell] = -1;
+  }
+  touched.assign(1, from);
   cost[from] = 0;
   open.emplace(estimate(from), from);
   while (!open.empty()) {
@@ -240,6 +248,7 @@ void FloorPlan::grow(int from, const Estimate& estimate, const Arrived& arrived,
         const double step = kCell * std::hypot(dx, dy) * 0.5 * (costOf(cell) + costOf(next));
         const float total = cost[cell] + static_cast<float>(step);
         if (total >= cost[next]) continue;
+        if (std::isinf(cost[next])) touched.push_back(next);
         cost[next] = total;
         came_from[next] = cell;
         open.emplace(static_cast<double>(total) + estimate(next), next);
@@ -250,12 +259,12 @@ void FloorPlan::grow(int from, const Estimate& estimate, const Arrived& arrived,
 
 std::optional<Polyline> FloorPlan::findPath(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   if (!canReach(from, to)) return std::nullopt;
-  std::vector<int> came_from;
+  const std::vector<int>& came_from = scratch_.came_from;
   const int goal = cellOf(to);
   const Eigen::Vector2d goal_middle = middleOf(goal);
   grow(
       cellOf(from), [&](int cell) { return (middleOf(cell) - goal_middle).norm(); },
-      [&](int cell, double) { return cell == goal; }, came_from);
+      [&](int cell, double) { return cell == goal; });
   Polyline path{to};
   for (int cell = came_from[goal]; cell >= 0 && came_from[cell] >= 0; cell = came_from[cell])
     path.push_back(middleOf(cell));
@@ -293,7 +302,6 @@ int FloorPlan::nearest(const Eigen::Vector2d& from, const std::vector<Target>& t
   std::sort(at_cell.begin(), at_cell.end());
   int best = -1;
   double best_cost = std::numeric_limits<double>::infinity();
-  std::vector<int> came_from;
   grow(
       cellOf(from), [](int) { return 0.0; },
       [&](int cell, double cost) {
@@ -303,8 +311,7 @@ int FloorPlan::nearest(const Eigen::Vector2d& from, const std::vector<Target>& t
           if (total < best_cost) best_cost = total, best = target->second;
         }
         return cost >= best_cost;
-      },
-      came_from);
+      });
   return best;
 }
 

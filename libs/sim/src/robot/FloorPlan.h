@@ -13,6 +13,7 @@ bool isInside(const Polyline& polygon, const Eigen::Vector2d& point);
 double distanceToSegment(const Eigen::Vector2d& point, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
 /// Where a round robot may be on the floor: a grid over the rooms with the distance of each cell to what stands there.
+/// One thread at a time: searches share their memory.
 class FloorPlan {
  public:
   static constexpr double kCell = 0.05;  ///< [m]
@@ -59,7 +60,7 @@ class FloorPlan {
   void forEachCellNear(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double margin,
                        const Visit& visit) const;
   template <class Estimate, class Arrived>
-  void grow(int from, const Estimate& estimate, const Arrived& arrived, std::vector<int>& came_from) const;
+  void grow(int from, const Estimate& estimate, const Arrived& arrived) const;
   Polyline shortened(const Polyline& path) const;
 
   double radius_, needed_;
@@ -69,6 +70,13 @@ class FloorPlan {
   std::vector<char> is_in_room_;
   std::vector<int> part_;  // connected parts of the free cells; -1: not free
   int largest_part_ = -1;
+  /// What grow() works on, by cell; kept from search to search.
+  struct Scratch {
+    std::vector<float> cost;
+    std::vector<char> closed;
+    std::vector<int> came_from, touched;
+  };
+  mutable Scratch scratch_;
 };
 
 }  // namespace omnimapper::sim

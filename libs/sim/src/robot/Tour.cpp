@@ -6,8 +6,8 @@ namespace omnimapper::sim {
 
 namespace {
 
-constexpr double kViewSpacing = 0.5;   // [m] of places to look from
-constexpr double kSeenSpacing = 0.25;  // [m] of places that are to be seen
+constexpr double kViewSpacing = 0.5;   // [m] of places to look from, at least
+constexpr double kSeenSpacing = 0.25;  // [m] of places that are to be seen, at least
 constexpr double kLeaveRoom = 8.0;     // [m] a way into another room counts as so much longer
 constexpr double kEnough = 0.98;       // part of a room that is to be seen
 
@@ -32,8 +32,8 @@ std::vector<Eigen::Vector2d> latticeIn(const Room& room, double spacing) {
 // Greedy cover: again and again the place that sees most of what has not been seen.
 std::vector<Eigen::Vector2d> placesToSee(const Room& room, const FloorPlan& plan, const Eigen::Vector2d& start,
                                          double reach) {
-  const std::vector<Eigen::Vector2d> seen_from = latticeIn(room, kSeenSpacing);
-  std::vector<Eigen::Vector2d> places = latticeIn(room, kViewSpacing);
+  const std::vector<Eigen::Vector2d> seen_from = latticeIn(room, std::max(kSeenSpacing, reach / 12));
+  std::vector<Eigen::Vector2d> places = latticeIn(room, std::max(kViewSpacing, reach / 6));
   if (const auto good = goodPlaceIn(room, plan)) places.push_back(*good);
   places.erase(std::remove_if(places.begin(), places.end(),
                               [&](const Eigen::Vector2d& place) { return !plan.canReach(start, place); }),

@@ -41,7 +41,7 @@ Laser2dOptions Laser2dOptions::ofModel(Laser2dModel model) {
       o.mixing_gap = 4, o.mixing = 0.5, o.lost = 0.0005, o.glass_angle = 6 * kDegree;
       break;
     case Laser2dModel::sick_pls:
-      // The older one, with steps of 5 cm: ACES was recorded with such a laser. 25 turns in a second.
+      // The older one, with steps of 5 cm to 50 m, as the ranges of ACES are. 25 turns in a second.
       o.beams = 180, o.aperture = 179 * kDegree, o.sweep = 0.5 / 25;
       o.min_range = 0.05, o.max_range = 50, o.white_range = 55, o.divergence = 0.7 * kDegree;
       o.noise = 0.016, o.noise_per_metre = 0.0003, o.step = 0.05;

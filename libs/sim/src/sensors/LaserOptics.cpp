@@ -24,6 +24,16 @@ double paneReflection(double cosine) {
   return 2 * face / (1 + face);
 }
 
+// Chance that a pane's own echo is taken: a bell over the angle of incidence.
+double visibilityOfPane(double cosine, double glass_angle) {
+  return glass_angle > 0 ? std::exp(-0.5 * std::pow(std::acos(cosine) / glass_angle, 2)) : 0;
+}
+
+// Light goes there and back: what comes back by the mirror against what comes back through the pane.
+double partMirrored(double reflection, double through) {
+  return reflection * reflection / (reflection * reflection + through * through);
+}
+
 Eigen::Vector3d perpendicular(const Eigen::Vector3d& direction) {
   const Eigen::Vector3d up = std::abs(direction.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
   return direction.cross(up).normalized();
@@ -95,11 +105,10 @@ std::vector<LaserOptics::Return> LaserOptics::cast(const Scene& scene, const std
         takeEcho(static_cast<double>(material.infrared));
         continue;
       }
-      const double angle = std::acos(cosine), reflection = paneReflection(cosine);
+      const double reflection = paneReflection(cosine);
       const double through = (1 - reflection) * static_cast<double>(material.transmission);
-      const double seen = options_.glass_angle > 0 ? std::exp(-0.5 * std::pow(angle / options_.glass_angle, 2)) : 0;
-      // Light goes there and back: what comes back by the mirror against what comes back through the pane.
-      const double mirrored = reflection * reflection / (reflection * reflection + through * through);
+      const double seen = visibilityOfPane(cosine, options_.glass_angle);
+      const double mirrored = partMirrored(reflection, through);
       const double die = fates[beam_of[i]].at_pane[pane];
       if (die < seen) {
         takeEcho(0.8);
