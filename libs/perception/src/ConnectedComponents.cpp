@@ -17,16 +17,16 @@ std::vector<std::int32_t> Components::labels(int fewest) const {
 namespace detail {
 
 void numberComponents(UnionFind& sets, Components& components) {
-  // The run with the number i was the i-th; the first run of a set has its least number.
-  std::vector<int> number(components.runs.size());
-  for (std::size_t i = 0; i < components.runs.size(); ++i) {
-    PixelRun& run = components.runs[i];
-    const auto root = static_cast<std::size_t>(sets.find(static_cast<int>(i)));
-    if (root == i) {
-      number[i] = static_cast<int>(components.pixels.size());
-      components.pixels.push_back(0);
-    }
-    run.component = number[root];
+  // A component's first run was given the least number of its set, and sets were numbered from top to bottom.
+  std::vector<int> number(static_cast<std::size_t>(sets.size()));
+  int count = 0;
+  for (int i = 0; i < sets.size(); ++i) {
+    const int root = sets.find(i);
+    number[static_cast<std::size_t>(i)] = root == i ? count++ : number[static_cast<std::size_t>(root)];
+  }
+  components.pixels.assign(static_cast<std::size_t>(count), 0);
+  for (PixelRun& run : components.runs) {
+    run.component = number[static_cast<std::size_t>(run.component)];
     components.pixels[static_cast<std::size_t>(run.component)] += run.end - run.begin;
   }
 }

@@ -33,17 +33,28 @@ const base::OptionTable<PlaneOptions>& PlaneOptions::table() {
 
 namespace {
 
-// The labels of the result, and runs of their equal pixels.
-void paint(const Components& components, const std::vector<planes::FittedRegion>& fitted,
-           std::vector<std::uint16_t>& labels, int width) {
+// Labels of regions of cells become those of the result.
+void relabel(const Components& components, const std::vector<planes::FittedRegion>& fitted,
+             planes::PixelLabels& labels) {
   std::vector<std::uint16_t> of_component(components.pixels.size(), 0);
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     of_component[static_cast<std::size_t>(fitted[i].component)] = static_cast<std::uint16_t>(i + 1);
   }
   for (const PixelRun& run : components.runs) {
-    const auto row = labels.begin() + static_cast<std::ptrdiff_t>(run.row) * width;
+    const auto row = labels.values.begin() + static_cast<std::ptrdiff_t>(run.row) * labels.stride;
     std::fill(row + run.begin, row + run.end, of_component[static_cast<std::size_t>(run.component)]);
   }
+}
+
+// Without the columns and rows of padding.
+std::vector<std::uint16_t> cropped(planes::PixelLabels labels, int width, int height) {
+  const auto stride = static_cast<std::ptrdiff_t>(labels.stride);
+  const auto begin = labels.values.begin();
+  for (std::ptrdiff_t y = 1; y < height && stride != width; ++y) {
+    std::copy(begin + y * stride, begin + y * stride + width, begin + y * width);
+  }
+  labels.values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  return std::move(labels.values);
 }
 
 Contour onPlane(std::vector<PixelCorner> corners, const planes::ImagePlane& plane, const Pinhole& camera,
@@ -75,19 +86,19 @@ PlaneSegmentation PlaneSegmenter::segment(const DepthImage& image) const {
   PlaneSegmentation result;
   result.width = image.width();
   result.height = image.height();
-  result.labels.resize(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
-  if (result.labels.empty()) return result;
+  if (result.width == 0 || result.height == 0) return result;
 
   const DepthNoise noise = options_.noise();
   const Pinhole& camera = image.camera();
   const InverseDepth inverse = invert(image, options_.min_depth, options_.max_depth);
   const CellGrid grid = fitCells(inverse, camera, noise);
   const CellRegions regions = mergeRegions(grid, noise, growRegions(grid, noise));
-  const PixelLabels labels = labelPixels(inverse, camera, noise, grid, regions);
+  PixelLabels labels = labelPixels(inverse, camera, noise, grid, regions);
   const Components components = connectComponents(labels.stride, labels.rows, SameLabel{labels.values.data()});
   auto fitted = fitRegions(inverse, camera, noise, components, labels, regions, options_.min_pixels);
-  paint(components, fitted, result.labels, result.width);
-  auto lines = traceOutlines(result.labels, result.width, result.height, components.runs, options_.min_hole_pixels);
+  relabel(components, fitted, labels);
+  auto lines = traceOutlines(labels.values, labels.stride, labels.rows, components.runs, options_.min_hole_pixels);
+  result.labels = cropped(std::move(labels), result.width, result.height);
   for (TracedLine& line : lines) {
     FittedRegion& region = fitted[line.label - 1U];
     Contour contour = onPlane(std::move(line.corners), region.plane, camera, options_.max_depth);

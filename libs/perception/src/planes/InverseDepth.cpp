@@ -68,7 +68,9 @@ InverseDepth invert(const DepthImage& image, double min_depth, double max_depth)
   inverse.rows = wholeCells(image.height());
   const auto stride = static_cast<std::size_t>(inverse.stride), width = static_cast<std::size_t>(inverse.width);
   // Not set to zeros first: that would cost as much as all the rest here.
-  inverse.values.reset(new float[stride * static_cast<std::size_t>(inverse.rows)]);
+  const std::size_t pixels = stride * static_cast<std::size_t>(inverse.rows);
+  inverse.values.reset(new float[pixels + kLanes]);
+  std::fill(inverse.values.get() + pixels, inverse.values.get() + pixels + kLanes, 0.F);
   const double unit = image.units() != nullptr ? image.metresPerUnit() : 1.0;
   const double highest = image.units() != nullptr ? 65534.0 : 1e30;
   const Bounds bounds{static_cast<float>(std::max(min_depth / unit, 1e-30)),

@@ -9,7 +9,8 @@ namespace omnimapper::perception::planes {
 /// Side of the cells the image is cut into [px].
 constexpr int kCell = 16;
 
-/// 1/z [1/m] of each pixel, 0 where nothing was measured, with columns and rows of zeros up to whole cells.
+/// 1/z [1/m] of each pixel, 0 where nothing was measured, with columns and rows of zeros up to whole cells, and eight
+/// zeros behind.
 struct InverseDepth {
   int width = 0, height = 0;
   int stride = 0;  ///< of a row, a multiple of kCell

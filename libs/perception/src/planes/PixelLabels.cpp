@@ -32,7 +32,7 @@ class PixelLabelling {
     for (int row = 0; row < grid_.rows; ++row) {
       for (int column = 0; column < grid_.columns; ++column) {
         gatherCandidates(column, row);
-        labelCell(column, row);
+        if (candidatesOf(column, row).count > 0) labelCell(column, row);
       }
     }
     passOn();

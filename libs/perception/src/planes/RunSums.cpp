@@ -40,16 +40,10 @@ OMNIMAPPER_KERNEL_BODY void sumRunBody(const float* values, int n, float start, 
     add(q, x, x * slope + start, one, s);
   }
   if (i < n) {
-    float last[kLanes], weights[kLanes];
-    for (int k = 0; k < kLanes; ++k) {
-      weights[k] = i + k < n ? 1.F : 0.F;
-      last[k] = i + k < n ? values[i + k] : 1.F;
-    }
-    Lanes weight;
-    load(q, last);
-    load(weight, weights);
+    load(q, values + i);
+    const LaneMask inside = columns < static_cast<float>(n - i);
     const Lanes x = columns + static_cast<float>(i);
-    add(q, x, x * slope + start, weight, s);
+    add(inside ? q : one, x, x * slope + start, inside ? one : Lanes{}, s);
   }
   sums = {total(s.r), total(s.xr), total(s.rr), total(s.z), total(s.xz), total(s.zr_zr)};
 }

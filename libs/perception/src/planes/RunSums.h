@@ -12,7 +12,8 @@ struct RunSums {
   double zr_zr = 0;
 };
 
-/// `values` are those of the run's pixels, all measured; the plane is `start` + `slope` x.
+/// `values` are those of the run's pixels, all measured, and seven more that are read but not used; the plane is
+/// `start` + `slope` x.
 RunSums sumRun(const float* values, int n, float start, float slope);
 
 }  // namespace omnimapper::perception::planes

@@ -13,27 +13,30 @@ struct SameLabel {
   bool similar(int a, int b) const { return labels[a] == labels[b]; }
 };
 
-/// Zeros and equal labels are skipped four pixels at a time.
-inline int beginOfRun(const SameLabel& comparator, int begin, int end_of_row) {
-  for (; begin + 4 <= end_of_row; begin += 4) {
-    std::uint64_t next;
-    std::memcpy(&next, comparator.labels + begin, sizeof(next));
-    if (next != 0) break;
+/// The first pixel from `begin` on with another label than `label`, or `end`: many at a time, then four, then one.
+inline int endOfLabel(const std::uint16_t* labels, std::uint16_t label, int begin, int end) {
+  const std::uint64_t four = label * 0x0001000100010001ULL;
+  std::uint64_t next[8];
+  for (; begin + 32 <= end; begin += 32) {
+    std::memcpy(next, labels + begin, sizeof(next));
+    std::uint64_t different = 0;
+    for (const std::uint64_t n : next) different |= n ^ four;
+    if (different != 0) break;
   }
-  while (begin < end_of_row && comparator.labels[begin] == 0) ++begin;
+  for (; begin + 4 <= end; begin += 4) {
+    std::memcpy(next, labels + begin, sizeof(next[0]));
+    if (next[0] != four) break;
+  }
+  while (begin < end && labels[begin] == label) ++begin;
   return begin;
 }
 
+inline int beginOfRun(const SameLabel& comparator, int begin, int end_of_row) {
+  return endOfLabel(comparator.labels, 0, begin, end_of_row);
+}
+
 inline int endOfRun(const SameLabel& comparator, int begin, int end_of_row) {
-  const std::uint64_t four = comparator.labels[begin] * 0x0001000100010001ULL;
-  int end = begin + 1;
-  for (; end + 4 <= end_of_row; end += 4) {
-    std::uint64_t next;
-    std::memcpy(&next, comparator.labels + end, sizeof(next));
-    if (next != four) break;
-  }
-  while (end < end_of_row && comparator.labels[end] == comparator.labels[begin]) ++end;
-  return end;
+  return endOfLabel(comparator.labels, comparator.labels[begin], begin + 1, end_of_row);
 }
 
 inline bool touch(const SameLabel& comparator, int above, int below, int) {

@@ -41,8 +41,9 @@ OMNIMAPPER_KERNEL_BODY void consider(int k, const Lanes& q, const Lanes& plane, 
   decided.residual = wins ? residual : decided.residual;
 }
 
-OMNIMAPPER_KERNEL_BODY void labelTileBody(const float* values, int stride, const TileCandidates& c, float tolerance,
-                                          std::uint16_t* labels) {
+// `count` is known when this is compiled, for one and two candidates: most cells have no more.
+OMNIMAPPER_KERNEL_BODY void labelPixelsOf(int count, const float* values, int stride, const TileCandidates& c,
+                                          float tolerance, std::uint16_t* labels) {
   Lanes columns;
   load(columns, kColumns);
   for (int y = 0; y < kCell; ++y, values += stride, labels += stride) {
@@ -50,12 +51,23 @@ OMNIMAPPER_KERNEL_BODY void labelTileBody(const float* values, int stride, const
       Lanes q;
       load(q, values + x);
       Decision decided;
-      for (int k = 0; k < c.count; ++k) {
+      for (int k = 0; k < count; ++k) {
         const float start = c.c[k] + c.b[k] * static_cast<float>(y) + c.a[k] * static_cast<float>(x);
         consider(k, q, columns * c.a[k] + start, c, tolerance, decided);
       }
       storeLabels(decided.label, labels + x);
     }
+  }
+}
+
+OMNIMAPPER_KERNEL_BODY void labelTileBody(const float* values, int stride, const TileCandidates& c, float tolerance,
+                                          std::uint16_t* labels) {
+  if (c.count == 1) {
+    labelPixelsOf(1, values, stride, c, tolerance, labels);
+  } else if (c.count == 2) {
+    labelPixelsOf(2, values, stride, c, tolerance, labels);
+  } else {
+    labelPixelsOf(c.count, values, stride, c, tolerance, labels);
   }
 }
 

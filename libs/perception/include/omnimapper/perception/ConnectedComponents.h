@@ -22,6 +22,8 @@ struct Components {
 
 namespace detail {
 
+constexpr int kNoSet = -1;
+
 /// Sets of numbers that grow together. The least number stands for its set.
 class UnionFind {
  public:
@@ -38,6 +40,8 @@ class UnionFind {
     j = find(j);
     (i < j ? parent(j) : parent(i)) = i < j ? i : j;
   }
+
+  int size() const { return static_cast<int>(parent_.size()); }
 
  private:
   int& parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
@@ -95,15 +99,21 @@ Components connectComponents(int width, int height, const Comparator& comparator
     int pixel = first;
     while ((pixel = beginOfRun(comparator, pixel, end_of_row)) < end_of_row) {
       const int end = endOfRun(comparator, pixel, end_of_row);
-      const PixelRun run{row, pixel - first, end - first, sets.add()};
+      PixelRun run{row, pixel - first, end - first, detail::kNoSet};
       while (upper < here && result.runs[upper].end <= run.begin) ++upper;
       for (std::size_t i = upper; i < here && result.runs[i].begin < run.end; ++i) {
         const PixelRun& over = result.runs[i];
-        if (sets.find(over.component) == sets.find(run.component)) continue;
+        if (over.component == run.component) continue;
         const int from = over.begin > run.begin ? over.begin : run.begin;
         const int to = over.end < run.end ? over.end : run.end;
-        if (touch(comparator, first - width + from, first + from, to - from)) sets.unite(over.component, run.component);
+        if (!touch(comparator, first - width + from, first + from, to - from)) continue;
+        if (run.component == detail::kNoSet) {
+          run.component = over.component;
+        } else {
+          sets.unite(over.component, run.component);
+        }
       }
+      if (run.component == detail::kNoSet) run.component = sets.add();
       result.runs.push_back(run);
       pixel = end;
     }
