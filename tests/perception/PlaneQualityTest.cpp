@@ -1,0 +1,160 @@
+// How well planes are found, against rooms whose truth is known, with a Kinect's noise.
+#include <gtest/gtest.h>
+#include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/perception/PlaneSegmenter.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "DepthRooms.h"
+
+namespace omnimapper::perception {
+namespace {
+
+using rooms::Scene;
+using rooms::View;
+
+constexpr int kWidth = 640, kHeight = 480;
+
+struct Shot {
+  Scene scene;
+  View truth;
+  PlaneSegmentation found;
+};
+
+Shot shoot(std::uint64_t seed) {
+  testing::Dice dice(seed);
+  Shot shot;
+  shot.scene = rooms::randomRoom(dice);
+  shot.truth = rooms::render(shot.scene);
+  const auto depth = rooms::withNoise(shot.truth, kWidth, kHeight, DepthNoise(), dice);
+  shot.found = PlaneSegmenter({}).segment(DepthImage(depth.data(), kWidth, kHeight, shot.scene.camera));
+  return shot;
+}
+
+geometry::Plane3 planeOf(const rooms::Face& face) {
+  const Eigen::Vector3d normal = face.half_a.cross(face.half_b).normalized();
+  const auto plane = geometry::Plane3::through(face.middle, normal);
+  return plane.distance < 0 ? geometry::Plane3{-plane.normal, -plane.distance} : plane;
+}
+
+/// Distance [px] of a corner of pixels to the nearest edge between faces, up to `reach`.
+double distanceToEdge(const View& truth, const PixelCorner& corner, int reach) {
+  const auto face = [&](int x, int y) {
+    return x < 0 || y < 0 || x >= kWidth || y >= kHeight ? -1 : truth.face[static_cast<std::size_t>(y * kWidth + x)];
+  };
+  double nearest = reach;
+  for (int y = corner.y - reach; y <= corner.y + reach; ++y) {
+    for (int x = corner.x - reach; x <= corner.x + reach; ++x) {
+      // The corner (x, y) is on an edge if the four pixels around it are not of one face.
+      const int f = face(x, y);
+      if (f == face(x - 1, y) && f == face(x, y - 1) && f == face(x - 1, y - 1)) continue;
+      nearest = std::min(nearest, std::hypot(x - corner.x, y - corner.y));
+    }
+  }
+  return nearest;
+}
+
+TEST(PlaneQuality, NineOfTenPlanesAreFoundToTheirBorders) {
+  double planes = 0, found = 0, reported = 0, right = 0, pixels = 0;
+  const int rooms = 20;
+  for (int seed = 0; seed < rooms; ++seed) {
+    const Shot shot = shoot(static_cast<std::uint64_t>(seed));
+    const auto agreement = rooms::compare(shot.truth, shot.found.labels, kWidth, kHeight, 1500);
+    planes += agreement.true_planes;
+    found += agreement.found;
+    reported += agreement.reported;
+    right += agreement.reported_right;
+    pixels += agreement.pixels_right / rooms;
+  }
+  EXPECT_GE(found / planes, 8.0 / 9);
+  EXPECT_GE(right / reported, 0.88);
+  EXPECT_GE(pixels, 0.97);
+}
+
+TEST(PlaneQuality, OutlinesAreWithinAPixelOfTheTruth) {
+  double sum = 0, corners = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Shot shot = shoot(seed);
+    for (const PlaneRegion& plane : shot.found.planes) {
+      if (plane.inliers < 1500) continue;
+      for (const PixelCorner& corner : plane.outline.corners) {
+        sum += distanceToEdge(shot.truth, corner, 12);
+        ++corners;
+      }
+    }
+  }
+  EXPECT_GT(corners, 1000);
+  EXPECT_LT(sum / corners, 1.5);
+}
+
+TEST(PlaneQuality, NormalsAndDistancesAreRight) {
+  std::vector<double> degrees, distances;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Shot shot = shoot(seed);
+    for (std::size_t i = 0; i < shot.found.planes.size(); ++i) {
+      std::vector<int> votes(shot.scene.faces.size() + 1, 0);
+      for (std::size_t p = 0; p < shot.found.labels.size(); ++p) {
+        if (shot.found.labels[p] == i + 1) ++votes[shot.truth.face[p]];
+      }
+      const auto most = std::max_element(votes.begin(), votes.end()) - votes.begin();
+      ASSERT_GT(most, 0);
+      const auto expected = planeOf(shot.scene.faces[static_cast<std::size_t>(most - 1)]);
+      const auto& plane = shot.found.planes[i].plane_in_sensor;
+      degrees.push_back(std::acos(std::min(1.0, plane.normal.dot(expected.normal))) * 57.2957795);
+      distances.push_back(std::abs(plane.distance - expected.distance));
+    }
+  }
+  const auto median = [](std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+  };
+  EXPECT_LT(median(degrees), 0.2);
+  EXPECT_LT(median(distances), 0.005);
+}
+
+TEST(PlaneQuality, TheCovarianceIsThatOfTwoHundredNoisyRenderings) {
+  // A corner of a room: three planes, each smaller than the image.
+  Scene scene;
+  scene.width = 320;
+  scene.height = 240;
+  scene.camera = {262.5, 262.5, 159.5, 119.5};
+  Eigen::Matrix3d edges;                                               // from the corner towards the camera
+  edges << std::sqrt(2. / 3), -std::sqrt(1. / 6), -std::sqrt(1. / 6),  //
+      0, std::sqrt(0.5), -std::sqrt(0.5),                              //
+      -std::sqrt(1. / 3), -std::sqrt(1. / 3), -std::sqrt(1. / 3);
+  edges = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 0.5).normalized()) * edges;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d a = 1.5 * edges.col((axis + 1) % 3), b = 1.5 * edges.col((axis + 2) % 3);
+    scene.faces.push_back({Eigen::Vector3d(0.1, 0.1, 2.2) + a + b, a, b});
+  }
+  const View view = rooms::render(scene);
+  const int renderings = 200;
+  std::vector<double> chi2(scene.faces.size(), 0);
+  std::vector<int> times(scene.faces.size(), 0);
+  for (int seed = 0; seed < renderings; ++seed) {
+    testing::Dice dice(static_cast<std::uint64_t>(1000 + seed));
+    const auto depth = rooms::withNoise(view, scene.width, scene.height, DepthNoise(), dice);
+    const auto found = PlaneSegmenter({}).segment(DepthImage(depth.data(), scene.width, scene.height, scene.camera));
+    for (std::size_t f = 0; f < scene.faces.size(); ++f) {
+      const auto expected = planeOf(scene.faces[f]);
+      for (const PlaneRegion& plane : found.planes) {
+        if (plane.plane_in_sensor.normal.dot(expected.normal) < 0.9) continue;
+        // In the tangent of what was measured, where its covariance is told.
+        const Eigen::Vector3d error = geometry::minus(expected, plane.plane_in_sensor);
+        chi2[f] += error.dot(plane.covariance.inverse() * error);
+        ++times[f];
+      }
+    }
+  }
+  for (std::size_t f = 0; f < scene.faces.size(); ++f) {
+    ASSERT_EQ(times[f], renderings) << f;
+    // The mean of 200 draws from chi-square with 3 degrees of freedom has a standard deviation of sqrt(6 / 200).
+    EXPECT_NEAR(chi2[f] / renderings, 3, 1.96 * std::sqrt(6.0 / renderings)) << f;
+  }
+}
+
+}  // namespace
+}  // namespace omnimapper::perception
