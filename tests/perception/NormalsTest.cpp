@@ -25,9 +25,9 @@ NormalImage normalsOf(const Depth& depth, NormalOptions options = {}) {
 
 TEST(Normals, OfAWallStraightAheadPointBackAtTheSensor) {
   const auto normals = normalsOf([](int, int) { return 1.5; });
-  for (std::size_t i = 0; i < normals.z.size(); ++i) {
-    EXPECT_NEAR(normals.z[i], -1, 1e-6) << i;
-    EXPECT_NEAR(normals.x[i], 0, 1e-6) << i;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    EXPECT_NEAR(normals.z()[i], -1, 1e-6) << i;
+    EXPECT_NEAR(normals.x()[i], 0, 1e-6) << i;
   }
 }
 
@@ -38,8 +38,8 @@ TEST(Normals, OfATiltedPlaneAreThatOfThePlaneWhateverTheRadius) {
     options.radius = radius;
     const auto normals = normalsOf(
         [&](int x, int y) { return -1 / n.dot(Eigen::Vector3d((x - 39.5) / 100, (y - 31.5) / 100, 1)); }, options);
-    for (std::size_t i = 0; i < normals.z.size(); ++i) {
-      const Eigen::Vector3d found(normals.x[i], normals.y[i], normals.z[i]);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const Eigen::Vector3d found(normals.x()[i], normals.y()[i], normals.z()[i]);
       ASSERT_LT((found - n).norm(), 0.08 / (radius * radius)) << "radius " << radius << " pixel " << i;
       ASSERT_NEAR(found.norm(), 1, 1e-5);
     }
@@ -55,7 +55,7 @@ TEST(Normals, StopAtEdges) {
       const auto i = static_cast<std::size_t>(y * kWidth + x);
       // n ~ -(a, 0, c) where 1/z = a (x - cx) / f + c.
       const Eigen::Vector2d expected = x < 40 ? Eigen::Vector2d(0, -1) : Eigen::Vector2d(-0.25, -0.5).normalized();
-      EXPECT_LT((Eigen::Vector2d(normals.x[i], normals.z[i]) - expected).norm(), 0.01) << x << " " << y;
+      EXPECT_LT((Eigen::Vector2d(normals.x()[i], normals.z()[i]) - expected).norm(), 0.01) << x << " " << y;
     }
   }
 }
@@ -64,7 +64,7 @@ TEST(Normals, AreMissingWhereNothingWasMeasured) {
   const auto normals = normalsOf([](int x, int y) { return x > 20 && x < 30 && y > 20 ? 0 : 1; });
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      EXPECT_EQ(std::isnan(normals.z[static_cast<std::size_t>(y * kWidth + x)]), x > 20 && x < 30 && y > 20);
+      EXPECT_EQ(std::isnan(normals.z()[static_cast<std::size_t>(y * kWidth + x)]), x > 20 && x < 30 && y > 20);
     }
   }
 }
@@ -73,7 +73,7 @@ TEST(Normals, SmallImagesHaveNoneOrAFew) {
   const std::vector<float> ones(100, 1.F);
   for (const int width : {0, 1, 9, 10}) {
     const auto normals = NormalEstimator({}).estimate(DepthImage(ones.data(), width, 10, kCamera));
-    EXPECT_EQ(normals.x.size(), static_cast<std::size_t>(width * 10));
+    EXPECT_EQ(normals.size(), static_cast<std::size_t>(width * 10));
   }
 }
 
@@ -91,10 +91,11 @@ TEST(Normals, OfNoisyRoomsAreRightToAFewDegrees) {
     for (std::size_t i = 0; i < depth.size(); ++i) {
       if (view.face[i] == 0 || view.depth[i] > 2.5) continue;
       ++pixels;
-      if (std::isnan(normals.z[i])) continue;
+      if (std::isnan(normals.z()[i])) continue;
       const rooms::Face& face = scene.faces[view.face[i] - 1U];
-      const double cosine = std::abs(
-          face.half_a.cross(face.half_b).normalized().dot(Eigen::Vector3d(normals.x[i], normals.y[i], normals.z[i])));
+      const double cosine = std::abs(face.half_a.cross(face.half_b)
+                                         .normalized()
+                                         .dot(Eigen::Vector3d(normals.x()[i], normals.y()[i], normals.z()[i])));
       degrees.push_back(std::acos(std::min(1.0, cosine)) * 57.2957795);
     }
   }

@@ -1,8 +1,10 @@
 #include <omnimapper/perception/Normals.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "planes/WindowPlanes.h"
 
@@ -33,51 +35,48 @@ class Spreading {
   Spreading(const planes::InverseDepth& inverse, const Pinhole& camera, double tolerance, int most_steps,
             NormalImage& normals)
       : inverse_(inverse),
-        camera_(camera),
         tolerance_(static_cast<float>(tolerance)),
         most_steps_(static_cast<std::uint8_t>(most_steps)),
-        normals_(normals),
-        steps_(normals.x.size(), 0) {}
+        width_(normals.width),
+        height_(normals.height),
+        normals_{normals.values.get(), normals.values.get() + normals.size(),
+                 normals.values.get() + 2 * normals.size()},
+        steps_(normals.size(), 0) {
+    for (int x = 0; x < width_; ++x) across_.push_back(static_cast<float>((x - camera.cx) / camera.fx));
+    for (int y = 0; y < height_; ++y) down_.push_back(static_cast<float>((y - camera.cy) / camera.fy));
+  }
 
   void spread() {
-    const int width = normals_.width, height = normals_.height;
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        if (needsOne(x, y)) takeFrom(x, y, -1);
+    std::vector<std::array<int, 2>> missing;
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        if (needsOne(x, y) && !takeFrom(x, y, -1)) missing.push_back({x, y});
       }
     }
-    for (int y = height - 1; y >= 0; --y) {
-      for (int x = width - 1; x >= 0; --x) {
-        if (needsOne(x, y)) takeFrom(x, y, 1);
-      }
-    }
+    for (auto pixel = missing.rbegin(); pixel != missing.rend(); ++pixel) takeFrom((*pixel)[0], (*pixel)[1], 1);
   }
 
  private:
   std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(normals_.width) + static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
   bool needsOne(int x, int y) const { return std::isnan(normals_.z[index(x, y)]) && *inverse_.at(x, y) > 0; }
 
   // Of the plane through the origin's unit distance: what the normal says of 1/z but for its scale.
   float slant(std::size_t normal, int x, int y) const {
-    return normals_.x[normal] * static_cast<float>((x - camera_.cx) / camera_.fx) +
-           normals_.y[normal] * static_cast<float>((y - camera_.cy) / camera_.fy) + normals_.z[normal];
+    return normals_.x[normal] * across_[static_cast<std::size_t>(x)] +
+           normals_.y[normal] * down_[static_cast<std::size_t>(y)] + normals_.z[normal];
   }
 
   // From the neighbour beside it or the one below or above it: first the one whose normal came a shorter way.
-  void takeFrom(int x, int y, int step) {
-    const bool beside = x + step >= 0 && x + step < normals_.width,
-               beyond = y + step >= 0 && y + step < normals_.height;
-    if (!beside || !beyond) {
-      if (beside) take(x, y, x + step, y);
-      if (beyond) take(x, y, x, y + step);
-    } else if (steps_[index(x + step, y)] <= steps_[index(x, y + step)]) {
-      if (!take(x, y, x + step, y)) take(x, y, x, y + step);
-    } else {
-      if (!take(x, y, x, y + step)) take(x, y, x + step, y);
+  bool takeFrom(int x, int y, int step) {
+    const bool beside = x + step >= 0 && x + step < width_, beyond = y + step >= 0 && y + step < height_;
+    if (!beside || !beyond) return (beside && take(x, y, x + step, y)) || (beyond && take(x, y, x, y + step));
+    if (steps_[index(x + step, y)] <= steps_[index(x, y + step)]) {
+      return take(x, y, x + step, y) || take(x, y, x, y + step);
     }
+    return take(x, y, x, y + step) || take(x, y, x + step, y);
   }
 
   bool take(int x, int y, int from_x, int from_y) {
@@ -93,11 +92,12 @@ class Spreading {
   }
 
   const planes::InverseDepth& inverse_;
-  const Pinhole& camera_;
   float tolerance_;
   std::uint8_t most_steps_;
-  NormalImage& normals_;
+  int width_, height_;
+  planes::NormalRow normals_;  // of all pixels
   std::vector<std::uint8_t> steps_;
+  std::vector<float> across_, down_;  // the ray of each column and row
 };
 
 }  // namespace
@@ -106,22 +106,17 @@ NormalImage NormalEstimator::estimate(const DepthImage& image) const {
   NormalImage normals;
   normals.width = image.width();
   normals.height = image.height();
-  const auto width = static_cast<std::size_t>(image.width()), height = static_cast<std::size_t>(image.height());
-  normals.x.resize(width * height);
-  normals.y.resize(width * height);
-  normals.z.resize(width * height);
-  if (normals.x.empty()) return normals;
+  const auto width = static_cast<std::size_t>(image.width());
+  if (normals.size() == 0) return normals;
+  // One block, not set to zeros, and larger than what is needed meanwhile: memory that was used before is used again.
+  normals.values.reset(new float[3 * normals.size()]);
   const planes::InverseDepth inverse = planes::invert(image, options_.min_depth, options_.max_depth);
   const DepthNoise noise{options_.noise_at_1m, options_.step_at_1m, 0, 1};
   const double tolerance = kSigmas * std::sqrt(noise.pixelVariance());
   planes::WindowPlanes windows(inverse, image.camera(), options_.radius, 1 / options_.min_depth, tolerance);
-  std::vector<float> row(3 * static_cast<std::size_t>(inverse.stride));
-  const planes::NormalRow to{row.data(), row.data() + inverse.stride, row.data() + 2 * inverse.stride};
-  for (std::size_t y = 0; y < height; ++y) {
-    windows.next(to);
-    std::copy(to.x, to.x + width, normals.x.begin() + static_cast<std::ptrdiff_t>(y * width));
-    std::copy(to.y, to.y + width, normals.y.begin() + static_cast<std::ptrdiff_t>(y * width));
-    std::copy(to.z, to.z + width, normals.z.begin() + static_cast<std::ptrdiff_t>(y * width));
+  float* const to = normals.values.get();
+  for (std::size_t first = 0; first < normals.size(); first += width) {
+    windows.next({to + first, to + normals.size() + first, to + 2 * normals.size() + first});
   }
   Spreading(inverse, image.camera(), tolerance, 2 * options_.radius, normals).spread();
   return normals;

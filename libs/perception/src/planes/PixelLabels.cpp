@@ -82,9 +82,10 @@ class PixelLabelling {
     const double half = 0.5 * kCell;
     double ahead_on_own = 0, ahead_on_other = 0;
     around(column, row, 2, [&](int x, int y) {
+      const int here = regionOf(x, y);
+      if (here != region && here != other) return;
       const double ahead = p.at(u(x) + half, v(y) + half) - o.at(u(x) + half, v(y) + half);
-      if (regionOf(x, y) == region) ahead_on_own += ahead;
-      if (regionOf(x, y) == other) ahead_on_other += ahead;
+      (here == region ? ahead_on_own : ahead_on_other) += ahead;
     });
     if (ahead_on_own > 0 && ahead_on_other < 0) return 1;
     if (ahead_on_own < 0 && ahead_on_other > 0) return -1;

@@ -6,7 +6,7 @@
 
 namespace omnimapper::perception::planes {
 
-/// Rows of unit normals, one for each pixel of a row of `InverseDepth`, its padding included.
+/// Where the unit normals of a row of pixels go.
 struct NormalRow {
   float* x;
   float* y;

@@ -4,7 +4,7 @@
 #include <omnimapper/perception/DepthImage.h>
 #include <omnimapper/perception/DepthNoise.h>
 
-#include <vector>
+#include <memory>
 
 namespace omnimapper::perception {
 
@@ -22,7 +22,13 @@ struct NormalOptions {
 /// could be told.
 struct NormalImage {
   int width = 0, height = 0;
-  std::vector<float> x, y, z;
+  /// All x, all y, all z.
+  std::unique_ptr<float[]> values;
+
+  std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  const float* x() const { return values.get(); }
+  const float* y() const { return values.get() + size(); }
+  const float* z() const { return values.get() + 2 * size(); }
 };
 
 /// The normal of each pixel, from the plane fitted in inverse depth to the window around it (see PlaneSegmenter on why

@@ -17,18 +17,19 @@ struct PlaneComparator {
 
   bool valid(int pixel) const {
     const auto i = static_cast<std::size_t>(pixel);
-    return !std::isnan(normals.z[i]) && !std::isnan(points.z[i]);
+    return !std::isnan(normals.z()[i]) && !std::isnan(points.z[i]);
   }
 
   bool similar(int a, int b) const {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-    const float cosine = normals.x[i] * normals.x[j] + normals.y[i] * normals.y[j] + normals.z[i] * normals.z[j];
+    const float cosine =
+        normals.x()[i] * normals.x()[j] + normals.y()[i] * normals.y()[j] + normals.z()[i] * normals.z()[j];
     return cosine >= min_cosine && std::abs(offset(i) - offset(j)) <= max_offset_at_1m * points.z[j] * points.z[j];
   }
 
   /// [m], of the plane through a pixel's point, along its normal.
   float offset(std::size_t i) const {
-    return normals.x[i] * points.x[i] + normals.y[i] * points.y[i] + normals.z[i] * points.z[i];
+    return normals.x()[i] * points.x[i] + normals.y()[i] * points.y[i] + normals.z()[i] * points.z[i];
   }
 };
 
