@@ -36,13 +36,6 @@ bool isInside(const Polyline& polygon, const Eigen::Vector2d& point) {
   return inside;
 }
 
-double distanceToSegment(const Eigen::Vector2d& point, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2d along = b - a;
-  const double length2 = along.squaredNorm();
-  const double share = length2 > 0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (point - a - share * along).norm();
-}
-
 FloorPlan::FloorPlan(const World& world, double radius) : radius_(radius), needed_(radius + kHalfDiagonal + kStep / 2) {
   Eigen::Vector2d high = Eigen::Vector2d::Constant(-1e9);
   low_ = -high;

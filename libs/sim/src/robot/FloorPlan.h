@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/sim/Footprint.h>
 #include <omnimapper/sim/World.h>
 
 #include <optional>
@@ -10,7 +11,6 @@ namespace omnimapper::sim {
 using Polyline = std::vector<Eigen::Vector2d>;
 
 bool isInside(const Polyline& polygon, const Eigen::Vector2d& point);
-double distanceToSegment(const Eigen::Vector2d& point, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
 /// Where a round robot may be on the floor: a grid over the rooms with the distance of each cell to what stands there.
 /// One thread at a time: searches share their memory.

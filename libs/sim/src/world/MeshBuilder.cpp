@@ -156,6 +156,12 @@ void MeshBuilder::addBox(int surface, const Vector3d& low, const Vector3d& high)
   for (const BoxFace& face : kBoxFaces) addFace(surface, cornersOf(face, low, high));
 }
 
+void MeshBuilder::addBoxWithoutTop(int surface, const Vector3d& low, const Vector3d& high) {
+  for (const BoxFace& face : kBoxFaces) {
+    if (&face != &kBoxFaces[0]) addFace(surface, cornersOf(face, low, high));
+  }
+}
+
 void MeshBuilder::addBoxOfPlanes(const std::string& part, SurfaceKind kind, const Material& material,
                                  const Vector3d& low, const Vector3d& high) {
   for (const BoxFace& face : kBoxFaces) addPlane(part + face.name, kind, material, cornersOf(face, low, high));

@@ -42,6 +42,8 @@ class MeshBuilder {
 
   /// All six faces as parts of one surface.
   void addBox(int surface, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+  /// The faces of a box but its top.
+  void addBoxWithoutTop(int surface, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
   /// Six planes, "<part>top", "bottom", "front" (-y), "back" (+y), "left" (-x), "right" (+x).
   void addBoxOfPlanes(const std::string& part, SurfaceKind kind, const Material& material, const Eigen::Vector3d& low,
                       const Eigen::Vector3d& high);

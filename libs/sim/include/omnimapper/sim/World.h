@@ -15,7 +15,11 @@ struct Room {
   std::string kind;                      ///< "kitchen", "office", "corridor", ...
   std::string number;                    ///< "118", or empty
   std::vector<Eigen::Vector2d> outline;  ///< counter-clockwise, of its free inside [m]
-  double floor_z = 0, height = 2.6;      ///< [m]
+  double floor_z = 0, height = 2.6;      ///< of the floor at outline.front(), and of the ceiling above it [m]
+  Eigen::Vector2d slope{0, 0};           ///< how much floor and ceiling rise per metre along x and y of the map
+  bool is_outdoors = false;              ///< no walls, no ceiling
+
+  double floorAt(const Eigen::Vector2d& in_map) const { return floor_z + slope.dot(in_map - outline.front()); }
 };
 
 /// A door sign. Its frame: x to the reader's right, y up, z out of the wall to the reader; origin at its middle.

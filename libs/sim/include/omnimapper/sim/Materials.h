@@ -1,0 +1,25 @@
+#pragma once
+
+#include <omnimapper/sim/Body.h>
+#include <omnimapper/sim/MeshBuilder.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// A material by name, and how its texture lies.
+struct NamedMaterial {
+  Material material;
+  TextureLayout layout;
+};
+
+/// Names of all materials: paints, woods, metals, cloths, glass, grounds.
+const std::vector<std::string>& materialNames();
+/// None if nothing is called so.
+std::optional<NamedMaterial> findMaterial(const std::string& name);
+/// Throws base::Error(out_of_range) with the nearest name.
+NamedMaterial materialNamed(const std::string& name);
+
+}  // namespace omnimapper::sim
