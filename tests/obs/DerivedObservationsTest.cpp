@@ -183,10 +183,10 @@ TEST(CObservationLaserLines, describesWhatAPersonWantsToKnow) {
 TEST(CObservationLaserLines, drawsAStrokeForEachLineAndABarAcrossAWallsOwnEnd) {
   const auto scene = filledLines()->getVisualization()->getByClass<mrpt::opengl::CSetOfObjects>();
   ASSERT_TRUE(scene);
-  const auto strokes = scene->getByClass<mrpt::opengl::CSetOfLines>(0);
+  const auto strokes = scene->getByClass<mrpt::opengl::CSetOfTriangles>(0);
   ASSERT_TRUE(strokes);
-  EXPECT_EQ(strokes->getLineCount(), 2U);  // the line and the bar at its one end
-  EXPECT_TRUE(scene->getByClass<mrpt::opengl::CSetOfLines>(1));
+  EXPECT_EQ(strokes->getTrianglesCount(), 8U);  // the line and the bar at its one end
+  EXPECT_TRUE(scene->getByClass<mrpt::opengl::CSetOfTriangles>(1));
 }
 
 TEST(CObservationObjects, exportsEachObjectInFull) {
@@ -228,8 +228,8 @@ TEST(CObservationDoorSigns, exportsEachSignInFull) {
 }
 
 TEST(CObservationDoorSigns, describesWhatAPersonWantsToKnow) {
-  expectMentions(filledSigns()->asString(),
-                 {"2 door signs", "range 1.5 +- 0.05 m", "(340.5, 201)", "patch of 24 x 16 px", "\"Room 241\""});
+  expectMentions(filledSigns()->asString(), {"2 door signs", "range 1.5 +- 0.05 m", "(340.5, 201)",
+                                             "patch of 24 x 16 px", "\"Room 241\"", "\"B\\u00fcro\""});
 }
 
 TEST(CObservationDoorSigns, drawsPatchAndTextAtTheRangeAlongTheRay) {
@@ -240,7 +240,13 @@ TEST(CObservationDoorSigns, drawsPatchAndTextAtTheRangeAlongTheRay) {
   ASSERT_TRUE(picture);
   const Eigen::Vector3d middle = 1.5 * signs->signs[0].ray;
   EXPECT_LT((middle - Eigen::Vector3d(picture->getPoseX(), picture->getPoseY(), picture->getPoseZ())).norm(), 1e-12);
-  EXPECT_EQ(scene->getByClass<mrpt::opengl::CText>()->getString(), "Room 241 / B\xC3\xBCro");
+  EXPECT_EQ(scene->getByClass<mrpt::opengl::CText>()->getString(), "Room 241 / B\\u00fcro");
+}
+
+TEST(CObservationDoorSigns, whatIsNoUtf8IsShownAsBytes) {
+  auto signs = *filledSigns();
+  signs.signs[0].texts = {{"a\xFC\xE2\x82\xAC\xF0\x9F\x9A\xAA\xC3", 1}};
+  expectMentions(signs.asString(), {"\"a\\xfc\\u20ac\\U0001f6aa\\xc3\""});
 }
 
 TEST(CObservationDoorSigns, keepEveryPixelOfTheirPatches) {

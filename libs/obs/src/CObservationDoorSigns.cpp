@@ -159,7 +159,7 @@ void CObservationDoorSigns::describe(std::ostream& out) const {
       out << ", patch of " << sign.patch.getWidth() << " x " << sign.patch.getHeight() << " px\n";
     }
     for (const auto& line : sign.texts)
-      out << "   \"" << line.text << "\" with confidence " << shortly(line.confidence) << "\n";
+      out << "   \"" << inAscii(line.text) << "\" with confidence " << shortly(line.confidence) << "\n";
   }
 }
 
@@ -200,7 +200,7 @@ void CObservationDoorSigns::draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) c
       scene_in_sensor.insert(uncertain);
     }
     drawPatch(scene_in_sensor, sign, middle, indexColour(i));
-    addText(scene_in_sensor, middle - Eigen::Vector3d(0, 0.6 * kDrawnHeight, 0), textOf(sign), indexColour(i));
+    addText(scene_in_sensor, middle - Eigen::Vector3d(0, 0.6 * kDrawnHeight, 0), inAscii(textOf(sign)), indexColour(i));
   }
 }
 

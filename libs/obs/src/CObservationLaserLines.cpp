@@ -15,6 +15,7 @@ namespace omnimapper::obs {
 namespace {
 
 constexpr double kDegreesPerRadian = 180 / geometry::kPi;
+constexpr double kWidth = 0.04;  // [m] of a drawn line
 
 LineEnd readEnd(Archive& in) {
   const auto code = readNumber<std::uint8_t>(in);
@@ -62,11 +63,11 @@ const char* name(LineEnd end) {
   return "unknown";
 }
 
-void drawEnd(mrpt::opengl::CSetOfObjects& scene, mrpt::opengl::CSetOfLines& lines, const Eigen::Vector3d& place,
+void drawEnd(mrpt::opengl::CSetOfObjects& scene, mrpt::opengl::CSetOfTriangles& strokes, const Eigen::Vector3d& place,
              const Eigen::Vector3d& across, LineEnd end) {
-  if (end == LineEnd::wall) return addLine(lines, place - 0.15 * across, place + 0.15 * across);
-  const std::uint8_t shade = end == LineEnd::view ? 255 : 110;
-  addBall(scene, place, 0.05, {shade, shade, shade});
+  if (end == LineEnd::wall) return addStroke(strokes, place - 0.15 * across, place + 0.15 * across, kWidth);
+  const std::uint8_t shade = end == LineEnd::view ? 255 : 20;
+  addBall(scene, place, 1.2 * kWidth, {shade, shade, shade});
 }
 
 }  // namespace
@@ -126,10 +127,12 @@ void CObservationLaserLines::draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) 
     Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = from;
     from.head<2>() = line.segment_in_sensor.from;
     to.head<2>() = line.segment_in_sensor.to;
-    auto strokes = makeLines(indexColour(i), 5);
-    addLine(*strokes, from, to);
+    auto strokes = mrpt::opengl::CSetOfTriangles::Create();
+    strokes->enableLight(false);
+    addStroke(*strokes, from, to, kWidth);
     drawEnd(scene_in_sensor, *strokes, from, across, line.from_end);
     drawEnd(scene_in_sensor, *strokes, to, across, line.to_end);
+    strokes->setColor_u8(indexColour(i));
     scene_in_sensor.insert(strokes);
   }
 }

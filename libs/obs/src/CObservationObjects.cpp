@@ -108,7 +108,8 @@ void CObservationObjects::describe(std::ostream& out) const {
     if (object.colour)
       out << ", colour " << int{object.colour->red} << " " << int{object.colour->green} << " "
           << int{object.colour->blue};
-    if (!object.class_label.empty()) out << ", \"" << object.class_label << "\" with score " << shortly(object.score);
+    if (!object.class_label.empty())
+      out << ", \"" << inAscii(object.class_label) << "\" with score " << shortly(object.score);
     out << "\n";
   }
 }
@@ -143,7 +144,7 @@ void CObservationObjects::draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) con
     const auto colour = indexColour(i);
     drawBox(scene_in_sensor, object, colour);
     drawPoints(scene_in_sensor, object, colour);
-    const std::string label = object.class_label.empty() ? "object " + std::to_string(i) : object.class_label;
+    const std::string label = object.class_label.empty() ? "object " + std::to_string(i) : inAscii(object.class_label);
     addText(scene_in_sensor, object.sensor_from_box * Eigen::Vector3d(0, 0, 0.5 * object.box_size.z() + 0.03), label,
             colour);
   }

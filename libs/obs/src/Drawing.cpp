@@ -3,6 +3,7 @@
 #include <mrpt/opengl/CArrow.h>
 #include <mrpt/opengl/CSphere.h>
 #include <mrpt/opengl/CText.h>
+#include <omnimapper/geometry/PlaneTangent.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +46,22 @@ mrpt::opengl::CSetOfLines::Ptr makeLines(const mrpt::img::TColor& colour, float 
   return lines;
 }
 
+void addStroke(mrpt::opengl::CSetOfTriangles& strokes, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+               double width) {
+  const Eigen::Vector3d along = to - from;
+  if (!isFinite(from) || !isFinite(to) || !(along.norm() > 1e-9)) return;
+  const auto at = [](const Eigen::Vector3d& p) {
+    return mrpt::math::TPoint3Df(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
+  };
+  const auto square = geometry::tangentBasis(along.normalized());
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Vector3d side = 0.5 * width * square.col(k);
+    const auto a = at(from - side), b = at(from + side), c = at(to + side), d = at(to - side);
+    strokes.insertTriangle(mrpt::opengl::TTriangle(a, b, c));
+    strokes.insertTriangle(mrpt::opengl::TTriangle(a, c, d));
+  }
+}
+
 void addArrow(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
               const mrpt::img::TColor& colour) {
   const double way = (to - from).norm();
@@ -58,6 +75,7 @@ void addArrow(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& from, c
   arrow->setArrowEnds(begin, end);
   arrow->setSmallRadius(static_cast<float>(0.03 * way));
   arrow->setLargeRadius(static_cast<float>(0.09 * way));
+  arrow->enableLight(false);
   arrow->setColor_u8(colour);
   scene.insert(arrow);
 }
@@ -67,6 +85,7 @@ void addBall(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middle, 
   if (!isFinite(middle)) return;
   auto ball = mrpt::opengl::CSphere::Create(static_cast<float>(radius));
   ball->setLocation(middle.x(), middle.y(), middle.z());
+  ball->enableLight(false);
   ball->setColor_u8(colour);
   scene.insert(ball);
 }

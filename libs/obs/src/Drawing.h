@@ -3,6 +3,7 @@
 #include <mrpt/img/TColor.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/geometry/Polygon3.h>
 #include <omnimapper/obs/Rgb.h>
@@ -25,6 +26,10 @@ void addClosed(mrpt::opengl::CSetOfLines& lines, const geometry::Polygon3& polyg
 /// Lines of that colour and width [px] as one object.
 mrpt::opengl::CSetOfLines::Ptr makeLines(const mrpt::img::TColor& colour, float width);
 
+/// Adds a line of that width [m], thick from wherever it is seen: many graphics drivers draw lines a pixel wide.
+void addStroke(mrpt::opengl::CSetOfTriangles& strokes, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+               double width);
+
 /// What lies in an odd number of the walks, all on about that plane, as triangles of a translucent colour.
 void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane,
                const std::vector<geometry::Polygon3>& walks, const mrpt::img::TColor& colour);
@@ -33,7 +38,7 @@ void addArrow(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& from, c
 /// A small ball.
 void addBall(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middle, double radius,
              const mrpt::img::TColor& colour);
-/// Text that always faces who looks.
+/// Text that always faces who looks; MRPT draws ASCII.
 void addText(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& place, const std::string& text,
              const mrpt::img::TColor& colour);
 

@@ -1,4 +1,3 @@
-#include <mrpt/opengl/CSetOfTriangles.h>
 #include <omnimapper/geometry/PlaneTangent.h>
 
 #include <algorithm>
@@ -67,11 +66,6 @@ void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane
     return mrpt::math::TPoint3Df(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
   };
   auto triangles = mrpt::opengl::CSetOfTriangles::Create();
-  const auto add = [&](const auto& a, const auto& b, const auto& c) {
-    mrpt::opengl::TTriangle triangle(a, b, c);
-    triangle.computeNormals();
-    triangles->insertTriangle(triangle);
-  };
   for (std::size_t i = 1; i < heights.size(); ++i) {
     const double low = heights[i - 1], high = heights[i], middle = 0.5 * (low + high);
     std::vector<std::pair<double, const Edge*>> crossed;
@@ -83,11 +77,12 @@ void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane
       const Edge &left = *crossed[k].second, &right = *crossed[k + 1].second;
       const auto a = corner(across(left, low), low), b = corner(across(right, low), low);
       const auto c = corner(across(right, high), high), d = corner(across(left, high), high);
-      add(a, b, c);
-      add(a, c, d);
+      triangles->insertTriangle(mrpt::opengl::TTriangle(a, b, c));
+      triangles->insertTriangle(mrpt::opengl::TTriangle(a, c, d));
     }
   }
   if (triangles->getTrianglesCount() == 0) return;
+  triangles->enableLight(false);
   triangles->setColor_u8(colour);
   scene.insert(triangles);
 }

@@ -55,7 +55,33 @@ TextRow& TextRow::polygon(const geometry::Polygon3& value) {
 }
 
 std::string shortly(double value) {
-  return formatted("%.4g", value);
+  return formatted("%.4g", value == 0 ? 0.0 : value);  // without the sign of -0
+}
+
+std::string inAscii(const std::string& text) {
+  std::string ascii;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+    const unsigned first = byte(i);
+    const std::size_t length = first < 0x80 ? 1 : first >> 5 == 6 ? 2 : first >> 4 == 14 ? 3 : first >> 3 == 30 ? 4 : 0;
+    unsigned code = length == 0 ? first : first & (0x7FU >> (length == 1 ? 0 : length));
+    bool is_character = length > 0;
+    for (std::size_t k = 1; k < length; ++k) {
+      is_character = is_character && byte(i + k) >> 6 == 2;
+      code = code << 6 | (byte(i + k) & 0x3F);
+    }
+    char escaped[16];
+    if (!is_character) {
+      std::snprintf(escaped, sizeof escaped, "\\x%02x", first);
+    } else if (code >= 0x80) {
+      std::snprintf(escaped, sizeof escaped, code > 0xFFFF ? "\\U%08x" : "\\u%04x", code);
+    } else {
+      std::snprintf(escaped, sizeof escaped, "%c", static_cast<char>(code));
+    }
+    ascii += escaped;
+    i += is_character ? length : 1;
+  }
+  return ascii;
 }
 
 }  // namespace omnimapper::obs

@@ -40,4 +40,8 @@ class TextRow {
 /// One number to be read by people.
 std::string shortly(double value);
 
+/// The same UTF-8 text with what is not ASCII as \u00fc and the like, bytes that are no UTF-8 as \xfc: windows of stock
+/// tools show nothing at all of a text with a character that their locale does not have.
+std::string inAscii(const std::string& text);
+
 }  // namespace omnimapper::obs

@@ -42,7 +42,7 @@ class CObservationLaserLines : public CDerivedObservation {
 
  protected:
   void describe(std::ostream& out) const override;
-  /// Thick segments in a colour by index. An end that is the wall's own has a cross bar, others a point: grey where
+  /// Thick segments in a colour by index. An end that is the wall's own has a cross bar, others a ball: black where
   /// hidden, white where the view ends.
   void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const override;
 };
