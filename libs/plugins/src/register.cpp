@@ -4,6 +4,7 @@
 #include <omnimapper/plugins/GpsPlugin.h>
 #include <omnimapper/plugins/GraphOutput.h>
 #include <omnimapper/plugins/GridOutput.h>
+#include <omnimapper/plugins/LaserLinesPlugin.h>
 #include <omnimapper/plugins/LaserPointsPlugin.h>
 #include <omnimapper/plugins/LiveWindow.h>
 #include <omnimapper/plugins/LocalizationOutput.h>
@@ -29,6 +30,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(OdometryPluginFactory));
   registerClass(CLASS_ID(NoMotionPluginFactory));
   registerClass(CLASS_ID(ScanOdometryPluginFactory));
+  registerClass(CLASS_ID(LaserLinesPluginFactory));
   registerClass(CLASS_ID(LaserPointsPluginFactory));
   registerClass(CLASS_ID(LoopClosurePluginFactory));
   registerClass(CLASS_ID(RobotPosePluginFactory));

@@ -1,0 +1,134 @@
+#include <omnimapper/geometry/Angle.h>
+#include <omnimapper/perception/LaserLineExtractor.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lines/LineEnds.h"
+#include "lines/LineFinder.h"
+#include "lines/LineFit.h"
+#include "lines/ScanPoints.h"
+
+namespace omnimapper::perception {
+
+const base::OptionTable<LaserLineOptions>& LaserLineOptions::table() {
+  using Options = LaserLineOptions;
+  using base::Range;
+  static const auto table =
+      base::OptionTable<Options>()
+          .choice<Method>("method", &Options::method,
+                          {{"split_and_merge", Method::split_and_merge}, {"ransac", Method::ransac}},
+                          "How points that are on one line are found.")
+          .number("min_range_m", &Options::min_range, Range::notNegative(), "Nearer readings are dropped.")
+          .number("max_range_m", &Options::max_range, Range::positive(), "Farther readings are dropped.")
+          .number("range_sigma_m", &Options::range_sigma, Range::positive(), "Standard deviation of a range.")
+          .number("beam_width_deg", &Options::beam_width, {0, 10},
+                  "Full angle of a beam: where it meets a wall aslant, its range is as uncertain as that stretch is "
+                  "deep.")
+          .number("roughness_m", &Options::roughness, Range::notNegative(), "Standard deviation of walls from flat.")
+          .number("gate_sigmas", &Options::gate, Range::positive(),
+                  "A point more standard deviations than that from a line is not on it.")
+          .number("max_gap_m", &Options::max_gap, Range::notNegative(),
+                  "Where beams along a line met something else for longer than that, it is two lines.")
+          .number("min_length_m", &Options::min_length, Range::positive(), "Shorter lines are dropped.")
+          .integer("min_points", &Options::min_points, {3, 100000}, "Lines of fewer points are dropped.")
+          .integer("ransac_trials", &Options::ransac_trials, {1, 100000},
+                   "Pairs of points that ransac draws for each line.")
+          .integer("seed", &Options::seed, {0, 2147483647}, "Of the pairs that ransac draws.");
+  return table;
+}
+
+namespace {
+
+using namespace lines;
+
+// A wall that goes on over the end of a scan all round is found whole if the points begin where another one does.
+ScanPoints findLines(ScanPoints points, const LineFinder& finder, std::vector<Stretch>& stretches) {
+  stretches = finder.find(points);
+  if (!points.all_round || stretches.size() < 2) return points;
+  if (stretches.front().first > 2 || stretches.back().last < points.size() - 3) return points;
+  points = startingAt(std::move(points), stretches[1].first);
+  stretches = finder.find(points);
+  return points;
+}
+
+double lengthOf(const ScanPoints& points, const Fit& fit) {
+  return points.distanceBetween(fit.first, fit.last);
+}
+
+// Where what is on the line leaves a gap, the stretch is several.
+std::vector<Stretch> partedAtGaps(const ScanPoints& points, const std::vector<Stretch>& stretches,
+                                  const LaserLineOptions& options) {
+  std::vector<Stretch> parts;
+  for (const auto& stretch : stretches) {
+    int first = -1, last = -1;
+    for (int i = stretch.first; i <= stretch.last; ++i) {
+      if (points.chiSquare(i, stretch.line) > options.gate * options.gate) continue;
+      if (last >= 0 && points.isGap(last, i, options.max_gap)) {
+        parts.push_back({first, last, stretch.line});
+        first = -1;
+      }
+      if (first < 0) first = i;
+      last = i;
+    }
+    if (first >= 0) parts.push_back({first, last, stretch.line});
+  }
+  return parts;
+}
+
+std::vector<Fit> fitsOf(const ScanPoints& points, std::vector<Stretch> stretches, const LaserLineOptions& options) {
+  // What is too small for a line has no say in where its neighbours end.
+  const auto tooSmall = [&](const Stretch& stretch) {
+    return stretch.last - stretch.first + 1 < options.min_points ||
+           points.distanceBetween(stretch.first, stretch.last) < 0.5 * options.min_length;
+  };
+  stretches.erase(std::remove_if(stretches.begin(), stretches.end(), tooSmall), stretches.end());
+  shareOut(points, stretches, options.gate);
+  for (auto& stretch : stretches) stretch.line = fit(points, stretch, options.gate).line;
+  stretches = partedAtGaps(points, stretches, options);
+  shareOut(points, stretches, options.gate);
+  std::vector<Fit> fits;
+  for (const auto& stretch : stretches) {
+    const Fit found = fit(points, stretch, options.gate);
+    if (found.inliers < options.min_points || lengthOf(points, found) < options.min_length) continue;
+    fits.push_back(found);
+  }
+  return fits;
+}
+
+}  // namespace
+
+std::shared_ptr<obs::CObservationLaserLines> LaserLineExtractor::extract(
+    const mrpt::obs::CObservation2DRangeScan& scan) const {
+  auto derived = obs::CObservationLaserLines::Create();
+  derived->timestamp = scan.timestamp;
+  derived->sensorPose = scan.sensorPose;
+  derived->sensorLabel = scan.sensorLabel + kLinesSuffix;
+  derived->source_label = scan.sensorLabel;
+
+  const auto finder =
+      options_.method == LaserLineOptions::Method::ransac ? makeRansac(options_) : makeSplitAndMerge(options_);
+  std::vector<Stretch> stretches;
+  const ScanPoints points = findLines(pointsOf(scan, options_), *finder, stretches);
+  const auto fits = fitsOf(points, std::move(stretches), options_);
+  derived->lines.reserve(fits.size());
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const Fit& fit = fits[i];
+    const Ends ends = endsOf(points, fits, i, options_.gate);
+    obs::LaserLine line;
+    line.segment_in_sensor = ends.segment;
+    line.angle = geometry::wrapToPi(std::atan2(fit.line.ny, fit.line.nx));
+    line.distance = fit.line.distance;
+    line.covariance = fit.covariance;
+    line.from_end = ends.from;
+    line.to_end = ends.to;
+    line.first_beam = static_cast<std::uint32_t>(points.beam[fit.first]);
+    line.last_beam = static_cast<std::uint32_t>(points.beam[fit.last]);
+    line.inliers = static_cast<std::uint32_t>(fit.inliers);
+    line.rms = fit.rms;
+    derived->lines.push_back(line);
+  }
+  return derived;
+}
+
+}  // namespace omnimapper::perception

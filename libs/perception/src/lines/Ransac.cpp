@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cstdint>
+
+#include "LineFinder.h"
+#include "LineFit.h"
+
+namespace omnimapper::perception::lines {
+
+namespace {
+
+// Steele, Lea, Flood: Fast splittable pseudorandom number generators (2014).
+class SplitMix {
+ public:
+  explicit SplitMix(std::uint64_t seed) : state_(seed) {}
+  /// Even in [0, count).
+  int below(int count) {
+    state_ += 0x9E3779B97F4A7C15ULL;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    z ^= z >> 31;
+    return static_cast<int>((z >> 32) * static_cast<std::uint64_t>(count) >> 32);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+class Ransac : public LineFinder {
+ public:
+  explicit Ransac(const LaserLineOptions& options) : options_(options), limit_(options.gate * options.gate) {}
+
+  std::vector<Stretch> find(const ScanPoints& points) const override {
+    SplitMix random(static_cast<std::uint64_t>(options_.seed));
+    std::vector<int> left(points.x.size());
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] = static_cast<int>(i);
+    std::vector<Stretch> found;
+    while (static_cast<int>(left.size()) >= options_.min_points) {
+      const auto inliers = largestSet(points, left, random);
+      const auto stretches = withoutGaps(points, inliers);
+      if (stretches.empty()) break;
+      for (const Stretch& stretch : stretches) {
+        found.push_back(stretch);
+        const auto is_on = [&](int i) {
+          return i >= stretch.first && i <= stretch.last && points.chiSquare(i, stretch.line) <= limit_;
+        };
+        left.erase(std::remove_if(left.begin(), left.end(), is_on), left.end());
+      }
+    }
+    std::sort(found.begin(), found.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
+    return found;
+  }
+
+ private:
+  struct Inliers {
+    Line line;
+    std::vector<int> points;
+  };
+
+  int countOn(const ScanPoints& points, const std::vector<int>& left, const Line& line) const {
+    int count = 0;
+    for (const int i : left) {
+      const double off = points.offset(i, line);
+      count += off * off <= limit_ * points.variance(i, line);
+    }
+    return count;
+  }
+
+  Inliers on(const ScanPoints& points, const std::vector<int>& left, const Line& line) const {
+    Inliers inliers{line, {}};
+    for (const int i : left) {
+      if (points.chiSquare(i, line) <= limit_) inliers.points.push_back(i);
+    }
+    return inliers;
+  }
+
+  Inliers largestSet(const ScanPoints& points, const std::vector<int>& left, SplitMix& random) const {
+    const int size = static_cast<int>(left.size());
+    // The second point is not far in the scan from the first: more often on the same wall than one from anywhere.
+    const int window = std::max(4, size / 4);
+    int most = 0;
+    Line best;
+    for (int trial = 0; trial < options_.ransac_trials; ++trial) {
+      const int a = random.below(size), b = (a + 1 + random.below(std::min(window, size - 1))) % size;
+      const Line line = throughPoints(points, left[static_cast<std::size_t>(a)], left[static_cast<std::size_t>(b)]);
+      const int count = countOn(points, left, line);
+      if (count > most) {
+        most = count;
+        best = line;
+      }
+    }
+    Inliers inliers = on(points, left, best);
+    for (int round = 0; round < 2 && inliers.points.size() >= 2; ++round) {
+      inliers = on(points, left, lineOf(points, inliers.points, 0, inliers.points.size()));
+    }
+    return inliers;
+  }
+
+  static Line lineOf(const ScanPoints& points, const std::vector<int>& of, std::size_t begin, std::size_t end) {
+    Moments moments;
+    for (std::size_t k = begin; k < end; ++k) moments.add(points.x[of[k]], points.y[of[k]]);
+    return moments.line();
+  }
+
+  // Parts on either side of a gap are lines of their own; those of too few points are none.
+  std::vector<Stretch> withoutGaps(const ScanPoints& points, const Inliers& inliers) const {
+    std::vector<Stretch> stretches;
+    const auto& of = inliers.points;
+    for (std::size_t begin = 0, k = 1; k <= of.size(); ++k) {
+      if (k < of.size() && !points.isGap(of[k - 1], of[k], options_.max_gap)) continue;
+      if (static_cast<int>(k - begin) >= options_.min_points)
+        stretches.push_back({of[begin], of[k - 1], lineOf(points, of, begin, k)});
+      begin = k;
+    }
+    return stretches;
+  }
+
+  LaserLineOptions options_;
+  double limit_;
+};
+
+}  // namespace
+
+std::unique_ptr<LineFinder> makeRansac(const LaserLineOptions& options) {
+  return std::make_unique<Ransac>(options);
+}
+
+}  // namespace omnimapper::perception::lines
