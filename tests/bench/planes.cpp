@@ -21,6 +21,7 @@
 #include "planes/PixelLabels.h"
 #include "planes/RegionFit.h"
 #include "planes/SameLabel.h"
+#include "planes/SmallRegions.h"
 
 namespace {
 
@@ -130,8 +131,10 @@ void printStages(const std::vector<DepthFrame>& frames, int rounds) {
     lap("planes of cells");
     auto grown = growRegions(grid, noise);
     lap("regions grown");
-    const auto regions = mergeRegions(grid, noise, std::move(grown));
+    auto merged = mergeRegions(grid, noise, std::move(grown));
     lap("regions merged");
+    const auto regions = dropExplained(inverse, frame.camera, noise, grid, std::move(merged));
+    lap("small regions dropped");
     const auto labels = labelPixels(inverse, frame.camera, noise, grid, regions);
     lap("pixels labelled");
     const auto components = perception::connectComponents(labels.stride, labels.rows, SameLabel{labels.values.data()});

@@ -8,6 +8,7 @@
 #include "planes/PixelLabels.h"
 #include "planes/RegionFit.h"
 #include "planes/SameLabel.h"
+#include "planes/SmallRegions.h"
 
 namespace omnimapper::perception {
 
@@ -92,7 +93,8 @@ PlaneSegmentation PlaneSegmenter::segment(const DepthImage& image) const {
   const Pinhole& camera = image.camera();
   const InverseDepth inverse = invert(image, options_.min_depth, options_.max_depth);
   const CellGrid grid = fitCells(inverse, camera, noise);
-  const CellRegions regions = mergeRegions(grid, noise, growRegions(grid, noise));
+  const CellRegions merged = mergeRegions(grid, noise, growRegions(grid, noise));
+  const CellRegions regions = dropExplained(inverse, camera, noise, grid, merged);
   PixelLabels labels = labelPixels(inverse, camera, noise, grid, regions);
   const Components components = connectComponents(labels.stride, labels.rows, SameLabel{labels.values.data()});
   auto fitted = fitRegions(inverse, camera, noise, components, labels, regions, options_.min_pixels);
