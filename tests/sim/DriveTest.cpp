@@ -85,6 +85,12 @@ TEST(Drive, aStraightWayTakesTheTimeOfATrapezoid) {
   EXPECT_NEAR(track.at(9.1)->translation.x(), 5, 1e-9);
 }
 
+TEST(Drive, aWayOfMillimetresEnds) {
+  const auto track = drive("mode = waypoints\nwaypoints = 1 1, 1.003 1, 3 1\npause_s = 1\n", cluttered(1));
+  EXPECT_GT(track.places().back().time, 4);
+  EXPECT_LT(track.places().back().time, 60);
+}
+
 TEST(Drive, limitsHoldAndTheRadiusIsKeptOverSeeds) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const sim::World world = cluttered(seed);

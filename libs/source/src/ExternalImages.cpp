@@ -1,7 +1,10 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/ExternalImages.h>
+
+#include "Payload.h"
 
 namespace omnimapper::source {
 
@@ -26,6 +29,28 @@ void moveImagesToFiles(mrpt::obs::CObservation& observation, const std::string& 
     if (scan->hasIntensityImage) moveImage(scan->intensityImage, folder, stem + "_colour.jpg");
     if (scan->hasRangeImage) scan->rangeImage_convertToExternalStorage(stem + "_range.bin", folder + "/");
   }
+}
+
+mrpt::obs::CObservation::Ptr withImagesInside(const mrpt::obs::CObservation::Ptr& observation) {
+  auto copy = mrpt::ptr_cast<mrpt::obs::CObservation>::from(observation->duplicateGetSmartPtr());
+  bool had_files = false;
+  for (const auto* image : imagesOf(*copy)) {
+    if (!image->isExternallyStored()) continue;
+    had_files = true;
+    mrpt::img::CImage inside;  // MRPT forgets that an image is in a file only where it makes a new one
+    image->scaleImage(inside, image->getWidth(), image->getHeight(), mrpt::img::IMG_INTERP_NN);
+    const_cast<mrpt::img::CImage&>(*image) = inside;  // of our own copy
+  }
+  if (auto* scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(copy.get())) {
+    had_files = had_files || scan->rangeImage_isExternallyStored() || scan->points3D_isExternallyStored();
+    scan->rangeImage_forceResetExternalStorage();
+    scan->points3D_overrideExternalStoredFlag(false);
+  }
+  if (auto* cloud = dynamic_cast<mrpt::obs::CObservationPointCloud*>(copy.get())) {
+    had_files = had_files || cloud->isExternallyStored();
+    cloud->setAsExternalStorage("", mrpt::obs::CObservationPointCloud::ExternalStorageFormat::None);
+  }
+  return had_files ? copy : observation;
 }
 
 }  // namespace omnimapper::source

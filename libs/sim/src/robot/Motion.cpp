@@ -75,7 +75,9 @@ template <class Knot>
 void addLine(std::vector<Knot>& knots, const Eigen::Vector2d& to, double yaw) {
   const Eigen::Vector2d from = knots.back().position;
   const double length = (to - from).norm(), way = knots.back().way;
-  const int count = static_cast<int>(std::ceil(length / kLineKnotSpacing));
+  if (length == 0) return;
+  // A way from rest to rest needs a knot between them at which it moves.
+  const int count = std::max(2, static_cast<int>(std::ceil(length / kLineKnotSpacing)));
   for (int i = 1; i <= count; ++i) {
     const double share = static_cast<double>(i) / count;
     knots.push_back({from + share * (to - from), yaw, 0, way + share * length, 0, 0});

@@ -62,7 +62,8 @@ struct Surface {
 struct Triangle {
   std::array<int, 3> corners;  ///< into Body::vertices_in_body; counter-clockwise from outside. Both sides are seen.
   int surface = 0;             ///< into Body::surfaces
-  std::array<Eigen::Vector2f, 3> texture_at{};  ///< of each corner, as Texture::at()
+  std::array<Eigen::Vector2f, 3> texture_at{Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0),
+                                            Eigen::Vector2f(0, 0)};  ///< of each corner, as Texture::at()
 };
 
 /// A rigid thing with its surfaces.

@@ -11,4 +11,8 @@ namespace omnimapper::source {
 /// Thread-safe.
 void moveImagesToFiles(mrpt::obs::CObservation& observation, const std::string& folder, const std::string& stem);
 
+/// For a log that is to stand alone: the observation itself if nothing of it is in a file, else a copy that holds its
+/// images, depths and points. What is in files has been loaded, as a source hands it out. Thread-safe.
+mrpt::obs::CObservation::Ptr withImagesInside(const mrpt::obs::CObservation::Ptr& observation);
+
 }  // namespace omnimapper::source

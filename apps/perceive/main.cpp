@@ -1,0 +1,79 @@
+// omnimapper-perceive: rawlog in, rawlog out with what the extractors of an INI derive.
+#include <omnimapper/base/Progress.h>
+#include <omnimapper/mapper/PerceptionRun.h>
+#include <omnimapper/plugins/registerPlugins.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <iostream>
+#include <thread>
+
+namespace {
+
+using namespace omnimapper;
+
+volatile std::sig_atomic_t g_interrupted = 0;
+void onInterrupt(int) {
+  g_interrupted = 1;
+}
+
+struct Arguments {
+  std::vector<std::string> inis, settings;
+  mapper::PerceptionRequest run;
+  bool quiet = false;
+};
+
+void addOptions(CLI::App& app, Arguments& arguments) {
+  app.description(
+      "Runs perception alone: reads rawlogs and leaves a rawlog of what the extractors named by [perception] of an "
+      "INI\n"
+      "derive. omnimapper-graphslam takes it beside the raw one: -r raw.rawlog -r derived.rawlog\n"
+      "Example: omnimapper-perceive -i ini/laser2d.ini -r office.rawlog -o derived.rawlog");
+  app.add_option("-i,--ini", arguments.inis, "INI file: which extractors; a further one counts over it")->required();
+  app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)")->required();
+  app.add_option("-o,--output", arguments.run.output, "rawlog to write")->required();
+  app.add_flag("--with-raw", arguments.run.with_raw, "put the observations that were read into it too");
+  app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
+  arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the bytes do not depend on them")
+      ->check(CLI::Range(1, 256));
+  app.add_flag("-q,--quiet", arguments.quiet, "no progress, no summary");
+  app.footer(
+      "MRPT's tools stop at the first class they do not know: RawLogViewer -l libomnimapper-obs.so derived.rawlog\n"
+      "Exit codes: doc/exit_codes.md (0 only for the whole of a whole log).");
+}
+
+int run(Arguments& arguments) {
+  plugins::registerPlugins();
+  auto config = base::Config::fromFiles(arguments.inis);
+  for (const auto& setting : arguments.settings) config.set(setting);
+  std::signal(SIGINT, onInterrupt);
+  std::signal(SIGTERM, onInterrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size fails as on a full disk
+  base::TerminalProgress progress(std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
+  const auto result = mapper::runPerception(arguments.run, config, progress, [] { return g_interrupted != 0; });
+  if (!arguments.quiet) std::cout << mapper::toText(result, arguments.run.output);
+  for (const auto& warning : result.warnings) std::cerr << "omnimapper-perceive: warning: " << warning << "\n";
+  return static_cast<int>(result.code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app;
+  addOptions(app, arguments);
+  try {
+    app.parse(argc, argv);
+    return run(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);
+  } catch (const base::Error& error) {
+    std::cerr << "omnimapper-perceive: " << error.what() << "\n";
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    std::cerr << "omnimapper-perceive: " << error.what() << " (a defect: please report it)\n";
+    return static_cast<int>(base::ExitCode::internal);
+  }
+}

@@ -1,0 +1,84 @@
+// omnimapper-simulate: a world, a robot and its sensors of an INI become a rawlog and the truth beside it.
+#include <omnimapper/base/Progress.h>
+#include <omnimapper/sim/SimulationHelp.h>
+#include <omnimapper/sim/SimulationRun.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+namespace {
+
+using namespace omnimapper;
+
+volatile std::sig_atomic_t g_interrupted = 0;
+void onInterrupt(int) {
+  g_interrupted = 1;
+}
+
+struct Arguments {
+  std::vector<std::string> inis, settings;
+  std::string print_ini;
+  sim::SimulationRequest run;
+  bool list = false, ini_reference = false, quiet = false;
+};
+
+void addOptions(CLI::App& app, Arguments& arguments) {
+  app.description(
+      "Simulates a robot's log with its truth: rawlog, trajectory, landmarks, labels.\n"
+      "Example: omnimapper-simulate -i rawlogs/home.ini -o out/home");
+  app.add_option("-i,--ini", arguments.inis, "INI file: world, robot, sensors; a further one counts over it");
+  app.add_option("-o,--output", arguments.run.folder, "folder for log and truth, made if missing");
+  app.add_option("--name", arguments.run.name, "of the rawlog (the INI's)");
+  app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
+  arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the bytes do not depend on them")
+      ->check(CLI::Range(1, 256));
+  app.add_flag("--list", arguments.list, "list sensors and what a world is made of, and leave");
+  app.add_option("--print-ini", arguments.print_ini, "print the documented section of a class and leave");
+  app.add_flag("--ini-reference", arguments.ini_reference, "print all INI keys as Markdown and leave");
+  app.add_flag("-q,--quiet", arguments.quiet, "no progress, no summary");
+  app.footer("Exit codes: doc/exit_codes.md (0 only for a whole log).");
+}
+
+int run(Arguments& arguments) {
+  if (arguments.list) return std::cout << sim::listClasses(), 0;
+  if (arguments.ini_reference) return std::cout << sim::iniReference(), 0;
+  if (!arguments.print_ini.empty()) return std::cout << sim::printIni(arguments.print_ini), 0;
+  if (arguments.inis.empty() || arguments.run.folder.empty())
+    throw base::Error(base::ExitCode::command_line, "-i INI and -o FOLDER are needed; see --help");
+  auto config = base::Config::fromFiles(arguments.inis);
+  for (const auto& setting : arguments.settings) config.set(setting);
+  if (arguments.run.name.empty()) arguments.run.name = std::filesystem::path(arguments.inis.front()).stem().string();
+  std::signal(SIGINT, onInterrupt);
+  std::signal(SIGTERM, onInterrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size fails as on a full disk
+  base::TerminalProgress progress(std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
+  const sim::Simulation simulation(config);
+  const auto result = sim::runSimulation(simulation, arguments.run, progress, [] { return g_interrupted != 0; });
+  if (!arguments.quiet) std::cout << sim::toText(result, arguments.run.folder);
+  return static_cast<int>(result.code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app;
+  addOptions(app, arguments);
+  try {
+    app.parse(argc, argv);
+    return run(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);
+  } catch (const base::Error& error) {
+    std::cerr << "omnimapper-simulate: " << error.what() << "\n";
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    std::cerr << "omnimapper-simulate: " << error.what() << " (a defect: please report it)\n";
+    return static_cast<int>(base::ExitCode::internal);
+  }
+}

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Progress.h>
+#include <omnimapper/source/SourceReport.h>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// What a user asks of one run of perception alone.
+struct PerceptionRequest {
+  std::vector<std::string> logs;  ///< rawlogs, merged by stamp
+  std::string output;             ///< rawlog to write
+  bool with_raw = false;          ///< the observations that were read go into it too, images inside
+  int threads = 1;                ///< the bytes do not depend on it
+};
+
+struct PerceptionResult {
+  base::ExitCode code = base::ExitCode::ok;
+  std::vector<std::string> warnings;
+  source::SourceReport source;  ///< of what was read
+  struct Count {
+    std::string section;
+    std::size_t taken = 0;    ///< observations it made something of
+    std::size_t derived = 0;  ///< what it made
+  };
+  std::vector<Count> extractors;
+  double wall_seconds = 0;
+};
+std::string toText(const PerceptionResult& result, const std::string& output);
+
+/// Log in, log out: what the extractors of [perception] derive from each observation, in the order of the log. They are
+/// the ones the mapper runs, and get the same bits, so a map of the perceived log is that of the raw one. Damaged input
+/// and `stop` still give the log of what was read, with their own code. Throws base::Error if no extractor is named or
+/// takes anything, and for all that keeps a log from being written.
+PerceptionResult runPerception(const PerceptionRequest& request, const base::Config& config, base::Progress& progress,
+                               const std::function<bool()>& stop);
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,151 @@
+#include <omnimapper/base/WorkerPool.h>
+#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/mapper/PerceptionRun.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/mapper/SensorPoses.h>
+#include <omnimapper/mapper/SessionOptions.h>
+#include <omnimapper/mapper/StageTimes.h>
+#include <omnimapper/source/ExternalImages.h>
+#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/source/ReadAhead.h>
+
+#include <deque>
+#include <future>
+#include <sstream>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+using mrpt::obs::CObservation;
+
+/// What was made of one observation, by extractor.
+using Derived = std::vector<std::vector<CObservation::Ptr>>;
+
+/// The extractors at work on one observation after another, some at once, handed back in their order.
+class Line {
+ public:
+  struct Item {
+    CObservation::Ptr raw;
+    std::future<Derived> derived;
+  };
+
+  Line(const std::vector<Named<Extractor>>& extractors, int threads)
+      : extractors_(extractors), depth_(4 * static_cast<std::size_t>(threads)), pool_(threads) {}
+
+  bool isFull() const { return items_.size() >= depth_; }
+  bool isEmpty() const { return items_.empty(); }
+
+  void add(const CObservation::Ptr& raw) {
+    items_.push_back({raw, pool_.submit<Derived>([this, raw] {
+                        Derived all;
+                        for (const auto& [section, extractor] : extractors_) {
+                          all.emplace_back();
+                          if (extractor->wants(*raw)) all.back() = extractor->extract(*raw);
+                        }
+                        return all;
+                      })});
+  }
+
+  Item take() {
+    Item item = std::move(items_.front());
+    items_.pop_front();
+    return item;
+  }
+
+ private:
+  const std::vector<Named<Extractor>>& extractors_;
+  const std::size_t depth_;
+  std::deque<Item> items_;
+  base::WorkerPool pool_;
+};
+
+void write(Line::Item item, bool with_raw, source::RawlogWriter& rawlog, PerceptionResult& result) {
+  const Derived derived = item.derived.get();
+  if (with_raw) rawlog.add(*source::withImagesInside(item.raw));
+  for (std::size_t i = 0; i < derived.size(); ++i) {
+    result.extractors[i].taken += !derived[i].empty();
+    result.extractors[i].derived += derived[i].size();
+    for (const auto& observation : derived[i]) rawlog.add(*observation);
+  }
+}
+
+// True if it was stopped.
+bool work(source::ObservationSource& log, const SensorPoses& sensor_poses, const PerceptionRequest& request, Line& line,
+          source::RawlogWriter& rawlog, base::Progress& progress, const std::function<bool()>& stop,
+          PerceptionResult& result) {
+  bool stopped = false;
+  while (!(stopped = stop())) {
+    const auto observation = log.next();
+    if (!observation) break;
+    if (line.isFull()) write(line.take(), request.with_raw, rawlog, result);
+    line.add(sensor_poses.applied(observation));
+    progress.report(log.progress(), "perceiving");
+  }
+  while (!line.isEmpty()) write(line.take(), request.with_raw, rawlog, result);
+  return stopped || (log.report().ending == source::SourceReport::Ending::open && stop());
+}
+
+void refuseNothing(const PerceptionRequest& request, const std::string& ini, const PerceptionResult& result) {
+  for (const auto& extractor : result.extractors) {
+    if (extractor.taken > 0) return;
+  }
+  if (result.code != base::ExitCode::ok) return;
+  std::string logs;
+  for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
+  throw base::Error(base::ExitCode::nothing_to_map, logs + ": no observation that an extractor of " + ini +
+                                                        " makes something of; nothing was written.\nWhat was read:\n" +
+                                                        result.source.text());
+}
+
+}  // namespace
+
+PerceptionResult runPerception(const PerceptionRequest& request, const base::Config& config, base::Progress& progress,
+                               const std::function<bool()>& stop) {
+  const StopWatch watch;
+  const auto options = config.section("perception").read<PerceptionOptions>();
+  const auto settings = EngineSettings::read(config);
+  config.section("session").read<SessionOptions>();
+  const auto source_options = config.section("source").read<source::SourceOptions>();
+  if (options.extractors.empty()) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      config.file() + ": [perception] extractors is empty: name the sections of the extractors");
+  }
+  loadPluginLibraries(config);
+  PluginContext context;
+  context.config_text = config.text();
+  const auto plugins = makePlugins({{}, options.extractors, {}, {}}, config, context);
+  const SensorPoses sensor_poses(settings.engine.sensors, config);
+  config.refuseUnreadSections();
+  PerceptionResult result;
+  for (const auto& [section, extractor] : plugins.extractors) result.extractors.push_back({section});
+  const auto stop_opening = [&](double part) {
+    progress.report(part, "checking the log");
+    return stop();
+  };
+  source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop_opening), stop);
+  source::writeRawlog(request.output, [&](source::RawlogWriter& rawlog) {
+    Line line(plugins.extractors, std::max(1, request.threads));
+    const bool stopped = work(log, sensor_poses, request, line, rawlog, progress, stop, result);
+    result.source = log.report();
+    result.code = stopped ? base::ExitCode::interrupted : result.source.exitCode();
+    refuseNothing(request, config.file(), result);
+  });
+  if (!result.source.message.empty()) result.warnings.push_back(result.source.message);
+  if (result.code == base::ExitCode::interrupted)
+    result.warnings.push_back("interrupted: this is what was made of the log until then");
+  result.wall_seconds = watch.seconds();
+  return result;
+}
+
+std::string toText(const PerceptionResult& result, const std::string& output) {
+  std::ostringstream out;
+  for (const auto& extractor : result.extractors) {
+    out << "  " << extractor.section << ": " << extractor.derived << " observations of " << extractor.taken << "\n";
+  }
+  out << "wall time " << result.wall_seconds << " s\nin " << output << "\n";
+  return out.str();
+}
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <omnimapper/base/Config.h>
+#include <omnimapper/sim/Sensor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// [simulation] of an INI.
+struct SimulationOptions {
+  enum class Format {
+    observations,  ///< one observation after another
+    frames,        ///< MRPT's pairs of actions (odometry) and sensory frames
+  };
+  enum class Images {
+    embedded,  ///< in the rawlog
+    external,  ///< files in <name>_Images beside it
+  };
+  int seed = 1;
+  double duration = 0;   ///< [s]; 0: until the robot has arrived
+  double start = 1.7e9;  ///< Unix time of time 0 [s]
+  std::vector<std::string> sensors;
+  Format format = Format::observations;
+  Images images = Images::embedded;
+  static const base::OptionTable<SimulationOptions>& table();
+};
+
+/// A world, a robot that goes through it and its sensors, made of an INI and ready to run.
+class Simulation {
+ public:
+  /// Sections [simulation], [world], [robot] and those they name. Throws base::Error with the place in the INI.
+  explicit Simulation(const base::Config& config);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  const SimulationOptions& options() const { return options_; }
+  const World& world() const { return world_; }
+  const Scenes& scenes() const { return scenes_; }
+  const Track& mapFromBase() const { return map_from_base_; }
+  const std::vector<std::unique_ptr<Sensor>>& sensors() const { return sensors_; }
+  double duration() const { return duration_; }
+  base::Stamp start() const { return base::stampFromUnix(options_.start); }
+  const std::string& iniText() const { return ini_text_; }
+
+ private:
+  SimulationOptions options_;
+  World world_;
+  Scenes scenes_;
+  Track map_from_base_;
+  double duration_;
+  std::string ini_text_;
+  std::vector<std::unique_ptr<Sensor>> sensors_;
+};
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Progress.h>
+#include <omnimapper/sim/Simulation.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+struct SimulationRequest {
+  std::string folder;  ///< made if missing
+  std::string name;    ///< of the rawlog, without ".rawlog"
+  int threads = 1;     ///< the bytes do not depend on it
+};
+
+/// What a run left.
+struct SimulationResult {
+  struct Count {
+    std::string label;
+    int measured = 0;  ///< in the log
+    int dropped = 0;   ///< never arrived
+    int unseen = 0;    ///< nothing in view that makes an observation
+  };
+  base::ExitCode code = base::ExitCode::ok;  ///< or interrupted: what was measured until then is written
+  std::vector<Count> sensors;
+  double duration = 0;             ///< simulated [s]
+  double way = 0;                  ///< of the robot [m]
+  std::vector<std::string> files;  ///< in the folder
+};
+std::string toText(const SimulationResult& result, const std::string& folder);
+
+/// Writes into the folder: <name>.rawlog (and <name>_Images), truth.tum (base poses at the stamp of every measurement),
+/// landmarks.json, truth/<label>.jsonl and what sensors add, plan.svg, pictures/ of what each sensor saw in the middle
+/// of the run, <name>.ini and README.md, which says what is
+/// what. Measurements stand in the order of their arrival. `stop` is asked between two of them. Throws Error
+/// unwritable_output or disk_full.
+SimulationResult runSimulation(const Simulation& simulation, const SimulationRequest& request, base::Progress& progress,
+                               const std::function<bool()>& stop = {});
+
+}  // namespace omnimapper::sim

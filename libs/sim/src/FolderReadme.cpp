@@ -1,0 +1,52 @@
+#include "FolderReadme.h"
+
+#include <omnimapper/base/Numbers.h>
+
+#include <sstream>
+
+namespace omnimapper::sim {
+
+namespace {
+
+std::string meaningOf(const std::string& file, const std::string& name) {
+  const auto ends = [&](const std::string& end) {
+    return file.size() >= end.size() && file.compare(file.size() - end.size(), end.size(), end) == 0;
+  };
+  if (file == name + ".rawlog") return "what the sensors measured, in the order it arrived; MRPT's tools open it";
+  if (file == name + "_Images/") return "images of the rawlog";
+  if (file == name + ".ini") return "the INI it was made of; the same INI makes the same bytes";
+  if (file == "truth.tum")
+    return "true poses of the base in the map at the stamp of each measurement: stamp x y z qx qy qz qw";
+  if (file == "landmarks.json")
+    return "rooms, signs with text, markers, points, objects with their places over time, people, and every surface "
+           "with "
+           "its label, plane (normal . p + distance = 0) and outline, in the map";
+  if (file == "plan.svg") return "the world from above, with the robot's way";
+  if (file == "README.md") return "this page";
+  if (ends(".png")) return "what that sensor saw in the middle of the run; depth from blue to red, points from above";
+  if (ends(".jsonl")) return "the truth of each measurement of that sensor, one line each, by stamp";
+  return "one file of truth for each measurement";
+}
+
+}  // namespace
+
+std::string folderReadme(const Simulation& simulation, const std::string& name, const SimulationResult& result) {
+  std::ostringstream out;
+  out << "# " << name << ": a simulated log\n\n"
+      << base::fixed(result.duration, 1) << " s, " << base::fixed(result.way, 1) << " m of way, seed "
+      << simulation.options().seed << "; time 0 is Unix time " << base::fixed(simulation.options().start, 1) << ".\n\n"
+      << "| file | what it is |\n|---|---|\n";
+  for (const auto& file : result.files) out << "| `" << file << "` | " << meaningOf(file, name) << " |\n";
+  out << "\n| sensor label | measurements | lost | nothing in view |\n|---|---|---|---|\n";
+  for (const auto& sensor : result.sensors) {
+    out << "| `" << sensor.label << "` | " << sensor.measured << " | " << sensor.dropped << " | " << sensor.unseen
+        << " |\n";
+  }
+  out << "\nA label of a surface is its number in `landmarks.json`; 0 is nothing.\n\n"
+      << "![the world from above](plan.svg)\n\n"
+      << "Map it: `omnimapper-graphslam -i ini/laser2d.ini -r " << name << ".rawlog -o OUT`, then\n"
+      << "`omnimapper-eval ate OUT/trajectory.tum truth.tum --align yaw -o OUT/eval`.\n";
+  return out.str();
+}
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,83 @@
+#include <omnimapper/sim/Drive.h>
+#include <omnimapper/sim/Simulation.h>
+#include <omnimapper/sim/WorldIni.h>
+
+#include <algorithm>
+#include <map>
+
+namespace omnimapper::sim {
+
+namespace {
+
+// FNV-1a: a sensor's random streams hang on its name, so that another sensor in the list changes none of them.
+std::uint64_t hashOf(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return hash;
+}
+
+double durationOf(const SimulationOptions& options, const Track& map_from_base) {
+  const double arrival = map_from_base.places().back().time;
+  return options.duration > 0 ? options.duration : arrival;
+}
+
+void refuseDoubleLabels(const base::Config& config, const std::vector<std::unique_ptr<Sensor>>& sensors,
+                        const std::vector<std::string>& sections) {
+  std::map<std::string, std::string> section_of;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const auto [first, is_new] = section_of.emplace(sensors[i]->label(), sections[i]);
+    if (is_new) continue;
+    throw base::Error(base::ExitCode::out_of_range, config.file() + ": [" + sections[i] +
+                                                        "] label = " + sensors[i]->label() + " is that of [" +
+                                                        first->second + "] too; give each sensor a label of its own");
+  }
+}
+
+}  // namespace
+
+const base::OptionTable<SimulationOptions>& SimulationOptions::table() {
+  using base::Range;
+  static const auto table =
+      base::OptionTable<SimulationOptions>()
+          .integer("seed", &SimulationOptions::seed, {0, 2147483647}, "Of all that is random in the measurements.")
+          .number("duration_s", &SimulationOptions::duration, Range::notNegative(),
+                  "How long the sensors measure; 0: until the robot has arrived.")
+          .number("start_s", &SimulationOptions::start, {1e6, 4e9}, "Unix time at which it begins.")
+          .list("sensors", &SimulationOptions::sensors, "Sections of the sensors.")
+          .choice("format", &SimulationOptions::format,
+                  {{"observations", Format::observations}, {"frames", Format::frames}},
+                  "Of the rawlog: single observations, or MRPT's pairs of actions and sensory frames.")
+          .choice("images", &SimulationOptions::images,
+                  {{"embedded", Images::embedded}, {"external", Images::external}},
+                  "Where images are: in the rawlog, or in files beside it.");
+  return table;
+}
+
+Simulation::Simulation(const base::Config& config)
+    : options_(config.section("simulation").read<SimulationOptions>()),
+      world_(readWorld(config)),
+      scenes_(world_),
+      map_from_base_(planDrive(config, world_)),
+      duration_(durationOf(options_, map_from_base_)),
+      ini_text_(config.text()) {
+  validate(world_);
+  if (options_.sensors.empty()) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      config.file() + ": [simulation] sensors is empty: name the sections of the sensors");
+  }
+  SensorContext context;
+  context.seed = static_cast<std::uint64_t>(options_.seed);
+  context.start = start();
+  context.duration = duration_;
+  context.world = &world_;
+  context.scenes = &scenes_;
+  context.map_from_base = &map_from_base_;
+  for (const std::string& name : options_.sensors) {
+    context.number = hashOf(name);
+    sensors_.push_back(makeSensor(config, name, context));
+  }
+  refuseDoubleLabels(config, sensors_, options_.sensors);
+  config.refuseUnreadSections();
+}
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,193 @@
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Numbers.h>
+#include <omnimapper/base/WorkerPool.h>
+#include <omnimapper/geometry/TumLine.h>
+#include <omnimapper/sim/PlanDrawing.h>
+#include <omnimapper/sim/SimulationRun.h>
+#include <omnimapper/source/ExternalImages.h>
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+#include "FolderReadme.h"
+#include "LogWriter.h"
+#include "Pictures.h"
+#include "TruthFolder.h"
+#include "WorldTruth.h"
+
+namespace omnimapper::sim {
+
+namespace {
+
+constexpr double kPlanStep = 0.25;  // [s] between points of the way on the plan
+
+/// A measurement that arrives in the log.
+struct Arrival {
+  double time;  // [s]
+  int sensor, k;
+  bool operator<(const Arrival& other) const {
+    return std::tie(time, sensor, k) < std::tie(other.time, other.sensor, other.k);
+  }
+};
+
+std::vector<Arrival> arrivalsOf(const Simulation& simulation, std::vector<SimulationResult::Count>& counts) {
+  std::vector<Arrival> arrivals;
+  for (std::size_t s = 0; s < simulation.sensors().size(); ++s) {
+    const Sensor& sensor = *simulation.sensors()[s];
+    counts.push_back({sensor.label()});
+    for (int k = 0; k < sensor.count(); ++k) {
+      const double time = sensor.arrivalOf(k);
+      if (time < 0)
+        ++counts.back().dropped;
+      else
+        arrivals.push_back({time, static_cast<int>(s), k});
+    }
+  }
+  std::sort(arrivals.begin(), arrivals.end());
+  return arrivals;
+}
+
+/// The measurements of a run, made by several threads, handed out in their order.
+class Measurements {
+ public:
+  using Make = std::function<Measurement(const Arrival&)>;
+  Measurements(const std::vector<Arrival>& arrivals, int threads, Make make)
+      : arrivals_(arrivals), ahead_(4 * static_cast<std::size_t>(threads)), make_(std::move(make)), pool_(threads) {}
+
+  Measurement next() {
+    while (begun_ < arrivals_.size() && waiting_.size() < ahead_) {
+      const Arrival& arrival = arrivals_[begun_++];
+      waiting_.push_back(pool_.submit<Measurement>([this, &arrival] { return make_(arrival); }));
+    }
+    Measurement measurement = waiting_.front().get();
+    waiting_.pop_front();
+    return measurement;
+  }
+
+ private:
+  const std::vector<Arrival>& arrivals_;
+  const std::size_t ahead_;
+  const Make make_;
+  std::size_t begun_ = 0;
+  std::deque<std::future<Measurement>> waiting_;
+  base::WorkerPool pool_;
+};
+
+std::string imageStem(const Sensor& sensor, int k) {
+  const std::string number = std::to_string(k);
+  return sensor.label() + "_" + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number;
+}
+
+void writeText(const std::string& path, const std::string& text) {
+  base::writeFile(path, [&](std::ostream& out) { out << text; });
+}
+
+std::string trajectoryOf(const Simulation& simulation, const std::set<base::Stamp>& stamps) {
+  std::string text;
+  for (const base::Stamp stamp : stamps) {
+    const double time = base::secondsBetween(simulation.start(), stamp);
+    text += geometry::tumLine(stamp, *simulation.mapFromBase().at(time));
+  }
+  return text;
+}
+
+double wayOf(const Track& track, double until) {
+  double way = 0;
+  const auto& places = track.places();
+  for (std::size_t i = 1; i < places.size() && places[i].time <= until; ++i)
+    way += (places[i].map_from_body->translation - places[i - 1].map_from_body->translation).norm();
+  return way;
+}
+
+void writeLog(const Simulation& simulation, const SimulationRequest& request, base::Progress& progress,
+              const std::function<bool()>& stop, TruthFolder& truth, std::set<base::Stamp>& stamps,
+              SimulationResult& result) {
+  const auto arrivals = arrivalsOf(simulation, result.sensors);
+  const std::string images = request.folder + "/" + request.name + "_Images";
+  const bool is_external = simulation.options().images == SimulationOptions::Images::external;
+  if (is_external) base::makeWritableFolder(images);
+  Measurements measurements(arrivals, request.threads, [&](const Arrival& arrival) {
+    const Sensor& sensor = *simulation.sensors()[arrival.sensor];
+    Measurement measurement = sensor.measure(arrival.k);
+    if (is_external && measurement.observation)
+      source::moveImagesToFiles(*measurement.observation, images, imageStem(sensor, arrival.k));
+    return measurement;
+  });
+  source::writeRawlog(
+      request.folder + "/" + request.name + ".rawlog",
+      [&](source::RawlogWriter& rawlog) {
+        const auto log = makeLogWriter(simulation.options().format, rawlog);
+        for (std::size_t i = 0; i < arrivals.size(); ++i) {
+          if (stop && stop()) {
+            result.code = base::ExitCode::interrupted;
+            result.duration = arrivals[i].time;
+            break;
+          }
+          const Measurement measurement = measurements.next();
+          const Sensor& sensor = *simulation.sensors()[arrivals[i].sensor];
+          auto& count = result.sensors[arrivals[i].sensor];
+          if (!measurement.observation) {
+            ++count.unseen;
+            continue;
+          }
+          ++count.measured;
+          log->add(measurement.observation);
+          truth.add(sensor, arrivals[i].k, measurement);
+          stamps.insert(measurement.observation->timestamp);
+          progress.report(arrivals[i].time / simulation.duration(), "simulating " + request.name);
+        }
+        log->finish();
+      },
+      source::ColourImages::jpeg);
+}
+
+}  // namespace
+
+SimulationResult runSimulation(const Simulation& simulation, const SimulationRequest& request, base::Progress& progress,
+                               const std::function<bool()>& stop) {
+  base::makeWritableFolder(request.folder);
+  SimulationResult result;
+  result.duration = simulation.duration();
+  TruthFolder truth(request.folder);
+  std::set<base::Stamp> stamps;
+  writeLog(simulation, request, progress, stop, truth, stamps, result);
+  truth.close();
+  result.way = wayOf(simulation.mapFromBase(), result.duration);
+  result.files = {request.name + ".rawlog", "truth.tum", "landmarks.json", "plan.svg", request.name + ".ini"};
+  if (simulation.options().images == SimulationOptions::Images::external)
+    result.files.push_back(request.name + "_Images/");
+  for (const auto& file : truth.files()) result.files.push_back(file);
+  for (const auto& file : drawPictures(simulation, request.folder)) result.files.push_back(file);
+  result.files.push_back("README.md");
+  writeText(request.folder + "/truth.tum", trajectoryOf(simulation, stamps));
+  writeText(request.folder + "/landmarks.json", landmarksJson(simulation));
+  PlanDrawingOptions plan;
+  for (double time = 0; time < result.duration; time += kPlanStep)
+    plan.path.push_back(simulation.mapFromBase().at(time)->translation.head<2>());
+  writeText(request.folder + "/plan.svg", drawPlan(simulation.world(), plan));
+  writeText(request.folder + "/" + request.name + ".ini", simulation.iniText());
+  writeText(request.folder + "/README.md", folderReadme(simulation, request.name, result));
+  return result;
+}
+
+std::string toText(const SimulationResult& result, const std::string& folder) {
+  std::ostringstream out;
+  out << "simulated: " << base::fixed(result.duration, 1) << " s, " << base::fixed(result.way, 1) << " m of way"
+      << (result.code == base::ExitCode::interrupted ? " (interrupted)" : "") << "\n";
+  for (const auto& sensor : result.sensors) {
+    out << "  " << sensor.label << ": " << sensor.measured << " measurements";
+    if (sensor.dropped > 0) out << ", " << sensor.dropped << " lost";
+    if (sensor.unseen > 0) out << ", " << sensor.unseen << " times nothing in view";
+    out << "\n";
+  }
+  out << "in " << folder << ":";
+  for (const auto& file : result.files) out << " " << file;
+  out << "\n";
+  return out.str();
+}
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <omnimapper/sim/Simulation.h>
+
+#include <string>
+
+namespace omnimapper::sim {
+
+/// landmarks.json: all surfaces with labels, planes and outlines, rooms, signs, markers, points, objects with their
+/// poses over time, people. In the map's frame; metres, seconds since the start.
+std::string landmarksJson(const Simulation& simulation);
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,91 @@
+// omnimapper-simulate: worlds that cannot be, folders that cannot be written, Ctrl-C.
+#include <signal.h>
+
+#include <thread>
+
+#include "SimulateRun.h"
+
+namespace {
+
+using namespace runs;
+using omnimapper::testing::Program;
+
+class SimulateMistakes : public ::testing::Test {
+ protected:
+  SimulateMistakes() { writeFile(ini_, kSmallWorld); }
+  Ended with(const Words& settings, const ProgramOptions& options = {}) {
+    Words words{"-i", ini_, "-o", folder_};
+    for (const auto& setting : settings) words.insert(words.end(), {"--set", setting});
+    return simulate(words, options);
+  }
+
+  omnimapper::testing::ScratchFolder scratch_;
+  const std::string ini_ = scratch_ / "small.ini", folder_ = scratch_ / "out";
+};
+
+TEST_F(SimulateMistakes, AreRefusedWithTheirPlaceInTheIni) {
+  struct Case {
+    Words settings;
+    ExitCode code;
+    Words words;
+  };
+  const std::vector<Case> cases{
+      {{"kitchen.rectangle_m=3 0 8 4"}, ExitCode::out_of_range, {"small.ini", "[kitchen]", "hall"}},
+      {{"robot.waypoints=1 1, 20 20"}, ExitCode::out_of_range, {"small.ini", "[robot]", "waypoints", "20 20"}},
+      {{"robot.waypoints=1 1, 5.07 0.5"}, ExitCode::out_of_range, {"small.ini", "[robot]", "waypoints"}},
+      {{"laser.rate_hz=0"}, ExitCode::out_of_range, {"small.ini", "[laser]", "rate_hz"}},
+      {{"table_1.class=tabel"}, ExitCode::unknown_plugin, {"small.ini", "[table_1]", "table"}},
+      {{"laser.class=Lazer2d"}, ExitCode::unknown_plugin, {"small.ini", "[laser]", "Laser2d"}},
+      {{"laser.rate=5"}, ExitCode::unknown_key, {"small.ini", "[laser]", "rate_hz"}},
+      {{"world.generator=hom"}, ExitCode::unknown_plugin, {"small.ini", "[world]", "home"}},
+      {{"simulation.sensors="}, ExitCode::out_of_range, {"small.ini", "[simulation]", "sensors"}},
+      {{"simulation.sensors=laser, odometry"}, ExitCode::unknown_key, {"small.ini", "camera"}},
+      {{"camera.label=laser"}, ExitCode::out_of_range, {"small.ini", "[camera]", "label", "[laser]"}},
+      {{"door_1.x_m=2", "door_1.y_m=0"}, ExitCode::out_of_range, {"small.ini", "[door_1]"}},
+      {{"table_1.x_m=5"}, ExitCode::out_of_range, {"small.ini", "[table_1]"}},
+  };
+  for (const auto& [settings, code, words] : cases) {
+    const auto ended = with(settings);
+    EXPECT_TRUE(endedWith(code, ended, words)) << settings.front();
+    EXPECT_FALSE(fs::exists(folder_)) << settings.front();
+  }
+}
+
+TEST_F(SimulateMistakes, FoldersThatCannotBeMadeAreSaid) {
+  writeFile(scratch_ / "file", "");
+  EXPECT_TRUE(
+      endedWith(ExitCode::unwritable_output, simulate({"-i", ini_, "-o", scratch_ / "file/out"}), {"file/out"}));
+  EXPECT_TRUE(
+      endedWith(ExitCode::unreadable_input, simulate({"-i", scratch_ / "none.ini", "-o", folder_}), {"none.ini"}));
+  EXPECT_TRUE(endedWith(ExitCode::command_line, simulate({"-i", ini_}), {"-o FOLDER"}));
+}
+
+TEST_F(SimulateMistakes, AFullDiskLeavesNoHalfLog) {
+  ProgramOptions limited;
+  limited.largest_file = 50000;
+  EXPECT_TRUE(endedWith(ExitCode::disk_full, with({}, limited), {folder_}));
+  for (const auto& [name, bytes] : contentOf(folder_)) {
+    EXPECT_EQ(name.find(".rawlog"), std::string::npos) << name;
+    EXPECT_EQ(name.find(".partial"), std::string::npos) << name;
+  }
+}
+
+TEST_F(SimulateMistakes, CtrlCLeavesWhatWasMeasuredUntilThen) {
+  Program program({omnimapper::testing::ownProgram("omnimapper-simulate"), "-i", ini_, "-o", folder_, "--set",
+                   "simulation.duration_s=3000"});
+  while (!fs::exists(folder_ + "/truth") && program.isRunning())
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  program.send(SIGINT);
+  const auto ended = program.wait();
+  ASSERT_TRUE(endedWith(ExitCode::interrupted, ended));
+  EXPECT_LT(ended.seconds, 60);
+  EXPECT_NE(ended.out.find("(interrupted)"), std::string::npos) << ended.out;
+  const auto report = readLog(folder_ + "/small.rawlog");
+  EXPECT_EQ(report.ending, omnimapper::source::SourceReport::Ending::complete) << report.message;
+  EXPECT_GT(report.observations(), 0U);
+  EXPECT_TRUE(fs::exists(folder_ + "/truth.tum"));
+  EXPECT_TRUE(fs::exists(folder_ + "/README.md"));
+}
+
+}  // namespace
