@@ -86,7 +86,7 @@ TEST(Drive, aStraightWayTakesTheTimeOfATrapezoid) {
 }
 
 TEST(Drive, aWayOfMillimetresEnds) {
-  const auto track = drive("mode = waypoints\nwaypoints = 1 1, 1.003 1, 3 1\npause_s = 1\n", cluttered(1));
+  const auto track = drive("mode = waypoints\nwaypoints = 1 1, 1.003 1, 3 1\npause_s = 1\n", oneRoom(8, 8));
   EXPECT_GT(track.places().back().time, 4);
   EXPECT_LT(track.places().back().time, 60);
 }

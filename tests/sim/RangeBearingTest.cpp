@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationBearingRange.h>
+#include <omnimapper/base/Error.h>
 
 #include <nlohmann/json.hpp>
 
@@ -56,6 +57,20 @@ TEST(RangeBearing, whatIsHiddenIsMeasuredOnlyIfNothingHides) {
   const auto seen = run.measure<Bearings>(0);
   EXPECT_EQ(seen->sensedData.size(), 4u);
   for (const auto& one : seen->sensedData) EXPECT_EQ(one.landmarkID, -1);
+}
+
+TEST(RangeBearing, landmarksOfOneIdAreRefusedWhereIdsAreKnown) {
+  sim::World world = oneRoom(6, 6);
+  world.point_landmarks = {{"left", 7, {1, 2, 1}, ""}, {"right", 7, {1, -2, 1}, ""}};
+  const sim::Track still(geometry::Se3{});
+  EXPECT_NO_THROW(SensorRun(world, still, exact + "known_ids = false\n"));
+  try {
+    SensorRun(world, still, exact);
+    FAIL() << "not refused";
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("test.ini: [sensor] points, markers: left and right"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(RangeBearing, planarOnesHaveNoPitchAndHorizontalRange) {

@@ -1,4 +1,4 @@
-// ini/README.md is what the option tables say.
+// ini/README.md and ini/simulator.md are what the option tables say.
 #include <gtest/gtest.h>
 #include <stdio.h>
 
@@ -16,14 +16,19 @@ std::string outputOf(const std::string& command) {
   return all;
 }
 
-TEST(IniReference, isWhatTheOptionTablesSay) {
-  const auto now = source_tree::lines(outputOf("'" OMNIMAPPER_BIN_DIR "/omnimapper-graphslam' --ini-reference"));
-  const auto kept = source_tree::lines(source_tree::read(omnimapper::testing::sourceFile("ini/README.md")));
-  ASSERT_FALSE(now.empty()) << "omnimapper-graphslam --ini-reference printed nothing";
+void expectReference(const std::string& file, const std::string& program) {
+  const auto now = source_tree::lines(outputOf("'" OMNIMAPPER_BIN_DIR "/" + program + "' --ini-reference"));
+  const auto kept = source_tree::lines(source_tree::read(omnimapper::testing::sourceFile(file)));
+  ASSERT_FALSE(now.empty()) << program << " --ini-reference printed nothing";
   for (std::size_t i = 0; i < std::max(now.size(), kept.size()); ++i) {
     ASSERT_EQ(i < kept.size() ? kept[i] : "(the end)", i < now.size() ? now[i] : "(the end)")
-        << "ini/README.md:" << i + 1 << ": options changed: run scripts/ini-reference";
+        << file << ":" << i + 1 << ": options changed: run scripts/ini-reference";
   }
+}
+
+TEST(IniReference, isWhatTheOptionTablesSay) {
+  expectReference("ini/README.md", "omnimapper-graphslam");
+  expectReference("ini/simulator.md", "omnimapper-simulate");
 }
 
 }  // namespace

@@ -77,6 +77,7 @@ std::unique_ptr<Sensor> makeSensor(const base::Config& config, const std::string
     for (const auto& spec : candidate.options) others.push_back(spec.key);
     SensorOptions mount = section.read<SensorOptions>(others);
     if (mount.label.empty()) mount.label = name;
+    context.file = config.file();
     context.section = name;
     return candidate.make(section, mount, context);
   }

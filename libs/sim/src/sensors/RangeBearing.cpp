@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "TruthText.h"
 
@@ -60,6 +61,20 @@ RangeBearing::RangeBearing(const RangeBearingOptions& options, const SensorOptio
   }
   for (const Marker& marker : world.markers) {
     if (options.markers) landmarks_.push_back({marker.name, marker.id, trackOf(marker.name), {0, 0, 0}, true});
+  }
+  if (options.known_ids) refuseDoubleIds();
+}
+
+// MRPT keeps no observation in which an id stands twice.
+void RangeBearing::refuseDoubleIds() const {
+  std::map<int, std::string> names;
+  for (const auto& landmark : landmarks_) {
+    const auto [first, is_new] = names.emplace(landmark.id, landmark.name);
+    if (is_new) continue;
+    throw base::Error(base::ExitCode::out_of_range,
+                      context().place() + "points, markers: " + first->second + " and " + landmark.name +
+                          " have the same id " + std::to_string(landmark.id) +
+                          "; leave one kind out, give other ids, or set known_ids = false");
   }
 }
 

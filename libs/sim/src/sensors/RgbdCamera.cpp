@@ -30,7 +30,7 @@ struct RgbdCamera::Pictures {
 RgbdCamera::RgbdCamera(const RgbdOptions& options, const SensorOptions& mount, const SensorContext& context)
     : Sensor(mount, context),
       options_of_camera_(options),
-      settings_(settle(options, context.section)),
+      settings_(settle(options, context.place())),
       shader_(*context.world, *context.scenes),
       sensor_from_colour_{Eigen::Quaterniond::Identity(), {0, -settings_.colour_right, 0}},
       hands_out_colour_view_(options.registered && !settings_.coincide) {}

@@ -100,7 +100,7 @@ const base::OptionTable<RgbdOptions>& RgbdOptions::table() {
   return table;
 }
 
-RgbdSettings settle(const RgbdOptions& options, const std::string& section) {
+RgbdSettings settle(const RgbdOptions& options, const std::string& place) {
   const Preset model = preset(options.model);
   const double scale = options.width / 640.0;
   RgbdSettings settings;
@@ -110,8 +110,7 @@ RgbdSettings settle(const RgbdOptions& options, const std::string& section) {
   const double colour_focal = settings.from_texture ? focal : chosen(options.colour_focal, scale * model.colour_focal);
   const auto positive = [&](const char* key, double value) {
     if (value > 0) return;
-    throw base::Error(base::ExitCode::out_of_range, "[" + section + "] " + key + " = " +
-                                                        base::option_text::format(value) +
+    throw base::Error(base::ExitCode::out_of_range, place + key + " = " + base::option_text::format(value) +
                                                         ": must be above 0, or -1 for what the model has");
   };
   positive("focal_px", focal);
@@ -134,12 +133,12 @@ RgbdSettings settle(const RgbdOptions& options, const std::string& section) {
   disparity.max_range = chosen(options.max_range, disparity.max_range);
   if (!(disparity.min_range < disparity.max_range)) {
     throw base::Error(base::ExitCode::out_of_range,
-                      "[" + section + "] min_range_m = " + base::option_text::format(disparity.min_range) +
+                      place + "min_range_m = " + base::option_text::format(disparity.min_range) +
                           ": must be below max_range_m = " + base::option_text::format(disparity.max_range));
   }
   if (disparity.max_range / settings.unit > 65535) {
     throw base::Error(base::ExitCode::out_of_range,
-                      "[" + section + "] max_range_m = " + base::option_text::format(disparity.max_range) +
+                      place + "max_range_m = " + base::option_text::format(disparity.max_range) +
                           ": does not fit into 16 bits of range_unit_m = " + base::option_text::format(settings.unit) +
                           "; make the unit larger");
   }

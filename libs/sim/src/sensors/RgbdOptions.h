@@ -47,7 +47,7 @@ struct RgbdSettings {
   DisparitySettings disparity;
   PhotographSettings photograph;
 };
-/// Throws base::Error(out_of_range) where options are against each other; `section` is for its message.
-RgbdSettings settle(const RgbdOptions& options, const std::string& section);
+/// Throws base::Error(out_of_range) where options are against each other; `place` begins its message.
+RgbdSettings settle(const RgbdOptions& options, const std::string& place);
 
 }  // namespace omnimapper::sim

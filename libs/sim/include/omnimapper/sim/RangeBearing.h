@@ -29,10 +29,12 @@ struct RangeBearingOptions {
 /// of what each measurement is of, "" for a false alarm, and "ids".
 class RangeBearing : public Sensor {
  public:
+  /// Throws base::Error(out_of_range) where ids are known and two landmarks share one.
   RangeBearing(const RangeBearingOptions& options, const SensorOptions& mount, const SensorContext& context);
   Measurement measure(int k) const override;
 
  private:
+  void refuseDoubleIds() const;
   struct Landmark {
     std::string name;
     int id;

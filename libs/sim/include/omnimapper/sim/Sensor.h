@@ -29,6 +29,7 @@ struct SensorOptions {
 
 /// What a sensor may know of the run.
 struct SensorContext {
+  std::string file;              ///< of the INI, for messages
   std::string section;           ///< of the INI
   std::uint64_t seed = 0;        ///< of the run
   std::uint64_t number = 0;      ///< of the sensor in the INI's list: names its random streams
@@ -37,6 +38,8 @@ struct SensorContext {
   const World* world = nullptr;  ///< these three outlive the sensor
   const Scenes* scenes = nullptr;
   const Track* map_from_base = nullptr;  ///< the robot's true way
+  /// Where an option stands, to begin a message with.
+  std::string place() const { return file + ": [" + section + "] "; }
 };
 
 /// A file of truth beside the log.
