@@ -60,6 +60,7 @@ int run(Arguments& arguments) {
   const sim::Simulation simulation(config);
   const auto result = sim::runSimulation(simulation, arguments.run, progress, [] { return g_interrupted != 0; });
   if (!arguments.quiet) std::cout << sim::toText(result, arguments.run.folder);
+  for (const auto& warning : result.warnings) std::cerr << "omnimapper-simulate: warning: " << warning << "\n";
   return static_cast<int>(result.code);
 }
 

@@ -23,8 +23,9 @@ class RgbdFolderTest : public ::testing::Test {
   void writeDepth(const std::string& name, std::uint16_t value) {
     CImage image;
     image.resize(4, 3, mrpt::img::CH_GRAY, mrpt::img::PixelDepth::D16U);
-    for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 4; ++x) image.at<std::uint16_t>(x, y) = static_cast<std::uint16_t>(value + x + 10 * y);
+    for (unsigned y = 0; y < 3; ++y)
+      for (unsigned x = 0; x < 4; ++x)
+        image.ptrLine<std::uint16_t>(y)[x] = static_cast<std::uint16_t>(value + x + 10 * y);
     save(image, name);
   }
   void writeColour(const std::string& name, std::uint8_t red) {
@@ -161,6 +162,20 @@ TEST(RgbdFolderRecording, freiburg1RpyIsWholeWithTruth) {
   ASSERT_TRUE(scan);
   EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 517.3);
   EXPECT_EQ(scan->rangeImage.cols(), 640);
+  int valid = 0, smooth = 0;
+  for (int row = 0; row < 480; ++row) {
+    for (int column = 1; column < 640; ++column) {
+      const double here = scan->rangeImage(row, column) * scan->rangeUnits,
+                   left = scan->rangeImage(row, column - 1) * scan->rangeUnits;
+      if (here == 0 || left == 0) continue;
+      EXPECT_GT(here, 0.3);
+      EXPECT_LT(here, 12);
+      ++valid;
+      smooth += std::abs(here - left) < 0.05;
+    }
+  }
+  EXPECT_GT(valid, 640 * 480 / 2);
+  EXPECT_GT(smooth, 0.97 * valid) << "neighbours are of one surface";
 }
 
 TEST(RgbdFolderRecording, keyFramesTakeTheStampsOfTheirPoses) {

@@ -78,6 +78,10 @@ Simulation::Simulation(const base::Config& config)
   }
   refuseDoubleLabels(config, sensors_, options_.sensors);
   config.refuseUnreadSections();
+  if (const auto off = config.switchedOffPlugins(); !off.empty()) {
+    warnings_.push_back(config.file() + ": no list of [simulation] or [world] names the sections " +
+                        base::option_text::format(off) + ": they are switched off");
+  }
 }
 
 }  // namespace omnimapper::sim

@@ -152,6 +152,7 @@ SimulationResult runSimulation(const Simulation& simulation, const SimulationReq
   base::makeWritableFolder(request.folder);
   SimulationResult result;
   result.duration = simulation.duration();
+  result.warnings = simulation.warnings();
   TruthFolder truth(request.folder);
   std::set<base::Stamp> stamps;
   writeLog(simulation, request, progress, stop, truth, stamps, result);

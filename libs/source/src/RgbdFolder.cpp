@@ -122,8 +122,8 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
     scan->maxRange = static_cast<float>(65535 / options_.depth_units);
     scan->rangeImage_setSize(height, width);
     for (int row = 0; row < height; ++row) {
-      for (int column = 0; column < width; ++column)
-        scan->rangeImage(row, column) = depth.at<std::uint16_t>(column, row);
+      const auto* values = depth.ptrLine<std::uint16_t>(static_cast<unsigned>(row));  // at() counts columns in bytes
+      for (int column = 0; column < width; ++column) scan->rangeImage(row, column) = values[column];
     }
     scan->cameraParams = camera_;
     scan->cameraParams.ncols = width;

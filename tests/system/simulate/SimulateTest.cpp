@@ -84,8 +84,9 @@ TEST_F(Simulate, TruthNamesWhatBeamsAndPixelsSaw) {
     EXPECT_EQ(entry["measurement"], count);
     for (const auto& [label, run_length] : entry["truth"]["surfaces"].get<std::vector<std::pair<int, int>>>()) {
       beams += run_length;
-      if (label > 0) ASSERT_TRUE(kinds.count(label)) << label;
-      if (label > 0 && kinds[label] == "wall") wall_beams += run_length;
+      if (label == 0) continue;
+      ASSERT_TRUE(kinds.count(label)) << label;
+      if (kinds[label] == "wall") wall_beams += run_length;
     }
   }
   EXPECT_EQ(count, 31);
@@ -95,7 +96,7 @@ TEST_F(Simulate, TruthNamesWhatBeamsAndPixelsSaw) {
   for (const char* name :
        {"small.rawlog", "truth.tum", "landmarks.json", "plan.svg", "truth/laser.jsonl", "small.ini"}) {
     EXPECT_NE(readme.find(std::string("`") + name + "`"), std::string::npos) << name;
-    EXPECT_TRUE(fs::exists(scratch_ / "out" / name)) << name;
+    EXPECT_TRUE(fs::exists(scratch_ / "out/" + name)) << name;
   }
 }
 
@@ -139,7 +140,8 @@ TEST_F(Simulate, ExternalImagesAreTheSameDepths) {
 
 TEST_F(Simulate, AnotherSensorChangesNothingForTheOthers) {
   ASSERT_TRUE(endedWith(ExitCode::ok, run("three")));
-  ASSERT_TRUE(endedWith(ExitCode::ok, run("two", {"--set", "simulation.sensors=odometry, laser"})));
+  ASSERT_TRUE(endedWith(ExitCode::ok, run("two", {"--set", "simulation.sensors=odometry, laser"}),
+                        {"warning", "camera", "switched off"}));
   const auto rangesOf = [&](const std::string& folder) {
     std::vector<float> ranges;
     readLog(scratch_ / folder + "/small.rawlog", [&](const mrpt::obs::CObservation& observation) {

@@ -89,7 +89,8 @@ void RgbdCamera::fillDepth(const std::vector<float>& depths, mrpt::obs::CObserva
   for (int row = 0; row < camera.height; ++row) {
     for (int column = 0; column < camera.width; ++column) {
       const float depth = depths[static_cast<std::size_t>(row) * camera.width + column];
-      scan.rangeImage(row, column) = static_cast<std::uint16_t>(depth / settings_.unit + 0.5);
+      const double units = depth / settings_.unit + 0.5;
+      scan.rangeImage(row, column) = units < 65536 ? static_cast<std::uint16_t>(units) : 0;  // too far to be told
     }
   }
 }

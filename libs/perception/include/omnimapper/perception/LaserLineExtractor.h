@@ -12,8 +12,8 @@ struct LaserLineOptions {
   double min_range = 0.1;     ///< [m]
   double max_range = 40.0;    ///< [m]; the sensor's own limit applies too
   double range_sigma = 0.01;  ///< [m] deviation of a range
-  double beam_width =
-      0.0044;                ///< [rad] full angle of the beam: what it may have met to the left and right of its middle
+  /// Full angle of a beam: what it may have met to the left and right of its middle [rad].
+  double beam_width = 0.25 * base::option_text::kRadiansPerDegree;
   double roughness = 0.005;  ///< [m] deviation of a wall from flat
   double gate = 4;           ///< deviations; a point farther from a line than that is not on it
   double max_gap = 0.5;      ///< [m] of a line where beams met something else; it is two lines if there is more

@@ -44,6 +44,8 @@ class Simulation {
   double duration() const { return duration_; }
   base::Stamp start() const { return base::stampFromUnix(options_.start); }
   const std::string& iniText() const { return ini_text_; }
+  /// What a user should know of the INI.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   SimulationOptions options_;
@@ -52,6 +54,7 @@ class Simulation {
   Track map_from_base_;
   double duration_;
   std::string ini_text_;
+  std::vector<std::string> warnings_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
 };
 

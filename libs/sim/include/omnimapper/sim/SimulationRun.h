@@ -29,6 +29,7 @@ struct SimulationResult {
   double duration = 0;             ///< simulated [s]
   double way = 0;                  ///< of the robot [m]
   std::vector<std::string> files;  ///< in the folder
+  std::vector<std::string> warnings;
 };
 std::string toText(const SimulationResult& result, const std::string& folder);
 
