@@ -23,6 +23,8 @@ namespace omnimapper::sim {
 
 namespace {
 
+// Measurements that are made ahead by each thread: of a camera's there are few among those of quicker sensors.
+constexpr std::size_t kAhead = 32;
 constexpr double kPlanStep = 0.25;  // [s] between points of the way on the plan
 
 /// A measurement that arrives in the log.
@@ -56,7 +58,10 @@ class Measurements {
  public:
   using Make = std::function<Measurement(const Arrival&)>;
   Measurements(const std::vector<Arrival>& arrivals, int threads, Make make)
-      : arrivals_(arrivals), ahead_(4 * static_cast<std::size_t>(threads)), make_(std::move(make)), pool_(threads) {}
+      : arrivals_(arrivals),
+        ahead_(kAhead * static_cast<std::size_t>(threads)),
+        make_(std::move(make)),
+        pool_(threads) {}
 
   Measurement next() {
     while (begun_ < arrivals_.size() && waiting_.size() < ahead_) {
