@@ -2,9 +2,11 @@
 #include <omnimapper/source/RgbdFolder.h>
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <fstream>
 #include <map>
-#include <regex>
+#include <optional>
 #include <sstream>
 
 #include "RgbdFolderForms.h"
@@ -33,29 +35,37 @@ const std::map<std::string, Intrinsics>& knownIntrinsics() {
   throw base::Error(base::ExitCode::unreadable_input, path + ": " + reason);
 }
 
+// The number behind "fx:", "fx =" or "\"fx\":" in a text.
+std::optional<double> numberNamed(const std::string& name, const std::string& text) {
+  const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    if (at > 0 && isWord(text[at - 1])) continue;
+    const std::size_t sign = text.find_first_not_of("\"' \t", at + name.size());
+    if (sign == std::string::npos || (text[sign] != ':' && text[sign] != '=')) continue;
+    const std::size_t begin = text.find_first_not_of(" \t", sign + 1);
+    if (begin == std::string::npos) continue;
+    double value = 0;
+    const auto result = std::from_chars(text.data() + begin, text.data() + text.size(), value);
+    if (result.ec == std::errc()) return value;
+  }
+  return std::nullopt;
+}
+
 Intrinsics readIntrinsics(const std::string& path) {
   std::ifstream in(path);
-  if (!in)
+  if (!in) {
     refuse(path,
-           "is neither the name of a known camera (freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, "
-           "openni) nor a file that can be read");
+           "is neither the name of a known camera (freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni) nor a "
+           "file that can be read");
+  }
   std::stringstream text;
   text << in.rdbuf();
+  const auto fx = numberNamed("fx", text.str()), fy = numberNamed("fy", text.str()), cx = numberNamed("cx", text.str()),
+             cy = numberNamed("cy", text.str());
+  if (fx && fy && cx && cy) return {*fx, *fy, *cx, *cy};
   double values[4];
-  bool has_all = true;
-  const char* const names[] = {"fx", "fy", "cx", "cy"};
-  for (int i = 0; i < 4; ++i) {
-    std::smatch found;
-    const std::string content = text.str();
-    if (std::regex_search(content, found, std::regex(std::string("\\b") + names[i] + R"(["']?\s*[:=]\s*([-+.\deE]+))")))
-      values[i] = std::stod(found[1]);
-    else
-      has_all = false;
-  }
-  if (!has_all) {
-    for (double& value : values) {
-      if (!(text >> value)) refuse(path, "holds neither fx, fy, cx, cy by name nor four numbers");
-    }
+  for (double& value : values) {
+    if (!(text >> value)) refuse(path, "holds neither fx, fy, cx, cy by name nor four numbers");
   }
   return {values[0], values[1], values[2], values[3]};
 }
