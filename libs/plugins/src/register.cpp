@@ -12,6 +12,7 @@
 #include <omnimapper/plugins/MapOutput.h>
 #include <omnimapper/plugins/NoMotionPlugin.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
+#include <omnimapper/plugins/PlanesPlugin.h>
 #include <omnimapper/plugins/PointsOutput.h>
 #include <omnimapper/plugins/ReportOutput.h>
 #include <omnimapper/plugins/RobotPosePlugin.h>
@@ -32,6 +33,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(ScanOdometryPluginFactory));
   registerClass(CLASS_ID(LaserLinesPluginFactory));
   registerClass(CLASS_ID(LaserPointsPluginFactory));
+  registerClass(CLASS_ID(PlanesPluginFactory));
   registerClass(CLASS_ID(LoopClosurePluginFactory));
   registerClass(CLASS_ID(RobotPosePluginFactory));
   registerClass(CLASS_ID(GpsPluginFactory));

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/perception/PlaneSegmenter.h>
+
+namespace omnimapper::perception {
+
+struct OutlineOptions {
+  /// [px]; corners of an outline that lie closer to the line through the others are left out. 0 keeps every corner of
+  /// every pixel, some ten times as many.
+  double tolerance = 1;
+
+  static const base::OptionTable<OutlineOptions>& table();
+};
+
+/// What the label of a scan's planes has behind the scan's own.
+inline constexpr char kPlanesSuffix[] = ".planes";
+
+/// The planes that a range camera's depth image shows (thesis 3.4), as PlaneSegmenter finds them.
+class PlaneExtractor {
+ public:
+  /// Throws Error(out_of_range) for min_depth >= max_depth.
+  PlaneExtractor(const PlaneOptions& planes, const OutlineOptions& outlines)
+      : segmenter_(planes), outlines_(outlines) {}
+
+  /// Planes with the scan's stamp and sensorPose, in the frame of that pose (x forward, y left, z up), label
+  /// "<scan label>.planes". Colours are those of the scan's image, seen through the two cameras' calibrations where its
+  /// view is another. Depth of 0 or 65535 units is none; distortion of the lens is not taken out. A scan without depths
+  /// has no planes. Throws Error(unreadable_input) for a camera whose focal length is unknown and Error(missing_images)
+  /// for images that are in files and were not loaded; sources load them. Thread-safe; the same scan gives the same
+  /// bits.
+  std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
+
+ private:
+  PlaneSegmenter segmenter_;
+  OutlineOptions outlines_;
+};
+
+}  // namespace omnimapper::perception

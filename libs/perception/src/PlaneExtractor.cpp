@@ -1,0 +1,20 @@
+#include <omnimapper/perception/PlaneExtractor.h>
+
+#include "RangeScan.h"
+#include "planes/PlaneObservation.h"
+
+namespace omnimapper::perception {
+
+const base::OptionTable<OutlineOptions>& OutlineOptions::table() {
+  static const auto table = base::OptionTable<OutlineOptions>().number(
+      "outline_tolerance_px", &OutlineOptions::tolerance, base::Range::notNegative(),
+      "Corners of an outline nearer than that to the line through the others are left out; 0 keeps all.");
+  return table;
+}
+
+std::shared_ptr<obs::CObservationPlanes> PlaneExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
+  const ScanDepth depth(scan);
+  return planes::observe(segmenter_.segment(depth.image()), scan, depth, ScanColours(scan), outlines_.tolerance);
+}
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,116 @@
+#include "RangeScan.h"
+
+#include <omnimapper/base/Error.h>
+
+#include <cmath>
+
+namespace omnimapper::perception {
+
+namespace {
+
+using mrpt::obs::CObservation3DRangeScan;
+
+constexpr std::uint16_t kSaturated = 65535;
+
+Pinhole pinholeOf(const mrpt::img::TCamera& camera) {
+  return {camera.fx(), camera.fy(), camera.cx(), camera.cy()};
+}
+
+// Depths along the optical axis of ranges along the rays.
+std::vector<float> depthsOf(const CObservation3DRangeScan& scan) {
+  const Pinhole camera = pinholeOf(scan.cameraParams);
+  const auto rows = static_cast<int>(scan.rangeImage.rows()), columns = static_cast<int>(scan.rangeImage.cols());
+  std::vector<float> metres;
+  metres.reserve(static_cast<std::size_t>(scan.rangeImage.size()));
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const std::uint16_t range = scan.rangeImage(row, column);
+      const double right = (column - camera.cx) / camera.fx, down = (row - camera.cy) / camera.fy;
+      const double depth = range * static_cast<double>(scan.rangeUnits) / std::sqrt(1 + right * right + down * down);
+      metres.push_back(range == kSaturated ? 0.F : static_cast<float>(depth));
+    }
+  }
+  return metres;
+}
+
+[[noreturn]] void refuseMissing(const std::string& label, const std::string& what, const std::string& file) {
+  throw base::Error(base::ExitCode::missing_images,
+                    label + ": the " + what + " image is in " + file + ", which was not loaded; is it there?");
+}
+
+}  // namespace
+
+ScanDepth::ScanDepth(const CObservation3DRangeScan& scan) {
+  const auto& ranges = scan.rangeImage;
+  if (ranges.size() == 0 && scan.hasRangeImage && scan.rangeImage_isExternallyStored())
+    refuseMissing(scan.sensorLabel, "depth", scan.rangeImage_getExternalStorageFile(""));
+  const auto width = static_cast<int>(ranges.cols()), height = static_cast<int>(ranges.rows());
+  // An image without pixels needs no calibration.
+  const Pinhole camera = ranges.size() > 0 ? pinholeOf(scan.cameraParams) : Pinhole();
+  try {
+    const std::uint16_t* units = ranges.size() > 0 ? ranges.data() : nullptr;
+    image_.emplace(units, static_cast<double>(scan.rangeUnits), width, height, camera);
+    if (scan.range_is_depth) return;
+    metres_ = depthsOf(scan);
+    image_.emplace(metres_.data(), width, height, camera);
+  } catch (const base::Error& error) {
+    throw base::Error(error.code(), scan.sensorLabel + ": " + error.what());
+  }
+}
+
+double ScanDepth::at(std::size_t pixel) const {
+  if (image_->units() == nullptr) return image_->metres()[pixel];
+  const std::uint16_t units = image_->units()[pixel];
+  return units == kSaturated ? 0 : units * image_->metresPerUnit();
+}
+
+ScanColours::ScanColours(const CObservation3DRangeScan& scan)
+    : depth_camera_(pinholeOf(scan.cameraParams)), colour_camera_(pinholeOf(scan.cameraParamsIntensity)) {
+  if (!scan.hasIntensityImage) return;
+  try {
+    readImage(scan.intensityImage);
+  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
+    refuseMissing(scan.sensorLabel, "colour", scan.intensityImage.getExternalStorageFile());
+  }
+  if (!exist()) return;
+  const mrpt::poses::CPose3D& depth_from_colour = scan.relativePoseIntensityWRTDepth;  // to MRPT's axes, from optical
+  Eigen::Matrix3d sensor_from_optical;
+  sensor_from_optical << toSensor(Eigen::Vector3d::UnitX()), toSensor(Eigen::Vector3d::UnitY()),
+      toSensor(Eigen::Vector3d::UnitZ());
+  const Eigen::Matrix3d colour_from_sensor = depth_from_colour.getRotationMatrix().asEigen().transpose();
+  const Eigen::Vector3d colour_in_sensor(depth_from_colour.x(), depth_from_colour.y(), depth_from_colour.z());
+  colour_from_depth_ = colour_from_sensor * sensor_from_optical;
+  depth_in_colour_ = -(colour_from_sensor * colour_in_sensor);
+  same_view_ = scan.doDepthAndIntensityCamerasCoincide() && width_ == static_cast<int>(scan.rangeImage.cols()) &&
+               static_cast<int>(rows_.size()) == static_cast<int>(scan.rangeImage.rows());
+}
+
+void ScanColours::readImage(const mrpt::img::CImage& image) {
+  if (image.isEmpty() || image.getPixelDepth() != mrpt::img::PixelDepth::D8U) return;
+  width_ = static_cast<int>(image.getWidth());
+  channels_ = static_cast<int>(image.channelCount());
+  red_first_ = image.getChannelsOrder() == std::string("RGB");
+  rows_.resize(image.getHeight());
+  for (std::size_t y = 0; y < rows_.size(); ++y) rows_[y] = image.ptrLine<std::uint8_t>(static_cast<unsigned>(y));
+}
+
+obs::Rgb ScanColours::pixel(int x, int y) const {
+  const std::uint8_t* p = rows_[static_cast<std::size_t>(y)] + static_cast<std::ptrdiff_t>(channels_) * x;
+  if (channels_ < 3) return {p[0], p[0], p[0]};
+  return red_first_ ? obs::Rgb{p[0], p[1], p[2]} : obs::Rgb{p[2], p[1], p[0]};
+}
+
+std::optional<obs::Rgb> ScanColours::at(int x, int y, double depth) const {
+  if (!exist()) return std::nullopt;
+  if (same_view_) return pixel(x, y);
+  const Eigen::Vector3d in_depth((x - depth_camera_.cx) / depth_camera_.fx * depth,
+                                 (y - depth_camera_.cy) / depth_camera_.fy * depth, depth);
+  const Eigen::Vector3d p = colour_from_depth_ * in_depth + depth_in_colour_;
+  if (!(p.z() > 0)) return std::nullopt;
+  const double u = colour_camera_.fx * p.x() / p.z() + colour_camera_.cx + 0.5;
+  const double v = colour_camera_.fy * p.y() / p.z() + colour_camera_.cy + 0.5;
+  if (!(u >= 0 && u < width_ && v >= 0 && v < static_cast<double>(rows_.size()))) return std::nullopt;
+  return pixel(static_cast<int>(u), static_cast<int>(v));
+}
+
+}  // namespace omnimapper::perception

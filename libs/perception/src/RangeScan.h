@@ -1,0 +1,62 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/obs/Rgb.h>
+#include <omnimapper/perception/DepthImage.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace omnimapper::perception {
+
+/// From a camera's optical frame (x right, y down, z forward) to MRPT's frame of a range camera (x forward, y left,
+/// z up), which observations are in. No digit is lost.
+inline Eigen::Vector3d toSensor(const Eigen::Vector3d& in_optical) {
+  return {in_optical.z(), -in_optical.x(), -in_optical.y()};
+}
+
+/// The depth image of an observation. The observation must outlive it.
+class ScanDepth {
+ public:
+  /// Throws Error(missing_images) where the depths are in a file that was not loaded, and Error(unreadable_input) for a
+  /// camera without calibration; the message names the sensor.
+  explicit ScanDepth(const mrpt::obs::CObservation3DRangeScan& scan);
+  ScanDepth(const ScanDepth&) = delete;
+  ScanDepth& operator=(const ScanDepth&) = delete;
+
+  const DepthImage& image() const { return *image_; }
+  /// [m]; 0 where nothing was measured.
+  double at(std::size_t pixel) const;
+
+ private:
+  std::vector<float> metres_;  // where the ranges are no depths
+  std::optional<DepthImage> image_;
+};
+
+/// What colour the points of a depth image have. The observation must outlive it.
+class ScanColours {
+ public:
+  /// Throws Error(missing_images) where the image is in a file that cannot be read.
+  explicit ScanColours(const mrpt::obs::CObservation3DRangeScan& scan);
+
+  /// Whether there is an image with colours, or greys, of 8 bits.
+  bool exist() const { return channels_ > 0; }
+  /// Of what the pixel in column x and row y of the depth image sees at that depth [m]; none outside the picture.
+  std::optional<obs::Rgb> at(int x, int y, double depth) const;
+
+ private:
+  void readImage(const mrpt::img::CImage& image);
+  obs::Rgb pixel(int x, int y) const;
+
+  std::vector<const std::uint8_t*> rows_;
+  int width_ = 0, channels_ = 0;
+  bool red_first_ = false;
+  bool same_view_ = false;  // pixel by pixel
+  Pinhole depth_camera_, colour_camera_;
+  Eigen::Matrix3d colour_from_depth_ = Eigen::Matrix3d::Identity();  // optical frames
+  Eigen::Vector3d depth_in_colour_ = Eigen::Vector3d::Zero();        // [m]
+};
+
+}  // namespace omnimapper::perception

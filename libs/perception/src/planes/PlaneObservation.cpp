@@ -1,0 +1,85 @@
+#include "PlaneObservation.h"
+
+#include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/perception/PlaneExtractor.h>
+
+#include "Simplify.h"
+
+namespace omnimapper::perception::planes {
+
+namespace {
+
+class ColourSum {
+ public:
+  void add(const obs::Rgb& colour) {
+    red_ += colour.red;
+    green_ += colour.green;
+    blue_ += colour.blue;
+    ++count_;
+  }
+  std::optional<obs::Rgb> mean() const {
+    if (count_ == 0) return std::nullopt;
+    const auto rounded = [&](std::uint64_t sum) { return static_cast<std::uint8_t>((sum + count_ / 2) / count_); };
+    return obs::Rgb{rounded(red_), rounded(green_), rounded(blue_)};
+  }
+
+ private:
+  std::uint64_t red_ = 0, green_ = 0, blue_ = 0, count_ = 0;
+};
+
+std::vector<ColourSum> coloursOf(const PlaneSegmentation& found, const ScanDepth& depth, const ScanColours& colours) {
+  std::vector<ColourSum> sums(found.planes.size());
+  if (!colours.exist() || sums.empty()) return sums;
+  std::size_t i = 0;
+  for (int y = 0; y < found.height; ++y) {
+    for (int x = 0; x < found.width; ++x, ++i) {
+      const std::uint16_t label = found.labels[i];
+      if (label == 0) continue;
+      if (const auto colour = colours.at(x, y, depth.at(i))) sums[label - 1U].add(*colour);
+    }
+  }
+  return sums;
+}
+
+geometry::Polygon3 polygonOf(const Contour& contour, double tolerance) {
+  geometry::Polygon3 polygon;
+  for (const int i : simplified(contour.corners, tolerance))
+    polygon.vertices.push_back(toSensor(contour.polygon_in_sensor.vertices[static_cast<std::size_t>(i)]));
+  return polygon;
+}
+
+geometry::Se3 sensorFromOptical() {
+  Eigen::Matrix3d axes;
+  axes << toSensor(Eigen::Vector3d::UnitX()), toSensor(Eigen::Vector3d::UnitY()), toSensor(Eigen::Vector3d::UnitZ());
+  return {Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()};
+}
+
+}  // namespace
+
+std::shared_ptr<obs::CObservationPlanes> observe(const PlaneSegmentation& found,
+                                                 const mrpt::obs::CObservation3DRangeScan& scan, const ScanDepth& depth,
+                                                 const ScanColours& colours, double outline_tolerance) {
+  auto derived = obs::CObservationPlanes::Create();
+  derived->timestamp = scan.timestamp;
+  derived->sensorPose = scan.sensorPose;
+  derived->sensorLabel = scan.sensorLabel + kPlanesSuffix;
+  derived->source_label = scan.sensorLabel;
+  const geometry::Se3 sensor_from_optical = sensorFromOptical();
+  const auto sums = coloursOf(found, depth, colours);
+  for (std::size_t i = 0; i < found.planes.size(); ++i) {
+    const PlaneRegion& region = found.planes[i];
+    obs::ObservedPlane plane;
+    plane.plane_in_sensor = {toSensor(region.plane_in_sensor.normal), region.plane_in_sensor.distance};
+    plane.covariance = geometry::transportCovariance(sensor_from_optical, region.plane_in_sensor, region.covariance);
+    plane.centroid = toSensor(region.centroid);
+    plane.outline = polygonOf(region.outline, outline_tolerance);
+    for (const Contour& hole : region.holes) plane.holes.push_back(polygonOf(hole, outline_tolerance));
+    plane.inliers = static_cast<std::uint32_t>(region.inliers);
+    plane.rms = region.rms;
+    plane.colour = sums[i].mean();
+    derived->planes.push_back(std::move(plane));
+  }
+  return derived;
+}
+
+}  // namespace omnimapper::perception::planes

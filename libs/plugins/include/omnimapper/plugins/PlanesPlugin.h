@@ -1,0 +1,31 @@
+#pragma once
+
+#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/perception/PlaneExtractor.h>
+
+namespace omnimapper::plugins {
+
+/// perception::PlaneExtractor for the worker pool.
+class PlanesPlugin : public mapper::Extractor {
+ public:
+  PlanesPlugin(const perception::PlaneOptions& planes, const perception::OutlineOptions& outlines)
+      : extractor_(planes, outlines) {}
+
+  bool wants(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+
+ private:
+  perception::PlaneExtractor extractor_;
+};
+
+class PlanesPluginFactory : public mapper::ExtractorFactory {
+  DEFINE_MRPT_OBJECT(PlanesPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "PlaneExtractor"; }
+  std::string summary() const override { return "Planes of depth images with outlines and covariance."; }
+  const std::vector<base::OptionSpec>& options() const override;
+  std::unique_ptr<mapper::Extractor> make(const base::ConfigSection& section,
+                                          const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,31 @@
+#include <omnimapper/plugins/PlanesPlugin.h>
+
+#include "../SharedSection.h"
+
+IMPLEMENTS_MRPT_OBJECT(PlanesPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+using mrpt::obs::CObservation3DRangeScan;
+using Section = SharedSection<perception::PlaneOptions, perception::OutlineOptions>;
+
+bool PlanesPlugin::wants(const mrpt::obs::CObservation& raw) const {
+  const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
+  return scan != nullptr && scan->hasRangeImage;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> PlanesPlugin::extract(const mrpt::obs::CObservation& raw) const {
+  return {extractor_.extract(dynamic_cast<const CObservation3DRangeScan&>(raw))};
+}
+
+const std::vector<base::OptionSpec>& PlanesPluginFactory::options() const {
+  return Section::options();
+}
+
+std::unique_ptr<mapper::Extractor> PlanesPluginFactory::make(const base::ConfigSection& section,
+                                                             const mapper::PluginContext&) const {
+  return std::make_unique<PlanesPlugin>(Section::read<perception::PlaneOptions>(section),
+                                        Section::read<perception::OutlineOptions>(section));
+}
+
+}  // namespace omnimapper::plugins
