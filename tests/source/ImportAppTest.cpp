@@ -1,3 +1,4 @@
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/testing/Fixtures.h>
@@ -7,6 +8,7 @@
 #include <cstdlib>
 
 #include "Logs.h"
+#include "RgbdImages.h"
 
 namespace omnimapper::source {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 using base::ExitCode;
 
 // Runs omnimapper-import; output_ is what it says.
-class ImportAppTest : public ::testing::Test {
+class ImportApp : public ::testing::Test {
  protected:
   ExitCode run(const std::string& arguments) { return runCommand("'" OMNIMAPPER_IMPORT "' " + arguments); }
   ExitCode runCommand(const std::string& command) {
@@ -26,8 +28,12 @@ class ImportAppTest : public ::testing::Test {
   }
   bool says(const std::string& text) const { return output_.find(text) != std::string::npos; }
 
-  testing::ScratchFolder folder_;
   std::string output_;
+};
+
+class ImportAppTest : public ImportApp {
+ protected:
+  testing::ScratchFolder folder_;
   std::string in_ = folder_ / "x.clf", out_ = folder_ / "x.rawlog";
   const std::string log_ =
       "ODOM 1 0 0 0 0 0 10.4 h 0\nFLASER 3 1 2 3 1 0 0 1 0 0 10.5 h 0\nODOM 2 0 0 0 0 0 10.6 h 0\n";
@@ -68,6 +74,72 @@ TEST_F(ImportAppTest, exitCodesTellWhatWentWrong) {
   EXPECT_TRUE(says(in_ + ": No such file")) << output_;
   logs::writePlain(in_, log_);
   EXPECT_EQ(run("carmen " + in_ + " " + folder_.path() + "/no/x.rawlog"), ExitCode::disk_full);
+}
+
+/// A folder of two pairs and a depth image without a colour image of its time.
+class ImportTumTest : public ImportApp, protected RgbdImages {
+ protected:
+  ImportTumTest() {
+    writeTum();
+    writeText("groundtruth.txt", "# truth\n10.0 1 2 3 0 0 0 1\n10.1 1 2 4 0 0 0 1\n");
+  }
+  ExitCode import(const std::string& more) { return run("tum '" + folder_.path() + "' '" + out_ + "' " + more); }
+  std::vector<mrpt::obs::CObservation::Ptr> imported() {
+    RawlogSource source(out_);
+    auto all = logs::readAll(source);
+    EXPECT_EQ(source.report().exitCode(), ExitCode::ok);
+    return all;
+  }
+
+  testing::ScratchFolder result_;
+  std::string out_ = result_ / "x.rawlog";
+};
+
+TEST_F(ImportTumTest, writesARawlogAndTheTruthBesideIt) {
+  ASSERT_EQ(import("--intrinsics freiburg1 --label kinect"), ExitCode::ok) << output_;
+  EXPECT_TRUE(says("without a colour image of their time: 1") && says("x.truth.tum, 2 poses")) << output_;
+  const auto all = imported();
+  ASSERT_EQ(all.size(), 2U);
+  const auto& scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan&>(*all[1]);
+  EXPECT_EQ(scan.sensorLabel, "kinect");
+  EXPECT_EQ(base::formatUnix(scan.timestamp, 2), "10.20");
+  EXPECT_EQ(scan.rangeImage(2, 3), 5023);
+  EXPECT_EQ(scan.intensityImage.getWidth(), 4U);
+  std::ifstream truth(result_ / "x.truth.tum");
+  double stamp = 0, x = 0, y = 0, z = 0;
+  ASSERT_TRUE(truth >> stamp >> x >> y >> z);
+  EXPECT_EQ(stamp, 10);
+  EXPECT_EQ(z, 3);
+}
+
+TEST_F(ImportTumTest, imagesMayStayOutsideTheRawlog) {
+  ASSERT_EQ(import("--intrinsics freiburg1 --images external --tolerance 0.05"), ExitCode::ok) << output_;
+  const auto all = imported();
+  ASSERT_EQ(all.size(), 3U);
+  const auto& scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan&>(*all[0]);
+  EXPECT_TRUE(scan.rangeImage_isExternallyStored() && scan.intensityImage.isExternallyStored());
+  EXPECT_EQ(scan.rangeImage(2, 3), 5023);
+  const std::filesystem::path images(result_ / "x_Images");
+  for (const auto& file : std::filesystem::directory_iterator(images)) {
+    if (file.path().string().find("_range") == std::string::npos) continue;
+    std::filesystem::remove(file.path());
+    break;
+  }
+  RawlogSource source(out_);
+  EXPECT_EQ(logs::readAll(source).size(), 2U);
+  EXPECT_EQ(source.report().exitCode(), ExitCode::missing_images);
+}
+
+TEST_F(ImportTumTest, whatIsWrongIsSaid) {
+  EXPECT_EQ(import(""), ExitCode::unreadable_input);
+  EXPECT_TRUE(says("name it (--intrinsics")) << output_;
+  EXPECT_EQ(import("--tolerance -1"), ExitCode::command_line);
+  EXPECT_EQ(import("--images elsewhere"), ExitCode::command_line);
+  EXPECT_EQ(run("tum '" + folder_.path() + "/rgb' '" + out_ + "'"), ExitCode::unreadable_input);
+  EXPECT_TRUE(says("is of no form that is known")) << output_;
+  std::filesystem::remove(folder_ / "depth/a.png");
+  EXPECT_EQ(import("--intrinsics freiburg1"), ExitCode::missing_images);
+  EXPECT_EQ(imported().size(), 1U) << "what was there";
 }
 
 }  // namespace
