@@ -1,0 +1,61 @@
+#pragma once
+
+#include <omnimapper/source/RawlogSource.h>
+
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "../Runs.h"
+
+/// Runs of omnimapper-perceive with ini/perceive.ini.
+namespace perceived {
+
+using namespace runs;
+using omnimapper::testing::runProgram;
+using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
+
+inline Ended perceive(const std::string& log, const std::string& output, const Words& more = {}) {
+  Words words{omnimapper::testing::ownProgram("omnimapper-perceive"),
+              "-i",
+              omnimapper::testing::sourceFile("ini/perceive.ini"),
+              "-r",
+              log,
+              "-o",
+              output};
+  words.insert(words.end(), more.begin(), more.end());
+  return runProgram(words);
+}
+
+inline Observations readLog(const std::string& path) {
+  omnimapper::source::RawlogSource source(path);
+  Observations all;
+  while (const auto observation = source.next()) all.push_back(observation);
+  EXPECT_EQ(source.report().exitCode(), ExitCode::ok);
+  return all;
+}
+
+template <class Class>
+std::vector<std::shared_ptr<const Class>> ofClass(const Observations& observations) {
+  std::vector<std::shared_ptr<const Class>> found;
+  for (const auto& observation : observations) {
+    if (auto cast = std::dynamic_pointer_cast<const Class>(observation)) found.push_back(std::move(cast));
+  }
+  return found;
+}
+
+inline bool isInstalled(const std::string& program) {
+  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// What was perceived of 30 s in a simulated home: 16 depth images, 301 scans.
+class PerceivedHome : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(endedWith(ExitCode::ok, perceive(kHome, derived_))); }
+
+  const std::string kHome = omnimapper::testing::sourceFile("rawlogs/home_30s/home_30s.rawlog");
+  omnimapper::testing::ScratchFolder scratch_;
+  const std::string derived_ = scratch_ / "home.rawlog";
+};
+
+}  // namespace perceived

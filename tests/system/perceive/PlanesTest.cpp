@@ -1,0 +1,131 @@
+// ini/perceive.ini: planes and laser lines of a log, which MRPT's own tools read.
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/obs/CObservationPlanes.h>
+
+#include <sstream>
+
+#include "PerceivedLog.h"
+
+namespace {
+
+using namespace perceived;
+using omnimapper::obs::CObservationLaserLines;
+using omnimapper::obs::CObservationPlanes;
+
+class Planes : public PerceivedHome {};
+
+std::string bytesOf(const mrpt::obs::CObservation& observation) {
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << observation;
+  return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};
+}
+
+/// The planes of a log, with where they are on the base.
+std::size_t countFloors(const Observations& all) {
+  std::size_t floors = 0;
+  for (const auto& planes : ofClass<CObservationPlanes>(all)) {
+    const auto base_from_sensor = omnimapper::geometry::fromMrpt(planes->sensorPose);
+    for (const auto& plane : planes->planes) {
+      const auto in_base = base_from_sensor * plane.plane_in_sensor;
+      floors += in_base.normal.z() > 0.999 && std::abs(in_base.distance) < 0.03;
+    }
+  }
+  return floors;
+}
+
+TEST_F(Planes, OfASimulatedHomeIncludeItsFloor) {
+  const auto all = readLog(derived_);
+  const auto planes = ofClass<CObservationPlanes>(all);
+  EXPECT_EQ(planes.size(), 16U);
+  EXPECT_EQ(ofClass<CObservationLaserLines>(all).size(), 301U);
+  EXPECT_EQ(planes.front()->sensorLabel, "kinect.planes");
+  EXPECT_EQ(planes.front()->source_label, "kinect");
+  EXPECT_GE(countFloors(all), 12U) << "the camera looks down by 10 degrees";
+}
+
+TEST_F(Planes, AreTheSameBytesOnAnyNumberOfThreadsAndBesideTheRawLog) {
+  ASSERT_TRUE(endedWith(ExitCode::ok, perceive(kHome, scratch_ / "again.rawlog", {"--threads", "3"})));
+  EXPECT_TRUE(readFile(scratch_ / "again.rawlog") == readFile(derived_));
+  ASSERT_TRUE(endedWith(ExitCode::ok, perceive(kHome, scratch_ / "both.rawlog", {"--with-raw"})));
+  const auto alone = ofClass<CObservationPlanes>(readLog(derived_)),
+             beside = ofClass<CObservationPlanes>(readLog(scratch_ / "both.rawlog"));
+  ASSERT_EQ(alone.size(), beside.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_TRUE(bytesOf(*alone[i]) == bytesOf(*beside[i])) << i;
+}
+
+TEST_F(Planes, MapAlikeFromTheRawLogAndFromWhatWasDerived) {
+  const Words more{"-i", omnimapper::testing::sourceFile("ini/perceive.ini"), "--set",
+                   "perception.extractors=laser_points, planes, laser_lines"};
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({kHome}, scratch_ / "raw", more)));
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({kHome, derived_}, scratch_ / "merged", more)));
+  for (const char* file : {"trajectory.tum", "graph.g2o", "grid.png"}) {
+    EXPECT_TRUE(readFile(scratch_ / "merged" + "/" + file) == readFile(scratch_ / "raw" + "/" + file)) << file;
+  }
+}
+
+TEST_F(Planes, AreDescribedAndExportedByRawlogEdit) {
+  if (omnimapper::testing::kIsSanitized)
+    GTEST_SKIP() << "a stock tool cannot load a library that is built with a sanitizer";
+  if (!isInstalled("rawlog-edit")) GTEST_SKIP() << "rawlog-edit (Debian package mrpt-apps) is not installed";
+  // In the folder itself: --export-txt of 2.5.8 loses the slash between folder and file.
+  const auto edit = [&](const std::string& operation) {
+    return runProgram(
+        {"sh", "-c",
+         "cd '" + scratch_.path() + "' && rawlog-edit -p '" OMNIMAPPER_OBS_LIBRARY "' -i home.rawlog " + operation});
+  };
+  const auto described = edit("--describe");
+  ASSERT_EQ(described.code, 0) << toString(described);
+  for (const char* word :
+       {"CObservationPlanes", "kinect.planes", "outline of", "CObservationLaserLines", "laser.lines"})
+    EXPECT_NE(described.out.find(word), std::string::npos) << word;
+  const auto exported = edit("--export-txt");
+  ASSERT_EQ(exported.code, 0) << toString(exported);
+  const std::string text = readFile(scratch_ / "home_kinect.planes.txt");
+  std::istringstream lines(text);
+  std::string header, row;
+  ASSERT_TRUE(std::getline(lines, header) && std::getline(lines, row));
+  EXPECT_NE(header.find("planes { nx ny nz distance_m"), std::string::npos) << header;
+  std::istringstream numbers(row);
+  double stamp = 0, count = 0, nx = 0, ny = 0, nz = 0;
+  numbers >> stamp >> count >> nx >> ny >> nz;
+  EXPECT_EQ(stamp, 1700000000);
+  EXPECT_EQ(count, static_cast<double>(ofClass<CObservationPlanes>(readLog(derived_)).front()->planes.size()));
+  EXPECT_NEAR(nx * nx + ny * ny + nz * nz, 1, 1e-9);
+}
+
+/// The first pairs of a folder of images, as a folder of its own.
+void linkFirst(const std::string& folder, int count, const std::string& to) {
+  fs::create_directories(to);
+  for (const char* images : {"depth", "rgb"})
+    fs::create_directory_symlink(fs::path(folder) / images, to + "/" + images);
+  fs::copy_file(fs::path(folder) / "rgb.txt", to + "/rgb.txt");
+  std::istringstream all(readFile(folder + "/depth.txt"));
+  std::string some;
+  for (std::string line; count > 0 && std::getline(all, line); some += line + "\n") count -= line[0] != '#';
+  writeFile(to + "/depth.txt", some);
+}
+
+// Its simulated twin are the tests above.
+TEST(PlanesRecording, OfFreiburg1Rpy) {
+  const auto folder = omnimapper::testing::sharedData("rgbd/tum_fr1_rpy");
+  OMNIMAPPER_NEEDS(folder);
+  const omnimapper::testing::ScratchFolder scratch;
+  linkFirst(*folder, 20, scratch / "some");
+  ASSERT_TRUE(
+      endedWith(ExitCode::ok, runProgram({omnimapper::testing::ownProgram("omnimapper-import"), "tum", scratch / "some",
+                                          scratch / "raw.rawlog", "--intrinsics", "freiburg1"})));
+  ASSERT_TRUE(endedWith(ExitCode::ok, perceive(scratch / "raw.rawlog", scratch / "derived.rawlog")));
+  const auto planes = ofClass<CObservationPlanes>(readLog(scratch / "derived.rawlog"));
+  ASSERT_GE(planes.size(), 15U);
+  for (const auto& frame : planes) {
+    ASSERT_FALSE(frame->planes.empty());
+    EXPECT_GT(frame->planes[0].inliers, 20000U) << "the largest of a desk, a floor and a wall";
+    EXPECT_TRUE(frame->planes[0].colour);
+  }
+}
+
+}  // namespace
