@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <sstream>
 #include <vector>
 
 #include "../Runs.h"
@@ -42,6 +43,22 @@ std::vector<std::shared_ptr<const Class>> ofClass(const Observations& observatio
     if (auto cast = std::dynamic_pointer_cast<const Class>(observation)) found.push_back(std::move(cast));
   }
   return found;
+}
+
+/// raw.rawlog in the scratch folder: the first pairs of a folder of images in the form of TUM.
+inline void importFirst(const std::string& folder, int count, const std::string& intrinsics,
+                        const omnimapper::testing::ScratchFolder& scratch) {
+  const std::string some = scratch / "some";
+  fs::create_directories(some);
+  for (const char* images : {"depth", "rgb"})
+    fs::create_directory_symlink(fs::path(folder) / images, some + "/" + images);
+  fs::copy_file(fs::path(folder) / "rgb.txt", some + "/rgb.txt");
+  std::istringstream all(readFile(folder + "/depth.txt"));
+  std::string first;
+  for (std::string line; count > 0 && std::getline(all, line); first += line + "\n") count -= line[0] != '#';
+  writeFile(some + "/depth.txt", first);
+  ASSERT_TRUE(endedWith(ExitCode::ok, runProgram({omnimapper::testing::ownProgram("omnimapper-import"), "tum", some,
+                                                  scratch / "raw.rawlog", "--intrinsics", intrinsics})));
 }
 
 inline bool isInstalled(const std::string& program) {

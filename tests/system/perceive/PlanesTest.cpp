@@ -97,27 +97,12 @@ TEST_F(Planes, AreDescribedAndExportedByRawlogEdit) {
   EXPECT_NEAR(nx * nx + ny * ny + nz * nz, 1, 1e-9);
 }
 
-/// The first pairs of a folder of images, as a folder of its own.
-void linkFirst(const std::string& folder, int count, const std::string& to) {
-  fs::create_directories(to);
-  for (const char* images : {"depth", "rgb"})
-    fs::create_directory_symlink(fs::path(folder) / images, to + "/" + images);
-  fs::copy_file(fs::path(folder) / "rgb.txt", to + "/rgb.txt");
-  std::istringstream all(readFile(folder + "/depth.txt"));
-  std::string some;
-  for (std::string line; count > 0 && std::getline(all, line); some += line + "\n") count -= line[0] != '#';
-  writeFile(to + "/depth.txt", some);
-}
-
 // Its simulated twin are the tests above.
 TEST(PlanesRecording, OfFreiburg1Rpy) {
   const auto folder = omnimapper::testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(folder);
   const omnimapper::testing::ScratchFolder scratch;
-  linkFirst(*folder, 20, scratch / "some");
-  ASSERT_TRUE(
-      endedWith(ExitCode::ok, runProgram({omnimapper::testing::ownProgram("omnimapper-import"), "tum", scratch / "some",
-                                          scratch / "raw.rawlog", "--intrinsics", "freiburg1"})));
+  importFirst(*folder, 20, "freiburg1", scratch);
   ASSERT_TRUE(endedWith(ExitCode::ok, perceive(scratch / "raw.rawlog", scratch / "derived.rawlog")));
   const auto planes = ofClass<CObservationPlanes>(readLog(scratch / "derived.rawlog"));
   ASSERT_GE(planes.size(), 15U);
