@@ -1,12 +1,14 @@
 // omnimapper-perceive: rawlog in, rawlog out with what the extractors of an INI derive.
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/mapper/PerceptionRun.h>
+#include <omnimapper/plugins/PerceptionPictures.h>
 #include <omnimapper/plugins/registerPlugins.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <iostream>
+#include <memory>
 #include <thread>
 
 namespace {
@@ -21,6 +23,8 @@ void onInterrupt(int) {
 struct Arguments {
   std::vector<std::string> inis, settings;
   mapper::PerceptionRequest run;
+  std::string pictures;
+  int picture_every = 10;
   bool quiet = false;
 };
 
@@ -34,6 +38,9 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)")->required();
   app.add_option("-o,--output", arguments.run.output, "rawlog to write")->required();
   app.add_flag("--with-raw", arguments.run.with_raw, "put the observations that were read into it too");
+  app.add_option("--pictures", arguments.pictures, "folder for pictures of what was found, over what the sensor saw");
+  app.add_option("--picture-every", arguments.picture_every, "so many observations of a sensor make one (10)")
+      ->check(CLI::PositiveNumber);
   app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
   arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the bytes do not depend on them")
@@ -51,9 +58,15 @@ int run(Arguments& arguments) {
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
   std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size fails as on a full disk
+  std::unique_ptr<plugins::PerceptionPictures> pictures;
+  if (!arguments.pictures.empty()) {
+    pictures = std::make_unique<plugins::PerceptionPictures>(arguments.pictures, arguments.picture_every);
+    arguments.run.show = [&](const auto& raw, const auto& derived) { pictures->add(raw, derived); };
+  }
   base::TerminalProgress progress(std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
   const auto result = mapper::runPerception(arguments.run, config, progress, [] { return g_interrupted != 0; });
   if (!arguments.quiet) std::cout << mapper::toText(result, arguments.run.output);
+  if (!arguments.quiet && pictures) std::cout << pictures->count() << " pictures in " << arguments.pictures << "\n";
   for (const auto& warning : result.warnings) std::cerr << "omnimapper-perceive: warning: " << warning << "\n";
   return static_cast<int>(result.code);
 }

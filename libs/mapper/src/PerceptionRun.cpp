@@ -61,14 +61,17 @@ class Line {
   base::WorkerPool pool_;
 };
 
-void write(Line::Item item, bool with_raw, source::RawlogWriter& rawlog, PerceptionResult& result) {
+void write(Line::Item item, const PerceptionRequest& request, source::RawlogWriter& rawlog, PerceptionResult& result) {
   const Derived derived = item.derived.get();
-  if (with_raw) rawlog.add(*source::withImagesInside(item.raw));
+  std::vector<CObservation::Ptr> all;
+  if (request.with_raw) rawlog.add(*source::withImagesInside(item.raw));
   for (std::size_t i = 0; i < derived.size(); ++i) {
     result.extractors[i].taken += !derived[i].empty();
     result.extractors[i].derived += derived[i].size();
     for (const auto& observation : derived[i]) rawlog.add(*observation);
+    all.insert(all.end(), derived[i].begin(), derived[i].end());
   }
+  if (request.show) request.show(*item.raw, all);
 }
 
 // True if it was stopped.
@@ -79,11 +82,11 @@ bool work(source::ObservationSource& log, const SensorPoses& sensor_poses, const
   while (!(stopped = stop())) {
     const auto observation = log.next();
     if (!observation) break;
-    if (line.isFull()) write(line.take(), request.with_raw, rawlog, result);
+    if (line.isFull()) write(line.take(), request, rawlog, result);
     line.add(sensor_poses.applied(observation));
     progress.report(log.progress(), "perceiving");
   }
-  while (!line.isEmpty()) write(line.take(), request.with_raw, rawlog, result);
+  while (!line.isEmpty()) write(line.take(), request, rawlog, result);
   return stopped || (log.report().ending == source::SourceReport::Ending::open && stop());
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <mrpt/img/TColor.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/geometry/Polygon3.h>
+#include <omnimapper/obs/IndexColour.h>
 #include <omnimapper/obs/Rgb.h>
 
 #include <string>
@@ -15,8 +15,6 @@ namespace omnimapper::obs {
 
 /// Shapes of what was observed, in MRPT's scenes. Whatever is not a finite number is left out.
 
-/// A colour for each index, neighbours far apart.
-mrpt::img::TColor indexColour(std::size_t index, std::uint8_t alpha = 255);
 mrpt::img::TColor asColor(const Rgb& colour);
 
 bool isFinite(const Eigen::Vector3d& point);

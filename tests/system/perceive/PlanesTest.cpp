@@ -1,4 +1,5 @@
 // ini/perceive.ini: planes and laser lines of a log, which MRPT's own tools read.
+#include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <omnimapper/geometry/Conversions.h>
@@ -95,6 +96,20 @@ TEST_F(Planes, AreDescribedAndExportedByRawlogEdit) {
   EXPECT_EQ(stamp, 1700000000);
   EXPECT_EQ(count, static_cast<double>(ofClass<CObservationPlanes>(readLog(derived_)).front()->planes.size()));
   EXPECT_NEAR(nx * nx + ny * ny + nz * nz, 1, 1e-9);
+}
+
+TEST_F(Planes, AreShownInPictures) {
+  const std::string folder = scratch_ / "pictures";
+  const auto ended = perceive(kHome, derived_, {"--pictures", folder, "--picture-every", "8"});
+  ASSERT_TRUE(endedWith(ExitCode::ok, ended));
+  EXPECT_NE(ended.out.find("40 pictures in "), std::string::npos) << ended.out;
+  const auto files = filesIn(folder);
+  EXPECT_EQ(files.size(), 40U);
+  ASSERT_EQ(files.count("kinect_1700000000.000000.png"), 1U);
+  mrpt::img::CImage picture;
+  ASSERT_TRUE(picture.loadFromFile(folder + "/kinect_1700000000.000000.png"));
+  EXPECT_EQ(picture.getWidth(), 640U);
+  EXPECT_TRUE(endedWith(ExitCode::command_line, perceive(kHome, derived_, {"--picture-every", "0"})));
 }
 
 // Its simulated twin are the tests above.

@@ -15,6 +15,13 @@ double distanceToSegment(double x, double y, PixelPoint a, PixelPoint b) {
   return std::hypot(x - a.x - along * dx, y - a.y - along * dy);
 }
 
+void blend(Rgb& pixel, const Pen& pen, double inked) {
+  const auto mix = [&](std::uint8_t under, std::uint8_t over) {
+    return static_cast<std::uint8_t>(std::lround(under + inked * pen.opacity * (over - under)));
+  };
+  pixel = {mix(pixel.r, pen.colour.r), mix(pixel.g, pen.colour.g), mix(pixel.b, pen.colour.b)};
+}
+
 /// How far each touched pixel is covered by ink: the most that any segment covers it.
 class Coverage {
  public:
@@ -43,13 +50,7 @@ class Coverage {
   }
 
   void blend(Image& image, const Pen& pen) const {
-    for (const auto& [index, inked] : inked_) {
-      Rgb& pixel = image.pixels[index];
-      const auto mix = [&](std::uint8_t under, std::uint8_t over) {
-        return static_cast<std::uint8_t>(std::lround(under + inked * pen.opacity * (over - under)));
-      };
-      pixel = {mix(pixel.r, pen.colour.r), mix(pixel.g, pen.colour.g), mix(pixel.b, pen.colour.b)};
-    }
+    for (const auto& [index, inked] : inked_) plugins::blend(image.pixels[index], pen, inked);
   }
 
  private:
@@ -70,6 +71,28 @@ void drawPath(Image& image, const std::vector<PixelPoint>& path, const Pen& pen)
   Coverage coverage(image, pen.width);
   for (std::size_t i = 1; i < path.size(); ++i) coverage.add(path[i - 1], path[i]);
   coverage.blend(image, pen);
+}
+
+void fillAreas(Image& image, const std::vector<std::vector<PixelPoint>>& walks, const Pen& pen) {
+  std::vector<double> crossings;
+  for (int y = 0; y < image.height; ++y) {
+    const double middle = y + 0.5;
+    crossings.clear();
+    for (const auto& walk : walks) {
+      for (std::size_t i = 0; i < walk.size(); ++i) {
+        const PixelPoint &a = walk[i], &b = walk[(i + 1) % walk.size()];
+        if ((a.y <= middle) != (b.y <= middle)) crossings.push_back(a.x + (middle - a.y) * (b.x - a.x) / (b.y - a.y));
+      }
+    }
+    std::sort(crossings.begin(), crossings.end());
+    const auto columnFrom = [&](double x) {
+      return static_cast<int>(std::ceil(std::clamp<double>(x, 0, image.width) - 0.5));
+    };
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const int end = std::min(columnFrom(crossings[i + 1]), image.width);
+      for (int x = columnFrom(crossings[i]); x < end; ++x) blend(image.at(x, y), pen, 1);
+    }
+  }
 }
 
 void drawLine(Image& image, PixelPoint from, PixelPoint to, const Pen& pen) {

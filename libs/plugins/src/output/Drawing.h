@@ -20,6 +20,8 @@ struct Pen {
 
 /// Draws with smooth edges; what lies outside is cut off. A path is inked once where it crosses itself.
 void drawPath(Image& image, const std::vector<PixelPoint>& path, const Pen& pen);
+/// The pixels whose middle lies in an odd number of closed walks; the pen's width is of no matter.
+void fillAreas(Image& image, const std::vector<std::vector<PixelPoint>>& walks, const Pen& pen);
 void drawLine(Image& image, PixelPoint from, PixelPoint to, const Pen& pen);
 /// A disc of the pen's width around `centre`.
 void drawDot(Image& image, PixelPoint centre, const Pen& pen);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Progress.h>
@@ -18,6 +19,9 @@ struct PerceptionRequest {
   std::string output;             ///< rawlog to write
   bool with_raw = false;          ///< the observations that were read go into it too, images inside
   int threads = 1;                ///< the bytes do not depend on it
+  /// Where there is one, it is told each observation and what was derived of it, in the order of the log.
+  std::function<void(const mrpt::obs::CObservation& raw, const std::vector<mrpt::obs::CObservation::Ptr>& derived)>
+      show;
 };
 
 struct PerceptionResult {

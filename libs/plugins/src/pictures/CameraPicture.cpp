@@ -1,0 +1,186 @@
+#include "CameraPicture.h"
+
+#include <mrpt/maps/CPointsMap.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/obs/CObservationObjects.h>
+#include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/obs/IndexColour.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "../output/Drawing.h"
+
+namespace omnimapper::plugins {
+
+namespace {
+
+using mrpt::obs::CObservation3DRangeScan;
+using Walk = std::vector<PixelPoint>;
+
+constexpr double kNearest = 0.01;  // [m] nothing nearer is drawn
+constexpr Rgb kBlack{0, 0, 0};
+
+Rgb colourOf(std::size_t index) {
+  const auto colour = obs::indexColour(index);
+  return {colour.R, colour.G, colour.B};
+}
+
+/// Where points of the sensor's frame (x forward, y left, z up) [m] are in the picture.
+class Projection {
+ public:
+  explicit Projection(const mrpt::img::TCamera& camera)
+      : fx_(camera.fx()), fy_(camera.fy()), cx_(camera.cx()), cy_(camera.cy()) {}
+
+  std::optional<PixelPoint> operator()(const Eigen::Vector3d& p) const {
+    if (!(p.x() > kNearest)) return std::nullopt;
+    return PixelPoint{cx_ - fx_ * p.y() / p.x() + 0.5, cy_ - fy_ * p.z() / p.x() + 0.5};
+  }
+  Walk operator()(const geometry::Polygon3& polygon) const {
+    Walk walk;
+    for (const auto& vertex : polygon.vertices) {
+      if (const auto pixel = (*this)(vertex)) walk.push_back(*pixel);
+    }
+    return walk;
+  }
+
+ private:
+  double fx_, fy_, cx_, cy_;
+};
+
+Rgb greyed(int red, int green, int blue) {
+  const int grey = (red + green + blue) / 3;
+  const auto mixed = [&](int channel) { return static_cast<std::uint8_t>((channel + grey) / 2); };
+  return {mixed(red), mixed(green), mixed(blue)};
+}
+
+bool showsTheDepth(const CObservation3DRangeScan& scan) {
+  const auto& image = scan.intensityImage;
+  return scan.hasIntensityImage && !image.isEmpty() && image.getPixelDepth() == mrpt::img::PixelDepth::D8U &&
+         static_cast<int>(image.getWidth()) == static_cast<int>(scan.rangeImage.cols()) &&
+         static_cast<int>(image.getHeight()) == static_cast<int>(scan.rangeImage.rows()) &&
+         scan.doDepthAndIntensityCamerasCoincide();
+}
+
+Image colourPicture(const mrpt::img::CImage& colours) {
+  Image picture(static_cast<int>(colours.getWidth()), static_cast<int>(colours.getHeight()), kBlack);
+  const int channels = static_cast<int>(colours.channelCount());
+  for (int y = 0; y < picture.height; ++y) {
+    const auto* row = colours.ptrLine<std::uint8_t>(static_cast<unsigned>(y));
+    for (int x = 0; x < picture.width; ++x) {
+      const auto* pixel = row + static_cast<std::ptrdiff_t>(channels) * x;
+      picture.at(x, y) = channels < 3 ? greyed(pixel[0], pixel[0], pixel[0]) : greyed(pixel[2], pixel[1], pixel[0]);
+    }
+  }
+  return picture;
+}
+
+// In inverse depth, for as much of the picture to be seen near as far.
+Image depthPicture(const CObservation3DRangeScan& scan) {
+  Image picture(static_cast<int>(scan.rangeImage.cols()), static_cast<int>(scan.rangeImage.rows()), kBlack);
+  int nearest = 65535;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const int range = scan.rangeImage(y, x);
+      if (range > 0) nearest = std::min(nearest, range);
+    }
+  }
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const int range = scan.rangeImage(y, x);
+      if (range == 0 || range == 65535) continue;
+      const auto grey = static_cast<std::uint8_t>(40 + 200 * nearest / range);
+      picture.at(x, y) = {grey, grey, grey};
+    }
+  }
+  return picture;
+}
+
+void drawClosed(Image& picture, Walk walk, const Pen& pen) {
+  if (walk.empty()) return;
+  walk.push_back(walk.front());
+  drawPath(picture, walk, pen);
+}
+
+void drawArrow(Image& picture, PixelPoint from, PixelPoint to, const Pen& pen) {
+  drawLine(picture, from, to, pen);
+  const double x = to.x - from.x, y = to.y - from.y;
+  for (const double side : {-0.15, 0.15}) {
+    drawLine(picture, to, {to.x - 0.25 * x + side * y, to.y - 0.25 * y - side * x}, pen);
+  }
+}
+
+void drawPlanes(Image& picture, const Projection& project, const obs::CObservationPlanes& found) {
+  for (std::size_t i = 0; i < found.planes.size(); ++i) {
+    std::vector<Walk> walks{project(found.planes[i].outline)};
+    for (const auto& hole : found.planes[i].holes) walks.push_back(project(hole));
+    fillAreas(picture, walks, {colourOf(i), 0, 0.4});
+    for (const auto& walk : walks) drawClosed(picture, walk, {colourOf(i), 2});
+  }
+  // Over all the areas, so that none hides an arrow.
+  for (std::size_t i = 0; i < found.planes.size(); ++i) {
+    const auto& plane = found.planes[i];
+    const double length = std::clamp(0.3 * std::sqrt(geometry::area(plane.outline)), 0.05, 0.5);  // [m]
+    const auto from = project(plane.centroid), to = project(plane.centroid + length * plane.plane_in_sensor.normal);
+    if (!from || !to) continue;
+    drawArrow(picture, *from, *to, {kBlack, 4});
+    drawArrow(picture, *from, *to, {colourOf(i), 2});
+    drawDot(picture, *from, {kBlack, 7});
+    drawDot(picture, *from, {colourOf(i), 5});
+  }
+}
+
+void drawBox(Image& picture, const Projection& project, const obs::ObservedObject& object, const Pen& pen) {
+  const auto corner = [&](int i) {
+    const Eigen::Vector3d sides(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
+    return project(object.sensor_from_box * Eigen::Vector3d(sides.cwiseProduct(object.box_size)));
+  };
+  for (int i = 0; i < 8; ++i) {
+    for (const int side : {1, 2, 4}) {
+      const auto from = corner(i), to = corner(i | side);
+      if (!(i & side) && from && to) drawLine(picture, *from, *to, pen);
+    }
+  }
+}
+
+void drawPoints(Image& picture, const Projection& project, const std::vector<Eigen::Vector3f>& points, const Pen& pen) {
+  for (const auto& point : points) {
+    if (const auto pixel = project(point.cast<double>())) drawDot(picture, *pixel, pen);
+  }
+}
+
+void drawObjects(Image& picture, const Projection& project, const obs::CObservationObjects& found) {
+  for (std::size_t i = 0; i < found.objects.size(); ++i) {
+    drawPoints(picture, project, found.objects[i].points, {colourOf(i), 1, 0.8});
+    drawBox(picture, project, found.objects[i], {kBlack, 4});
+    drawBox(picture, project, found.objects[i], {colourOf(i), 2});
+  }
+}
+
+void drawCloud(Image& picture, const Projection& project, const mrpt::maps::CPointsMap& cloud, Rgb colour) {
+  std::vector<Eigen::Vector3f> points(cloud.size());
+  for (std::size_t i = 0; i < points.size(); ++i) cloud.getPointFast(i, points[i].x(), points[i].y(), points[i].z());
+  drawPoints(picture, project, points, {colour, 2});
+}
+
+}  // namespace
+
+Image drawCameraPicture(const CObservation3DRangeScan& scan, const std::vector<mrpt::obs::CObservation::Ptr>& derived) {
+  Image picture = showsTheDepth(scan) ? colourPicture(scan.intensityImage) : depthPicture(scan);
+  const Projection project(scan.cameraParams);
+  std::size_t clouds = 0;
+  for (const auto& observation : derived) {
+    if (const auto* planes = dynamic_cast<const obs::CObservationPlanes*>(observation.get())) {
+      drawPlanes(picture, project, *planes);
+    } else if (const auto* objects = dynamic_cast<const obs::CObservationObjects*>(observation.get())) {
+      drawObjects(picture, project, *objects);
+    } else if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get())) {
+      if (cloud->pointcloud) drawCloud(picture, project, *cloud->pointcloud, colourOf(clouds++));
+    }
+  }
+  return picture;
+}
+
+}  // namespace omnimapper::plugins

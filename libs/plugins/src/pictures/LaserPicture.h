@@ -1,0 +1,16 @@
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <vector>
+
+#include "../output/Image.h"
+
+namespace omnimapper::plugins {
+
+/// A 2D scan seen from above, x to the right and y up, in squares of 1 m: its points grey, the sensor black, and the
+/// lines that were derived of it in the colour of their index, with bars where they end.
+Image drawLaserPicture(const mrpt::obs::CObservation2DRangeScan& scan,
+                       const std::vector<mrpt::obs::CObservation::Ptr>& derived);
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/obs/CObservationObjects.h>
+#include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/obs/IndexColour.h>
+#include <omnimapper/plugins/PerceptionPictures.h>
+#include <omnimapper/testing/Fixtures.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "output/Drawing.h"
+
+namespace omnimapper::plugins {
+namespace {
+
+using mrpt::obs::CObservation3DRangeScan;
+
+CObservation3DRangeScan::Ptr depthsAt(double seconds) {
+  auto scan = CObservation3DRangeScan::Create();
+  scan->sensorLabel = "kinect";
+  scan->timestamp = base::stampFromUnix(seconds);
+  scan->hasRangeImage = true;
+  scan->cameraParams.setIntrinsicParamsFromValues(100, 100, 49.5, 39.5);
+  scan->rangeImage_setSize(80, 100);
+  scan->rangeImage.fill(2000);
+  return scan;
+}
+
+geometry::Polygon3 square(double half) {
+  return {{{2, half, half}, {2, half, -half}, {2, -half, -half}, {2, -half, half}}};
+}
+
+/// A square of 1 m with a hole of 0.4 m, 2 m ahead: half the image high, from pixel 25 to 75 of a row.
+obs::CObservationPlanes::Ptr plane() {
+  auto planes = obs::CObservationPlanes::Create();
+  obs::ObservedPlane plane;
+  plane.plane_in_sensor = geometry::Plane3::through({2, 0, 0}, {-1, 0, 0});
+  plane.centroid = {2, 0, 0};
+  plane.outline = square(0.5);
+  plane.holes = {square(0.2)};
+  planes->planes.push_back(plane);
+  return planes;
+}
+
+class PerceptionPicturesTest : public ::testing::Test {
+ protected:
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) names.insert(entry.path().filename());
+    return names;
+  }
+  mrpt::img::CImage picture(const std::string& name) const {
+    mrpt::img::CImage image;
+    EXPECT_TRUE(image.loadFromFile(folder_ + "/" + name));
+    return image;
+  }
+  testing::ScratchFolder scratch_;
+  const std::string folder_ = scratch_ / "a/b";
+};
+
+bool isNear(const mrpt::img::CImage& image, unsigned x, unsigned y, const mrpt::img::TColor& colour) {
+  const auto* pixel = image.ptrLine<std::uint8_t>(y) + 3 * x;
+  return std::abs(pixel[2] - colour.R) < 20 && std::abs(pixel[1] - colour.G) < 20 && std::abs(pixel[0] - colour.B) < 20;
+}
+
+bool isGrey(const mrpt::img::CImage& image, unsigned x, unsigned y) {
+  const auto* pixel = image.ptrLine<std::uint8_t>(y) + 3 * x;
+  return pixel[0] == pixel[1] && pixel[1] == pixel[2];
+}
+
+TEST_F(PerceptionPicturesTest, everySoManiethThatSomethingWasDerivedOf) {
+  PerceptionPictures pictures(folder_, 2);
+  pictures.add(*depthsAt(1), {});
+  for (int i = 2; i < 6; ++i) pictures.add(*depthsAt(i), {plane()});
+  pictures.add(mrpt::obs::CObservationOdometry(), {plane()});
+  EXPECT_EQ(files(), (std::set<std::string>{"kinect_2.000000.png", "kinect_4.000000.png"}));
+  EXPECT_EQ(pictures.count(), 2);
+}
+
+TEST_F(PerceptionPicturesTest, planesLieWhereTheCameraSeesThem) {
+  PerceptionPictures(folder_, 1).add(*depthsAt(1), {plane()});
+  const auto image = picture("kinect_1.000000.png");
+  ASSERT_EQ(image.getWidth(), 100U);
+  ASSERT_EQ(image.getHeight(), 80U);
+  for (const unsigned x : {25U, 75U}) EXPECT_TRUE(isNear(image, x, 40, obs::indexColour(0))) << "outline " << x;
+  EXPECT_FALSE(isGrey(image, 30, 30)) << "filled";
+  EXPECT_TRUE(isGrey(image, 45, 36)) << "in the hole";
+  EXPECT_TRUE(isGrey(image, 10, 10)) << "beside it";
+}
+
+TEST_F(PerceptionPicturesTest, objectsHaveTheirBoxAndPoints) {
+  auto objects = obs::CObservationObjects::Create();
+  obs::ObservedObject object;
+  object.sensor_from_box.translation = {2, 0, 0};
+  object.box_size = {0.01, 1, 1};
+  object.points = {{2, 0, 0}};
+  objects->objects = {object};
+  PerceptionPictures(folder_, 1).add(*depthsAt(1), {objects});
+  const auto image = picture("kinect_1.000000.png");
+  EXPECT_TRUE(isNear(image, 25, 40, obs::indexColour(0)));
+  EXPECT_FALSE(isGrey(image, 50, 40));
+  EXPECT_TRUE(isGrey(image, 40, 40));
+}
+
+TEST_F(PerceptionPicturesTest, linesLieOverTheScan) {
+  mrpt::obs::CObservation2DRangeScan scan;
+  scan.sensorLabel = "front/laser";
+  scan.timestamp = base::stampFromUnix(1);
+  scan.resizeScan(1);
+  auto lines = obs::CObservationLaserLines::Create();
+  obs::LaserLine line;
+  line.segment_in_sensor = {{0.5, -0.5}, {0.5, 0.5}};
+  lines->lines = {line};
+  PerceptionPictures(folder_, 1).add(scan, {lines});
+  const auto image = picture("front_laser_1.000000.png");
+  // 2 m are 760 pixels.
+  EXPECT_TRUE(isNear(image, 590, 400, obs::indexColour(0)));
+  EXPECT_TRUE(isNear(image, 590, 300, obs::indexColour(0)));
+  EXPECT_TRUE(isNear(image, 590, 150, mrpt::img::TColor(255, 255, 255)));
+}
+
+TEST_F(PerceptionPicturesTest, aFolderThatCannotBeIsAnError) {
+  std::ofstream(scratch_ / "file") << "x";
+  EXPECT_THROW(PerceptionPictures(scratch_ / "file/pictures", 1), base::Error);
+}
+
+TEST(FillAreas, EvenOddToTheMiddleOfPixels) {
+  Image image(6, 5, {0, 0, 0});
+  fillAreas(image, {{{1, 1}, {5, 1}, {5, 4}, {1, 4}}, {{2.4, 2}, {3.6, 2}, {3.6, 3}, {2.4, 3}}},
+            {{200, 100, 50}, 0, 0.5});
+  int filled = 0;
+  for (const Rgb& pixel : image.pixels) filled += pixel.r == 100 && pixel.g == 50 && pixel.b == 25;
+  EXPECT_EQ(filled, 4 * 3 - 2);
+  EXPECT_EQ(image.at(2, 2).r, 0);
+  EXPECT_EQ(image.at(3, 2).r, 0);
+  EXPECT_EQ(image.at(1, 2).r, 100);
+  fillAreas(image, {{}, {{-100, -100}, {100, -100}, {100, 100}}},
+            {{255, 255, 255}, 0, 1});  // what is outside is cut off
+  EXPECT_EQ(image.at(5, 0).r, 255);
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins
