@@ -1,0 +1,36 @@
+#pragma once
+
+#include <omnimapper/perception/DepthImage.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace omnimapper::perception {
+
+/// Kinds of edges (thesis 3.1), as bits of a pixel's label: a pixel may be on edges of several kinds.
+enum EdgeKind : std::uint8_t {
+  kBoundary = 1,       ///< the last pixel before a hole in the data, with nothing behind the hole
+  kOccluding = 2,      ///< on the near side of a jump in depth
+  kOccluded = 4,       ///< on the far side of it
+  kHighCurvature = 8,  ///< the surface turns, without a jump
+  kRgb = 16,           ///< the colour changes
+};
+
+constexpr std::array<EdgeKind, 5> kEdgeKinds{kBoundary, kOccluding, kOccluded, kHighCurvature, kRgb};
+
+/// "boundary", "occluding", "occluded", "high_curvature", "rgb".
+const char* nameOf(EdgeKind kind);
+
+/// For each pixel of a depth image, row by row, the kinds of edges that it is on.
+struct EdgeImage {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> labels;
+};
+
+/// The points [m] of all pixels with one of `kinds`, row by row, in the camera's optical frame: x right, y down, z
+/// forward. Pixels on edges have depth. Throws Error(unreadable_input) if `image` is not of the labels' size.
+std::vector<Eigen::Vector3f> edgePoints(const EdgeImage& edges, const DepthImage& image, unsigned kinds);
+
+}  // namespace omnimapper::perception

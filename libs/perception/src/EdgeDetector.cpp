@@ -1,0 +1,137 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/perception/EdgeDetector.h>
+#include <omnimapper/perception/Normals.h>
+
+#include <cmath>
+#include <string>
+
+#include "edges/Canny.h"
+#include "edges/Creases.h"
+#include "edges/Jumps.h"
+
+namespace omnimapper::perception {
+
+const base::OptionTable<EdgeOptions>& EdgeOptions::table() {
+  using base::Range;
+  static const auto table =
+      base::OptionTable<EdgeOptions>()
+          .number("noise_at_1m_m", &EdgeOptions::noise_at_1m, Range::positive(),
+                  "Standard deviation of a pixel's depth at 1 m; it grows with the square of the depth.")
+          .number("step_at_1m_m", &EdgeOptions::step_at_1m, Range::notNegative(),
+                  "Step between two depths that the sensor can tell apart at 1 m; 0 if it has none.")
+          .number("correlation_area_px2", &EdgeOptions::correlation_area, {1, 10000},
+                  "How many neighbouring pixels share one error.")
+          .number("min_depth_m", &EdgeOptions::min_depth, Range::positive(), "Nearer pixels are left out.")
+          .number("max_depth_m", &EdgeOptions::max_depth, Range::positive(), "Farther pixels are left out.")
+          .flag("jumps", &EdgeOptions::jumps, "Look for occluding, occluded and boundary edges.")
+          .number("jump_sigmas", &EdgeOptions::jump_sigmas, Range::positive(),
+                  "Least jump in depth of an occluding edge, in standard deviations of a difference of two pixels.")
+          .number("jump_share", &EdgeOptions::jump_share, {0, 1}, "The same, in parts of the depth.")
+          .integer("max_hole_px", &EdgeOptions::max_hole, {0, 4096},
+                   "Holes in the data up to so wide are bridged; beside wider ones are boundary edges.")
+          .flag("high_curvature", &EdgeOptions::high_curvature, "Look for edges where the surface turns.")
+          .number("min_turn_deg", &EdgeOptions::min_turn, {1, 180}, "By at least so much.")
+          .number("turn_sigmas", &EdgeOptions::turn_sigmas, Range::notNegative(),
+                  "And by at least so many standard deviations of the angle between two normals.")
+          .integer("window_radius_px", &EdgeOptions::window_radius, {1, 7},
+                   "The window of a normal has 2 radius + 1 pixels a side.")
+          .integer("min_turn_pixels", &EdgeOptions::min_turn_pixels, {1, 1000000},
+                   "Edges of high curvature with fewer pixels are left out.")
+          .flag("rgb", &EdgeOptions::rgb, "Look for edges in the picture.")
+          .number("rgb_low", &EdgeOptions::rgb_low, {0, 2040},
+                  "Edges go on where the picture's gradient is above that.")
+          .number("rgb_high", &EdgeOptions::rgb_high, {0, 2040}, "Edges begin where it is above that.");
+  return table;
+}
+
+EdgeDetector::EdgeDetector(const EdgeOptions& options) : options_(options) {
+  using base::option_text::format;
+  if (options.min_depth >= options.max_depth) {
+    throw base::Error(base::ExitCode::out_of_range, "min_depth_m = " + format(options.min_depth) +
+                                                        ": must be below max_depth_m = " + format(options.max_depth));
+  }
+  if (options.rgb_low > options.rgb_high) {
+    throw base::Error(base::ExitCode::out_of_range, "rgb_low = " + format(options.rgb_low) +
+                                                        ": must not be above rgb_high = " + format(options.rgb_high));
+  }
+}
+
+namespace {
+
+EdgeImage unmarked(const DepthImage& image) {
+  EdgeImage edges{image.width(), image.height(), {}};
+  edges.labels.resize(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
+  return edges;
+}
+
+// Of the angle between two normals at 1 m [rad]; it grows with the depth. The slope of a plane fitted to a window of
+// n = 2 r + 1 pixels a side has the variance 3 sigma^2 / (n^2 r (r + 1)), a pixel is 1 / f wide.
+double angleSigma(const DepthImage& image, const EdgeOptions& options) {
+  const double r = options.window_radius, n = 2 * r + 1;
+  const double slope = std::sqrt(3 * options.noise().meanVariance() / (n * n * r * (r + 1)));
+  return std::sqrt(2.0) * slope * std::max(std::abs(image.camera().fx), std::abs(image.camera().fy));
+}
+
+void markHighCurvature(const planes::InverseDepth& inverse, const DepthImage& image, const EdgeOptions& options,
+                       EdgeImage& edges) {
+  NormalOptions of_normals;
+  of_normals.noise_at_1m = options.noise_at_1m;
+  of_normals.step_at_1m = options.step_at_1m;
+  of_normals.min_depth = options.min_depth;
+  of_normals.max_depth = options.max_depth;
+  of_normals.radius = options.window_radius;
+  const NormalImage normals = NormalEstimator(of_normals).estimate(image);
+  edges::markCreases(inverse, image.camera(), normals,
+                     {options.min_turn, options.turn_sigmas * angleSigma(image, options), 2 * options.window_radius,
+                      options.min_turn_pixels},
+                     edges.labels.data());
+}
+
+void markRgb(const planes::InverseDepth& inverse, edges::Candidates found, EdgeImage& edges) {
+  std::uint8_t* to = edges.labels.data();
+  for (int y = 0; y < edges.height; ++y, to += edges.width) {
+    const std::uint8_t* from = found.row(y);
+    const float* q = inverse.at(0, y);
+    for (int x = 0; x < edges.width; ++x) {
+      const bool marked = from[x] == edges::Candidates::kKept && q[x] > 0;
+      to[x] = static_cast<std::uint8_t>(to[x] | (marked ? kRgb : 0));
+    }
+  }
+}
+
+EdgeImage geometricEdges(const planes::InverseDepth& inverse, const DepthImage& image, const EdgeOptions& options) {
+  EdgeImage edges = unmarked(image);
+  if (options.jumps) {
+    const double of_difference = std::sqrt(2 * options.noise().pixelVariance());
+    edges::markJumps(inverse,
+                     {static_cast<float>(options.jump_sigmas * of_difference), static_cast<float>(options.jump_share),
+                      options.max_hole},
+                     edges.labels.data());
+  }
+  if (options.high_curvature && !edges.labels.empty()) markHighCurvature(inverse, image, options, edges);
+  return edges;
+}
+
+}  // namespace
+
+EdgeImage EdgeDetector::detect(const DepthImage& image) const {
+  return geometricEdges(planes::invert(image, options_.min_depth, options_.max_depth), image, options_);
+}
+
+EdgeImage EdgeDetector::detect(const DepthImage& image, const ColourImage& colour) const {
+  if (colour.width != image.width() || colour.height != image.height()) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "the picture has " + std::to_string(colour.width) + " x " + std::to_string(colour.height) +
+                          " pixels, the depth image " + std::to_string(image.width()) + " x " +
+                          std::to_string(image.height()));
+  }
+  const planes::InverseDepth inverse = planes::invert(image, options_.min_depth, options_.max_depth);
+  EdgeImage edges = geometricEdges(inverse, image, options_);
+  if (options_.rgb) {
+    markRgb(inverse, edges::canny(colour, static_cast<int>(options_.rgb_low), static_cast<int>(options_.rgb_high)),
+            edges);
+  }
+  return edges;
+}
+
+}  // namespace omnimapper::perception

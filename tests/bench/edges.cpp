@@ -1,0 +1,281 @@
+// Edges of depth images and pictures: ours and its peers in one run, on recorded frames (time, and how far they agree
+// with PCL's) and on simulated ones (agreement with the truth). Prints Markdown tables. PCL's rows are there where
+// bench-edges was built with it. Times are those of the processor, of one thread.
+//
+// Example: bench-edges --tum tum_fr1_rpy --every 10 --ini rawlogs/home.ini --sensor kinect --frames 20
+#include <omnimapper/perception/EdgeDetector.h>
+#include <omnimapper/perception/Normals.h>
+#include <time.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "EdgePeers.h"
+#include "EdgeTruth.h"
+
+namespace {
+
+using namespace omnimapper;
+using namespace omnimapper::bench;
+using perception::EdgeOptions;
+
+constexpr unsigned kJumps = perception::kBoundary | perception::kOccluding | perception::kOccluded;
+
+double now() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+using Labels = std::vector<std::uint8_t>;
+
+EdgePeer ours(const std::string& name, const EdgeOptions& options, bool with_picture, unsigned points_of) {
+  auto frame = std::make_shared<EdgeFrame>();
+  return {name, [frame](const EdgeFrame& given) { *frame = given; },
+          [frame, with_picture, points_of, detector = perception::EdgeDetector(options)] {
+            const perception::DepthImage image(frame->units.data(), frame->metres_per_unit, frame->width, frame->height,
+                                               frame->camera);
+            const perception::ColourImage colour{frame->rgb.data(), frame->width, frame->height, 3 * frame->width,
+                                                 perception::ColourImage::Order::rgb};
+            auto edges = with_picture ? detector.detect(image, colour) : detector.detect(image);
+            if (points_of != 0) perception::edgePoints(edges, image, points_of);
+            return std::move(edges.labels);
+          }};
+}
+
+EdgePeer openCvCanny() {
+  auto frame = std::make_shared<EdgeFrame>();
+  return {"OpenCV cvtColor + Canny", [frame](const EdgeFrame& given) { *frame = given; },
+          [frame] {
+            const cv::Mat rgb(frame->height, frame->width, CV_8UC3, frame->rgb.data());
+            cv::Mat grey, edges;
+            cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
+            cv::Canny(grey, edges, 40, 100);
+            Labels labels(edges.begin<std::uint8_t>(), edges.end<std::uint8_t>());
+            for (auto& label : labels) label = label != 0 ? perception::kRgb : 0;
+            return labels;
+          }};
+}
+
+std::vector<EdgePeer> methods() {
+  EdgeOptions none;
+  none.jumps = none.high_curvature = none.rgb = false;
+  EdgeOptions jumps = none, curvature = none, rgb = none;
+  jumps.jumps = curvature.high_curvature = rgb.rgb = true;
+  std::vector<EdgePeer> all{ours("ours: occluding, occluded, boundary", jumps, false, 0),
+                            ours("ours: the same, with points", jumps, false, kJumps),
+                            ours("ours: high curvature, with normals", curvature, false, 0),
+                            ours("ours: RGB, with points", rgb, true, perception::kRgb),
+                            ours("ours: all five, with normals", EdgeOptions(), true, 0),
+                            openCvCanny()};
+  for (const auto& peer : pclEdges()) all.push_back(peer);
+  return all;
+}
+
+// The file whose name, a time, is nearest.
+std::string nearest(const std::vector<std::string>& files, const std::string& to) {
+  const auto timeOf = [](const std::string& file) { return std::stod(std::filesystem::path(file).stem()); };
+  return *std::min_element(files.begin(), files.end(), [&](const auto& a, const auto& b) {
+    return std::abs(timeOf(a) - timeOf(to)) < std::abs(timeOf(b) - timeOf(to));
+  });
+}
+
+std::vector<std::string> filesOf(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<EdgeFrame> readTum(const std::string& folder, int every, const perception::Pinhole& camera) {
+  const auto depths = filesOf(folder + "/depth"), pictures = filesOf(folder + "/rgb");
+  std::vector<EdgeFrame> frames;
+  for (std::size_t i = 0; i < depths.size(); i += static_cast<std::size_t>(every)) {
+    const cv::Mat depth = cv::imread(depths[i], cv::IMREAD_UNCHANGED);
+    cv::Mat rgb;
+    cv::cvtColor(cv::imread(nearest(pictures, depths[i])), rgb, cv::COLOR_BGR2RGB);
+    if (depth.type() != CV_16U || depth.size() != rgb.size()) throw std::runtime_error("cannot use " + depths[i]);
+    EdgeFrame frame{depth.cols, depth.rows, 1.0 / 5000, camera, {}, {}};
+    frame.units.assign(depth.begin<std::uint16_t>(), depth.end<std::uint16_t>());
+    frame.rgb.assign(rgb.data, rgb.data + 3 * frame.units.size());
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+// Of the pixels of `one` with a kind, the part within `reach` pixels of one of `other` with it; both may be summed.
+struct Share {
+  double near = 0, all = 0;
+  double value() const { return all > 0 ? near / all : 0; }
+};
+
+cv::Mat masked(const Labels& labels, unsigned kind, int width) {
+  cv::Mat mask(static_cast<int>(labels.size()) / width, width, CV_8U);
+  std::transform(labels.begin(), labels.end(), mask.begin<std::uint8_t>(),
+                 [&](std::uint8_t label) { return (label & kind) != 0 ? 255 : 0; });
+  return mask;
+}
+
+void add(const Labels& one, const Labels& other, unsigned kind, int width, int reach, Share& share) {
+  const cv::Mat mask = masked(one, kind, width);
+  cv::Mat wide;
+  cv::dilate(masked(other, kind, width), wide,
+             cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
+  share.all += cv::countNonZero(mask);
+  share.near += cv::countNonZero(mask & wide);
+}
+
+// High curvature where nobody knows whether there is any is not counted.
+Labels judged(Labels labels, const Labels& truth, int width, int reach) {
+  cv::Mat untold;
+  cv::dilate(masked(truth, kUntold, width), untold,
+             cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (untold.data[i] != 0) labels[i] &= static_cast<std::uint8_t>(~perception::kHighCurvature);
+  }
+  return labels;
+}
+
+void printTimes(const std::vector<EdgeFrame>& frames, int rounds) {
+  const auto all = methods();
+  std::vector<std::vector<double>> times(all.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (const EdgeFrame& frame : frames) {
+      for (std::size_t m = 0; m < all.size(); ++m) {
+        all[m].take(frame);
+        const double begin = now();
+        const auto labels = all[m].run();
+        times[m].push_back(now() - begin);
+      }
+    }
+  }
+  std::printf("%zu frames, %d times each\n\n| method | median [ms] | 95 %% | max |\n|---|---|---|---|\n", frames.size(),
+              rounds);
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    std::printf("| %s | %.2f | %.2f | %.2f |\n", all[m].name.c_str(), quantile(times[m], 0.5), quantile(times[m], 0.95),
+                quantile(times[m], 1));
+  }
+}
+
+void printAgreement(const std::vector<EdgeFrame>& frames, int reach) {
+  const auto ours_all = ours("", EdgeOptions(), true, 0), canny = openCvCanny();
+  const auto peers = pclEdges();
+  std::printf(
+      "\nWithin %d px of the other's edges of the same kind\n\n| kind | peer | ours, by the peer | the peer's, by ours "
+      "| pixels of ours | of the peer's |\n|---|---|---|---|---|---|\n",
+      reach);
+  for (const auto kind : perception::kEdgeKinds) {
+    Share of_ours, of_peer;
+    const bool use_canny = kind == perception::kRgb;
+    if (!use_canny && peers.empty()) continue;
+    const EdgePeer& peer = use_canny ? canny : peers.back();
+    for (const EdgeFrame& frame : frames) {
+      ours_all.take(frame);
+      peer.take(frame);
+      const Labels a = ours_all.run();
+      Labels b = peer.run();
+      for (std::size_t i = 0; i < b.size() && use_canny; ++i) b[i] = frame.units[i] == 0 ? 0 : b[i];
+      add(a, b, kind, frame.width, reach, of_ours);
+      add(b, a, kind, frame.width, reach, of_peer);
+    }
+    const auto n = static_cast<double>(frames.size());
+    std::printf("| %s | %s | %.3f | %.3f | %.0f | %.0f |\n", nameOf(kind), use_canny ? "OpenCV" : "PCL",
+                of_ours.value(), of_peer.value(), of_ours.all / n, of_peer.all / n);
+  }
+}
+
+struct TruthOptions {
+  std::string ini, sensor = "kinect";
+  std::vector<std::string> settings;
+  int frames = 20, reach = 3;
+  double least_jump = 0.02, least_turn_deg = 45;
+};
+
+std::vector<TrueEdges> simulate(const TruthOptions& options) {
+  auto config = base::Config::fromFiles({options.ini});
+  for (const auto& setting : options.settings) config.set(setting);
+  for (const char* truth : {"labels", "true_depth"}) config.set(options.sensor + "." + truth + "=true");
+  const sim::Simulation simulation(config);
+  EdgeTruth truth(simulation, options.least_jump, options.least_turn_deg * base::option_text::kRadiansPerDegree);
+  std::vector<TrueEdges> frames;
+  for (const auto& sensor : simulation.sensors()) {
+    if (sensor->label() != options.sensor) continue;
+    for (int i = 0; i < options.frames; ++i) frames.push_back(truth.at(*sensor, i * sensor->count() / options.frames));
+  }
+  return frames;
+}
+
+void printTruth(const TruthOptions& options) {
+  const auto frames = simulate(options);
+  std::printf(
+      "\n%zu frames of %s, %s: jumps of at least %g of the depth, turns of at least %g degrees, within %d px\n\n"
+      "| kind | method | precision | recall | F1 | pixels | true pixels |\n|---|---|---|---|---|---|---|\n",
+      frames.size(), std::filesystem::path(options.ini).filename().c_str(), options.sensor.c_str(), options.least_jump,
+      options.least_turn_deg, options.reach);
+  std::vector<EdgePeer> all{ours("ours", EdgeOptions(), true, 0)};
+  const auto pcl = pclEdges();
+  if (!pcl.empty()) {
+    all.push_back(pcl.back());
+    all.back().name = "PCL";
+  }
+  std::vector<std::vector<Labels>> results(all.size());
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    for (const TrueEdges& frame : frames) {
+      all[m].take(frame.frame);
+      results[m].push_back(judged(all[m].run(), frame.labels, frame.frame.width, options.reach));
+    }
+  }
+  for (const auto kind : {perception::kOccluding, perception::kOccluded, perception::kHighCurvature}) {
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      Share precision, recall;
+      for (std::size_t i = 0; i < frames.size(); ++i) {
+        add(results[m][i], frames[i].labels, kind, frames[i].frame.width, options.reach, precision);
+        add(frames[i].labels, results[m][i], kind, frames[i].frame.width, options.reach, recall);
+      }
+      const double p = precision.value(), r = recall.value();
+      const auto n = static_cast<double>(frames.size());
+      std::printf("| %s | %s | %.3f | %.3f | %.3f | %.0f | %.0f |\n", nameOf(kind), all[m].name.c_str(), p, r,
+                  p + r > 0 ? 2 * p * r / (p + r) : 0, precision.all / n, recall.all / n);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string tum;
+  int every = 10, rounds = 3, agreement = 2;
+  std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
+  TruthOptions truth;
+  CLI::App app("Edges of depth images by ours and others.");
+  app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth and rgb");
+  app.add_option("--every", every, "only every n-th of its frames")->check(CLI::PositiveNumber);
+  app.add_option("--rounds", rounds, "how often each")->check(CLI::PositiveNumber);
+  app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
+  app.add_option("--ini", truth.ini, "simulated place");
+  app.add_option("--set", truth.settings, "section.key=value, over that INI");
+  app.add_option("--sensor", truth.sensor, "its RgbdCamera");
+  app.add_option("--frames", truth.frames, "how many of its frames")->check(CLI::PositiveNumber);
+  app.add_option("--reach", truth.reach, "[px] between found and true edges")->check(CLI::PositiveNumber);
+  app.add_option("--jump", truth.least_jump, "least true jump, in parts of the depth");
+  app.add_option("--turn", truth.least_turn_deg, "least true turn [deg]");
+  CLI11_PARSE(app, argc, argv);
+  if (!tum.empty()) {
+    const auto frames = readTum(tum, every, {camera[0], camera[1], camera[2], camera[3]});
+    printTimes(frames, rounds);
+    printAgreement(frames, agreement);
+  }
+  if (!truth.ini.empty()) printTruth(truth);
+}
