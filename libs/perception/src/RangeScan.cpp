@@ -100,9 +100,9 @@ obs::Rgb ScanColours::pixel(int x, int y) const {
   return red_first_ ? obs::Rgb{p[0], p[1], p[2]} : obs::Rgb{p[2], p[1], p[0]};
 }
 
-std::optional<obs::Rgb> ScanColours::at(int x, int y, double depth) const {
+std::optional<ScanColours::Place> ScanColours::placeOf(int x, int y, double depth) const {
   if (!exist()) return std::nullopt;
-  if (same_view_) return pixel(x, y);
+  if (same_view_) return Place{x, y};
   const Eigen::Vector3d in_depth((x - depth_camera_.cx) / depth_camera_.fx * depth,
                                  (y - depth_camera_.cy) / depth_camera_.fy * depth, depth);
   const Eigen::Vector3d p = colour_from_depth_ * in_depth + depth_in_colour_;
@@ -110,7 +110,23 @@ std::optional<obs::Rgb> ScanColours::at(int x, int y, double depth) const {
   const double u = colour_camera_.fx * p.x() / p.z() + colour_camera_.cx + 0.5;
   const double v = colour_camera_.fy * p.y() / p.z() + colour_camera_.cy + 0.5;
   if (!(u >= 0 && u < width_ && v >= 0 && v < static_cast<double>(rows_.size()))) return std::nullopt;
-  return pixel(static_cast<int>(u), static_cast<int>(v));
+  return Place{static_cast<int>(u), static_cast<int>(v)};
+}
+
+std::optional<obs::Rgb> ScanColours::at(int x, int y, double depth) const {
+  const auto place = placeOf(x, y, depth);
+  if (!place) return std::nullopt;
+  return pixel(place->x, place->y);
+}
+
+ColourImage ScanColours::picture() const {
+  if (!exist()) return {};
+  const auto height = static_cast<int>(rows_.size());
+  const int stride = height > 1 ? static_cast<int>(rows_[1] - rows_[0]) : width_ * channels_;
+  const auto order = channels_ < 3 ? ColourImage::Order::grey
+                     : red_first_  ? ColourImage::Order::rgb
+                                   : ColourImage::Order::bgr;
+  return {rows_[0], width_, height, stride, order};
 }
 
 }  // namespace omnimapper::perception

@@ -2,10 +2,12 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/obs/Rgb.h>
+#include <omnimapper/perception/ColourImage.h>
 #include <omnimapper/perception/DepthImage.h>
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -45,6 +47,19 @@ class ScanColours {
   bool exist() const { return channels_ > 0; }
   /// Of what the pixel in column x and row y of the depth image sees at that depth [m]; none outside the picture.
   std::optional<obs::Rgb> at(int x, int y, double depth) const;
+
+  /// Column and row of the picture.
+  struct Place {
+    int x, y;
+  };
+  /// Where the picture shows what that pixel of the depth image sees; none outside it or without one.
+  std::optional<Place> placeOf(int x, int y, double depth) const;
+  /// The picture itself, of no size without one.
+  ColourImage picture() const;
+  /// Whether the picture is the depth image's, pixel by pixel.
+  bool areOfDepthView() const { return same_view_; }
+  /// How many pixels of the picture one of the depth image is wide.
+  double pixelsPerDepthPixel() const { return std::abs(colour_camera_.fx / depth_camera_.fx); }
 
  private:
   void readImage(const mrpt::img::CImage& image);

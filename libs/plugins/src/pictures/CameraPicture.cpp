@@ -5,11 +5,14 @@
 #include <omnimapper/obs/CObservationObjects.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/obs/IndexColour.h>
+#include <omnimapper/perception/EdgeExtractor.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "../output/Drawing.h"
 
@@ -165,6 +168,20 @@ void drawCloud(Image& picture, const Projection& project, const mrpt::maps::CPoi
   drawPoints(picture, project, points, {colour, 2});
 }
 
+// Edges by their kind, as thesis figure 4 has them; other clouds by their number.
+Rgb colourOfCloud(const std::string& label, std::size_t index) {
+  static const std::map<perception::EdgeKind, Rgb> kinds{{perception::kBoundary, {40, 80, 255}},
+                                                         {perception::kOccluding, {0, 220, 0}},
+                                                         {perception::kOccluded, {230, 0, 0}},
+                                                         {perception::kHighCurvature, {255, 230, 0}},
+                                                         {perception::kRgb, {0, 230, 230}}};
+  for (const auto& [kind, colour] : kinds) {
+    const std::string end = std::string(perception::kEdgesSuffix) + perception::nameOf(kind);
+    if (label.size() > end.size() && label.compare(label.size() - end.size(), end.size(), end) == 0) return colour;
+  }
+  return colourOf(index);
+}
+
 }  // namespace
 
 Image drawCameraPicture(const CObservation3DRangeScan& scan, const std::vector<mrpt::obs::CObservation::Ptr>& derived) {
@@ -177,7 +194,8 @@ Image drawCameraPicture(const CObservation3DRangeScan& scan, const std::vector<m
     } else if (const auto* objects = dynamic_cast<const obs::CObservationObjects*>(observation.get())) {
       drawObjects(picture, project, *objects);
     } else if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get())) {
-      if (cloud->pointcloud) drawCloud(picture, project, *cloud->pointcloud, colourOf(clouds++));
+      if (cloud->pointcloud)
+        drawCloud(picture, project, *cloud->pointcloud, colourOfCloud(cloud->sensorLabel, clouds++));
     }
   }
   return picture;

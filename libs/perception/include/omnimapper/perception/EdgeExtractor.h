@@ -1,0 +1,33 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/perception/EdgeDetector.h>
+
+#include <vector>
+
+namespace omnimapper::perception {
+
+/// What the label of a scan's edges has behind the scan's own, before the name of their kind.
+inline constexpr char kEdgesSuffix[] = ".edges.";
+
+/// The 3D edges that a range camera's depth image and picture show (thesis 3.1), as EdgeDetector finds them.
+class EdgeExtractor {
+ public:
+  /// Throws as EdgeDetector.
+  explicit EdgeExtractor(const EdgeOptions& options) : options_(options), detector_(options) {}
+
+  /// A cloud for each kind that the options want, RGB only of scans with a picture: stamp and sensorPose of the scan,
+  /// points [m] in the frame of that pose (x forward, y left, z up), label "<scan label>.edges.<nameOf(kind)>". Where
+  /// the picture is not of the depth image's view, its edges are those depth pixels that it sees an edge at, by the two
+  /// cameras' calibrations. Throws Error(unreadable_input) for a camera whose focal length is unknown and
+  /// Error(missing_images) for images that are in files and were not loaded; sources load them. Thread-safe; the same
+  /// scan gives the same bits.
+  std::vector<mrpt::obs::CObservationPointCloud::Ptr> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
+
+ private:
+  EdgeOptions options_;
+  EdgeDetector detector_;
+};
+
+}  // namespace omnimapper::perception
