@@ -78,7 +78,8 @@ TEST_F(RawLogViewer, DrawsPlanesOfFreiburg1Rpy) {
   const auto folder = omnimapper::testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(folder);
   importFirst(*folder, 10, "freiburg1", scratch_);
-  ASSERT_TRUE(endedWith(ExitCode::ok, perceive(scratch_ / "raw.rawlog", derived_)));
+  ASSERT_TRUE(
+      endedWith(ExitCode::ok, perceive(scratch_ / "raw.rawlog", derived_, {"--set", "perception.extractors=planes"})));
   const Drawn drawn = show(derived_);
   EXPECT_GT(drawn.coloured, 3000);
   EXPECT_GE(drawn.colours, 4);
