@@ -102,6 +102,7 @@ struct Bad {
 
 TEST(WorldIni, impossibleWorldsAreRefusedWithTheirPlace) {
   const std::string desk = "[desk]\nclass = table\nx_m = 1.5\ny_m = 2.4\n";
+  const std::string chest = "[chest]\nclass = cabinet\nx_m = 1.5\ny_m = 2.4\n";
   const std::vector<Bad> cases{
       {"furniture in a wall", "furniture = f", "[f]\nclass = table\nx_m = 0.3\ny_m = 1.5", "f", "x_m"},
       {"furniture in no room", "furniture = f", "[f]\nclass = table\nx_m = 40\ny_m = 1.5", "f", "x_m"},
@@ -121,11 +122,29 @@ TEST(WorldIni, impossibleWorldsAreRefusedWithTheirPlace) {
       {"moves not in order", "objects = o", "[o]\nclass = cup\nx_m = 1\ny_m = 1\nmoves = 20 2 1 0 | 10 2 2 0\n", "o",
        "moves"},
       {"a move into a wall", "objects = o", "[o]\nclass = cup\nx_m = 1\ny_m = 1\nmoves = 20 4.1 2.8 0\n", "o", "moves"},
+      {"a move into furniture", "furniture = chest\nobjects = o",
+       chest + "[o]\nclass = cup\nx_m = 3\ny_m = 1\nmoves = 10 1.5 2.4 0 chest/top | 20 1.5 2.4 0\n", "o", "moves"},
+      {"a move into what stands there then", "objects = a b",
+       "[a]\nclass = cup\nx_m = 1\ny_m = 1\nmoves = 10 2 2 0\n[b]\nclass = cup\nx_m = 3\ny_m = 1\nmoves = 20 2 2 0\n",
+       "b", "moves"},
+      {"a stand in furniture", "furniture = chest\nmarkers = m",
+       chest + "[m]\nclass = stand\nid = 1\nx_m = 3\ny_m = 1\nmoves = 10 1.5 2.4 0\n", "m", "moves"},
+      {"a landmark in a wall", "landmarks = l", "[l]\nclass = point\nid = 1\nx_m = 4.1\ny_m = 0.5\n", "l", "x_m"},
+      {"a landmark in no room", "landmarks = l", "[l]\nclass = point\nid = 1\nx_m = 40\ny_m = 0.5\n", "l", "x_m"},
+      {"a landmark above the ceiling", "landmarks = l", "[l]\nclass = point\nid = 1\nx_m = 1\ny_m = 0.5\nz_m = 3\n",
+       "l", "z_m"},
       {"an object on nothing", "objects = o", "[o]\nclass = cup\nx_m = 1\ny_m = 1\non = desk/topp\n", "o", "on"},
       {"an object over the rim", "furniture = desk\nobjects = o",
        desk + "[o]\nclass = cup\nx_m = 2.3\ny_m = 2.4\non = desk/top\n", "o", "x_m"},
       {"a section that is not there", "objects = o", "", "world", "lists"},
       {"a person in no room", "people = p", "[p]\nclass = person\npath = 0 2 9 | 9 2 2\n", "p", "path"},
+      {"a person who walks through a wall", "people = p", "[p]\nclass = person\npath = 0 2 0.5 | 9 6 0.5\n", "p",
+       "path"},
+      {"a person who walks through furniture", "furniture = desk\npeople = p",
+       desk + "[p]\nclass = person\npath = 0 1.5 1 | 9 1.5 2.9\n", "p", "path"},
+      {"a person who stands where something is put later", "objects = o\npeople = p",
+       "[o]\nclass = box\nx_m = 1\ny_m = 1\nmoves = 60 2 2 0\n[p]\nclass = person\npath = 0 3 2 | 9 2 2\n", "p",
+       "path"},
       {"a person who points at nothing", "people = p",
        "[p]\nclass = person\npath = 0 2 1 | 9 2 1\npointing = 2 4 vase\n", "p", "pointing"},
   };
@@ -140,6 +159,25 @@ TEST(WorldIni, impossibleWorldsAreRefusedWithTheirPlace) {
       EXPECT_NE(what.find(bad.key), std::string::npos) << bad.name << ": " << what;
     }
   }
+}
+
+TEST(WorldIni, aPlaceThatIsLeftIsFreeForOthers) {
+  const std::string box = "class = box\ny_m = 2\n";
+  const sim::World world =
+      readText(twoRooms("objects = a b\npeople = p", "[a]\nx_m = 1\nmoves = 10 3 2 0 | 30 away\n" + box +
+                                                         "[b]\nx_m = 2\nmoves = 10 1 2 0 | 30 3 2 0\n" + box +
+                                                         "[p]\nclass = person\npath = 0 2 1 | 15 2 1 | 18 2 2.6\n"));
+  EXPECT_EQ(world.objects.size(), 2u);
+}
+
+TEST(WorldIni, whereverSomethingStandsOnTheFloorIsInTheRobotsWay) {
+  const std::string empty = twoRooms("", "");
+  const auto added = [&](const std::string& keys, const std::string& sections) {
+    return readText(twoRooms(keys, sections)).obstacles.size() - readText(empty).obstacles.size();
+  };
+  EXPECT_EQ(added("objects = o", "[o]\nclass = box\nx_m = 1\ny_m = 1\nmoves = 10 2 2 0 | 20 away | 30 3 2 0\n"), 3u);
+  EXPECT_EQ(added("markers = m", "[m]\nclass = stand\nid = 1\nx_m = 1\ny_m = 1\nmoves = 10 2 2 0\n"), 2u);
+  EXPECT_EQ(added("markers = m", "[m]\nclass = wall\nid = 1\nx_m = 2\ny_m = 0.1\n"), 0u);
 }
 
 TEST(WorldIni, impossibleRoomsAndDoorsAreRefused) {

@@ -11,6 +11,12 @@ namespace omnimapper::sim {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+namespace {
+
+constexpr double kHalfPerson = 0.15;  // a person fills so much to each side of its way [m]
+
+}  // namespace
+
 Footprint footprintOf(const FurniturePlan& sized, double floor_z) {
   const SurfaceKind kind = findFurnitureShape(sized.shape)->kind;
   const double low = floor_z + sized.z, high = low + sized.height;
@@ -20,15 +26,18 @@ Footprint footprintOf(const FurniturePlan& sized, double floor_z) {
   return footprint;
 }
 
-StandingSpace::StandingSpace(const WorldPlan& plan, const Building& building)
-    : plan_(plan), building_(building), taken_(building.furniture) {}
+StandingSpace::StandingSpace(const WorldPlan& plan, const Building& building) : plan_(plan), building_(building) {
+  for (const Footprint& leaf : building.furniture) taken_.push_back({leaf});
+}
 
-void StandingSpace::take(const std::string& name, Footprint footprint, const std::string& support) {
-  for (const Footprint& other : taken_) {
-    if (other.name == support) continue;
-    if (overlap(footprint, other)) refuse(plan_, name, "x_m", "stands in '" + other.name + "'");
+void StandingSpace::take(const std::string& name, const std::string& key, Taken taken, const std::string& support) {
+  for (const Taken& other : taken_) {
+    if (other.footprint.name == support || other.end <= taken.begin || taken.end <= other.begin) continue;
+    if (!overlap(taken.footprint, other.footprint)) continue;
+    const std::string when = key == "moves" ? "from " + base::brief(std::max(taken.begin, other.begin)) + " s on " : "";
+    refuse(plan_, name, key, when + "stands in '" + other.footprint.name + "'");
   }
-  taken_.push_back(std::move(footprint));
+  taken_.push_back(std::move(taken));
 }
 
 geometry::Se3 StandingSpace::put(const FurniturePlan& sized, bool follows_slope) {
@@ -42,7 +51,7 @@ geometry::Se3 StandingSpace::put(const FurniturePlan& sized, bool follows_slope)
     refuse(plan_, sized.name, "x_m", "stands in a wall of '" + room.name + "'");
   if (!room.is_outdoors && sized.z + sized.height > room.height + kFloorTolerance)
     refuse(plan_, sized.name, "height_m", "reaches above the ceiling of '" + room.name + "'");
-  take(sized.name, footprint, "");
+  take(sized.name, "x_m", {footprint}, "");
   Eigen::Quaterniond turn(Eigen::AngleAxisd(sized.yaw, Vector3d::UnitZ()));
   if (follows_slope) {
     const Vector3d up = Vector3d(-room.slope.x(), -room.slope.y(), 1).normalized();
@@ -100,24 +109,56 @@ geometry::Se3 StandingSpace::poseOf(const std::string& name, const std::string& 
 
 Track StandingSpace::trackOf(const std::string& name, const PlacePlan& place, const std::vector<MovePlan>& moves,
                              const Vector3d& extents) {
-  std::vector<Track::Place> places{{0, poseOf(name, "x_m", place, extents)}};
-  const Vector3d first = places.front().map_from_body->translation;
-  const std::string support = place.on.substr(0, place.on.rfind('/'));  // a board lies inside of its shelf
-  take(name,
-       {name, rectangle(first.head<2>(), extents.x(), extents.y(), place.yaw), first.z(), first.z() + extents.z()},
-       support);
+  std::vector<Track::Place> places{{0, {}}};
   for (const MovePlan& move : moves) {
     if (move.time <= places.back().time) {
       refuse(plan_, name, "moves",
              "times must increase, from above 0: " + base::brief(move.time) + " comes after " +
                  base::brief(places.back().time));
     }
-    Track::Place next{move.time, {}};
-    if (move.place) next.map_from_body = poseOf(name, "moves", *move.place, extents);
-    places.push_back(next);
+    places.push_back({move.time, {}});
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::string key = i == 0 ? "x_m" : "moves";
+    const PlacePlan* at = i == 0 ? &place : moves[i - 1].place ? &*moves[i - 1].place : nullptr;
+    if (!at) continue;
+    const geometry::Se3 pose = poseOf(name, key, *at, extents);
+    const double z = pose.translation.z();
+    Taken taken{{name, rectangle({at->x, at->y}, extents.x(), extents.y(), at->yaw), z, z + extents.z()}};
+    if (i > 0) taken.begin = places[i].time;
+    if (i + 1 < places.size()) taken.end = places[i + 1].time;
+    take(name, key, std::move(taken), at->on.substr(0, at->on.rfind('/')));  // a board lies inside of its shelf
+    places[i].map_from_body = pose;
   }
   if (places.size() == 1) return Track(*places.front().map_from_body);
   return {Track::Kind::steps, std::move(places)};
+}
+
+void StandingSpace::refuseBlocked(const std::string& person, const std::string& stretch, const Taken& swept) const {
+  for (const Taken& other : taken_) {
+    if (other.end <= swept.begin || swept.end <= other.begin || !overlap(swept.footprint, other.footprint)) continue;
+    refuse(plan_, person, "path", stretch + " leads through '" + other.footprint.name + "'");
+  }
+  for (const Ring& solid : building_.obstacles) {
+    if (convexOverlap(swept.footprint.outline_in_map, solid))
+      refuse(plan_, person, "path", stretch + " leads through a wall");
+  }
+}
+
+void StandingSpace::refuseBlockedWay(const PersonSpec& person) const {
+  const auto format = [](const Vector2d& p) { return "(" + base::brief(p.x()) + ", " + base::brief(p.y()) + ")"; };
+  const auto& waypoints = person.waypoints;
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const bool is_last = i + 1 == waypoints.size();
+    const Vector2d from = waypoints[i].in_map, to = is_last ? from : waypoints[i + 1].in_map, way = to - from;
+    Taken swept{
+        {person.name,
+         rectangle((from + to) / 2, way.norm() + 2 * kHalfPerson, 2 * kHalfPerson, std::atan2(way.y(), way.x())),
+         person.floor_z, person.floor_z + person.height}};
+    if (i > 0) swept.begin = waypoints[i].time;
+    if (!is_last) swept.end = waypoints[i + 1].time;
+    refuseBlocked(person.name, "from " + format(from) + " to " + format(to) + " it", swept);
+  }
 }
 
 }  // namespace omnimapper::sim

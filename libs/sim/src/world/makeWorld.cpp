@@ -60,9 +60,7 @@ class WorldMaker {
     for (const SignPlan& sign : plan_.signs) add(sign);
     for (const MarkerPlan& marker : plan_.markers) add(marker);
     for (std::size_t i = 0; i < plan_.posters.size(); ++i) add(plan_.posters[i], i);
-    for (const LandmarkPlan& landmark : plan_.landmarks) {
-      world_.point_landmarks.push_back({landmark.name, landmark.id, {landmark.x, landmark.y, landmark.z}, ""});
-    }
+    for (const LandmarkPlan& landmark : plan_.landmarks) add(landmark);
     for (const PersonSpec& person : plan_.people) add(person);
     validate(world_);
     return std::move(world_);
@@ -96,11 +94,21 @@ class WorldMaker {
     MadeObject made = makeOrRefuse(plan.name, "class", [&] { return makeObject(spec); });
     const Vector3d extents = reachOf(made.body);
     made.body.track = floor_.trackOf(plan.name, plan.place, plan.moves, extents);
-    if (plan.place.on.empty()) {
-      world_.obstacles.push_back(rectangle({plan.place.x, plan.place.y}, extents.x(), extents.y(), plan.place.yaw));
-    }
+    blockFloor(plan.place, plan.moves, extents);
     world_.bodies.push_back(std::move(made.body));
     world_.objects.push_back(std::move(made.object));
+  }
+
+  // Robots plan one way for the whole run: they keep away from where something ever stands.
+  void blockFloor(const PlacePlan& first, const std::vector<MovePlan>& moves, const Vector3d& extents) {
+    const auto block = [&](const PlacePlan& place) {
+      if (place.on.empty())
+        world_.obstacles.push_back(rectangle({place.x, place.y}, extents.x(), extents.y(), place.yaw));
+    };
+    block(first);
+    for (const MovePlan& move : moves) {
+      if (move.place) block(*move.place);
+    }
   }
 
   void add(const SignPlan& plan) {
@@ -167,7 +175,9 @@ class WorldMaker {
 
   // A marker in a frame on a foot: upright, it looks to -y of the place.
   Track standing(const MarkerPlan& plan, const Vector3d& plate) {
-    const Track foot = floor_.trackOf(plan.name, plan.place, plan.moves, {plate.x(), kFootDepth, plate.y()});
+    const Vector3d extents(plate.x(), kFootDepth, plate.y());
+    const Track foot = floor_.trackOf(plan.name, plan.place, plan.moves, extents);
+    blockFloor(plan.place, plan.moves, extents);
     const geometry::Se3 foot_from_marker{Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX())),
                                          {0, -kFootDepth / 2 + kMarkerThickness, plate.y() / 2}};
     std::vector<Track::Place> places = foot.places();
@@ -186,12 +196,24 @@ class WorldMaker {
     return builder.build();
   }
 
+  void add(const LandmarkPlan& plan) {
+    const Vector3d point(plan.x, plan.y, plan.z);
+    const auto number = roomAt(building_.rooms, point.head<2>());
+    if (!number) refuse(plan_, plan.name, "x_m", "x_m, y_m lies in no room");
+    const Room& room = building_.rooms[*number];
+    const double above_floor = plan.z - room.floorAt(point.head<2>());
+    if (!room.is_outdoors && (above_floor < 0 || above_floor > room.height))
+      refuse(plan_, plan.name, "z_m", "lies below the floor or above the ceiling of '" + room.name + "'");
+    world_.point_landmarks.push_back({plan.name, plan.id, point, ""});
+  }
+
   void add(PersonSpec person) {
     for (const auto& waypoint : person.waypoints) {
       const auto room = roomAt(building_.rooms, waypoint.in_map);
       if (!room) refuse(plan_, person.name, "path", "goes through a place that lies in no room");
       if (&waypoint == &person.waypoints.front()) person.floor_z = building_.rooms[*room].floorAt(waypoint.in_map);
     }
+    floor_.refuseBlockedWay(person);
     for (Person::Pointing& act : person.acts) {
       if (act.target.empty()) continue;
       const auto target = middleOf(world_, act.target, act.begin);

@@ -83,7 +83,7 @@ struct World {
   std::vector<PointLandmark> point_landmarks;
   std::vector<Object> objects;
   std::vector<Person> people;
-  /// Where no robot can be: outlines on the floor of what stands there, walls as polygons of their solid [m].
+  /// Where no robot can be: outlines on the floor of what ever stands there, walls as polygons of their solid [m].
   std::vector<std::vector<Eigen::Vector2d>> obstacles;
 };
 
