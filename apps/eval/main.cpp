@@ -3,8 +3,9 @@
 #include <omnimapper/eval/Report.h>
 #include <omnimapper/eval/TumFile.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
+
+#include "program/Program.h"
 
 namespace {
 
@@ -83,16 +84,5 @@ int main(int argc, char** argv) {
       "  omnimapper-eval rpe out/trajectory.tum groundtruth.tum --delta 1 --unit m\n"
       "  omnimapper-eval relations out/trajectory.tum aces.relations\n"
       "Options of one verb: omnimapper-eval ate --help. Exit codes: doc/exit_codes.md.");
-  try {
-    app.parse(argc, argv);
-    return run(app.get_subcommands().front()->get_name(), arguments);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);
-  } catch (const base::Error& error) {
-    std::cerr << "omnimapper-eval: " << error.what() << "\n";
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    std::cerr << "omnimapper-eval: " << error.what() << " (a defect: please report it)\n";
-    return static_cast<int>(base::ExitCode::internal);
-  }
+  return program::run(app, argc, argv, [&] { return run(app.get_subcommands().front()->get_name(), arguments); });
 }

@@ -5,25 +5,15 @@
 #include <omnimapper/plugins/registerPlugins.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 
 #include "Arguments.h"
+#include "program/Program.h"
 
 namespace {
 
 using namespace omnimapper;
-
-volatile std::sig_atomic_t g_interrupted = 0;
-void onInterrupt(int) {
-  g_interrupted = 1;
-}
-
-int exitCode(base::ExitCode code) {
-  return static_cast<int>(code);
-}
 
 int run(Arguments& arguments) {
   plugins::registerPlugins();
@@ -33,14 +23,12 @@ int run(Arguments& arguments) {
   if (arguments.list_plugins) return std::cout << mapper::listPlugins(), 0;
   if (arguments.ini_reference) return std::cout << mapper::iniReference(mapper::fixedSections()), 0;
   if (!arguments.print_ini.empty()) return std::cout << mapper::printIni(arguments.print_ini), 0;
-  std::signal(SIGINT, onInterrupt);
-  std::signal(SIGTERM, onInterrupt);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size fails as on a full disk
+  program::listenForInterrupts();
   base::TerminalProgress progress(std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
-  const auto stop = [] { return g_interrupted != 0; };
+  const auto stop = program::isInterrupted;
   if (!arguments.checked_logs.empty()) {
     const auto checked = check::runCheck(arguments.checked_logs, config, arguments.run.output_folder, progress, stop);
-    return std::cout << checked.text, exitCode(checked.code);
+    return std::cout << checked.text, static_cast<int>(checked.code);
   }
   if (arguments.inis.empty() || arguments.run.logs.empty() || arguments.run.output_folder.empty()) {
     throw base::Error(base::ExitCode::command_line, "-i INI, -r LOG and -o FOLDER are needed; see --help");
@@ -56,31 +44,18 @@ int run(Arguments& arguments) {
     if (arguments.quiet && result.code == base::ExitCode::ok) break;
     std::cerr << "omnimapper-graphslam: warning: " << warning << "\n";
   }
-  return exitCode(result.code);
+  const int code = static_cast<int>(result.code);
+  if (!arguments.gui) return code;
+  // MRPT's window thread may still paint, and cannot be waited for: what it uses must not go before it does.
+  std::cout.flush();
+  std::_Exit(code);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app;
+  CLI::App app("", "omnimapper-graphslam");
   addOptions(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : exitCode(base::ExitCode::command_line);
-  }
-  try {
-    const int code = run(arguments);
-    if (!arguments.gui) return code;
-    // MRPT's window thread may still paint, and cannot be waited for: what it uses must not go before it does.
-    std::cout.flush();
-    std::_Exit(code);
-  } catch (const base::Error& error) {
-    std::cerr << "omnimapper-graphslam: " << error.what() << "\n";
-    return exitCode(error.code());
-  } catch (const std::exception& error) {
-    std::cerr << "omnimapper-graphslam: " << error.what() << " (a defect: please report it)\n";
-    return exitCode(base::ExitCode::internal);
-  }
+  return program::run(app, argc, argv, [&] { return run(arguments); });
 }

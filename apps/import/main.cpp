@@ -1,9 +1,8 @@
 // omnimapper-import: makes MRPT rawlogs of other programs' logs.
-#include <CLI/CLI.hpp>
-#include <iostream>
 #include <map>
 
 #include "Imports.h"
+#include "program/Program.h"
 
 namespace {
 
@@ -61,19 +60,10 @@ int main(int argc, char** argv) {
   Arguments arguments;
   const auto* carmen = addCarmen(app, arguments);
   addTum(app, arguments);
-  try {
-    app.parse(argc, argv);
-    if (carmen->parsed())
-      return static_cast<int>(importCarmen(arguments.input, arguments.output, kOdometryNames.at(arguments.odometry)));
+  return program::run(app, argc, argv, [&] {
     return static_cast<int>(
-        importRgbd(arguments.input, arguments.output, arguments.rgbd, arguments.images == "external"));
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);
-  } catch (const base::Error& error) {
-    std::cerr << "omnimapper-import: " << error.what() << "\n";
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    std::cerr << "omnimapper-import: " << error.what() << "\n";
-    return static_cast<int>(base::ExitCode::internal);
-  }
+        carmen->parsed()
+            ? importCarmen(arguments.input, arguments.output, kOdometryNames.at(arguments.odometry))
+            : importRgbd(arguments.input, arguments.output, arguments.rgbd, arguments.images == "external"));
+  });
 }

@@ -5,20 +5,15 @@
 #include <omnimapper/plugins/registerPlugins.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <thread>
 
+#include "program/Program.h"
+
 namespace {
 
 using namespace omnimapper;
-
-volatile std::sig_atomic_t g_interrupted = 0;
-void onInterrupt(int) {
-  g_interrupted = 1;
-}
 
 struct Arguments {
   std::vector<std::string> inis, settings;
@@ -55,16 +50,14 @@ int run(Arguments& arguments) {
   plugins::registerPlugins();
   auto config = base::Config::fromFiles(arguments.inis);
   for (const auto& setting : arguments.settings) config.set(setting);
-  std::signal(SIGINT, onInterrupt);
-  std::signal(SIGTERM, onInterrupt);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size fails as on a full disk
+  program::listenForInterrupts();
   std::unique_ptr<plugins::PerceptionPictures> pictures;
   if (!arguments.pictures.empty()) {
     pictures = std::make_unique<plugins::PerceptionPictures>(arguments.pictures, arguments.picture_every);
     arguments.run.show = [&](const auto& raw, const auto& derived) { pictures->add(raw, derived); };
   }
   base::TerminalProgress progress(std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
-  const auto result = mapper::runPerception(arguments.run, config, progress, [] { return g_interrupted != 0; });
+  const auto result = mapper::runPerception(arguments.run, config, progress, program::isInterrupted);
   if (!arguments.quiet) std::cout << mapper::toText(result, arguments.run.output);
   if (!arguments.quiet && pictures) std::cout << pictures->count() << " pictures in " << arguments.pictures << "\n";
   for (const auto& warning : result.warnings) std::cerr << "omnimapper-perceive: warning: " << warning << "\n";
@@ -75,18 +68,7 @@ int run(Arguments& arguments) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app;
+  CLI::App app("", "omnimapper-perceive");
   addOptions(app, arguments);
-  try {
-    app.parse(argc, argv);
-    return run(arguments);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);
-  } catch (const base::Error& error) {
-    std::cerr << "omnimapper-perceive: " << error.what() << "\n";
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    std::cerr << "omnimapper-perceive: " << error.what() << " (a defect: please report it)\n";
-    return static_cast<int>(base::ExitCode::internal);
-  }
+  return program::run(app, argc, argv, [&] { return run(arguments); });
 }

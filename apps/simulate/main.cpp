@@ -5,20 +5,15 @@
 #include <omnimapper/sim/SimulationRun.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <thread>
 
+#include "program/Program.h"
+
 namespace {
 
 using namespace omnimapper;
-
-volatile std::sig_atomic_t g_interrupted = 0;
-void onInterrupt(int) {
-  g_interrupted = 1;
-}
 
 struct Arguments {
   std::vector<std::string> inis, settings;
@@ -54,12 +49,10 @@ int run(Arguments& arguments) {
   auto config = base::Config::fromFiles(arguments.inis);
   for (const auto& setting : arguments.settings) config.set(setting);
   if (arguments.run.name.empty()) arguments.run.name = std::filesystem::path(arguments.inis.front()).stem().string();
-  std::signal(SIGINT, onInterrupt);
-  std::signal(SIGTERM, onInterrupt);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size fails as on a full disk
+  program::listenForInterrupts();
   base::TerminalProgress progress(std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
   const sim::Simulation simulation(config);
-  const auto result = sim::runSimulation(simulation, arguments.run, progress, [] { return g_interrupted != 0; });
+  const auto result = sim::runSimulation(simulation, arguments.run, progress, program::isInterrupted);
   if (!arguments.quiet) std::cout << sim::toText(result, arguments.run.folder);
   for (const auto& warning : result.warnings) std::cerr << "omnimapper-simulate: warning: " << warning << "\n";
   return static_cast<int>(result.code);
@@ -78,18 +71,7 @@ void keepFreedMemory() {
 int main(int argc, char** argv) {
   keepFreedMemory();
   Arguments arguments;
-  CLI::App app;
+  CLI::App app("", "omnimapper-simulate");
   addOptions(app, arguments);
-  try {
-    app.parse(argc, argv);
-    return run(arguments);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);
-  } catch (const base::Error& error) {
-    std::cerr << "omnimapper-simulate: " << error.what() << "\n";
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    std::cerr << "omnimapper-simulate: " << error.what() << " (a defect: please report it)\n";
-    return static_cast<int>(base::ExitCode::internal);
-  }
+  return program::run(app, argc, argv, [&] { return run(arguments); });
 }

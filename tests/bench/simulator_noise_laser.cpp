@@ -1,9 +1,8 @@
-// Laser and wheel odometry of the simulator beside those of recordings: noise on walls and of a robot that stands,
-// beams without echo, mixed pixels at edges, drift of odometry. Prints Markdown tables and writes SVG plots.
+// The simulator's 2D lasers beside recordings: noise on walls and of a robot that stands, beams without echo, mixed
+// pixels at edges. Prints Markdown tables and writes SVG plots.
 //
 // Example: bench-simulator_noise_laser --data ../shared/data/laser2d -o doc/results
 #include <mrpt/obs/CObservationOdometry.h>
-#include <omnimapper/eval/TumFile.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/sim/Drive.h>
 #include <omnimapper/sim/Sensor.h>
@@ -27,31 +26,28 @@ using bench::Curve;
 using bench::LaserFigures;
 using geometry::Se2;
 
-/// A log as this program needs it: scans are counted while it is read, odometry is kept.
+/// A log as this program needs it: scans are counted while it is read.
 struct Recording {
   std::string name, colour;
   LaserFigures laser;
-  std::map<base::Stamp, Se2> odometry;
+  std::optional<Se2> odometry, at_scan;  // the latest reading, and what it was at the latest scan
 };
 
-void take(Recording& recording, const mrpt::obs::CObservation& observation, std::optional<Se2>& at_scan) {
+void take(Recording& recording, const mrpt::obs::CObservation& observation) {
   if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
-    recording.odometry.emplace(odometry->timestamp, geometry::fromMrpt(odometry->odometry));
+    recording.odometry = geometry::fromMrpt(odometry->odometry);
   } else if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation)) {
-    const std::optional<Se2> now =
-        recording.odometry.empty() ? std::nullopt : std::make_optional(recording.odometry.rbegin()->second);
-    const bool stands = now && at_scan && geometry::minus(*now, *at_scan).norm() < 1e-4;
-    recording.laser.add(*scan, stands);
-    at_scan = now;
+    const auto &now = recording.odometry, &before = recording.at_scan;
+    recording.laser.add(*scan, now && before && geometry::minus(*now, *before).norm() < 1e-4);
+    recording.at_scan = now;
   }
 }
 
 // Readings from `farthest` on are no echo [m].
 Recording read(source::ObservationSource& source, const std::string& name, const std::string& colour,
                double farthest = 1e9) {
-  Recording recording{name, colour, LaserFigures(farthest), {}};
-  std::optional<Se2> at_scan;
-  while (const auto observation = source.next()) take(recording, *observation, at_scan);
+  Recording recording{name, colour, LaserFigures(farthest), {}, {}};
+  while (const auto observation = source.next()) take(recording, *observation);
   return recording;
 }
 
@@ -111,21 +107,14 @@ class Simulated {
   Recording record(const std::string& laser_keys, const std::string& name, const std::string& colour) const {
     const auto laser = sensor("class = Laser2d\nz_m = 0.4\n" + laser_keys, 1);
     const auto odometry = sensor("class = Odometry\nrate_hz = 20\n", 2);
-    Recording recording{name, colour, LaserFigures(), {}};
-    std::optional<Se2> at_scan;
+    Recording recording{name, colour, LaserFigures(), {}, {}};
     int next = 0;
     for (int k = 0; k < laser->count(); ++k) {
       for (; next < odometry->count() && odometry->timeOf(next) <= laser->timeOf(k); ++next)
-        take(recording, *odometry->measure(next).observation, at_scan);
-      take(recording, *laser->measure(k).observation, at_scan);
+        take(recording, *odometry->measure(next).observation);
+      take(recording, *laser->measure(k).observation);
     }
     return recording;
-  }
-  std::map<base::Stamp, Se2> truth() const {
-    std::map<base::Stamp, Se2> poses;
-    for (double time = 0; time < track_.places().back().time; time += 0.5)
-      poses.emplace(base::stampFromUnix(1e9) + base::durationFromSeconds(time), geometry::project(*track_.at(time)));
-    return poses;
   }
 
  private:
@@ -133,54 +122,6 @@ class Simulated {
   sim::World world_;
   sim::Scenes scenes_;
   sim::Track track_;
-};
-
-/// Errors of odometry over stretches of this way: of the end's place and heading, root mean squares.
-struct Drift {
-  std::vector<std::pair<double, double>> place, heading, mean_heading;  // over the way [m]: [m], [deg], [deg]
-};
-
-const std::vector<double> kWays{1, 2, 4, 8, 16, 24};
-
-struct DriftSums {
-  std::map<double, std::array<double, 4>> of_way;  // squares of place and heading, count, sum of heading
-  void add(const std::map<base::Stamp, Se2>& odometry, const std::map<base::Stamp, Se2>& truth) {
-    std::vector<std::pair<Se2, Se2>> both;  // odometry, truth
-    std::vector<double> way{0};
-    for (const auto& [stamp, pose] : truth) {
-      const auto after = odometry.lower_bound(stamp);
-      if (after == odometry.begin() || after == odometry.end()) continue;
-      const auto before = std::prev(after);
-      const double span = base::secondsBetween(before->first, after->first);
-      if (span > 1) continue;
-      const double share = base::secondsBetween(before->first, stamp) / span;
-      both.emplace_back(geometry::plus(before->second, share * geometry::minus(after->second, before->second)), pose);
-      if (both.size() > 1)
-        way.push_back(way.back() +
-                      (both.back().first.translation() - both[both.size() - 2].first.translation()).norm());
-    }
-    for (const double length : kWays) {
-      for (std::size_t i = 0, j = 0; i < both.size(); ++i) {
-        while (j < both.size() && way[j] - way[i] < length) ++j;
-        if (j == both.size()) break;
-        if (way[j] - way[i] > 1.5 * length) continue;
-        const Eigen::Vector3d error = geometry::minus(geometry::inverse(both[i].first) * both[j].first,
-                                                      geometry::inverse(both[i].second) * both[j].second);
-        auto& sums = of_way[length];
-        sums[0] += error.head<2>().squaredNorm(), sums[1] += error.z() * error.z(), ++sums[2];
-        sums[3] += error.z();
-      }
-    }
-  }
-  Drift drift() const {
-    Drift result;
-    for (const auto& [length, sums] : of_way) {
-      result.place.emplace_back(length, std::sqrt(sums[0] / sums[2]));
-      result.heading.emplace_back(length, std::sqrt(sums[1] / sums[2]) * 180 / M_PI);
-      result.mean_heading.emplace_back(length, sums[3] / sums[2] * 180 / M_PI);
-    }
-    return result;
-  }
 };
 
 void writePlot(const std::string& path, const std::string& title, const std::string& x, const std::string& y,
@@ -239,22 +180,6 @@ void writeLaser(const std::vector<Recording>& all, const std::string& folder) {
   }
 }
 
-void writeOdometry(const Drift& recorded, const Drift& simulated, const std::string& folder) {
-  writePlot(folder + "/simulator_odometry_place.svg", "Odometry: error of the place after a way", "way [m]",
-            "root mean square [m]", {{"ACES", "#c0392b", recorded.place}, {"simulated", "#2471a3", simulated.place}});
-  writePlot(folder + "/simulator_odometry_heading.svg", "Odometry: error of the heading after a way", "way [m]",
-            "root mean square [deg]",
-            {{"ACES", "#c0392b", recorded.heading}, {"simulated", "#2471a3", simulated.heading}});
-  std::printf(
-      "\n| way [m] | ACES place [m] | simulated | ACES heading [deg] | its mean | simulated "
-      "|\n|---|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < std::min(recorded.place.size(), simulated.place.size()); ++i) {
-    std::printf("| %.0f | %.3f | %.3f | %.2f | %.2f | %.2f |\n", recorded.place[i].first, recorded.place[i].second,
-                simulated.place[i].second, recorded.heading[i].second, recorded.mean_heading[i].second,
-                simulated.heading[i].second);
-  }
-}
-
 void run(const std::string& data, const std::string& folder) {
   source::CarmenLog aces_log(data + "/aces.clf.bz2");
   source::RawlogSource ual_log(data + "/ual.rawlog"), office_log(data + "/driving_in_office.rawlog");
@@ -268,32 +193,14 @@ void run(const std::string& data, const std::string& folder) {
       simulated.record("model = sick_lms291\nbeams = 361\nrate_hz = 5\n", "simulated sick_lms291", "#2471a3"));
   all.push_back(simulated.record("model = hokuyo_utm30\nrate_hz = 5\n", "simulated hokuyo_utm30", "#7dcea0"));
   writeLaser(all, folder);
-
-  std::map<base::Stamp, Se2> reference;
-  for (const auto& pose : eval::readTum(data + "/aces.reference.tum"))
-    reference.emplace(pose.stamp, geometry::project(pose.world_from_body));
-  DriftSums recorded, drawn;
-  recorded.add(all[0].odometry, reference);
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Simulated one(seed);
-    std::map<base::Stamp, Se2> odometry;
-    const auto sensor = one.sensor("class = Odometry\nrate_hz = 20\n", 2);
-    for (int k = 0; k < sensor->count(); ++k) {
-      const auto reading = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(sensor->measure(k).observation);
-      odometry.emplace(reading->timestamp, geometry::fromMrpt(reading->odometry));
-    }
-    drawn.add(odometry, one.truth());
-  }
-  writeOdometry(recorded.drift(), drawn.drift(), folder);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Noise of the simulator's laser and odometry beside recordings");
+  CLI::App app("Noise of the simulator's lasers beside recordings");
   std::string data, folder = ".";
-  app.add_option("--data", data, "Folder of aces.clf.bz2, aces.reference.tum, ual.rawlog and driving_in_office.rawlog")
-      ->required();
+  app.add_option("--data", data, "Folder of aces.clf.bz2, ual.rawlog and driving_in_office.rawlog")->required();
   app.add_option("-o,--output", folder, "Folder of the plots");
   CLI11_PARSE(app, argc, argv);
   try {

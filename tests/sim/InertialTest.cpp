@@ -76,6 +76,32 @@ TEST(Imu, withoutNoiseItIntegratesBackToTheWay) {
   }
 }
 
+// Where a drive is cut off in motion, and where somebody who carries it is swaying already, nothing jerks.
+TEST(Imu, atBothEndsItFeelsNoMoreThanOnTheWay) {
+  const sim::World world = oneRoom(20, 4);
+  const sim::Track cut =
+      sim::planDrive(base::Config::fromText("[robot]\nmode = waypoints\nstart = 2 2\nwaypoints = 18 2\n"
+                                            "max_speed_m_s = 1\nduration_s = 8\n",
+                                            "test.ini"),
+                     world);
+  const sim::Track carried = sim::planDrive(
+      base::Config::fromText("[robot]\nmode = still\nstart = 2 2\nhandheld = true\nduration_s = 8\n", "test.ini"),
+      world);
+  EXPECT_GT((cut.at(8)->translation - cut.at(7.9)->translation).norm(), 0.09);
+  for (const sim::Track* track : {&cut, &carried}) {
+    const SensorRun run(world, *track, exact_imu, 8);
+    const int last = run.sensor().count() - 1;
+    ASSERT_EQ(last, 800);
+    const auto felt = [&](int k) {
+      const Eigen::Vector3d force = track->at(0.01 * k)->rotation * forceOf(*run.measure<CObservationIMU>(k));
+      return (force - Eigen::Vector3d(0, 0, 9.80665)).norm();
+    };
+    double most = 0;
+    for (int k = 10; k <= last - 10; ++k) most = std::max(most, felt(k));
+    for (const int k : {0, 1, last - 1, last}) EXPECT_LT(felt(k), 1.3 * most) << k;
+  }
+}
+
 TEST(Imu, noiseAndBiasAreThoseOfItsOptions) {
   const SensorRun run(oneRoom(6, 4), sim::Track(at(2, 2)), exact_imu + "gyro_noise = 0.001\ngyro_walk_rad_s = 0.01",
                       100);

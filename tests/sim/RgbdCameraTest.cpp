@@ -69,6 +69,24 @@ TEST(RgbdCamera, mrptProjectsItsPointsOntoTheTrueWall) {
   }
 }
 
+TEST(RgbdCamera, noModelTellsDepthsOutOfItsRange) {
+  for (const std::string model : {"ideal", "kinect", "stereo"}) {
+    CameraFixture fixture;
+    fixture.addFacing("near", sim::SurfaceKind::wall, turnedAt(1, 0, 0, 0), 0.2, 4);
+    fixture.addFacing("far", sim::SurfaceKind::wall, turnedAt(4, 0, 0, 0), 20, 20);
+    const auto depths = [&](const std::string& keys) {
+      return depthsOf(*scanOf(fixture.make("RgbdCamera\nmodel = " + model + "\n" + keys)->measure(0)));
+    };
+    const auto only_near = depths("max_range_m = 3"), only_far = depths("min_range_m = 2");
+    for (const double depth : only_near) ASSERT_LE(depth, 3) << model;
+    for (const double depth : only_far) ASSERT_GE(depth, 2) << model;
+    if (model == "ideal") {
+      EXPECT_GT(only_near.size(), 1000U);
+      EXPECT_GT(only_far.size(), 1000U);
+    }
+  }
+}
+
 // What is seen of a board with a vertical edge at y = 0 lies in depth and picture where each camera has it.
 TEST(RgbdCamera, pictureAndDepthAgreeThroughTheirRelativePose) {
   CameraFixture fixture;

@@ -29,12 +29,12 @@ std::string optionsAsMarkdown(const std::vector<OptionSpec>& options) {
 }
 
 std::string optionsAsIni(const std::string& section, const std::string& class_name, const std::string& summary,
-                         const std::vector<OptionSpec>& options) {
+                         const std::vector<OptionSpec>& options, const std::set<std::string>& decided) {
   std::ostringstream out;
   out << "; " << summary << "\n[" << section << "]\nclass = " << class_name << "\n";
   for (const auto& option : options) {
     out << "; " << option.help << (option.range.empty() ? "" : " (" + option.range + ")") << "\n"
-        << option.key << " = " << option.default_value << "\n";
+        << (decided.count(option.key) > 0 ? "; " : "") << option.key << " = " << option.default_value << "\n";
   }
   return out.str();
 }

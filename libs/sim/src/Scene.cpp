@@ -12,6 +12,7 @@ namespace omnimapper::sim {
 namespace {
 
 constexpr int kPacket = 8;
+constexpr double kEdgeOn = 1e-3;  // by how much ranges in single precision may be off [m]
 
 // One device for all scenes of the process: it holds no state of ours.
 RTCDevice device() {
@@ -77,7 +78,8 @@ class Scene::Part {
     const double along = placed.normal.dot(ray.direction_in_map);
     if (along == 0) return;
     const double range = placed.normal.dot(placed.corner - ray.origin_in_map) / along;
-    if (range >= hit.range) return;
+    // Seen edge-on a triangle may be met in single precision and be missed in doubles.
+    if (range < ray.near || range > ray.far + kEdgeOn || range >= hit.range) return;
     hit.range = range;
     hit.surface = placed.surface;
     hit.normal_in_map = along > 0 ? Eigen::Vector3d(-placed.normal) : placed.normal;

@@ -11,6 +11,28 @@ namespace {
 // Streams of one sensor: its measurements, and their arrival.
 constexpr std::uint64_t kArrivalStream = 0xA55, kMeasurementStream = 0x3EA;
 
+constexpr double kMostMeasurements = 1e7;
+
+int countOf(const SensorOptions& options, const SensorContext& context) {
+  const double count = std::floor((context.duration - options.first) * options.rate + 1e-9) + 1;
+  if (count > kMostMeasurements) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      context.place() + "rate_hz = " + base::option_text::format(options.rate) + ": makes " +
+                          base::option_text::format(count) + " measurements in " +
+                          base::option_text::format(context.duration) + " s; at most " +
+                          base::option_text::format(kMostMeasurements) + " are possible");
+  }
+  return std::max(0, static_cast<int>(count));
+}
+
+// Labels name files of truth and of images.
+void refuseBadLabel(const std::string& label, const std::string& place) {
+  if (isPlainFileName(label)) return;
+  throw base::Error(
+      base::ExitCode::out_of_range,
+      place + "label = " + label + ": names files, so it has no '/', does not begin with '.' and is text");
+}
+
 }  // namespace
 
 const base::OptionTable<SensorOptions>& SensorOptions::table() {
@@ -24,7 +46,7 @@ const base::OptionTable<SensorOptions>& SensorOptions::table() {
           .number("yaw_deg", &SensorOptions::yaw, {}, "How it is turned, to the left.")
           .number("pitch_deg", &SensorOptions::pitch, {}, "How it is tilted, down.")
           .number("roll_deg", &SensorOptions::roll, {}, "How it is rolled, to the right.")
-          .number("rate_hz", &SensorOptions::rate, Range::positive(), "Measurements in a second.")
+          .number("rate_hz", &SensorOptions::rate, {1e-6, 1e5}, "Measurements in a second.")
           .number("first_s", &SensorOptions::first, Range::notNegative(), "When it measures first.")
           .number("latency_s", &SensorOptions::latency, Range::notNegative(), "From its stamp to its place in the log.")
           .number("jitter_s", &SensorOptions::jitter, Range::notNegative(), "Standard deviation of the latency.")
@@ -40,7 +62,14 @@ Sensor::Sensor(const SensorOptions& options, const SensorContext& context)
     : options_(options),
       context_(context),
       base_from_sensor_(options.baseFromSensor()),
-      count_(std::max(0, static_cast<int>(std::floor((context.duration - options.first) * options.rate + 1e-9)) + 1)) {}
+      count_(countOf(options, context)) {
+  refuseBadLabel(options.label, context.place());
+}
+
+bool isPlainFileName(const std::string& name) {
+  const auto is_bad = [](unsigned char c) { return c == '/' || c < 0x20 || c == 0x7f; };
+  return !name.empty() && name.front() != '.' && std::none_of(name.begin(), name.end(), is_bad);
+}
 
 base::Stamp Sensor::stampOf(int k) const {
   return context_.start + base::durationFromSeconds(timeOf(k));

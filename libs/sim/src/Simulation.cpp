@@ -1,4 +1,5 @@
 #include <omnimapper/sim/Drive.h>
+#include <omnimapper/sim/Odometry.h>
 #include <omnimapper/sim/Simulation.h>
 #include <omnimapper/sim/WorldIni.h>
 
@@ -33,14 +34,23 @@ void refuseDoubleLabels(const base::Config& config, const std::vector<std::uniqu
   }
 }
 
+// The motion that a frame begins with is told by one odometry.
+void refuseUnframed(const base::Config& config, const std::vector<std::unique_ptr<Sensor>>& sensors) {
+  const auto count = std::count_if(sensors.begin(), sensors.end(),
+                                   [](const auto& sensor) { return dynamic_cast<const Odometry*>(sensor.get()); });
+  if (count == 1) return;
+  throw base::Error(base::ExitCode::out_of_range,
+                    config.file() + ": [simulation] format = frames: needs one Odometry among the sensors, there are " +
+                        std::to_string(count) + "; use format = observations");
+}
+
 }  // namespace
 
 const base::OptionTable<SimulationOptions>& SimulationOptions::table() {
-  using base::Range;
   static const auto table =
       base::OptionTable<SimulationOptions>()
           .integer("seed", &SimulationOptions::seed, {0, 2147483647}, "Of all that is random in the measurements.")
-          .number("duration_s", &SimulationOptions::duration, Range::notNegative(),
+          .number("duration_s", &SimulationOptions::duration, {0, kLongestRun},
                   "How long the sensors measure; 0: until the robot has arrived.")
           .number("start_s", &SimulationOptions::start, {1e6, 4e9}, "Unix time at which it begins.")
           .list("sensors", &SimulationOptions::sensors, "Sections of the sensors.")
@@ -77,6 +87,12 @@ Simulation::Simulation(const base::Config& config)
     sensors_.push_back(makeSensor(config, name, context));
   }
   refuseDoubleLabels(config, sensors_, options_.sensors);
+  if (options_.format == SimulationOptions::Format::frames) refuseUnframed(config, sensors_);
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    if (sensors_[i]->count() == 0)
+      warnings_.push_back(config.file() + ": [" + options_.sensors[i] + "] first_s is after the end of the run, at " +
+                          base::option_text::format(duration_) + " s: it measures nothing");
+  }
   config.refuseUnreadSections();
   if (const auto off = config.switchedOffPlugins(); !off.empty()) {
     warnings_.push_back(config.file() + ": no list of [simulation] or [world] names the sections " +

@@ -42,7 +42,8 @@ std::string printIni(const std::string& class_name) {
   for (const auto& sensor : sensorClasses()) {
     known.push_back(sensor.name);
     if (sensor.name == class_name)
-      return base::optionsAsIni(base::sectionNameFor(class_name, {}), class_name, sensor.summary, allOptionsOf(sensor));
+      return base::optionsAsIni(base::sectionNameFor(class_name, {}), class_name, sensor.summary, allOptionsOf(sensor),
+                                sensor.of_model);
   }
   for (const auto& section : worldSectionReferences()) {
     for (const auto& name : section.class_names) {

@@ -25,7 +25,8 @@ namespace {
 
 // Measurements that are made ahead by each thread: of a camera's there are few among those of quicker sensors.
 constexpr std::size_t kAhead = 32;
-constexpr double kPlanStep = 0.25;  // [s] between points of the way on the plan
+constexpr std::size_t kMostAheadBytes = 256 << 20;  // of all that is made ahead
+constexpr double kPlanStep = 0.25;                  // [s] between points of the way on the plan
 
 /// A measurement that arrives in the log.
 struct Arrival {
@@ -57,17 +58,23 @@ std::vector<Arrival> arrivalsOf(const Simulation& simulation, std::vector<Simula
 class Measurements {
  public:
   using Make = std::function<Measurement(const Arrival&)>;
-  Measurements(const std::vector<Arrival>& arrivals, int threads, Make make)
+  using Size = std::function<std::size_t(const Arrival&)>;
+  Measurements(const std::vector<Arrival>& arrivals, int threads, Size size, Make make)
       : arrivals_(arrivals),
         ahead_(kAhead * static_cast<std::size_t>(threads)),
+        size_(std::move(size)),
         make_(std::move(make)),
         pool_(threads) {}
 
   Measurement next() {
     while (begun_ < arrivals_.size() && waiting_.size() < ahead_) {
-      const Arrival& arrival = arrivals_[begun_++];
+      const Arrival& arrival = arrivals_[begun_];
+      if (!waiting_.empty() && ahead_bytes_ + size_(arrival) > kMostAheadBytes) break;
+      ahead_bytes_ += size_(arrival);
+      ++begun_;
       waiting_.push_back(pool_.submit<Measurement>([this, &arrival] { return make_(arrival); }));
     }
+    ahead_bytes_ -= size_(arrivals_[begun_ - waiting_.size()]);
     Measurement measurement = waiting_.front().get();
     waiting_.pop_front();
     return measurement;
@@ -76,8 +83,9 @@ class Measurements {
  private:
   const std::vector<Arrival>& arrivals_;
   const std::size_t ahead_;
+  const Size size_;
   const Make make_;
-  std::size_t begun_ = 0;
+  std::size_t begun_ = 0, ahead_bytes_ = 0;
   std::deque<std::future<Measurement>> waiting_;
   base::WorkerPool pool_;
 };
@@ -115,7 +123,8 @@ void writeLog(const Simulation& simulation, const SimulationRequest& request, ba
   const std::string images = request.folder + "/" + request.name + "_Images";
   const bool is_external = simulation.options().images == SimulationOptions::Images::external;
   if (is_external) base::makeWritableFolder(images);
-  Measurements measurements(arrivals, request.threads, [&](const Arrival& arrival) {
+  const auto size = [&](const Arrival& arrival) { return simulation.sensors()[arrival.sensor]->sizeOfMeasurement(); };
+  Measurements measurements(arrivals, request.threads, size, [&](const Arrival& arrival) {
     const Sensor& sensor = *simulation.sensors()[arrival.sensor];
     Measurement measurement = sensor.measure(arrival.k);
     if (is_external && measurement.observation)
@@ -154,6 +163,11 @@ void writeLog(const Simulation& simulation, const SimulationRequest& request, ba
 
 SimulationResult runSimulation(const Simulation& simulation, const SimulationRequest& request, base::Progress& progress,
                                const std::function<bool()>& stop) {
+  if (!isPlainFileName(request.name)) {
+    throw base::Error(
+        base::ExitCode::command_line,
+        "--name " + request.name + ": names files, so it has no '/', does not begin with '.' and is text");
+  }
   base::makeWritableFolder(request.folder);
   SimulationResult result;
   result.duration = simulation.duration();

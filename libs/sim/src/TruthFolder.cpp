@@ -38,6 +38,8 @@ void TruthFolder::add(const Sensor& sensor, int k, const Measurement& measuremen
     if (is_new) {
       base::makeWritableFolder(folder_ + "/truth");
       stream->second.open(path, std::ios::binary);
+      if (!stream->second.is_open())
+        throw base::Error(base::ExitCode::unwritable_output, path + ": cannot be made; may the folder be written?");
     }
     stream->second << "{\"measurement\":" << k << ",\"stamp\":" << base::formatUnix(sensor.stampOf(k))
                    << ",\"truth\":" << measurement.truth << "}\n";

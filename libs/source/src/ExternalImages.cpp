@@ -1,8 +1,11 @@
+#include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/ExternalImages.h>
+
+#include <array>
 
 #include "Payload.h"
 
@@ -20,6 +23,21 @@ void moveImage(mrpt::img::CImage& image, const std::string& folder, const std::s
   image.setExternalStorage(name);
 }
 
+// MRPT does not notice where its compressed file cannot be written whole: what it holds is counted.
+void moveRanges(mrpt::obs::CObservation3DRangeScan& scan, const std::string& folder, const std::string& name) {
+  const std::size_t expected = sizeof(std::uint16_t) * static_cast<std::size_t>(scan.rangeImage.size());
+  scan.rangeImage_convertToExternalStorage(name, folder + "/");
+  const std::string path = folder + "/" + name;
+  mrpt::io::CFileGZInputStream file;
+  std::size_t held = 0;
+  if (file.open(path)) {
+    std::array<char, 1 << 16> part;
+    for (std::size_t size = 1; size > 0; held += size) size = file.Read(part.data(), part.size());
+  }
+  if (held < expected)
+    throw base::Error(base::ExitCode::disk_full, path + ": cannot be written whole; is the disk full?");
+}
+
 }  // namespace
 
 void moveImagesToFiles(mrpt::obs::CObservation& observation, const std::string& folder, const std::string& stem) {
@@ -27,7 +45,7 @@ void moveImagesToFiles(mrpt::obs::CObservation& observation, const std::string& 
     moveImage(image->image, folder, stem + ".jpg");
   } else if (auto* scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(&observation)) {
     if (scan->hasIntensityImage) moveImage(scan->intensityImage, folder, stem + "_colour.jpg");
-    if (scan->hasRangeImage) scan->rangeImage_convertToExternalStorage(stem + "_range.bin", folder + "/");
+    if (scan->hasRangeImage) moveRanges(*scan, folder, stem + "_range.bin");
   }
 }
 

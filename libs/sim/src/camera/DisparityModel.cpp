@@ -72,7 +72,7 @@ class Window {
     for (int row = top_; row <= bottom_; ++row) {
       const float* line = disparities_.line(row);
       for (int i = left_; i <= right_; ++i) count += std::abs(line[i] - with) <= kSameDepth;
-      if (count >= enough) return count > 0;
+      if (count > 0 && count >= enough) return true;
     }
     return false;
   }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
+#include <sstream>
 
 #include "Carrier.h"
 #include "Motion.h"
@@ -26,19 +26,19 @@ const base::OptionTable<DriveOptions>& DriveOptions::table() {
           .text("start", &Options::start, "Where it begins, one of the same; empty: the first place of its way.")
           .list("rooms", &Options::rooms, "Rooms of a tour; none: all that can be reached.")
           .number("radius_m", &Options::radius, positive, "Of the robot, about the origin of its base.")
-          .number("max_speed_m_s", &Options::max_speed, positive, "Its largest speed.")
+          .number("max_speed_m_s", &Options::max_speed, {0.01, 100}, "Its largest speed.")
           .number("max_turn_per_s_deg", &Options::max_turn, positive, "How far it turns in a second at most.")
           .number("max_acceleration_m_s2", &Options::max_acceleration, positive,
                   "Largest acceleration along its way, and the largest across it.")
           .number("max_turn_acceleration_per_s2_deg", &Options::max_turn_acceleration, positive,
                   "How much the turn in a second changes in a second at most.")
-          .number("pause_s", &Options::pause, zero_or_more,
+          .number("pause_s", &Options::pause, {0, 3600},
                   "Stay at each waypoint or place of a tour; 0: waypoints without a heading are passed by.")
           .number("look_around_deg", &Options::look_around, zero_or_more, "Turned at each place of a tour.")
           .number("reach_m", &Options::reach, {0.5, 100},
                   "A tour has seen what was this near and not hidden by anything.")
           .integer("repeat", &Options::repeat, {1, 10000}, "How often it goes its way.")
-          .number("duration_s", &Options::duration, zero_or_more,
+          .number("duration_s", &Options::duration, {0, kLongestRun},
                   "Of the drive, repeated until then and cut off there; 0: as long as it takes.")
           .flag("handheld", &Options::handheld, "Carried by somebody who walks, at eye height, instead of driven.")
           .number("eye_height_m", &Options::eye_height, positive, "Hand-held: above the floor.")
@@ -64,6 +64,7 @@ class Places {
   Places(const base::Config& config, const World& world, const FloorPlan& plan, double radius)
       : file_(config.file()), world_(world), plan_(plan), radius_(radius) {}
 
+  /// At least one, unless the text is empty.
   std::vector<Stop> read(const std::string& key, const std::string& text) const {
     std::vector<Stop> stops;
     for (std::size_t begin = 0; begin <= text.size();) {
@@ -73,7 +74,16 @@ class Places {
       if (first < comma && comma > 0) stops.push_back(readOne(key, text.substr(first, last + 1 - first)));
       begin = comma + 1;
     }
+    if (stops.empty() && !text.empty()) fail(base::ExitCode::out_of_range, key, text, "names no place");
     return stops;
+  }
+
+  /// None if the text is empty.
+  std::optional<Stop> readSingle(const std::string& key, const std::string& text) const {
+    const auto stops = read(key, text);
+    if (stops.empty()) return {};
+    if (stops.size() > 1) fail(base::ExitCode::out_of_range, key, text, "names more than one place");
+    return stops.front();
   }
 
   int room(const std::string& key, const std::string& name) const {
@@ -102,15 +112,14 @@ class Places {
  private:
   Stop readOne(const std::string& key, const std::string& text) const {
     std::vector<double> numbers;
-    const char* at = text.c_str();
-    for (char* after = nullptr;; at = after) {
-      const double number = std::strtod(at, &after);
-      if (after == at) break;
-      numbers.push_back(number);
+    std::istringstream words(text);
+    bool is_place = true;
+    for (std::string word; is_place && words >> word;) {
+      numbers.push_back(0);
+      is_place = !base::option_text::parse(word, {}, numbers.back());
     }
-    while (*at == ' ' || *at == '\t') ++at;
     Stop stop{{}, {}, text};
-    if (*at == 0 && (numbers.size() == 2 || numbers.size() == 3)) {
+    if (is_place && (numbers.size() == 2 || numbers.size() == 3)) {
       stop.in_map = {numbers[0], numbers[1]};
       if (numbers.size() == 3) stop.yaw = numbers[2] * base::option_text::kRadiansPerDegree;
     } else {
@@ -147,9 +156,7 @@ class Planner {
       : options_(options), world_(world), plan_(world, options.radius), places_(config, world, plan_, options.radius) {}
 
   Motion plan() const {
-    std::optional<Stop> start;
-    const auto starts = places_.read("start", options_.start);
-    if (!starts.empty()) start = starts.front();
+    auto start = places_.readSingle("start", options_.start);
     std::vector<Stop> stops;
     if (options_.mode == DriveMode::waypoints) stops = waypoints(start);
     if (options_.mode == DriveMode::tour) stops = tour(start);
@@ -188,7 +195,7 @@ class Planner {
 
   std::vector<Stop> still(const std::optional<Stop>& start) const {
     if (start) return {*start};
-    if (!options_.waypoints.empty()) return {places_.read("waypoints", options_.waypoints).front()};
+    if (const auto place = places_.readSingle("waypoints", options_.waypoints)) return {*place};
     for (const Room& room : world_.rooms) {
       if (const auto place = goodPlaceIn(room, plan_)) return {{*place, {}, room.name}};
     }
@@ -236,11 +243,24 @@ class Planner {
         if (stops[i].yaw) motion.turnTo(*stops[i].yaw);
         if (options_.mode == DriveMode::tour) motion.turn(options_.look_around);
         motion.wait(options_.pause);
+        refuseTooLong(motion);
       }
       const bool moved = motion.duration() > before || way.size() > corners;
-      if (options_.duration > 0 && (!moved || stops.size() < 2)) motion.wait(options_.duration - before);
+      if (options_.duration > 0 && (!moved || stops.size() < 2)) {
+        flush();
+        motion.wait(options_.duration - motion.duration());
+      }
     }
     flush();
+    refuseTooLong(motion);
+  }
+
+  // Where duration_s cuts a drive off, what comes after does not count.
+  void refuseTooLong(const Motion& motion) const {
+    if (options_.duration > 0 || motion.duration() <= kLongestRun) return;
+    places_.fail(base::ExitCode::out_of_range, "duration_s", "0",
+                 "the whole way takes more than " + base::option_text::format(kLongestRun) +
+                     " s: set duration_s, make it shorter or the robot faster");
   }
 
   const DriveOptions& options_;
@@ -255,7 +275,8 @@ Track planDrive(const base::Config& config, const World& world) {
   const auto options = config.section("robot").read<DriveOptions>();
   const Motion motion = Planner(options, config, world).plan();
   constexpr double kStep = 1.0 / kDriveRate;
-  auto poses = poseOnGround(motion.sampled(kStep), world, options.radius);
+  auto poses = poseOnGround(motion.sampled(kStep, options.duration > 0 ? options.duration : motion.duration()), world,
+                            options.radius);
   if (options.handheld) carryByHand(poses, options, world.seed);
   std::vector<Track::Place> places;
   for (std::size_t i = 0; i < poses.size(); ++i) {

@@ -222,11 +222,11 @@ geometry::Se2 Motion::poseIn(const Leg& leg, double time) const {
   return {position.x(), position.y(), geometry::wrapToPi(yaw)};
 }
 
-std::vector<geometry::Se2> Motion::sampled(double step) const {
+std::vector<geometry::Se2> Motion::sampled(double step, double until) const {
   std::vector<geometry::Se2> poses;
   std::size_t leg = 0;
   if (legs_.empty()) return {end_};
-  for (int i = 0; (i - 1) * step < duration_; ++i) {
+  for (int i = 0; (i - 1) * step < std::min(duration_, until); ++i) {
     while (leg + 1 < legs_.size() && legs_[leg + 1].begin <= i * step) ++leg;
     poses.push_back(poseIn(legs_[leg], i * step));
   }

@@ -31,7 +31,7 @@ class Motion {
   double duration() const { return duration_; }
   const geometry::Se2& end() const { return end_; }
   /// Poses at 0, step, 2 step, ... until the end is reached.
-  std::vector<geometry::Se2> sampled(double step) const;
+  std::vector<geometry::Se2> sampled(double step, double until) const;
 
  private:
   /// A place on a path. Between two of them acceleration along the path is constant.

@@ -68,6 +68,11 @@ geometry::Se3 ColourCamera::mapFromCamera(double time) const {
   return *context().map_from_base->at(time) * baseFromCamera(anglesAt(time));
 }
 
+std::size_t ColourCamera::sizeOfMeasurement() const {
+  constexpr std::size_t kBytesOfPixel = 6;  // colour, labels
+  return kBytesOfPixel * static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height);
+}
+
 Measurement ColourCamera::measure(int k) const {
   const ColourCameraOptions& o = options_of_camera_;
   const double time = timeOf(k), half = 0.5 * o.exposure;

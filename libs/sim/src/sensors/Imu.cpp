@@ -55,13 +55,18 @@ Imu::Imu(const ImuOptions& options, const SensorOptions& mount, const SensorCont
 }
 
 Imu::Rates Imu::ratesAt(double time) const {
-  const geometry::Se3 before = mapFromSensor(time - 0.5 * span_), after = mapFromSensor(time + 0.5 * span_);
-  const geometry::Se3 early = mapFromSensor(time - span_), now = mapFromSensor(time),
-                      late = mapFromSensor(time + span_);
-  const Eigen::Vector3d acceleration_in_map =
-      (late.translation - 2 * now.translation + early.translation) / (span_ * span_);
-  return {geometry::minus(after, before).tail<3>() / span_,
-          now.rotation.conjugate() * (acceleration_in_map + Eigen::Vector3d(0, 0, options_.gravity))};
+  const Eigen::Matrix3d map_from_sensor = mapFromSensor(time).rotation.toRotationMatrix();
+  const Eigen::Vector3d up(0, 0, options_.gravity);
+  const auto& places = context().map_from_base->places();
+  const double begin = places.front().time, end = places.back().time;
+  if (end - begin < 2 * span_ || time > end) return {Eigen::Vector3d::Zero(), map_from_sensor.transpose() * up};
+  // The track says nothing of what was before its begin and after its end.
+  const double middle = std::clamp(time, begin + span_, end - span_);
+  const geometry::Se3 before = mapFromSensor(middle - 0.5 * span_), after = mapFromSensor(middle + 0.5 * span_);
+  const Eigen::Vector3d early = mapFromSensor(middle - span_).translation, now = mapFromSensor(middle).translation,
+                        late = mapFromSensor(middle + span_).translation;
+  const Eigen::Vector3d acceleration_in_map = (late - 2 * now + early) / (span_ * span_);
+  return {geometry::minus(after, before).tail<3>() / span_, map_from_sensor.transpose() * (acceleration_in_map + up)};
 }
 
 Measurement Imu::measure(int k) const {

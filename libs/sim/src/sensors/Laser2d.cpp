@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "OptionChecks.h"
 #include "TruthText.h"
+#include "opticsTable.h"
 
 namespace omnimapper::sim {
 
@@ -69,34 +71,21 @@ Laser2dOptions Laser2dOptions::ofModel(Laser2dModel model) {
 const base::OptionTable<Laser2dOptions>& Laser2dOptions::table() {
   using base::Range;
   using Options = Laser2dOptions;
-  const Range positive = Range::positive(), zero_or_more = Range::notNegative(), part{0, 1};
+  const Range zero_or_more = Range::notNegative();
   static const auto table =
-      base::OptionTable<Options>()
-          .choice("model", &Options::model,
-                  {{"sick_lms291", Laser2dModel::sick_lms291},
-                   {"sick_pls", Laser2dModel::sick_pls},
-                   {"hokuyo_utm30", Laser2dModel::hokuyo_utm30},
-                   {"hokuyo_urg04", Laser2dModel::hokuyo_urg04},
-                   {"ideal", Laser2dModel::ideal}},
-                  "Whose figures count for keys that are not given; the defaults listed are the first one's.")
-          .integer("beams", &Options::beams, {2, 100000}, "Beams of a scan.")
-          .number("aperture_deg", &Options::aperture, {1, 360}, "From the first beam to the last.")
-          .flag("counter_clockwise", &Options::counter_clockwise, "Sweeps from right to left.")
-          .number("sweep_s", &Options::sweep, zero_or_more, "From the first beam, at the stamp, to the last.")
-          .number("min_range_m", &Options::min_range, zero_or_more, "Nearer things are not measured.")
-          .number("max_range_m", &Options::max_range, positive, "Nor farther ones.")
-          .number("white_range_m", &Options::white_range, zero_or_more,
-                  "Range at which a white wall can only just be measured; dark ones nearer. 0: all alike.")
-          .number("divergence_deg", &Options::divergence, {0, 10}, "Full angle of a beam's cone; 0: a line.")
-          .number("noise_m", &Options::noise, zero_or_more, "Standard deviation of ranges.")
-          .number("noise_per_m", &Options::noise_per_metre, zero_or_more, "What each metre of range adds to it [m].")
-          .number("step_m", &Options::step, zero_or_more, "Ranges are multiples of it; 0: not rounded.")
-          .number("mixing_gap_m", &Options::mixing_gap, zero_or_more,
-                  "Two things in one beam are mixed up to this distance of one behind the other.")
-          .number("mixing", &Options::mixing, part, "Part of such beams whose range is a mean of both.")
-          .number("lost", &Options::lost, part, "Part of the echoes that are missed.")
-          .number("glass_deg", &Options::glass_angle, zero_or_more,
-                  "Incidence up to which panes are seen themselves, one sigma; 0: never, and they never mirror.")
+      withOptics(
+          base::OptionTable<Options>()
+              .choice("model", &Options::model,
+                      {{"sick_lms291", Laser2dModel::sick_lms291},
+                       {"sick_pls", Laser2dModel::sick_pls},
+                       {"hokuyo_utm30", Laser2dModel::hokuyo_utm30},
+                       {"hokuyo_urg04", Laser2dModel::hokuyo_urg04},
+                       {"ideal", Laser2dModel::ideal}},
+                      "Whose figures count for keys that are not given; the defaults listed are the first one's.")
+              .integer("beams", &Options::beams, {2, 100000}, "Beams of a scan.")
+              .number("aperture_deg", &Options::aperture, {1, 360}, "From the first beam to the last.")
+              .flag("counter_clockwise", &Options::counter_clockwise, "Sweeps from right to left.")
+              .number("sweep_s", &Options::sweep, zero_or_more, "From the first beam, at the stamp, to the last."))
           .flag("no_echo_is_max", &Options::no_echo_is_max, "Range of a beam without echo: max_range_m, else 0.")
           .flag("intensity", &Options::intensity, "Intensities of the echoes, 0 to 255.")
           .flag("truth_ranges", &Options::truth_ranges, "The truth has the true range of each beam.");
@@ -104,7 +93,9 @@ const base::OptionTable<Laser2dOptions>& Laser2dOptions::table() {
 }
 
 Laser2d::Laser2d(const Laser2dOptions& options, const SensorOptions& mount, const SensorContext& context)
-    : Sensor(mount, context), options_(options), optics_(options, *context.scenes, 3) {}
+    : Sensor(mount, context), options_(options), optics_(options, *context.scenes, 3) {
+  requireBelow(context.place(), "min_range_m", options.min_range, "max_range_m", options.max_range);
+}
 
 std::vector<Echo> Laser2d::echoes(int k) const {
   // MRPT keeps the aperture in single precision: the beams are those that a reader of the log will assume.
@@ -175,8 +166,14 @@ SensorClass laser2dClass() {
     }
     return std::make_unique<Laser2d>(options, mount, context);
   };
-  return {"Laser2d", "A 2D laser with the noise, mixed pixels, glass and dark surfaces of a real one.",
-          Laser2dOptions::table().specs(), make};
+  SensorClass laser{"Laser2d", "A 2D laser with the noise, mixed pixels, glass and dark surfaces of a real one.",
+                    Laser2dOptions::table().specs(), make};
+  const std::set<std::string> free_of_model{"model", "counter_clockwise", "no_echo_is_max", "intensity",
+                                            "truth_ranges"};
+  for (const auto& spec : laser.options) {
+    if (free_of_model.count(spec.key) == 0) laser.of_model.insert(spec.key);
+  }
+  return laser;
 }
 
 }  // namespace omnimapper::sim

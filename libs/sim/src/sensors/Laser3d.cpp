@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "OptionChecks.h"
 #include "TruthText.h"
+#include "opticsTable.h"
 
 namespace omnimapper::sim {
 
@@ -23,35 +25,21 @@ Laser3dOptions::Laser3dOptions() {
 }
 
 const base::OptionTable<Laser3dOptions>& Laser3dOptions::table() {
-  using base::Range;
   using Options = Laser3dOptions;
-  const Range positive = Range::positive(), zero_or_more = Range::notNegative(), part{0, 1};
-  static const auto table =
+  static const auto table = withOptics(
       base::OptionTable<Options>()
           .integer("rings", &Options::rings, {1, 256}, "Beams of a column.")
           .number("lowest_deg", &Options::lowest, {-89, 89}, "Elevation of the lowest ring, up is positive.")
           .number("highest_deg", &Options::highest, {-89, 89}, "Elevation of the highest ring.")
           .integer("columns", &Options::columns, {4, 10000}, "Of a turn.")
-          .flag("takes_time", &Options::takes_time, "A turn takes 1 / rate_hz; else all of it is measured at once.")
-          .number("min_range_m", &Options::min_range, zero_or_more, "Nearer things are not measured.")
-          .number("max_range_m", &Options::max_range, positive, "Nor farther ones.")
-          .number("white_range_m", &Options::white_range, zero_or_more,
-                  "Range at which a white wall can only just be measured; dark ones nearer. 0: all alike.")
-          .number("divergence_deg", &Options::divergence, {0, 10}, "Full angle of a beam's cone; 0: a line.")
-          .number("noise_m", &Options::noise, zero_or_more, "Standard deviation of ranges.")
-          .number("noise_per_m", &Options::noise_per_metre, zero_or_more, "What each metre of range adds to it [m].")
-          .number("step_m", &Options::step, zero_or_more, "Ranges are multiples of it; 0: not rounded.")
-          .number("mixing_gap_m", &Options::mixing_gap, zero_or_more,
-                  "Two things in one beam are mixed up to this distance of one behind the other.")
-          .number("mixing", &Options::mixing, part, "Part of such beams whose range is a mean of both.")
-          .number("lost", &Options::lost, part, "Part of the echoes that are missed.")
-          .number("glass_deg", &Options::glass_angle, zero_or_more,
-                  "Incidence up to which panes are seen themselves, one sigma; 0: never, and they never mirror.");
+          .flag("takes_time", &Options::takes_time, "A turn takes 1 / rate_hz; else all of it is measured at once."));
   return table;
 }
 
 Laser3d::Laser3d(const Laser3dOptions& options, const SensorOptions& mount, const SensorContext& context)
-    : Sensor(mount, context), options_(options), optics_(options, *context.scenes, 1) {}
+    : Sensor(mount, context), options_(options), optics_(options, *context.scenes, 1) {
+  requireBelow(context.place(), "min_range_m", options.min_range, "max_range_m", options.max_range);
+}
 
 Measurement Laser3d::measure(int k) const {
   const double turn_time = options_.takes_time ? 1 / options().rate : 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "OptionChecks.h"
 #include "TruthText.h"
 
 namespace omnimapper::sim {
@@ -63,6 +64,7 @@ RangeBearing::RangeBearing(const RangeBearingOptions& options, const SensorOptio
     if (options.markers) landmarks_.push_back({marker.name, marker.id, trackOf(marker.name), {0, 0, 0}, true});
   }
   if (options.known_ids) refuseDoubleIds();
+  requireBelow(context.place(), "min_range_m", options.min_range, "max_range_m", options.max_range);
 }
 
 // MRPT keeps no observation in which an id stands twice.

@@ -89,8 +89,8 @@ void RgbdCamera::fillDepth(const std::vector<float>& depths, mrpt::obs::CObserva
   for (int row = 0; row < camera.height; ++row) {
     for (int column = 0; column < camera.width; ++column) {
       const float depth = depths[static_cast<std::size_t>(row) * camera.width + column];
-      const double units = depth / settings_.unit + 0.5;
-      scan.rangeImage(row, column) = units < 65536 ? static_cast<std::uint16_t>(units) : 0;  // too far to be told
+      const bool is_told = depth >= settings_.disparity.min_range && depth <= settings_.disparity.max_range;
+      scan.rangeImage(row, column) = is_told ? static_cast<std::uint16_t>(depth / settings_.unit + 0.5) : 0;
     }
   }
 }
@@ -102,6 +102,12 @@ void RgbdCamera::fillColour(const Pictures& pictures, int k, mrpt::obs::CObserva
   scan.intensityImage =
       photograph(pictures.picture(), shader_.shade(pictures.picture()), mapFromColour(pictures.colour_time - half),
                  mapFromColour(pictures.colour_time + half), settings_.photograph, randomOf(k, kColourStream));
+}
+
+std::size_t RgbdCamera::sizeOfMeasurement() const {
+  constexpr std::size_t kBytesOfPixel = 8;  // depth, colour, labels
+  return kBytesOfPixel * static_cast<std::size_t>(options_of_camera_.width) *
+         static_cast<std::size_t>(options_of_camera_.height);
 }
 
 Measurement RgbdCamera::measure(int k) const {

@@ -2,6 +2,10 @@
 
 #include <omnimapper/base/Error.h>
 
+#include <cmath>
+
+#include "OptionChecks.h"
+
 namespace omnimapper::sim {
 
 namespace {
@@ -47,9 +51,31 @@ Preset preset(RgbdModel model) {
   return ideal;
 }
 
-double chosen(double option, double of_model) {
-  return option == kAsModel ? of_model : option;
-}
+/// Figures of the model, unless the INI gives others.
+class Figures {
+ public:
+  explicit Figures(const std::string& place) : place_(place) {}
+
+  double chosen(const char* key, double option, double of_model) const {
+    if (option == kAsModel) return of_model;
+    if (option < 0) refuseValue(place_, key, option, "must be 0 or more, or -1 for what the model has");
+    return option;
+  }
+  double positive(const char* key, double option, double of_model) const {
+    const double value = chosen(key, option, of_model);
+    if (!(value > 0)) refuseValue(place_, key, value, "must be above 0, or -1 for what the model has");
+    return value;
+  }
+  double offset(const char* key, double option, double of_model) const {
+    if (option == kNoOffset) return of_model;
+    if (std::abs(option) > 1)
+      refuseValue(place_, key, option, "must be within [-1, 1], or -1000 for what the model has");
+    return option;
+  }
+
+ private:
+  const std::string& place_;
+};
 
 }  // namespace
 
@@ -102,48 +128,41 @@ const base::OptionTable<RgbdOptions>& RgbdOptions::table() {
 
 RgbdSettings settle(const RgbdOptions& options, const std::string& place) {
   const Preset model = preset(options.model);
+  const Figures figures(place);
   const double scale = options.width / 640.0;
   RgbdSettings settings;
   settings.exact = options.model == RgbdModel::ideal;
   settings.from_texture = options.model == RgbdModel::stereo;
-  const double focal = chosen(options.focal, scale * model.focal);
-  const double colour_focal = settings.from_texture ? focal : chosen(options.colour_focal, scale * model.colour_focal);
-  const auto positive = [&](const char* key, double value) {
-    if (value > 0) return;
-    throw base::Error(base::ExitCode::out_of_range, place + key + " = " + base::option_text::format(value) +
-                                                        ": must be above 0, or -1 for what the model has");
-  };
-  positive("focal_px", focal);
-  positive("colour_focal_px", colour_focal);
+  if (settings.from_texture && (options.colour_focal != kAsModel || options.colour_right != kNoOffset)) {
+    throw base::Error(base::ExitCode::out_of_range, place +
+                                                        "colour_focal_px, colour_right_m: with model = stereo the "
+                                                        "left eye makes the picture too; leave them out");
+  }
+  const double focal = figures.positive("focal_px", options.focal, scale * model.focal);
+  const double colour_focal =
+      settings.from_texture ? focal
+                            : figures.positive("colour_focal_px", options.colour_focal, scale * model.colour_focal);
   settings.depth_camera = Pinhole::centred(options.width, options.height, focal);
   settings.colour_camera = Pinhole::centred(options.width, options.height, colour_focal);
-  settings.colour_right = options.colour_right == kNoOffset ? model.colour_right : options.colour_right;
-  if (settings.from_texture) settings.colour_right = 0;  // the left eye makes both
-  settings.unit = chosen(options.unit, model.unit);
-  positive("range_unit_m", settings.unit);
+  settings.colour_right = figures.offset("colour_right_m", options.colour_right, model.colour_right);
+  settings.unit = figures.positive("range_unit_m", options.unit, model.unit);
   DisparitySettings& disparity = settings.disparity = model.disparity;
-  disparity.baseline = chosen(options.baseline, disparity.baseline);
-  positive("baseline_m", disparity.baseline);
-  disparity.step = chosen(options.disparity_step, disparity.step);
-  disparity.sigma = chosen(options.disparity_sigma, disparity.sigma);
+  disparity.baseline = figures.positive("baseline_m", options.baseline, disparity.baseline);
+  disparity.step = figures.chosen("disparity_step_px", options.disparity_step, disparity.step);
+  disparity.sigma = figures.chosen("disparity_sigma_px", options.disparity_sigma, disparity.sigma);
   if (options.disparity_reach >= 0) disparity.reach = options.disparity_reach;
-  disparity.need = chosen(options.match_share, disparity.need);
-  disparity.signal_floor = chosen(options.signal_floor, disparity.signal_floor);
-  disparity.min_range = chosen(options.min_range, disparity.min_range);
-  disparity.max_range = chosen(options.max_range, disparity.max_range);
-  if (!(disparity.min_range < disparity.max_range)) {
-    throw base::Error(base::ExitCode::out_of_range,
-                      place + "min_range_m = " + base::option_text::format(disparity.min_range) +
-                          ": must be below max_range_m = " + base::option_text::format(disparity.max_range));
-  }
+  disparity.need = figures.chosen("match_share", options.match_share, disparity.need);
+  disparity.signal_floor = figures.chosen("signal_floor", options.signal_floor, disparity.signal_floor);
+  disparity.min_range = figures.chosen("min_range_m", options.min_range, disparity.min_range);
+  disparity.max_range = figures.chosen("max_range_m", options.max_range, disparity.max_range);
+  requireBelow(place, "min_range_m", disparity.min_range, "max_range_m", disparity.max_range);
   if (disparity.max_range / settings.unit > 65535) {
-    throw base::Error(base::ExitCode::out_of_range,
-                      place + "max_range_m = " + base::option_text::format(disparity.max_range) +
-                          ": does not fit into 16 bits of range_unit_m = " + base::option_text::format(settings.unit) +
-                          "; make the unit larger");
+    refuseValue(place, "max_range_m", disparity.max_range,
+                "does not fit into 16 bits of range_unit_m = " + base::option_text::format(settings.unit) +
+                    "; make the unit larger");
   }
-  settings.photograph = {options.gain, options.exposure, chosen(options.colour_noise, model.colour_noise),
-                         options.vignetting};
+  settings.photograph = {options.gain, options.exposure,
+                         figures.chosen("colour_noise", options.colour_noise, model.colour_noise), options.vignetting};
   settings.coincide = settings.colour_right == 0 && focal == colour_focal;
   return settings;
 }

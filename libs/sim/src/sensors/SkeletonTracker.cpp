@@ -10,6 +10,7 @@
 
 #include "../camera/Pinhole.h"
 #include "../camera/ViewTruth.h"
+#include "OptionChecks.h"
 
 namespace omnimapper::sim {
 
@@ -77,7 +78,9 @@ const base::OptionTable<SkeletonTrackerOptions>& SkeletonTrackerOptions::table()
 
 SkeletonTracker::SkeletonTracker(const SkeletonTrackerOptions& options, const SensorOptions& mount,
                                  const SensorContext& context)
-    : Sensor(mount, context), options_of_tracker_(options) {}
+    : Sensor(mount, context), options_of_tracker_(options) {
+  requireBelow(context.place(), "nearest_m", options.nearest, "farthest_m", options.farthest);
+}
 
 bool SkeletonTracker::isInView(const Vector3d& in_optical) const {
   return in_optical.z() > 0 && std::abs(in_optical.x()) <= in_optical.z() * std::tan(options_of_tracker_.width / 2) &&

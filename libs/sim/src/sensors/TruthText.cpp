@@ -17,14 +17,16 @@ nlohmann::ordered_json runLengths(const std::vector<int>& surfaces) {
 
 nlohmann::ordered_json truthOf(const std::vector<Echo>& echoes) {
   std::vector<int> surfaces;
-  auto mixed = nlohmann::ordered_json::array(), mirrored = nlohmann::ordered_json::array();
+  auto missed = nlohmann::ordered_json::array(), mixed = missed, mirrored = missed;
   for (std::size_t i = 0; i < echoes.size(); ++i) {
-    surfaces.push_back(echoes[i].is_valid ? echoes[i].surface : -1);
+    surfaces.push_back(echoes[i].surface);
+    if (!echoes[i].is_valid && echoes[i].surface >= 0) missed.push_back(i);
     if (echoes[i].is_valid && echoes[i].is_mixed) mixed.push_back(i);
     if (echoes[i].is_valid && echoes[i].is_mirrored) mirrored.push_back(i);
   }
   nlohmann::ordered_json truth;
   truth["surfaces"] = runLengths(surfaces);
+  if (!missed.empty()) truth["missed"] = missed;
   truth["mixed"] = mixed;
   truth["mirrored"] = mirrored;
   return truth;

@@ -1,7 +1,13 @@
-#include <omnimapper/sim/Building.h>
+#include "Openings.h"
+
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/sim/Materials.h>
 
+#include <array>
 #include <cmath>
+
+#include "PlanChecks.h"
+#include "WallFaces.h"
 
 namespace omnimapper::sim {
 
@@ -12,6 +18,73 @@ using Eigen::Vector3d;
 
 constexpr double kLeafThickness = 0.04;  // [m]
 constexpr double kDoorwayDepth = 0.7;    // floor kept free before a door [m]
+constexpr double kAtWall = 1.0;          // farther than this a point is at no wall [m]
+constexpr double kThickest = 1.0;        // of the walls that an opening goes through [m]
+constexpr double kOutsideWall = 0.3;     // thickness of a wall to the outside [m]
+constexpr int kOutside = -1;
+
+// Numbers of the two rooms that it joins.
+std::array<int, 2> roomsOf(const WorldPlan& plan, const OpeningPlan& opening, const std::vector<Room>& rooms) {
+  if (opening.rooms.size() != 2) refuse(plan, opening.name, "rooms", "must name the two rooms it joins");
+  std::array<int, 2> numbers{kOutside, kOutside};
+  for (const int side : {0, 1}) {
+    if (side == 1 && opening.rooms[1] == "outside") continue;
+    for (std::size_t i = 0; i < rooms.size(); ++i) {
+      if (rooms[i].name == opening.rooms[side]) numbers[side] = static_cast<int>(i);
+    }
+    if (numbers[side] == kOutside)
+      refuse(plan, opening.name, "rooms", "there is no room '" + opening.rooms[side] + "'");
+  }
+  return numbers;
+}
+
+// The walls nearest the opening's place that stand between its rooms, and what they share.
+struct WallPair {
+  int wall = -1, other_wall = kOutside;
+  Facing share;
+};
+WallPair wallsAt(const WorldPlan& plan, const OpeningPlan& opening, const std::array<int, 2>& between,
+                 const std::vector<WallFace>& walls) {
+  const Vector2d point(opening.x, opening.y);
+  WallPair best;
+  double best_distance = kAtWall;
+  const auto consider = [&](const WallPair& pair) {
+    const WallFace& wall = walls[pair.wall];
+    const double distance = distanceToSegment(point, wall.start + pair.share.low_u * wall.direction,
+                                              wall.start + pair.share.high_u * wall.direction);
+    if (pair.share.gap > kThickest || distance >= best_distance) return;
+    best_distance = distance;
+    best = pair;
+  };
+  for (int i = 0; i < static_cast<int>(walls.size()); ++i) {
+    if (walls[i].room != between[0]) continue;
+    if (between[1] == kOutside) consider({i, kOutside, {kOutsideWall, 0, walls[i].length}});
+    for (int j = 0; j < static_cast<int>(walls.size()) && between[1] != kOutside; ++j) {
+      if (walls[j].room != between[1]) continue;
+      if (const auto share = facing(walls[i], walls[j])) consider({i, j, *share});
+    }
+  }
+  if (best.wall < 0) {
+    refuse(plan, opening.name, "rooms",
+           "no wall within 1 m of x_m, y_m stands between '" + opening.rooms[0] + "' and '" + opening.rooms[1] + "'");
+  }
+  return best;
+}
+
+// Height of the ceiling over the opening, the lower one of both rooms.
+double ceilingOver(const WorldPlan& plan, const FittedOpening& opening, const std::vector<WallFace>& walls) {
+  const WallFace& wall = walls[opening.wall];
+  double ceiling = std::min(wall.ceilingAt(opening.low_u), wall.ceilingAt(opening.high_u));
+  if (opening.other_wall == kOutside) return ceiling;
+  const WallFace& other = walls[opening.other_wall];
+  for (const double u : {opening.low_u, opening.high_u}) {
+    const double there = other.alongOf(wall.start + u * wall.direction);
+    ceiling = std::min(ceiling, other.ceilingAt(there));
+    if (std::abs(other.floorAt(there) - wall.floorAt(u)) > 1e-6)
+      refuse(plan, opening.plan->name, "rooms", "their floors are not of one height there");
+  }
+  return ceiling;
+}
 
 // A point of the opening: along the wall, into its solid, up.
 Vector3d inside(const WallFace& wall, double u, double depth, double z) {
@@ -80,6 +153,31 @@ Ring outlineOf(const Body& leaf) {
 }
 
 }  // namespace
+
+FittedOpening fitOpening(const WorldPlan& plan, const OpeningPlan& opening, const std::vector<Room>& rooms,
+                         const std::vector<WallFace>& walls) {
+  const WallPair pair = wallsAt(plan, opening, roomsOf(plan, opening, rooms), walls);
+  const WallFace& wall = walls[pair.wall];
+  FittedOpening fitted;
+  fitted.plan = &opening;
+  fitted.wall = pair.wall;
+  fitted.other_wall = pair.other_wall;
+  fitted.depth = pair.share.gap;
+  const bool whole = fitted.depth == 0 || opening.width == 0;
+  const double middle = wall.alongOf({opening.x, opening.y});
+  fitted.low_u = whole ? pair.share.low_u : middle - opening.width / 2;
+  fitted.high_u = whole ? pair.share.high_u : middle + opening.width / 2;
+  if (fitted.low_u < pair.share.low_u - kSamePlace || fitted.high_u > pair.share.high_u + kSamePlace) {
+    refuse(plan, opening.name, "width_m",
+           base::brief(opening.width) + " does not fit into the wall there: the two rooms share " +
+               base::brief(pair.share.high_u - pair.share.low_u) + " m");
+  }
+  const double ceiling = ceilingOver(plan, fitted, walls);
+  fitted.low_z = wall.floorAt((fitted.low_u + fitted.high_u) / 2) + opening.sill;
+  fitted.high_z = fitted.depth == 0 ? ceiling : fitted.low_z + opening.height;
+  if (fitted.high_z > ceiling + kSamePlace) refuse(plan, opening.name, "height_m", "reaches above the ceiling");
+  return fitted;
+}
 
 void addOpening(const FittedOpening& opening, const std::vector<WallFace>& walls, Building& building) {
   const OpeningPlan& plan = *opening.plan;

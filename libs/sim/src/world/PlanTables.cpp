@@ -51,7 +51,8 @@ const OptionTable<WorldOptions>& WorldOptions::table() {
                   "Of a generated loop, along the middle of its corridor.")
           .number("move_time_s", &WorldOptions::move_time, kAnywhere,
                   "When moveable things of a generated place are carried elsewhere; negative: never.")
-          .text("sign_style", &WorldOptions::sign_style, "Look of the door signs of a generated place: dark or white.")
+          .choice("sign_style", &WorldOptions::sign_style, {{"dark", "dark"}, {"white", "white"}},
+                  "Look of the door signs of a generated place.")
           .list("rooms", &WorldOptions::rooms, "Sections of rooms.")
           .list("doors", &WorldOptions::doors, "Sections of doors, passages and windows.")
           .list("furniture", &WorldOptions::furniture, "Sections of furniture.")

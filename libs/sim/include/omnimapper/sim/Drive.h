@@ -40,6 +40,9 @@ struct DriveOptions {
   static const base::OptionTable<DriveOptions>& table();
 };
 
+/// Longest drive and longest run [s].
+constexpr double kLongestRun = 6 * 3600;
+
 /// Poses in a second of a planned track.
 constexpr int kDriveRate = 100;
 

@@ -20,7 +20,8 @@ struct ImuOptions {
 
 /// A gyroscope and accelerometer: CObservationIMU with WX, WY, WZ and X_ACC, Y_ACC, Z_ACC in the sensor's frame. The
 /// accelerometer measures specific force: standing still and level its z is +gravity. Rates and accelerations are means
-/// around the stamp over 1 / rate_hz, or two steps of the robot's track if that is longer.
+/// around the stamp over 1 / rate_hz, or two steps of the robot's track if that is longer; at both ends of the track
+/// those of the nearest such span within it.
 /// Truth, one line each: "gyro", "acceleration" (without bias and noise), "gyro_bias", "acceleration_bias".
 class Imu : public Sensor {
  public:

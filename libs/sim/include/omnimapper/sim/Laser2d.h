@@ -28,8 +28,9 @@ struct Laser2dOptions : LaserOpticsOptions {
 
 /// A 2D laser: CObservation2DRangeScan, with validRange false where nothing came back. Beam i is cast from where the
 /// sensor is sweep * i / (beams - 1) after the stamp; sensorPose is that on the base.
-/// Truth, one line for a scan: "surfaces" [[number + 1, count], ...] over the beams (0: no echo), "mixed" and
-/// "mirrored" indices of beams, "ranges" [m] if asked for.
+/// Truth, one line for a scan: "surfaces" [[number + 1, count], ...] that the beams met (0: none in reach), indices of
+/// beams: "missed" (no echo all the same: dark, too near or far, lost), "mixed" and "mirrored"; "ranges" [m] if asked
+/// for.
 class Laser2d : public Sensor {
  public:
   Laser2d(const Laser2dOptions& options, const SensorOptions& mount, const SensorContext& context);

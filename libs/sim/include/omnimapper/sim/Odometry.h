@@ -6,14 +6,15 @@
 
 namespace omnimapper::sim {
 
-/// Errors of wheel odometry. Biases are drawn once for the run, slip anew all the time; variances add up.
+/// Errors of wheel odometry, as large as those of ACES (doc/results/simulator.md). Biases are drawn once for the run,
+/// slip anew all the time; variances add up.
 struct OdometryOptions {
   double wheel_base = 0.5;                 ///< between the wheels [m]
   double radius_bias = 0.0012;             ///< standard deviation of the relative error of each wheel's radius
-  double base_bias = 0.005;                ///< of the relative error of the wheel base
-  double slip_per_root_m = 0.01;           ///< of the way after 1 m of way [m]; grows with its root
-  double turn_slip_per_root_m = 0.01;      ///< of the heading after 1 m of way [rad]
-  double turn_slip_per_root_turn = 0.015;  ///< of the heading after 1 rad of turning [rad]
+  double base_bias = 0.015;                ///< of the relative error of the wheel base
+  double slip_per_root_m = 0.02;           ///< of the way after 1 m of way [m]; grows with its root
+  double turn_slip_per_root_m = 0.009;     ///< of the heading after 1 m of way [rad]
+  double turn_slip_per_root_turn = 0.012;  ///< of the heading after 1 rad of turning [rad]
   double ticks_per_metre = 0;              ///< of each wheel's encoder; 0: no encoders, nothing is rounded
   bool velocities = true;
   static const base::OptionTable<OdometryOptions>& table();

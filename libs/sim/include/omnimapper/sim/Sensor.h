@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,9 @@ struct Measurement {
   std::vector<TruthFile> truth_files;
 };
 
+/// Without '/', a leading '.' and control characters.
+bool isPlainFileName(const std::string& name);
+
 /// A simulated sensor. measure() is const and thread-safe, and depends on nothing but context, options and k.
 class Sensor {
  public:
@@ -70,6 +74,8 @@ class Sensor {
   double arrivalOf(int k) const;
   /// With stamp, label and pose set. Null if the sensor sees nothing that makes an observation.
   virtual Measurement measure(int k) const = 0;
+  /// About what a measurement takes in memory [bytes].
+  virtual std::size_t sizeOfMeasurement() const { return 16 << 10; }
 
  protected:
   const SensorOptions& options() const { return options_; }
@@ -94,6 +100,7 @@ struct SensorClass {
   std::string summary;                    ///< one sentence
   std::vector<base::OptionSpec> options;  ///< its own, without SensorOptions
   std::function<std::unique_ptr<Sensor>(const base::ConfigSection&, const SensorOptions&, const SensorContext&)> make;
+  std::set<std::string> of_model = {};  ///< options whose default the key `model` decides
 };
 /// Every class of sensors there is; src/sensors/sensorClasses.cpp is the list.
 const std::vector<SensorClass>& sensorClasses();

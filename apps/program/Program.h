@@ -1,0 +1,17 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace omnimapper::program {
+
+/// Parses the command line into `app`, whose name is the program's, and runs `body`. Returns the exit code: that of
+/// `body`, or that of the error that stopped it, which is then told on standard error (doc/exit_codes.md).
+int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+
+/// From now on Ctrl-C and SIGTERM only make isInterrupted() true, and a file at the limit of its size fails as on a
+/// full disk: a run can end its files properly.
+void listenForInterrupts();
+bool isInterrupted();
+
+}  // namespace omnimapper::program

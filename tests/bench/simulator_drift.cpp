@@ -1,0 +1,188 @@
+// Drift of the simulator's wheel odometry beside that of ACES, over the same way: the simulated wheels drive the
+// trajectory that was mapped from the recording. Prints a Markdown table and writes SVG plots.
+//
+// Example: bench-simulator_drift --log aces.clf.bz2 --trajectory out/aces/trajectory.tum -o doc/results
+#include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/eval/TumFile.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/source/CarmenLog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "../sim/SensorRun.h"
+#include "../sim/SmallWorlds.h"
+#include "LinePlot.h"
+
+namespace {
+
+using namespace omnimapper;
+using geometry::Se2;
+using Poses = std::map<double, Se2>;  // over seconds
+
+constexpr double kDegrees = 180 / M_PI;
+const std::vector<double> kWays{1, 2, 4, 8, 16, 24, 48};  // [m]
+
+std::optional<Se2> interpolate(const Poses& poses, double time) {
+  const auto after = poses.lower_bound(time);
+  if (after == poses.begin() || after == poses.end()) return {};
+  const auto before = std::prev(after);
+  if (after->first - before->first > 1) return {};
+  const double share = (time - before->first) / (after->first - before->first);
+  return geometry::plus(before->second, share * geometry::minus(after->second, before->second));
+}
+
+/// Root mean squares over stretches of one way.
+struct Errors {
+  double count = 0;
+  double place = 0, heading = 0;  ///< of the end, seen from the start: sums of squares [m^2, rad^2]
+  double bent = 0;                ///< of all places once both stretches are laid over each other [m^2]
+  double mean_heading = 0;        ///< sum [rad]
+
+  double rms(double Errors::*sum) const { return std::sqrt(this->*sum / count); }
+};
+
+// Mean square of the distances once `a` is moved onto `b` as well as a rigid motion can.
+double bentBy(const std::vector<std::pair<Se2, Se2>>& both, std::size_t first, std::size_t last) {
+  Eigen::Vector2d mean_a(0, 0), mean_b(0, 0);
+  const double count = static_cast<double>(last - first + 1);
+  for (std::size_t i = first; i <= last; ++i) {
+    mean_a += both[i].first.translation() / count;
+    mean_b += both[i].second.translation() / count;
+  }
+  double cosine = 0, sine = 0, squares = 0;
+  for (std::size_t i = first; i <= last; ++i) {
+    const Eigen::Vector2d a = both[i].first.translation() - mean_a, b = both[i].second.translation() - mean_b;
+    cosine += a.dot(b);
+    sine += a.x() * b.y() - a.y() * b.x();
+    squares += a.squaredNorm() + b.squaredNorm();
+  }
+  return std::max(0.0, squares - 2 * std::hypot(cosine, sine)) / count;
+}
+
+void add(const Poses& odometry, const Poses& truth, double lag, std::map<double, Errors>& sums) {
+  std::vector<std::pair<Se2, Se2>> both;  // odometry, truth
+  std::vector<double> way;
+  for (const auto& [time, pose] : truth) {
+    const auto told = interpolate(odometry, time + lag);
+    if (!told) continue;
+    way.push_back(both.empty() ? 0 : way.back() + (told->translation() - both.back().first.translation()).norm());
+    both.emplace_back(*told, pose);
+  }
+  for (const double length : kWays) {
+    Errors& errors = sums[length];
+    for (std::size_t i = 0, j = 0; i < both.size(); ++i) {
+      while (j < both.size() && way[j] - way[i] < length) ++j;
+      if (j == both.size()) break;
+      const Eigen::Vector3d error = geometry::minus(geometry::inverse(both[i].second) * both[j].second,
+                                                    geometry::inverse(both[i].first) * both[j].first);
+      ++errors.count;
+      errors.place += error.head<2>().squaredNorm();
+      errors.heading += error.z() * error.z();
+      errors.mean_heading += error.z();
+      errors.bent += bentBy(both, i, j);
+    }
+  }
+}
+
+// Odometry's stamps may lag behind the scans': the lag at which short ways agree best [s].
+double lagOf(const Poses& odometry, const Poses& truth) {
+  double best = 0, least = 1e9;
+  for (double lag = -0.3; lag <= 0.3; lag += 0.02) {
+    std::map<double, Errors> sums;
+    add(odometry, truth, lag, sums);
+    if (sums[1].rms(&Errors::heading) >= least) continue;
+    least = sums[1].rms(&Errors::heading);
+    best = lag;
+  }
+  return best;
+}
+
+Poses readOdometry(const std::string& path) {
+  source::CarmenLog log(path);
+  Poses poses;
+  while (const auto observation = log.next()) {
+    if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(observation.get()))
+      poses.emplace(base::unixSeconds(odometry->timestamp), geometry::fromMrpt(odometry->odometry));
+  }
+  return poses;
+}
+
+// About two poses a second: what scan matching adds to single ones is no turning of the robot's.
+Poses readTrajectory(const std::string& path) {
+  Poses poses;
+  for (const auto& pose : eval::readTum(path)) {
+    const double time = base::unixSeconds(pose.stamp);
+    if (poses.empty() || time - poses.rbegin()->first > 0.45)
+      poses.emplace(time, geometry::project(pose.world_from_body));
+  }
+  return poses;
+}
+
+Poses simulate(const Poses& truth, const std::string& keys, std::uint64_t seed) {
+  std::vector<sim::Track::Place> places;
+  const double start = truth.begin()->first;
+  for (const auto& [time, pose] : truth) places.push_back({time - start, geometry::lift(pose)});
+  const double duration = places.back().time;
+  const SensorRun run(small_worlds::oneRoom(6, 4), {sim::Track::Kind::motion, std::move(places)},
+                      "class = Odometry\nrate_hz = 20\n" + keys, duration, seed);
+  Poses poses;
+  for (int k = 0; k < run.sensor().count(); ++k)
+    poses.emplace(start + run.sensor().timeOf(k),
+                  geometry::fromMrpt(run.measure<mrpt::obs::CObservationOdometry>(k)->odometry));
+  return poses;
+}
+
+void plot(const std::string& path, const std::string& title, const std::string& unit, double factor,
+          double Errors::*sum, const std::map<double, Errors>& recorded, const std::map<double, Errors>& simulated) {
+  const auto curve = [&](const std::string& name, const std::string& colour, const std::map<double, Errors>& errors) {
+    bench::Curve result{name, colour, {}};
+    for (const auto& [way, of_way] : errors) result.points.emplace_back(way, factor * of_way.rms(sum));
+    return result;
+  };
+  std::ofstream out(path);
+  bench::plotCurves(out, title, "way [m]", "root mean square [" + unit + "]",
+                    {curve("ACES", "#c0392b", recorded), curve("simulated", "#2471a3", simulated)});
+}
+
+void run(const std::string& log, const std::string& trajectory, const std::string& keys, const std::string& folder) {
+  const Poses truth = readTrajectory(trajectory), odometry = readOdometry(log);
+  const double lag = lagOf(odometry, truth);
+  std::printf("Stamps of ACES's odometry lag by %.2f s\n\n", lag);
+  std::map<double, Errors> recorded, simulated;
+  add(odometry, truth, lag, recorded);
+  for (std::uint64_t seed = 0; seed < 40; ++seed) add(simulate(truth, keys, seed), truth, 0, simulated);
+  std::printf("| way [m] | ACES: place [m] | simulated | bent [m] | simulated | heading [deg], mean | simulated |\n");
+  std::printf("|---|---|---|---|---|---|---|\n");
+  for (const double way : kWays) {
+    const Errors &a = recorded[way], &b = simulated[way];
+    std::printf("| %.0f | %.3f | %.3f | %.3f | %.3f | %.2f, %.2f | %.2f |\n", way, a.rms(&Errors::place),
+                b.rms(&Errors::place), a.rms(&Errors::bent), b.rms(&Errors::bent), kDegrees * a.rms(&Errors::heading),
+                kDegrees * a.mean_heading / a.count, kDegrees * b.rms(&Errors::heading));
+  }
+  plot(folder + "/simulator_odometry_place.svg", "Odometry: error of the place after a way", "m", 1, &Errors::place,
+       recorded, simulated);
+  plot(folder + "/simulator_odometry_heading.svg", "Odometry: error of the heading after a way", "deg", kDegrees,
+       &Errors::heading, recorded, simulated);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Drift of the simulator's wheel odometry beside that of a CARMEN log, over the same way");
+  std::string log, trajectory, keys, folder = ".";
+  app.add_option("--log", log, "CARMEN log: aces.clf.bz2")->required();
+  app.add_option("--trajectory", trajectory, "mapped from it by omnimapper-graphslam, TUM format")->required();
+  app.add_option("--keys", keys, "of the simulated odometry's section, one a line, over its defaults");
+  app.add_option("-o,--output", folder, "folder of the plots");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    run(log, trajectory, keys, folder);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}
