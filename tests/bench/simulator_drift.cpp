@@ -62,29 +62,71 @@ double bentBy(const std::vector<std::pair<Se2, Se2>>& both, std::size_t first, s
   return std::max(0.0, squares - 2 * std::hypot(cosine, sine)) / count;
 }
 
-void add(const Poses& odometry, const Poses& truth, double lag, std::map<double, Errors>& sums) {
+/// Poses of both at the same times, and the way until each [m].
+struct Pairs {
   std::vector<std::pair<Se2, Se2>> both;  // odometry, truth
   std::vector<double> way;
-  for (const auto& [time, pose] : truth) {
-    const auto told = interpolate(odometry, time + lag);
-    if (!told) continue;
-    way.push_back(both.empty() ? 0 : way.back() + (told->translation() - both.back().first.translation()).norm());
-    both.emplace_back(*told, pose);
+
+  Pairs(const Poses& odometry, const Poses& truth, double lag) {
+    for (const auto& [time, pose] : truth) {
+      const auto told = interpolate(odometry, time + lag);
+      if (!told) continue;
+      way.push_back(both.empty() ? 0 : way.back() + (told->translation() - both.back().first.translation()).norm());
+      both.emplace_back(*told, pose);
+    }
   }
-  for (const double length : kWays) {
-    Errors& errors = sums[length];
+  /// Of the end of a stretch seen from its start: told - true.
+  Eigen::Vector3d errorOver(std::size_t first, std::size_t last) const {
+    return geometry::minus(geometry::inverse(both[first].second) * both[last].second,
+                           geometry::inverse(both[first].first) * both[last].first);
+  }
+  /// Calls see(first, last) for each stretch of this way.
+  template <class See>
+  void eachStretch(double length, const See& see) const {
     for (std::size_t i = 0, j = 0; i < both.size(); ++i) {
       while (j < both.size() && way[j] - way[i] < length) ++j;
       if (j == both.size()) break;
-      const Eigen::Vector3d error = geometry::minus(geometry::inverse(both[i].second) * both[j].second,
-                                                    geometry::inverse(both[i].first) * both[j].first);
+      see(i, j);
+    }
+  }
+};
+
+void add(const Poses& odometry, const Poses& truth, double lag, std::map<double, Errors>& sums) {
+  const Pairs pairs(odometry, truth, lag);
+  for (const double length : kWays) {
+    Errors& errors = sums[length];
+    pairs.eachStretch(length, [&](std::size_t first, std::size_t last) {
+      const Eigen::Vector3d error = pairs.errorOver(first, last);
       ++errors.count;
       errors.place += error.head<2>().squaredNorm();
       errors.heading += error.z() * error.z();
       errors.mean_heading += error.z();
-      errors.bent += bentBy(both, i, j);
-    }
+      errors.bent += bentBy(pairs.both, first, last);
+    });
   }
+}
+
+// What wheels of a wrong base (error of heading over turning) and of two sizes (over way) explain, by least squares
+// over stretches of 8 m, and what remains.
+void printFit(const Poses& odometry, const Poses& truth, double lag) {
+  const Pairs pairs(odometry, truth, lag);
+  std::vector<double> turned{0};
+  for (std::size_t i = 1; i < pairs.both.size(); ++i)
+    turned.push_back(turned.back() + geometry::wrapToPi(pairs.both[i].second.yaw - pairs.both[i - 1].second.yaw));
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right(0, 0);
+  double squares = 0, count = 0;
+  pairs.eachStretch(8, [&](std::size_t first, std::size_t last) {
+    const Eigen::Vector2d cause(turned[last] - turned[first], pairs.way[last] - pairs.way[first]);
+    const double error = pairs.errorOver(first, last).z();
+    normal += cause * cause.transpose();
+    right += error * cause;
+    squares += error * error;
+    ++count;
+  });
+  const Eigen::Vector2d fit = normal.ldlt().solve(right);
+  std::printf("Heading over 8 m: %.2f %% of the turning, %.3f deg a metre, %.2f deg remain\n\n", 100 * fit.x(),
+              kDegrees * fit.y(), kDegrees * std::sqrt(std::max(0.0, (squares - fit.dot(right)) / count)));
 }
 
 // Odometry's stamps may lag behind the scans': the lag at which short ways agree best [s].
@@ -151,6 +193,7 @@ void run(const std::string& log, const std::string& trajectory, const std::strin
   const Poses truth = readTrajectory(trajectory), odometry = readOdometry(log);
   const double lag = lagOf(odometry, truth);
   std::printf("Stamps of ACES's odometry lag by %.2f s\n\n", lag);
+  printFit(odometry, truth, lag);
   std::map<double, Errors> recorded, simulated;
   add(odometry, truth, lag, recorded);
   for (std::uint64_t seed = 0; seed < 40; ++seed) add(simulate(truth, keys, seed), truth, 0, simulated);
