@@ -40,6 +40,12 @@ std::vector<float> depthsOf(const CObservation3DRangeScan& scan) {
 
 }  // namespace
 
+geometry::Se3 sensorFromOptical() {
+  Eigen::Matrix3d axes;
+  axes << toSensor(Eigen::Vector3d::UnitX()), toSensor(Eigen::Vector3d::UnitY()), toSensor(Eigen::Vector3d::UnitZ());
+  return {Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()};
+}
+
 ScanDepth::ScanDepth(const CObservation3DRangeScan& scan) {
   const auto& ranges = scan.rangeImage;
   if (ranges.size() == 0 && scan.hasRangeImage && scan.rangeImage_isExternallyStored())
@@ -74,12 +80,9 @@ ScanColours::ScanColours(const CObservation3DRangeScan& scan)
   }
   if (!exist()) return;
   const mrpt::poses::CPose3D& depth_from_colour = scan.relativePoseIntensityWRTDepth;  // to MRPT's axes, from optical
-  Eigen::Matrix3d sensor_from_optical;
-  sensor_from_optical << toSensor(Eigen::Vector3d::UnitX()), toSensor(Eigen::Vector3d::UnitY()),
-      toSensor(Eigen::Vector3d::UnitZ());
   const Eigen::Matrix3d colour_from_sensor = depth_from_colour.getRotationMatrix().asEigen().transpose();
   const Eigen::Vector3d colour_in_sensor(depth_from_colour.x(), depth_from_colour.y(), depth_from_colour.z());
-  colour_from_depth_ = colour_from_sensor * sensor_from_optical;
+  colour_from_depth_ = colour_from_sensor * sensorFromOptical().rotation.toRotationMatrix();
   depth_in_colour_ = -(colour_from_sensor * colour_in_sensor);
   same_view_ = scan.doDepthAndIntensityCamerasCoincide() && width_ == static_cast<int>(scan.rangeImage.cols()) &&
                static_cast<int>(rows_.size()) == static_cast<int>(scan.rangeImage.rows());
@@ -127,6 +130,19 @@ ColourImage ScanColours::picture() const {
                      : red_first_  ? ColourImage::Order::rgb
                                    : ColourImage::Order::bgr;
   return {rows_[0], width_, height, stride, order};
+}
+
+void ColourSum::add(const obs::Rgb& colour) {
+  red_ += colour.red;
+  green_ += colour.green;
+  blue_ += colour.blue;
+  ++count_;
+}
+
+std::optional<obs::Rgb> ColourSum::mean() const {
+  if (count_ == 0) return std::nullopt;
+  const auto rounded = [&](std::uint64_t sum) { return static_cast<std::uint8_t>((sum + count_ / 2) / count_); };
+  return obs::Rgb{rounded(red_), rounded(green_), rounded(blue_)};
 }
 
 }  // namespace omnimapper::perception

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/geometry/Se3.h>
 #include <omnimapper/obs/Rgb.h>
 #include <omnimapper/perception/ColourImage.h>
 #include <omnimapper/perception/DepthImage.h>
@@ -18,6 +19,9 @@ namespace omnimapper::perception {
 inline Eigen::Vector3d toSensor(const Eigen::Vector3d& in_optical) {
   return {in_optical.z(), -in_optical.x(), -in_optical.y()};
 }
+
+/// The same as a turn.
+geometry::Se3 sensorFromOptical();
 
 /// The depth image of an observation. The observation must outlive it.
 class ScanDepth {
@@ -72,6 +76,17 @@ class ScanColours {
   Pinhole depth_camera_, colour_camera_;
   Eigen::Matrix3d colour_from_depth_ = Eigen::Matrix3d::Identity();  // optical frames
   Eigen::Vector3d depth_in_colour_ = Eigen::Vector3d::Zero();        // [m]
+};
+
+/// The mean of colours.
+class ColourSum {
+ public:
+  void add(const obs::Rgb& colour);
+  /// None of none.
+  std::optional<obs::Rgb> mean() const;
+
+ private:
+  std::uint64_t red_ = 0, green_ = 0, blue_ = 0, count_ = 0;
 };
 
 }  // namespace omnimapper::perception

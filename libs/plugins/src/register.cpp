@@ -12,6 +12,7 @@
 #include <omnimapper/plugins/LoopClosurePlugin.h>
 #include <omnimapper/plugins/MapOutput.h>
 #include <omnimapper/plugins/NoMotionPlugin.h>
+#include <omnimapper/plugins/ObjectsPlugin.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
 #include <omnimapper/plugins/PlanesPlugin.h>
 #include <omnimapper/plugins/PointsOutput.h>
@@ -35,6 +36,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(EdgesPluginFactory));
   registerClass(CLASS_ID(LaserLinesPluginFactory));
   registerClass(CLASS_ID(LaserPointsPluginFactory));
+  registerClass(CLASS_ID(ObjectsPluginFactory));
   registerClass(CLASS_ID(PlanesPluginFactory));
   registerClass(CLASS_ID(LoopClosurePluginFactory));
   registerClass(CLASS_ID(RobotPosePluginFactory));

@@ -9,24 +9,6 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-class ColourSum {
- public:
-  void add(const obs::Rgb& colour) {
-    red_ += colour.red;
-    green_ += colour.green;
-    blue_ += colour.blue;
-    ++count_;
-  }
-  std::optional<obs::Rgb> mean() const {
-    if (count_ == 0) return std::nullopt;
-    const auto rounded = [&](std::uint64_t sum) { return static_cast<std::uint8_t>((sum + count_ / 2) / count_); };
-    return obs::Rgb{rounded(red_), rounded(green_), rounded(blue_)};
-  }
-
- private:
-  std::uint64_t red_ = 0, green_ = 0, blue_ = 0, count_ = 0;
-};
-
 std::vector<ColourSum> coloursOf(const PlaneSegmentation& found, const ScanDepth& depth, const ScanColours& colours) {
   std::vector<ColourSum> sums(found.planes.size());
   if (!colours.exist() || sums.empty()) return sums;
@@ -46,12 +28,6 @@ geometry::Polygon3 polygonOf(const Contour& contour, double tolerance) {
   for (const int i : simplified(contour.corners, tolerance))
     polygon.vertices.push_back(toSensor(contour.polygon_in_sensor.vertices[static_cast<std::size_t>(i)]));
   return polygon;
-}
-
-geometry::Se3 sensorFromOptical() {
-  Eigen::Matrix3d axes;
-  axes << toSensor(Eigen::Vector3d::UnitX()), toSensor(Eigen::Vector3d::UnitY()), toSensor(Eigen::Vector3d::UnitZ());
-  return {Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()};
 }
 
 }  // namespace

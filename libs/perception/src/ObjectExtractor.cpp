@@ -1,0 +1,74 @@
+#include <omnimapper/perception/ObjectExtractor.h>
+
+#include "RangeScan.h"
+#include "planes/PlaneObservation.h"
+
+namespace omnimapper::perception {
+
+const base::OptionTable<ObjectPointOptions>& ObjectPointOptions::table() {
+  static const auto table = base::OptionTable<ObjectPointOptions>().integer(
+      "max_points", &ObjectPointOptions::max_points, {1, 1e9}, "So many points of an object are kept at most.");
+  return table;
+}
+
+namespace {
+
+Eigen::Vector3d upInOptical(const mrpt::poses::CPose3D& base_from_sensor) {
+  const Eigen::Matrix3d base_from_optical =
+      base_from_sensor.getRotationMatrix().asEigen() * sensorFromOptical().rotation.toRotationMatrix();
+  return base_from_optical.transpose() * Eigen::Vector3d::UnitZ();
+}
+
+Eigen::Vector3d pointOf(const DepthImage& image, int pixel, double depth) {
+  const Pinhole& camera = image.camera();
+  const int x = pixel % image.width(), y = pixel / image.width();
+  return {(x - camera.cx) / camera.fx * depth, (y - camera.cy) / camera.fy * depth, depth};
+}
+
+// Points and colours, and the mean of all colours.
+void addPoints(const ObjectRegion& region, const ScanDepth& depth, const ScanColours& colours, int max_points,
+               obs::ObservedObject& object) {
+  const int count = static_cast<int>(region.pixels.size()), step = (count + max_points - 1) / max_points;
+  ColourSum sum;
+  for (int i = 0; i < count; ++i) {
+    const int pixel = region.pixels[static_cast<std::size_t>(i)];
+    const double z = depth.at(static_cast<std::size_t>(pixel));
+    const auto colour = colours.at(pixel % depth.image().width(), pixel / depth.image().width(), z);
+    if (colour) sum.add(*colour);
+    if (i % step != 0) continue;
+    object.points.push_back(toSensor(pointOf(depth.image(), pixel, z)).cast<float>());
+    if (colour) object.colours.push_back(*colour);
+  }
+  if (object.colours.size() != object.points.size()) object.colours.clear();
+  object.colour = sum.mean();
+}
+
+}  // namespace
+
+ObjectExtractor::Found ObjectExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
+  const ScanDepth depth(scan);
+  const ScanColours colours(scan);
+  const PlaneSegmentation planes = segmenter_.segment(depth.image());
+  Found found;
+  found.planes = planes::observe(planes, scan, depth, colours, options_.outlines.tolerance);
+  found.objects = obs::CObservationObjects::Create();
+  found.objects->timestamp = scan.timestamp;
+  found.objects->sensorPose = scan.sensorPose;
+  found.objects->sensorLabel = scan.sensorLabel + kObjectsSuffix;
+  found.objects->source_label = scan.sensorLabel;
+  const geometry::Se3 sensor_from_optical = sensorFromOptical();
+  const Eigen::Matrix3d turn = sensor_from_optical.rotation.toRotationMatrix();
+  for (const ObjectRegion& region : finder_.find(depth.image(), planes, upInOptical(scan.sensorPose))) {
+    obs::ObservedObject object;
+    object.centroid = toSensor(region.centroid);
+    object.covariance = turn * region.covariance * turn.transpose();
+    object.sensor_from_box = sensor_from_optical * region.sensor_from_box;
+    object.box_size = region.box_size;
+    if (region.surface) object.supporting_plane = static_cast<std::uint32_t>(*region.surface);
+    addPoints(region, depth, colours, options_.points.max_points, object);
+    found.objects->objects.push_back(std::move(object));
+  }
+  return found;
+}
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,187 @@
+#include <omnimapper/perception/ClusterComparator.h>
+#include <omnimapper/perception/ObjectFinder.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "objects/OrientedBox.h"
+#include "objects/Surfaces.h"
+
+namespace omnimapper::perception {
+
+const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
+  using Options = ObjectOptions;
+  using base::Range;
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("min_surface_area_m2", &Options::min_surface_area, Range::positive(),
+                  "Planes as large belong to the place, smaller ones to the things in it.")
+          .number("max_tilt_deg", &Options::max_tilt, {0, 180},
+                  "Of a surface that things stand on, from level: by the sensor's pose on the base.")
+          .number("coplanar_angle_deg", &Options::coplanar_angle, {0, 90},
+                  "Planes whose normals differ by no more may be pieces of one surface.")
+          .number("coplanar_distance_m", &Options::coplanar_distance, Range::notNegative(),
+                  "Planes are pieces of one surface if their middles lie no farther from the other plane.")
+          .number("min_height_m", &Options::min_height, Range::notNegative(),
+                  "What lies lower on a surface, noise apart, is taken for the surface itself.")
+          .number("max_gap_m", &Options::max_gap, Range::notNegative(),
+                  "Neighbouring pixels farther from one another, noise apart, are of two things.")
+          .number("max_standing_gap_m", &Options::max_standing_gap, Range::notNegative(),
+                  "From a surface to the lowest that is seen of a thing on it, noise apart.")
+          .integer("min_points", &Options::min_points, {1, 1e9}, "Smaller clusters are dropped.")
+          .number("min_size_m", &Options::min_size, Range::notNegative(), "Clusters whose box is shorter are dropped.")
+          .number("max_volume_m3", &Options::max_volume, Range::positive(), "Clusters whose box is larger are dropped.")
+          .flag("on_surfaces_only", &Options::on_surfaces_only, "Drop clusters that stand on no level surface.");
+  return table;
+}
+
+namespace {
+
+using objects::Surface;
+
+constexpr double kSigmas = 3;         // what noise may do
+constexpr double kLowest = 0.02;      // share of a thing's points that may be noise below the rest
+constexpr double kHullMargin = 0.05;  // [m] a thing on the edge of a table hides where it ends
+
+// Labels in which whatever lies on a surface is of its first piece: where the plane of a thing's side goes on over the
+// table, pixels are on both, and beside edges some are on neither.
+std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const OrganisedPoints& points,
+                                          const std::vector<Surface>& surfaces, const std::vector<bool>& of_place,
+                                          double min_height, double noise_at_1m) {
+  std::vector<std::uint16_t> labels = planes.labels;
+  std::vector<std::size_t> doubtful;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (!of_place[labels[i]] && !std::isnan(points.z[i])) doubtful.push_back(i);
+  }
+  const auto height = static_cast<float>(min_height), noise = static_cast<float>(kSigmas * noise_at_1m);
+  for (const Surface& surface : surfaces) {
+    for (const int piece : surface.pieces) {
+      const auto& plane = planes.planes[static_cast<std::size_t>(piece)].plane_in_sensor;
+      const Eigen::Vector3f n = plane.normal.cast<float>();
+      const auto d = static_cast<float>(plane.distance);
+      for (const std::size_t i : doubtful) {
+        const Eigen::Vector3f point(points.x[i], points.y[i], points.z[i]);
+        if (std::abs(n.dot(point) + d) >= height + noise * point.z() * point.z()) continue;
+        const Eigen::Vector2d foot = surface.across.transpose() * point.cast<double>();
+        if (objects::isNearHull(surface.hull, foot, kHullMargin))
+          labels[i] = static_cast<std::uint16_t>(surface.plane + 1);
+      }
+    }
+  }
+  return labels;
+}
+
+std::vector<std::vector<int>> pixelsOf(const Components& components, int fewest) {
+  std::vector<std::vector<int>> pixels(components.pixels.size());
+  for (const PixelRun& run : components.runs) {
+    const auto i = static_cast<std::size_t>(run.component);
+    if (components.pixels[i] < fewest) continue;
+    for (int x = run.begin; x < run.end; ++x) pixels[i].push_back(run.row * components.width + x);
+  }
+  const auto isEmpty = [](const std::vector<int>& all) { return all.empty(); };
+  pixels.erase(std::remove_if(pixels.begin(), pixels.end(), isEmpty), pixels.end());
+  return pixels;
+}
+
+std::vector<Eigen::Vector3d> pointsOf(const std::vector<int>& pixels, const OrganisedPoints& all) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(pixels.size());
+  for (const int pixel : pixels) {
+    const auto i = static_cast<std::size_t>(pixel);
+    points.emplace_back(static_cast<double>(all.x[i]), static_cast<double>(all.y[i]), static_cast<double>(all.z[i]));
+  }
+  return points;
+}
+
+Eigen::Vector3d meanOf(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
+// Noise moves each point along its ray by itself; what bends the image moves all alike.
+Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, const DepthNoise& noise) {
+  const auto count = static_cast<double>(points.size());
+  Eigen::Matrix3d apart = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d together = Eigen::Vector3d::Zero();
+  for (const auto& point : points) {
+    const Eigen::Vector3d by_inverse_depth = -point.z() * point;  // derivative of the point by 1/z
+    apart += by_inverse_depth * by_inverse_depth.transpose();
+    together += by_inverse_depth / count;
+  }
+  const double bend_sigma = 0.5 * noise.bend;
+  return noise.meanVariance() / (count * count) * apart + bend_sigma * bend_sigma * together * together.transpose();
+}
+
+// The surface that the lowest of the cluster is nearest to, if it stands on one.
+const Surface* surfaceUnder(const std::vector<Eigen::Vector3d>& cluster, const Eigen::Vector3d& centroid,
+                            const PlaneSegmentation& planes, const std::vector<Surface>& surfaces, double max_gap) {
+  const Surface* best = nullptr;
+  double least = max_gap;
+  std::vector<double> heights(cluster.size());
+  for (const Surface& surface : surfaces) {
+    const auto& plane = planes.planes[static_cast<std::size_t>(surface.plane)].plane_in_sensor;
+    if (signedDistance(plane, centroid) <= 0) continue;
+    if (!objects::isNearHull(surface.hull, surface.across.transpose() * centroid, kHullMargin)) continue;
+    std::transform(cluster.begin(), cluster.end(), heights.begin(),
+                   [&](const Eigen::Vector3d& point) { return signedDistance(plane, point); });
+    const auto low = heights.begin() + static_cast<std::ptrdiff_t>(kLowest * static_cast<double>(heights.size()));
+    std::nth_element(heights.begin(), low, heights.end());
+    if (std::abs(*low) >= least) continue;
+    least = std::abs(*low);
+    best = &surface;
+  }
+  return best;
+}
+
+Eigen::Vector3d leastAxisOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& mean) {
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const auto& point : points) scatter += (point - mean) * (point - mean).transpose();
+  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
+  return axis.dot(mean) > 0 ? Eigen::Vector3d(-axis) : axis;  // towards the sensor
+}
+
+}  // namespace
+
+std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const PlaneSegmentation& planes,
+                                             const Eigen::Vector3d& up) const {
+  std::vector<ObjectRegion> found;
+  if (image.width() == 0 || image.height() == 0) return found;
+  const OrganisedPoints points = backProject(image, sensor_.min_depth, sensor_.max_depth);
+  const auto surfaces = objects::findSurfaces(planes, options_, up);
+  const auto of_place = objects::labelsOfThePlace(planes, options_, surfaces);
+  const auto labels = withRemainders(planes, points, surfaces, of_place, options_.min_height, sensor_.noise_at_1m);
+  const auto noise = static_cast<float>(kSigmas * sensor_.noise_at_1m);
+  const ClusterComparator comparator{points, labels, of_place, static_cast<float>(options_.max_gap), noise};
+  const Components clusters = connectComponents(image.width(), image.height(), comparator);
+
+  for (auto& pixels : pixelsOf(clusters, options_.min_points)) {
+    auto cluster = pointsOf(pixels, points);
+    ObjectRegion region;
+    region.centroid = meanOf(cluster);
+    const double z = region.centroid.z(), max_gap = options_.max_standing_gap + kSigmas * sensor_.noise_at_1m * z * z;
+    const Surface* surface = surfaceUnder(cluster, region.centroid, planes, surfaces, max_gap);
+    if (surface == nullptr && options_.on_surfaces_only) continue;
+    region.covariance = covarianceOfMean(cluster, sensor_.noise());
+    Eigen::Vector3d axis = leastAxisOf(cluster, region.centroid);
+    if (surface != nullptr) {
+      const auto& plane = planes.planes[static_cast<std::size_t>(surface->plane)].plane_in_sensor;
+      region.surface = surface->plane;
+      axis = plane.normal;
+      // The box stands on it, too, though the lowest of the thing was taken for the surface.
+      cluster.push_back(region.centroid - signedDistance(plane, region.centroid) * plane.normal);
+    }
+    const auto box = objects::boxAlong(axis, cluster);
+    if (box.size.maxCoeff() < options_.min_size || box.size.prod() > options_.max_volume) continue;
+    region.sensor_from_box = box.frame_from_box;
+    region.box_size = box.size;
+    region.pixels = std::move(pixels);
+    found.push_back(std::move(region));
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const ObjectRegion& a, const ObjectRegion& b) { return a.pixels.size() > b.pixels.size(); });
+  return found;
+}
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,100 @@
+#include "OrientedBox.h"
+
+#include <omnimapper/geometry/PlaneTangent.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace omnimapper::perception::objects {
+
+namespace {
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+struct Rectangle {
+  Eigen::Vector2d x_axis = Eigen::Vector2d::UnitX();                              // unit; y is a left turn after it
+  Eigen::Vector2d low = Eigen::Vector2d::Zero(), high = Eigen::Vector2d::Zero();  // along the axes
+  double area() const { return (high - low).prod(); }
+};
+
+Rectangle around(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& x_axis) {
+  Rectangle rectangle;
+  rectangle.x_axis = x_axis;
+  rectangle.low.setConstant(std::numeric_limits<double>::infinity());
+  rectangle.high = -rectangle.low;
+  for (const auto& point : points) {
+    const Eigen::Vector2d along(x_axis.dot(point), cross(x_axis, point));
+    rectangle.low = rectangle.low.cwiseMin(along);
+    rectangle.high = rectangle.high.cwiseMax(along);
+  }
+  return rectangle;
+}
+
+// One side of the smallest rectangle lies along an edge of the hull.
+Rectangle smallestAround(const std::vector<Eigen::Vector2d>& hull) {
+  Rectangle best = around(hull, Eigen::Vector2d::UnitX());
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d edge = hull[(i + 1) % hull.size()] - hull[i];
+    if (!(edge.squaredNorm() > 0)) continue;
+    const Rectangle rectangle = around(hull, edge.normalized());
+    if (rectangle.area() < best.area()) best = rectangle;
+  }
+  const Eigen::Vector2d size = best.high - best.low;
+  if (size.x() >= size.y()) return best;
+  return around(hull, Eigen::Vector2d(-best.x_axis.y(), best.x_axis.x()));
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  if (points.size() < 3) return points;
+  std::vector<Eigen::Vector2d> hull;
+  const auto add = [&](const Eigen::Vector2d& point, std::size_t fixed) {
+    while (hull.size() >= fixed + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
+      hull.pop_back();
+    hull.push_back(point);
+  };
+  for (const auto& point : points) add(point, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
+  hull.pop_back();  // the first again
+  return hull;
+}
+
+bool isNearHull(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& point, double margin) {
+  if (hull.size() < 3) return false;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
+    if (cross(edge, point - hull[i]) < -margin) return false;
+  }
+  return true;
+}
+
+OrientedBox boxAlong(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points) {
+  const Eigen::Matrix<double, 3, 2> across = geometry::tangentBasis(axis);
+  std::vector<Eigen::Vector2d> footprint;
+  footprint.reserve(points.size());
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto& point : points) {
+    footprint.emplace_back(across.transpose() * point);
+    low = std::min(low, axis.dot(point));
+    high = std::max(high, axis.dot(point));
+  }
+  const Rectangle rectangle = smallestAround(convexHull(std::move(footprint)));
+  const Eigen::Vector2d y_axis(-rectangle.x_axis.y(), rectangle.x_axis.x());
+  Eigen::Matrix3d axes;
+  axes << across * rectangle.x_axis, across * y_axis, axis;
+  const Eigen::Vector2d middle = 0.5 * (rectangle.low + rectangle.high), size = rectangle.high - rectangle.low;
+  OrientedBox box;
+  box.frame_from_box = {Eigen::Quaterniond(axes).normalized(),
+                        axes * Eigen::Vector3d(middle.x(), middle.y(), 0.5 * (low + high))};
+  box.size << size, high - low;
+  return box;
+}
+
+}  // namespace omnimapper::perception::objects

@@ -1,0 +1,71 @@
+#include "Surfaces.h"
+
+#include <omnimapper/geometry/PlaneTangent.h>
+
+#include <cmath>
+
+#include "OrientedBox.h"
+
+namespace omnimapper::perception::objects {
+
+namespace {
+
+double areaOf(const PlaneRegion& plane) {
+  double result = geometry::area(plane.outline.polygon_in_sensor);
+  for (const Contour& hole : plane.holes) result -= geometry::area(hole.polygon_in_sensor);
+  return result;
+}
+
+bool areCoplanar(const PlaneRegion& a, const PlaneRegion& b, const ObjectOptions& options) {
+  if (a.plane_in_sensor.normal.dot(b.plane_in_sensor.normal) < std::cos(options.coplanar_angle)) return false;
+  return std::abs(signedDistance(a.plane_in_sensor, b.centroid)) < options.coplanar_distance &&
+         std::abs(signedDistance(b.plane_in_sensor, a.centroid)) < options.coplanar_distance;
+}
+
+std::vector<Eigen::Vector2d> hullOf(const PlaneSegmentation& planes, const Surface& surface) {
+  std::vector<Eigen::Vector2d> points;
+  for (const int piece : surface.pieces) {
+    for (const auto& vertex : planes.planes[static_cast<std::size_t>(piece)].outline.polygon_in_sensor.vertices)
+      points.emplace_back(surface.across.transpose() * vertex);
+  }
+  return convexHull(std::move(points));
+}
+
+}  // namespace
+
+std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectOptions& options,
+                                  const Eigen::Vector3d& up) {
+  std::vector<Surface> surfaces;
+  std::vector<bool> taken(planes.planes.size(), false);
+  for (std::size_t i = 0; i < planes.planes.size(); ++i) {
+    const PlaneRegion& largest = planes.planes[i];
+    if (taken[i] || largest.plane_in_sensor.normal.dot(up) < std::cos(options.max_tilt)) continue;
+    Surface surface;
+    surface.plane = static_cast<int>(i);
+    double area = 0;
+    for (std::size_t j = i; j < planes.planes.size(); ++j) {
+      if (taken[j] || !areCoplanar(largest, planes.planes[j], options)) continue;
+      surface.pieces.push_back(static_cast<int>(j));
+      area += areaOf(planes.planes[j]);
+    }
+    if (area < options.min_surface_area) continue;
+    for (const int piece : surface.pieces) taken[static_cast<std::size_t>(piece)] = true;
+    surface.across = geometry::tangentBasis(largest.plane_in_sensor.normal);
+    surface.hull = hullOf(planes, surface);
+    surfaces.push_back(std::move(surface));
+  }
+  return surfaces;
+}
+
+std::vector<bool> labelsOfThePlace(const PlaneSegmentation& planes, const ObjectOptions& options,
+                                   const std::vector<Surface>& surfaces) {
+  std::vector<bool> of_place(planes.planes.size() + 1, false);
+  for (std::size_t i = 0; i < planes.planes.size(); ++i)
+    of_place[i + 1] = areaOf(planes.planes[i]) >= options.min_surface_area;
+  for (const Surface& surface : surfaces) {
+    for (const int piece : surface.pieces) of_place[static_cast<std::size_t>(piece) + 1] = true;
+  }
+  return of_place;
+}
+
+}  // namespace omnimapper::perception::objects

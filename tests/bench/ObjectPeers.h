@@ -1,0 +1,23 @@
+#pragma once
+
+#include <omnimapper/source/PcdCloud.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::bench {
+
+/// The pixels of each thing that was found.
+using Things = std::vector<std::vector<int>>;
+
+/// Somebody's way from an organised cloud to the things in it. What is called is what is timed.
+struct ObjectPeer {
+  std::string name;
+  std::function<Things(const source::PcdCloud&)> run;
+};
+
+/// None where bench-objects was built without PCL.
+std::vector<ObjectPeer> pclObjects();
+
+}  // namespace omnimapper::bench

@@ -1,0 +1,93 @@
+// PCL's things of organised clouds, the thesis's own: planes with refinement, then Euclidean clusters off the large
+// ones.
+#include <pcl/features/integral_image_normal.h>
+#include <pcl/point_types.h>
+#include <pcl/segmentation/euclidean_cluster_comparator.h>
+#include <pcl/segmentation/organized_connected_component_segmentation.h>
+#include <pcl/segmentation/organized_multi_plane_segmentation.h>
+
+#include "ObjectPeers.h"
+
+namespace omnimapper::bench {
+
+namespace {
+
+using Point = pcl::PointXYZ;
+using Normals = pcl::IntegralImageNormalEstimation<Point, pcl::Normal>;
+using Comparator = pcl::EuclideanClusterComparator<Point, pcl::Label>;
+
+struct Settings {
+  Normals::NormalEstimationMethod method;
+  float gap;             // [m]
+  std::size_t of_place;  // points of a plane that is taken away
+  bool gap_with_depth;   // the gap grows with the depth
+};
+
+pcl::PointCloud<Point>::Ptr cloudOf(const source::PcdCloud& cloud) {
+  auto points = pcl::make_shared<pcl::PointCloud<Point>>(static_cast<std::uint32_t>(cloud.width),
+                                                         static_cast<std::uint32_t>(cloud.height));
+  points->is_dense = false;
+  for (std::size_t i = 0; i < cloud.z.size(); ++i) (*points)[i] = Point(cloud.x[i], cloud.y[i], cloud.z[i]);
+  return points;
+}
+
+Things things(const source::PcdCloud& cloud, const Settings& settings) {
+  const auto points = cloudOf(cloud);
+  auto normals = pcl::make_shared<pcl::PointCloud<pcl::Normal>>();
+  Normals estimate;
+  estimate.setNormalEstimationMethod(settings.method);
+  estimate.setMaxDepthChangeFactor(0.02F);
+  estimate.setNormalSmoothingSize(20);
+  estimate.setInputCloud(points);
+  estimate.compute(*normals);
+
+  pcl::OrganizedMultiPlaneSegmentation<Point, pcl::Normal, pcl::Label> segmentation;
+  segmentation.setMinInliers(1000);
+  segmentation.setAngularThreshold(3 * M_PI / 180);
+  segmentation.setDistanceThreshold(0.02);
+  segmentation.setInputNormals(normals);
+  segmentation.setInputCloud(points);
+  std::vector<pcl::PlanarRegion<Point>, Eigen::aligned_allocator<pcl::PlanarRegion<Point>>> regions;
+  std::vector<pcl::ModelCoefficients> coefficients;
+  std::vector<pcl::PointIndices> inliers, of_labels, boundaries;
+  auto labels = pcl::make_shared<pcl::PointCloud<pcl::Label>>();
+  segmentation.segmentAndRefine(regions, coefficients, inliers, labels, of_labels, boundaries);
+
+  auto of_place = pcl::make_shared<std::set<std::uint32_t>>();
+  for (std::size_t i = 0; i < of_labels.size(); ++i) {
+    if (of_labels[i].indices.size() > settings.of_place) of_place->insert(static_cast<std::uint32_t>(i));
+  }
+  auto comparator = pcl::make_shared<Comparator>();
+  comparator->setInputCloud(points);
+  comparator->setLabels(labels);
+  comparator->setExcludeLabels(of_place);
+  comparator->setDistanceThreshold(settings.gap, settings.gap_with_depth);
+  pcl::OrganizedConnectedComponentSegmentation<Point, pcl::Label> clustering(comparator);
+  clustering.setInputCloud(points);
+  std::vector<pcl::PointIndices> clusters;
+  pcl::PointCloud<pcl::Label> cluster_labels;
+  clustering.segment(cluster_labels, clusters);
+  Things found;
+  for (const auto& cluster : clusters) {
+    if (cluster.indices.size() >= 100) found.emplace_back(cluster.indices.begin(), cluster.indices.end());
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<ObjectPeer> pclObjects() {
+  std::vector<ObjectPeer> peers;
+  const auto add = [&](const std::string& name, const Settings& settings) {
+    peers.push_back({name, [settings](const source::PcdCloud& cloud) { return things(cloud, settings); }});
+  };
+  for (const std::size_t of_place : {1000U, 10000U}) {
+    const std::string off = ", off planes of " + std::to_string(of_place) + " points";
+    add("PCL average 3D gradient, gap 1 cm" + off, {Normals::AVERAGE_3D_GRADIENT, 0.01F, of_place, false});
+    add("PCL covariance normals, gap 1 cm" + off, {Normals::COVARIANCE_MATRIX, 0.01F, of_place, false});
+    add("PCL covariance normals, gap 2 cm" + off, {Normals::COVARIANCE_MATRIX, 0.02F, of_place, false});
+  }
+  return peers;
+}
+
+}  // namespace omnimapper::bench

@@ -1,0 +1,178 @@
+// Things on tables: ours and PCL's organised chain in one run, on labelled clouds of table-top scenes. Prints Markdown
+// tables. PCL's rows are there where bench-objects was built with it. Times are those of the processor, of one thread.
+//
+// Example: bench-objects --clouds objects/mosd
+#include <omnimapper/perception/ObjectFinder.h>
+#include <time.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+#include "ObjectPeers.h"
+
+namespace {
+
+using namespace omnimapper;
+using namespace omnimapper::bench;
+
+constexpr std::uint32_t kFirstThing = 20;  // labels from here on are of things
+constexpr double kRight = 0.5;             // intersection over union
+
+double now() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+double quantile(std::vector<double> values, double q) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+ObjectPeer ours(const perception::Pinhole& camera, double tilt) {
+  perception::PlaneOptions sensor;
+  perception::ObjectOptions options;
+  options.min_points = 100;
+  options.max_tilt = tilt;
+  const perception::PlaneSegmenter segmenter(sensor);
+  const perception::ObjectFinder finder(options, sensor);
+  return {"ours", [=](const source::PcdCloud& cloud) {
+            const perception::DepthImage image(cloud.z.data(), cloud.width, cloud.height, camera);
+            Things things;
+            for (auto& found : finder.find(image, segmenter.segment(image), -Eigen::Vector3d::UnitY()))
+              things.push_back(std::move(found.pixels));
+            return things;
+          }};
+}
+
+/// One that was found, on whatever cloud.
+struct Detection {
+  std::size_t pixels;
+  bool right;  // covers a thing at an intersection over union of at least a half
+};
+
+struct Result {
+  std::vector<Detection> detections;
+  int things = 0, merged = 0;  // merged: things of which another shares the detection that covers most of it
+  double overlap = 0;          // sum over things of the best intersection over union
+  std::vector<double> milliseconds;
+};
+
+void compare(const source::PcdCloud& cloud, const Things& found, Result& result) {
+  std::map<std::uint32_t, double> sizes;
+  for (const auto label : cloud.labels) {
+    if (label >= kFirstThing) ++sizes[label];
+  }
+  std::map<std::uint32_t, double> best;
+  std::map<std::uint32_t, std::size_t> covers;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::map<std::uint32_t, double> shared;
+    for (const int pixel : found[i]) ++shared[cloud.labels[static_cast<std::size_t>(pixel)]];
+    double most = 0;
+    for (const auto& [label, count] : shared) {
+      if (label < kFirstThing) continue;
+      const double overlap = count / (sizes[label] + static_cast<double>(found[i].size()) - count);
+      most = std::max(most, overlap);
+      best[label] = std::max(best[label], overlap);
+      if (count > 0.5 * sizes[label]) covers[label] = i + 1;
+    }
+    result.detections.push_back({found[i].size(), most >= kRight});
+  }
+  std::map<std::size_t, int> things_of;
+  for (const auto& [label, i] : covers) ++things_of[i];
+  for (const auto& [label, i] : covers) result.merged += things_of[i] > 1;
+  for (const auto& [label, size] : sizes) {
+    ++result.things;
+    result.overlap += best[label];
+  }
+}
+
+/// Recall and precision where detections of fewer pixels are left out.
+struct Point {
+  std::size_t fewest = 0;
+  double recall = 0, precision = 0;
+};
+
+std::vector<Point> curveOf(const Result& result) {
+  auto detections = result.detections;
+  std::sort(detections.begin(), detections.end(),
+            [](const Detection& a, const Detection& b) { return a.pixels > b.pixels; });
+  std::vector<Point> curve;
+  double right = 0;
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    right += detections[i].right;
+    curve.push_back({detections[i].pixels, right / result.things, right / static_cast<double>(i + 1)});
+  }
+  return curve;
+}
+
+// The most things at a precision that is no less.
+Point bestAt(const std::vector<Point>& curve, double precision) {
+  Point best;
+  for (const Point& point : curve) {
+    if (point.precision >= precision && point.recall > best.recall) best = point;
+  }
+  return best;
+}
+
+// At a threshold that suits table tops.
+Point at(const std::vector<Point>& curve, std::size_t fewest) {
+  Point last;
+  for (const Point& point : curve) {
+    if (point.fewest >= fewest) last = point;
+  }
+  return last;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Things on tables: ours and PCL's organised chain in one run");
+  std::string folder;
+  double focal = 525, cx = 319.5, cy = 239.5, tilt_deg = 75;
+  int rounds = 3;
+  app.add_option("--clouds", folder, "folder of organised PCD files with labels, 20 and up for things")->required();
+  app.add_option("--focal", focal, "[px]");
+  app.add_option("--cx", cx, "[px]");
+  app.add_option("--cy", cy, "[px]");
+  app.add_option("--tilt", tilt_deg, "of tables from the camera's own level at most [deg]: its pose is not known");
+  app.add_option("--rounds", rounds, "times each cloud is done");
+  CLI11_PARSE(app, argc, argv);
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<source::PcdCloud> clouds;
+  for (const auto& file : files) clouds.push_back(source::readPcd(file));
+
+  std::vector<ObjectPeer> methods{ours({focal, focal, cx, cy}, tilt_deg * M_PI / 180)};
+  for (const auto& peer : pclObjects()) methods.push_back(peer);
+  std::vector<Result> results(methods.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (const auto& cloud : clouds) {
+      for (std::size_t m = 0; m < methods.size(); ++m) {
+        const double start = now();
+        const Things found = methods[m].run(cloud);
+        results[m].milliseconds.push_back(now() - start);
+        if (round == 0) compare(cloud, found, results[m]);
+      }
+    }
+  }
+  std::printf("%zu clouds, %d things, %d times each\n\n", clouds.size(), results[0].things, rounds);
+  std::printf(
+      "| method | recall | precision | recall at precision 0.5 | 0.7 | 0.9 | things merged | mean overlap | median "
+      "[ms] "
+      "| 95 %% |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const auto curve = curveOf(results[m]);
+    const Point usual = at(curve, 1000);
+    std::printf("| %s | %.3f | %.3f | %.3f | %.3f | %.3f | %d | %.3f | %.2f | %.2f |\n", methods[m].name.c_str(),
+                usual.recall, usual.precision, bestAt(curve, 0.5).recall, bestAt(curve, 0.7).recall,
+                bestAt(curve, 0.9).recall, results[m].merged, results[m].overlap / results[m].things,
+                quantile(results[m].milliseconds, 0.5), quantile(results[m].milliseconds, 0.95));
+  }
+}

@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+#include <omnimapper/perception/ObjectFinder.h>
+
+#include <Eigen/Eigenvalues>
+#include <set>
+
+#include "TableScene.h"
+
+namespace omnimapper::perception {
+namespace {
+
+using Eigen::Vector3d;
+using rooms::TableScene;
+
+struct Found {
+  PlaneSegmentation planes;
+  std::vector<ObjectRegion> objects;
+};
+
+Found find(const TableScene& table, const std::vector<float>& depth, const ObjectOptions& options = {},
+           const PlaneOptions& sensor = {}) {
+  const DepthImage image(depth.data(), 640, 480, table.scene.camera);
+  Found found;
+  found.planes = PlaneSegmenter(sensor).segment(image);
+  found.objects = ObjectFinder(options, sensor).find(image, found.planes, table.up);
+  return found;
+}
+
+Found find(const TableScene& table, const ObjectOptions& options = {}) {
+  return find(table, rooms::render(table.scene).depth, options);
+}
+
+TableScene withThreeThings() {
+  TableScene table;
+  table.addBlock({0.9, 0.35, 0.8}, {0.1, 0.15, 0.2});
+  table.addBlock({1, 0, 0.76}, {0.08, 0.3, 0.12}, 0.5);
+  table.addBlock({1.1, -0.35, 0.75}, {0.1, 0.1, 0.1}, -0.3);
+  return table;
+}
+
+Vector3d inRoom(const TableScene& table, const Vector3d& in_camera) {
+  return table.room_from_camera * in_camera;
+}
+
+TEST(ObjectFinder, ThreeBlocksOnATableWithTheirBoxes) {
+  const TableScene table = withThreeThings();
+  const auto found = find(table);
+  ASSERT_EQ(found.objects.size(), 3U);
+  std::set<int> surfaces;
+  for (const auto& object : found.objects) {
+    ASSERT_TRUE(object.surface);
+    surfaces.insert(*object.surface);
+    const Vector3d axis = table.room_from_camera.linear() * (object.sensor_from_box.rotation * Vector3d::UnitZ());
+    EXPECT_LT((axis - Vector3d::UnitZ()).norm(), 1e-3) << "upright";
+    EXPECT_TRUE(std::is_sorted(object.pixels.begin(), object.pixels.end()));
+  }
+  ASSERT_EQ(surfaces.size(), 1U);
+  const auto& top = found.planes.planes[static_cast<std::size_t>(*surfaces.begin())];
+  EXPECT_NEAR(inRoom(table, top.centroid).z(), 0.7, 1e-3);
+  // The long block: its top and two sides are seen.
+  const auto& block =
+      *std::min_element(found.objects.begin(), found.objects.end(), [&](const ObjectRegion& a, const ObjectRegion& b) {
+        return std::abs(inRoom(table, a.centroid).y()) < std::abs(inRoom(table, b.centroid).y());
+      });
+  EXPECT_NEAR(block.box_size.x(), 0.3, 0.01);
+  EXPECT_NEAR(block.box_size.y(), 0.08, 0.01);
+  EXPECT_NEAR(block.box_size.z(), 0.12, 0.005);
+  EXPECT_LT((inRoom(table, block.sensor_from_box.translation) - Vector3d(1, 0, 0.76)).norm(), 0.01);
+}
+
+TEST(ObjectFinder, NoiseOfAKinectChangesLittle) {
+  const TableScene table = withThreeThings();
+  testing::Dice dice(7);
+  const auto depth = rooms::withNoise(rooms::render(table.scene), 640, 480, DepthNoise(), dice);
+  const auto found = find(table, depth);
+  ASSERT_EQ(found.objects.size(), 3U);
+  const auto exact = find(table);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT((found.objects[i].box_size - exact.objects[i].box_size).norm(), 0.03) << i;
+    EXPECT_LT((found.objects[i].centroid - exact.objects[i].centroid).norm(), 0.01) << i;
+  }
+}
+
+TEST(ObjectFinder, ABlockOnTheFloorStandsOnTheFloor) {
+  TableScene table;
+  table.scene.faces.erase(table.scene.faces.begin() + 6, table.scene.faces.begin() + 12);  // the table
+  table.addBlock({1.6, 0, 0.2}, {0.3, 0.2, 0.4});
+  const auto found = find(table);
+  ASSERT_EQ(found.objects.size(), 1U);
+  const auto& floor = found.planes.planes[static_cast<std::size_t>(*found.objects[0].surface)];
+  EXPECT_NEAR(inRoom(table, floor.centroid).z(), 0, 1e-3);
+  EXPECT_NEAR(found.objects[0].box_size.z(), 0.4, 0.005);
+}
+
+TEST(ObjectFinder, AThingOnAnotherIsOneWithIt) {
+  TableScene table;
+  table.addBlock({1, 0, 0.75}, {0.2, 0.2, 0.1});
+  table.addBlock({1, 0, 0.85}, {0.1, 0.1, 0.1});
+  EXPECT_EQ(find(table).objects.size(), 1U) << "the lower one is smaller than a surface";
+}
+
+TEST(ObjectFinder, ATableInPiecesIsOneSurface) {
+  TableScene table;
+  table.addBlock({1, 0.3, 0.705}, {0.8, 0.6, 0.012});  // half of it is a centimetre higher
+  table.addBlock({1, 0, 0.8}, {0.1, 0.2, 0.2});
+  const auto found = find(table);
+  ASSERT_EQ(found.objects.size(), 1U);
+  EXPECT_NEAR(found.objects[0].box_size.x(), 0.2, 0.02);
+}
+
+TEST(ObjectFinder, FiltersLeaveOutWhatIsTooSmallTooLargeOrHangs) {
+  TableScene table = withThreeThings();
+  ObjectOptions options;
+  options.min_points = 100000;
+  EXPECT_TRUE(find(table, options).objects.empty());
+  options = {};
+  options.min_size = 0.25;
+  EXPECT_EQ(find(table, options).objects.size(), 1U);
+  options = {};
+  options.max_volume = 0.0015;
+  EXPECT_EQ(find(table, options).objects.size(), 1U) << "the smallest is 0.001 m^3";
+  table.addBlock({1, 0, 1.15}, {0.1, 0.1, 0.1});  // in the air
+  EXPECT_EQ(find(table).objects.size(), 3U);
+  options = {};
+  options.on_surfaces_only = false;
+  std::size_t hanging = 0;
+  for (const auto& object : find(table, options).objects) hanging += !object.surface;
+  EXPECT_GE(hanging, 1U);
+}
+
+TEST(ObjectFinder, WallsAreNoTables) {
+  TableScene table = withThreeThings();
+  table.up = -table.up;
+  EXPECT_TRUE(find(table).objects.empty());
+}
+
+TEST(ObjectFinder, NothingMeasuredIsNoObject) {
+  const TableScene table;
+  EXPECT_TRUE(find(table, std::vector<float>(640 * 480, std::nanf(""))).objects.empty());
+  EXPECT_TRUE(find(table, std::vector<float>(640 * 480, 1)).objects.empty()) << "constant depth";
+  const DepthImage nothing(static_cast<const float*>(nullptr), 0, 0, table.scene.camera);
+  EXPECT_TRUE(ObjectFinder({}, {}).find(nothing, {}, table.up).empty());
+  const float one = 1;
+  const DepthImage pixel(&one, 1, 1, table.scene.camera);
+  EXPECT_TRUE(ObjectFinder({}, {}).find(pixel, PlaneSegmenter({}).segment(pixel), table.up).empty());
+}
+
+TEST(ObjectFinder, CentroidsVaryAsTheirCovarianceSays) {
+  TableScene table;
+  table.addBlock({1, 0, 0.8}, {0.15, 0.3, 0.2}, 0.3);
+  const auto view = rooms::render(table.scene);
+  const auto exact = find(table, view.depth).objects.at(0);
+  PlaneOptions sensor;
+  sensor.bend_at_1m = 0.004;
+  testing::Dice dice(11);
+  double chi_square = 0;
+  constexpr int kTimes = 30;
+  for (int i = 0; i < kTimes; ++i) {
+    const auto depth = rooms::withNoise(view, 640, 480, DepthNoise(), dice);
+    const auto found = find(table, depth, {}, sensor);
+    ASSERT_EQ(found.objects.size(), 1U);
+    // Along the ray, where the sensor errs; across it what moves is the border of the cluster.
+    const Vector3d ray = exact.centroid.normalized();
+    const double error = ray.dot(found.objects[0].centroid - exact.centroid);
+    chi_square += error * error / ray.dot(found.objects[0].covariance * ray);
+  }
+  EXPECT_LT(chi_square / kTimes, 1.5) << "no smaller than the error; larger, for the bend that this sensor has not";
+  EXPECT_GT(exact.covariance.eigenvalues().real().minCoeff(), 0);
+}
+
+}  // namespace
+}  // namespace omnimapper::perception
