@@ -179,6 +179,14 @@ TEST(Drive, whatCannotBeReachedIsRefusedWithPlaceAndRemedy) {
   EXPECT_NE(refusal("mode = waypoints\nwaypoints = 50 50", world).find("(50.00, 50.00)"), std::string::npos);
 }
 
+TEST(Drive, whatReachesFarBeyondThePlanIsInTheWayWhereItIs) {
+  sim::World world = oneRoom(6, 4);
+  world.obstacles.push_back({{3, 1}, {1e12, 1}, {1e12, 1e12}, {3, 1e12}});
+  EXPECT_NE(refusal("mode = waypoints\nwaypoints = 5 3", world).find("(5.00, 3.00)"), std::string::npos);
+  EXPECT_NEAR(drive("mode = waypoints\nwaypoints = 1 3, 1 1", world).places().back().map_from_body->translation.y(), 1,
+              1e-9);
+}
+
 TEST(Drive, theBaseFollowsTheGround) {
   // A ramp that rises 0.1 m a metre along x.
   sim::World world;

@@ -145,6 +145,11 @@ TEST(WorldIni, impossibleWorldsAreRefusedWithTheirPlace) {
       {"a person who stands where something is put later", "objects = o\npeople = p",
        "[o]\nclass = box\nx_m = 1\ny_m = 1\nmoves = 60 2 2 0\n[p]\nclass = person\npath = 0 3 2 | 9 2 2\n", "p",
        "path"},
+      {"a person who walks for years", "people = p", "[p]\nclass = person\npath = 0 2 1 | 1e9 3 1\n", "p", "path"},
+      {"furniture of a kilometre", "furniture = f", "[f]\nclass = table\nx_m = 1.6\ny_m = 2.4\nheight_m = 1000\n", "f",
+       "height_m"},
+      {"a sign that no memory holds", "signs = s",
+       "[s]\nclass = dark\ntext = A\nx_m = 2\ny_m = 0.1\nwidth_m = 100000\nheight_m = 2\n", "s", "width_m"},
       {"a person who points at nothing", "people = p",
        "[p]\nclass = person\npath = 0 2 1 | 9 2 1\npointing = 2 4 vase\n", "p", "pointing"},
   };
@@ -197,6 +202,11 @@ TEST(WorldIni, impossibleRoomsAndDoorsAreRefused) {
   expectRefused("[world]\nrooms = a\n[a]\nclass = room\nrectangle_m = 0 0 0 3\n", "a", "rectangle_m");
   expectRefused("[world]\nrooms = a\n[a]\nclass = room\noutline_m = 0 0 4 3 4 0 0 3\n", "a", "outline_m");
   expectRefused("[world]\nrooms = a\n[a]\nclass = room\noutline_m = 0 0 4 x 4 0\n", "a", "outline_m");
+  expectRefused("[world]\nrooms = a\n[a]\nclass = room\nrectangle_m = 0 0 3000 3000\n", "a", "outline_m");
+  expectRefused("[world]\nrooms = a b\n" + a + room + "[b]\nclass = outdoors\nrectangle_m = 400 400 500 500\n", "b",
+                "outline_m");
+  expectRefused("[world]\nrooms = a\n[a]\nclass = room\nrectangle_m = 1e12 0 1000000000004 3\n", "a", "outline_m");
+  expectRefused("[world]\ngenerator = loop\nlength_m = 2000\n", "world", "length_m");
   const auto door = [&](const std::string& keys) {
     return "[world]\nrooms = a b\ndoors = d\n" + a + room +
            "[b]\nclass = room\nrectangle_m = 4.2 0 8 3\n[d]\nclass = door\n" + keys;

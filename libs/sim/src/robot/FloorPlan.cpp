@@ -68,7 +68,7 @@ template <class Visit>
 void FloorPlan::forEachCellNear(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double margin,
                                 const Visit& visit) const {
   const auto bound = [&](double value, double origin, int count) {
-    return std::clamp(static_cast<int>(std::floor((value - origin) / kCell)), 0, count - 1);
+    return static_cast<int>(std::clamp(std::floor((value - origin) / kCell), 0.0, count - 1.0));
   };
   const int first_column = bound(low.x() - margin, low_.x(), columns_),
             first_row = bound(low.y() - margin, low_.y(), rows_);

@@ -1,6 +1,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/sim/People.h>
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kLeastHeight = 0.8, kMostHeight = 2.3;  // [m]
 constexpr double kMostSpeed = 2.5;                       // [m/s]
+constexpr double kLongest = 7200;                        // what happens to a person is kept at 20 Hz [s]
 constexpr double kNearestTarget = 0.6;                   // from the head [m]
 constexpr double kStepOfHeight = 0.4;
 
@@ -37,6 +39,13 @@ void checkWaypoints(const PersonSpec& spec) {
       refuse(spec, "it would walk ", speed, " m/s from ", from.time, " to ", to.time, " s; at most ", kMostSpeed);
     }
   }
+}
+
+void checkSpan(const PersonSpec& spec) {
+  double begin = spec.waypoints.front().time, end = spec.waypoints.back().time;
+  for (const Person::Pointing& act : spec.acts) begin = std::min(begin, act.begin), end = std::max(end, act.end);
+  if (!(end - begin <= kLongest))
+    refuse(spec, "it walks and points from ", begin, " to ", end, " s; at most ", kLongest, " s are possible");
 }
 
 void checkActs(const PersonSpec& spec, const Walk& walk, const Anatomy& anatomy) {
@@ -64,6 +73,7 @@ void checkActs(const PersonSpec& spec, const Walk& walk, const Anatomy& anatomy)
 
 MadePerson makePerson(const PersonSpec& spec) {
   checkWaypoints(spec);
+  checkSpan(spec);
   const Anatomy anatomy(spec.height);
   const Walk walk(spec.waypoints, anatomy.half_hips, kStepOfHeight * spec.height);
   checkActs(spec, walk, anatomy);

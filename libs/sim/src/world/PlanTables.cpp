@@ -10,6 +10,7 @@ using base::Range;
 namespace {
 
 constexpr Range kAnywhere{};
+constexpr Range kSize{0, 100}, kSizeOnWall{0, 5};  // [m]
 
 // What stands somewhere, and is carried elsewhere.
 template <class Ini>
@@ -31,9 +32,9 @@ void addOnWall(OptionTable<Ini>& table) {
 
 template <class Ini>
 void addSize(OptionTable<Ini>& table) {
-  table.number("length_m", &Ini::length, Range::notNegative(), "Along its front; 0: as is usual.")
-      .number("width_m", &Ini::width, Range::notNegative(), "From front to back; 0: as is usual.")
-      .number("height_m", &Ini::height, Range::notNegative(), "0: as is usual.");
+  table.number("length_m", &Ini::length, kSize, "Along its front; 0: as is usual.")
+      .number("width_m", &Ini::width, kSize, "From front to back; 0: as is usual.")
+      .number("height_m", &Ini::height, kSize, "0: as is usual.");
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ const OptionTable<WorldOptions>& WorldOptions::table() {
           .choice("clutter", &WorldOptions::clutter,
                   {{"low", ClutterLevel::low}, {"medium", ClutterLevel::medium}, {"high", ClutterLevel::high}},
                   "How much stands about in a generated place.")
-          .number("length_m", &WorldOptions::length, {24, 2000},
+          .number("length_m", &WorldOptions::length, {24, 1000},
                   "Of a generated loop, along the middle of its corridor.")
           .number("move_time_s", &WorldOptions::move_time, kAnywhere,
                   "When moveable things of a generated place are carried elsewhere; negative: never.")
@@ -72,7 +73,7 @@ const OptionTable<RoomIni>& RoomIni::table() {
           .list("outline_m", &RoomIni::outline_words, "Or all its corners in turn: x y x y x y ...")
           .text("kind", &RoomIni::kind, "What it is used for: kitchen, office, corridor, road, ...")
           .text("number", &RoomIni::number, "Its number, as on door signs.")
-          .number("floor_m", &RoomIni::floor_z, kAnywhere, "Height of the floor at its first corner.")
+          .number("floor_m", &RoomIni::floor_z, {-1000, 1000}, "Height of the floor at its first corner.")
           .number("height_m", &RoomIni::height, {1.8, 100}, "From floor to ceiling.")
           .number("slope_x", &RoomIni::slope_x, {-0.5, 0.5}, "Rise of the floor per metre along x.")
           .number("slope_y", &RoomIni::slope_y, {-0.5, 0.5}, "The same along y.")
@@ -133,8 +134,8 @@ const OptionTable<SignIni>& SignIni::table() {
     result.text("room", &SignIni::room, "The room it names.")
         .text("text", &SignIni::text, "Its lines, separated by |; empty: number and name of the room.");
     addOnWall(result);
-    result.number("width_m", &SignIni::width, Range::notNegative(), "0: as its text needs.")
-        .number("height_m", &SignIni::height, Range::notNegative(), "The same.");
+    result.number("width_m", &SignIni::width, kSizeOnWall, "0: as its text needs.")
+        .number("height_m", &SignIni::height, kSizeOnWall, "The same.");
     return result;
   }();
   return table;
@@ -144,8 +145,8 @@ const OptionTable<PosterIni>& PosterIni::table() {
   static const auto table = [] {
     OptionTable<PosterIni> result;
     addOnWall(result);
-    result.number("width_m", &PosterIni::width, Range::notNegative(), "0: as is usual.")
-        .number("height_m", &PosterIni::height, Range::notNegative(), "The same.");
+    result.number("width_m", &PosterIni::width, kSizeOnWall, "0: as is usual.")
+        .number("height_m", &PosterIni::height, kSizeOnWall, "The same.");
     return result;
   }();
   return table;
@@ -155,7 +156,7 @@ const OptionTable<MarkerIni>& MarkerIni::table() {
   static const auto table = [] {
     OptionTable<MarkerIni> result;
     result.integer("id", &MarkerIni::id, Range::notNegative(), "Of its dictionary.")
-        .number("side_m", &MarkerIni::side, Range::positive(), "Of the black square.");
+        .number("side_m", &MarkerIni::side, {0.01, 10}, "Of the black square.");
     addPlace(result);
     result.number("z_m", &MarkerIni::z, Range::positive(), "On a wall: height of its middle above the floor.")
         .flag("landmark", &MarkerIni::is_landmark, "Its middle is a landmark of range-bearing sensors too.");

@@ -1,14 +1,12 @@
-#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Error.h>
 #include <omnimapper/sim/Furniture.h>
 #include <omnimapper/sim/MarkerMaking.h>
-#include <omnimapper/sim/Materials.h>
 #include <omnimapper/sim/ObjectMaking.h>
 #include <omnimapper/sim/PosterMaking.h>
 #include <omnimapper/sim/SignMaking.h>
 #include <omnimapper/sim/WorldPlan.h>
 
 #include <algorithm>
-#include <set>
 
 #include "PlanChecks.h"
 #include "StandingThings.h"
@@ -244,50 +242,15 @@ class WorldMaker {
   World world_;
 };
 
-// Everything is known by its name.
-void refuseTwins(const WorldPlan& plan) {
-  std::set<std::string> names{"outside"};
-  const auto check = [&](const auto& list) {
-    for (const auto& item : list) {
-      if (!names.insert(item.name).second)
-        refuse(plan, item.name, "name", "two things are called so; call this section something else");
-    }
-  };
-  check(plan.rooms);
-  check(plan.openings);
-  check(plan.furniture);
-  check(plan.objects);
-  check(plan.signs);
-  check(plan.posters);
-  check(plan.markers);
-  check(plan.landmarks);
-  check(plan.people);
-}
-
 }  // namespace
 
 std::uint64_t seedOfObject(std::uint64_t world_seed, std::size_t number) {
   return Random(world_seed, {kObjectStream, number}).bits();
 }
 
-Vector3d reachOf(const Body& body) {
-  Vector3d reach = Vector3d::Zero();
-  for (const Vector3d& p : body.vertices_in_body) {
-    reach = reach.cwiseMax(Vector3d(2 * std::abs(p.x()), 2 * std::abs(p.y()), p.z()));
-  }
-  return reach;
-}
-
-void refuseUnknownMaterial(const WorldPlan& plan, const std::string& section, const std::string& key,
-                           const std::string& name) {
-  if (findMaterial(name)) return;
-  const std::string near = base::nearestName(name, materialNames());
-  refuse(plan, section, key,
-         "no material is called '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
-}
-
 World makeWorld(const WorldPlan& plan) {
   refuseTwins(plan);
+  refuseHugePlaces(plan);
   return WorldMaker(plan).make();
 }
 

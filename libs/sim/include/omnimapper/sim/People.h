@@ -50,7 +50,8 @@ struct MadePerson {
 /// target is out of the arm's reach.
 ///
 /// Throws base::Error(out_of_range) for a height out of [0.8, 2.3] m, times that do not increase, more than 2.5 m/s, an
-/// act while it walks or that overlaps another, and a target nearer than 0.6 m to the head.
+/// act while it walks or that overlaps another, more than 7200 s from first to last, and a target nearer than 0.6 m to
+/// the head.
 MadePerson makePerson(const PersonSpec& spec);
 
 /// Waypoints along a line at an even speed [m/s] from a time on [s]. Throws std::invalid_argument unless speed > 0.

@@ -14,6 +14,9 @@ namespace omnimapper::sim {
 /// Plain descriptions of all that is in a world, as sections of an INI say them and as generators make them. Positions
 /// are in the map. `name` is the section's name; makeWorld() checks what they say and builds it.
 
+/// Area of the rectangle that all rooms of a world lie in, at most [m^2].
+constexpr double kLargestPlace = 80000;
+
 struct RoomPlan {
   std::string name;
   std::string kind = "room";        ///< "kitchen", "corridor", ...
