@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "SeenMoves.h"
+
 namespace omnimapper::sim {
 
 namespace {
@@ -93,6 +95,8 @@ Simulation::Simulation(const base::Config& config)
       warnings_.push_back(config.file() + ": [" + options_.sensors[i] + "] first_s is after the end of the run, at " +
                           base::option_text::format(duration_) + " s: it measures nothing");
   }
+  for (const std::string& seen : seenMoves(world_, map_from_base_, duration_))
+    warnings_.push_back(config.file() + ": " + seen);
   config.refuseUnreadSections();
   if (const auto off = config.switchedOffPlugins(); !off.empty()) {
     warnings_.push_back(config.file() + ": no list of [simulation] or [world] names the sections " +
