@@ -150,6 +150,8 @@ TEST(WorldIni, impossibleWorldsAreRefusedWithTheirPlace) {
        "height_m"},
       {"a sign that no memory holds", "signs = s",
        "[s]\nclass = dark\ntext = A\nx_m = 2\ny_m = 0.1\nwidth_m = 100000\nheight_m = 2\n", "s", "width_m"},
+      {"a person who points with a foot", "people = p",
+       "[p]\nclass = person\npath = 0 2 1 | 9 2 1\npointing = 2 4 2 3 1 foot\n", "p", "pointing"},
       {"a person who points at nothing", "people = p",
        "[p]\nclass = person\npath = 0 2 1 | 9 2 1\npointing = 2 4 vase\n", "p", "pointing"},
   };
@@ -224,6 +226,26 @@ TEST(WorldIni, generatedPlacesTakeWhatSectionsAdd) {
   ASSERT_EQ(world.objects.size(), 1u);
   EXPECT_EQ(world.rooms.size(), 1u);
   EXPECT_THROW(readText("[world]\ngenerator = hoem\n"), base::Error);
+}
+
+TEST(WorldIni, aPersonPointsWithTheArmThatIsSaid) {
+  const sim::World world = readText(
+      twoRooms("furniture = desk\npeople = p",
+               "[desk]\nclass = table\nx_m = 1.5\ny_m = 2.4\n"
+               "[p]\nclass = person\npath = 0 2 1 | 90 2 1\n"
+               "pointing = 2 4 desk | 10 14 desk left | 20 24 2 3 1 left | 30 34 2 3 1 right | 40 44 2 3 1\n"));
+  ASSERT_EQ(world.people.size(), 1u);
+  std::vector<bool> right;
+  for (const auto& act : world.people[0].pointing) right.push_back(act.right_arm);
+  EXPECT_EQ(right, (std::vector<bool>{true, false, false, true, true}));
+  const auto handHeight = [&](const std::string& hand, double time) {
+    for (const auto& joint : world.people[0].joints) {
+      if (joint.name == hand) return joint.in_map.at(time)->translation.z();
+    }
+    return 0.0;
+  };
+  EXPECT_GT(handHeight("right_hand", 32), handHeight("left_hand", 32) + 0.1);
+  EXPECT_GT(handHeight("left_hand", 22), handHeight("right_hand", 22) + 0.1);
 }
 
 TEST(WorldIni, everyKindOfSectionSaysItsOptions) {

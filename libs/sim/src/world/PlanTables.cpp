@@ -181,7 +181,9 @@ const OptionTable<PersonIni>& PersonIni::table() {
           .number("yaw_deg", &PersonIni::yaw, kAnywhere, "Where it looks until it first walks or points.")
           .list("path", &PersonIni::path_words, "Where it is when: 'time x y' in s and m, groups separated by |.")
           .list("pointing", &PersonIni::pointing_words,
-                "'begin end target' in s, groups separated by |; the target is the name of a thing, or x y z in m.");
+                "'begin end target [arm]' in s, groups separated by |; the target is the name of a thing, or x y z in "
+                "m; the "
+                "arm is right or left, right if none is said.");
   return table;
 }
 

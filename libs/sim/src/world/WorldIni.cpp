@@ -126,6 +126,25 @@ std::vector<MovePlan> readMoves(const Entry& entry, const std::vector<std::strin
   return moves;
 }
 
+Person::Pointing readPointing(const Entry& entry, std::vector<std::string> words) {
+  const std::string group = format(words);
+  Person::Pointing act;
+  if (!words.empty() && (words.back() == "left" || words.back() == "right") && words.size() > 3) {
+    act.right_arm = words.back() == "right";
+    words.pop_back();
+  }
+  if (words.size() != 3 && words.size() != 5) {
+    entry.refuse("pointing", "'" + group + "' must be 'begin end target' or 'begin end x y z', and after it the arm: " +
+                                 "right (if nothing is said) or left");
+  }
+  act.begin = entry.number("pointing", words[0]);
+  act.end = entry.number("pointing", words[1]);
+  if (words.size() == 3) act.target = words[2];
+  for (std::size_t i = 2; i < words.size() && words.size() == 5; ++i)
+    act.target_in_map[static_cast<int>(i) - 2] = entry.number("pointing", words[i]);
+  return act;
+}
+
 PersonSpec readPerson(const Entry& entry, std::uint64_t seed) {
   const PersonIni ini = entry.section.read<PersonIni>({"class"});
   PersonSpec person;
@@ -138,17 +157,7 @@ PersonSpec readPerson(const Entry& entry, std::uint64_t seed) {
     person.waypoints.push_back(
         {{entry.number("path", group[1]), entry.number("path", group[2])}, entry.number("path", group[0])});
   }
-  for (const auto& group : groupsOf(ini.pointing_words)) {
-    if (group.size() != 3 && group.size() != 5)
-      entry.refuse("pointing", "'" + format(group) + "' must be 'begin end target' or 'begin end x y z'");
-    Person::Pointing act;
-    act.begin = entry.number("pointing", group[0]);
-    act.end = entry.number("pointing", group[1]);
-    if (group.size() == 3) act.target = group[2];
-    for (std::size_t i = 2; i < group.size() && group.size() == 5; ++i)
-      act.target_in_map[static_cast<int>(i) - 2] = entry.number("pointing", group[i]);
-    person.acts.push_back(act);
-  }
+  for (const auto& group : groupsOf(ini.pointing_words)) person.acts.push_back(readPointing(entry, group));
   return person;
 }
 
