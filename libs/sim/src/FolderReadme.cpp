@@ -1,12 +1,18 @@
 #include "FolderReadme.h"
 
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/sim/Laser2d.h>
 
+#include <algorithm>
 #include <sstream>
+
+#include "sensors/RgbdCamera.h"
 
 namespace omnimapper::sim {
 
 namespace {
+
+const std::string kTitleBegin = "# ", kTitleEnd = ": a simulated log";
 
 std::string meaningOf(const std::string& file, const std::string& name) {
   const auto ends = [&](const std::string& end) {
@@ -28,11 +34,29 @@ std::string meaningOf(const std::string& file, const std::string& name) {
   return "one file of truth for each measurement";
 }
 
+template <class Class>
+bool has(const Simulation& simulation) {
+  return std::any_of(simulation.sensors().begin(), simulation.sensors().end(),
+                     [](const auto& sensor) { return dynamic_cast<const Class*>(sensor.get()) != nullptr; });
+}
+
+// What can be done with the log: each INI wants certain sensors.
+std::string usesOf(const Simulation& simulation, const std::string& log) {
+  std::string text = "See what is in it: `omnimapper-graphslam --check " + log + "`.\n";
+  if (has<Laser2d>(simulation)) {
+    text = "Map it: `omnimapper-graphslam -i ini/laser2d.ini -r " + log +
+           " -o OUT`, then\n`omnimapper-eval ate OUT/trajectory.tum truth.tum --align yaw -o OUT/eval`.\n";
+  }
+  if (has<RgbdCamera>(simulation))
+    text += "Find its planes: `omnimapper-perceive -i ini/perceive.ini -r " + log + " -o OUT/perceived.rawlog`.\n";
+  return text;
+}
+
 }  // namespace
 
 std::string folderReadme(const Simulation& simulation, const std::string& name, const SimulationResult& result) {
   std::ostringstream out;
-  out << "# " << name << ": a simulated log\n\n"
+  out << kTitleBegin << name << kTitleEnd << "\n\n"
       << base::fixed(result.duration, 1) << " s, " << base::fixed(result.way, 1) << " m of way, seed "
       << simulation.options().seed << "; time 0 is Unix time " << base::fixed(simulation.options().start, 1) << ".\n\n"
       << "| file | what it is |\n|---|---|\n";
@@ -44,9 +68,17 @@ std::string folderReadme(const Simulation& simulation, const std::string& name, 
   }
   out << "\nA label of a surface is its number in `landmarks.json`; 0 is nothing.\n\n"
       << "![the world from above](plan.svg)\n\n"
-      << "Map it: `omnimapper-graphslam -i ini/laser2d.ini -r " << name << ".rawlog -o OUT`, then\n"
-      << "`omnimapper-eval ate OUT/trajectory.tum truth.tum --align yaw -o OUT/eval`.\n";
+      << usesOf(simulation, name + ".rawlog");
   return out.str();
+}
+
+std::string nameInTitle(const std::string& line) {
+  const std::size_t around = kTitleBegin.size() + kTitleEnd.size();
+  if (line.size() <= around || line.compare(0, kTitleBegin.size(), kTitleBegin) != 0 ||
+      line.compare(line.size() - kTitleEnd.size(), kTitleEnd.size(), kTitleEnd) != 0)
+    return "";
+  const std::string name = line.substr(kTitleBegin.size(), line.size() - around);
+  return isPlainFileName(name) ? name : "";
 }
 
 }  // namespace omnimapper::sim

@@ -7,8 +7,10 @@
 #include <omnimapper/source/ExternalImages.h>
 
 #include <algorithm>
+#include <cctype>
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -16,6 +18,7 @@
 #include "FolderReadme.h"
 #include "LogWriter.h"
 #include "Pictures.h"
+#include "RunFolder.h"
 #include "TruthFolder.h"
 #include "WorldTruth.h"
 
@@ -66,6 +69,8 @@ class Measurements {
         make_(std::move(make)),
         pool_(threads) {}
 
+  /// How many have been handed out or made ahead.
+  std::size_t begun() const { return begun_; }
   Measurement next() {
     while (begun_ < arrivals_.size() && waiting_.size() < ahead_) {
       const Arrival& arrival = arrivals_[begun_];
@@ -116,47 +121,68 @@ double wayOf(const Track& track, double until) {
   return way;
 }
 
-void writeLog(const Simulation& simulation, const SimulationRequest& request, base::Progress& progress,
-              const std::function<bool()>& stop, TruthFolder& truth, std::set<base::Stamp>& stamps,
-              SimulationResult& result) {
+// Of measurements that did not come into the log.
+void removeImages(const std::string& folder, const std::vector<std::string>& stems) {
+  std::vector<std::filesystem::path> unused;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    const auto isOf = [&](const std::string& stem) {
+      return file.compare(0, stem.size(), stem) == 0 && !std::isdigit(static_cast<unsigned char>(file[stem.size()]));
+    };
+    if (std::any_of(stems.begin(), stems.end(), isOf)) unused.push_back(entry.path());
+  }
+  for (const auto& path : unused) std::filesystem::remove(path);
+}
+
+void writeLog(const Simulation& simulation, const SimulationRequest& request, const std::string& folder,
+              base::Progress& progress, const std::function<bool()>& stop, TruthFolder& truth,
+              std::set<base::Stamp>& stamps, SimulationResult& result) {
   const auto arrivals = arrivalsOf(simulation, result.sensors);
-  const std::string images = request.folder + "/" + request.name + "_Images";
+  const std::string images = folder + "/" + request.name + "_Images";
   const bool is_external = simulation.options().images == SimulationOptions::Images::external;
   if (is_external) base::makeWritableFolder(images);
   const auto size = [&](const Arrival& arrival) { return simulation.sensors()[arrival.sensor]->sizeOfMeasurement(); };
-  Measurements measurements(arrivals, request.threads, size, [&](const Arrival& arrival) {
+  auto measurements = std::make_unique<Measurements>(arrivals, request.threads, size, [&](const Arrival& arrival) {
     const Sensor& sensor = *simulation.sensors()[arrival.sensor];
     Measurement measurement = sensor.measure(arrival.k);
     if (is_external && measurement.observation)
       source::moveImagesToFiles(*measurement.observation, images, imageStem(sensor, arrival.k));
     return measurement;
   });
+  std::size_t done = 0;
   source::writeRawlog(
-      request.folder + "/" + request.name + ".rawlog",
+      folder + "/" + request.name + ".rawlog",
       [&](source::RawlogWriter& rawlog) {
         const auto log = makeLogWriter(simulation.options().format, rawlog);
-        for (std::size_t i = 0; i < arrivals.size(); ++i) {
+        for (; done < arrivals.size(); ++done) {
+          const Arrival& arrival = arrivals[done];
           if (stop && stop()) {
             result.code = base::ExitCode::interrupted;
-            result.duration = arrivals[i].time;
+            result.duration = arrival.time;
             break;
           }
-          const Measurement measurement = measurements.next();
-          const Sensor& sensor = *simulation.sensors()[arrivals[i].sensor];
-          auto& count = result.sensors[arrivals[i].sensor];
+          const Measurement measurement = measurements->next();
+          const Sensor& sensor = *simulation.sensors()[arrival.sensor];
+          auto& count = result.sensors[arrival.sensor];
           if (!measurement.observation) {
             ++count.unseen;
             continue;
           }
           ++count.measured;
           log->add(measurement.observation);
-          truth.add(sensor, arrivals[i].k, measurement);
+          truth.add(sensor, arrival.k, measurement);
           stamps.insert(measurement.observation->timestamp);
-          progress.report(arrivals[i].time / simulation.duration(), "simulating " + request.name);
+          progress.report(arrival.time / simulation.duration(), "simulating " + request.name);
         }
         log->finish();
       },
       source::ColourImages::jpeg);
+  const std::size_t begun = measurements->begun();
+  measurements.reset();  // waits for those that are being made
+  std::vector<std::string> unused;
+  for (; is_external && done < begun; ++done)
+    unused.push_back(imageStem(*simulation.sensors()[arrivals[done].sensor], arrivals[done].k));
+  if (!unused.empty()) removeImages(images, unused);
 }
 
 }  // namespace
@@ -168,29 +194,31 @@ SimulationResult runSimulation(const Simulation& simulation, const SimulationReq
         base::ExitCode::command_line,
         "--name " + request.name + ": names files, so it has no '/', does not begin with '.' and is text");
   }
-  base::makeWritableFolder(request.folder);
+  RunFolder run(request.folder, request.name);
+  const std::string folder = run.draft();
   SimulationResult result;
   result.duration = simulation.duration();
   result.warnings = simulation.warnings();
-  TruthFolder truth(request.folder);
+  TruthFolder truth(folder);
   std::set<base::Stamp> stamps;
-  writeLog(simulation, request, progress, stop, truth, stamps, result);
+  writeLog(simulation, request, folder, progress, stop, truth, stamps, result);
   truth.close();
   result.way = wayOf(simulation.mapFromBase(), result.duration);
   result.files = {request.name + ".rawlog", "truth.tum", "landmarks.json", "plan.svg", request.name + ".ini"};
   if (simulation.options().images == SimulationOptions::Images::external)
     result.files.push_back(request.name + "_Images/");
   for (const auto& file : truth.files()) result.files.push_back(file);
-  for (const auto& file : drawPictures(simulation, request.folder)) result.files.push_back(file);
+  for (const auto& file : drawPictures(simulation, folder)) result.files.push_back(file);
   result.files.push_back("README.md");
-  writeText(request.folder + "/truth.tum", trajectoryOf(simulation, stamps));
-  writeText(request.folder + "/landmarks.json", landmarksJson(simulation));
+  writeText(folder + "/truth.tum", trajectoryOf(simulation, stamps));
+  writeText(folder + "/landmarks.json", landmarksJson(simulation));
   PlanDrawingOptions plan;
   for (double time = 0; time < result.duration; time += kPlanStep)
     plan.path.push_back(simulation.mapFromBase().at(time)->translation.head<2>());
-  writeText(request.folder + "/plan.svg", drawPlan(simulation.world(), plan));
-  writeText(request.folder + "/" + request.name + ".ini", simulation.iniText());
-  writeText(request.folder + "/README.md", folderReadme(simulation, request.name, result));
+  writeText(folder + "/plan.svg", drawPlan(simulation.world(), plan));
+  writeText(folder + "/" + request.name + ".ini", simulation.iniText());
+  writeText(folder + "/README.md", folderReadme(simulation, request.name, result));
+  run.publish();
   return result;
 }
 

@@ -11,21 +11,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char kTemporary[] = ".partial";
-
 void require(bool written, const std::string& path) {
   if (!written) throw base::Error(base::ExitCode::disk_full, path + ": cannot be written whole; is the disk full?");
 }
 
 }  // namespace
-
-TruthFolder::~TruthFolder() {
-  for (auto& [label, stream] : lines_) {
-    stream.close();
-    std::error_code ignored;
-    fs::remove(pathOf(label) + kTemporary, ignored);
-  }
-}
 
 std::string TruthFolder::pathOf(const std::string& label) const {
   return folder_ + "/truth/" + label + ".jsonl";
@@ -33,7 +23,7 @@ std::string TruthFolder::pathOf(const std::string& label) const {
 
 void TruthFolder::add(const Sensor& sensor, int k, const Measurement& measurement) {
   if (!measurement.truth.empty()) {
-    const std::string path = pathOf(sensor.label()) + kTemporary;
+    const std::string path = pathOf(sensor.label());
     auto [stream, is_new] = lines_.try_emplace(sensor.label());
     if (is_new) {
       base::makeWritableFolder(folder_ + "/truth");
@@ -60,7 +50,6 @@ void TruthFolder::close() {
   for (auto& [label, stream] : lines_) {
     stream.close();
     require(stream.good(), pathOf(label));
-    fs::rename(pathOf(label) + kTemporary, pathOf(label));
     labels_.push_back(label);
   }
   lines_.clear();

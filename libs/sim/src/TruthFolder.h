@@ -9,19 +9,15 @@
 
 namespace omnimapper::sim {
 
-/// The folder truth/ of a run while it is filled. Files of lines have a temporary name until close().
+/// The folder truth/ of a run while it is filled.
 class TruthFolder {
  public:
   /// `folder` exists. Throws Error(unwritable_output).
   explicit TruthFolder(const std::string& folder) : folder_(folder) {}
-  /// What was left open goes.
-  ~TruthFolder();
-  TruthFolder(const TruthFolder&) = delete;
-  TruthFolder& operator=(const TruthFolder&) = delete;
 
   /// Throws Error(disk_full).
   void add(const Sensor& sensor, int k, const Measurement& measurement);
-  /// Gives the files their names. Throws Error(disk_full).
+  /// After the last. Throws Error(disk_full).
   void close();
 
   /// Relative to the folder, sorted; folders of many files end in a slash.

@@ -69,10 +69,45 @@ TEST_F(SimulateMistakes, AFullDiskLeavesNoHalfLog) {
   }
 }
 
+TEST_F(SimulateMistakes, AFullDiskKeepsTheOlderRunWhole) {
+  // Odometry alone is a log that is smaller than the list of landmarks, which the disk then has no room for.
+  const Words settings{"simulation.sensors=odometry", "simulation.duration_s=1"};
+  ASSERT_TRUE(endedWith(ExitCode::ok, with(settings)));
+  const auto before = contentOf(folder_);
+  ASSERT_GT(before.at("landmarks.json").size(), before.at("small.rawlog").size() + 1000);
+  ProgramOptions limited;
+  limited.largest_file = before.at("small.rawlog").size() + 500;
+  EXPECT_TRUE(endedWith(ExitCode::disk_full, with({settings[0], settings[1], "simulation.seed=9"}, limited)));
+  EXPECT_TRUE(contentOf(folder_) == before);
+}
+
+TEST_F(SimulateMistakes, FilesOfSomebodyElseAreNotReplaced) {
+  fs::create_directories(folder_ + "/pictures");
+  writeFile(folder_ + "/README.md", "# My cat\n");
+  writeFile(folder_ + "/pictures/cat.png", "cat");
+  EXPECT_TRUE(endedWith(ExitCode::unwritable_output, with({}), {folder_, "no simulated log"}));
+  EXPECT_EQ(contentOf(folder_).size(), 2U);
+  EXPECT_EQ(readFile(folder_ + "/README.md"), "# My cat\n");
+}
+
+TEST_F(SimulateMistakes, CtrlCLeavesNoImagesOfWhatIsNotInTheLog) {
+  Program program({omnimapper::testing::ownProgram("omnimapper-simulate"), "-i", ini_, "-o", folder_, "--set",
+                   "simulation.duration_s=3000", "--set", "simulation.images=external", "--set",
+                   "simulation.sensors=camera"});
+  while (filesIn(folder_ + "/.unfinished/small_Images").size() < 80 && program.isRunning())
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  program.send(SIGINT);
+  ASSERT_TRUE(endedWith(ExitCode::interrupted, program.wait()));
+  const auto observations = readLog(folder_ + "/small.rawlog").observations();
+  EXPECT_GT(observations, 0U);
+  EXPECT_EQ(filesIn(folder_ + "/small_Images").size(), 2 * observations) << "colour and depth of each";
+  EXPECT_FALSE(fs::exists(folder_ + "/.unfinished"));
+}
+
 TEST_F(SimulateMistakes, CtrlCLeavesWhatWasMeasuredUntilThen) {
   Program program({omnimapper::testing::ownProgram("omnimapper-simulate"), "-i", ini_, "-o", folder_, "--set",
                    "simulation.duration_s=3000"});
-  while (!fs::exists(folder_ + "/truth") && program.isRunning())
+  while (!fs::exists(folder_ + "/.unfinished/truth") && program.isRunning())
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   program.send(SIGINT);

@@ -167,4 +167,31 @@ TEST_F(Simulate, LostMeasurementsAreCounted) {
       << ended.out;
 }
 
+TEST_F(Simulate, AFolderUsedAgainHoldsTheNewRunAlone) {
+  const Words fewer{"--set", "simulation.sensors=laser", "--set", "simulation.duration_s=2", "--name", "other"};
+  ASSERT_TRUE(endedWith(ExitCode::ok, run("twice", {"--set", "simulation.images=external"})));
+  writeFile(scratch_ / "twice/notes.txt", "mine");
+  ASSERT_TRUE(endedWith(ExitCode::ok, run("twice", fewer)));
+  ASSERT_TRUE(endedWith(ExitCode::ok, run("once", fewer)));
+  auto expected = contentOf(scratch_ / "once");
+  expected["notes.txt"] = "mine";
+  EXPECT_TRUE(contentOf(scratch_ / "twice") == expected);
+  EXPECT_EQ(filesIn(scratch_ / "twice"),
+            (std::set<std::string>{"other.rawlog", "other.ini", "truth.tum", "truth", "landmarks.json", "plan.svg",
+                                   "pictures", "README.md", "notes.txt"}));
+}
+
+TEST_F(Simulate, ThePageOfTheFolderSaysWhatItsSensorsAreGoodFor) {
+  const auto pageWith = [&](const std::string& sensors) {
+    EXPECT_TRUE(endedWith(ExitCode::ok, run("page", {"--set", "simulation.sensors=" + sensors})));
+    return readFile(scratch_ / "page/README.md");
+  };
+  const auto says = [](const std::string& page, const std::string& ini) { return page.find(ini) != std::string::npos; };
+  const std::string laser = pageWith("laser, odometry"), camera = pageWith("camera, odometry"),
+                    neither = pageWith("odometry");
+  EXPECT_TRUE(says(laser, "ini/laser2d.ini") && !says(laser, "ini/perceive.ini")) << laser;
+  EXPECT_TRUE(!says(camera, "ini/laser2d.ini") && says(camera, "ini/perceive.ini")) << camera;
+  EXPECT_TRUE(!says(neither, "ini/") && says(neither, "--check")) << neither;
+}
+
 }  // namespace
