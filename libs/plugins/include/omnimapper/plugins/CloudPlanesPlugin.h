@@ -1,0 +1,33 @@
+#pragma once
+
+#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/perception/CloudPlaneExtractor.h>
+
+namespace omnimapper::plugins {
+
+/// perception::CloudPlaneExtractor for the worker pool.
+class CloudPlanesPlugin : public mapper::Extractor {
+ public:
+  CloudPlanesPlugin(const perception::CloudPlaneOptions& planes, const perception::CloudSensorOptions& sensors)
+      : extractor_(planes, sensors) {}
+
+  bool wants(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+
+ private:
+  perception::CloudPlaneExtractor extractor_;
+};
+
+class CloudPlanesPluginFactory : public mapper::ExtractorFactory {
+  DEFINE_MRPT_OBJECT(CloudPlanesPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "CloudPlaneExtractor"; }
+  std::string summary() const override {
+    return "Planes of point clouds without order, such as those of 3D lasers, with outlines and covariance.";
+  }
+  const std::vector<base::OptionSpec>& options() const override;
+  std::unique_ptr<mapper::Extractor> make(const base::ConfigSection& section,
+                                          const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins

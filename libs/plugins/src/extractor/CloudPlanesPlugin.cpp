@@ -1,0 +1,29 @@
+#include <omnimapper/plugins/CloudPlanesPlugin.h>
+
+#include "../SharedSection.h"
+
+IMPLEMENTS_MRPT_OBJECT(CloudPlanesPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+using Section = SharedSection<perception::CloudPlaneOptions, perception::CloudSensorOptions>;
+
+bool CloudPlanesPlugin::wants(const mrpt::obs::CObservation& raw) const {
+  return extractor_.wants(raw);
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> CloudPlanesPlugin::extract(const mrpt::obs::CObservation& raw) const {
+  return {extractor_.extract(raw)};
+}
+
+const std::vector<base::OptionSpec>& CloudPlanesPluginFactory::options() const {
+  return Section::options();
+}
+
+std::unique_ptr<mapper::Extractor> CloudPlanesPluginFactory::make(const base::ConfigSection& section,
+                                                                  const mapper::PluginContext&) const {
+  return std::make_unique<CloudPlanesPlugin>(Section::read<perception::CloudPlaneOptions>(section),
+                                             Section::read<perception::CloudSensorOptions>(section));
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,10 @@
+// Stands for CloudPlanesPcl.cpp where PCL is not installed.
+#include "CloudPeers.h"
+
+namespace omnimapper::bench {
+
+std::vector<CloudPeer> pclCloudPlanes(double, int) {
+  return {};
+}
+
+}  // namespace omnimapper::bench
