@@ -30,7 +30,8 @@ std::string meaningOf(const std::string& file, const std::string& name) {
   if (file == "plan.svg") return "the world from above, with the robot's way";
   if (file == "README.md") return "this page";
   if (ends(".png")) return "what that sensor saw in the middle of the run; depth from blue to red, points from above";
-  if (ends(".jsonl")) return "the truth of each measurement of that sensor, one line each, by stamp";
+  if (ends(".jsonl"))
+    return "the truth of each measurement of that sensor that is in the log, one line each, in the log's order";
   return "one file of truth for each measurement";
 }
 

@@ -90,7 +90,7 @@ Measurement ColourCamera::measure(int k) const {
   picture->image = photograph(frame, shader_.shade(frame), mapFromCamera(time - half), mapFromCamera(time + half),
                               {o.gain, o.exposure, o.noise, o.vignetting}, randomOf(k, kPictureStream));
 
-  nlohmann::ordered_json truth{{"k", k}, {"stamp", base::formatUnix(picture->timestamp)}, {"time_s", time}};
+  nlohmann::ordered_json truth{{"time_s", time}};
   truth["pan_deg"] = angles.pan * 180 / M_PI;
   truth["tilt_deg"] = angles.tilt * 180 / M_PI;
   truth["base_from_camera"] = poseJson(baseFromCamera(angles));

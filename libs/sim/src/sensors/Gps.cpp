@@ -101,11 +101,8 @@ Measurement Gps::measure(int k) const {
   const auto list = [](const Eigen::Vector3d& v) {
     return nlohmann::ordered_json{rounded(v.x()), rounded(v.y()), rounded(v.z())};
   };
-  const nlohmann::ordered_json line{{"k", k},
-                                    {"stamp", base::formatUnix(gps->timestamp)},
-                                    {"antenna_in_map", list(antenna_in_map)},
-                                    {"error_enu", list(errors_in_enu_[k])},
-                                    {"fix", has_fix}};
+  const nlohmann::ordered_json line{
+      {"antenna_in_map", list(antenna_in_map)}, {"error_enu", list(errors_in_enu_[k])}, {"fix", has_fix}};
   return {gps, line.dump(), {}};
 }
 

@@ -87,9 +87,7 @@ Measurement Imu::measure(int k) const {
   imu->set(IMU_X_ACC, acceleration.x());
   imu->set(IMU_Y_ACC, acceleration.y());
   imu->set(IMU_Z_ACC, acceleration.z());
-  const nlohmann::ordered_json line{{"k", k},
-                                    {"stamp", base::formatUnix(imu->timestamp)},
-                                    {"gyro", asJson(truth.gyro)},
+  const nlohmann::ordered_json line{{"gyro", asJson(truth.gyro)},
                                     {"acceleration", asJson(truth.acceleration)},
                                     {"gyro_bias", asJson(bias.gyro)},
                                     {"acceleration_bias", asJson(bias.acceleration)}};

@@ -146,8 +146,7 @@ Measurement Laser2d::measure(int k) const {
       scan->setScanIntensity(i, all[i].is_valid ? static_cast<int>(255 * std::min(1.0, all[i].reflected)) : 0);
     if (options_.truth_ranges) truth_ranges.push_back(rounded(all[i].true_range));
   }
-  nlohmann::ordered_json truth{{"k", k}, {"stamp", base::formatUnix(scan->timestamp)}};
-  truth.update(truthOf(all));
+  nlohmann::ordered_json truth = truthOf(all);
   if (options_.truth_ranges) truth["ranges"] = truth_ranges;
   return {scan, truth.dump(), {}};
 }

@@ -77,8 +77,7 @@ Measurement Laser3d::measure(int k) const {
   stamp(*cloud, k);
   cloud->sensorPose = geometry::toMrpt(baseFromSensor());
   cloud->pointcloud = points;
-  nlohmann::ordered_json truth{{"k", k}, {"stamp", base::formatUnix(cloud->timestamp)}};
-  truth.update(truthOf(kept));
+  nlohmann::ordered_json truth = truthOf(kept);
   return {cloud, truth.dump(), {}};
 }
 

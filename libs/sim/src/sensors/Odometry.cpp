@@ -84,9 +84,7 @@ Measurement Odometry::measure(int k) const {
   odometry->encoderLeftTicks = static_cast<int>(std::lround(reading.left * options_.ticks_per_metre));
   odometry->encoderRightTicks = static_cast<int>(std::lround(reading.right * options_.ticks_per_metre));
   const geometry::Se2 truth = trueIncrement(k);
-  const nlohmann::ordered_json line{{"k", k},
-                                    {"stamp", base::formatUnix(odometry->timestamp)},
-                                    {"increment", {rounded(truth.x), rounded(truth.y), rounded(truth.yaw)}}};
+  const nlohmann::ordered_json line{{"increment", {rounded(truth.x), rounded(truth.y), rounded(truth.yaw)}}};
   return {odometry, line.dump(), {}};
 }
 

@@ -167,8 +167,7 @@ Measurement RangeBearing::measure(int k) const {
     names.push_back(one.name);
     ids.push_back(one.id);
   }
-  const nlohmann::ordered_json line{
-      {"k", k}, {"stamp", base::formatUnix(observation->timestamp)}, {"landmarks", names}, {"ids", ids}};
+  const nlohmann::ordered_json line{{"landmarks", names}, {"ids", ids}};
   return {observation, line.dump(), {}};
 }
 

@@ -118,7 +118,7 @@ Measurement RgbdCamera::measure(int k) const {
   auto scan = mrpt::obs::CObservation3DRangeScan::Create();
   stamp(*scan, k);
   fillDepth(settings_.exact ? exactDepth(exact) : sense(pictures, k), *scan);
-  nlohmann::ordered_json truth{{"k", k}, {"stamp", base::formatUnix(scan->timestamp)}, {"time_s", pictures.time}};
+  nlohmann::ordered_json truth{{"time_s", pictures.time}};
   if (options_of_camera_.colour) {
     fillColour(pictures, k, *scan);
     truth.update(facesInView(*context().world, *context().scenes, context().scenes->at(pictures.colour_time),
