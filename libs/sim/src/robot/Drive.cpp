@@ -291,7 +291,7 @@ std::vector<Visit> visitsOf(const World& world, const Track& map_from_base) {
   std::vector<Visit> visits;
   for (const Track::Place& place : map_from_base.places()) {
     const Eigen::Vector2d point = place.map_from_body->translation.head<2>();
-    const auto isIn = [&](int room) { return isInside(world.rooms[room].outline, point); };
+    const auto isIn = [&](int room) { return contains(world.rooms[room].outline, point); };
     if (visits.empty() || !isIn(visits.back().room)) {
       for (int room = 0; room < static_cast<int>(world.rooms.size()); ++room) {
         if (!isIn(room)) continue;

@@ -10,8 +10,6 @@ namespace omnimapper::sim {
 
 using Polyline = std::vector<Eigen::Vector2d>;
 
-bool isInside(const Polyline& polygon, const Eigen::Vector2d& point);
-
 /// Where a round robot may be on the floor: a grid over the rooms with the distance of each cell to what stands there.
 /// One thread at a time: searches share their memory.
 class FloorPlan {
@@ -47,6 +45,8 @@ class FloorPlan {
 
  private:
   static constexpr double kComfort = 0.4;  // [m] beyond the radius: nearer to things costs more
+  static constexpr double kStep = 0.02;    // [m] of samples along a line
+  static constexpr double kHalfDiagonal = 0.70710678118654752 * kCell;  // of a cell [m]
 
   int cellOf(const Eigen::Vector2d& point) const;  // -1: outside
   Eigen::Vector2d middleOf(int cell) const;

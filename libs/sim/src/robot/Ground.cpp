@@ -38,7 +38,7 @@ double Ground::heightAt(const Eigen::Vector2d& point) const {
   if (hit.isHit()) return above_ - hit.range;
   double height = 0, nearest = std::numeric_limits<double>::infinity();
   for (const Room& room : world_.rooms) {
-    double distance = isInside(room.outline, point) ? 0 : std::numeric_limits<double>::infinity();
+    double distance = contains(room.outline, point) ? 0 : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; distance > 0 && i < room.outline.size(); ++i) {
       distance =
           std::min(distance, distanceToSegment(point, room.outline[i], room.outline[(i + 1) % room.outline.size()]));

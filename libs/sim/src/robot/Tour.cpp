@@ -13,8 +13,7 @@ constexpr double kEnough = 0.98;       // part of a room that is to be seen
 
 // A lattice over the room's inside.
 std::vector<Eigen::Vector2d> latticeIn(const Room& room, double spacing) {
-  Eigen::Vector2d low = room.outline.front(), high = low;
-  for (const Eigen::Vector2d& corner : room.outline) low = low.cwiseMin(corner), high = high.cwiseMax(corner);
+  const auto [low, high] = boundsOf(room.outline);
   const Eigen::Array2d size = (high - low).array();
   const int columns = std::max(1, static_cast<int>(size.x() / spacing)),
             rows = std::max(1, static_cast<int>(size.y() / spacing));
@@ -23,7 +22,7 @@ std::vector<Eigen::Vector2d> latticeIn(const Room& room, double spacing) {
     for (int column = 0; column < columns; ++column) {
       const Eigen::Vector2d point =
           low + Eigen::Vector2d(size.x() * (column + 0.5) / columns, size.y() * (row + 0.5) / rows);
-      if (isInside(room.outline, point)) points.push_back(point);
+      if (contains(room.outline, point)) points.push_back(point);
     }
   }
   return points;

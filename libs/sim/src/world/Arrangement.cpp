@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <numeric>
 
 #include "PlanChecks.h"
+#include "RoomWays.h"
 #include "StandingThings.h"
 
 namespace omnimapper::sim {
@@ -14,34 +14,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kRobotRadius = 0.33;  // a way through a room is this wide to both sides [m]
-constexpr double kCell = 0.1;          // of the grid that ways are looked for in [m]
-
 Ring local(const FurniturePlan& piece, const Vector2d& low, const Vector2d& high) {
   const Eigen::Rotation2Dd turn(piece.yaw);
   Ring ring;
   for (const Vector2d& p : rectangle(low, high)) ring.push_back(Vector2d(piece.x, piece.y) + turn * p);
   return ring;
-}
-
-struct Bounds {
-  Vector2d low, high;
-};
-Bounds boundsOf(const Ring& ring) {
-  Bounds bounds{ring.front(), ring.front()};
-  for (const Vector2d& p : ring) {
-    bounds.low = bounds.low.cwiseMin(p);
-    bounds.high = bounds.high.cwiseMax(p);
-  }
-  return bounds;
-}
-
-double distanceOf(const Vector2d& p, const Ring& ring) {
-  if (contains(ring, p)) return 0;
-  double distance = 1e9;
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    distance = std::min(distance, distanceToSegment(p, ring[i], ring[(i + 1) % ring.size()]));
-  return distance;
 }
 
 }  // namespace
@@ -113,68 +90,13 @@ bool Arrangement::fits(const Footprint& footprint, const Ring& clear, const Room
 // Whether a robot still comes from each doorway of the room to all others, and to nearly all free floor.
 bool Arrangement::keepsWays(const Footprint& footprint, const Room& room) const {
   const Bounds bounds = boundsOf(room.outline);
-  const Vector2d size = bounds.high - bounds.low;
-  if (size.x() * size.y() > 400) return true;  // a ground or a hall: there is always a way
-  const int columns = static_cast<int>(size.x() / kCell) + 1, rows = static_cast<int>(size.y() / kCell) + 1;
-  std::vector<char> free(static_cast<std::size_t>(columns) * rows, 0);
-  const auto middle = [&](int cell) -> Vector2d {
-    return bounds.low + kCell * Vector2d(cell % columns + 0.5, cell / columns + 0.5);
-  };
-  // The cells within a distance of a ring get a value, if they have another one so far.
-  const auto mark = [&](const Ring& ring, double distance, char from, char to) {
-    const Bounds near = boundsOf(ring);
-    const auto cellAt = [&](double value, int count) { return std::clamp(static_cast<int>(value / kCell), 0, count); };
-    const int last_x = cellAt(near.high.x() + distance - bounds.low.x() + kCell, columns),
-              last_y = cellAt(near.high.y() + distance - bounds.low.y() + kCell, rows);
-    for (int y = cellAt(near.low.y() - distance - bounds.low.y(), rows); y < last_y; ++y) {
-      for (int x = cellAt(near.low.x() - distance - bounds.low.x(), columns); x < last_x; ++x) {
-        char& cell = free[static_cast<std::size_t>(y) * columns + x];
-        if (cell == from && distanceOf(middle(y * columns + x), ring) <= distance) cell = to;
-      }
-    }
-  };
-  enum : char { wall, inside, door, seen };
-  mark(room.outline, 0, wall, inside);
-  for (std::size_t i = 0; i < room.outline.size(); ++i)
-    mark({room.outline[i], room.outline[(i + 1) % room.outline.size()]}, kRobotRadius, inside, wall);
-  for (const Ring& ring : doorways_) {
-    mark(ring, 0, wall, door);
-    mark(ring, 0, inside, door);
-  }
-  const auto block = [&](const Ring& ring) {
-    mark(ring, kRobotRadius, inside, wall);
-    mark(ring, kRobotRadius, door, wall);
-  };
+  if ((bounds.high - bounds.low).prod() > 400) return true;  // a ground or a hall: there is always a way
+  RoomWays ways(room, doorways_);
   for (const Footprint& other : taken_) {
-    if (other.low_z < room.floorAt(room.outline.front()) + 1.3) block(other.outline_in_map);
+    if (other.low_z < room.floorAt(room.outline.front()) + 1.3) ways.block(other.outline_in_map);
   }
-  block(footprint.outline_in_map);
-  std::vector<int> goals;
-  std::size_t free_count = 0;
-  for (int cell = 0; cell < columns * rows; ++cell) {
-    free_count += free[cell] != wall;
-    if (free[cell] == door) goals.push_back(cell);
-  }
-  if (free_count == 0) return false;
-  const int start =
-      goals.empty() ? static_cast<int>(std::find(free.begin(), free.end(), inside) - free.begin()) : goals.front();
-  std::deque<int> open{start};
-  std::size_t reached = 0;
-  free[start] = seen;
-  while (!open.empty()) {
-    const int cell = open.front(), column = cell % columns;
-    open.pop_front();
-    ++reached;
-    const std::array<int, 4> next{column > 0 ? cell - 1 : -1, column + 1 < columns ? cell + 1 : -1, cell - columns,
-                                  cell + columns};
-    for (const int n : next) {
-      if (n < 0 || n >= columns * rows || free[n] == wall || free[n] == seen) continue;
-      free[n] = seen;
-      open.push_back(n);
-    }
-  }
-  const bool all_doors = std::all_of(goals.begin(), goals.end(), [&](int goal) { return free[goal] == seen; });
-  return all_doors && reached >= 0.9 * free_count;
+  ways.block(footprint.outline_in_map);
+  return ways.areOpen();
 }
 
 std::size_t Arrangement::accept(FurniturePlan piece, const Footprint& footprint, const Ring& clear) {

@@ -57,6 +57,15 @@ Ring rectangle(const Vector2d& low, const Vector2d& high) {
   return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
 }
 
+Bounds boundsOf(const Ring& ring) {
+  Bounds bounds{ring.front(), ring.front()};
+  for (const Vector2d& p : ring) {
+    bounds.low = bounds.low.cwiseMin(p);
+    bounds.high = bounds.high.cwiseMax(p);
+  }
+  return bounds;
+}
+
 double distanceToSegment(const Vector2d& point, const Vector2d& a, const Vector2d& b) {
   const Vector2d way = b - a;
   const double share = way.squaredNorm() > 0 ? std::clamp(way.dot(point - a) / way.squaredNorm(), 0.0, 1.0) : 0.0;

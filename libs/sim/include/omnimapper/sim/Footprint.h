@@ -15,6 +15,12 @@ constexpr double kFloorTolerance = 1e-6;
 Ring rectangle(const Eigen::Vector2d& centre, double length, double width, double yaw = 0);
 Ring rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 
+/// The smallest rectangle along the axes that holds a ring, which has a point.
+struct Bounds {
+  Eigen::Vector2d low, high;
+};
+Bounds boundsOf(const Ring& ring);
+
 /// Whether a point lies in a simple ring or on its border.
 bool contains(const Ring& ring, const Eigen::Vector2d& point);
 /// Distance of a point from a segment [m].
