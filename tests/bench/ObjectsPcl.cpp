@@ -53,14 +53,15 @@ Things things(const source::PcdCloud& cloud, const Settings& settings) {
   auto labels = pcl::make_shared<pcl::PointCloud<pcl::Label>>();
   segmentation.segmentAndRefine(regions, coefficients, inliers, labels, of_labels, boundaries);
 
-  auto of_place = pcl::make_shared<std::set<std::uint32_t>>();
+  // The labels that 1.13 calls excluded are in truth the only ones that it does not exclude.
+  auto of_things = pcl::make_shared<std::set<std::uint32_t>>();
   for (std::size_t i = 0; i < of_labels.size(); ++i) {
-    if (of_labels[i].indices.size() > settings.of_place) of_place->insert(static_cast<std::uint32_t>(i));
+    if (of_labels[i].indices.size() <= settings.of_place) of_things->insert(static_cast<std::uint32_t>(i));
   }
   auto comparator = pcl::make_shared<Comparator>();
   comparator->setInputCloud(points);
   comparator->setLabels(labels);
-  comparator->setExcludeLabels(of_place);
+  comparator->setExcludeLabels(of_things);
   comparator->setDistanceThreshold(settings.gap, settings.gap_with_depth);
   pcl::OrganizedConnectedComponentSegmentation<Point, pcl::Label> clustering(comparator);
   clustering.setInputCloud(points);

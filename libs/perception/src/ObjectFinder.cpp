@@ -21,14 +21,16 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
                   "Of a surface that things stand on, from level: by the sensor's pose on the base.")
           .number("coplanar_angle_deg", &Options::coplanar_angle, {0, 90},
                   "Planes whose normals differ by no more may be pieces of one surface.")
-          .number("coplanar_distance_m", &Options::coplanar_distance, Range::notNegative(),
-                  "Planes are pieces of one surface if their middles lie no farther from the other plane.")
+          .number(
+              "coplanar_distance_m", &Options::coplanar_distance, Range::notNegative(),
+              "Planes are pieces of one surface if their middles lie no farther from the other plane, the bend of the "
+              "sensor apart.")
           .number("min_height_m", &Options::min_height, Range::notNegative(),
                   "What lies lower on a surface, noise apart, is taken for the surface itself.")
           .number("max_gap_m", &Options::max_gap, Range::notNegative(),
                   "Neighbouring pixels farther from one another, noise apart, are of two things.")
           .number("max_standing_gap_m", &Options::max_standing_gap, Range::notNegative(),
-                  "From a surface to the lowest that is seen of a thing on it, noise apart.")
+                  "From a surface to the lowest that is seen of a thing on it: nearer things may hide its foot.")
           .integer("min_points", &Options::min_points, {1, 1e9}, "Smaller clusters are dropped.")
           .number("min_size_m", &Options::min_size, Range::notNegative(), "Clusters whose box is shorter are dropped.")
           .number("max_volume_m3", &Options::max_volume, Range::positive(), "Clusters whose box is larger are dropped.")
@@ -42,6 +44,7 @@ using objects::Surface;
 
 constexpr double kSigmas = 3;         // what noise may do
 constexpr double kLowest = 0.02;      // share of a thing's points that may be noise below the rest
+constexpr double kFoot = 0.03;        // [m] beside the noise, of a thing that may be lost in the surface
 constexpr double kHullMargin = 0.05;  // [m] a thing on the edge of a table hides where it ends
 
 // Labels in which whatever lies on a surface is of its first piece: where the plane of a thing's side goes on over the
@@ -114,11 +117,15 @@ Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, con
   return noise.meanVariance() / (count * count) * apart + bend_sigma * bend_sigma * together * together.transpose();
 }
 
-// The surface that the lowest of the cluster is nearest to, if it stands on one.
-const Surface* surfaceUnder(const std::vector<Eigen::Vector3d>& cluster, const Eigen::Vector3d& centroid,
-                            const PlaneSegmentation& planes, const std::vector<Surface>& surfaces, double max_gap) {
-  const Surface* best = nullptr;
-  double least = max_gap;
+struct Standing {
+  const Surface* surface = nullptr;
+  double gap = 0;  // [m] below the lowest that is seen
+};
+
+// The surface that the lowest of the cluster is nearest to, if it is over one.
+Standing surfaceUnder(const std::vector<Eigen::Vector3d>& cluster, const Eigen::Vector3d& centroid,
+                      const PlaneSegmentation& planes, const std::vector<Surface>& surfaces, double max_gap) {
+  Standing best{nullptr, max_gap};
   std::vector<double> heights(cluster.size());
   for (const Surface& surface : surfaces) {
     const auto& plane = planes.planes[static_cast<std::size_t>(surface.plane)].plane_in_sensor;
@@ -128,9 +135,7 @@ const Surface* surfaceUnder(const std::vector<Eigen::Vector3d>& cluster, const E
                    [&](const Eigen::Vector3d& point) { return signedDistance(plane, point); });
     const auto low = heights.begin() + static_cast<std::ptrdiff_t>(kLowest * static_cast<double>(heights.size()));
     std::nth_element(heights.begin(), low, heights.end());
-    if (std::abs(*low) >= least) continue;
-    least = std::abs(*low);
-    best = &surface;
+    if (std::abs(*low) < best.gap) best = {&surface, std::abs(*low)};
   }
   return best;
 }
@@ -149,7 +154,7 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
   std::vector<ObjectRegion> found;
   if (image.width() == 0 || image.height() == 0) return found;
   const OrganisedPoints points = backProject(image, sensor_.min_depth, sensor_.max_depth);
-  const auto surfaces = objects::findSurfaces(planes, options_, up);
+  const auto surfaces = objects::findSurfaces(planes, options_, sensor_.bend_at_1m, up);
   const auto of_place = objects::labelsOfThePlace(planes, options_, surfaces);
   const auto labels = withRemainders(planes, points, surfaces, of_place, options_.min_height, sensor_.noise_at_1m);
   const auto noise = static_cast<float>(kSigmas * sensor_.noise_at_1m);
@@ -160,8 +165,7 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
     auto cluster = pointsOf(pixels, points);
     ObjectRegion region;
     region.centroid = meanOf(cluster);
-    const double z = region.centroid.z(), max_gap = options_.max_standing_gap + kSigmas * sensor_.noise_at_1m * z * z;
-    const Surface* surface = surfaceUnder(cluster, region.centroid, planes, surfaces, max_gap);
+    const auto [surface, gap] = surfaceUnder(cluster, region.centroid, planes, surfaces, options_.max_standing_gap);
     if (surface == nullptr && options_.on_surfaces_only) continue;
     region.covariance = covarianceOfMean(cluster, sensor_.noise());
     Eigen::Vector3d axis = leastAxisOf(cluster, region.centroid);
@@ -169,8 +173,9 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
       const auto& plane = planes.planes[static_cast<std::size_t>(surface->plane)].plane_in_sensor;
       region.surface = surface->plane;
       axis = plane.normal;
-      // The box stands on it, too, though the lowest of the thing was taken for the surface.
-      cluster.push_back(region.centroid - signedDistance(plane, region.centroid) * plane.normal);
+      // The box goes down to it where the lowest of the thing was taken for the surface.
+      const double foot = kFoot + kSigmas * sensor_.noise_at_1m * region.centroid.z() * region.centroid.z();
+      if (gap < foot) cluster.push_back(region.centroid - signedDistance(plane, region.centroid) * plane.normal);
     }
     const auto box = objects::boxAlong(axis, cluster);
     if (box.size.maxCoeff() < options_.min_size || box.size.prod() > options_.max_volume) continue;

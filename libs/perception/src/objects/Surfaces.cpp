@@ -2,6 +2,7 @@
 
 #include <omnimapper/geometry/PlaneTangent.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "OrientedBox.h"
@@ -16,10 +17,12 @@ double areaOf(const PlaneRegion& plane) {
   return result;
 }
 
-bool areCoplanar(const PlaneRegion& a, const PlaneRegion& b, const ObjectOptions& options) {
+bool areCoplanar(const PlaneRegion& a, const PlaneRegion& b, const ObjectOptions& options, double bend_at_1m) {
   if (a.plane_in_sensor.normal.dot(b.plane_in_sensor.normal) < std::cos(options.coplanar_angle)) return false;
-  return std::abs(signedDistance(a.plane_in_sensor, b.centroid)) < options.coplanar_distance &&
-         std::abs(signedDistance(b.plane_in_sensor, a.centroid)) < options.coplanar_distance;
+  const double depth = std::max(a.centroid.z(), b.centroid.z());
+  const double farthest = options.coplanar_distance + bend_at_1m * depth * depth;
+  return std::abs(signedDistance(a.plane_in_sensor, b.centroid)) < farthest &&
+         std::abs(signedDistance(b.plane_in_sensor, a.centroid)) < farthest;
 }
 
 std::vector<Eigen::Vector2d> hullOf(const PlaneSegmentation& planes, const Surface& surface) {
@@ -33,7 +36,7 @@ std::vector<Eigen::Vector2d> hullOf(const PlaneSegmentation& planes, const Surfa
 
 }  // namespace
 
-std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectOptions& options,
+std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectOptions& options, double bend_at_1m,
                                   const Eigen::Vector3d& up) {
   std::vector<Surface> surfaces;
   std::vector<bool> taken(planes.planes.size(), false);
@@ -44,7 +47,7 @@ std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectO
     surface.plane = static_cast<int>(i);
     double area = 0;
     for (std::size_t j = i; j < planes.planes.size(); ++j) {
-      if (taken[j] || !areCoplanar(largest, planes.planes[j], options)) continue;
+      if (taken[j] || !areCoplanar(largest, planes.planes[j], options, bend_at_1m)) continue;
       surface.pieces.push_back(static_cast<int>(j));
       area += areaOf(planes.planes[j]);
     }

@@ -14,8 +14,9 @@ struct Surface {
   std::vector<Eigen::Vector2d> hull;  ///< of all pieces, along `across` [m]
 };
 
-/// The surfaces among the planes of an image, the largest piece first.
-std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectOptions& options,
+/// The surfaces among the planes of an image, the largest piece first. The sensor bends what it sees by `bend_at_1m`
+/// [m], times the squared depth.
+std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectOptions& options, double bend_at_1m,
                                   const Eigen::Vector3d& up);
 
 /// For each label, 0 included: whether its pixels belong to no thing, but to a surface or another large plane.

@@ -13,13 +13,14 @@ struct ObjectOptions {
   double min_surface_area = 0.1;  ///< [m^2]; planes as large belong to the place, smaller ones to the things in it
   double max_tilt = 50 * base::option_text::kRadiansPerDegree;  ///< [rad] of a surface that things stand on, from level
   double coplanar_angle = 8 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double coplanar_distance = 0.02;                                   ///< [m]; pieces of one surface differ by no more
+  double coplanar_distance = 0.01;  ///< [m] beside the sensor's bend; pieces of one surface differ by no more
   double min_height = 0.005;  ///< [m] beside the noise: what lies lower on a surface is taken for the surface itself
   double max_gap = 0.02;      ///< [m] beside the noise: neighbours farther from one another are of two things
-  double max_standing_gap = 0.03;  ///< [m] beside the noise, from a surface to the lowest that is seen of a thing on it
-  int min_points = 300;            ///< of a thing
-  double min_size = 0.03;          ///< [m] longest side of its box
-  double max_volume = 1;           ///< [m^3] of its box
+  /// [m] from a surface to the lowest that is seen of a thing on it: nearer things may hide its foot.
+  double max_standing_gap = 0.3;
+  int min_points = 300;    ///< of a thing
+  double min_size = 0.03;  ///< [m] longest side of its box
+  double max_volume = 1;   ///< [m^3] of its box
   bool on_surfaces_only = true;
 
   static const base::OptionTable<ObjectOptions>& table();
