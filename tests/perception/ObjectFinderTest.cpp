@@ -92,11 +92,20 @@ TEST(ObjectFinder, ABlockOnTheFloorStandsOnTheFloor) {
   EXPECT_NEAR(found.objects[0].box_size.z(), 0.4, 0.005);
 }
 
-TEST(ObjectFinder, AThingOnAnotherIsOneWithIt) {
+TEST(ObjectFinder, ComparatorsDifferInWhatAFurrowMeans) {
   TableScene table;
   table.addBlock({1, 0, 0.75}, {0.2, 0.2, 0.1});
-  table.addBlock({1, 0, 0.85}, {0.1, 0.1, 0.1});
-  EXPECT_EQ(find(table).objects.size(), 1U) << "the lower one is smaller than a surface";
+  table.addBlock({1, 0, 0.85}, {0.1, 0.1, 0.1});  // on it
+  ObjectOptions options;
+  options.comparator = ObjectOptions::Comparator::euclidean;
+  const auto together = find(table, options).objects;
+  ASSERT_EQ(together.size(), 1U);
+  EXPECT_NEAR(together[0].box_size.z(), 0.2, 0.005);
+  options.comparator = ObjectOptions::Comparator::convex;
+  const auto apart = find(table, options).objects;
+  ASSERT_EQ(apart.size(), 2U);
+  EXPECT_EQ(apart[0].pixels.size() + apart[1].pixels.size(), together[0].pixels.size()) << "none is lost at the furrow";
+  for (const auto& object : apart) EXPECT_NEAR(object.box_size.z(), 0.1, 0.02);
 }
 
 TEST(ObjectFinder, ATableInPiecesIsOneSurface) {

@@ -34,6 +34,8 @@ TEST(ObjectsPlugin, TurnsDepthImagesIntoPlanesAndObjects) {
 
 TEST(ObjectsPlugin, ReadsItsOptionsFromTheIni) {
   EXPECT_NO_THROW(made("min_pixels = 500\noutline_tolerance_px = 2\nmax_tilt_deg = 75\nmax_points = 10\n"));
+  EXPECT_NO_THROW(made("comparator = euclidean\n"));
+  EXPECT_THROW(made("comparator = guess\n"), base::Error);
   EXPECT_THROW(made("max_tilt_deg = 200\n"), base::Error);
   EXPECT_THROW(made("max_points = 0\n"), base::Error);
   EXPECT_THROW(made("min_depth_m = 12\n"), base::Error);

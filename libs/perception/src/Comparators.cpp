@@ -1,11 +1,13 @@
 // connectComponents() for the comparators of this library, compiled once.
 #include <omnimapper/perception/ClusterComparator.h>
 #include <omnimapper/perception/ColouredPlaneComparator.h>
+#include <omnimapper/perception/ConvexClusterComparator.h>
 
 namespace omnimapper::perception {
 
 template Components connectComponents(int, int, const PlaneComparator&);
 template Components connectComponents(int, int, const ColouredPlaneComparator&);
 template Components connectComponents(int, int, const ClusterComparator&);
+template Components connectComponents(int, int, const ConvexClusterComparator&);
 
 }  // namespace omnimapper::perception

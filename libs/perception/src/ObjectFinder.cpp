@@ -1,4 +1,4 @@
-#include <omnimapper/perception/ClusterComparator.h>
+#include <omnimapper/perception/ConvexClusterComparator.h>
 #include <omnimapper/perception/ObjectFinder.h>
 
 #include <Eigen/Eigenvalues>
@@ -15,6 +15,10 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
   using base::Range;
   static const auto table =
       base::OptionTable<Options>()
+          .choice<Options::Comparator>(
+              "comparator", &Options::comparator,
+              {{"euclidean", Options::Comparator::euclidean}, {"convex", Options::Comparator::convex}},
+              "Neighbours are of one thing if they are near one another; convex: and no furrow is between them.")
           .number("min_surface_area_m2", &Options::min_surface_area, Range::positive(),
                   "Planes as large belong to the place, smaller ones to the things in it.")
           .number("max_tilt_deg", &Options::max_tilt, {0, 180},
@@ -75,16 +79,59 @@ std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const
   return labels;
 }
 
-std::vector<std::vector<int>> pixelsOf(const Components& components, int fewest) {
-  std::vector<std::vector<int>> pixels(components.pixels.size());
-  for (const PixelRun& run : components.runs) {
-    const auto i = static_cast<std::size_t>(run.component);
-    if (components.pixels[i] < fewest) continue;
-    for (int x = run.begin; x < run.end; ++x) pixels[i].push_back(run.row * components.width + x);
+NormalImage normalsOf(const DepthImage& image, const PlaneOptions& sensor) {
+  NormalOptions options;
+  options.noise_at_1m = sensor.noise_at_1m;
+  options.step_at_1m = sensor.step_at_1m;
+  options.min_depth = sensor.min_depth;
+  options.max_depth = sensor.max_depth;
+  return NormalEstimator(options).estimate(image);
+}
+
+using Clusters = std::vector<std::vector<int>>;  // pixels, ascending
+
+Clusters pixelsOf(const std::vector<std::int32_t>& labels) {
+  Clusters clusters(static_cast<std::size_t>(*std::max_element(labels.begin(), labels.end())));
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] > 0) clusters[static_cast<std::size_t>(labels[i] - 1)].push_back(static_cast<int>(i));
   }
-  const auto isEmpty = [](const std::vector<int>& all) { return all.empty(); };
-  pixels.erase(std::remove_if(pixels.begin(), pixels.end(), isEmpty), pixels.end());
-  return pixels;
+  const auto isEmpty = [](const std::vector<int>& pixels) { return pixels.empty(); };
+  clusters.erase(std::remove_if(clusters.begin(), clusters.end(), isEmpty), clusters.end());
+  return clusters;
+}
+
+// Pixels without a label take that of a near neighbour, ring by ring.
+void grow(const ClusterComparator& near, std::vector<std::int32_t>& labels) {
+  const int width = near.points.width, height = near.points.height;
+  std::vector<int> front;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] > 0) front.push_back(static_cast<int>(i));
+  }
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    const int pixel = front[k], x = pixel % width, y = pixel / width;
+    const auto visit = [&](bool is_inside, int neighbour) {
+      if (!is_inside) return;
+      std::int32_t& label = labels[static_cast<std::size_t>(neighbour)];
+      if (label != 0 || !near.valid(neighbour) || !near.similar(pixel, neighbour)) return;
+      label = labels[static_cast<std::size_t>(pixel)];
+      front.push_back(neighbour);
+    };
+    visit(x > 0, pixel - 1);
+    visit(x + 1 < width, pixel + 1);
+    visit(y > 0, pixel - width);
+    visit(y + 1 < height, pixel + width);
+  }
+}
+
+Clusters clustersOf(const DepthImage& image, const ClusterComparator& near, const ObjectOptions& options,
+                    const PlaneOptions& sensor) {
+  const int width = image.width(), height = image.height();
+  if (options.comparator == ObjectOptions::Comparator::euclidean)
+    return pixelsOf(connectComponents(width, height, near).labels(options.min_points));
+  const NormalImage normals = normalsOf(image, sensor);
+  auto labels = connectComponents(width, height, ConvexClusterComparator{near, normals}).labels(options.min_points);
+  grow(near, labels);
+  return pixelsOf(labels);
 }
 
 std::vector<Eigen::Vector3d> pointsOf(const std::vector<int>& pixels, const OrganisedPoints& all) {
@@ -158,10 +205,9 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
   const auto of_place = objects::labelsOfThePlace(planes, options_, surfaces);
   const auto labels = withRemainders(planes, points, surfaces, of_place, options_.min_height, sensor_.noise_at_1m);
   const auto noise = static_cast<float>(kSigmas * sensor_.noise_at_1m);
-  const ClusterComparator comparator{points, labels, of_place, static_cast<float>(options_.max_gap), noise};
-  const Components clusters = connectComponents(image.width(), image.height(), comparator);
+  const ClusterComparator near{points, labels, of_place, static_cast<float>(options_.max_gap), noise};
 
-  for (auto& pixels : pixelsOf(clusters, options_.min_points)) {
+  for (auto& pixels : clustersOf(image, near, options_, sensor_)) {
     auto cluster = pointsOf(pixels, points);
     ObjectRegion region;
     region.centroid = meanOf(cluster);
