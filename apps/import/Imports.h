@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/CarmenLog.h>
+#include <omnimapper/source/PcdFolder.h>
 #include <omnimapper/source/RgbdFolder.h>
 
 #include <string>
@@ -15,3 +16,6 @@ omnimapper::base::ExitCode importCarmen(const std::string& input, const std::str
 /// the images in <output>_Images.
 omnimapper::base::ExitCode importRgbd(const std::string& folder, const std::string& output,
                                       const omnimapper::source::RgbdFolderOptions& options, bool external_images);
+
+omnimapper::base::ExitCode importPcd(const std::string& folder, const std::string& output,
+                                     const omnimapper::source::PcdFolderOptions& options);

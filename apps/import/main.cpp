@@ -1,5 +1,6 @@
 // omnimapper-import: makes MRPT rawlogs of other programs' logs.
 #include <map>
+#include <tuple>
 
 #include "Imports.h"
 #include "program/Program.h"
@@ -15,6 +16,7 @@ const std::map<std::string, CarmenOdometry> kOdometryNames = {
 struct Arguments {
   std::string input, output, odometry = "automatic", images = "embedded";
   source::RgbdFolderOptions rgbd;
+  source::PcdFolderOptions pcd;
 };
 
 CLI::App* addCarmen(CLI::App& app, Arguments& arguments) {
@@ -48,6 +50,16 @@ CLI::App* addTum(CLI::App& app, Arguments& arguments) {
   return tum;
 }
 
+CLI::App* addPcd(CLI::App& app, Arguments& arguments) {
+  auto* pcd = app.add_subcommand("pcd", "folder of PCD files: organised clouds of a range camera");
+  pcd->add_option("DIR", arguments.input, "folder")->required();
+  pcd->add_option("OUT", arguments.output, "rawlog to write")->required();
+  pcd->add_option("--rate", arguments.pcd.rate, "of the clouds, which have no stamps [1/s]")
+      ->check(CLI::PositiveNumber);
+  pcd->add_option("--label", arguments.pcd.label, "sensor label");
+  return pcd;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -59,11 +71,13 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   Arguments arguments;
   const auto* carmen = addCarmen(app, arguments);
-  addTum(app, arguments);
+  const auto* tum = addTum(app, arguments);
+  addPcd(app, arguments);
   return program::run(app, argc, argv, [&] {
-    return static_cast<int>(
-        carmen->parsed()
-            ? importCarmen(arguments.input, arguments.output, kOdometryNames.at(arguments.odometry))
-            : importRgbd(arguments.input, arguments.output, arguments.rgbd, arguments.images == "external"));
+    const auto& [input, output] = std::tie(arguments.input, arguments.output);
+    if (carmen->parsed()) return static_cast<int>(importCarmen(input, output, kOdometryNames.at(arguments.odometry)));
+    if (tum->parsed())
+      return static_cast<int>(importRgbd(input, output, arguments.rgbd, arguments.images == "external"));
+    return static_cast<int>(importPcd(input, output, arguments.pcd));
   });
 }

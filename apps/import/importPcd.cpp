@@ -1,0 +1,26 @@
+#include <omnimapper/base/Progress.h>
+#include <omnimapper/source/RawlogWriter.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "Imports.h"
+
+using namespace omnimapper;
+
+base::ExitCode importPcd(const std::string& folder, const std::string& output,
+                         const source::PcdFolderOptions& options) {
+  source::PcdFolder clouds(folder, options);
+  base::TerminalProgress progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  source::writeRawlog(
+      output,
+      [&](source::RawlogWriter& rawlog) {
+        while (const auto observation = clouds.next()) {
+          rawlog.add(*observation);
+          progress.report(clouds.progress(), "importing " + folder);
+        }
+      },
+      source::ColourImages::jpeg);
+  std::cout << clouds.report().text();
+  return clouds.report().exitCode();
+}

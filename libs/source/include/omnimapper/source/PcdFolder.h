@@ -1,0 +1,41 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/source/ObservationSource.h>
+#include <omnimapper/source/PcdCloud.h>
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::source {
+
+struct PcdFolderOptions {
+  std::string label = "RGBD";
+  double rate = 30;  ///< of clouds, which have no stamps [1/s]
+};
+
+/// The depth image, with colours where it has any, of an organised cloud in a camera's optical frame (x right, y down,
+/// z forward): which ray belongs to which pixel is told by the points themselves. Depth is kept in steps of 0.1 mm, up
+/// to 6.5 m. Throws Error(unreadable_input), with `name` in it, for a cloud that no pinhole camera has seen so.
+mrpt::obs::CObservation3DRangeScan::Ptr depthImageOf(const PcdCloud& cloud, const std::string& name);
+
+/// Streams the organised clouds of a folder of PCD files, in the order of their names, as depthImageOf() makes of them,
+/// sensorPose the base's own pose (x forward, z up).
+class PcdFolder : public ObservationSource {
+ public:
+  /// Throws Error(unreadable_input) for a folder without PCD files.
+  explicit PcdFolder(const std::string& folder, const PcdFolderOptions& options = {});
+
+  /// Files that are no organised cloud are left out and counted as missing images.
+  mrpt::obs::CObservation::Ptr next() override;
+  double progress() const override;
+  SourceReport report() const override { return report_; }
+
+ private:
+  PcdFolderOptions options_;
+  std::vector<std::string> files_;
+  std::size_t next_ = 0;
+  SourceReport report_;
+};
+
+}  // namespace omnimapper::source

@@ -1,0 +1,129 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/source/PcdFolder.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace omnimapper::source {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kUnit = 1e-4;              // [m]
+constexpr double kFirstStamp = 1e9;         // [s] of clouds without stamps
+constexpr double kPixelsFromTheRay = 0.25;  // a pinhole camera's points lie on the rays of their pixels
+
+[[noreturn]] void refuse(const std::string& name, const std::string& reason) {
+  throw base::Error(base::ExitCode::unreadable_input, name + ": " + reason);
+}
+
+/// pixel = focal * slope + middle, by least squares over points.
+struct Axis {
+  double n = 0, s = 0, p = 0, ss = 0, sp = 0, pp = 0;
+  void add(double slope, double pixel) {
+    n += 1;
+    s += slope;
+    p += pixel;
+    ss += slope * slope;
+    sp += slope * pixel;
+    pp += pixel * pixel;
+  }
+  double focal() const { return (n * sp - s * p) / (n * ss - s * s); }
+  double middle() const { return (p - focal() * s) / n; }
+  double rms() const {
+    const double f = focal(), c = middle();
+    return std::sqrt(std::max(0., (pp - 2 * f * sp - 2 * c * p + f * f * ss + 2 * f * c * s + n * c * c) / n));
+  }
+};
+
+mrpt::img::TCamera cameraOf(const PcdCloud& cloud, const std::string& name) {
+  Axis across, down;
+  std::size_t i = 0;
+  for (int row = 0; row < cloud.height; ++row) {
+    for (int column = 0; column < cloud.width; ++column, ++i) {
+      const auto z = static_cast<double>(cloud.z[i]);
+      if (!(z > 0) || !std::isfinite(z)) continue;
+      across.add(static_cast<double>(cloud.x[i]) / z, column);
+      down.add(static_cast<double>(cloud.y[i]) / z, row);
+    }
+  }
+  const bool fits = across.n > 2 && across.focal() > 0 && down.focal() > 0 && across.rms() < kPixelsFromTheRay &&
+                    down.rms() < kPixelsFromTheRay;
+  if (!fits) refuse(name, "its points do not lie as a pinhole camera sees them, z forward and y down");
+  mrpt::img::TCamera camera;
+  camera.setIntrinsicParamsFromValues(across.focal(), down.focal(), across.middle(), down.middle());
+  camera.ncols = static_cast<std::uint32_t>(cloud.width);
+  camera.nrows = static_cast<std::uint32_t>(cloud.height);
+  return camera;
+}
+
+void addColours(const PcdCloud& cloud, mrpt::obs::CObservation3DRangeScan& scan) {
+  scan.hasIntensityImage = true;
+  scan.intensityImage.resize(cloud.width, cloud.height, mrpt::img::CH_RGB);
+  std::size_t i = 0;
+  for (int row = 0; row < cloud.height; ++row) {
+    auto* pixel = scan.intensityImage.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
+    for (int column = 0; column < cloud.width; ++column, ++i) {
+      for (int shift = 0; shift < 24; shift += 8) *pixel++ = static_cast<std::uint8_t>(cloud.rgb[i] >> shift);
+    }
+  }
+}
+
+}  // namespace
+
+mrpt::obs::CObservation3DRangeScan::Ptr depthImageOf(const PcdCloud& cloud, const std::string& name) {
+  if (cloud.height < 2 || cloud.width < 2) refuse(name, "is no organised cloud: it has no rows and columns");
+  auto scan = mrpt::obs::CObservation3DRangeScan::Create();
+  scan->cameraParams = scan->cameraParamsIntensity = cameraOf(cloud, name);
+  scan->hasRangeImage = true;
+  scan->range_is_depth = true;
+  scan->rangeUnits = static_cast<float>(kUnit);
+  scan->maxRange = static_cast<float>(65535 * kUnit);
+  scan->rangeImage_setSize(cloud.height, cloud.width);
+  std::size_t i = 0;
+  for (int row = 0; row < cloud.height; ++row) {
+    for (int column = 0; column < cloud.width; ++column, ++i) {
+      const double units = static_cast<double>(cloud.z[i]) / kUnit + 0.5;
+      scan->rangeImage(row, column) = units >= 1 && units < 65535 ? static_cast<std::uint16_t>(units) : 0;
+    }
+  }
+  if (!cloud.rgb.empty()) addColours(cloud, *scan);
+  return scan;
+}
+
+PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options) : options_(options) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".pcd") files_.push_back(entry.path());
+  }
+  if (error) refuse(folder, error.message());
+  if (files_.empty()) refuse(folder, "holds no .pcd files");
+  std::sort(files_.begin(), files_.end());
+}
+
+mrpt::obs::CObservation::Ptr PcdFolder::next() {
+  while (next_ < files_.size()) {
+    const std::string& file = files_[next_];
+    const auto stamp = base::stampFromUnix(kFirstStamp + static_cast<double>(next_++) / options_.rate);
+    try {
+      const auto scan = depthImageOf(readPcd(file), file);
+      scan->timestamp = stamp;
+      scan->sensorLabel = options_.label;
+      ++report_.objects;
+      report_.count(scan->sensorLabel, scan->GetRuntimeClass()->className, scan->timestamp);
+      return scan;
+    } catch (const base::Error& error) {
+      if (report_.missing_images++ == 0) report_.first_missing_image = error.what();
+    }
+  }
+  report_.ending = SourceReport::Ending::complete;
+  return nullptr;
+}
+
+double PcdFolder::progress() const {
+  return static_cast<double>(next_) / static_cast<double>(files_.size());
+}
+
+}  // namespace omnimapper::source
