@@ -1,6 +1,10 @@
 #include "Tour.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <queue>
+#include <utility>
 
 namespace omnimapper::sim {
 
@@ -11,56 +15,92 @@ constexpr double kSeenSpacing = 0.25;  // [m] of places that are to be seen, at 
 constexpr double kLeaveRoom = 8.0;     // [m] a way into another room counts as so much longer
 constexpr double kEnough = 0.98;       // part of a room that is to be seen
 
-// A lattice over the room's inside.
-std::vector<Eigen::Vector2d> latticeIn(const Room& room, double spacing) {
-  const auto [low, high] = boundsOf(room.outline);
-  const Eigen::Array2d size = (high - low).array();
-  const int columns = std::max(1, static_cast<int>(size.x() / spacing)),
-            rows = std::max(1, static_cast<int>(size.y() / spacing));
-  std::vector<Eigen::Vector2d> points;
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const Eigen::Vector2d point =
-          low + Eigen::Vector2d(size.x() * (column + 0.5) / columns, size.y() * (row + 0.5) / rows);
-      if (contains(room.outline, point)) points.push_back(point);
+// A lattice over the room's inside, row by row.
+class Lattice {
+ public:
+  Lattice(const Room& room, double spacing) {
+    const auto [low, high] = boundsOf(room.outline);
+    const Eigen::Array2d size = (high - low).array();
+    const int columns = std::max(1, static_cast<int>(size.x() / spacing)),
+              rows = std::max(1, static_cast<int>(size.y() / spacing));
+    low_y_ = low.y();
+    step_y_ = size.y() / rows;
+    for (int row = 0; row < rows; ++row) {
+      begin_of_row_.push_back(points_.size());
+      for (int column = 0; column < columns; ++column) {
+        const Eigen::Vector2d point =
+            low + Eigen::Vector2d(size.x() * (column + 0.5) / columns, size.y() * (row + 0.5) / rows);
+        if (contains(room.outline, point)) points_.push_back(point);
+      }
+    }
+    begin_of_row_.push_back(points_.size());
+  }
+
+  const std::vector<Eigen::Vector2d>& points() const { return points_; }
+
+  /// Calls `visit` with the numbers of the points within a distance, in order.
+  template <class Visit>
+  void forEachNear(const Eigen::Vector2d& middle, double distance, const Visit& visit) const {
+    const int rows = static_cast<int>(begin_of_row_.size()) - 1;
+    const auto rowAt = [&](double y) { return static_cast<int>(std::floor((y - low_y_) / step_y_)); };
+    const int first = std::max(0, rowAt(middle.y() - distance)),
+              last = std::min(rows - 1, rowAt(middle.y() + distance));
+    for (int row = first; row <= last; ++row) {
+      const auto begin = points_.begin() + begin_of_row_[row], end = points_.begin() + begin_of_row_[row + 1];
+      const auto isLeftOf = [](const Eigen::Vector2d& point, double x) { return point.x() < x; };
+      for (auto point = std::lower_bound(begin, end, middle.x() - distance, isLeftOf);
+           point != end && point->x() <= middle.x() + distance; ++point) {
+        if ((*point - middle).norm() <= distance) visit(static_cast<int>(point - points_.begin()));
+      }
     }
   }
-  return points;
-}
+
+ private:
+  std::vector<Eigen::Vector2d> points_;
+  std::vector<std::ptrdiff_t> begin_of_row_;  // and the end of the last
+  double low_y_ = 0, step_y_ = 1;
+};
 
 // Greedy cover: again and again the place that sees most of what has not been seen.
 std::vector<Eigen::Vector2d> placesToSee(const Room& room, const FloorPlan& plan, const Eigen::Vector2d& start,
                                          double reach) {
-  const std::vector<Eigen::Vector2d> seen_from = latticeIn(room, std::max(kSeenSpacing, reach / 12));
-  std::vector<Eigen::Vector2d> places = latticeIn(room, std::max(kViewSpacing, reach / 6));
+  const Lattice to_see(room, std::max(kSeenSpacing, reach / 12));
+  std::vector<Eigen::Vector2d> places = Lattice(room, std::max(kViewSpacing, reach / 6)).points();
   if (const auto good = goodPlaceIn(room, plan)) places.push_back(*good);
   places.erase(std::remove_if(places.begin(), places.end(),
                               [&](const Eigen::Vector2d& place) { return !plan.canReach(start, place); }),
                places.end());
   std::vector<std::vector<int>> sees(places.size());
-  std::vector<char> open(seen_from.size(), 0);
+  std::vector<char> open(to_see.points().size(), 0);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    for (std::size_t j = 0; j < seen_from.size(); ++j) {
-      if ((seen_from[j] - places[i]).norm() > reach || !plan.isSeen(places[i], seen_from[j])) continue;
-      sees[i].push_back(static_cast<int>(j));
+    to_see.forEachNear(places[i], reach, [&](int j) {
+      if (!plan.isSeen(places[i], to_see.points()[j])) return;
+      sees[i].push_back(j);
       open[j] = 1;
-    }
+    });
   }
+  const auto gainOf = [&](int i) {
+    double gain = 0;
+    for (const int j : sees[i]) gain += open[j];
+    // Of two that see as much, the roomier one.
+    return gain + 0.5 * plan.clearance(places[i]);
+  };
+  // What a place adds only shrinks: it is worked out anew when it seems to be the most.
+  using Candidate = std::pair<double, int>;  // gain, and minus the number: of equals the first
+  std::priority_queue<Candidate> candidates;
+  for (int i = 0; i < static_cast<int>(places.size()); ++i) candidates.emplace(gainOf(i), -i);
   const auto visible = static_cast<double>(std::count(open.begin(), open.end(), 1));
   std::vector<Eigen::Vector2d> chosen;
   for (double seen = 0; seen < kEnough * visible;) {
-    std::size_t best = 0;
-    double best_gain = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      double gain = 0;
-      for (const int j : sees[i]) gain += open[j];
-      // Of two that see as much, the roomier one.
-      gain += 0.5 * plan.clearance(places[i]);
-      if (gain > best_gain) best_gain = gain, best = i;
+    const auto [gain, minus_number] = candidates.top();
+    candidates.pop();
+    const int best = -minus_number;
+    if (const double now = gainOf(best); now < gain) {
+      candidates.emplace(now, minus_number);
+      continue;
     }
     for (const int j : sees[best]) seen += open[j], open[j] = 0;
     chosen.push_back(places[best]);
-    places[best] = Eigen::Vector2d::Constant(1e9), sees[best].clear();
   }
   return chosen;
 }
@@ -72,7 +112,8 @@ std::optional<Eigen::Vector2d> goodPlaceIn(const Room& room, const FloorPlan& pl
   for (const Eigen::Vector2d& corner : room.outline) middle += corner / static_cast<double>(room.outline.size());
   std::optional<Eigen::Vector2d> best;
   double best_worth = 0;
-  for (const Eigen::Vector2d& point : latticeIn(room, 0.1)) {
+  const Lattice lattice(room, 0.1);
+  for (const Eigen::Vector2d& point : lattice.points()) {
     if (!plan.isFree(point)) continue;
     const double part = plan.isInLargestPart(point) ? 0 : -1e6;
     const double worth = part + 10 * plan.clearance(point) - (point - middle).norm();
