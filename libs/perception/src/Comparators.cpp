@@ -2,6 +2,7 @@
 #include <omnimapper/perception/ClusterComparator.h>
 #include <omnimapper/perception/ColouredPlaneComparator.h>
 #include <omnimapper/perception/ConvexClusterComparator.h>
+#include <omnimapper/perception/RoadComparator.h>
 
 namespace omnimapper::perception {
 
@@ -9,5 +10,6 @@ template Components connectComponents(int, int, const PlaneComparator&);
 template Components connectComponents(int, int, const ColouredPlaneComparator&);
 template Components connectComponents(int, int, const ClusterComparator&);
 template Components connectComponents(int, int, const ConvexClusterComparator&);
+template Components connectComponents(int, int, const RoadComparator&);
 
 }  // namespace omnimapper::perception

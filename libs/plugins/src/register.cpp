@@ -18,6 +18,7 @@
 #include <omnimapper/plugins/PlanesPlugin.h>
 #include <omnimapper/plugins/PointsOutput.h>
 #include <omnimapper/plugins/ReportOutput.h>
+#include <omnimapper/plugins/RoadPlugin.h>
 #include <omnimapper/plugins/RobotPosePlugin.h>
 #include <omnimapper/plugins/ScanOdometryPlugin.h>
 #include <omnimapper/plugins/SceneOutput.h>
@@ -40,6 +41,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(LaserPointsPluginFactory));
   registerClass(CLASS_ID(ObjectsPluginFactory));
   registerClass(CLASS_ID(PlanesPluginFactory));
+  registerClass(CLASS_ID(RoadPluginFactory));
   registerClass(CLASS_ID(LoopClosurePluginFactory));
   registerClass(CLASS_ID(RobotPosePluginFactory));
   registerClass(CLASS_ID(GpsPluginFactory));

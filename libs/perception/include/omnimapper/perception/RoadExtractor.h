@@ -1,0 +1,40 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/perception/PlaneExtractor.h>
+#include <omnimapper/perception/RoadSegmenter.h>
+
+namespace omnimapper::perception {
+
+struct RoadPoseOptions {
+  double ground_height = 0;  ///< [m] of the ground in the base's frame
+
+  static const base::OptionTable<RoadPoseOptions>& table();
+};
+
+/// What the label of a scan's ground has behind the scan's own.
+inline constexpr char kRoadSuffix[] = ".road";
+
+/// The ground that the wheels stand on, at that height in the base's frame, in the camera's optical frame, as
+/// `sensorPose` of the scan tells it.
+geometry::Plane3 expectedGround(const mrpt::obs::CObservation3DRangeScan& scan, double ground_height);
+
+/// The ground that a depth camera sees, as RoadSegmenter finds it (thesis 3.4.7).
+class RoadExtractor {
+ public:
+  /// Throws as RoadSegmenter.
+  RoadExtractor(const RoadOptions& road, const OutlineOptions& outlines, const RoadPoseOptions& pose)
+      : segmenter_(road), outlines_(outlines), pose_(pose) {}
+
+  /// The pieces of ground, each with the plane that fits it best, as PlaneExtractor tells planes, label
+  /// "<scan label>.road". Throws as PlaneExtractor. Thread-safe; the same scan gives the same bits.
+  std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
+
+ private:
+  RoadSegmenter segmenter_;
+  OutlineOptions outlines_;
+  RoadPoseOptions pose_;
+};
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,31 @@
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/perception/RoadExtractor.h>
+
+#include "RangeScan.h"
+#include "planes/PlaneObservation.h"
+
+namespace omnimapper::perception {
+
+const base::OptionTable<RoadPoseOptions>& RoadPoseOptions::table() {
+  static const auto table =
+      base::OptionTable<RoadPoseOptions>().number("ground_height_m", &RoadPoseOptions::ground_height, {},
+                                                  "Of the ground that the wheels stand on, in the base's frame.");
+  return table;
+}
+
+geometry::Plane3 expectedGround(const mrpt::obs::CObservation3DRangeScan& scan, double ground_height) {
+  const geometry::Plane3 in_sensor = geometry::inverse(geometry::fromMrpt(scan.sensorPose)) *
+                                     geometry::Plane3{Eigen::Vector3d::UnitZ(), -ground_height};
+  const Eigen::Vector3d& n = in_sensor.normal;
+  return {{-n.y(), -n.z(), n.x()}, in_sensor.distance};  // the inverse of toSensor()
+}
+
+std::shared_ptr<obs::CObservationPlanes> RoadExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
+  const ScanDepth depth(scan);
+  const auto found = segmenter_.segment(depth.image(), expectedGround(scan, pose_.ground_height));
+  auto derived = planes::observe(found.ground, scan, depth, ScanColours(scan), outlines_.tolerance);
+  derived->sensorLabel = scan.sensorLabel + kRoadSuffix;
+  return derived;
+}
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,208 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/perception/RoadComparator.h>
+#include <omnimapper/perception/RoadSegmenter.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planes/Description.h"
+
+namespace omnimapper::perception {
+
+const base::OptionTable<RoadOptions>& RoadOptions::table() {
+  using base::Range;
+  static const auto table =
+      base::OptionTable<RoadOptions>()
+          .number("noise_at_1m_m", &RoadOptions::noise_at_1m, Range::positive(),
+                  "Standard deviation of a pixel's depth at 1 m; it grows with the square of the depth.")
+          .number("step_at_1m_m", &RoadOptions::step_at_1m, Range::notNegative(),
+                  "Step between two depths that the sensor can tell apart at 1 m; 0 if it has none.")
+          .number("correlation_area_px2", &RoadOptions::correlation_area, {1, 10000},
+                  "How many neighbouring pixels share one error.")
+          .number("min_depth_m", &RoadOptions::min_depth, Range::positive(), "Nearer pixels are left out.")
+          .number("max_depth_m", &RoadOptions::max_depth, Range::positive(), "Farther pixels are left out.")
+          .integer("window_radius_px", &RoadOptions::window_radius, {1, 7},
+                   "The window of a normal has 2 radius + 1 pixels a side.")
+          .number("max_tilt_deg", &RoadOptions::max_tilt, {0, 89}, "Of the ground from the expected one.")
+          .number("max_turn_deg", &RoadOptions::max_turn, {0, 89}, "Of the ground from one pixel to the next.")
+          .number("max_off_m", &RoadOptions::max_off, Range::notNegative(),
+                  "How far the ground may be above or below the expected one, near the sensor.")
+          .number("max_slope_deg", &RoadOptions::max_slope, {0, 45}, "By how much that grows with the depth.")
+          .number(
+              "grow_sigmas", &RoadOptions::grow_sigmas, Range::notNegative(),
+              "Pixels of which no normal is known are ground within so many standard deviations of the ground around "
+              "them.")
+          .integer("min_pixels", &RoadOptions::min_pixels, {1, 1e9}, "Pieces of ground with fewer pixels are left out.")
+          .integer("min_hole_pixels", &RoadOptions::min_hole_pixels, {1, 1e9},
+                   "Holes with fewer pixels are not outlined.");
+  return table;
+}
+
+namespace {
+
+using planes::kCell;
+using planes::PlaneMoments;
+
+constexpr int kLeastSeed = 200;      // pixels of a component that the second pass begins with
+constexpr int kReach = 3;            // cells around one whose ground counts for it
+constexpr double kEnough = 300;      // pixels of ground there
+constexpr float kStanding = 0.707F;  // cosine: a surface steeper than 45 degrees to the ground stands on it
+constexpr int kFoot = 8;             // [px]
+
+/// Ground around each cell of the image, and the pixels on it.
+class Growth {
+ public:
+  Growth(const planes::InverseDepth& inverse, const Pinhole& camera, const std::vector<std::uint8_t>& seeds)
+      : inverse_(inverse),
+        camera_(camera),
+        seeds_(seeds),
+        columns_(inverse.stride / kCell),
+        rows_(inverse.rows / kCell),
+        moments_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
+    for (int y = 0; y < inverse.height; ++y) {
+      for (int x = 0; x < inverse.width; ++x) {
+        if (seeds[index(x, y)] != 0) add(x, y);
+      }
+    }
+  }
+
+  /// Labels, 1 for seeds and for pixels within `tolerance` [1/m] of the ground around them that pass `may(pixel)`.
+  template <class May>
+  planes::PixelLabels grow(double tolerance, const May& may) const {
+    planes::PixelLabels labels;
+    labels.stride = inverse_.stride;
+    labels.rows = inverse_.rows;
+    labels.values.resize(static_cast<std::size_t>(labels.stride) * static_cast<std::size_t>(labels.rows), 0);
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        const PlaneMoments around = momentsAround(column, row);
+        if (around.n == 0) continue;
+        const planes::ImagePlane ground = around.fit().plane;
+        const double reach = around.n >= kEnough ? tolerance : 0;
+        for (int y = row * kCell; y < std::min(inverse_.height, (row + 1) * kCell); ++y) {
+          for (int x = column * kCell; x < std::min(inverse_.width, (column + 1) * kCell); ++x) {
+            if (isGround(x, y, ground, reach, may)) {
+              labels.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(labels.stride) +
+                            static_cast<std::size_t>(x)] = 1;
+            }
+          }
+        }
+      }
+    }
+    return labels;
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(inverse_.width) + static_cast<std::size_t>(x);
+  }
+
+  void add(int x, int y) {
+    PlaneMoments& m = moments_[static_cast<std::size_t>(y / kCell * columns_ + x / kCell)];
+    const double u = x - camera_.cx, v = y - camera_.cy, q = static_cast<double>(*inverse_.at(x, y));
+    m += {1, u, v, u * u, u * v, v * v, q, u * q, v * q, q * q};
+  }
+
+  PlaneMoments momentsAround(int column, int row) const {
+    PlaneMoments sum;
+    for (int y = std::max(0, row - kReach); y <= std::min(rows_ - 1, row + kReach); ++y) {
+      for (int x = std::max(0, column - kReach); x <= std::min(columns_ - 1, column + kReach); ++x)
+        sum += moments_[static_cast<std::size_t>(y * columns_ + x)];
+    }
+    return sum;
+  }
+
+  template <class May>
+  bool isGround(int x, int y, const planes::ImagePlane& ground, double tolerance, const May& may) const {
+    if (seeds_[index(x, y)] != 0) return true;
+    const auto q = static_cast<double>(*inverse_.at(x, y));
+    return q > 0 && std::abs(q - ground.at(x - camera_.cx, y - camera_.cy)) < tolerance && may(index(x, y));
+  }
+
+  const planes::InverseDepth& inverse_;
+  const Pinhole& camera_;
+  const std::vector<std::uint8_t>& seeds_;
+  int columns_, rows_;
+  std::vector<PlaneMoments> moments_;  // of the seeds in each cell
+};
+
+NormalImage normalsOf(const DepthImage& image, const RoadOptions& options) {
+  NormalOptions of_normals;
+  of_normals.noise_at_1m = options.noise_at_1m;
+  of_normals.step_at_1m = options.step_at_1m;
+  of_normals.min_depth = options.min_depth;
+  of_normals.max_depth = options.max_depth;
+  of_normals.radius = options.window_radius;
+  return NormalEstimator(of_normals).estimate(image);
+}
+
+// Pixels of connected components that are large enough.
+std::vector<std::uint8_t> seedsOf(const Components& components) {
+  std::vector<std::uint8_t> seeds;
+  for (const auto label : components.labels(kLeastSeed)) seeds.push_back(label != 0);
+  return seeds;
+}
+
+// 1 for pixels of what stands on the ground, and for those just below, which windows of stereo mix with it.
+std::vector<std::uint8_t> feetOf(const NormalImage& normals, const Eigen::Vector3f& up) {
+  std::vector<std::uint8_t> feet(normals.size(), 0);
+  std::vector<int> left(static_cast<std::size_t>(normals.width), 0);  // of each column: pixels that still belong to it
+  std::size_t i = 0;
+  for (int y = 0; y < normals.height; ++y) {
+    for (int& of_column : left) {
+      const float cosine = normals.x()[i] * up.x() + normals.y()[i] * up.y() + normals.z()[i] * up.z();
+      of_column = cosine < kStanding ? kFoot : of_column - 1;
+      feet[i++] = of_column > 0;
+    }
+  }
+  return feet;
+}
+
+// The expected ground as the image shows it, for residuals to be reckoned from: 1/z = -n . ray / d.
+planes::CellRegions expectedRegion(const geometry::Plane3& expected, const Pinhole& camera) {
+  const Eigen::Vector3d w = -expected.normal / std::max(1e-3, expected.distance);
+  planes::CellRegions regions;
+  regions.regions.push_back({{}, {w.x() / camera.fx, w.y() / camera.fy, w.z()}});
+  return regions;
+}
+
+}  // namespace
+
+RoadSegmenter::RoadSegmenter(const RoadOptions& options) : options_(options) {
+  using base::option_text::format;
+  if (!(options.min_depth < options.max_depth)) {
+    throw base::Error(base::ExitCode::out_of_range, "min_depth_m = " + format(options.min_depth) +
+                                                        ": must be below max_depth_m = " + format(options.max_depth));
+  }
+}
+
+RoadSegmentation RoadSegmenter::segment(const DepthImage& image, const geometry::Plane3& expected) const {
+  RoadSegmentation result;
+  result.ground.width = image.width();
+  result.ground.height = image.height();
+  if (image.width() == 0 || image.height() == 0) return result;
+  const OrganisedPoints points = backProject(image, options_.min_depth, options_.max_depth);
+  const NormalImage normals = normalsOf(image, options_);
+  const RoadComparator comparator{points,
+                                  normals,
+                                  expected.normal.cast<float>(),
+                                  static_cast<float>(expected.distance),
+                                  static_cast<float>(std::cos(options_.max_tilt)),
+                                  static_cast<float>(options_.max_off),
+                                  static_cast<float>(std::tan(options_.max_slope)),
+                                  static_cast<float>(std::cos(options_.max_turn))};
+  result.sure = seedsOf(connectComponents(image.width(), image.height(), comparator));
+  const auto feet = feetOf(normals, comparator.up);
+  const planes::InverseDepth inverse = planes::invert(image, options_.min_depth, options_.max_depth);
+  const double tolerance = options_.grow_sigmas * std::sqrt(options_.noise().pixelVariance());
+  auto labels = Growth(inverse, image.camera(), result.sure).grow(tolerance, [&](std::size_t i) {
+    return comparator.isNear(i) && feet[i] == 0;
+  });
+  result.ground =
+      planes::describe(inverse, image.camera(), options_.noise(), expectedRegion(expected, image.camera()),
+                       std::move(labels), {options_.min_pixels, options_.min_hole_pixels, options_.max_depth});
+  for (std::size_t i = 0; i < result.sure.size(); ++i) result.sure[i] &= result.ground.labels[i] != 0;
+  return result;
+}
+
+}  // namespace omnimapper::perception

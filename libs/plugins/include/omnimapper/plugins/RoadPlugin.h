@@ -1,0 +1,34 @@
+#pragma once
+
+#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/perception/RoadExtractor.h>
+
+namespace omnimapper::plugins {
+
+/// perception::RoadExtractor for the worker pool.
+class RoadPlugin : public mapper::Extractor {
+ public:
+  RoadPlugin(const perception::RoadOptions& road, const perception::OutlineOptions& outlines,
+             const perception::RoadPoseOptions& pose)
+      : extractor_(road, outlines, pose) {}
+
+  bool wants(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+
+ private:
+  perception::RoadExtractor extractor_;
+};
+
+class RoadPluginFactory : public mapper::ExtractorFactory {
+  DEFINE_MRPT_OBJECT(RoadPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "RoadExtractor"; }
+  std::string summary() const override {
+    return "The ground of depth images, sloped too, near the one expected from the camera's pose.";
+  }
+  const std::vector<base::OptionSpec>& options() const override;
+  std::unique_ptr<mapper::Extractor> make(const base::ConfigSection& section,
+                                          const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins

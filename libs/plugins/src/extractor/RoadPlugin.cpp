@@ -1,0 +1,32 @@
+#include <omnimapper/plugins/RoadPlugin.h>
+
+#include "../SharedSection.h"
+
+IMPLEMENTS_MRPT_OBJECT(RoadPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+using mrpt::obs::CObservation3DRangeScan;
+using Section = SharedSection<perception::RoadOptions, perception::OutlineOptions, perception::RoadPoseOptions>;
+
+bool RoadPlugin::wants(const mrpt::obs::CObservation& raw) const {
+  const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
+  return scan != nullptr && scan->hasRangeImage;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> RoadPlugin::extract(const mrpt::obs::CObservation& raw) const {
+  return {extractor_.extract(dynamic_cast<const CObservation3DRangeScan&>(raw))};
+}
+
+const std::vector<base::OptionSpec>& RoadPluginFactory::options() const {
+  return Section::options();
+}
+
+std::unique_ptr<mapper::Extractor> RoadPluginFactory::make(const base::ConfigSection& section,
+                                                           const mapper::PluginContext&) const {
+  return std::make_unique<RoadPlugin>(Section::read<perception::RoadOptions>(section),
+                                      Section::read<perception::OutlineOptions>(section),
+                                      Section::read<perception::RoadPoseOptions>(section));
+}
+
+}  // namespace omnimapper::plugins
