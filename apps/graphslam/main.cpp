@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 
 #include "Arguments.h"
 #include "program/Program.h"
@@ -24,10 +25,11 @@ int run(Arguments& arguments) {
   if (arguments.ini_reference) return std::cout << mapper::iniReference(mapper::fixedSections()), 0;
   if (!arguments.print_ini.empty()) return std::cout << mapper::printIni(arguments.print_ini), 0;
   program::listenForInterrupts();
-  base::TerminalProgress progress(std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
+  std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
   const auto stop = program::isInterrupted;
   if (!arguments.checked_logs.empty()) {
-    const auto checked = check::runCheck(arguments.checked_logs, config, arguments.run.output_folder, progress, stop);
+    const auto checked = check::runCheck(arguments.checked_logs, config, arguments.run.output_folder, *progress, stop);
+    progress.reset();  // its line is free for the summary
     return std::cout << checked.text, static_cast<int>(checked.code);
   }
   if (arguments.inis.empty() || arguments.run.logs.empty() || arguments.run.output_folder.empty()) {
@@ -37,7 +39,8 @@ int run(Arguments& arguments) {
     arguments.run.more_outputs.push_back("live_window");
     if (!config.has("live_window")) config.set("live_window.class=LiveWindow");
   }
-  const auto result = mapper::runMapping(arguments.run, config, progress, stop);
+  const auto result = mapper::runMapping(arguments.run, config, *progress, stop);
+  progress.reset();
   if (arguments.verbose) std::cout << result.source.text();
   if (!arguments.quiet) std::cout << mapper::toText(result, arguments.run.output_folder);
   for (const auto& warning : result.warnings) {

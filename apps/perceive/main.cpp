@@ -7,6 +7,7 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "program/Program.h"
@@ -56,8 +57,9 @@ int run(Arguments& arguments) {
     pictures = std::make_unique<plugins::PerceptionPictures>(arguments.pictures, arguments.picture_every);
     arguments.run.show = [&](const auto& raw, const auto& derived) { pictures->add(raw, derived); };
   }
-  base::TerminalProgress progress(std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
-  const auto result = mapper::runPerception(arguments.run, config, progress, program::isInterrupted);
+  std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
+  const auto result = mapper::runPerception(arguments.run, config, *progress, program::isInterrupted);
+  progress.reset();  // its line is free for the summary
   if (!arguments.quiet) std::cout << mapper::toText(result, arguments.run.output);
   if (!arguments.quiet && pictures) std::cout << pictures->count() << " pictures in " << arguments.pictures << "\n";
   for (const auto& warning : result.warnings) std::cerr << "omnimapper-perceive: warning: " << warning << "\n";

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <thread>
 
 #include "program/Program.h"
@@ -50,9 +51,10 @@ int run(Arguments& arguments) {
   for (const auto& setting : arguments.settings) config.set(setting);
   if (arguments.run.name.empty()) arguments.run.name = std::filesystem::path(arguments.inis.front()).stem().string();
   program::listenForInterrupts();
-  base::TerminalProgress progress(std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
+  std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
   const sim::Simulation simulation(config);
-  const auto result = sim::runSimulation(simulation, arguments.run, progress, program::isInterrupted);
+  const auto result = sim::runSimulation(simulation, arguments.run, *progress, program::isInterrupted);
+  progress.reset();  // its line is free for the summary
   if (!arguments.quiet) std::cout << sim::toText(result, arguments.run.folder);
   for (const auto& warning : result.warnings) std::cerr << "omnimapper-simulate: warning: " << warning << "\n";
   return static_cast<int>(result.code);

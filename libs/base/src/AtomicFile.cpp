@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/Exceptions.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -29,8 +30,10 @@ bool syncPath(const std::string& path) {
 [[noreturn]] void failWrite(const std::string& path, const std::string& temporary, const std::string& reason) {
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw Error(ExitCode::disk_full, path + ": cannot be written (" + reason +
-                                       "); its previous content is kept. Free some room or choose another folder.");
+  const bool is_new = !fs::exists(path, ignored);
+  throw Error(ExitCode::disk_full, path + ": cannot be written (" + reason + ")" +
+                                       (is_new ? "" : "; its previous content is kept") +
+                                       ". Free some room or choose another folder.");
 }
 
 // What is written first, before it takes the place of `target`: "map.tmp123.omnimap" of the process 123. The extension
@@ -87,7 +90,7 @@ void replaceFile(const std::string& path, const std::function<void(const std::st
     fs::remove(temporary, ignored);
     throw;
   } catch (const std::exception& error) {
-    failWrite(path, temporary, error.what());
+    failWrite(path, temporary, sentenceOf(error));
   }
   if (!fs::exists(temporary)) failWrite(path, temporary, "nothing was written");
   if (!syncPath(temporary)) failWrite(path, temporary, std::strerror(errno));

@@ -1,5 +1,6 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
+#include <omnimapper/base/Exceptions.h>
 #include <omnimapper/map/MapFile.h>
 
 #include <algorithm>
@@ -38,15 +39,6 @@ void writeObservation(ByteWriter& out, const mrpt::obs::CObservation& observatio
   out.block({static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()});
 }
 
-/// The sentence within an exception of MRPT, without its place in the source and the call stack.
-std::string sentenceOf(const std::exception& error) {
-  const std::string text = error.what(), label = "Message:";
-  const std::size_t found = text.find(label);
-  if (found == std::string::npos) return text;
-  const std::size_t begin = text.find_first_not_of(' ', found + label.size());
-  return text.substr(begin, text.find('\n', begin) - begin);
-}
-
 mrpt::obs::CObservation::ConstPtr readObservation(ByteReader& in) {
   const std::string_view bytes = in.block();
   mrpt::serialization::CSerializable::Ptr object;
@@ -56,7 +48,7 @@ mrpt::obs::CObservation::ConstPtr readObservation(ByteReader& in) {
     object = mrpt::serialization::archiveFrom(memory).ReadObject();
   } catch (const std::exception& error) {
     refuse(kName,
-           "an observation cannot be read; load the library that has its class. MRPT says: " + sentenceOf(error));
+           "an observation cannot be read; load the library that has its class. MRPT says: " + base::sentenceOf(error));
   }
   auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
   if (!observation) refuse(kName, "holds something that is no observation where one should be");

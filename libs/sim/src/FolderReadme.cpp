@@ -58,8 +58,9 @@ std::string usesOf(const Simulation& simulation, const std::string& log) {
 std::string folderReadme(const Simulation& simulation, const std::string& name, const SimulationResult& result) {
   std::ostringstream out;
   out << kTitleBegin << name << kTitleEnd << "\n\n"
-      << base::fixed(result.duration, 1) << " s, " << base::fixed(result.way, 1) << " m of way, seed "
-      << simulation.options().seed << "; time 0 is Unix time " << base::fixed(simulation.options().start, 1) << ".\n\n"
+      << (result.code == base::ExitCode::interrupted ? "Interrupted after " : "") << base::fixed(result.duration, 1)
+      << " s, " << base::fixed(result.way, 1) << " m of way, seed " << simulation.options().seed
+      << "; time 0 is Unix time " << base::fixed(simulation.options().start, 1) << ".\n\n"
       << "| file | what it is |\n|---|---|\n";
   for (const auto& file : result.files) out << "| `" << file << "` | " << meaningOf(file, name) << " |\n";
   out << "\n| sensor label | measurements | lost | nothing in view |\n|---|---|---|---|\n";

@@ -95,6 +95,10 @@ void Sensor::stamp(mrpt::obs::CObservation& observation, int k) const {
 }
 
 std::unique_ptr<Sensor> makeSensor(const base::Config& config, const std::string& name, SensorContext context) {
+  if (!config.has(name)) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      config.file() + ": [simulation] sensors: there is no section [" + name + "]");
+  }
   const base::ConfigSection section = config.section(name);
   std::string class_name;
   section.find("class", class_name);

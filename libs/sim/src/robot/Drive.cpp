@@ -272,6 +272,12 @@ class Planner {
 }  // namespace
 
 Track planDrive(const base::Config& config, const World& world) {
+  if (world.rooms.empty()) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      config.file() +
+                          ": [world] has no rooms: give it a generator, or name their sections in rooms; "
+                          "INI files of the mapper describe no world");
+  }
   const auto options = config.section("robot").read<DriveOptions>();
   const Motion motion = Planner(options, config, world).plan();
   constexpr double kStep = 1.0 / kDriveRate;

@@ -160,9 +160,13 @@ std::optional<NamedMaterial> findMaterial(const std::string& name) {
 
 NamedMaterial materialNamed(const std::string& name) {
   if (const auto material = findMaterial(name)) return *material;
+  throw base::Error(base::ExitCode::out_of_range, sayUnknownMaterial(name));
+}
+
+std::string sayUnknownMaterial(const std::string& name) {
   const std::string near = base::nearestName(name, materialNames());
-  throw base::Error(base::ExitCode::out_of_range,
-                    "no material is called '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  return "no material is called '" + name + "'; " +
+         (near.empty() ? "there are " + base::option_text::format(materialNames()) : "did you mean '" + near + "'?");
 }
 
 }  // namespace omnimapper::sim

@@ -20,9 +20,7 @@ constexpr double kFarthest = 1e4;  // from the map's origin along x and y: singl
 void refuseUnknownMaterial(const WorldPlan& plan, const std::string& section, const std::string& key,
                            const std::string& name) {
   if (findMaterial(name)) return;
-  const std::string near = base::nearestName(name, materialNames());
-  refuse(plan, section, key,
-         "no material is called '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  refuse(plan, section, key, sayUnknownMaterial(name));
 }
 
 void refuseTwins(const WorldPlan& plan) {

@@ -17,6 +17,8 @@ struct NamedMaterial {
 
 /// Names of all materials: paints, woods, metals, cloths, glass, grounds.
 const std::vector<std::string>& materialNames();
+/// For messages: there is none of that name, but there are others.
+std::string sayUnknownMaterial(const std::string& name);
 /// None if nothing is called so.
 std::optional<NamedMaterial> findMaterial(const std::string& name);
 /// Throws base::Error(out_of_range) with the nearest name.

@@ -1,0 +1,23 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Exceptions.h>
+
+#include <stdexcept>
+
+namespace {
+
+using omnimapper::base::sentenceOf;
+
+TEST(Exceptions, OfMrptTellTheirSentenceAlone) {
+  const std::runtime_error mrpt(
+      "==== MRPT exception ====\nMessage:  Cannot write to the file\nLocation: a.cpp:12: [write]\nCall stack: ...");
+  EXPECT_EQ(sentenceOf(mrpt), "Cannot write to the file");
+  EXPECT_EQ(sentenceOf(std::runtime_error("Message: to its end")), "to its end");
+  EXPECT_EQ(sentenceOf(std::runtime_error("Message:   ")), "Message:   ");
+}
+
+TEST(Exceptions, OfOthersTellAll) {
+  EXPECT_EQ(sentenceOf(std::runtime_error("no such place\nat all")), "no such place\nat all");
+  EXPECT_EQ(sentenceOf(std::runtime_error("")), "");
+}
+
+}  // namespace
