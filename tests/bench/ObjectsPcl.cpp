@@ -79,7 +79,7 @@ Things things(const source::PcdCloud& cloud, const Settings& settings) {
 std::vector<ObjectPeer> pclObjects() {
   std::vector<ObjectPeer> peers;
   const auto add = [&](const std::string& name, const Settings& settings) {
-    peers.push_back({name, [settings](const source::PcdCloud& cloud) { return things(cloud, settings); }});
+    peers.push_back({name, [settings](const LabelledCloud& cloud) { return things(cloud.points, settings); }});
   };
   // Thresholds as for the planes and in PCL's own demonstration, and the best of 64 sets that were tried on these
   // clouds.

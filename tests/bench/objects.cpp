@@ -1,8 +1,12 @@
-// Things on tables: ours and PCL's organised chain in one run, on labelled clouds of table-top scenes. Prints Markdown
-// tables. PCL's rows are there where bench-objects was built with it. Times are those of the processor, of one thread.
+// Things on tables: ours and PCL's organised chain in one run, on labelled clouds of table-top scenes or on what
+// omnimapper-simulate leaves with `labels = true`. Prints Markdown tables. PCL's rows are there where bench-objects was
+// built with it. Times are those of the processor, of one thread.
 //
 // Example: bench-objects --clouds objects/mosd
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/perception/ObjectFinder.h>
+#include <omnimapper/source/PcdFolder.h>
+#include <omnimapper/source/RawlogSource.h>
 #include <time.h>
 
 #include <CLI/CLI.hpp>
@@ -10,7 +14,10 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "ObjectPeers.h"
 
@@ -20,6 +27,7 @@ using namespace omnimapper;
 using namespace omnimapper::bench;
 
 constexpr std::uint32_t kFirstThing = 20;  // labels from here on are of things
+constexpr double kFewest = 300;            // points of a thing that is to be found
 constexpr double kRight = 0.5;             // intersection over union
 
 double now() {
@@ -34,8 +42,7 @@ double quantile(std::vector<double> values, double q) {
   return *place;
 }
 
-ObjectPeer ours(const perception::Pinhole& camera, double tilt, perception::ObjectOptions::Comparator comparator,
-                const std::string& name) {
+ObjectPeer ours(double tilt, perception::ObjectOptions::Comparator comparator, const std::string& name) {
   perception::PlaneOptions sensor;
   perception::ObjectOptions options;
   options.comparator = comparator;
@@ -43,8 +50,9 @@ ObjectPeer ours(const perception::Pinhole& camera, double tilt, perception::Obje
   options.max_tilt = tilt;
   const perception::PlaneSegmenter segmenter(sensor);
   const perception::ObjectFinder finder(options, sensor);
-  return {name, [=](const source::PcdCloud& cloud) {
-            const perception::DepthImage image(cloud.z.data(), cloud.width, cloud.height, camera);
+  return {name, [=](const LabelledCloud& cloud) {
+            const auto& points = cloud.points;
+            const perception::DepthImage image(points.z.data(), points.width, points.height, cloud.camera);
             Things things;
             for (auto& found : finder.find(image, segmenter.segment(image), -Eigen::Vector3d::UnitY()))
               things.push_back(std::move(found.pixels));
@@ -70,6 +78,7 @@ void compare(const source::PcdCloud& cloud, const Things& found, Result& result)
   for (const auto label : cloud.labels) {
     if (label >= kFirstThing) ++sizes[label];
   }
+  for (auto size = sizes.begin(); size != sizes.end();) size = size->second < kFewest ? sizes.erase(size) : ++size;
   std::map<std::uint32_t, double> best;
   std::map<std::uint32_t, std::size_t> covers;
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -77,7 +86,7 @@ void compare(const source::PcdCloud& cloud, const Things& found, Result& result)
     for (const int pixel : found[i]) ++shared[cloud.labels[static_cast<std::size_t>(pixel)]];
     double most = 0;
     for (const auto& [label, count] : shared) {
-      if (label < kFirstThing) continue;
+      if (sizes.count(label) == 0) continue;
       const double overlap = count / (sizes[label] + static_cast<double>(found[i].size()) - count);
       most = std::max(most, overlap);
       best[label] = std::max(best[label], overlap);
@@ -122,7 +131,7 @@ Point bestAt(const std::vector<Point>& curve, double precision) {
   return best;
 }
 
-// At a threshold that suits table tops.
+// Where clusters of fewer points do not count.
 Point at(const std::vector<Point>& curve, std::size_t fewest) {
   Point last;
   for (const Point& point : curve) {
@@ -131,30 +140,96 @@ Point at(const std::vector<Point>& curve, std::size_t fewest) {
   return last;
 }
 
+// Clouds of PCD files, by a camera whose calibration they do not tell but show.
+std::vector<LabelledCloud> readClouds(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<LabelledCloud> clouds;
+  for (const auto& file : files) {
+    LabelledCloud cloud{source::readPcd(file), {}};
+    const auto camera = source::depthImageOf(cloud.points, file)->cameraParams;
+    cloud.camera = {camera.fx(), camera.fy(), camera.cx(), camera.cy()};
+    clouds.push_back(std::move(cloud));
+  }
+  return clouds;
+}
+
+// For each number of a surface in a simulated world, the label of the thing it belongs to, or 1.
+std::map<std::uint32_t, std::uint32_t> thingsOfSurfaces(const std::string& folder) {
+  std::ifstream file(folder + "/landmarks.json");
+  const auto world = nlohmann::json::parse(file);
+  std::map<std::string, std::uint32_t> things;
+  for (const auto& object : world["objects"])
+    things.emplace(object["name"], kFirstThing + static_cast<std::uint32_t>(things.size()));
+  std::map<std::uint32_t, std::uint32_t> labels;
+  for (const auto& surface : world["surfaces"]) {
+    const auto thing = things.find(surface["body"]);
+    labels[surface["label"]] = thing == things.end() ? 1 : thing->second;
+  }
+  return labels;
+}
+
+LabelledCloud cloudOf(const mrpt::obs::CObservation3DRangeScan& scan, const cv::Mat& surfaces,
+                      const std::map<std::uint32_t, std::uint32_t>& things) {
+  LabelledCloud cloud;
+  const auto& camera = scan.cameraParams;
+  cloud.camera = {camera.fx(), camera.fy(), camera.cx(), camera.cy()};
+  source::PcdCloud& points = cloud.points;
+  points.width = static_cast<int>(scan.rangeImage.cols());
+  points.height = static_cast<int>(scan.rangeImage.rows());
+  for (int y = 0; y < points.height; ++y) {
+    for (int x = 0; x < points.width; ++x) {
+      const auto range = static_cast<float>(scan.rangeImage(y, x)) * scan.rangeUnits;
+      const float z = range > 0 ? range : std::nanf("");
+      points.x.push_back(z * static_cast<float>((x - camera.cx()) / camera.fx()));
+      points.y.push_back(z * static_cast<float>((y - camera.cy()) / camera.fy()));
+      points.z.push_back(z);
+      const auto thing = things.find(surfaces.at<std::uint16_t>(y, x));
+      points.labels.push_back(range > 0 && thing != things.end() ? thing->second : 0);
+    }
+  }
+  return cloud;
+}
+
+// What omnimapper-simulate left: depth images, and the surface that each pixel truly sees.
+std::vector<LabelledCloud> readSimulated(const std::string& folder) {
+  const auto things = thingsOfSurfaces(folder);
+  std::vector<std::string> pictures;
+  for (const auto& entry : std::filesystem::directory_iterator(folder + "/truth/labels"))
+    pictures.push_back(entry.path());
+  std::sort(pictures.begin(), pictures.end());
+  std::vector<LabelledCloud> clouds;
+  const auto name = std::filesystem::path(folder).filename().string();
+  source::RawlogSource log(folder + "/" + name + ".rawlog");
+  while (const auto observation = log.next()) {
+    const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
+    if (!scan) continue;
+    clouds.push_back(cloudOf(*scan, cv::imread(pictures.at(clouds.size()), cv::IMREAD_UNCHANGED), things));
+  }
+  return clouds;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Things on tables: ours and PCL's organised chain in one run");
-  std::string folder;
-  double focal = 525, cx = 319.5, cy = 239.5, tilt_deg = 75;
+  std::string folder, simulated;
+  double tilt_deg = 75;
   int rounds = 3;
-  app.add_option("--clouds", folder, "folder of organised PCD files with labels, 20 and up for things")->required();
-  app.add_option("--focal", focal, "[px]");
-  app.add_option("--cx", cx, "[px]");
-  app.add_option("--cy", cy, "[px]");
-  app.add_option("--tilt", tilt_deg, "of tables from the camera's own level at most [deg]: its pose is not known");
+  std::size_t fewest = 1000;
+  auto* input = app.add_option_group("input")->require_option(1);
+  input->add_option("--clouds", folder, "folder of organised PCD files with labels, 20 and up for things");
+  input->add_option("--simulated", simulated, "folder that omnimapper-simulate made, one camera with labels = true");
+  app.add_option("--tilt", tilt_deg, "of tables from the camera's own level at most [deg]: its pose is not used");
+  app.add_option("--fewest", fewest, "points of a cluster that counts in the columns recall and precision");
   app.add_option("--rounds", rounds, "times each cloud is done");
   CLI11_PARSE(app, argc, argv);
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  std::vector<source::PcdCloud> clouds;
-  for (const auto& file : files) clouds.push_back(source::readPcd(file));
+  const auto clouds = folder.empty() ? readSimulated(simulated) : readClouds(folder);
 
   using Comparator = perception::ObjectOptions::Comparator;
-  const perception::Pinhole camera{focal, focal, cx, cy};
-  std::vector<ObjectPeer> methods{ours(camera, tilt_deg * M_PI / 180, Comparator::euclidean, "ours, euclidean"),
-                                  ours(camera, tilt_deg * M_PI / 180, Comparator::convex, "ours, convex")};
+  std::vector<ObjectPeer> methods{ours(tilt_deg * M_PI / 180, Comparator::euclidean, "ours, euclidean"),
+                                  ours(tilt_deg * M_PI / 180, Comparator::convex, "ours, convex")};
   for (const auto& peer : pclObjects()) methods.push_back(peer);
   std::vector<Result> results(methods.size());
   for (int round = 0; round < rounds; ++round) {
@@ -163,7 +238,7 @@ int main(int argc, char** argv) {
         const double start = now();
         const Things found = methods[m].run(cloud);
         results[m].milliseconds.push_back(now() - start);
-        if (round == 0) compare(cloud, found, results[m]);
+        if (round == 0) compare(cloud.points, found, results[m]);
       }
     }
   }
@@ -174,7 +249,7 @@ int main(int argc, char** argv) {
       "| 95 %% |\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const auto curve = curveOf(results[m]);
-    const Point usual = at(curve, 1000);
+    const Point usual = at(curve, fewest);
     std::printf("| %s | %.3f | %.3f | %.3f | %.3f | %.3f | %d | %.3f | %.2f | %.2f |\n", methods[m].name.c_str(),
                 usual.recall, usual.precision, bestAt(curve, 0.7).recall, bestAt(curve, 0.9).recall,
                 bestAt(curve, 1).recall, results[m].merged, results[m].overlap / results[m].things,
