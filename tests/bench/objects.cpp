@@ -27,6 +27,7 @@ using namespace omnimapper;
 using namespace omnimapper::bench;
 
 constexpr std::uint32_t kFirstThing = 20;  // labels from here on are of things
+constexpr std::uint32_t kNeither = 10;     // what stands on the floor as things do, but is furniture: does not count
 constexpr double kFewest = 300;            // points of a thing that is to be found
 constexpr double kRight = 0.5;             // intersection over union
 
@@ -84,6 +85,7 @@ void compare(const source::PcdCloud& cloud, const Things& found, Result& result)
   for (std::size_t i = 0; i < found.size(); ++i) {
     std::map<std::uint32_t, double> shared;
     for (const int pixel : found[i]) ++shared[cloud.labels[static_cast<std::size_t>(pixel)]];
+    if (shared[kNeither] > 0.5 * static_cast<double>(found[i].size())) continue;
     double most = 0;
     for (const auto& [label, count] : shared) {
       if (sizes.count(label) == 0) continue;
@@ -155,7 +157,8 @@ std::vector<LabelledCloud> readClouds(const std::string& folder) {
   return clouds;
 }
 
-// For each number of a surface in a simulated world, the label of the thing it belongs to, or 1.
+// For each number of a surface in a simulated world, the label of the thing it belongs to; 1 for what is level or a
+// wall.
 std::map<std::uint32_t, std::uint32_t> thingsOfSurfaces(const std::string& folder) {
   std::ifstream file(folder + "/landmarks.json");
   const auto world = nlohmann::json::parse(file);
@@ -165,7 +168,9 @@ std::map<std::uint32_t, std::uint32_t> thingsOfSurfaces(const std::string& folde
   std::map<std::uint32_t, std::uint32_t> labels;
   for (const auto& surface : world["surfaces"]) {
     const auto thing = things.find(surface["body"]);
-    labels[surface["label"]] = thing == things.end() ? 1 : thing->second;
+    const std::string name = surface["name"];
+    const bool is_frame = name.size() > 6 && name.substr(name.size() - 6) == "/frame";
+    labels[surface["label"]] = thing != things.end() ? thing->second : is_frame ? kNeither : 1;
   }
   return labels;
 }
