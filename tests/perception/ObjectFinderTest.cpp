@@ -154,6 +154,39 @@ TEST(ObjectFinder, NothingMeasuredIsNoObject) {
   EXPECT_TRUE(ObjectFinder({}, {}).find(pixel, PlaneSegmenter({}).segment(pixel), table.up).empty());
 }
 
+TEST(ObjectFinder, RandomBytesGiveASoundResult) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    testing::Dice dice(seed);
+    const int width = static_cast<int>(dice.uniform(1, 130)), height = static_cast<int>(dice.uniform(1, 90));
+    std::vector<std::uint16_t> units(static_cast<std::size_t>(width * height));
+    const double spread = dice.uniform(0, 1) < 0.3 ? 65535 : 60;
+    for (auto& u : units) u = static_cast<std::uint16_t>(dice.uniform(0, spread) + (spread < 1000 ? 1000 : 0));
+    // A nearer block, now and then over the border.
+    for (int y = height / 3; y < height / 2; ++y) {
+      for (int x = width / 2; x < width; ++x) units[static_cast<std::size_t>(y * width + x)] /= 2;
+    }
+    PlaneOptions sensor;
+    sensor.min_pixels = 16;
+    ObjectOptions options;
+    options.on_surfaces_only = seed % 2 == 0;
+    options.comparator = seed % 4 < 2 ? ObjectOptions::Comparator::euclidean : ObjectOptions::Comparator::convex;
+    options.min_points = 3;
+    options.max_tilt = M_PI;
+    const DepthImage image(units.data(), 1e-3, width, height, {100, 100, 0.5 * width, 0.5 * height});
+    const auto planes = PlaneSegmenter(sensor).segment(image);
+    std::vector<bool> taken(units.size(), false);
+    for (const auto& object : ObjectFinder(options, sensor).find(image, planes, Vector3d::UnitZ())) {
+      EXPECT_GE(object.pixels.size(), 3U);
+      EXPECT_TRUE(object.centroid.allFinite() && object.covariance.allFinite() && object.box_size.allFinite());
+      EXPECT_TRUE(!object.surface || static_cast<std::size_t>(*object.surface) < planes.planes.size());
+      for (const int pixel : object.pixels) {
+        EXPECT_FALSE(taken[static_cast<std::size_t>(pixel)]);
+        taken[static_cast<std::size_t>(pixel)] = true;
+      }
+    }
+  }
+}
+
 TEST(ObjectFinder, CentroidsVaryAsTheirCovarianceSays) {
   TableScene table;
   table.addBlock({1, 0, 0.8}, {0.15, 0.3, 0.2}, 0.3);
