@@ -125,6 +125,18 @@ TEST(CloudPlaneFinder, CloudsWithoutSurfacesHaveNone) {
   EXPECT_TRUE(CloudPlaneFinder(everyPoint()).find(dust).planes.empty());
 }
 
+TEST(CloudPlaneFinder, APlaneThroughTheSensorIsNoneThatItSees) {
+  Cloud turn;  // of a laser, in a round room whose wall is not smooth
+  for (int i = 0; i < 2000; ++i) {
+    const double angle = 2 * M_PI * i / 2000, range = i % 2 == 0 ? 3 : 3.05;
+    turn.push_back(Eigen::Vector3d(range * std::cos(angle), range * std::sin(angle), 0.02).cast<float>());
+  }
+  auto options = everyPoint();
+  EXPECT_TRUE(CloudPlaneFinder(options).find(turn).planes.empty());
+  options.min_incidence = 0;
+  EXPECT_EQ(CloudPlaneFinder(options).find(turn).planes.size(), 1U);
+}
+
 TEST(CloudPlaneFinder, ContradictoryRangesAreRefused) {
   CloudPlaneOptions options;
   options.max_range = options.min_range;

@@ -27,6 +27,10 @@ const base::OptionTable<CloudPlaneOptions>& CloudPlaneOptions::table() {
           .integer("seed", &Options::seed, {0, 2147483647}, "Of those triples.")
           .number("max_gap_m", &Options::max_gap, Range::positive(),
                   "Surfaces on one plane that are farther apart than that are several.")
+          .number(
+              "min_incidence_deg", &Options::min_incidence, {0, 89},
+              "Between a plane and the rays to it: nothing is seen edge-on, but the points of one turn of a laser lie "
+              "on planes through it.")
           .integer("min_points", &Options::min_points, {3, 100000000},
                    "Surfaces of fewer points, after averaging, are left out.")
           .choice<Outline>("outline", &Options::outline, {{"concave", Outline::concave}, {"convex", Outline::convex}},

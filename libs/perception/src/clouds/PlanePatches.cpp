@@ -73,10 +73,12 @@ std::vector<PlanePatch> findPatches(const LoosePoints& points, const geometry::P
   std::vector<bool> kept(components.pixels.size(), false);
   for (std::size_t c = 0; c < members.size(); ++c) {
     if (static_cast<int>(members[c].size()) < options.min_points) continue;
-    kept[c] = true;
-    for (const int i : members[c]) used[static_cast<std::size_t>(i)] = true;
     PlanePatch patch{std::move(members[c]), {}};
     patch.result = describe(points, patch.members, plane, options.gate);
+    const double range = patch.result.centroid.norm();
+    if (patch.result.plane_in_sensor.distance < std::sin(options.min_incidence) * range) continue;
+    kept[c] = true;
+    for (const int i : patch.members) used[static_cast<std::size_t>(i)] = true;
     outline(grid, components, static_cast<int>(c), patch.members, options.outline, patch.result);
     patches.push_back(std::move(patch));
   }

@@ -74,8 +74,8 @@ std::pair<int, int> groupAround(const LoosePoints& points, int i) {
   return {static_cast<int>(range.first - points.group.begin()), static_cast<int>(range.second - points.group.begin())};
 }
 
-// The plane through three points of a group; none if they are on a line.
-std::optional<geometry::Plane3> drawPlane(const LoosePoints& points, SplitMix& random) {
+// The plane through three points of a group; none if they are on a line, or it is seen edge-on.
+std::optional<geometry::Plane3> drawPlane(const LoosePoints& points, double min_incidence, SplitMix& random) {
   const int first = random.below(static_cast<int>(points.size()));
   const auto [begin, end] = groupAround(points, first);
   if (end - begin < 3) return std::nullopt;
@@ -86,7 +86,9 @@ std::optional<geometry::Plane3> drawPlane(const LoosePoints& points, SplitMix& r
   const Eigen::Vector3d normal = ab.cross(ac);
   const double area = normal.norm();
   if (!(area > 0.1 * std::max(ab.squaredNorm(), ac.squaredNorm()))) return std::nullopt;
-  return geometry::Plane3::through(a, normal / area);
+  const auto plane = geometry::Plane3::through(a, normal / area);
+  if (std::abs(plane.distance) < std::sin(min_incidence) * a.norm()) return std::nullopt;
+  return plane;
 }
 
 std::vector<int> inliersOf(const LoosePoints& points, const geometry::Plane3& plane) {
@@ -184,7 +186,7 @@ std::optional<geometry::Plane3> findPlane(const LoosePoints& points, const Cloud
   std::optional<geometry::Plane3> best;
   int most = 0;
   for (int trial = 0, enough = options.trials; trial < enough; ++trial) {
-    const auto plane = drawPlane(points, random);
+    const auto plane = drawPlane(points, options.min_incidence, random);
     if (!plane || kQuickly * count(points, *plane, kQuickly) < most) continue;
     const int inliers = count(points, *plane, 1);
     if (inliers <= most) continue;

@@ -21,7 +21,8 @@ struct CloudPlaneOptions {
   int trials = 300;            ///< most triples that are drawn for each plane
   int seed = 1;                ///< of those triples
   double max_gap = 0.1;        ///< [m] of a surface; where a plane has larger ones, it is several
-  int min_points = 150;        ///< points, after averaging, of a surface
+  double min_incidence = 2 * base::option_text::kRadiansPerDegree;  ///< [rad] between a plane and the rays to it
+  int min_points = 150;                                             ///< points, after averaging, of a surface
   Outline outline = Outline::concave;
 
   static const base::OptionTable<CloudPlaneOptions>& table();
@@ -51,6 +52,7 @@ struct CloudPlanes {
 /// noise,
 ///   high dimensional robust estimation, BMVC 2002.
 /// - How far a point may be from a plane is told by the noise of its range.
+/// - A sensor sees no plane edge-on: but the points of one turn of a laser do lie on planes through it.
 /// - A concave outline is that of the cells of `max_gap` that the points fill, drawn in to the points.
 class CloudPlaneFinder {
  public:
