@@ -150,7 +150,7 @@ TEST(PosterMaking, kindsAndSeedsDiffer) {
       EXPECT_NE(body.surfaces[0].material.texture->rgb, sim::makePoster(wanted).surfaces[0].material.texture->rgb);
     }
     wanted.width = 0.4, wanted.height = 0.3;
-    const auto& outline = sim::makePoster(wanted).surfaces[0].face->outline_in_body;
+    const std::vector<Vector3d> outline = sim::makePoster(wanted).surfaces[0].face->outline_in_body;
     EXPECT_TRUE(outline[2].isApprox(Vector3d(0.2, 0.15, 0)));
   }
 }
