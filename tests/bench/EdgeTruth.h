@@ -20,7 +20,7 @@ constexpr std::uint8_t kUntold = 128;
 
 /// What a simulated camera measured, and the edges of what it truly sees.
 struct TrueEdges {
-  EdgeFrame frame;
+  RgbdFrame frame;
   std::vector<std::uint8_t> labels;  ///< bits of perception::EdgeKind, and kUntold
 };
 
@@ -71,9 +71,9 @@ class EdgeTruth {
     return cv::imdecode(std::vector<char>(png.begin(), png.end()), cv::IMREAD_UNCHANGED);
   }
 
-  static EdgeFrame frameOf(const mrpt::obs::CObservation3DRangeScan& scan) {
+  static RgbdFrame frameOf(const mrpt::obs::CObservation3DRangeScan& scan) {
     const auto& c = scan.cameraParams;
-    EdgeFrame frame{static_cast<int>(c.ncols),
+    RgbdFrame frame{static_cast<int>(c.ncols),
                     static_cast<int>(c.nrows),
                     scan.rangeUnits,
                     {c.fx(), c.fy(), c.cx(), c.cy()},
@@ -150,7 +150,7 @@ class EdgeTruth {
   double least_jump_, least_turn_;
   std::map<int, Plane> planes_;
   cv::Mat names_, depths_;
-  const EdgeFrame* frame_ = nullptr;
+  const RgbdFrame* frame_ = nullptr;
 };
 
 }  // namespace omnimapper::bench

@@ -15,7 +15,7 @@ using Point = pcl::PointXYZRGB;
 using Cloud = pcl::PointCloud<Point>;
 using Normals = pcl::PointCloud<pcl::Normal>;
 
-Cloud::Ptr cloudOf(const EdgeFrame& frame) {
+Cloud::Ptr cloudOf(const RgbdFrame& frame) {
   auto cloud =
       pcl::make_shared<Cloud>(static_cast<std::uint32_t>(frame.width), static_cast<std::uint32_t>(frame.height));
   cloud->is_dense = false;
@@ -66,7 +66,7 @@ std::vector<std::uint8_t> labelsOf(Detector& detector, const Cloud::Ptr& cloud, 
 template <class Run>
 EdgePeer peer(const std::string& name, const Run& run) {
   auto cloud = std::make_shared<Cloud::Ptr>();
-  return {name, [cloud](const EdgeFrame& frame) { *cloud = cloudOf(frame); }, [cloud, run] { return run(*cloud); }};
+  return {name, [cloud](const RgbdFrame& frame) { *cloud = cloudOf(frame); }, [cloud, run] { return run(*cloud); }};
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "EdgePeers.h"
@@ -42,8 +41,8 @@ double quantile(std::vector<double> values, double q) {
 using Labels = std::vector<std::uint8_t>;
 
 EdgePeer ours(const std::string& name, const EdgeOptions& options, bool with_picture, unsigned points_of) {
-  auto frame = std::make_shared<EdgeFrame>();
-  return {name, [frame](const EdgeFrame& given) { *frame = given; },
+  auto frame = std::make_shared<RgbdFrame>();
+  return {name, [frame](const RgbdFrame& given) { *frame = given; },
           [frame, with_picture, points_of, detector = perception::EdgeDetector(options)] {
             const perception::DepthImage image(frame->units.data(), frame->metres_per_unit, frame->width, frame->height,
                                                frame->camera);
@@ -56,8 +55,8 @@ EdgePeer ours(const std::string& name, const EdgeOptions& options, bool with_pic
 }
 
 EdgePeer openCvCanny() {
-  auto frame = std::make_shared<EdgeFrame>();
-  return {"OpenCV cvtColor + Canny", [frame](const EdgeFrame& given) { *frame = given; },
+  auto frame = std::make_shared<RgbdFrame>();
+  return {"OpenCV cvtColor + Canny", [frame](const RgbdFrame& given) { *frame = given; },
           [frame] {
             const cv::Mat rgb(frame->height, frame->width, CV_8UC3, frame->rgb.data());
             cv::Mat grey, edges;
@@ -82,37 +81,6 @@ std::vector<EdgePeer> methods() {
                             openCvCanny()};
   for (const auto& peer : pclEdges()) all.push_back(peer);
   return all;
-}
-
-// The file whose name, a time, is nearest.
-std::string nearest(const std::vector<std::string>& files, const std::string& to) {
-  const auto timeOf = [](const std::string& file) { return std::stod(std::filesystem::path(file).stem()); };
-  return *std::min_element(files.begin(), files.end(), [&](const auto& a, const auto& b) {
-    return std::abs(timeOf(a) - timeOf(to)) < std::abs(timeOf(b) - timeOf(to));
-  });
-}
-
-std::vector<std::string> filesOf(const std::string& folder) {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::vector<EdgeFrame> readTum(const std::string& folder, int every, const perception::Pinhole& camera) {
-  const auto depths = filesOf(folder + "/depth"), pictures = filesOf(folder + "/rgb");
-  std::vector<EdgeFrame> frames;
-  for (std::size_t i = 0; i < depths.size(); i += static_cast<std::size_t>(every)) {
-    const cv::Mat depth = cv::imread(depths[i], cv::IMREAD_UNCHANGED);
-    cv::Mat rgb;
-    cv::cvtColor(cv::imread(nearest(pictures, depths[i])), rgb, cv::COLOR_BGR2RGB);
-    if (depth.type() != CV_16U || depth.size() != rgb.size()) throw std::runtime_error("cannot use " + depths[i]);
-    EdgeFrame frame{depth.cols, depth.rows, 1.0 / 5000, camera, {}, {}};
-    frame.units.assign(depth.begin<std::uint16_t>(), depth.end<std::uint16_t>());
-    frame.rgb.assign(rgb.data, rgb.data + 3 * frame.units.size());
-    frames.push_back(std::move(frame));
-  }
-  return frames;
 }
 
 // Of the pixels of `one` with a kind, the part within `reach` pixels of one of `other` with it; both may be summed.
@@ -148,11 +116,11 @@ Labels judged(Labels labels, const Labels& truth, int width, int reach) {
   return labels;
 }
 
-void printTimes(const std::vector<EdgeFrame>& frames, int rounds) {
+void printTimes(const std::vector<RgbdFrame>& frames, int rounds) {
   const auto all = methods();
   std::vector<std::vector<double>> times(all.size());
   for (int round = 0; round < rounds; ++round) {
-    for (const EdgeFrame& frame : frames) {
+    for (const RgbdFrame& frame : frames) {
       for (std::size_t m = 0; m < all.size(); ++m) {
         all[m].take(frame);
         const double begin = now();
@@ -169,7 +137,7 @@ void printTimes(const std::vector<EdgeFrame>& frames, int rounds) {
   }
 }
 
-void printAgreement(const std::vector<EdgeFrame>& frames, int reach) {
+void printAgreement(const std::vector<RgbdFrame>& frames, int reach) {
   const auto ours_all = ours("", EdgeOptions(), true, 0), canny = openCvCanny();
   const auto peers = pclEdges();
   std::printf(
@@ -181,7 +149,7 @@ void printAgreement(const std::vector<EdgeFrame>& frames, int reach) {
     const bool use_canny = kind == perception::kRgb;
     if (!use_canny && peers.empty()) continue;
     const EdgePeer& peer = use_canny ? canny : peers.back();
-    for (const EdgeFrame& frame : frames) {
+    for (const RgbdFrame& frame : frames) {
       ours_all.take(frame);
       peer.take(frame);
       const Labels a = ours_all.run();
@@ -273,7 +241,7 @@ int main(int argc, char** argv) {
   app.add_option("--turn", truth.least_turn_deg, "least true turn [deg]");
   CLI11_PARSE(app, argc, argv);
   if (!tum.empty()) {
-    const auto frames = readTum(tum, every, {camera[0], camera[1], camera[2], camera[3]});
+    const auto frames = readRgbd(tum, every, {camera[0], camera[1], camera[2], camera[3]});
     printTimes(frames, rounds);
     printAgreement(frames, agreement);
   }

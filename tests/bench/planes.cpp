@@ -5,6 +5,7 @@
 // Example: bench-planes --depth tum_fr1_rpy/depth --every 5 --rooms 20
 #include <omnimapper/perception/Normals.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
+#include <omnimapper/perception/SameLabel.h>
 #include <time.h>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +21,6 @@
 #include "planes/Outlines.h"
 #include "planes/PixelLabels.h"
 #include "planes/RegionFit.h"
-#include "planes/SameLabel.h"
 #include "planes/SmallRegions.h"
 
 namespace {
@@ -137,7 +137,8 @@ void printStages(const std::vector<DepthFrame>& frames, int rounds) {
     lap("small regions dropped");
     const auto labels = labelPixels(inverse, frame.camera, noise, grid, regions);
     lap("pixels labelled");
-    const auto components = perception::connectComponents(labels.stride, labels.rows, SameLabel{labels.values.data()});
+    const auto components =
+        perception::connectComponents(labels.stride, labels.rows, perception::SameLabel{labels.values.data()});
     lap("components");
     const auto fitted = fitRegions(inverse, frame.camera, noise, components, labels, regions, options.min_pixels);
     lap("planes of pixels");

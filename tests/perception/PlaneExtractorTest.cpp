@@ -149,6 +149,48 @@ TEST(PlaneExtractor, ColoursAreSeenFromWhereTheirCameraIs) {
   EXPECT_FALSE(extract(scan)->planes.at(0).colour) << "out of view";
 }
 
+PlaneExtractor byColour() {
+  PlaneComparisonOptions comparison;
+  comparison.comparison = &kSamePlaneAndColour;
+  return PlaneExtractor({}, {}, comparison);
+}
+
+TEST(PlaneExtractor, AWallOfTwoColoursFallsInTwo) {
+  auto scan = rangeScan(kWall);
+  addColours(scan);
+  EXPECT_EQ(extract(scan)->planes.size(), 1U);
+  const auto halves = byColour().extract(scan);
+  ASSERT_EQ(halves->planes.size(), 2U);
+  for (const auto& half : halves->planes) EXPECT_EQ(half.inliers, kWidth * kHeight / 2);
+  const bool left_first = halves->planes[0].centroid.y() > 0;
+  EXPECT_EQ(*halves->planes[left_first ? 0 : 1].colour, (Rgb{200, 10, 20}));
+  EXPECT_EQ(*halves->planes[left_first ? 1 : 0].colour, (Rgb{30, 220, 40}));
+}
+
+TEST(PlaneExtractor, ColoursThatPartPlanesAreSeenFromWhereTheirCameraIs) {
+  // 0.4 m to the right, a wall 2 m ahead lies 20 pixels farther left, and so much less of the right half is seen of it.
+  auto scan = rangeScan(kWall);
+  addColours(scan);
+  scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, -0.4, 0, -0.5 * M_PI, 0, -0.5 * M_PI);
+  const auto parts = byColour().extract(scan);
+  ASSERT_EQ(parts->planes.size(), 3U) << "red, green, and what the picture does not show";
+  EXPECT_EQ(parts->planes[0].inliers, (kWidth / 2 + 20 - 20) * kHeight);
+  EXPECT_EQ(parts->planes[1].inliers, (kWidth / 2 - 20) * kHeight);
+  EXPECT_EQ(parts->planes[2].inliers, 20 * kHeight);
+  EXPECT_FALSE(parts->planes[2].colour);
+}
+
+TEST(PlaneExtractor, AComparatorOfColoursNeedsAPicture) {
+  try {
+    byColour().extract(rangeScan(kWall));
+    FAIL();
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::unreadable_input);
+    for (const char* word : {"kinect", "picture", "comparator = plane"})
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+}
+
 TEST(PlaneExtractor, GreysAreColoursToo) {
   auto scan = rangeScan(kWall);
   addColours(scan);

@@ -45,6 +45,32 @@ TEST(PlanesPlugin, TurnsDepthImagesAndNothingElseIntoPlanes) {
   EXPECT_EQ(derived.front()->timestamp, scan.timestamp);
 }
 
+// Its left half is dark.
+mrpt::obs::CObservation3DRangeScan twoColours() {
+  auto scan = wall();
+  scan.hasIntensityImage = true;
+  scan.cameraParamsIntensity = scan.cameraParams;
+  scan.intensityImage = mrpt::img::CImage(100, 80, mrpt::img::CH_RGB);
+  scan.intensityImage.filledRectangle(0, 0, 99, 79, mrpt::img::TColor(200, 200, 200));
+  scan.intensityImage.filledRectangle(0, 0, 49, 79, mrpt::img::TColor(40, 40, 40));
+  return scan;
+}
+
+TEST(PlanesPlugin, SwapsItsComparatorByTheIni) {
+  const auto count = [](const std::string& options) {
+    const auto derived = made(options).extractors.front().plugin->extract(twoColours());
+    return std::dynamic_pointer_cast<obs::CObservationPlanes>(derived.at(0))->planes.size();
+  };
+  EXPECT_EQ(count(""), 1U);
+  EXPECT_EQ(count("comparator = plane\n"), 1U);
+  EXPECT_EQ(count("comparator = plane_colour\n"), 2U);
+  EXPECT_EQ(count("comparator = plane_colour\nmax_colour_distance = 280\n"), 1U) << "160 sqrt(3) = 277";
+  EXPECT_EQ(count("comparator = normals\n"), 1U);
+  EXPECT_THROW(made("comparator = colour\n"), base::Error);
+  EXPECT_THROW(made("max_colour_distance = 443\n"), base::Error);
+  EXPECT_THROW(countOf("comparator = plane_colour\n"), base::Error) << "no picture";
+}
+
 TEST(PlanesPlugin, ReadsItsOptionsFromTheIni) {
   EXPECT_EQ(countOf(""), 1U);
   EXPECT_EQ(countOf("outline_tolerance_px = 0\n"), 1U);

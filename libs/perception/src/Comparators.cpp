@@ -3,13 +3,14 @@
 #include <omnimapper/perception/ColouredPlaneComparator.h>
 #include <omnimapper/perception/ConvexClusterComparator.h>
 #include <omnimapper/perception/RoadComparator.h>
+#include <omnimapper/perception/SmoothComparator.h>
 
 namespace omnimapper::perception {
 
-template Components connectComponents(int, int, const PlaneComparator&);
 template Components connectComponents(int, int, const ColouredPlaneComparator&);
 template Components connectComponents(int, int, const ClusterComparator&);
 template Components connectComponents(int, int, const ConvexClusterComparator&);
 template Components connectComponents(int, int, const RoadComparator&);
+template Components connectComponents(int, int, const SmoothComparator&);
 
 }  // namespace omnimapper::perception

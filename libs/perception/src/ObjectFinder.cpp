@@ -1,9 +1,11 @@
 #include <omnimapper/perception/ConvexClusterComparator.h>
+#include <omnimapper/perception/GrowLabels.h>
 #include <omnimapper/perception/ObjectFinder.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "objects/OrientedBox.h"
 #include "objects/Surfaces.h"
@@ -79,15 +81,6 @@ std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const
   return labels;
 }
 
-NormalImage normalsOf(const DepthImage& image, const PlaneOptions& sensor) {
-  NormalOptions options;
-  options.noise_at_1m = sensor.noise_at_1m;
-  options.step_at_1m = sensor.step_at_1m;
-  options.min_depth = sensor.min_depth;
-  options.max_depth = sensor.max_depth;
-  return NormalEstimator(options).estimate(image);
-}
-
 using Clusters = std::vector<std::vector<int>>;  // pixels, ascending
 
 Clusters pixelsOf(const std::vector<std::int32_t>& labels) {
@@ -100,37 +93,14 @@ Clusters pixelsOf(const std::vector<std::int32_t>& labels) {
   return clusters;
 }
 
-// Pixels without a label take that of a near neighbour, ring by ring.
-void grow(const ClusterComparator& near, std::vector<std::int32_t>& labels) {
-  const int width = near.points.width, height = near.points.height;
-  std::vector<int> front;
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] > 0) front.push_back(static_cast<int>(i));
-  }
-  for (std::size_t k = 0; k < front.size(); ++k) {
-    const int pixel = front[k], x = pixel % width, y = pixel / width;
-    const auto visit = [&](bool is_inside, int neighbour) {
-      if (!is_inside) return;
-      std::int32_t& label = labels[static_cast<std::size_t>(neighbour)];
-      if (label != 0 || !near.valid(neighbour) || !near.similar(pixel, neighbour)) return;
-      label = labels[static_cast<std::size_t>(pixel)];
-      front.push_back(neighbour);
-    };
-    visit(x > 0, pixel - 1);
-    visit(x + 1 < width, pixel + 1);
-    visit(y > 0, pixel - width);
-    visit(y + 1 < height, pixel + width);
-  }
-}
-
 Clusters clustersOf(const DepthImage& image, const ClusterComparator& near, const ObjectOptions& options,
                     const PlaneOptions& sensor) {
   const int width = image.width(), height = image.height();
   if (options.comparator == ObjectOptions::Comparator::euclidean)
     return pixelsOf(connectComponents(width, height, near).labels(options.min_points));
-  const NormalImage normals = normalsOf(image, sensor);
+  const NormalImage normals = NormalEstimator(sensor.normals()).estimate(image);
   auto labels = connectComponents(width, height, ConvexClusterComparator{near, normals}).labels(options.min_points);
-  grow(near, labels);
+  growLabels(width, height, near, std::numeric_limits<int>::max(), labels);
   return pixelsOf(labels);
 }
 

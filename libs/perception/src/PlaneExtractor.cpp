@@ -1,3 +1,4 @@
+#include <omnimapper/base/Error.h>
 #include <omnimapper/perception/PlaneExtractor.h>
 
 #include "RangeScan.h"
@@ -14,7 +15,17 @@ const base::OptionTable<OutlineOptions>& OutlineOptions::table() {
 
 std::shared_ptr<obs::CObservationPlanes> PlaneExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
   const ScanDepth depth(scan);
-  return planes::observe(segmenter_.segment(depth.image()), scan, depth, ScanColours(scan), outlines_.tolerance);
+  const ScanColours colours(scan);
+  if (!segmenter_.needsColours())
+    return planes::observe(segmenter_.segment(depth.image()), scan, depth, colours, outlines_.tolerance);
+  if (!colours.exist()) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      scan.sensorLabel +
+                          ": its scans have no picture of 8 bits a channel, and the comparator of planes compares "
+                          "colours; comparator = plane does without");
+  }
+  return planes::observe(segmenter_.segment(depth.image(), colours.inDepthView(depth)), scan, depth, colours,
+                         outlines_.tolerance);
 }
 
 }  // namespace omnimapper::perception

@@ -1,10 +1,10 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
 
-#include "planes/CellRegions.h"
+#include <algorithm>
+
 #include "planes/Description.h"
-#include "planes/PixelLabels.h"
-#include "planes/SmallRegions.h"
+#include "planes/LabelledPlanes.h"
 
 namespace omnimapper::perception {
 
@@ -28,7 +28,29 @@ const base::OptionTable<PlaneOptions>& PlaneOptions::table() {
   return table;
 }
 
-PlaneSegmenter::PlaneSegmenter(const PlaneOptions& options) : options_(options) {
+NormalOptions PlaneOptions::normals() const {
+  NormalOptions options;
+  options.noise_at_1m = noise_at_1m;
+  options.step_at_1m = step_at_1m;
+  options.min_depth = min_depth;
+  options.max_depth = max_depth;
+  return options;
+}
+
+namespace {
+
+// Rows of `from`, `stride` long.
+std::vector<obs::Rgb> widened(const std::vector<obs::Rgb>& from, int width, int height, int stride) {
+  std::vector<obs::Rgb> to(static_cast<std::size_t>(stride) * static_cast<std::size_t>(height));
+  for (std::ptrdiff_t y = 0; y < height; ++y)
+    std::copy(from.begin() + y * width, from.begin() + (y + 1) * width, to.begin() + y * stride);
+  return to;
+}
+
+}  // namespace
+
+PlaneSegmenter::PlaneSegmenter(const PlaneOptions& options, const PlaneComparisonOptions& comparison)
+    : options_(options), comparison_(comparison) {
   if (!(options.min_depth < options.max_depth)) {
     throw base::Error(base::ExitCode::out_of_range,
                       "planes: min_depth_m = " + std::to_string(options.min_depth) + " is not below max_depth_m = " +
@@ -36,19 +58,26 @@ PlaneSegmenter::PlaneSegmenter(const PlaneOptions& options) : options_(options) 
   }
 }
 
-PlaneSegmentation PlaneSegmenter::segment(const DepthImage& image) const {
-  using namespace planes;
-  if (image.width() == 0 || image.height() == 0) return {image.width(), image.height(), {}, {}};
-
-  const DepthNoise noise = options_.noise();
-  const Pinhole& camera = image.camera();
-  const InverseDepth inverse = invert(image, options_.min_depth, options_.max_depth);
-  const CellGrid grid = fitCells(inverse, camera, noise);
-  const CellRegions merged = mergeRegions(grid, noise, growRegions(grid, noise));
-  const CellRegions regions = dropExplained(inverse, camera, noise, grid, merged);
-  PixelLabels labels = labelPixels(inverse, camera, noise, grid, regions);
-  return describe(inverse, camera, noise, regions, std::move(labels),
-                  {options_.min_pixels, options_.min_hole_pixels, options_.max_depth});
+PlaneSegmentation PlaneSegmenter::segment(const DepthImage& image, const std::vector<obs::Rgb>& colours) const {
+  const int width = image.width(), height = image.height();
+  if (width == 0 || height == 0) return {width, height, {}, {}};
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (needsColours() && colours.size() != pixels) {
+    throw base::Error(base::ExitCode::unreadable_input, "a comparison of colours has " +
+                                                            std::to_string(colours.size()) + " of them for " +
+                                                            std::to_string(pixels) + " pixels");
+  }
+  const planes::InverseDepth inverse = planes::invert(image, options_.min_depth, options_.max_depth);
+  planes::LabelledPlanes found = comparison_.comparison->find(image, inverse, options_);
+  PlanePixels seen{found.labels.stride, found.labels.rows, found.labels.values.data(), colours.data()};
+  std::vector<obs::Rgb> padded;
+  if (needsColours() && seen.width != width) {
+    padded = widened(colours, width, height, seen.width);
+    seen.colours = padded.data();
+  }
+  const Components components = comparison_.comparison->connect(seen, comparison_);
+  return planes::describe(inverse, image.camera(), options_.noise(), found.regions, std::move(found.labels), components,
+                          {options_.min_pixels, options_.min_hole_pixels, options_.max_depth});
 }
 
 }  // namespace omnimapper::perception

@@ -122,6 +122,19 @@ std::optional<obs::Rgb> ScanColours::at(int x, int y, double depth) const {
   return pixel(place->x, place->y);
 }
 
+std::vector<obs::Rgb> ScanColours::inDepthView(const ScanDepth& depth) const {
+  const int width = depth.image().width(), height = depth.image().height();
+  std::vector<obs::Rgb> colours(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  std::size_t i = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x, ++i) {
+      const double z = depth.at(i);
+      if (z > 0) colours[i] = at(x, y, z).value_or(obs::Rgb());
+    }
+  }
+  return colours;
+}
+
 ColourImage ScanColours::picture() const {
   if (!exist()) return {};
   const auto height = static_cast<int>(rows_.size());

@@ -52,6 +52,9 @@ class ScanColours {
   /// Of what the pixel in column x and row y of the depth image sees at that depth [m]; none outside the picture.
   std::optional<obs::Rgb> at(int x, int y, double depth) const;
 
+  /// Of all pixels of the depth image, row by row; black where there is no depth or none is seen.
+  std::vector<obs::Rgb> inDepthView(const ScanDepth& depth) const;
+
   /// Column and row of the picture.
   struct Place {
     int x, y;

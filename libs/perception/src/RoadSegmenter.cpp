@@ -1,6 +1,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/perception/RoadComparator.h>
 #include <omnimapper/perception/RoadSegmenter.h>
+#include <omnimapper/perception/SameLabel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -198,9 +199,10 @@ RoadSegmentation RoadSegmenter::segment(const DepthImage& image, const geometry:
   auto labels = Growth(inverse, image.camera(), result.sure).grow(tolerance, [&](std::size_t i) {
     return comparator.isNear(i) && feet[i] == 0;
   });
-  result.ground =
-      planes::describe(inverse, image.camera(), options_.noise(), expectedRegion(expected, image.camera()),
-                       std::move(labels), {options_.min_pixels, options_.min_hole_pixels, options_.max_depth});
+  const Components components = connectComponents(labels.stride, labels.rows, SameLabel{labels.values.data()});
+  result.ground = planes::describe(inverse, image.camera(), options_.noise(), expectedRegion(expected, image.camera()),
+                                   std::move(labels), components,
+                                   {options_.min_pixels, options_.min_hole_pixels, options_.max_depth});
   for (std::size_t i = 0; i < result.sure.size(); ++i) result.sure[i] &= result.ground.labels[i] != 0;
   return result;
 }

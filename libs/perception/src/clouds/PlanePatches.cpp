@@ -2,12 +2,12 @@
 
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/perception/ConnectedComponents.h>
+#include <omnimapper/perception/SameLabel.h>
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "../planes/SameLabel.h"
 #include "FlatGrid.h"
 
 namespace omnimapper::perception::clouds {
@@ -64,7 +64,7 @@ std::vector<PlanePatch> findPatches(const LoosePoints& points, const geometry::P
   std::vector<PlanePatch> patches;
   if (near.empty()) return patches;
   const FlatGrid grid(points, near, plane, options.max_gap);
-  const Components components = connectComponents(grid.width(), grid.height(), planes::SameLabel{grid.filled().data()});
+  const Components components = connectComponents(grid.width(), grid.height(), SameLabel{grid.filled().data()});
   const auto component_of_cell = components.labels();
   std::vector<std::vector<int>> members(components.pixels.size());
   for (const int i : near) {

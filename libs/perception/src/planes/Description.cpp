@@ -4,22 +4,25 @@
 
 #include "Outlines.h"
 #include "RegionFit.h"
-#include "SameLabel.h"
 
 namespace omnimapper::perception::planes {
 
 namespace {
 
-// Labels of regions of cells become those of the result.
+// Labels of regions of cells become those of the result; pixels of no component lose theirs.
 void relabel(const Components& components, const std::vector<FittedRegion>& fitted, PixelLabels& labels) {
   std::vector<std::uint16_t> of_component(components.pixels.size(), 0);
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     of_component[static_cast<std::size_t>(fitted[i].component)] = static_cast<std::uint16_t>(i + 1);
   }
+  auto done = labels.values.begin();
   for (const PixelRun& run : components.runs) {
     const auto row = labels.values.begin() + static_cast<std::ptrdiff_t>(run.row) * labels.stride;
-    std::fill(row + run.begin, row + run.end, of_component[static_cast<std::size_t>(run.component)]);
+    std::fill(done, row + run.begin, std::uint16_t(0));
+    done = row + run.end;
+    std::fill(row + run.begin, done, of_component[static_cast<std::size_t>(run.component)]);
   }
+  std::fill(done, labels.values.end(), std::uint16_t(0));
 }
 
 // Without the columns and rows of padding.
@@ -49,11 +52,11 @@ Contour onPlane(std::vector<PixelCorner> corners, const ImagePlane& plane, const
 }  // namespace
 
 PlaneSegmentation describe(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
-                           const CellRegions& regions, PixelLabels labels, const DescriptionLimits& limits) {
+                           const CellRegions& regions, PixelLabels labels, const Components& components,
+                           const DescriptionLimits& limits) {
   PlaneSegmentation result;
   result.width = inverse.width;
   result.height = inverse.height;
-  const Components components = connectComponents(labels.stride, labels.rows, SameLabel{labels.values.data()});
   auto fitted = fitRegions(inverse, camera, noise, components, labels, regions, limits.min_pixels);
   relabel(components, fitted, labels);
   auto lines = traceOutlines(labels.values, labels.stride, labels.rows, components.runs, limits.min_hole_pixels);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/perception/ConnectedComponents.h>
 #include <omnimapper/perception/PlaneRegion.h>
 
 #include "CellRegions.h"
@@ -13,9 +14,10 @@ struct DescriptionLimits {
   double max_depth = 0;     ///< [m]
 };
 
-/// The connected components of pixels with equal labels as planes: fitted to the pixel, starting from those of
-/// `regions` (label - 1 is the index), with traced outlines.
+/// Connected components of pixels, each with labels that are equal, as planes: fitted to the pixel, starting from those
+/// of `regions` (label - 1 is the index), with traced outlines.
 PlaneSegmentation describe(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
-                           const CellRegions& regions, PixelLabels labels, const DescriptionLimits& limits);
+                           const CellRegions& regions, PixelLabels labels, const Components& components,
+                           const DescriptionLimits& limits);
 
 }  // namespace omnimapper::perception::planes

@@ -7,7 +7,7 @@ IMPLEMENTS_MRPT_OBJECT(PlanesPluginFactory, omnimapper::mapper::ExtractorFactory
 namespace omnimapper::plugins {
 
 using mrpt::obs::CObservation3DRangeScan;
-using Section = SharedSection<perception::PlaneOptions, perception::OutlineOptions>;
+using Section = SharedSection<perception::PlaneComparisonOptions, perception::PlaneOptions, perception::OutlineOptions>;
 
 bool PlanesPlugin::wants(const mrpt::obs::CObservation& raw) const {
   const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
@@ -25,7 +25,8 @@ const std::vector<base::OptionSpec>& PlanesPluginFactory::options() const {
 std::unique_ptr<mapper::Extractor> PlanesPluginFactory::make(const base::ConfigSection& section,
                                                              const mapper::PluginContext&) const {
   return std::make_unique<PlanesPlugin>(Section::read<perception::PlaneOptions>(section),
-                                        Section::read<perception::OutlineOptions>(section));
+                                        Section::read<perception::OutlineOptions>(section),
+                                        Section::read<perception::PlaneComparisonOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

@@ -1,24 +1,44 @@
 #pragma once
 
-#include <omnimapper/perception/PlaneComparator.h>
-
-#include <cstdint>
+#include <omnimapper/perception/ConnectedComponents.h>
+#include <omnimapper/perception/PlanePixels.h>
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours on one smooth surface and of one colour (thesis 3.4.5): sheets of paper on a table.
+/// Comparator: neighbours on one plane and of one colour (thesis 3.4.5): sheets of paper on a table. In a picture the
+/// edge between two colours is some pixels wide, so that neighbours there differ by little: pixels across which the
+/// colour changes within `reach` belong to no component. Light that changes slowly parts nothing.
 struct ColouredPlaneComparator {
-  PlaneComparator plane;
-  const std::uint8_t* rgb;         ///< three bytes for each pixel, of the same view as the depth
-  float max_colour_distance = 30;  ///< Euclidean, in the 256 steps of a channel
+  PlanePixels pixels;
+  double max_distance = 30;  ///< Euclidean in RGB, in the 256 steps of a channel
+  int reach = 2;             ///< [px] on either side
 
-  bool valid(int pixel) const { return plane.valid(pixel); }
+  bool valid(int pixel) const {
+    const int column = pixel % pixels.width, row = pixel / pixels.width;
+    return pixels.planes[pixel] != 0 && isPlain(pixel, 1, column, pixels.width - 1 - column) &&
+           isPlain(pixel, pixels.width, row, pixels.height - 1 - row);
+  }
 
-  bool similar(int a, int b) const {
-    const std::uint8_t *p = rgb + 3 * static_cast<std::ptrdiff_t>(a), *q = rgb + 3 * static_cast<std::ptrdiff_t>(b);
-    const int red = p[0] - q[0], green = p[1] - q[1], blue = p[2] - q[2];
-    return static_cast<float>(red * red + green * green + blue * blue) <= max_colour_distance * max_colour_distance &&
-           plane.similar(a, b);
+  bool similar(int a, int b) const { return pixels.planes[a] == pixels.planes[b] && isAlike(a, b); }
+
+ private:
+  bool isAlike(int a, int b) const {
+    const obs::Rgb &p = pixels.colours[a], &q = pixels.colours[b];
+    const int red = p.red - q.red, green = p.green - q.green, blue = p.blue - q.blue;
+    return red * red + green * green + blue * blue <= max_distance * max_distance;
+  }
+
+  // With so many pixels before and behind it along the row (step 1) or the column.
+  bool isPlain(int pixel, int step, int before, int behind) const {
+    const int one = onPlane(pixel, -step, before), other = onPlane(pixel, step, behind);
+    return isAlike(one, other) && isAlike(pixel, one) && isAlike(pixel, other);
+  }
+
+  // The farthest within reach that is on the same plane; a step leads to the next.
+  int onPlane(int pixel, int step, int room) const {
+    int other = pixel + step * (reach < room ? reach : room);
+    while (pixels.planes[other] != pixels.planes[pixel]) other -= step;
+    return other;
   }
 };
 

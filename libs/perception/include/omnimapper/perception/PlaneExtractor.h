@@ -22,15 +22,16 @@ inline constexpr char kPlanesSuffix[] = ".planes";
 class PlaneExtractor {
  public:
   /// Throws Error(out_of_range) for min_depth >= max_depth.
-  PlaneExtractor(const PlaneOptions& planes, const OutlineOptions& outlines)
-      : segmenter_(planes), outlines_(outlines) {}
+  PlaneExtractor(const PlaneOptions& planes, const OutlineOptions& outlines,
+                 const PlaneComparisonOptions& comparison = {})
+      : segmenter_(planes, comparison), outlines_(outlines) {}
 
   /// Planes with the scan's stamp and sensorPose, in the frame of that pose (x forward, y left, z up), label
   /// "<scan label>.planes". Colours are those of the scan's image, seen through the two cameras' calibrations where its
   /// view is another. Depth of 0 or 65535 units is none; distortion of the lens is not taken out. A scan without depths
-  /// has no planes. Throws Error(unreadable_input) for a camera whose focal length is unknown and Error(missing_images)
-  /// for images that are in files and were not loaded; sources load them. Thread-safe; the same scan gives the same
-  /// bits.
+  /// has no planes. Throws Error(unreadable_input) for a camera whose focal length is unknown, or where a comparison
+  /// needs colours and the scan has none, and Error(missing_images) for images that are in files and were not loaded;
+  /// sources load them. Thread-safe; the same scan gives the same bits.
   std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
  private:

@@ -3,7 +3,11 @@
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/perception/DepthImage.h>
 #include <omnimapper/perception/DepthNoise.h>
+#include <omnimapper/perception/Normals.h>
+#include <omnimapper/perception/PlaneComparison.h>
 #include <omnimapper/perception/PlaneRegion.h>
+
+#include <vector>
 
 namespace omnimapper::perception {
 
@@ -18,6 +22,8 @@ struct PlaneOptions {
   int min_hole_pixels = 30;                            ///< smaller holes are not outlined
 
   DepthNoise noise() const { return {noise_at_1m, step_at_1m, bend_at_1m, correlation_area}; }
+  /// For normals of the same sensor.
+  NormalOptions normals() const;
   static const base::OptionTable<PlaneOptions>& table();
 };
 
@@ -25,18 +31,23 @@ struct PlaneOptions {
 /// A plane is linear in inverse depth, 1/z = a u + b v + c, and the noise of triangulating sensors is the same
 /// everywhere in inverse depth: least squares there are exact for planes, and each threshold is one number of the noise
 /// model, near and far. Cells of 16 x 16 pixels are fitted and grown to regions, regions that one plane explains are
-/// merged, borders are decided pixel by pixel, and what remains is fitted again and traced. The same bits on every
-/// x86-64, with AVX2 and without.
+/// merged, borders are decided pixel by pixel, and what remains is fitted again and traced. The comparison may ask for
+/// more than one plane, or find planes another way. The same bits on every x86-64, with AVX2 and without.
 class PlaneSegmenter {
  public:
   /// Throws Error(out_of_range) for min_depth >= max_depth.
-  explicit PlaneSegmenter(const PlaneOptions& options);
+  explicit PlaneSegmenter(const PlaneOptions& options, const PlaneComparisonOptions& comparison = {});
 
   /// Thread-safe. An image without a plane, of whatever size, gives none.
-  PlaneSegmentation segment(const DepthImage& image) const;
+  PlaneSegmentation segment(const DepthImage& image) const { return segment(image, {}); }
+  /// With the colour of each pixel, row by row, black where it is not known. A comparison that needs colours throws
+  /// Error(unreadable_input) where there are not as many as pixels.
+  PlaneSegmentation segment(const DepthImage& image, const std::vector<obs::Rgb>& colours) const;
+  bool needsColours() const { return comparison_.comparison->needs_colours; }
 
  private:
   PlaneOptions options_;
+  PlaneComparisonOptions comparison_;
 };
 
 }  // namespace omnimapper::perception

@@ -8,8 +8,9 @@ namespace omnimapper::plugins {
 /// perception::PlaneExtractor for the worker pool.
 class PlanesPlugin : public mapper::Extractor {
  public:
-  PlanesPlugin(const perception::PlaneOptions& planes, const perception::OutlineOptions& outlines)
-      : extractor_(planes, outlines) {}
+  PlanesPlugin(const perception::PlaneOptions& planes, const perception::OutlineOptions& outlines,
+               const perception::PlaneComparisonOptions& comparison)
+      : extractor_(planes, outlines, comparison) {}
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;

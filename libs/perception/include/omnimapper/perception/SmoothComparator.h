@@ -9,7 +9,7 @@
 namespace omnimapper::perception {
 
 /// Comparator: neighbours on one smooth surface, as the planes through them say (thesis 3.4.3).
-struct PlaneComparator {
+struct SmoothComparator {
   const OrganisedPoints& points;
   const NormalImage& normals;
   float min_cosine = 0.9986F;        ///< of the angle between the normals: 3 deg
@@ -33,6 +33,6 @@ struct PlaneComparator {
   }
 };
 
-extern template Components connectComponents(int, int, const PlaneComparator&);
+extern template Components connectComponents(int, int, const SmoothComparator&);
 
 }  // namespace omnimapper::perception

@@ -1,0 +1,84 @@
+// The thesis's planes of one colour as PCL has them: normals, connected components by colour too, refinement.
+#include <pcl/features/integral_image_normal.h>
+#include <pcl/point_types.h>
+#include <pcl/segmentation/organized_multi_plane_segmentation.h>
+#include <pcl/segmentation/rgb_plane_coefficient_comparator.h>
+
+#include "ComparatorPeers.h"
+
+namespace omnimapper::bench {
+
+namespace {
+
+using Point = pcl::PointXYZRGB;
+using Cloud = pcl::PointCloud<Point>;
+
+Cloud::Ptr cloudOf(const RgbdFrame& frame) {
+  const auto width = static_cast<std::uint32_t>(frame.width), height = static_cast<std::uint32_t>(frame.height);
+  auto cloud = pcl::make_shared<Cloud>(width, height);
+  cloud->is_dense = false;
+  const perception::Pinhole& c = frame.camera;
+  std::size_t i = 0;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x, ++i) {
+      const auto z = frame.units[i] == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                         : static_cast<float>(frame.units[i] * frame.metres_per_unit);
+      Point& point = (*cloud)[i];
+      point.x = z * static_cast<float>((x - c.cx) / c.fx);
+      point.y = z * static_cast<float>((y - c.cy) / c.fy);
+      point.z = z;
+      point.r = frame.rgb[3 * i];
+      point.g = frame.rgb[3 * i + 1];
+      point.b = frame.rgb[3 * i + 2];
+    }
+  }
+  return cloud;
+}
+
+std::vector<std::uint16_t> planes(const Cloud::Ptr& cloud, bool by_colour) {
+  using Normals = pcl::IntegralImageNormalEstimation<Point, pcl::Normal>;
+  auto normals = pcl::make_shared<pcl::PointCloud<pcl::Normal>>();
+  Normals estimate;
+  estimate.setNormalEstimationMethod(Normals::COVARIANCE_MATRIX);
+  estimate.setMaxDepthChangeFactor(0.02F);
+  estimate.setNormalSmoothingSize(20);
+  estimate.setInputCloud(cloud);
+  estimate.compute(*normals);
+
+  pcl::OrganizedMultiPlaneSegmentation<Point, pcl::Normal, pcl::Label> segmentation;
+  if (by_colour) {
+    auto comparator = pcl::make_shared<pcl::RGBPlaneCoefficientComparator<Point, pcl::Normal>>();
+    comparator->setColorThreshold(30);
+    segmentation.setComparator(comparator);
+  }
+  segmentation.setMinInliers(1000);
+  segmentation.setAngularThreshold(3 * M_PI / 180);
+  segmentation.setDistanceThreshold(0.02);
+  segmentation.setInputNormals(normals);
+  segmentation.setInputCloud(cloud);
+  std::vector<pcl::PlanarRegion<Point>, Eigen::aligned_allocator<pcl::PlanarRegion<Point>>> regions;
+  std::vector<pcl::ModelCoefficients> coefficients;
+  std::vector<pcl::PointIndices> inliers, of_labels, boundaries;
+  auto labels = pcl::make_shared<pcl::PointCloud<pcl::Label>>();
+  segmentation.segmentAndRefine(regions, coefficients, inliers, labels, of_labels, boundaries);
+
+  std::vector<std::uint16_t> image(cloud->size(), 0);
+  for (std::size_t k = 0; k < inliers.size(); ++k) {
+    for (const int i : inliers[k].indices) image[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(k + 1);
+  }
+  return image;
+}
+
+ComparatorPeer peer(const std::string& name, bool by_colour) {
+  auto cloud = std::make_shared<Cloud::Ptr>();
+  return {name, [cloud](const RgbdFrame& frame) { *cloud = cloudOf(frame); },
+          [cloud, by_colour] { return planes(*cloud, by_colour); }};
+}
+
+}  // namespace
+
+std::vector<ComparatorPeer> pclComparators() {
+  return {peer("PCL PlaneCoefficientComparator", false), peer("PCL RGBPlaneCoefficientComparator", true)};
+}
+
+}  // namespace omnimapper::bench

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <omnimapper/perception/DepthImage.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace omnimapper::bench {
+
+/// A 16-bit depth image and the picture of the same view, three bytes a pixel: red, green, blue.
+struct RgbdFrame {
+  int width = 0, height = 0;
+  double metres_per_unit = 1;
+  perception::Pinhole camera;
+  std::vector<std::uint16_t> units;
+  std::vector<std::uint8_t> rgb;
+};
+
+inline std::vector<std::string> filesOf(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The file whose name, a time, is nearest.
+inline std::string nearest(const std::vector<std::string>& files, const std::string& to) {
+  const auto timeOf = [](const std::string& file) { return std::stod(std::filesystem::path(file).stem()); };
+  return *std::min_element(files.begin(), files.end(), [&](const auto& a, const auto& b) {
+    return std::abs(timeOf(a) - timeOf(to)) < std::abs(timeOf(b) - timeOf(to));
+  });
+}
+
+/// Every so manieth frame of a folder of the TUM RGB-D benchmark.
+inline std::vector<RgbdFrame> readRgbd(const std::string& folder, int every, const perception::Pinhole& camera) {
+  const auto depths = filesOf(folder + "/depth"), pictures = filesOf(folder + "/rgb");
+  std::vector<RgbdFrame> frames;
+  for (std::size_t i = 0; i < depths.size(); i += static_cast<std::size_t>(every)) {
+    const cv::Mat depth = cv::imread(depths[i], cv::IMREAD_UNCHANGED);
+    cv::Mat rgb;
+    cv::cvtColor(cv::imread(nearest(pictures, depths[i])), rgb, cv::COLOR_BGR2RGB);
+    if (depth.type() != CV_16U || depth.size() != rgb.size()) throw std::runtime_error("cannot use " + depths[i]);
+    RgbdFrame frame{depth.cols, depth.rows, 1.0 / 5000, camera, {}, {}};
+    frame.units.assign(depth.begin<std::uint16_t>(), depth.end<std::uint16_t>());
+    frame.rgb.assign(rgb.data, rgb.data + 3 * frame.units.size());
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+}  // namespace omnimapper::bench

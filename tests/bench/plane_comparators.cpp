@@ -1,0 +1,148 @@
+// Planes by each comparator of PlaneExtractor, and by PCL's, in one run: on recorded frames (time) and on simulated
+// rooms with sheets of other colours on their walls (agreement with the truth). Prints Markdown tables. PCL's rows are
+// there where bench-plane_comparators was built with it; its back-projection is not timed. Times are those of the
+// processor, of one thread.
+//
+// Example: bench-plane_comparators --tum tum_fr1_rpy --every 10 --rooms 20
+#include <omnimapper/perception/PlaneSegmenter.h>
+#include <time.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "../perception/ColouredRooms.h"
+#include "ComparatorPeers.h"
+
+namespace {
+
+using namespace omnimapper;
+using namespace omnimapper::bench;
+namespace rooms = perception::rooms;
+
+double now() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+ComparatorPeer ours(const std::string& name, const perception::PlaneComparison& comparison) {
+  struct Given {
+    RgbdFrame frame;
+    std::vector<obs::Rgb> colours;
+  };
+  perception::PlaneComparisonOptions options;
+  options.comparison = &comparison;
+  auto given = std::make_shared<Given>();
+  return {"ours: " + name,
+          [given](const RgbdFrame& frame) {
+            given->frame = frame;
+            given->colours.clear();
+            for (std::size_t i = 0; i < frame.rgb.size(); i += 3)
+              given->colours.push_back({frame.rgb[i], frame.rgb[i + 1], frame.rgb[i + 2]});
+          },
+          [given, segmenter = perception::PlaneSegmenter({}, options)] {
+            const RgbdFrame& f = given->frame;
+            const perception::DepthImage image(f.units.data(), f.metres_per_unit, f.width, f.height, f.camera);
+            return segmenter.segment(image, given->colours).labels;
+          }};
+}
+
+std::vector<ComparatorPeer> methods() {
+  std::vector<ComparatorPeer> all{ours("plane", perception::kSamePlane),
+                                  ours("plane_colour", perception::kSamePlaneAndColour),
+                                  ours("normals", perception::kSimilarNormals)};
+  for (const auto& peer : pclComparators()) all.push_back(peer);
+  return all;
+}
+
+double covered(const std::vector<std::uint16_t>& labels) {
+  const auto none = std::count(labels.begin(), labels.end(), 0);
+  return 1 - static_cast<double>(none) / static_cast<double>(labels.size());
+}
+
+void printTimes(const std::vector<RgbdFrame>& frames, int rounds) {
+  const auto all = methods();
+  std::vector<std::vector<double>> times(all.size());
+  std::vector<double> planes(all.size(), 0), pixels(all.size(), 0);
+  for (int round = 0; round < rounds; ++round) {
+    for (const RgbdFrame& frame : frames) {
+      for (std::size_t m = 0; m < all.size(); ++m) {
+        all[m].take(frame);
+        const double begin = now();
+        const auto labels = all[m].run();
+        times[m].push_back(now() - begin);
+        planes[m] += *std::max_element(labels.begin(), labels.end());
+        pixels[m] += covered(labels);
+      }
+    }
+  }
+  std::printf(
+      "%zu frames, %d times each\n\n| method | median [ms] | 95 %% | max | planes | pixels on planes |\n"
+      "|---|---|---|---|---|---|\n",
+      frames.size(), rounds);
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const auto runs = static_cast<double>(times[m].size());
+    std::printf("| %s | %.2f | %.2f | %.2f | %.1f | %.3f |\n", all[m].name.c_str(), quantile(times[m], 0.5),
+                quantile(times[m], 0.95), quantile(times[m], 1), planes[m] / runs, pixels[m] / runs);
+  }
+}
+
+void printRooms(int count) {
+  const auto all = methods();
+  std::vector<rooms::Agreement> sums(all.size());
+  for (int seed = 0; seed < count; ++seed) {
+    testing::Dice dice(static_cast<std::uint64_t>(seed));
+    const auto room = rooms::colouredRoom(dice);
+    const auto view = rooms::render(room.scene);
+    const int width = room.scene.width, height = room.scene.height;
+    RgbdFrame frame{width, height, 1e-4, room.scene.camera, {}, {}};
+    for (const float z : rooms::withNoise(view, width, height, {}, dice))
+      frame.units.push_back(static_cast<std::uint16_t>(std::min(65534.0, 1e4 * static_cast<double>(z) + 0.5)));
+    for (const obs::Rgb& c : rooms::picture(room, view, dice))
+      frame.rgb.insert(frame.rgb.end(), {c.red, c.green, c.blue});
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      all[m].take(frame);
+      const auto a = rooms::compare(view, all[m].run(), width, height, 1500);
+      sums[m].true_planes += a.true_planes;
+      sums[m].found += a.found;
+      sums[m].reported += a.reported;
+      sums[m].reported_right += a.reported_right;
+      sums[m].pixels_right += a.pixels_right / count;
+    }
+  }
+  std::printf(
+      "\n%d simulated rooms, %.1f planes of one colour of at least 1500 pixels each\n\n"
+      "| method | recall at IoU 0.8 | precision | pixels right |\n|---|---|---|---|\n",
+      count, sums[0].true_planes / static_cast<double>(count));
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const auto& s = sums[m];
+    std::printf("| %s | %.3f | %.3f | %.3f |\n", all[m].name.c_str(), s.found / static_cast<double>(s.true_planes),
+                s.reported_right / std::max(1.0, s.reported * 1.0), s.pixels_right);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string tum;
+  int every = 10, rounds = 2, count = 20;
+  std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
+  CLI::App app("Planes of depth images and pictures by each comparator, ours and PCL's.");
+  app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth and rgb");
+  app.add_option("--every", every, "only every n-th of its frames")->check(CLI::PositiveNumber);
+  app.add_option("--rounds", rounds, "how often each")->check(CLI::PositiveNumber);
+  app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
+  app.add_option("--rooms", count, "how many simulated rooms; 0 leaves them out");
+  CLI11_PARSE(app, argc, argv);
+  if (!tum.empty()) printTimes(readRgbd(tum, every, {camera[0], camera[1], camera[2], camera[3]}), rounds);
+  if (count > 0) printRooms(count);
+}
