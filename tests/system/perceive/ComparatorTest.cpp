@@ -109,6 +109,7 @@ class Comparator : public ::testing::Test {
  protected:
   // The planes of the wall, in each frame.
   std::vector<std::size_t> countOnWall(Words more) {
+    more.insert(more.end(), {"--set", "perception.extractors=planes"});
     more.insert(more.end(), {"--set", "planes.min_pixels=3000"});  // more than what is white on the red plates
     EXPECT_TRUE(endedWith(ExitCode::ok, perceive(log_, scratch_ / "derived.rawlog", more)));
     std::vector<std::size_t> counts;
@@ -135,7 +136,7 @@ class Comparator : public ::testing::Test {
 
 TEST_F(Comparator, IsSwappedByTheIni) {
   simulate();
-  const std::vector<std::size_t> one(2, 1), three(2, 3);
+  const std::vector<std::size_t> one(3, 1), three(3, 3);
   EXPECT_EQ(countOnWall({}), one);
   EXPECT_EQ(countOnWall({"--set", "planes.comparator=normals"}), one);
   EXPECT_EQ(countOnWall({"--set", "planes.comparator=plane_colour"}), three);

@@ -14,6 +14,8 @@ namespace {
 
 // In standard deviations of a pixel: what a plane grows over, and the residuals of what is flat.
 constexpr double kSigmas = 3, kFlatSigmas = 1.5;
+constexpr int kRadius = 7;                  // [px] of the windows of normals
+constexpr float kMinCosine = 0.9962F;       // of the angle between neighbours' normals: 5 deg
 constexpr std::size_t kMostPlanes = 65535;  // labels have 16 bits
 
 std::vector<PlaneMoments> momentsOf(const Components& components, const InverseDepth& inverse, const Pinhole& camera) {
@@ -66,10 +68,11 @@ PixelLabels padded(const std::vector<std::int32_t>& labels, const InverseDepth& 
 
 LabelledPlanes planesOfNormals(const DepthImage& image, const InverseDepth& inverse, const PlaneOptions& options) {
   const OrganisedPoints points = backProject(image, options.min_depth, options.max_depth);
-  const NormalImage normals = NormalEstimator(options.normals()).estimate(image);
+  NormalOptions of_normals = options.normals();
+  of_normals.radius = kRadius;
+  const NormalImage normals = NormalEstimator(of_normals).estimate(image);
   const double variance = options.noise().pixelVariance() + options.bend_at_1m * options.bend_at_1m;
-  SmoothComparator comparator{points, normals};
-  comparator.max_offset_at_1m = static_cast<float>(kSigmas * std::sqrt(variance));
+  const SmoothComparator comparator{points, normals, kMinCosine, static_cast<float>(kSigmas * std::sqrt(variance))};
   const Components components = connectComponents(image.width(), image.height(), comparator);
 
   LabelledPlanes planes;

@@ -31,7 +31,7 @@ struct ColouredPlaneComparator {
   // With so many pixels before and behind it along the row (step 1) or the column.
   bool isPlain(int pixel, int step, int before, int behind) const {
     const int one = onPlane(pixel, -step, before), other = onPlane(pixel, step, behind);
-    return isAlike(one, other) && isAlike(pixel, one) && isAlike(pixel, other);
+    return isAlike(one, other) && isAlike(pixel, one);
   }
 
   // The farthest within reach that is on the same plane; a step leads to the next.
