@@ -187,6 +187,32 @@ TEST(PlaneComparison, NormalsFindTheLargePlanesOfRooms) {
   EXPECT_GT(pixels_right, 0.5);
 }
 
+// Whatever the image: labels are those of planes, and each plane has as many pixels as it says.
+TEST(PlaneComparison, AnyImageOfAnySizeIsTakenByEach) {
+  PlaneOptions options;
+  options.min_pixels = 1;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    testing::Dice dice(seed);
+    const int width = 1 + static_cast<int>(dice.uniform(0, 70)), height = 1 + static_cast<int>(dice.uniform(0, 70));
+    std::vector<float> depth;
+    std::vector<obs::Rgb> colours;
+    for (int i = 0; i < width * height; ++i) {
+      const double z = seed % 3 == 0 ? dice.uniform(-1, 8) : 1 + (i % width > 20) + dice.normal(0.002);
+      depth.push_back(dice.uniform(0, 1) < 0.1 ? std::nanf("") : static_cast<float>(z));
+      const auto grey = static_cast<std::uint8_t>(seed % 2 == 0 ? dice.uniform(0, 256) : 3 * (i % width));
+      colours.push_back({grey, grey, grey});
+    }
+    const DepthImage image(depth.data(), width, height, {60, 60, 0.5 * width, 0.5 * height});
+    for (const PlaneComparison* comparison : {&kSamePlane, &kSamePlaneAndColour, &kSimilarNormals}) {
+      const auto found = PlaneSegmenter(options, by(*comparison)).segment(image, colours);
+      std::vector<int> pixels(found.planes.size() + 1, 0);
+      for (const auto label : found.labels) ++pixels.at(label);
+      for (std::size_t i = 0; i < found.planes.size(); ++i)
+        EXPECT_EQ(found.planes[i].inliers, pixels[i + 1]) << "seed " << seed;
+    }
+  }
+}
+
 /// A comparator of our own: planes are cut in two in the middle of the image.
 struct LeftAndRight {
   PlanePixels pixels;
