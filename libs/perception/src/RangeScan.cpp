@@ -10,8 +10,6 @@ namespace {
 
 using mrpt::obs::CObservation3DRangeScan;
 
-constexpr std::uint16_t kSaturated = 65535;
-
 Pinhole pinholeOf(const mrpt::img::TCamera& camera) {
   return {camera.fx(), camera.fy(), camera.cx(), camera.cy()};
 }
@@ -64,12 +62,6 @@ ScanDepth::ScanDepth(const CObservation3DRangeScan& scan) {
   }
 }
 
-double ScanDepth::at(std::size_t pixel) const {
-  if (image_->units() == nullptr) return image_->metres()[pixel];
-  const std::uint16_t units = image_->units()[pixel];
-  return units == kSaturated ? 0 : units * image_->metresPerUnit();
-}
-
 ScanColours::ScanColours(const CObservation3DRangeScan& scan)
     : depth_camera_(pinholeOf(scan.cameraParams)), colour_camera_(pinholeOf(scan.cameraParamsIntensity)) {
   if (!scan.hasIntensityImage) return;
@@ -97,15 +89,7 @@ void ScanColours::readImage(const mrpt::img::CImage& image) {
   for (std::size_t y = 0; y < rows_.size(); ++y) rows_[y] = image.ptrLine<std::uint8_t>(static_cast<unsigned>(y));
 }
 
-obs::Rgb ScanColours::pixel(int x, int y) const {
-  const std::uint8_t* p = rows_[static_cast<std::size_t>(y)] + static_cast<std::ptrdiff_t>(channels_) * x;
-  if (channels_ < 3) return {p[0], p[0], p[0]};
-  return red_first_ ? obs::Rgb{p[0], p[1], p[2]} : obs::Rgb{p[2], p[1], p[0]};
-}
-
-std::optional<ScanColours::Place> ScanColours::placeOf(int x, int y, double depth) const {
-  if (!exist()) return std::nullopt;
-  if (same_view_) return Place{x, y};
+std::optional<ScanColours::Place> ScanColours::placeInOtherView(int x, int y, double depth) const {
   const Eigen::Vector3d in_depth((x - depth_camera_.cx) / depth_camera_.fx * depth,
                                  (y - depth_camera_.cy) / depth_camera_.fy * depth, depth);
   const Eigen::Vector3d p = colour_from_depth_ * in_depth + depth_in_colour_;
@@ -114,12 +98,6 @@ std::optional<ScanColours::Place> ScanColours::placeOf(int x, int y, double dept
   const double v = colour_camera_.fy * p.y() / p.z() + colour_camera_.cy + 0.5;
   if (!(u >= 0 && u < width_ && v >= 0 && v < static_cast<double>(rows_.size()))) return std::nullopt;
   return Place{static_cast<int>(u), static_cast<int>(v)};
-}
-
-std::optional<obs::Rgb> ScanColours::at(int x, int y, double depth) const {
-  const auto place = placeOf(x, y, depth);
-  if (!place) return std::nullopt;
-  return pixel(place->x, place->y);
 }
 
 std::vector<obs::Rgb> ScanColours::inDepthView(const ScanDepth& depth) const {
@@ -143,13 +121,6 @@ ColourImage ScanColours::picture() const {
                      : red_first_  ? ColourImage::Order::rgb
                                    : ColourImage::Order::bgr;
   return {rows_[0], width_, height, stride, order};
-}
-
-void ColourSum::add(const obs::Rgb& colour) {
-  red_ += colour.red;
-  green_ += colour.green;
-  blue_ += colour.blue;
-  ++count_;
 }
 
 std::optional<obs::Rgb> ColourSum::mean() const {

@@ -23,6 +23,8 @@ inline Eigen::Vector3d toSensor(const Eigen::Vector3d& in_optical) {
 /// The same as a turn.
 geometry::Se3 sensorFromOptical();
 
+constexpr std::uint16_t kSaturated = 65535;
+
 /// The depth image of an observation. The observation must outlive it.
 class ScanDepth {
  public:
@@ -34,7 +36,11 @@ class ScanDepth {
 
   const DepthImage& image() const { return *image_; }
   /// [m]; 0 where nothing was measured.
-  double at(std::size_t pixel) const;
+  double at(std::size_t pixel) const {
+    if (image_->units() == nullptr) return static_cast<double>(image_->metres()[pixel]);
+    const std::uint16_t units = image_->units()[pixel];
+    return units == kSaturated ? 0 : units * image_->metresPerUnit();
+  }
 
  private:
   std::vector<float> metres_;  // where the ranges are no depths
@@ -50,7 +56,11 @@ class ScanColours {
   /// Whether there is an image with colours, or greys, of 8 bits.
   bool exist() const { return channels_ > 0; }
   /// Of what the pixel in column x and row y of the depth image sees at that depth [m]; none outside the picture.
-  std::optional<obs::Rgb> at(int x, int y, double depth) const;
+  std::optional<obs::Rgb> at(int x, int y, double depth) const {
+    const auto place = placeOf(x, y, depth);
+    if (!place) return std::nullopt;
+    return pixel(place->x, place->y);
+  }
 
   /// Of all pixels of the depth image, row by row; black where there is no depth or none is seen.
   std::vector<obs::Rgb> inDepthView(const ScanDepth& depth) const;
@@ -60,7 +70,10 @@ class ScanColours {
     int x, y;
   };
   /// Where the picture shows what that pixel of the depth image sees; none outside it or without one.
-  std::optional<Place> placeOf(int x, int y, double depth) const;
+  std::optional<Place> placeOf(int x, int y, double depth) const {
+    if (!exist()) return std::nullopt;
+    return same_view_ ? Place{x, y} : placeInOtherView(x, y, depth);
+  }
   /// The picture itself, of no size without one.
   ColourImage picture() const;
   /// Whether the picture is the depth image's, pixel by pixel.
@@ -70,7 +83,12 @@ class ScanColours {
 
  private:
   void readImage(const mrpt::img::CImage& image);
-  obs::Rgb pixel(int x, int y) const;
+  std::optional<Place> placeInOtherView(int x, int y, double depth) const;
+  obs::Rgb pixel(int x, int y) const {
+    const std::uint8_t* p = rows_[static_cast<std::size_t>(y)] + static_cast<std::ptrdiff_t>(channels_) * x;
+    if (channels_ < 3) return {p[0], p[0], p[0]};
+    return red_first_ ? obs::Rgb{p[0], p[1], p[2]} : obs::Rgb{p[2], p[1], p[0]};
+  }
 
   std::vector<const std::uint8_t*> rows_;
   int width_ = 0, channels_ = 0;
@@ -84,7 +102,12 @@ class ScanColours {
 /// The mean of colours.
 class ColourSum {
  public:
-  void add(const obs::Rgb& colour);
+  void add(const obs::Rgb& colour) {
+    red_ += colour.red;
+    green_ += colour.green;
+    blue_ += colour.blue;
+    ++count_;
+  }
   /// None of none.
   std::optional<obs::Rgb> mean() const;
 
