@@ -57,6 +57,7 @@ class ScanColours {
   bool exist() const { return channels_ > 0; }
   /// Of what the pixel in column x and row y of the depth image sees at that depth [m]; none outside the picture.
   std::optional<obs::Rgb> at(int x, int y, double depth) const {
+    if (same_view_) return pixel(x, y);
     const auto place = placeOf(x, y, depth);
     if (!place) return std::nullopt;
     return pixel(place->x, place->y);
