@@ -1,6 +1,7 @@
 #include "Description.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "Outlines.h"
 #include "RegionFit.h"
@@ -9,20 +10,30 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-// Labels of regions of cells become those of the result; pixels of no component lose theirs.
-void relabel(const Components& components, const std::vector<FittedRegion>& fitted, PixelLabels& labels) {
-  std::vector<std::uint16_t> of_component(components.pixels.size(), 0);
-  for (std::size_t i = 0; i < fitted.size(); ++i) {
-    of_component[static_cast<std::size_t>(fitted[i].component)] = static_cast<std::uint16_t>(i + 1);
-  }
+// Pixels of no component lose their labels.
+void clearOthers(const Components& components, PixelLabels& labels) {
+  const auto inside = std::accumulate(components.pixels.begin(), components.pixels.end(), std::ptrdiff_t(0));
+  const auto unlabelled = std::count(labels.values.begin(), labels.values.end(), std::uint16_t(0));
+  if (inside + unlabelled == static_cast<std::ptrdiff_t>(labels.values.size())) return;
   auto done = labels.values.begin();
   for (const PixelRun& run : components.runs) {
     const auto row = labels.values.begin() + static_cast<std::ptrdiff_t>(run.row) * labels.stride;
     std::fill(done, row + run.begin, std::uint16_t(0));
     done = row + run.end;
-    std::fill(row + run.begin, done, of_component[static_cast<std::size_t>(run.component)]);
   }
   std::fill(done, labels.values.end(), std::uint16_t(0));
+}
+
+// Labels of regions of cells become those of the result.
+void relabel(const Components& components, const std::vector<FittedRegion>& fitted, PixelLabels& labels) {
+  std::vector<std::uint16_t> of_component(components.pixels.size(), 0);
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    of_component[static_cast<std::size_t>(fitted[i].component)] = static_cast<std::uint16_t>(i + 1);
+  }
+  for (const PixelRun& run : components.runs) {
+    const auto row = labels.values.begin() + static_cast<std::ptrdiff_t>(run.row) * labels.stride;
+    std::fill(row + run.begin, row + run.end, of_component[static_cast<std::size_t>(run.component)]);
+  }
 }
 
 // Without the columns and rows of padding.
@@ -58,6 +69,7 @@ PlaneSegmentation describe(const InverseDepth& inverse, const Pinhole& camera, c
   result.width = inverse.width;
   result.height = inverse.height;
   auto fitted = fitRegions(inverse, camera, noise, components, labels, regions, limits.min_pixels);
+  clearOthers(components, labels);
   relabel(components, fitted, labels);
   auto lines = traceOutlines(labels.values, labels.stride, labels.rows, components.runs, limits.min_hole_pixels);
   result.labels = cropped(std::move(labels), result.width, result.height);
