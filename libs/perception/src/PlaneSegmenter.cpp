@@ -76,6 +76,8 @@ PlaneSegmentation PlaneSegmenter::segment(const DepthImage& image, const std::ve
     seen.colours = padded.data();
   }
   const Components components = comparison_.comparison->connect(seen, comparison_);
+  // What asks for one plane alone leaves no pixel out.
+  if (comparison_.comparison->connect != kSamePlane.connect) planes::clearOthers(components, found.labels);
   return planes::describe(inverse, image.camera(), options_.noise(), found.regions, std::move(found.labels), components,
                           {options_.min_pixels, options_.min_hole_pixels, options_.max_depth});
 }

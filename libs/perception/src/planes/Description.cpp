@@ -1,7 +1,6 @@
 #include "Description.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "Outlines.h"
 #include "RegionFit.h"
@@ -9,20 +8,6 @@
 namespace omnimapper::perception::planes {
 
 namespace {
-
-// Pixels of no component lose their labels.
-void clearOthers(const Components& components, PixelLabels& labels) {
-  const auto inside = std::accumulate(components.pixels.begin(), components.pixels.end(), std::ptrdiff_t(0));
-  const auto unlabelled = std::count(labels.values.begin(), labels.values.end(), std::uint16_t(0));
-  if (inside + unlabelled == static_cast<std::ptrdiff_t>(labels.values.size())) return;
-  auto done = labels.values.begin();
-  for (const PixelRun& run : components.runs) {
-    const auto row = labels.values.begin() + static_cast<std::ptrdiff_t>(run.row) * labels.stride;
-    std::fill(done, row + run.begin, std::uint16_t(0));
-    done = row + run.end;
-  }
-  std::fill(done, labels.values.end(), std::uint16_t(0));
-}
 
 // Labels of regions of cells become those of the result.
 void relabel(const Components& components, const std::vector<FittedRegion>& fitted, PixelLabels& labels) {
@@ -62,6 +47,16 @@ Contour onPlane(std::vector<PixelCorner> corners, const ImagePlane& plane, const
 
 }  // namespace
 
+void clearOthers(const Components& components, PixelLabels& labels) {
+  auto done = labels.values.begin();
+  for (const PixelRun& run : components.runs) {
+    const auto row = labels.values.begin() + static_cast<std::ptrdiff_t>(run.row) * labels.stride;
+    std::fill(done, row + run.begin, std::uint16_t(0));
+    done = row + run.end;
+  }
+  std::fill(done, labels.values.end(), std::uint16_t(0));
+}
+
 PlaneSegmentation describe(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
                            const CellRegions& regions, PixelLabels labels, const Components& components,
                            const DescriptionLimits& limits) {
@@ -69,7 +64,6 @@ PlaneSegmentation describe(const InverseDepth& inverse, const Pinhole& camera, c
   result.width = inverse.width;
   result.height = inverse.height;
   auto fitted = fitRegions(inverse, camera, noise, components, labels, regions, limits.min_pixels);
-  clearOthers(components, labels);
   relabel(components, fitted, labels);
   auto lines = traceOutlines(labels.values, labels.stride, labels.rows, components.runs, limits.min_hole_pixels);
   result.labels = cropped(std::move(labels), result.width, result.height);

@@ -14,8 +14,11 @@ struct DescriptionLimits {
   double max_depth = 0;     ///< [m]
 };
 
-/// Connected components of pixels, each with labels that are equal, as planes: fitted to the pixel, starting from those
-/// of `regions` (label - 1 is the index), with traced outlines.
+/// Pixels of no component lose their labels.
+void clearOthers(const Components& components, PixelLabels& labels);
+
+/// Connected components of all labelled pixels, each with labels that are equal, as planes: fitted to the pixel,
+/// starting from those of `regions` (label - 1 is the index), with traced outlines.
 PlaneSegmentation describe(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
                            const CellRegions& regions, PixelLabels labels, const Components& components,
                            const DescriptionLimits& limits);
