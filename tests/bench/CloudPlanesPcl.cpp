@@ -7,6 +7,7 @@
 #include <pcl/segmentation/extract_clusters.h>
 #include <pcl/segmentation/sac_segmentation.h>
 
+#include <limits>
 #include <memory>
 
 #include "CloudPeers.h"
@@ -24,7 +25,8 @@ struct Work {
   std::vector<std::uint16_t> of_voxel;
 };
 
-void findPlanes(Work& work, double tolerance, int min_points) {
+// Stops after so many rounds of RANSAC.
+void findPlanes(Work& work, double tolerance, int min_points, int rounds) {
   work.of_voxel.assign(work.voxels->size(), 0);
   auto left = pcl::make_shared<pcl::Indices>();
   for (std::size_t i = 0; i < work.voxels->size(); ++i) left->push_back(static_cast<int>(i));
@@ -36,7 +38,7 @@ void findPlanes(Work& work, double tolerance, int min_points) {
   segmentation.setOptimizeCoefficients(true);
   segmentation.setInputCloud(work.voxels);
   std::uint16_t planes = 0;
-  while (static_cast<int>(left->size()) >= min_points) {
+  while (rounds-- > 0 && static_cast<int>(left->size()) >= min_points) {
     segmentation.setIndices(left);
     auto inliers = pcl::make_shared<pcl::PointIndices>();
     pcl::ModelCoefficients plane;
@@ -92,7 +94,10 @@ std::vector<CloudPeer> pclCloudPlanes(double tolerance, int min_points) {
            },
            nullptr},
           {"PCL SACSegmentation and clusters, averaged before", take,
-           [work, tolerance, min_points] { findPlanes(*work, tolerance, min_points); }, labels}};
+           [work, tolerance, min_points] { findPlanes(*work, tolerance, min_points, std::numeric_limits<int>::max()); },
+           labels},
+          {"PCL SACSegmentation and clusters, first plane only, averaged before", take,
+           [work, tolerance, min_points] { findPlanes(*work, tolerance, min_points, 1); }, labels}};
 }
 
 }  // namespace omnimapper::bench

@@ -24,8 +24,18 @@ struct PlanePeer {
   std::function<std::vector<std::uint16_t>(const DepthFrame&)> run;
 };
 
-/// None where bench-planes was built without them.
+perception::DepthImage imageOf(const DepthFrame& frame);
+
+std::vector<PlanePeer> ourPlanes();
+/// Median times of the stages of ours on these frames, as a Markdown table.
+void printOurStages(const std::vector<DepthFrame>& frames, int rounds);
+
+/// None where bench-planes was built without PCL.
 std::vector<PlanePeer> pclPlanes();
 std::vector<PlanePeer> openCvPlanes();
+
+/// Methods in a shared library that was built elsewhere; PlanePeerLibrary.h says what it holds. Throws
+/// std::runtime_error for one that cannot be loaded.
+std::vector<PlanePeer> loadedPlanes(const std::string& library);
 
 }  // namespace omnimapper::bench

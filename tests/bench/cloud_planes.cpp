@@ -5,7 +5,6 @@
 // Example: bench-cloud_planes --depth tum_fr1_rpy/depth --every 30 --rooms 20
 #include <omnimapper/perception/CloudPlaneFinder.h>
 #include <omnimapper/perception/OrganisedPoints.h>
-#include <time.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -14,8 +13,9 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 
-#include "../perception/DepthRooms.h"
+#include "../perception/PlaneAgreement.h"
 #include "CloudPeers.h"
+#include "Timing.h"
 #include "clouds/VoxelGrid.h"
 
 namespace {
@@ -25,19 +25,6 @@ using namespace omnimapper::bench;
 using Cloud = std::vector<Eigen::Vector3f>;
 
 constexpr int kMinPoints = 150;
-
-double now() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 struct Work {
   Cloud points;
@@ -113,9 +100,9 @@ void printTimes(const std::vector<Cloud>& clouds, double tolerance) {
     voxels += static_cast<double>(perception::clouds::averaged(cloud, 0.025, 0.3, 100).means.size());
     for (std::size_t m = 0; m < all.size(); ++m) {
       all[m].take(cloud);
-      const double begin = now();
+      const double begin = processorTime();
       all[m].run();
-      times[m].push_back(now() - begin);
+      times[m].push_back(processorTime() - begin);
       if (!all[m].labels) continue;
       const auto labels = all[m].labels();
       planes[m] += *std::max_element(labels.begin(), labels.end());
@@ -145,19 +132,14 @@ void printRooms(int rooms, double tolerance) {
     const Cloud cloud = cloudOf({depth.data(), scene.width, scene.height, scene.camera});
     for (std::size_t m = 0; m < all.size(); ++m) {
       all[m].take(measured(cloud));
-      const double begin = now();
+      const double begin = processorTime();
       all[m].run();
-      times[m].push_back(now() - begin);
+      times[m].push_back(processorTime() - begin);
       if (!all[m].labels) continue;
       const auto of_measured = all[m].labels();
       std::vector<std::uint16_t> labels(cloud.size(), 0);
       for (std::size_t i = 0, k = 0; i < cloud.size(); ++i) labels[i] = cloud[i].allFinite() ? of_measured[k++] : 0;
-      const auto a = perception::rooms::compare(view, labels, scene.width, scene.height, 1500);
-      sums[m].true_planes += a.true_planes;
-      sums[m].found += a.found;
-      sums[m].reported += a.reported;
-      sums[m].reported_right += a.reported_right;
-      sums[m].pixels_right += a.pixels_right / rooms;
+      sums[m] += perception::rooms::compare(view, labels, scene.width, scene.height, 1500);
     }
   }
   std::printf(
@@ -169,7 +151,7 @@ void printRooms(int rooms, double tolerance) {
     const auto& s = sums[m];
     std::printf("| %s | %.3f | %.3f | %.3f | %.2f |\n", all[m].name.c_str(),
                 s.found / static_cast<double>(s.true_planes), s.reported_right / std::max(1.0, s.reported * 1.0),
-                s.pixels_right, quantile(times[m], 0.5));
+                s.pixelsRight(), quantile(times[m], 0.5));
   }
 }
 

@@ -5,7 +5,6 @@
 // Example: bench-edges --tum tum_fr1_rpy --every 10 --ini rawlogs/home.ini --sensor kinect --frames 20
 #include <omnimapper/perception/EdgeDetector.h>
 #include <omnimapper/perception/Normals.h>
-#include <time.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -16,6 +15,7 @@
 
 #include "EdgePeers.h"
 #include "EdgeTruth.h"
+#include "Timing.h"
 
 namespace {
 
@@ -24,19 +24,6 @@ using namespace omnimapper::bench;
 using perception::EdgeOptions;
 
 constexpr unsigned kJumps = perception::kBoundary | perception::kOccluding | perception::kOccluded;
-
-double now() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 using Labels = std::vector<std::uint8_t>;
 
@@ -123,9 +110,9 @@ void printTimes(const std::vector<RgbdFrame>& frames, int rounds) {
     for (const RgbdFrame& frame : frames) {
       for (std::size_t m = 0; m < all.size(); ++m) {
         all[m].take(frame);
-        const double begin = now();
+        const double begin = processorTime();
         const auto labels = all[m].run();
-        times[m].push_back(now() - begin);
+        times[m].push_back(processorTime() - begin);
       }
     }
   }

@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "Timing.h"
+
 namespace {
 
 using namespace omnimapper;
@@ -87,13 +89,6 @@ Lines mrptRansac(const CObservation2DRangeScan& scan, double threshold, const pe
     finish();
   }
   return segments;
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
 }
 
 double timeOf(const Finder& find, const CObservation2DRangeScan& scan) {

@@ -7,7 +7,6 @@
 #include <omnimapper/perception/ObjectFinder.h>
 #include <omnimapper/source/PcdFolder.h>
 #include <omnimapper/source/RawlogSource.h>
-#include <time.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -20,6 +19,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "ObjectPeers.h"
+#include "Timing.h"
 
 namespace {
 
@@ -30,18 +30,6 @@ constexpr std::uint32_t kFirstThing = 20;  // labels from here on are of things
 constexpr std::uint32_t kNeither = 10;     // what stands on the floor as things do, but is furniture: does not count
 constexpr double kFewest = 300;            // points of a thing that is to be found
 constexpr double kRight = 0.5;             // intersection over union
-
-double now() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double q) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 ObjectPeer ours(double tilt, perception::ObjectOptions::Comparator comparator, const std::string& name) {
   perception::PlaneOptions sensor;
@@ -240,9 +228,9 @@ int main(int argc, char** argv) {
   for (int round = 0; round < rounds; ++round) {
     for (const auto& cloud : clouds) {
       for (std::size_t m = 0; m < methods.size(); ++m) {
-        const double start = now();
+        const double start = processorTime();
         const Things found = methods[m].run(cloud);
-        results[m].milliseconds.push_back(now() - start);
+        results[m].milliseconds.push_back(processorTime() - start);
         if (round == 0) compare(cloud.points, found, results[m]);
       }
     }

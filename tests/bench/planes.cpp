@@ -3,10 +3,7 @@
 // where bench-planes was built with them. Times are those of the processor, of one thread.
 //
 // Example: bench-planes --depth tum_fr1_rpy/depth --every 5 --rooms 20
-#include <omnimapper/perception/Normals.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
-#include <omnimapper/perception/SameLabel.h>
-#include <time.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -15,50 +12,23 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
-#include "../perception/DepthRooms.h"
+#include "../perception/PlaneAgreement.h"
 #include "PlanePeers.h"
-#include "planes/CellRegions.h"
-#include "planes/Outlines.h"
-#include "planes/PixelLabels.h"
-#include "planes/RegionFit.h"
-#include "planes/SmallRegions.h"
+#include "Timing.h"
 
 namespace {
 
 using namespace omnimapper;
 using namespace omnimapper::bench;
-using perception::DepthImage;
-using perception::PlaneOptions;
 
-double now() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-DepthImage imageOf(const DepthFrame& frame) {
-  return {frame.units.data(), frame.metres_per_unit, frame.width, frame.height, frame.camera};
-}
-
-std::vector<PlanePeer> methods() {
-  std::vector<PlanePeer> all{{"ours: planes, refined and traced",
-                              [segmenter = perception::PlaneSegmenter(PlaneOptions())](const DepthFrame& frame) {
-                                return segmenter.segment(imageOf(frame)).labels;
-                              }},
-                             {"ours: the same and normals of all pixels",
-                              [segmenter = perception::PlaneSegmenter(PlaneOptions()),
-                               estimator = perception::NormalEstimator({})](const DepthFrame& frame) {
-                                const auto normals = estimator.estimate(imageOf(frame));
-                                return segmenter.segment(imageOf(frame)).labels;
-                              }}};
+// Each name is a shared library of methods from elsewhere.
+std::vector<PlanePeer> methods(const std::vector<std::string>& libraries) {
+  std::vector<PlanePeer> all = ourPlanes();
   for (const auto& peers : {pclPlanes(), openCvPlanes()}) all.insert(all.end(), peers.begin(), peers.end());
+  for (const auto& library : libraries) {
+    const auto peers = loadedPlanes(library);
+    all.insert(all.end(), peers.begin(), peers.end());
+  }
   return all;
 }
 
@@ -81,16 +51,15 @@ std::vector<DepthFrame> readFrames(const std::string& folder, int every, double 
   return frames;
 }
 
-void printTimes(const std::vector<DepthFrame>& frames, int rounds) {
-  const auto all = methods();
+void printTimes(const std::vector<PlanePeer>& all, const std::vector<DepthFrame>& frames, int rounds) {
   std::vector<std::vector<double>> times(all.size());
   std::vector<double> planes(all.size(), 0);
   for (int round = 0; round < rounds; ++round) {
     for (const DepthFrame& frame : frames) {
       for (std::size_t m = 0; m < all.size(); ++m) {
-        const double begin = now();
+        const double begin = processorTime();
         const auto labels = all[m].run(frame);
-        times[m].push_back(now() - begin);
+        times[m].push_back(processorTime() - begin);
         planes[m] += *std::max_element(labels.begin(), labels.end());
       }
     }
@@ -106,55 +75,30 @@ void printTimes(const std::vector<DepthFrame>& frames, int rounds) {
   }
 }
 
-void printStages(const std::vector<DepthFrame>& frames, int rounds) {
-  using namespace perception::planes;
-  const PlaneOptions options;
-  const auto noise = options.noise();
-  std::vector<std::pair<std::string, std::vector<double>>> stages;
-  double begin = 0;
-  std::size_t stage = 0;
-  const auto lap = [&](const char* name) {
-    const double end = now();
-    if (stage == stages.size()) stages.push_back({name, {}});
-    stages[stage++].second.push_back(end - begin);
-    begin = now();
-  };
-  for (int i = 0; i < rounds * static_cast<int>(frames.size()); ++i) {
-    const DepthFrame& frame = frames[static_cast<std::size_t>(i) % frames.size()];
-    stage = 0;
-    begin = now();
-    const auto normals = perception::NormalEstimator({}).estimate(imageOf(frame));
-    lap("normals of all pixels");
-    const auto inverse = invert(imageOf(frame), options.min_depth, options.max_depth);
-    lap("inverse depth");
-    const auto grid = fitCells(inverse, frame.camera, noise);
-    lap("planes of cells");
-    auto grown = growRegions(grid, noise);
-    lap("regions grown");
-    auto merged = mergeRegions(grid, noise, std::move(grown));
-    lap("regions merged");
-    const auto regions = dropExplained(inverse, frame.camera, noise, grid, std::move(merged));
-    lap("small regions dropped");
-    const auto labels = labelPixels(inverse, frame.camera, noise, grid, regions);
-    lap("pixels labelled");
-    const auto components =
-        perception::connectComponents(labels.stride, labels.rows, perception::SameLabel{labels.values.data()});
-    lap("components");
-    const auto fitted = fitRegions(inverse, frame.camera, noise, components, labels, regions, options.min_pixels);
-    lap("planes of pixels");
-    const auto lines = traceOutlines(labels.values, labels.stride, labels.rows, components.runs, 1);
-    lap("outlines of all components");
-  }
-  std::printf("\n| stage of ours | median [ms] | 95 %% |\n|---|---|---|\n");
-  for (const auto& [name, times] : stages) {
-    std::printf("| %s | %.3f | %.3f |\n", name.c_str(), quantile(times, 0.5), quantile(times, 0.95));
-  }
-}
+// How far our planes of these labels are from the truth: angles of normals [deg] and distances [mm].
+struct Errors {
+  std::vector<double> angles, distances;
 
-void printRooms(int rooms, double noise_factor) {
-  auto all = methods();
+  void add(const perception::rooms::Scene& scene, const perception::rooms::View& truth,
+           const perception::PlaneSegmentation& found) {
+    std::vector<std::vector<int>> votes(found.planes.size(), std::vector<int>(scene.faces.size() + 1, 0));
+    for (std::size_t i = 0; i < found.labels.size(); ++i) {
+      if (found.labels[i] > 0) ++votes[found.labels[i] - 1U][truth.face[i]];
+    }
+    for (std::size_t p = 0; p < votes.size(); ++p) {
+      const auto face = std::max_element(votes[p].begin() + 1, votes[p].end()) - votes[p].begin() - 1;
+      const auto expected = perception::rooms::planeOf(scene.faces[static_cast<std::size_t>(face)]);
+      const auto& plane = found.planes[p].plane_in_sensor;
+      angles.push_back(std::acos(std::min(1.0, plane.normal.dot(expected.normal))) * 180 / M_PI);
+      distances.push_back(1e3 * std::abs(plane.distance - expected.distance));
+    }
+  }
+};
+
+void printRooms(std::vector<PlanePeer> all, int rooms, double noise_factor) {
   std::vector<perception::rooms::Agreement> sums(all.size());
   std::vector<std::vector<double>> times(all.size());
+  Errors errors;
   perception::DepthNoise noise;
   noise.sigma *= noise_factor;
   for (int seed = 0; seed < rooms; ++seed) {
@@ -165,27 +109,28 @@ void printRooms(int rooms, double noise_factor) {
     DepthFrame frame{scene.width, scene.height, 1e-4, scene.camera, {}};
     for (const float z : depth) frame.units.push_back(static_cast<std::uint16_t>(std::min(65534.0, 1e4 * z + 0.5)));
     for (std::size_t m = 0; m < all.size(); ++m) {
-      const double begin = now();
+      const double begin = processorTime();
       const auto labels = all[m].run(frame);
-      times[m].push_back(now() - begin);
-      const auto a = perception::rooms::compare(view, labels, scene.width, scene.height, 1500);
-      sums[m].true_planes += a.true_planes;
-      sums[m].found += a.found;
-      sums[m].reported += a.reported;
-      sums[m].reported_right += a.reported_right;
-      sums[m].pixels_right += a.pixels_right / rooms;
+      times[m].push_back(processorTime() - begin);
+      sums[m] += perception::rooms::compare(view, labels, scene.width, scene.height, 1500);
     }
+    errors.add(scene, view, perception::PlaneSegmenter({}).segment(imageOf(frame)));
   }
   std::printf(
-      "\n%d simulated rooms, noise of %.2g mm at 1 m, %.1f planes of at least 1500 pixels each\n\n"
-      "| method | recall at IoU 0.8 | precision | pixels right | median [ms] |\n|---|---|---|---|---|\n",
-      rooms, 1e3 * noise.sigma, sums[0].true_planes / static_cast<double>(rooms));
+      "\n%d simulated rooms, noise of %.2g mm at 1 m, %d planes of at least 1500 pixels\n\n"
+      "| method | recall at IoU 0.8 | precision | pixels right | correct | over | under | missed | noise | median [ms] "
+      "|\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n",
+      rooms, 1e3 * noise.sigma, sums[0].true_planes);
   for (std::size_t m = 0; m < all.size(); ++m) {
     const auto& s = sums[m];
-    std::printf("| %s | %.3f | %.3f | %.3f | %.2f |\n", all[m].name.c_str(),
+    std::printf("| %s | %.3f | %.3f | %.3f | %d | %d | %d | %d | %d | %.2f |\n", all[m].name.c_str(),
                 s.found / static_cast<double>(s.true_planes), s.reported_right / std::max(1.0, s.reported * 1.0),
-                s.pixels_right, quantile(times[m], 0.5));
+                s.pixelsRight(), s.correct, s.over, s.under, s.missed, s.noise, quantile(times[m], 0.5));
   }
+  std::printf("\nOur normals are off by %.3f deg in the median and %.3f deg at 95 %%, distances by %.2f and %.2f mm.\n",
+              quantile(errors.angles, 0.5), quantile(errors.angles, 0.95), quantile(errors.distances, 0.5),
+              quantile(errors.distances, 0.95));
 }
 
 }  // namespace
@@ -195,6 +140,7 @@ int main(int argc, char** argv) {
   int every = 5, rounds = 3, rooms = 20;
   double unit = 1.0 / 5000, noise_factor = 1;
   std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
+  std::vector<std::string> libraries;
   CLI::App app("Planes of depth images by ours and others.");
   app.add_option("--depth", folder, "folder of 16-bit depth images (PNG)");
   app.add_option("--every", every, "only every n-th of them")->check(CLI::PositiveNumber);
@@ -203,11 +149,13 @@ int main(int argc, char** argv) {
   app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
   app.add_option("--rooms", rooms, "how many simulated rooms; 0 leaves them out");
   app.add_option("--noise", noise_factor, "of the rooms, in parts of the default");
+  app.add_option("--peer", libraries, "shared library of other methods; PlanePeerLibrary.h says what it holds");
   CLI11_PARSE(app, argc, argv);
+  const auto all = methods(libraries);
   if (!folder.empty()) {
     const auto frames = readFrames(folder, every, unit, {camera[0], camera[1], camera[2], camera[3]});
-    printTimes(frames, rounds);
-    printStages(frames, rounds);
+    printTimes(all, frames, rounds);
+    printOurStages(frames, rounds);
   }
-  if (rooms > 0) printRooms(rooms, noise_factor);
+  if (rooms > 0) printRooms(all, rooms, noise_factor);
 }

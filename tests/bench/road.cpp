@@ -8,7 +8,6 @@
 #include <omnimapper/perception/RoadExtractor.h>
 #include <omnimapper/perception/RoadSegmenter.h>
 #include <omnimapper/sim/Simulation.h>
-#include <time.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,15 +17,11 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "Timing.h"
+
 namespace {
 
 using namespace omnimapper;
-
-double now() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
 
 struct Count {
   double all = 0, sure = 0, accepted = 0;
@@ -56,9 +51,9 @@ void count(const sim::Measurement& measurement, const std::vector<sim::SurfaceKi
   const perception::DepthImage image(scan.rangeImage.data(), static_cast<double>(scan.rangeUnits),
                                      static_cast<int>(c.ncols), static_cast<int>(c.nrows),
                                      {c.fx(), c.fy(), c.cx(), c.cy()});
-  const double begin = now();
+  const double begin = processorTime();
   const auto found = perception::RoadSegmenter(options).segment(image, perception::expectedGround(scan, 0));
-  counts.times.push_back(now() - begin);
+  counts.times.push_back(processorTime() - begin);
   for (std::size_t i = 0; i < found.sure.size(); ++i) {
     const double depth = scan.rangeImage.data()[i] * static_cast<double>(scan.rangeUnits);
     if (!(depth >= options.min_depth && depth <= options.max_depth)) continue;

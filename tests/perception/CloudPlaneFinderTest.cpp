@@ -9,7 +9,7 @@
 #include <limits>
 #include <thread>
 
-#include "DepthRooms.h"
+#include "PlaneAgreement.h"
 
 namespace omnimapper::perception {
 namespace {
@@ -166,7 +166,7 @@ TEST(CloudPlaneFinder, NoisyRoomsHaveTheirWallsAndTheSameSeedGivesTheSameBits) {
     testing::Dice dice(seed);
     const auto scene = rooms::randomRoom(dice);
     const auto found = CloudPlaneFinder(kinect()).find(noisyRoom(seed));
-    right += rooms::compare(rooms::render(scene), found.labels, scene.width, scene.height, 1500).pixels_right / kRooms;
+    right += rooms::compare(rooms::render(scene), found.labels, scene.width, scene.height, 1500).pixelsRight() / kRooms;
   }
   EXPECT_GT(right, 0.87);
   const Cloud cloud = noisyRoom(1);

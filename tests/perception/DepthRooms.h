@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/ConnectedComponents.h>
+#include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/perception/DepthImage.h>
 #include <omnimapper/perception/DepthNoise.h>
 #include <omnimapper/testing/SimulatedLog.h>
@@ -16,6 +16,13 @@ namespace omnimapper::perception::rooms {
 struct Face {
   Eigen::Vector3d middle, half_a, half_b;
 };
+
+/// With a distance of 0 or more.
+inline geometry::Plane3 planeOf(const Face& face) {
+  const Eigen::Vector3d normal = face.half_a.cross(face.half_b).normalized();
+  const auto plane = geometry::Plane3::through(face.middle, normal);
+  return plane.distance < 0 ? geometry::Plane3{-plane.normal, -plane.distance} : plane;
+}
 
 /// Faces in the optical frame of the camera that looks at them.
 struct Scene {
@@ -118,76 +125,6 @@ inline Scene randomRoom(testing::Dice& dice, int boxes = 3) {
            dice.uniform(-1.5, 1.5), scene.faces);
   }
   return scene;
-}
-
-/// How segments agree with the truth; see SegComp: A. Hoover et al., An experimental comparison of range image
-/// segmentation algorithms, PAMI 18(7), 1996.
-struct Agreement {
-  int true_planes = 0;  ///< connected parts of faces with at least so many pixels
-  int found = 0;        ///< of those, at an intersection over union of at least 0.8
-  int reported = 0;     ///< segments
-  int reported_right = 0;
-  double pixels_right = 0;  ///< of the pixels of true planes, those in the segment that covers their plane best
-};
-
-struct Patches {
-  std::vector<std::int32_t> of_pixel;  ///< patch + 1, or 0
-  std::vector<int> pixels;             ///< 0 for a patch that is too small to count
-};
-
-struct SameFace {
-  const std::uint16_t* faces;
-  bool valid(int pixel) const { return faces[pixel] != 0; }
-  bool similar(int a, int b) const { return faces[a] == faces[b]; }
-};
-
-inline Patches patchesOf(const std::vector<std::uint16_t>& labels, int width, int height, int fewest) {
-  Components components = connectComponents(width, height, SameFace{labels.data()});
-  Patches patches{components.labels(fewest), std::move(components.pixels)};
-  for (int& pixels : patches.pixels) pixels = pixels < fewest ? 0 : pixels;
-  return patches;
-}
-
-inline Agreement compare(const View& truth, const std::vector<std::uint16_t>& labels, int width, int height,
-                         int fewest) {
-  const Patches patches = patchesOf(truth.face, width, height, fewest);
-  std::size_t segments = 0;
-  for (const std::uint16_t label : labels) segments = std::max<std::size_t>(segments, label);
-  std::vector<std::vector<int>> overlap(patches.pixels.size(), std::vector<int>(segments + 1, 0));
-  std::vector<int> size(segments + 1, 0);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    ++size[labels[i]];
-    if (patches.of_pixel[i] > 0) ++overlap[static_cast<std::size_t>(patches.of_pixel[i] - 1)][labels[i]];
-  }
-  Agreement result;
-  std::vector<bool> right(segments + 1, false);
-  double pixels = 0;
-  for (std::size_t p = 0; p < patches.pixels.size(); ++p) {
-    if (patches.pixels[p] == 0) continue;
-    ++result.true_planes;
-    pixels += patches.pixels[p];
-    std::size_t best = 0;
-    for (std::size_t s = 1; s <= segments; ++s) {
-      if (best == 0 || overlap[p][s] > overlap[p][best]) best = s;
-    }
-    if (best == 0) continue;
-    const double shared = overlap[p][best];
-    if (shared >= 0.8 * (patches.pixels[p] + size[best] - shared)) {
-      ++result.found;
-      right[best] = true;
-    }
-    // A segment over two planes is right on the one that it covers most of.
-    bool most = true;
-    for (std::size_t other = 0; other < patches.pixels.size(); ++other)
-      most &= overlap[other][best] <= overlap[p][best];
-    if (most) result.pixels_right += shared;
-  }
-  result.pixels_right /= std::max(1.0, pixels);
-  for (std::size_t s = 1; s <= segments; ++s) {
-    result.reported += size[s] > 0;
-    result.reported_right += right[s];
-  }
-  return result;
 }
 
 }  // namespace omnimapper::perception::rooms

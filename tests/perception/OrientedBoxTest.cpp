@@ -10,25 +10,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-TEST(ConvexHull, GoesRoundTheOuterPointsCounterClockwise) {
-  const auto hull = convexHull({{1, 1}, {0, 0}, {2, 0}, {1, 0}, {2, 2}, {0, 2}, {2, 0}});
-  EXPECT_EQ(hull, (std::vector<Vector2d>{{0, 0}, {2, 0}, {2, 2}, {0, 2}}));
-}
-
-TEST(ConvexHull, OfLittleIsLittle) {
-  EXPECT_TRUE(convexHull({}).empty());
-  EXPECT_EQ(convexHull({{1, 2}}).size(), 1U);
-  EXPECT_EQ(convexHull({{0, 0}, {1, 1}, {2, 2}}), (std::vector<Vector2d>{{0, 0}, {2, 2}}));
-}
-
-TEST(ConvexHull, IsNearByTheMargin) {
-  const std::vector<Vector2d> square{{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-  EXPECT_TRUE(isNearHull(square, {1, 1}, 0));
-  EXPECT_FALSE(isNearHull(square, {2.05, 1}, 0));
-  EXPECT_TRUE(isNearHull(square, {2.05, 1}, 0.1));
-  EXPECT_FALSE(isNearHull({{0, 0}, {1, 1}}, {0, 0}, 1)) << "no area";
-}
-
 TEST(OrientedBox, OfATurnedBlockIsTheBlock) {
   // 0.4 x 0.2 x 0.1 m, turned by 30 degrees about the vertical.
   const Vector3d x(std::cos(M_PI / 6), std::sin(M_PI / 6), 0), y(-x.y(), x.x(), 0), middle(1, 2, 3);

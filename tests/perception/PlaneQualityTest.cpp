@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "DepthRooms.h"
+#include "PlaneAgreement.h"
 
 namespace omnimapper::perception {
 namespace {
@@ -34,12 +34,6 @@ Shot shoot(std::uint64_t seed) {
   return shot;
 }
 
-geometry::Plane3 planeOf(const rooms::Face& face) {
-  const Eigen::Vector3d normal = face.half_a.cross(face.half_b).normalized();
-  const auto plane = geometry::Plane3::through(face.middle, normal);
-  return plane.distance < 0 ? geometry::Plane3{-plane.normal, -plane.distance} : plane;
-}
-
 /// Distance [px] of a corner of pixels to the nearest edge between faces, up to `reach`.
 double distanceToEdge(const View& truth, const PixelCorner& corner, int reach) {
   const auto face = [&](int x, int y) {
@@ -58,20 +52,14 @@ double distanceToEdge(const View& truth, const PixelCorner& corner, int reach) {
 }
 
 TEST(PlaneQuality, NineOfTenPlanesAreFoundToTheirBorders) {
-  double planes = 0, found = 0, reported = 0, right = 0, pixels = 0;
-  const int rooms = 20;
-  for (int seed = 0; seed < rooms; ++seed) {
-    const Shot shot = shoot(static_cast<std::uint64_t>(seed));
-    const auto agreement = rooms::compare(shot.truth, shot.found.labels, kWidth, kHeight, 1500);
-    planes += agreement.true_planes;
-    found += agreement.found;
-    reported += agreement.reported;
-    right += agreement.reported_right;
-    pixels += agreement.pixels_right / rooms;
+  rooms::Agreement sum;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Shot shot = shoot(seed);
+    sum += rooms::compare(shot.truth, shot.found.labels, kWidth, kHeight, 1500);
   }
-  EXPECT_GE(found / planes, 8.0 / 9);
-  EXPECT_GE(right / reported, 0.88);
-  EXPECT_GE(pixels, 0.97);
+  EXPECT_GE(sum.found, sum.true_planes * 8.0 / 9);
+  EXPECT_GE(sum.reported_right, 0.88 * sum.reported);
+  EXPECT_GE(sum.pixelsRight(), 0.97);
 }
 
 TEST(PlaneQuality, OutlinesAreWithinAPixelOfTheTruth) {
@@ -101,7 +89,7 @@ TEST(PlaneQuality, NormalsAndDistancesAreRight) {
       }
       const auto most = std::max_element(votes.begin(), votes.end()) - votes.begin();
       ASSERT_GT(most, 0);
-      const auto expected = planeOf(shot.scene.faces[static_cast<std::size_t>(most - 1)]);
+      const auto expected = rooms::planeOf(shot.scene.faces[static_cast<std::size_t>(most - 1)]);
       const auto& plane = shot.found.planes[i].plane_in_sensor;
       degrees.push_back(std::acos(std::min(1.0, plane.normal.dot(expected.normal))) * 57.2957795);
       distances.push_back(std::abs(plane.distance - expected.distance));
@@ -139,7 +127,7 @@ TEST(PlaneQuality, TheCovarianceIsThatOfTwoHundredNoisyRenderings) {
     const auto depth = rooms::withNoise(view, scene.width, scene.height, DepthNoise(), dice);
     const auto found = PlaneSegmenter({}).segment(DepthImage(depth.data(), scene.width, scene.height, scene.camera));
     for (std::size_t f = 0; f < scene.faces.size(); ++f) {
-      const auto expected = planeOf(scene.faces[f]);
+      const auto expected = rooms::planeOf(scene.faces[f]);
       for (const PlaneRegion& plane : found.planes) {
         if (plane.plane_in_sensor.normal.dot(expected.normal) < 0.9) continue;
         // In the tangent of what was measured, where its covariance is told.

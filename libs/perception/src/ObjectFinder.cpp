@@ -53,28 +53,45 @@ constexpr double kLowest = 0.02;      // share of a thing's points that may be n
 constexpr double kFoot = 0.03;        // [m] beside the noise, of a thing that may be lost in the surface
 constexpr double kHullMargin = 0.05;  // [m] a thing on the edge of a table hides where it ends
 
+// Pixels with a depth that are not of the place, and their points [m].
+struct Doubtful {
+  std::vector<std::size_t> pixels;
+  std::vector<float> x, y, z;
+
+  Doubtful(const std::vector<std::uint16_t>& labels, const OrganisedPoints& points, const std::vector<bool>& of_place) {
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (of_place[labels[i]] || std::isnan(points.z[i])) continue;
+      pixels.push_back(i);
+      x.push_back(points.x[i]);
+      y.push_back(points.y[i]);
+      z.push_back(points.z[i]);
+    }
+  }
+};
+
 // Labels in which whatever lies on a surface is of its first piece: where the plane of a thing's side goes on over the
 // table, pixels are on both, and beside edges some are on neither.
 std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const OrganisedPoints& points,
                                           const std::vector<Surface>& surfaces, const std::vector<bool>& of_place,
                                           double min_height, double noise_at_1m) {
   std::vector<std::uint16_t> labels = planes.labels;
-  std::vector<std::size_t> doubtful;
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (!of_place[labels[i]] && !std::isnan(points.z[i])) doubtful.push_back(i);
-  }
+  const Doubtful doubtful(labels, points, of_place);
   const auto height = static_cast<float>(min_height), noise = static_cast<float>(kSigmas * noise_at_1m);
+  std::vector<std::uint8_t> is_low(doubtful.pixels.size());
   for (const Surface& surface : surfaces) {
     for (const int piece : surface.pieces) {
       const auto& plane = planes.planes[static_cast<std::size_t>(piece)].plane_in_sensor;
       const Eigen::Vector3f n = plane.normal.cast<float>();
       const auto d = static_cast<float>(plane.distance);
-      for (const std::size_t i : doubtful) {
-        const Eigen::Vector3f point(points.x[i], points.y[i], points.z[i]);
-        if (std::abs(n.dot(point) + d) >= height + noise * point.z() * point.z()) continue;
-        const Eigen::Vector2d foot = surface.across.transpose() * point.cast<double>();
-        if (objects::isNearHull(surface.hull, foot, kHullMargin))
-          labels[i] = static_cast<std::uint16_t>(surface.plane + 1);
+      for (std::size_t k = 0; k < is_low.size(); ++k) {
+        const float x = doubtful.x[k], y = doubtful.y[k], z = doubtful.z[k];
+        is_low[k] = std::abs(n.x() * x + n.y() * y + n.z() * z + d) < height + noise * z * z;
+      }
+      for (std::size_t k = 0; k < is_low.size(); ++k) {
+        if (is_low[k] == 0) continue;
+        const Eigen::Vector3d point(doubtful.x[k], doubtful.y[k], doubtful.z[k]);
+        if (surface.hull.holds(surface.across.transpose() * point, kHullMargin))
+          labels[doubtful.pixels[k]] = static_cast<std::uint16_t>(surface.plane + 1);
       }
     }
   }
@@ -147,7 +164,7 @@ Standing surfaceUnder(const std::vector<Eigen::Vector3d>& cluster, const Eigen::
   for (const Surface& surface : surfaces) {
     const auto& plane = planes.planes[static_cast<std::size_t>(surface.plane)].plane_in_sensor;
     if (signedDistance(plane, centroid) <= 0) continue;
-    if (!objects::isNearHull(surface.hull, surface.across.transpose() * centroid, kHullMargin)) continue;
+    if (!surface.hull.holds(surface.across.transpose() * centroid, kHullMargin)) continue;
     std::transform(cluster.begin(), cluster.end(), heights.begin(),
                    [&](const Eigen::Vector3d& point) { return signedDistance(plane, point); });
     const auto low = heights.begin() + static_cast<std::ptrdiff_t>(kLowest * static_cast<double>(heights.size()));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "ConvexHull.h"
+
 namespace omnimapper::perception::objects {
 
 namespace {
@@ -47,33 +49,6 @@ Rectangle smallestAround(const std::vector<Eigen::Vector2d>& hull) {
 }
 
 }  // namespace
-
-std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  if (points.size() < 3) return points;
-  std::vector<Eigen::Vector2d> hull;
-  const auto add = [&](const Eigen::Vector2d& point, std::size_t fixed) {
-    while (hull.size() >= fixed + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
-      hull.pop_back();
-    hull.push_back(point);
-  };
-  for (const auto& point : points) add(point, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
-  hull.pop_back();  // the first again
-  return hull;
-}
-
-bool isNearHull(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& point, double margin) {
-  if (hull.size() < 3) return false;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Eigen::Vector2d edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
-    if (cross(edge, point - hull[i]) < -margin) return false;
-  }
-  return true;
-}
 
 OrientedBox boxAlong(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points) {
   const Eigen::Matrix<double, 3, 2> across = geometry::tangentBasis(axis);

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "OrientedBox.h"
-
 namespace omnimapper::perception::objects {
 
 namespace {
@@ -25,13 +23,13 @@ bool areCoplanar(const PlaneRegion& a, const PlaneRegion& b, const ObjectOptions
          std::abs(signedDistance(b.plane_in_sensor, a.centroid)) < farthest;
 }
 
-std::vector<Eigen::Vector2d> hullOf(const PlaneSegmentation& planes, const Surface& surface) {
+HullNeighbourhood hullOf(const PlaneSegmentation& planes, const Surface& surface) {
   std::vector<Eigen::Vector2d> points;
   for (const int piece : surface.pieces) {
     for (const auto& vertex : planes.planes[static_cast<std::size_t>(piece)].outline.polygon_in_sensor.vertices)
       points.emplace_back(surface.across.transpose() * vertex);
   }
-  return convexHull(std::move(points));
+  return HullNeighbourhood(convexHull(std::move(points)));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "ConvexHull.h"
+
 namespace omnimapper::perception::objects {
 
 /// A level surface that things may stand on, in one piece or several.
@@ -11,7 +13,7 @@ struct Surface {
   int plane = 0;            ///< index of its largest piece
   std::vector<int> pieces;  ///< indices of planes, that one first
   Eigen::Matrix<double, 3, 2> across;
-  std::vector<Eigen::Vector2d> hull;  ///< of all pieces, along `across` [m]
+  HullNeighbourhood hull;  ///< of all pieces, along `across` [m]
 };
 
 /// The surfaces among the planes of an image, the largest piece first. The sensor bends what it sees by `bend_at_1m`

@@ -1,0 +1,73 @@
+#include "ConvexHull.h"
+
+#include <algorithm>
+#include <array>
+
+namespace omnimapper::perception::objects {
+
+namespace {
+
+// Sorting fewer costs less than looking for the inner ones.
+constexpr std::size_t kWorthDropping = 64;
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+std::vector<Eigen::Vector2d> monotoneChain(std::vector<Eigen::Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  if (points.size() < 3) return points;
+  std::vector<Eigen::Vector2d> hull;
+  const auto add = [&](const Eigen::Vector2d& point, std::size_t fixed) {
+    while (hull.size() >= fixed + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
+      hull.pop_back();
+    hull.push_back(point);
+  };
+  for (const auto& point : points) add(point, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
+  hull.pop_back();  // the first again
+  return hull;
+}
+
+// The farthest points in eight directions, as a convex polygon.
+std::vector<Eigen::Vector2d> extremes(const std::vector<Eigen::Vector2d>& points) {
+  std::array<Eigen::Vector2d, 8> farthest;
+  farthest.fill(points.front());
+  const auto along = [](std::size_t direction, const Eigen::Vector2d& p) {
+    const double value[4] = {p.x(), p.y(), p.x() + p.y(), p.x() - p.y()};
+    return direction < 4 ? value[direction] : -value[direction - 4];
+  };
+  for (const auto& point : points) {
+    for (std::size_t d = 0; d < farthest.size(); ++d) {
+      if (along(d, point) > along(d, farthest[d])) farthest[d] = point;
+    }
+  }
+  return monotoneChain({farthest.begin(), farthest.end()});
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points) {
+  if (points.size() > kWorthDropping) {
+    const HullNeighbourhood inside(extremes(points));
+    // What lies within by more than rounding is no corner.
+    constexpr double kWithin = 1e-9;
+    const auto isInner = [&](const Eigen::Vector2d& point) { return inside.holds(point, -kWithin); };
+    points.erase(std::remove_if(points.begin(), points.end(), isInner), points.end());
+  }
+  return monotoneChain(std::move(points));
+}
+
+HullNeighbourhood::HullNeighbourhood(const std::vector<Eigen::Vector2d>& corners) {
+  if (corners.size() < 3) return;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d edge = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
+    const Eigen::Vector2d inwards(-edge.y(), edge.x());
+    sides_.push_back({inwards, inwards.dot(corners[i])});
+  }
+}
+
+}  // namespace omnimapper::perception::objects

@@ -1,0 +1,95 @@
+// How many range camera frames a second everything that is found in them takes: planes, things, five kinds of edges.
+// Two ways to use several threads: a frame for each, as omnimapper-perceive and the mapper do, or a kind of feature for
+// each. Frames are in memory; times are those of the wall clock, so nothing else should run. Prints a Markdown table.
+//
+// Example: bench-perception_rate --tum tum_fr1_rpy --threads 2
+#include <omnimapper/base/WorkerPool.h>
+#include <omnimapper/perception/EdgeExtractor.h>
+#include <omnimapper/perception/ObjectExtractor.h>
+#include <omnimapper/source/RgbdFolder.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+
+#include "Timing.h"
+
+namespace {
+
+using namespace omnimapper;
+using Scan = mrpt::obs::CObservation3DRangeScan;
+using Scans = std::vector<Scan::ConstPtr>;
+using Work = std::function<bool(const Scan&)>;
+
+Scans readScans(const std::string& folder, int every) {
+  source::RgbdFolder images(folder, {});
+  Scans scans;
+  for (int i = 0; const auto observation = images.next(); ++i) {
+    auto scan = std::dynamic_pointer_cast<const Scan>(observation);
+    if (scan && i % every == 0) scans.push_back(std::move(scan));
+  }
+  return scans;
+}
+
+// Frames a second, when each thread takes a frame and does all work on it, or when each piece of work is a task.
+double rateOf(const Scans& scans, const std::vector<Work>& work, int threads, bool frame_is_a_task) {
+  using Clock = std::chrono::steady_clock;
+  base::WorkerPool pool(threads);
+  std::vector<std::future<bool>> done;
+  const auto begin = Clock::now();
+  for (const auto& scan : scans) {
+    if (frame_is_a_task) {
+      done.push_back(pool.submit<bool>([&work, scan] {
+        for (const auto& piece : work) piece(*scan);
+        return true;
+      }));
+    } else {
+      for (const auto& piece : work) done.push_back(pool.submit<bool>([&piece, scan] { return piece(*scan); }));
+    }
+  }
+  for (auto& each : done) each.get();
+  return static_cast<double>(scans.size()) / std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+void printRow(const std::string& name, const Scans& scans, const std::vector<Work>& work, int threads,
+              bool frame_is_a_task, int rounds) {
+  std::vector<double> rates;
+  for (int i = 0; i < rounds; ++i) rates.push_back(rateOf(scans, work, threads, frame_is_a_task));
+  std::printf("| %s | %d | %s | %.0f | %.0f | %.0f |\n", name.c_str(), threads, frame_is_a_task ? "frame" : "kind",
+              bench::quantile(rates, 0.5), bench::quantile(rates, 0), bench::quantile(rates, 1));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string folder;
+  int every = 3, threads = 2, rounds = 5;
+  CLI::App app("Frames a second of everything that is found in the frames of a range camera.");
+  app.add_option("--tum", folder, "folder of depth and colour images in the TUM layout")->required();
+  app.add_option("--every", every, "only every n-th pair of images")->check(CLI::PositiveNumber);
+  app.add_option("--threads", threads, "at most")->check(CLI::PositiveNumber);
+  app.add_option("--rounds", rounds, "how often")->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+
+  const auto scans = readScans(folder, every);
+  perception::ObjectExtractor::Options options;
+  options.objects.max_tilt = M_PI / 2;  // which way is up is not told
+  const perception::PlaneExtractor planes(options.planes, options.outlines);
+  const perception::ObjectExtractor things(options);
+  const perception::EdgeExtractor edges({});
+  const Work find_planes = [&](const Scan& scan) { return planes.extract(scan) != nullptr; };
+  const Work find_things = [&](const Scan& scan) { return things.extract(scan).planes != nullptr; };
+  const Work find_edges = [&](const Scan& scan) { return !edges.extract(scan).empty(); };
+
+  std::printf(
+      "%zu frames, %d times\n\n| what | threads | a task is a | frames/s median | least | most "
+      "|\n|---|---|---|---|---|---|\n",
+      scans.size(), rounds);
+  for (int n = 1; n <= threads; ++n) {
+    printRow("planes", scans, {find_planes}, n, true, rounds);
+    printRow("planes and things", scans, {find_things}, n, true, rounds);
+    printRow("five kinds of edges", scans, {find_edges}, n, true, rounds);
+    printRow("everything", scans, {find_things, find_edges}, n, true, rounds);
+    if (n > 1) printRow("everything", scans, {find_things, find_edges}, n, false, rounds);
+  }
+}
