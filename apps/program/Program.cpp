@@ -1,6 +1,7 @@
 #include "Program.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/Memory.h>
 
 #include <csignal>
 #include <iostream>
@@ -15,6 +16,7 @@ void onInterrupt(int) {
 }  // namespace
 
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  base::keepFreedMemory();
   try {
     app.parse(argc, argv);
     return body();

@@ -3,6 +3,7 @@
 // bench-edges was built with it. Times are those of the processor, of one thread.
 //
 // Example: bench-edges --tum tum_fr1_rpy --every 10 --ini rawlogs/home.ini --sensor kinect --frames 20
+#include <omnimapper/base/Memory.h>
 #include <omnimapper/perception/EdgeDetector.h>
 #include <omnimapper/perception/Normals.h>
 
@@ -227,6 +228,7 @@ int main(int argc, char** argv) {
   app.add_option("--jump", truth.least_jump, "least true jump, in parts of the depth");
   app.add_option("--turn", truth.least_turn_deg, "least true turn [deg]");
   CLI11_PARSE(app, argc, argv);
+  base::keepFreedMemory();  // as our programs do
   if (!tum.empty()) {
     const auto frames = readRgbd(tum, every, {camera[0], camera[1], camera[2], camera[3]});
     printTimes(frames, rounds);

@@ -4,6 +4,7 @@
 //
 // Example: bench-objects --clouds objects/mosd
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/base/Memory.h>
 #include <omnimapper/perception/ObjectFinder.h>
 #include <omnimapper/source/PcdFolder.h>
 #include <omnimapper/source/RawlogSource.h>
@@ -218,6 +219,7 @@ int main(int argc, char** argv) {
   app.add_option("--fewest", fewest, "points of a cluster that counts in the columns recall and precision");
   app.add_option("--rounds", rounds, "times each cloud is done");
   CLI11_PARSE(app, argc, argv);
+  base::keepFreedMemory();  // as our programs do
   const auto clouds = folder.empty() ? readSimulated(simulated) : readClouds(folder);
 
   using Comparator = perception::ObjectOptions::Comparator;

@@ -3,6 +3,7 @@
 // each. Frames are in memory; times are those of the wall clock, so nothing else should run. Prints a Markdown table.
 //
 // Example: bench-perception_rate --tum tum_fr1_rpy --threads 2
+#include <omnimapper/base/Memory.h>
 #include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/perception/EdgeExtractor.h>
 #include <omnimapper/perception/ObjectExtractor.h>
@@ -70,6 +71,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads, "at most")->check(CLI::PositiveNumber);
   app.add_option("--rounds", rounds, "how often")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
+  base::keepFreedMemory();  // as our programs do
 
   const auto scans = readScans(folder, every);
   perception::ObjectExtractor::Options options;

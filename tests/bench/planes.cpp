@@ -3,6 +3,7 @@
 // where bench-planes was built with them. Times are those of the processor, of one thread.
 //
 // Example: bench-planes --depth tum_fr1_rpy/depth --every 5 --rooms 20
+#include <omnimapper/base/Memory.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
 
 #include <CLI/CLI.hpp>
@@ -151,6 +152,7 @@ int main(int argc, char** argv) {
   app.add_option("--noise", noise_factor, "of the rooms, in parts of the default");
   app.add_option("--peer", libraries, "shared library of other methods; PlanePeerLibrary.h says what it holds");
   CLI11_PARSE(app, argc, argv);
+  base::keepFreedMemory();  // as our programs do
   const auto all = methods(libraries);
   if (!folder.empty()) {
     const auto frames = readFrames(folder, every, unit, {camera[0], camera[1], camera[2], camera[3]});

@@ -48,10 +48,11 @@ namespace {
 
 using objects::Surface;
 
-constexpr double kSigmas = 3;         // what noise may do
-constexpr double kLowest = 0.02;      // share of a thing's points that may be noise below the rest
-constexpr double kFoot = 0.03;        // [m] beside the noise, of a thing that may be lost in the surface
-constexpr double kHullMargin = 0.05;  // [m] a thing on the edge of a table hides where it ends
+constexpr double kSigmas = 3;          // what noise may do
+constexpr double kLowest = 0.02;       // share of a thing's points that may be noise below the rest
+constexpr double kFoot = 0.03;         // [m] beside the noise, of a thing that may be lost in the surface
+constexpr std::size_t kSample = 4096;  // points of a cluster from which its surface, axis and covariance are taken
+constexpr double kHullMargin = 0.05;   // [m] a thing on the edge of a table hides where it ends
 
 // Pixels with a depth that are not of the place, and their points [m].
 struct Doubtful {
@@ -60,14 +61,30 @@ struct Doubtful {
 
   Doubtful(const std::vector<std::uint16_t>& labels, const OrganisedPoints& points, const std::vector<bool>& of_place) {
     for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (of_place[labels[i]] || std::isnan(points.z[i])) continue;
-      pixels.push_back(i);
+      if (!of_place[labels[i]] && !std::isnan(points.z[i])) pixels.push_back(i);
+    }
+    for (auto* of_pixels : {&x, &y, &z}) of_pixels->reserve(pixels.size());
+    for (const std::size_t i : pixels) {
       x.push_back(points.x[i]);
       y.push_back(points.y[i]);
       z.push_back(points.z[i]);
     }
   }
 };
+
+// By how much points are farther from a plane than what lies on it may be, or what `excess` holds if that is less [m].
+void lowerToPlane(const geometry::Plane3& plane, const Doubtful& points, float height, float noise_at_1m,
+                  std::vector<float>& excess) {
+  const Eigen::Vector3f n = plane.normal.cast<float>();
+  const float a = n.x(), b = n.y(), c = n.z(), d = static_cast<float>(plane.distance);
+  const float *x = points.x.data(), *y = points.y.data(), *z = points.z.data();
+  float* const out = excess.data();
+  const std::size_t count = excess.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const float here = std::abs(a * x[k] + b * y[k] + c * z[k] + d) - height - noise_at_1m * z[k] * z[k];
+    out[k] = here < out[k] ? here : out[k];
+  }
+}
 
 // Labels in which whatever lies on a surface is of its first piece: where the plane of a thing's side goes on over the
 // table, pixels are on both, and beside edges some are on neither.
@@ -77,22 +94,16 @@ std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const
   std::vector<std::uint16_t> labels = planes.labels;
   const Doubtful doubtful(labels, points, of_place);
   const auto height = static_cast<float>(min_height), noise = static_cast<float>(kSigmas * noise_at_1m);
-  std::vector<std::uint8_t> is_low(doubtful.pixels.size());
+  std::vector<float> excess;
   for (const Surface& surface : surfaces) {
-    for (const int piece : surface.pieces) {
-      const auto& plane = planes.planes[static_cast<std::size_t>(piece)].plane_in_sensor;
-      const Eigen::Vector3f n = plane.normal.cast<float>();
-      const auto d = static_cast<float>(plane.distance);
-      for (std::size_t k = 0; k < is_low.size(); ++k) {
-        const float x = doubtful.x[k], y = doubtful.y[k], z = doubtful.z[k];
-        is_low[k] = std::abs(n.x() * x + n.y() * y + n.z() * z + d) < height + noise * z * z;
-      }
-      for (std::size_t k = 0; k < is_low.size(); ++k) {
-        if (is_low[k] == 0) continue;
-        const Eigen::Vector3d point(doubtful.x[k], doubtful.y[k], doubtful.z[k]);
-        if (surface.hull.holds(surface.across.transpose() * point, kHullMargin))
-          labels[doubtful.pixels[k]] = static_cast<std::uint16_t>(surface.plane + 1);
-      }
+    excess.assign(doubtful.pixels.size(), 0.F);
+    for (const int piece : surface.pieces)
+      lowerToPlane(planes.planes[static_cast<std::size_t>(piece)].plane_in_sensor, doubtful, height, noise, excess);
+    for (std::size_t k = 0; k < excess.size(); ++k) {
+      if (excess[k] >= 0) continue;
+      const Eigen::Vector3d point = Eigen::Vector3f(doubtful.x[k], doubtful.y[k], doubtful.z[k]).cast<double>();
+      if (surface.hull.holds(surface.across.transpose() * point, kHullMargin))
+        labels[doubtful.pixels[k]] = static_cast<std::uint16_t>(surface.plane + 1);
     }
   }
   return labels;
@@ -121,11 +132,14 @@ Clusters clustersOf(const DepthImage& image, const ClusterComparator& near, cons
   return pixelsOf(labels);
 }
 
-std::vector<Eigen::Vector3d> pointsOf(const std::vector<int>& pixels, const OrganisedPoints& all) {
+// Those of all pixels or, evenly among them, of no more than `most`.
+std::vector<Eigen::Vector3d> pointsOf(const std::vector<int>& pixels, const OrganisedPoints& all,
+                                      std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  const std::size_t step = (pixels.size() - 1) / most + 1;
   std::vector<Eigen::Vector3d> points;
-  points.reserve(pixels.size());
-  for (const int pixel : pixels) {
-    const auto i = static_cast<std::size_t>(pixel);
+  points.reserve(pixels.size() / step + 2);
+  for (std::size_t k = 0; k < pixels.size(); k += step) {
+    const auto i = static_cast<std::size_t>(pixels[k]);
     points.emplace_back(static_cast<double>(all.x[i]), static_cast<double>(all.y[i]), static_cast<double>(all.z[i]));
   }
   return points;
@@ -137,8 +151,9 @@ Eigen::Vector3d meanOf(const std::vector<Eigen::Vector3d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-// Noise moves each point along its ray by itself; what bends the image moves all alike.
-Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, const DepthNoise& noise) {
+// Of the mean of `all` points, of which some are told. Noise moves each point along its ray by itself; what bends the
+// image moves all alike.
+Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, std::size_t all, const DepthNoise& noise) {
   const auto count = static_cast<double>(points.size());
   Eigen::Matrix3d apart = Eigen::Matrix3d::Zero();
   Eigen::Vector3d together = Eigen::Vector3d::Zero();
@@ -148,7 +163,8 @@ Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, con
     together += by_inverse_depth / count;
   }
   const double bend_sigma = 0.5 * noise.bend;
-  return noise.meanVariance() / (count * count) * apart + bend_sigma * bend_sigma * together * together.transpose();
+  return noise.meanVariance() / (count * static_cast<double>(all)) * apart +
+         bend_sigma * bend_sigma * together * together.transpose();
 }
 
 struct Standing {
@@ -195,20 +211,25 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
   const ClusterComparator near{points, labels, of_place, static_cast<float>(options_.max_gap), noise};
 
   for (auto& pixels : clustersOf(image, near, options_, sensor_)) {
+    const auto sample = pointsOf(pixels, points, kSample);
+    const Eigen::Vector3d middle = meanOf(sample);
+    const auto [surface, gap] = surfaceUnder(sample, middle, planes, surfaces, options_.max_standing_gap);
+    if (surface == nullptr && options_.on_surfaces_only) continue;
+    const auto* const under =
+        surface == nullptr ? nullptr : &planes.planes[static_cast<std::size_t>(surface->plane)].plane_in_sensor;
+    const Eigen::Vector3d axis = under == nullptr ? leastAxisOf(sample, middle) : under->normal;
+    // The box of all is no smaller.
+    if (objects::boxAlong(axis, sample).size.prod() > options_.max_volume) continue;
+
     auto cluster = pointsOf(pixels, points);
     ObjectRegion region;
     region.centroid = meanOf(cluster);
-    const auto [surface, gap] = surfaceUnder(cluster, region.centroid, planes, surfaces, options_.max_standing_gap);
-    if (surface == nullptr && options_.on_surfaces_only) continue;
-    region.covariance = covarianceOfMean(cluster, sensor_.noise());
-    Eigen::Vector3d axis = leastAxisOf(cluster, region.centroid);
-    if (surface != nullptr) {
-      const auto& plane = planes.planes[static_cast<std::size_t>(surface->plane)].plane_in_sensor;
+    region.covariance = covarianceOfMean(sample, pixels.size(), sensor_.noise());
+    if (under != nullptr) {
       region.surface = surface->plane;
-      axis = plane.normal;
       // The box goes down to it where the lowest of the thing was taken for the surface.
       const double foot = kFoot + kSigmas * sensor_.noise_at_1m * region.centroid.z() * region.centroid.z();
-      if (gap < foot) cluster.push_back(region.centroid - signedDistance(plane, region.centroid) * plane.normal);
+      if (gap < foot) cluster.push_back(region.centroid - signedDistance(*under, region.centroid) * under->normal);
     }
     const auto box = objects::boxAlong(axis, cluster);
     if (box.size.maxCoeff() < options_.min_size || box.size.prod() > options_.max_volume) continue;

@@ -7,8 +7,8 @@ namespace omnimapper::perception::objects {
 
 namespace {
 
-// Sorting fewer costs less than looking for the inner ones.
-constexpr std::size_t kWorthDropping = 64;
+constexpr std::size_t kWorthDropping = 64;  // sorting fewer costs less than looking for the inner ones
+constexpr std::size_t kSample = 1024;       // points among which extreme ones are sought
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -32,7 +32,7 @@ std::vector<Eigen::Vector2d> monotoneChain(std::vector<Eigen::Vector2d> points) 
   return hull;
 }
 
-// The farthest points in eight directions, as a convex polygon.
+// The farthest points in eight directions among some of all, as a convex polygon.
 std::vector<Eigen::Vector2d> extremes(const std::vector<Eigen::Vector2d>& points) {
   std::array<Eigen::Vector2d, 8> farthest;
   farthest.fill(points.front());
@@ -40,7 +40,9 @@ std::vector<Eigen::Vector2d> extremes(const std::vector<Eigen::Vector2d>& points
     const double value[4] = {p.x(), p.y(), p.x() + p.y(), p.x() - p.y()};
     return direction < 4 ? value[direction] : -value[direction - 4];
   };
-  for (const auto& point : points) {
+  const std::size_t step = (points.size() - 1) / kSample + 1;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    const Eigen::Vector2d& point = points[i];
     for (std::size_t d = 0; d < farthest.size(); ++d) {
       if (along(d, point) > along(d, farthest[d])) farthest[d] = point;
     }
