@@ -5,7 +5,6 @@
 //
 // Example: bench-plane_comparators --tum tum_fr1_rpy --every 10 --rooms 20
 #include <omnimapper/perception/PlaneSegmenter.h>
-#include <time.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,26 +12,15 @@
 #include <memory>
 
 #include "../perception/ColouredRooms.h"
+#include "../perception/PlaneAgreement.h"
 #include "ComparatorPeers.h"
+#include "Timing.h"
 
 namespace {
 
 using namespace omnimapper;
 using namespace omnimapper::bench;
 namespace rooms = perception::rooms;
-
-double now() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 ComparatorPeer ours(const std::string& name, const perception::PlaneComparison& comparison) {
   struct Given {
@@ -77,9 +65,9 @@ void printTimes(const std::vector<RgbdFrame>& frames, int rounds) {
     for (const RgbdFrame& frame : frames) {
       for (std::size_t m = 0; m < all.size(); ++m) {
         all[m].take(frame);
-        const double begin = now();
+        const double begin = processorTime();
         const auto labels = all[m].run();
-        times[m].push_back(now() - begin);
+        times[m].push_back(processorTime() - begin);
         planes[m] += *std::max_element(labels.begin(), labels.end());
         pixels[m] += covered(labels);
       }
@@ -111,12 +99,7 @@ void printRooms(int count) {
       frame.rgb.insert(frame.rgb.end(), {c.red, c.green, c.blue});
     for (std::size_t m = 0; m < all.size(); ++m) {
       all[m].take(frame);
-      const auto a = rooms::compare(view, all[m].run(), width, height, 1500);
-      sums[m].true_planes += a.true_planes;
-      sums[m].found += a.found;
-      sums[m].reported += a.reported;
-      sums[m].reported_right += a.reported_right;
-      sums[m].pixels_right += a.pixels_right / count;
+      sums[m] += rooms::compare(view, all[m].run(), width, height, 1500);
     }
   }
   std::printf(
@@ -126,7 +109,7 @@ void printRooms(int count) {
   for (std::size_t m = 0; m < all.size(); ++m) {
     const auto& s = sums[m];
     std::printf("| %s | %.3f | %.3f | %.3f |\n", all[m].name.c_str(), s.found / static_cast<double>(s.true_planes),
-                s.reported_right / std::max(1.0, s.reported * 1.0), s.pixels_right);
+                s.reported_right / std::max(1.0, s.reported * 1.0), s.pixelsRight());
   }
 }
 

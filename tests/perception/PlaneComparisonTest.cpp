@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "ColouredRooms.h"
+#include "PlaneAgreement.h"
 
 namespace omnimapper::perception {
 namespace {
@@ -125,9 +126,8 @@ TEST(PlaneComparison, ColoursThatAreMissingAreAnError) {
 
 TEST(PlaneComparison, SheetsInNoisyRoomsAreFoundByColourAlone) {
   rooms::Agreement by_plane, by_colour;
-  constexpr int kRooms = 4;
-  for (int seed = 0; seed < kRooms; ++seed) {
-    testing::Dice dice(static_cast<std::uint64_t>(seed));
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    testing::Dice dice(seed);
     const auto room = rooms::colouredRoom(dice);
     const auto view = rooms::render(room.scene);
     const int width = room.scene.width, height = room.scene.height;
@@ -136,16 +136,13 @@ TEST(PlaneComparison, SheetsInNoisyRoomsAreFoundByColourAlone) {
     const DepthImage image(depth.data(), width, height, room.scene.camera);
     const auto add = [&](const PlaneComparison& comparison, rooms::Agreement& sum) {
       const auto found = PlaneSegmenter({}, by(comparison)).segment(image, colours);
-      const auto a = rooms::compare(view, found.labels, width, height, 1500);
-      sum.true_planes += a.true_planes;
-      sum.found += a.found;
-      sum.pixels_right += a.pixels_right / kRooms;
+      sum += rooms::compare(view, found.labels, width, height, 1500);
     };
     add(kSamePlane, by_plane);
     add(kSamePlaneAndColour, by_colour);
   }
   EXPECT_GT(by_colour.found, 0.8 * by_colour.true_planes);
-  EXPECT_GT(by_colour.pixels_right, 0.9);
+  EXPECT_GT(by_colour.pixelsRight(), 0.9);
   EXPECT_LT(by_plane.found, 0.8 * by_plane.true_planes) << "sheets and what they lie on are one";
 }
 
@@ -173,18 +170,17 @@ TEST(PlaneComparison, NormalsFindWhatIsFlatAndDropWhatIsMerelySmooth) {
 }
 
 TEST(PlaneComparison, NormalsFindTheLargePlanesOfRooms) {
-  double pixels_right = 0;
-  constexpr int kRooms = 4;
-  for (int seed = 0; seed < kRooms; ++seed) {
-    testing::Dice dice(static_cast<std::uint64_t>(seed));
+  rooms::Agreement sum;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    testing::Dice dice(seed);
     const auto scene = rooms::randomRoom(dice);
     const auto view = rooms::render(scene);
     const auto depth = rooms::withNoise(view, scene.width, scene.height, {}, dice);
     const DepthImage image(depth.data(), scene.width, scene.height, scene.camera);
     const auto found = PlaneSegmenter({}, by(kSimilarNormals)).segment(image);
-    pixels_right += rooms::compare(view, found.labels, scene.width, scene.height, 1500).pixels_right / kRooms;
+    sum += rooms::compare(view, found.labels, scene.width, scene.height, 1500);
   }
-  EXPECT_GT(pixels_right, 0.5);
+  EXPECT_GT(sum.pixelsRight(), 0.5);
 }
 
 // Whatever the image: labels are those of planes, and each plane has as many pixels as it says.
