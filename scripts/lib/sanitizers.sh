@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 
 # Address and undefined behaviour: the libraries from the bottom up to the engine.
-readonly address_tests=(base geometry obs source perception matching graph map mapper sim)
+readonly address_tests=(base geometry obs source perception matching graph map mapper sim fuzz)
 # Programs of others cannot load a library of ours that is built with a sanitizer. Walks over every place take minutes
 # with one: left are those over one seed.
 readonly address_filter='-StockTools.*:Generators.aRobotComesToEveryRoomAtAllLevelsOfClutter:Generators.planesAreExactInEveryPlace:PlacesAndSeeds/*_2'

@@ -163,6 +163,16 @@ TEST(CObservationPlanes, whatIsNotANumberIsNotDrawn) {
   EXPECT_TRUE(planes.getVisualization());
 }
 
+TEST(CObservationPlanes, whatIsTooFarToAddUpIsNotDrawn) {
+  auto planes = *filledPlanes();
+  planes.planes.resize(1);
+  auto& vertices = planes.planes[0].outline.vertices;
+  vertices.clear();
+  for (int i = 0; i < 200; ++i) vertices.push_back({i % 3 == 0 ? 1e308 : -1e308, i % 2 == 0 ? 1e308 : -1e308, -0.9});
+  planes.planes[0].holes.clear();
+  EXPECT_EQ(drawnArea(*planes.getVisualization()->getByClass<mrpt::opengl::CSetOfObjects>(), 0), 0);
+}
+
 TEST(CObservationLaserLines, exportsEachLineInFull) {
   const auto lines = filledLines();
   const auto row = rowOf(*lines);

@@ -137,6 +137,18 @@ TEST(CloudPlaneFinder, APlaneThroughTheSensorIsNoneThatItSees) {
   EXPECT_EQ(CloudPlaneFinder(options).find(turn).planes.size(), 1U);
 }
 
+TEST(CloudPlaneFinder, ALineOfPointsBesideASurfaceIsNoPlane) {
+  Cloud cloud;
+  addTable(1, -0.5, 1, 0.6, -0.5, cloud);
+  const std::size_t table = cloud.size();
+  addTable(1, 0.6, 5, 0, -0.5, cloud);  // one row of the same plane, farther from the rest than a gap
+  auto options = everyPoint();
+  options.min_points = 50;
+  const auto found = CloudPlaneFinder(options).find(cloud);
+  ASSERT_EQ(found.planes.size(), 1U);
+  EXPECT_EQ(found.planes[0].inliers, static_cast<int>(table));
+}
+
 TEST(CloudPlaneFinder, ContradictoryRangesAreRefused) {
   CloudPlaneOptions options;
   options.max_range = options.min_range;

@@ -242,6 +242,18 @@ TEST(LaserLineExtractor, ScansThatShowNoLineGiveNone) {
   }
 }
 
+TEST(LaserLineExtractor, PointsOnOneBeamAreFiniteWithoutNoiseAcrossIt) {
+  for (const Method method : kMethods) {
+    auto options = optionsOf(method);
+    options.roughness = options.beam_width = 0;
+    auto scan = scanOf(60, 0, [](double) { return 2; });
+    for (std::size_t i = 0; i < 60; ++i) scan.setScanRange(i, 1 + 0.05F * static_cast<float>(i));
+    for (const auto& line : linesOf(scan, options)) {
+      EXPECT_TRUE(std::isfinite(line.angle) && std::isfinite(line.distance) && line.covariance.allFinite());
+    }
+  }
+}
+
 TEST(LaserLineExtractor, BothMethodsAgreeInCleanRooms) {
   testing::LineScanOptions clean;
   clean.clutter = 0;

@@ -188,6 +188,11 @@ TEST(PlaneSegmenter, WhatIsNoImageIsRefused) {
   EXPECT_THROW(DepthImage(one.data(), 1, 1, Pinhole{0, 1, 0, 0}), base::Error);
   EXPECT_THROW(DepthImage(one.data(), 1, 1, Pinhole{1, 1, std::nan(""), 0}), base::Error);
   const std::vector<std::uint16_t> unit{1};
+  for (const double odd : {0., 0.5, 1e7, 1e300}) {
+    EXPECT_THROW(DepthImage(unit.data(), 1e-3, 1, 1, {odd, 100, 0, 0}), base::Error) << odd;
+    EXPECT_THROW(DepthImage(unit.data(), 1e-3, 1, 1, {100, -odd, 0, 0}), base::Error) << odd;
+  }
+  EXPECT_THROW(DepthImage(unit.data(), 1e-3, 1, 1, {100, 100, 0, 1e7}), base::Error);
   EXPECT_THROW(DepthImage(unit.data(), 0, 1, 1, kCamera), base::Error);
   PlaneOptions options;
   options.max_depth = options.min_depth;

@@ -170,7 +170,7 @@ TEST(HouseRules, theLibrariesKnowNothingOfTheExampleFromOutside) {
 
 TEST(HouseRules, testFoldersMirrorTheLibraries) {
   const auto libraries = folders("libs");
-  const std::vector<std::string> others{"bench", "system", "testing"};
+  const std::vector<std::string> others{"bench", "fuzz", "system", "testing"};
   for (const std::string& folder : folders("tests")) {
     if (std::count(others.begin(), others.end(), folder) > 0) continue;
     EXPECT_TRUE(std::count(libraries.begin(), libraries.end(), folder) > 0)
@@ -183,7 +183,8 @@ TEST(HouseRules, testFoldersMirrorTheLibraries) {
   for (const path& file : files("tests", {".cpp"})) {
     const std::string name = file.stem();
     if (projectPath(file).rfind("tests/bench/", 0) == 0 || projectPath(file).rfind("tests/testing/", 0) == 0 ||
-        projectPath(file).rfind("tests/system/package/", 0) == 0) {
+        projectPath(file).rfind("tests/system/package/", 0) == 0 ||
+        projectPath(file).rfind("tests/fuzz/targets/", 0) == 0 || name == "LibFuzzer") {
       continue;
     }
     EXPECT_TRUE(name.size() > 4 && name.compare(name.size() - 4, 4, "Test") == 0)

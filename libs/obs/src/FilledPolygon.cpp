@@ -9,6 +9,7 @@ namespace omnimapper::obs {
 
 namespace {
 
+constexpr double kFarthest = 1e9;        // [m] what is beyond is not drawn: sums of it would be no numbers
 constexpr std::size_t kMostSlabs = 300;  // of more heights than that, evenly spaced ones serve the eye as well
 
 struct Edge {
@@ -23,7 +24,8 @@ std::vector<Edge> edgesOf(const std::vector<geometry::Polygon3>& walks, const Ei
     for (std::size_t i = 0, j = vertices.size() - 1; i < vertices.size(); j = i++) {
       const Eigen::Vector2d a = basis.transpose() * (vertices[i] - origin);
       const Eigen::Vector2d b = basis.transpose() * (vertices[j] - origin);
-      if (!a.allFinite() || !b.allFinite() || a.y() == b.y()) continue;
+      const double reach = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
+      if (!a.allFinite() || !b.allFinite() || reach > kFarthest || a.y() == b.y()) continue;
       edges.push_back(a.y() < b.y() ? Edge{a, b} : Edge{b, a});
     }
   }

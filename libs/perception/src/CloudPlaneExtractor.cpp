@@ -35,7 +35,12 @@ std::vector<Eigen::Vector3f> pointsOf(const CObservationVelodyneScan& scan, doub
   CObservationVelodyneScan unpacked = scan;
   CObservationVelodyneScan::TGeneratePointCloudParameters parameters;
   parameters.minDistance = static_cast<float>(min_range);
-  unpacked.generatePointCloud(parameters);
+  try {
+    unpacked.generatePointCloud(parameters);
+  } catch (const std::exception& error) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      scan.sensorLabel + ": its packets cannot be read with its calibration: " + error.what());
+  }
   return pointsOf(unpacked.point_cloud.x, unpacked.point_cloud.y, unpacked.point_cloud.z);
 }
 

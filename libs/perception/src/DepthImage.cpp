@@ -9,6 +9,8 @@ namespace omnimapper::perception {
 namespace {
 
 constexpr int kLongestSide = 4096;
+// What no calibration has [px]. Beyond it numbers overflow that are made of it.
+constexpr double kShortestFocal = 1, kFarthest = 1e6;
 
 [[noreturn]] void refuse(const std::string& why) {
   throw base::Error(base::ExitCode::unreadable_input, "depth image: " + why);
@@ -21,9 +23,16 @@ void check(const void* pixels, int width, int height, const Pinhole& camera) {
   }
   if (pixels == nullptr && width > 0 && height > 0) refuse("it has a size but no pixels");
   for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) {
-    if (!std::isfinite(value)) refuse("an intrinsic parameter is not finite; calibrate the camera");
+    if (!(std::abs(value) <= kFarthest)) {  // not a number, too
+      refuse("an intrinsic parameter of " + std::to_string(value) + " px is beyond " + std::to_string(kFarthest) +
+             " px; calibrate the camera");
+    }
   }
-  if (camera.fx == 0 || camera.fy == 0) refuse("a focal length is 0; calibrate the camera");
+  for (const double focal : {camera.fx, camera.fy}) {
+    if (std::abs(focal) < kShortestFocal) {
+      refuse("a focal length of " + std::to_string(focal) + " px is shorter than a pixel; calibrate the camera");
+    }
+  }
 }
 
 }  // namespace

@@ -11,29 +11,57 @@ namespace omnimapper::perception {
 
 namespace {
 
-// Whether there is an edge of the picture in what a pixel of the depth image covers of it.
-bool seesEdge(edges::Candidates& found, const ColourImage& picture, const ScanColours::Place& place, int half) {
-  for (int y = std::max(0, place.y - half); y <= std::min(picture.height - 1, place.y + half); ++y) {
-    const std::uint8_t* row = found.row(y);
-    for (int x = std::max(0, place.x - half); x <= std::min(picture.width - 1, place.x + half); ++x) {
-      if (row[x] == edges::Candidates::kKept) return true;
+// How many edge pixels of a picture lie in any upright rectangle.
+class EdgeSums {
+ public:
+  EdgeSums(edges::Candidates& found, const ColourImage& picture)
+      : width_(picture.width), height_(picture.height), stride_(static_cast<std::size_t>(width_) + 1) {
+    sums_.resize(stride_ * (static_cast<std::size_t>(height_) + 1), 0);
+    for (int y = 0; y < height_; ++y) {
+      const std::uint8_t* row = found.row(y);
+      int in_row = 0;
+      for (int x = 0; x < width_; ++x) {
+        in_row += row[x] == edges::Candidates::kKept;
+        at(x + 1, y + 1) = at(x + 1, y) + in_row;
+      }
     }
   }
-  return false;
+
+  /// Whether one is up to `half` columns and rows from the place.
+  bool isNear(const ScanColours::Place& place, int half) {
+    const int left = std::max(0, place.x - half), right = std::min(width_, place.x + half + 1);
+    const int top = std::max(0, place.y - half), bottom = std::min(height_, place.y + half + 1);
+    return at(right, bottom) - at(left, bottom) > at(right, top) - at(left, top);
+  }
+
+ private:
+  int& at(int x, int y) { return sums_[static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x)]; }
+
+  int width_, height_;
+  std::size_t stride_;
+  std::vector<int> sums_;  // of what is left of a corner of pixels and above it
+};
+
+// What a pixel of the depth image covers of the picture to each side of its middle [px]. The colour camera's
+// calibration may be anything.
+int halfWidth(const ScanColours& colours, const ColourImage& picture) {
+  const double half = 0.5 * colours.pixelsPerDepthPixel() - 0.5;
+  return half > 0 ? static_cast<int>(std::lround(std::min<double>(half, std::max(picture.width, picture.height)))) : 0;
 }
 
 // Of a picture of another view.
 void addRgb(const ScanDepth& depth, const ScanColours& colours, const EdgeOptions& options, EdgeImage& edges) {
   const ColourImage picture = colours.picture();
   auto found = edges::canny(picture, static_cast<int>(options.rgb_low), static_cast<int>(options.rgb_high));
-  const int half = static_cast<int>(std::lround(0.5 * colours.pixelsPerDepthPixel() - 0.5));
+  EdgeSums sums(found, picture);
+  const int half = halfWidth(colours, picture);
   std::size_t i = 0;
   for (int y = 0; y < edges.height; ++y) {
     for (int x = 0; x < edges.width; ++x, ++i) {
       const double z = depth.at(i);
       if (!(z >= options.min_depth && z <= options.max_depth)) continue;
       const auto place = colours.placeOf(x, y, z);
-      if (place && seesEdge(found, picture, *place, half)) edges.labels[i] |= kRgb;
+      if (place && sums.isNear(*place, half)) edges.labels[i] |= kRgb;
     }
   }
 }

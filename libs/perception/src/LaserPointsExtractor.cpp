@@ -20,6 +20,7 @@ float distance(const Point& a, const Point& b) {
 std::vector<Point> validPoints(const mrpt::obs::CObservation2DRangeScan& scan, double min_range, double max_range) {
   std::vector<Point> points;
   const std::size_t beams = scan.getScanSize();
+  if (!std::isfinite(scan.aperture)) return points;
   points.reserve(beams);
   const double step = beams > 1 ? scan.aperture / static_cast<double>(beams - 1) : 0.0;
   const double sign = scan.rightToLeft ? 1.0 : -1.0;

@@ -1,3 +1,4 @@
+#include <omnimapper/base/Error.h>
 #include <omnimapper/perception/ConvexClusterComparator.h>
 #include <omnimapper/perception/GrowLabels.h>
 #include <omnimapper/perception/ObjectFinder.h>
@@ -203,6 +204,8 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
                                              const Eigen::Vector3d& up) const {
   std::vector<ObjectRegion> found;
   if (image.width() == 0 || image.height() == 0) return found;
+  if (planes.width != image.width() || planes.height != image.height())
+    throw base::Error(base::ExitCode::unreadable_input, "objects: the planes are not those of this depth image");
   const OrganisedPoints points = backProject(image, sensor_.min_depth, sensor_.max_depth);
   const auto surfaces = objects::findSurfaces(planes, options_, sensor_.bend_at_1m, up);
   const auto of_place = objects::labelsOfThePlace(planes, options_, surfaces);

@@ -63,6 +63,22 @@ TEST_F(Perceive, RawAndDerivedTogetherMapAsTheRawLogDoes) {
   }
 }
 
+TEST_F(Perceive, WithoutTheRawScansItMapsAsTheRawLogDoes) {
+  ASSERT_TRUE(endedWith(ExitCode::ok, perceive(raw_, scratch_ / "both.rawlog", {"--with-raw"})));
+  // Laser odometry follows raw scans, so that the wheels tell the motion in both.
+  const Words wheels{"--set", "mapper.pose_plugins=odometry, no_motion", "--set",
+                     "mapper.output_plugins=trajectory, graph"};
+  Words derived = wheels;
+  derived.insert(derived.end(), {"--set", "source.labels=odometry, laser.points"});
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({raw_}, scratch_ / "raw", wheels)));
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({scratch_ / "both.rawlog"}, scratch_ / "derived", derived)));
+  for (const char* file : {"trajectory.tum", "graph.g2o"}) {
+    const std::string of_raw = readFile(scratch_ / "raw" + "/" + file);
+    EXPECT_GT(of_raw.size(), 1000U) << file;
+    EXPECT_TRUE(readFile(scratch_ / "derived" + "/" + file) == of_raw) << file;
+  }
+}
+
 TEST_F(Perceive, WhatCannotBeIsSaid) {
   EXPECT_TRUE(endedWith(ExitCode::out_of_range, perceive(raw_, derived_, {"--set", "perception.extractors="}),
                         {"laser2d.ini", "[perception] extractors"}));

@@ -60,7 +60,7 @@ TEST_F(Planes, AreTheSameBytesOnAnyNumberOfThreadsAndBesideTheRawLog) {
 
 TEST_F(Planes, MapAlikeFromTheRawLogAndFromWhatWasDerived) {
   const Words more{"-i", omnimapper::testing::sourceFile("ini/perceive.ini"), "--set",
-                   "perception.extractors=laser_points, planes, laser_lines"};
+                   "perception.extractors=laser_points, planes, edges, cloud_planes, laser_lines"};
   ASSERT_TRUE(endedWith(ExitCode::ok, map({kHome}, scratch_ / "raw", more)));
   ASSERT_TRUE(endedWith(ExitCode::ok, map({kHome, derived_}, scratch_ / "merged", more)));
   for (const char* file : {"trajectory.tum", "graph.g2o", "grid.png"}) {

@@ -16,6 +16,9 @@ namespace {
 
 // Points up to so much farther off than inliers, squared, belong to no other plane.
 constexpr float kHalo = 2.5F;
+// Sum of the variances of a plane's turns [rad^2]. The points of a line, such as what a laser's turn leaves of a wall,
+// tell no plane.
+constexpr double kMostTurn = 0.1;
 
 // Covariance of the plane's two turns and its distance: each point tells n.p + d = 0 with its own deviation.
 Eigen::Matrix3d covarianceOf(const LoosePoints& points, const std::vector<int>& members, const geometry::Plane3& plane,
@@ -75,6 +78,8 @@ std::vector<PlanePatch> findPatches(const LoosePoints& points, const geometry::P
     if (static_cast<int>(members[c].size()) < options.min_points) continue;
     PlanePatch patch{std::move(members[c]), {}};
     patch.result = describe(points, patch.members, plane, options.gate);
+    const double turn = patch.result.covariance(0, 0) + patch.result.covariance(1, 1);
+    if (!(turn > 0 && turn < kMostTurn)) continue;
     const double range = patch.result.centroid.norm();
     if (patch.result.plane_in_sensor.distance < std::sin(options.min_incidence) * range) continue;
     kept[c] = true;

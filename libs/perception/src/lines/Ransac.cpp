@@ -21,7 +21,7 @@ class Ransac : public LineFinder {
     while (static_cast<int>(left.size()) >= options_.min_points) {
       const auto inliers = largestSet(points, left, random);
       const auto stretches = withoutGaps(points, inliers);
-      if (stretches.empty()) break;
+      const std::size_t before = left.size();
       for (const Stretch& stretch : stretches) {
         found.push_back(stretch);
         const auto is_on = [&](int i) {
@@ -29,6 +29,8 @@ class Ransac : public LineFinder {
         };
         left.erase(std::remove_if(left.begin(), left.end(), is_on), left.end());
       }
+      // Nothing was found, or lines that their own points are not on: then nothing more will be.
+      if (left.size() == before) break;
     }
     std::sort(found.begin(), found.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
     return found;

@@ -9,6 +9,9 @@ namespace omnimapper::perception::lines {
 
 namespace {
 
+// Of a point from any line [m^2]: a micrometre. Without noise across the beam, a line along it would have none at all.
+constexpr double kLeastVariance = 1e-12;
+
 void reserve(ScanPoints& points, std::size_t count) {
   for (auto* numbers : {&points.ux, &points.uy, &points.x, &points.y, &points.range, &points.across, &points.steep})
     numbers->reserve(count);
@@ -21,7 +24,8 @@ ScanPoints pointsOf(const mrpt::obs::CObservation2DRangeScan& scan, const LaserL
   ScanPoints points;
   const std::size_t beams = scan.getScanSize();
   points.beams = static_cast<int>(beams);
-  if (beams == 0) return points;
+  // Where beams go that are no one knows how far apart, nobody knows.
+  if (beams == 0 || !std::isfinite(scan.aperture)) return points;
   reserve(points, beams);
   points.step = beams > 1 ? scan.aperture / static_cast<double>(beams - 1) : 0.0;
   points.all_round = beams > 2 && scan.aperture + 1.5 * points.step >= 2 * geometry::kPi;
@@ -43,7 +47,7 @@ ScanPoints pointsOf(const mrpt::obs::CObservation2DRangeScan& scan, const LaserL
       points.y.push_back(range * uy);
       points.range.push_back(range);
       const double sideways = range * range * width_variance;
-      points.across.push_back(rough_variance + sideways);
+      points.across.push_back(std::max(rough_variance + sideways, kLeastVariance));
       points.steep.push_back(range_variance - sideways);
       points.beam.push_back(static_cast<int>(i));
     }

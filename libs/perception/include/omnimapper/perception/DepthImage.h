@@ -15,7 +15,7 @@ struct Pinhole {
 class DepthImage {
  public:
   /// Both throw Error(unreadable_input) for a negative size, more than 4096 columns or rows, missing pixels, a focal
-  /// length or a unit that is zero or not finite.
+  /// length below 1 px, an intrinsic parameter beyond 10^6 px, a unit that is not positive or not finite.
   DepthImage(const std::uint16_t* units, double metres_per_unit, int width, int height, const Pinhole& camera);
   DepthImage(const float* metres, int width, int height, const Pinhole& camera);
 

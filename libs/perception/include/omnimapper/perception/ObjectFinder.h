@@ -46,7 +46,8 @@ class ObjectFinder {
   ObjectFinder(const ObjectOptions& options, const PlaneOptions& sensor) : options_(options), sensor_(sensor) {}
 
   /// The planes are those that a PlaneSegmenter with the same PlaneOptions found in this image. `up` is unit, in the
-  /// optical frame. The one with most pixels first. Thread-safe.
+  /// optical frame. The one with most pixels first. Throws Error(unreadable_input) for planes of an image of another
+  /// size. Thread-safe.
   std::vector<ObjectRegion> find(const DepthImage& image, const PlaneSegmentation& planes,
                                  const Eigen::Vector3d& up) const;
 
