@@ -77,6 +77,15 @@ TEST(Stamp, NoStampAndMomentsBefore1970AreNotValid) {
   EXPECT_TRUE(isValid(parseUnix("70.179699")));  // CARMEN logs count from the start of the program
 }
 
+TEST(Stamp, StampsOfDamagedFilesDoNotOverflow) {
+  const Stamp first{Duration(INT64_MIN)}, last{Duration(INT64_MAX)};
+  EXPECT_GT(secondsBetween(first, last), 1e11);
+  EXPECT_LT(secondsBetween(last, first), -1e11);
+  EXPECT_FALSE(isValid(first));
+  EXPECT_LT(unixSeconds(first), 0);
+  EXPECT_EQ(formatUnix(first).front(), '-');
+}
+
 TEST(Stamp, DifferencesAreExactToTheTick) {
   EXPECT_DOUBLE_EQ(secondsBetween(parseUnix("1137834225.9"), parseUnix("1137834226.0000001")), 0.1000001);
   EXPECT_DOUBLE_EQ(secondsBetween(parseUnix("10"), parseUnix("8.5")), -1.5);

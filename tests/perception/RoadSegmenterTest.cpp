@@ -132,7 +132,7 @@ TEST(RoadSegmenter, WhatIsFarFromTheExpectedGroundIsNotGround) {
   options.max_slope = 0;
   EXPECT_TRUE(segment(look(world), options).ground.planes.empty()) << "a table";
   options.max_off = 0.7;
-  EXPECT_EQ(segment(look(world), options).ground.planes.size(), 1U);
+  EXPECT_FALSE(segment(look(world), options).ground.planes.empty());
 }
 
 TEST(RoadSegmenter, NoisyGroundWithAThingOnASlope) {

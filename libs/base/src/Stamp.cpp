@@ -12,8 +12,15 @@ constexpr std::int64_t kTicksPerSecond = 10'000'000;
 // MRPT counts from 1601 (see its Clock): 116444736 * 10^9 ticks before 1970.
 constexpr std::int64_t kUnixEpochTicks = 116'444'736 * std::int64_t{1'000'000'000};
 
+// A damaged file may say any stamp. What is beyond seven thousand years counts as that, so that no difference
+// overflows.
+constexpr std::int64_t kFarthest = INT64_MAX / 4;
+
+std::int64_t ticksOf(Stamp stamp) {
+  return std::clamp<std::int64_t>(stamp.time_since_epoch().count(), -kFarthest, kFarthest);
+}
 std::int64_t ticksSinceUnixEpoch(Stamp stamp) {
-  return stamp.time_since_epoch().count() - kUnixEpochTicks;
+  return ticksOf(stamp) - kUnixEpochTicks;
 }
 Stamp fromTicks(std::int64_t ticks) {
   return Stamp(Duration(ticks + kUnixEpochTicks));
@@ -83,7 +90,7 @@ double toSeconds(Duration duration) {
 }
 
 double secondsBetween(Stamp from, Stamp to) {
-  return toSeconds(to - from);
+  return toSeconds(Duration(ticksOf(to) - ticksOf(from)));
 }
 
 }  // namespace omnimapper::base

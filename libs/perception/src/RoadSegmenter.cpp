@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "planes/Description.h"
+#include "road/GroundGrowth.h"
 
 namespace omnimapper::perception {
 
@@ -30,7 +31,7 @@ const base::OptionTable<RoadOptions>& RoadOptions::table() {
                   "How far the ground may be above or below the expected one, near the sensor.")
           .number("max_slope_deg", &RoadOptions::max_slope, {0, 45}, "By how much that grows with the depth.")
           .number(
-              "grow_sigmas", &RoadOptions::grow_sigmas, Range::notNegative(),
+              "grow_sigmas", &RoadOptions::grow_sigmas, {1, 100},
               "Pixels of which no normal is known are ground within so many standard deviations of the ground around "
               "them.")
           .integer("min_pixels", &RoadOptions::min_pixels, {1, 1e9}, "Pieces of ground with fewer pixels are left out.")
@@ -41,91 +42,9 @@ const base::OptionTable<RoadOptions>& RoadOptions::table() {
 
 namespace {
 
-using planes::kCell;
-using planes::PlaneMoments;
-
 constexpr int kLeastSeed = 200;      // pixels of a component that the second pass begins with
-constexpr int kReach = 3;            // cells around one whose ground counts for it
-constexpr double kEnough = 300;      // pixels of ground there
 constexpr float kStanding = 0.707F;  // cosine: a surface steeper than 45 degrees to the ground stands on it
-constexpr int kFoot = 8;             // [px]
-
-/// Ground around each cell of the image, and the pixels on it.
-class Growth {
- public:
-  Growth(const planes::InverseDepth& inverse, const Pinhole& camera, const std::vector<std::uint8_t>& seeds)
-      : inverse_(inverse),
-        camera_(camera),
-        seeds_(seeds),
-        columns_(inverse.stride / kCell),
-        rows_(inverse.rows / kCell),
-        moments_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
-    for (int y = 0; y < inverse.height; ++y) {
-      for (int x = 0; x < inverse.width; ++x) {
-        if (seeds[index(x, y)] != 0) add(x, y);
-      }
-    }
-  }
-
-  /// Labels, 1 for seeds and for pixels within `tolerance` [1/m] of the ground around them that pass `may(pixel)`.
-  template <class May>
-  planes::PixelLabels grow(double tolerance, const May& may) const {
-    planes::PixelLabels labels;
-    labels.stride = inverse_.stride;
-    labels.rows = inverse_.rows;
-    labels.values.resize(static_cast<std::size_t>(labels.stride) * static_cast<std::size_t>(labels.rows), 0);
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        const PlaneMoments around = momentsAround(column, row);
-        if (around.n == 0) continue;
-        const planes::ImagePlane ground = around.fit().plane;
-        const double reach = around.n >= kEnough ? tolerance : 0;
-        for (int y = row * kCell; y < std::min(inverse_.height, (row + 1) * kCell); ++y) {
-          for (int x = column * kCell; x < std::min(inverse_.width, (column + 1) * kCell); ++x) {
-            if (isGround(x, y, ground, reach, may)) {
-              labels.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(labels.stride) +
-                            static_cast<std::size_t>(x)] = 1;
-            }
-          }
-        }
-      }
-    }
-    return labels;
-  }
-
- private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(inverse_.width) + static_cast<std::size_t>(x);
-  }
-
-  void add(int x, int y) {
-    PlaneMoments& m = moments_[static_cast<std::size_t>(y / kCell * columns_ + x / kCell)];
-    const double u = x - camera_.cx, v = y - camera_.cy, q = static_cast<double>(*inverse_.at(x, y));
-    m += {1, u, v, u * u, u * v, v * v, q, u * q, v * q, q * q};
-  }
-
-  PlaneMoments momentsAround(int column, int row) const {
-    PlaneMoments sum;
-    for (int y = std::max(0, row - kReach); y <= std::min(rows_ - 1, row + kReach); ++y) {
-      for (int x = std::max(0, column - kReach); x <= std::min(columns_ - 1, column + kReach); ++x)
-        sum += moments_[static_cast<std::size_t>(y * columns_ + x)];
-    }
-    return sum;
-  }
-
-  template <class May>
-  bool isGround(int x, int y, const planes::ImagePlane& ground, double tolerance, const May& may) const {
-    if (seeds_[index(x, y)] != 0) return true;
-    const auto q = static_cast<double>(*inverse_.at(x, y));
-    return q > 0 && std::abs(q - ground.at(x - camera_.cx, y - camera_.cy)) < tolerance && may(index(x, y));
-  }
-
-  const planes::InverseDepth& inverse_;
-  const Pinhole& camera_;
-  const std::vector<std::uint8_t>& seeds_;
-  int columns_, rows_;
-  std::vector<PlaneMoments> moments_;  // of the seeds in each cell
-};
+constexpr int kFoot = 12;            // [px]
 
 NormalImage normalsOf(const DepthImage& image, const RoadOptions& options) {
   NormalOptions of_normals;
@@ -193,12 +112,12 @@ RoadSegmentation RoadSegmenter::segment(const DepthImage& image, const geometry:
                                   static_cast<float>(std::tan(options_.max_slope)),
                                   static_cast<float>(std::cos(options_.max_turn))};
   result.sure = seedsOf(connectComponents(image.width(), image.height(), comparator));
-  const auto feet = feetOf(normals, comparator.up);
+  auto barred = feetOf(normals, comparator.up);
+  for (std::size_t i = 0; i < barred.size(); ++i) barred[i] |= !comparator.isNear(i);
   const planes::InverseDepth inverse = planes::invert(image, options_.min_depth, options_.max_depth);
   const double tolerance = options_.grow_sigmas * std::sqrt(options_.noise().pixelVariance());
-  auto labels = Growth(inverse, image.camera(), result.sure).grow(tolerance, [&](std::size_t i) {
-    return comparator.isNear(i) && feet[i] == 0;
-  });
+  auto labels = road::growGround(inverse, image.camera(), result.sure, barred,
+                                 {tolerance, options_.correlation_area, options_.window_radius});
   const Components components = connectComponents(labels.stride, labels.rows, SameLabel{labels.values.data()});
   result.ground = planes::describe(inverse, image.camera(), options_.noise(), expectedRegion(expected, image.camera()),
                                    std::move(labels), components,

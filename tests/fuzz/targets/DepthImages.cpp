@@ -1,7 +1,5 @@
-#include <omnimapper/perception/ColouredPlaneComparator.h>
 #include <omnimapper/perception/EdgeDetector.h>
 #include <omnimapper/perception/ObjectFinder.h>
-#include <omnimapper/perception/OrganisedPoints.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
 #include <omnimapper/perception/RoadSegmenter.h>
 
@@ -132,15 +130,17 @@ void findEdges(Input& input, const DepthImage& image) {
   });
 }
 
-void compareColours(const DepthImage& image, double max_depth) {
-  const OrganisedPoints points = backProject(image, 0.2, max_depth);
-  NormalOptions of_normals;
-  of_normals.max_depth = max_depth;
-  const NormalImage normals = NormalEstimator(of_normals).estimate(image);
-  const std::vector<std::uint8_t> rgb(3 * normals.size(), 7);
-  const ColouredPlaneComparator comparator{{points, normals}, rgb.data()};
-  const auto labels = connectComponents(image.width(), image.height(), comparator).labels();
-  require(labels.size() == normals.size(), "components of another size");
+// By the other comparators, colours being of this size or another.
+void compareOtherwise(Input& input, const DepthImage& image, const PlaneOptions& sensor) {
+  PlaneComparisonOptions comparison;
+  comparison.comparison = input.flag() ? &kSimilarNormals : &kSamePlaneAndColour;
+  comparison.max_colour_distance = input.between(0, 442);
+  const auto pixels = static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
+  std::vector<obs::Rgb> colours(pixels + (input.below(8) == 0 ? 1 : 0));
+  const auto period = static_cast<std::size_t>(1 + input.below(300));
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    colours[i] = i / period % 2 == 0 ? obs::Rgb{200, 10, 20} : obs::Rgb{10, 10, static_cast<std::uint8_t>(i)};
+  requireSound(PlaneSegmenter(sensor, comparison).segment(image, colours), image, sensor.min_pixels);
 }
 
 }  // namespace
@@ -162,7 +162,7 @@ void depthImages(const std::uint8_t* data, std::size_t size) {
     if (work == 1) findObjects(options, image, sensor, planes);
     if (work == 2) findRoad(options, image);
     if (work == 3) findEdges(options, image);
-    if (work == 4) compareColours(image, options.between(1, 20));
+    if (work == 4) compareOtherwise(options, image, sensor);
   });
 }
 

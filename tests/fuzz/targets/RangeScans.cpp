@@ -83,7 +83,7 @@ CObservation3DRangeScan takeScan(Input& options, Input& input) {
   const bool wrapped = options.flag();
   const auto units = inUnits(paintDepths(input, size), 1e-3, wrapped);
   scan.rangeImage_setSize(size.height, size.width);
-  std::copy(units.begin(), units.end(), scan.rangeImage.data());
+  if (!units.empty()) std::copy(units.begin(), units.end(), scan.rangeImage.data());
   return scan;
 }
 
@@ -111,7 +111,9 @@ void extract(Input& options, int work, const CObservation3DRangeScan& scan) {
   OutlineOptions outlines;
   outlines.tolerance = options.between(0, 5);
   if (work == 0) {
-    requireSound(*PlaneExtractor(planes, outlines).extract(scan), scan);
+    PlaneComparisonOptions comparison;
+    if (options.flag()) comparison.comparison = &kSamePlaneAndColour;
+    requireSound(*PlaneExtractor(planes, outlines, comparison).extract(scan), scan);
   } else if (work == 1) {
     ObjectExtractor::Options of_objects;
     of_objects.planes = planes;

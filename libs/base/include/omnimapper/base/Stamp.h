@@ -27,7 +27,7 @@ Stamp parseUnix(const std::string& text);
 /// Rounded to the tick.
 Duration durationFromSeconds(double seconds);
 double toSeconds(Duration duration);
-/// to - from [s].
+/// to - from [s]. Stamps that are off by thousands of years, as in damaged files, count as seven thousand.
 double secondsBetween(Stamp from, Stamp to);
 
 }  // namespace omnimapper::base

@@ -21,7 +21,7 @@ struct RoadOptions {
   double max_off = 0.3;                                         ///< [m] of the ground from the expected one
   double max_slope = 4 * base::option_text::kRadiansPerDegree;  ///< [rad] by which that grows with the depth
   double grow_sigmas = 4;  ///< deviations from the ground around it within which a pixel without its normal is ground
-  int min_pixels = 700;    ///< of a piece of ground
+  int min_pixels = 200;    ///< of a piece of ground
   int min_hole_pixels = 100;  ///< smaller holes are not outlined
 
   DepthNoise noise() const { return {noise_at_1m, step_at_1m, 0, correlation_area}; }
@@ -36,7 +36,8 @@ struct RoadSegmentation {
 /// Finds the ground that can be driven on, which need not be flat (thesis 3.4.7): connected parts of the image whose
 /// normals are near that of the ground expected from the sensor's pose and change smoothly, and which are near it
 /// themselves. Stereo's normals are noisy and have holes: a second pass adds the pixels that lie on the ground around
-/// them, by planes fitted to what was found, but for what stands on it, as normals tell, and its foot.
+/// them, by planes fitted to what was found, but for what is above it on average over a window, and for what stands on
+/// it, as normals tell, and its foot.
 class RoadSegmenter {
  public:
   /// Throws Error(out_of_range) for min_depth >= max_depth.
