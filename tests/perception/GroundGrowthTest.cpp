@@ -1,0 +1,46 @@
+#include <gtest/gtest.h>
+
+#include "planes/InverseDepth.h"
+#include "road/GroundGrowth.h"
+
+namespace omnimapper::perception {
+namespace {
+
+constexpr int kWidth = 96, kHeight = 112, kFoot = 60;  // [px]; the wall is above that row
+constexpr double kSlope = 0.0014;                      // [1/m] of the ground from one row to the next
+constexpr double kTolerance = 12 * kSlope;
+constexpr Pinhole kCamera{500, 500, 47.5, 10};
+
+// Ground that a wall stands on. Seeds are so far below its foot as windows of normals reach.
+planes::PixelLabels grown(const std::vector<std::uint8_t>& barred) {
+  std::vector<float> depths;
+  std::vector<std::uint8_t> seeds;
+  for (int y = 0; y < kHeight; ++y) {
+    depths.insert(depths.end(), kWidth, static_cast<float>(1 / (0.05 + kSlope * std::max(y, kFoot))));
+    seeds.insert(seeds.end(), kWidth, y >= kFoot + 7);
+  }
+  const auto inverse = planes::invert(DepthImage(depths.data(), kWidth, kHeight, kCamera), 0.4, 20);
+  return road::growGround(inverse, kCamera, seeds, barred, {kTolerance, 16, 7});
+}
+
+bool isGround(const planes::PixelLabels& labels, int x, int y) {
+  return labels.values[static_cast<std::size_t>(y * labels.stride + x)] != 0;
+}
+
+TEST(GroundGrowth, EndsAFewRowsAboveTheFootOfAWall) {
+  const auto labels = grown(std::vector<std::uint8_t>(kWidth * kHeight, 0));
+  for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kHeight; ++y) {
+      if (y >= kFoot - 1) EXPECT_TRUE(isGround(labels, x, y)) << x << " " << y;
+      if (y <= kFoot - 5) EXPECT_FALSE(isGround(labels, x, y)) << x << " " << y << ": each pixel might be ground";
+    }
+  }
+}
+
+TEST(GroundGrowth, WhatIsBarredDoesNotGrowButSeedsStay) {
+  const auto labels = grown(std::vector<std::uint8_t>(kWidth * kHeight, 1));
+  for (int y = 0; y < kHeight; ++y) EXPECT_EQ(isGround(labels, 40, y), y >= kFoot + 7) << y;
+}
+
+}  // namespace
+}  // namespace omnimapper::perception
