@@ -73,12 +73,12 @@ std::vector<PlanePeer> ourPlanes() {
       {"ours: planes of pixels, neither refined nor traced", unrefined},
       {"ours: planes, refined and traced",
        [segmenter](const DepthFrame& frame) { return segmenter.segment(imageOf(frame)).labels; }},
-      {"ours: the same and normals of all pixels",
+      {"ours: planes, refined and traced, and normals of all pixels",
        [segmenter, estimator = perception::NormalEstimator({})](const DepthFrame& frame) {
          const auto normals = estimator.estimate(imageOf(frame));
          return segmenter.segment(imageOf(frame)).labels;
        }},
-      {"ours: the same, normals and Euclidean clusters off the planes",
+      {"ours: planes, refined and traced, normals, and Euclidean clusters off the planes",
        [segmenter, estimator = perception::NormalEstimator({})](const DepthFrame& frame) {
          const auto normals = estimator.estimate(imageOf(frame));
          auto found = segmenter.segment(imageOf(frame));

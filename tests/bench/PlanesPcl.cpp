@@ -28,8 +28,8 @@ pcl::PointCloud<Point>::Ptr cloudOf(const DepthFrame& frame) {
   return cloud;
 }
 
-std::vector<std::uint16_t> planes(const DepthFrame& frame, Normals::NormalEstimationMethod method) {
-  const auto cloud = cloudOf(frame);
+pcl::PointCloud<pcl::Normal>::Ptr normalsOf(const pcl::PointCloud<Point>::Ptr& cloud,
+                                            Normals::NormalEstimationMethod method) {
   auto normals = pcl::make_shared<pcl::PointCloud<pcl::Normal>>();
   Normals estimate;
   estimate.setNormalEstimationMethod(method);
@@ -37,18 +37,27 @@ std::vector<std::uint16_t> planes(const DepthFrame& frame, Normals::NormalEstima
   estimate.setNormalSmoothingSize(20);
   estimate.setInputCloud(cloud);
   estimate.compute(*normals);
+  return normals;
+}
 
+std::vector<std::uint16_t> planes(const DepthFrame& frame, Normals::NormalEstimationMethod method, bool refined) {
+  const auto cloud = cloudOf(frame);
   pcl::OrganizedMultiPlaneSegmentation<Point, pcl::Normal, pcl::Label> segmentation;
   segmentation.setMinInliers(1000);
   segmentation.setAngularThreshold(3 * M_PI / 180);
   segmentation.setDistanceThreshold(0.02);
-  segmentation.setInputNormals(normals);
+  segmentation.setInputNormals(normalsOf(cloud, method));
   segmentation.setInputCloud(cloud);
-  std::vector<pcl::PlanarRegion<Point>, Eigen::aligned_allocator<pcl::PlanarRegion<Point>>> regions;
+  std::vector<pcl::PointIndices> inliers;
   std::vector<pcl::ModelCoefficients> coefficients;
-  std::vector<pcl::PointIndices> inliers, of_labels, boundaries;
-  auto labels = pcl::make_shared<pcl::PointCloud<pcl::Label>>();
-  segmentation.segmentAndRefine(regions, coefficients, inliers, labels, of_labels, boundaries);
+  if (refined) {
+    std::vector<pcl::PlanarRegion<Point>, Eigen::aligned_allocator<pcl::PlanarRegion<Point>>> regions;
+    std::vector<pcl::PointIndices> of_labels, boundaries;
+    auto labels = pcl::make_shared<pcl::PointCloud<pcl::Label>>();
+    segmentation.segmentAndRefine(regions, coefficients, inliers, labels, of_labels, boundaries);
+  } else {
+    segmentation.segment(coefficients, inliers);
+  }
 
   std::vector<std::uint16_t> image(frame.units.size(), 0);
   for (std::size_t k = 0; k < inliers.size(); ++k) {
@@ -60,10 +69,19 @@ std::vector<std::uint16_t> planes(const DepthFrame& frame, Normals::NormalEstima
 }  // namespace
 
 std::vector<PlanePeer> pclPlanes() {
-  return {{"PCL average 3D gradient + planes + refinement",
-           [](const DepthFrame& frame) { return planes(frame, Normals::AVERAGE_3D_GRADIENT); }},
-          {"PCL covariance normals + planes + refinement",
-           [](const DepthFrame& frame) { return planes(frame, Normals::COVARIANCE_MATRIX); }}};
+  std::vector<PlanePeer> peers;
+  for (const auto& [name, method] : {std::pair{"PCL average 3D gradient", Normals::AVERAGE_3D_GRADIENT},
+                                     std::pair{"PCL covariance normals", Normals::COVARIANCE_MATRIX}}) {
+    peers.push_back({name + std::string(" alone"), [method = method](const DepthFrame& frame) {
+                       normalsOf(cloudOf(frame), method);
+                       return std::vector<std::uint16_t>(frame.units.size(), 0);
+                     }});
+    for (const bool refined : {false, true}) {
+      peers.push_back({name + std::string(refined ? " + planes + refinement" : " + planes"),
+                       [method = method, refined](const DepthFrame& frame) { return planes(frame, method, refined); }});
+    }
+  }
+  return peers;
 }
 
 }  // namespace omnimapper::bench

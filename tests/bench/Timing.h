@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace omnimapper::bench {
@@ -20,6 +21,21 @@ inline double quantile(std::vector<double> values, double q) {
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), place, values.end());
   return *place;
+}
+
+struct Spread {
+  double mean = 0, deviation = 0;
+};
+
+/// Of no values 0; the standard deviation of one is 0.
+inline Spread spreadOf(const std::vector<double>& values) {
+  Spread spread;
+  const auto count = static_cast<double>(std::max<std::size_t>(1, values.size()));
+  for (const double value : values) spread.mean += value / count;
+  double squares = 0;
+  for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
+  spread.deviation = std::sqrt(squares / std::max(1.0, count - 1));
+  return spread;
 }
 
 }  // namespace omnimapper::bench

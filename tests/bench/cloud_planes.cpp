@@ -110,12 +110,14 @@ void printTimes(const std::vector<Cloud>& clouds, double tolerance) {
   }
   const auto n = static_cast<double>(clouds.size());
   std::printf(
-      "%zu clouds of %.0f points, %.0f after averaging\n\n| method | median [ms] | 95 %% | max | planes |\n"
-      "|---|---|---|---|---|\n",
+      "%zu clouds of %.0f points, %.0f after averaging\n\n| method | median [ms] | mean ± s.d. | 95 %% | max | planes "
+      "|\n"
+      "|---|---|---|---|---|---|\n",
       clouds.size(), points / n, voxels / n);
   for (std::size_t m = 0; m < all.size(); ++m) {
-    std::printf("| %s | %.2f | %.2f | %.2f | %.1f |\n", all[m].name.c_str(), quantile(times[m], 0.5),
-                quantile(times[m], 0.95), quantile(times[m], 1), planes[m] / n);
+    const Spread spread = spreadOf(times[m]);
+    std::printf("| %s | %.2f | %.2f ± %.2f | %.2f | %.2f | %.1f |\n", all[m].name.c_str(), quantile(times[m], 0.5),
+                spread.mean, spread.deviation, quantile(times[m], 0.95), quantile(times[m], 1), planes[m] / n);
   }
 }
 

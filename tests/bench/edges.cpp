@@ -117,11 +117,13 @@ void printTimes(const std::vector<RgbdFrame>& frames, int rounds) {
       }
     }
   }
-  std::printf("%zu frames, %d times each\n\n| method | median [ms] | 95 %% | max |\n|---|---|---|---|\n", frames.size(),
-              rounds);
+  std::printf(
+      "%zu frames, %d times each\n\n| method | median [ms] | mean ± s.d. | 95 %% | max |\n|---|---|---|---|---|\n",
+      frames.size(), rounds);
   for (std::size_t m = 0; m < all.size(); ++m) {
-    std::printf("| %s | %.2f | %.2f | %.2f |\n", all[m].name.c_str(), quantile(times[m], 0.5), quantile(times[m], 0.95),
-                quantile(times[m], 1));
+    const Spread spread = spreadOf(times[m]);
+    std::printf("| %s | %.2f | %.2f ± %.2f | %.2f | %.2f |\n", all[m].name.c_str(), quantile(times[m], 0.5),
+                spread.mean, spread.deviation, quantile(times[m], 0.95), quantile(times[m], 1));
   }
 }
 

@@ -66,12 +66,14 @@ void printTimes(const std::vector<PlanePeer>& all, const std::vector<DepthFrame>
     }
   }
   std::printf(
-      "%zu frames, %d times each\n\n| method | median [ms] | 95 %% | max | 95 %% / median | planes |\n"
-      "|---|---|---|---|---|---|\n",
+      "%zu frames, %d times each\n\n| method | median [ms] | mean ± s.d. | 95 %% | max | 95 %% / median | planes |\n"
+      "|---|---|---|---|---|---|---|\n",
       frames.size(), rounds);
   for (std::size_t m = 0; m < all.size(); ++m) {
-    std::printf("| %s | %.2f | %.2f | %.2f | %.2f | %.1f |\n", all[m].name.c_str(), quantile(times[m], 0.5),
-                quantile(times[m], 0.95), quantile(times[m], 1), quantile(times[m], 0.95) / quantile(times[m], 0.5),
+    const Spread spread = spreadOf(times[m]);
+    const double median = quantile(times[m], 0.5), high = quantile(times[m], 0.95);
+    std::printf("| %s | %.2f | %.2f ± %.2f | %.2f | %.2f | %.2f | %.1f |\n", all[m].name.c_str(), median, spread.mean,
+                spread.deviation, high, quantile(times[m], 1), high / median,
                 planes[m] / static_cast<double>(times[m].size()));
   }
 }
@@ -125,6 +127,7 @@ void printRooms(std::vector<PlanePeer> all, int rooms, double noise_factor) {
       rooms, 1e3 * noise.sigma, sums[0].true_planes);
   for (std::size_t m = 0; m < all.size(); ++m) {
     const auto& s = sums[m];
+    if (s.reported == 0) continue;  // normals alone
     std::printf("| %s | %.3f | %.3f | %.3f | %d | %d | %d | %d | %d | %.2f |\n", all[m].name.c_str(),
                 s.found / static_cast<double>(s.true_planes), s.reported_right / std::max(1.0, s.reported * 1.0),
                 s.pixelsRight(), s.correct, s.over, s.under, s.missed, s.noise, quantile(times[m], 0.5));
