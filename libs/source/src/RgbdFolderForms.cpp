@@ -82,7 +82,7 @@ std::vector<RgbdPair> pairImages(const fs::path& folder, const std::vector<Image
   std::vector<RgbdPair> pairs;
   for (std::size_t d = 0; d < depths.size(); ++d) {
     if (!colour_of[d].empty())
-      pairs.push_back({depths[d].first, (folder / depths[d].second).string(), colour_of[d], {}});
+      pairs.push_back({depths[d].first, (folder / depths[d].second).string(), colour_of[d]});
   }
   return pairs;
 }
@@ -139,7 +139,7 @@ RgbdFolderContent readEqualNames(const fs::path& folder, const RgbdFolderOptions
     if (colour == colours.end())
       ++content.unpaired;
     else
-      content.pairs.push_back({stampOfImage(index, options), depth, colour->second, {}});
+      content.pairs.push_back({stampOfImage(index, options), depth, colour->second});
     ++index;
   }
   const std::string name = fs::absolute(folder).lexically_normal().string();
@@ -174,7 +174,7 @@ RgbdFolderContent readSevenScenes(const fs::path& folder, const RgbdFolderOption
       ++content.unpaired;
       continue;
     }
-    content.pairs.push_back({stampOfImage(i, options), stem + ".depth.png", stem + ".color.png", {}});
+    content.pairs.push_back({stampOfImage(i, options), stem + ".depth.png", stem + ".color.png"});
     if (fs::exists(stem + ".pose.txt"))
       content.world_from_optical.emplace_back(content.pairs.back().stamp, readMatrix(stem + ".pose.txt"));
   }

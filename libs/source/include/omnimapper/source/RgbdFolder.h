@@ -5,7 +5,6 @@
 #include <omnimapper/source/ObservationSource.h>
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +20,10 @@ struct RgbdFolderOptions {
   std::string intrinsics;
 };
 
-/// A depth image with its colour image and, where the folder knows it, where the camera was.
+/// A depth image with its colour image.
 struct RgbdPair {
-  base::Stamp stamp;                                ///< of the depth image
-  std::string depth, colour;                        ///< paths; colour may be empty
-  std::optional<geometry::Se3> world_from_optical;  ///< z forward, x to the right
+  base::Stamp stamp;          ///< of the depth image
+  std::string depth, colour;  ///< paths
 };
 
 /// Streams a folder of depth and colour images, taken by a camera that sees both from one place, as
