@@ -81,8 +81,7 @@ std::vector<RgbdPair> pairImages(const fs::path& folder, const std::vector<Image
   }
   std::vector<RgbdPair> pairs;
   for (std::size_t d = 0; d < depths.size(); ++d) {
-    if (!colour_of[d].empty())
-      pairs.push_back({depths[d].first, (folder / depths[d].second).string(), colour_of[d]});
+    if (!colour_of[d].empty()) pairs.push_back({depths[d].first, (folder / depths[d].second).string(), colour_of[d]});
   }
   return pairs;
 }
