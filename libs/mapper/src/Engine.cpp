@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "OneSensor.h"
+
 namespace omnimapper::mapper {
 
 namespace {
@@ -32,10 +34,6 @@ class Timed {
   double& sum_;
   StopWatch watch_;
 };
-
-bool isOfOneSensor(const mrpt::obs::CObservation& a, const mrpt::obs::CObservation& b) {
-  return a.sensorLabel == b.sensorLabel && a.GetRuntimeClass() == b.GetRuntimeClass();
-}
 
 }  // namespace
 

@@ -5,7 +5,6 @@
 #include <omnimapper/mapper/SensorPoses.h>
 #include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/mapper/StageTimes.h>
-#include <omnimapper/source/ExternalImages.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/ReadAhead.h>
@@ -14,21 +13,32 @@
 #include <future>
 #include <sstream>
 
+#include "PerceivedLog.h"
+
 namespace omnimapper::mapper {
 
 namespace {
 
 using mrpt::obs::CObservation;
 
-/// What was made of one observation, by extractor.
-using Derived = std::vector<std::vector<CObservation::Ptr>>;
+Outcome outcomeOf(const Extractor& extractor, const CObservation& raw) {
+  Outcome outcome;
+  outcome.wanted = extractor.wants(raw);
+  if (!outcome.wanted) return outcome;
+  try {
+    outcome.derived = extractor.extract(raw);
+  } catch (const base::Error& error) {
+    outcome.error = error;
+  }
+  return outcome;
+}
 
 /// The extractors at work on one observation after another, some at once, handed back in their order.
 class Line {
  public:
   struct Item {
     CObservation::Ptr raw;
-    std::future<Derived> derived;
+    std::future<std::vector<Outcome>> outcomes;  ///< by extractor
   };
 
   Line(const std::vector<Named<Extractor>>& extractors, int threads)
@@ -38,12 +48,9 @@ class Line {
   bool isEmpty() const { return items_.empty(); }
 
   void add(const CObservation::Ptr& raw) {
-    items_.push_back({raw, pool_.submit<Derived>([this, raw] {
-                        Derived all;
-                        for (const auto& [section, extractor] : extractors_) {
-                          all.emplace_back();
-                          if (extractor->wants(*raw)) all.back() = extractor->extract(*raw);
-                        }
+    items_.push_back({raw, pool_.submit<std::vector<Outcome>>([this, raw] {
+                        std::vector<Outcome> all;
+                        for (const auto& [section, extractor] : extractors_) all.push_back(outcomeOf(*extractor, *raw));
                         return all;
                       })});
   }
@@ -61,32 +68,22 @@ class Line {
   base::WorkerPool pool_;
 };
 
-void write(Line::Item item, const PerceptionRequest& request, source::RawlogWriter& rawlog, PerceptionResult& result) {
-  const Derived derived = item.derived.get();
-  std::vector<CObservation::Ptr> all;
-  if (request.with_raw) rawlog.add(*source::withImagesInside(item.raw));
-  for (std::size_t i = 0; i < derived.size(); ++i) {
-    result.extractors[i].taken += !derived[i].empty();
-    result.extractors[i].derived += derived[i].size();
-    for (const auto& observation : derived[i]) rawlog.add(*observation);
-    all.insert(all.end(), derived[i].begin(), derived[i].end());
-  }
-  if (request.show) request.show(*item.raw, all);
+void write(Line::Item item, PerceivedLog& output) {
+  output.add(item.raw, item.outcomes.get());
 }
 
 // True if it was stopped.
-bool work(source::ObservationSource& log, const SensorPoses& sensor_poses, const PerceptionRequest& request, Line& line,
-          source::RawlogWriter& rawlog, base::Progress& progress, const std::function<bool()>& stop,
-          PerceptionResult& result) {
+bool work(source::ObservationSource& log, const SensorPoses& sensor_poses, Line& line, PerceivedLog& output,
+          base::Progress& progress, const std::function<bool()>& stop) {
   bool stopped = false;
   while (!(stopped = stop())) {
     const auto observation = log.next();
     if (!observation) break;
-    if (line.isFull()) write(line.take(), request, rawlog, result);
+    if (line.isFull()) write(line.take(), output);
     line.add(sensor_poses.applied(observation));
     progress.report(log.progress(), "perceiving");
   }
-  while (!line.isEmpty()) write(line.take(), request, rawlog, result);
+  while (!line.isEmpty()) write(line.take(), output);
   return stopped || (log.report().ending == source::SourceReport::Ending::open && stop());
 }
 
@@ -130,9 +127,11 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
   source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop_opening), stop);
   source::writeRawlog(request.output, [&](source::RawlogWriter& rawlog) {
     Line line(plugins.extractors, std::max(1, request.threads));
-    const bool stopped = work(log, sensor_poses, request, line, rawlog, progress, stop, result);
+    PerceivedLog output(request, rawlog, result);
+    const bool stopped = work(log, sensor_poses, line, output, progress, stop);
     result.source = log.report();
     result.code = stopped ? base::ExitCode::interrupted : result.source.exitCode();
+    output.finish();
     refuseNothing(request, config.file(), result);
   });
   if (!result.source.message.empty()) result.warnings.push_back(result.source.message);
@@ -145,7 +144,9 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
 std::string toText(const PerceptionResult& result, const std::string& output) {
   std::ostringstream out;
   for (const auto& extractor : result.extractors) {
-    out << "  " << extractor.section << ": " << extractor.derived << " observations of " << extractor.taken << "\n";
+    out << "  " << extractor.section << ": " << extractor.derived << " observations of " << extractor.taken;
+    if (extractor.failed > 0) out << ", " << extractor.failed << " left out";
+    out << "\n";
   }
   out << "wall time " << result.wall_seconds << " s\nin " << output << "\n";
   return out.str();

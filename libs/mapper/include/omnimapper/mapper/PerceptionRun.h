@@ -31,7 +31,8 @@ struct PerceptionResult {
   struct Count {
     std::string section;
     std::size_t taken = 0;    ///< observations it made something of
-    std::size_t derived = 0;  ///< what it made
+    std::size_t derived = 0;  ///< what of that was written
+    std::size_t failed = 0;   ///< observations it threw base::Error for; they are left out
   };
   std::vector<Count> extractors;
   double wall_seconds = 0;
@@ -39,9 +40,11 @@ struct PerceptionResult {
 std::string toText(const PerceptionResult& result, const std::string& output);
 
 /// Log in, log out: what the extractors of [perception] derive from each observation, in the order of the log. They are
-/// the ones the mapper runs, and get the same bits, so a map of the perceived log is that of the raw one. Damaged input
-/// and `stop` still give the log of what was read, with their own code. Throws base::Error if no extractor is named or
-/// takes anything, and for all that keeps a log from being written.
+/// the ones the mapper runs, and get the same bits, so a map of the perceived log is that of the raw one. Of several
+/// with one stamp, label and class the first is written, and with `with_raw` the one that was read. Damaged input and
+/// `stop` still give the log of what was read, with their own code; so do observations that an extractor throws
+/// base::Error for, with missing_images if the first lacks them, else damaged_input. Throws that error if none could be
+/// taken, base::Error if no extractor is named or takes anything, and all that keeps a log from being written.
 PerceptionResult runPerception(const PerceptionRequest& request, const base::Config& config, base::Progress& progress,
                                const std::function<bool()>& stop);
 
