@@ -2,6 +2,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/PcdCloud.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -113,6 +114,41 @@ TEST_F(PcdCloudTest, textIsReadToo) {
   EXPECT_EQ(cloud.z[2], 8);
   EXPECT_TRUE(std::isnan(cloud.x[3]));
   EXPECT_EQ(cloud.rgb[1], 71362U) << "the bits of 1e-40";
+}
+
+TEST_F(PcdCloudTest, numbersThatAreNoWholeOnesAreNoLabels) {
+  const auto text = read(header("ascii") + "nan 0 3 6 0\n1e300 1 4 7 0\n-inf 2 5 8 0\n7 0 0 0 0\n");
+  EXPECT_EQ(text.labels, (std::vector<std::uint32_t>{0, 0, 0, 7}));
+  EXPECT_EQ(text.z[2], 8);
+  std::string bytes;
+  for (const float label : {std::nanf(""), 1e30F, -1e30F, 7.F}) {
+    for (const float number : {label, 0.F, 0.F, 0.F}) put(bytes, number);
+  }
+  const std::string floats = "FIELDS label x y z\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n";
+  EXPECT_EQ(read(floats + "WIDTH 4\nHEIGHT 1\nDATA binary\n" + bytes).labels, (std::vector<std::uint32_t>{0, 0, 0, 7}));
+}
+
+TEST_F(PcdCloudTest, aHeaderThatClaimsMuchTakesNoMemory) {
+  // 2^24 points of 252 bytes, and no data.
+  const std::string top =
+      "FIELDS x y z rest\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 60\nWIDTH 16777216\nHEIGHT 1\n"
+      "DATA binary_compressed\n";
+  std::string sizes;
+  put(sizes, std::uint32_t{3});
+  put(sizes, std::uint32_t{16777216U * 252U});
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  rlimit tight = before;
+  tight.rlim_cur = std::min<rlim_t>(before.rlim_cur, rlim_t{2} << 30);
+  if (!testing::kIsSanitized) {
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &tight), 0);
+  }
+  const std::string message = failure(top + sizes +
+                                      std::string("\x01"
+                                                  "ab",
+                                                  3));
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_NE(message.find("damaged"), std::string::npos) << message;
 }
 
 TEST_F(PcdCloudTest, whatIsNoCloudIsRefused) {

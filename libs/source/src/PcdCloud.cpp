@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <type_traits>
 
 namespace omnimapper::source {
 
@@ -78,8 +79,7 @@ Header readHeader(std::istream& in, const std::string& path) {
 // LZF, by M. Lehmann: a byte below 32 says how many bytes to take as they are, any other how many of those before to
 // repeat, from how far back.
 std::string decompressed(const std::string& from, std::size_t size, const std::string& path) {
-  std::string to;
-  to.reserve(size);
+  std::string to;  // grows as data comes: the size is only what the header claims
   std::size_t i = 0;
   const auto next = [&] {
     if (i >= from.size()) refuse(path, "its data ends too early");
@@ -132,7 +132,11 @@ class Numbers {
   Number at(const Field& field, std::size_t point) const {
     const char* from = bytes_.data() + (field_by_field_ ? field.offset * header_.points + point * field.bytes()
                                                         : point * header_.row + field.offset);
-    if (field.type == 'F') return static_cast<Number>(field.size == 8 ? load<double>(from) : load<float>(from));
+    if (field.type == 'F') {
+      const double number = field.size == 8 ? load<double>(from) : static_cast<double>(load<float>(from));
+      if constexpr (std::is_integral_v<Number>) return static_cast<Number>(wholeOf(number));
+      return static_cast<Number>(number);
+    }
     std::uint64_t whole = 0;
     std::memcpy(&whole, from, field.size);
     return static_cast<Number>(whole);
@@ -167,11 +171,17 @@ class Numbers {
     }
   }
 
+  // A number that is none, or is beyond 64 bits, is 0 where whole ones are wanted.
+  static std::int64_t wholeOf(double number) {
+    constexpr double kMost = 9223372036854775808.0;
+    return number >= -kMost && number < kMost ? static_cast<std::int64_t>(number) : 0;
+  }
+
   void append(const Field& field, const std::string& word) {
     const double number = std::strtod(word.c_str(), nullptr);
     char bytes[8] = {};
     const auto single = static_cast<float>(number);
-    const auto whole = static_cast<std::int64_t>(field.type == 'F' ? 0 : number);
+    const auto whole = wholeOf(number);
     if (field.type != 'F') {
       std::memcpy(bytes, &whole, sizeof whole);
     } else if (field.size == 8) {
