@@ -98,6 +98,15 @@ TEST(RoadSegmenter, FlatGroundIsFoundWithItsPlane) {
   EXPECT_NEAR(found.ground.planes[0].plane_in_sensor.distance, kCameraHeight, 0.02);
 }
 
+TEST(RoadSegmenter, TheRmsIsThatFromTheGroundNotFromWhatIsExpected) {
+  World world;
+  world.height = [](double) { return 0.1; };
+  const auto found = segment(look(world));
+  ASSERT_EQ(found.ground.planes.size(), 1U);
+  EXPECT_NEAR(found.ground.planes[0].plane_in_sensor.distance, kCameraHeight - 0.1, 0.02);
+  EXPECT_LT(found.ground.planes[0].rms, 0.005);
+}
+
 TEST(RoadSegmenter, GroundThatRisesAheadIsFoundAndARampThatIsTooSteepIsNot) {
   World world;
   world.height = [](double z) { return z < 4 ? 0 : 0.08 * (z - 4); };

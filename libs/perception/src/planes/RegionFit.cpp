@@ -18,7 +18,7 @@ constexpr std::size_t kMostRegions = 65535;
 // Sums over a region, of residuals from the plane that its cells have.
 struct RegionSums {
   PlaneMoments residuals;  // q is the residual
-  double z = 0, uz = 0, vz = 0, zr_zr = 0;
+  double z = 0, uz = 0, vz = 0;
 };
 
 void addRun(const PixelRun& run, const InverseDepth& inverse, const Pinhole& camera, const ImagePlane& plane,
@@ -41,7 +41,6 @@ void addRun(const PixelRun& run, const InverseDepth& inverse, const Pinhole& cam
   sums.z += s.z;
   sums.uz += u * s.z + s.xz;
   sums.vz += v * s.z;
-  sums.zr_zr += s.zr_zr;
 }
 
 // Of a, b and c when the image is counted in rays, (u / fx, v / fy, 1): 1/z = w . ray.
@@ -79,9 +78,24 @@ FittedRegion fit(const RegionSums& sums, const ImagePlane& of_cells, const Pinho
   const geometry::Plane3& plane = fitted.result.plane_in_sensor;
   fitted.result.centroid = mean - signedDistance(plane, mean) * plane.normal;
   fitted.result.inliers = static_cast<int>(m.n);
-  // A pixel's distance from the plane is d z times its residual in inverse depth.
-  fitted.result.rms = plane.distance * std::sqrt(sums.zr_zr / m.n);
   return fitted;
+}
+
+// From the planes that were fitted, not those of the cells: the expected ground of a road may be far from it.
+void addRms(const InverseDepth& inverse, const Pinhole& camera, const Components& components,
+            const std::vector<int>& place, std::vector<FittedRegion>& fitted) {
+  std::vector<double> squares(fitted.size(), 0);
+  for (const PixelRun& run : components.runs) {
+    const int i = place[static_cast<std::size_t>(run.component)];
+    if (i == kNone) continue;
+    const ImagePlane& plane = fitted[static_cast<std::size_t>(i)].plane;
+    const double start = plane.at(run.begin - camera.cx, run.row - camera.cy);
+    squares[static_cast<std::size_t>(i)] += sumRelativeSquares(inverse.at(run.begin, run.row), run.end - run.begin,
+                                                               static_cast<float>(start), static_cast<float>(plane.a));
+  }
+  // A pixel's distance from the plane is d z times its residual in inverse depth.
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+    fitted[i].result.rms = fitted[i].result.plane_in_sensor.distance * std::sqrt(squares[i] / fitted[i].result.inliers);
 }
 
 }  // namespace
@@ -110,6 +124,7 @@ std::vector<FittedRegion> fitRegions(const InverseDepth& inverse, const Pinhole&
     fitted.push_back(fit(sums[i], planes[i], camera, noise));
     fitted.back().component = component[i];
   }
+  addRms(inverse, camera, components, place, fitted);
   std::stable_sort(fitted.begin(), fitted.end(),
                    [](const FittedRegion& a, const FittedRegion& b) { return a.result.inliers > b.result.inliers; });
   // Labels have 16 bits.

@@ -9,18 +9,17 @@ namespace {
 constexpr float kColumns[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 struct LaneSums {
-  Lanes r{}, xr{}, rr{}, z{}, xz{}, zr_zr{};
+  Lanes r{}, xr{}, rr{}, z{}, xz{};
 };
 
 // `weight` is 1 or 0; where it is 0, `q` is not.
 OMNIMAPPER_KERNEL_BODY void add(const Lanes& q, const Lanes& x, const Lanes& plane, const Lanes& weight, LaneSums& s) {
-  const Lanes r = (q - plane) * weight, z = weight / q, zr = z * r;
+  const Lanes r = (q - plane) * weight, z = weight / q;
   s.r += r;
   s.xr += x * r;
   s.rr += r * r;
   s.z += z;
   s.xz += x * z;
-  s.zr_zr += zr * zr;
 }
 
 OMNIMAPPER_KERNEL_BODY double total(const Lanes& lanes) {
@@ -45,12 +44,35 @@ OMNIMAPPER_KERNEL_BODY void sumRunBody(const float* values, int n, float start, 
     const Lanes x = columns + static_cast<float>(i);
     add(inside ? q : one, x, x * slope + start, inside ? one : Lanes{}, s);
   }
-  sums = {total(s.r), total(s.xr), total(s.rr), total(s.z), total(s.xz), total(s.zr_zr)};
+  sums = {total(s.r), total(s.xr), total(s.rr), total(s.z), total(s.xz)};
+}
+
+OMNIMAPPER_KERNEL_BODY void sumRelativeSquaresBody(const float* values, int n, float start, float slope, double& sum) {
+  Lanes columns, q, one = Lanes{} + 1.F, squares{};
+  load(columns, kColumns);
+  int i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    load(q, values + i);
+    const Lanes zr = (q - ((columns + static_cast<float>(i)) * slope + start)) / q;
+    squares += zr * zr;
+  }
+  if (i < n) {
+    load(q, values + i);
+    const LaneMask inside = columns < static_cast<float>(n - i);
+    const Lanes r = q - ((columns + static_cast<float>(i)) * slope + start);
+    const Lanes zr = inside ? r / (inside ? q : one) : Lanes{};
+    squares += zr * zr;
+  }
+  sum = total(squares);
 }
 
 #ifdef OMNIMAPPER_KERNEL_AVX2
 OMNIMAPPER_KERNEL_AVX2 void sumRunAvx2(const float* values, int n, float start, float slope, RunSums& sums) {
   sumRunBody(values, n, start, slope, sums);
+}
+
+OMNIMAPPER_KERNEL_AVX2 void sumRelativeSquaresAvx2(const float* values, int n, float start, float slope, double& sum) {
+  sumRelativeSquaresBody(values, n, start, slope, sum);
 }
 #endif
 
@@ -66,6 +88,18 @@ RunSums sumRun(const float* values, int n, float start, float slope) {
 #endif
   sumRunBody(values, n, start, slope, sums);
   return sums;
+}
+
+double sumRelativeSquares(const float* values, int n, float start, float slope) {
+  double sum = 0;
+#ifdef OMNIMAPPER_KERNEL_AVX2
+  if (hasAvx2()) {
+    sumRelativeSquaresAvx2(values, n, start, slope, sum);
+    return sum;
+  }
+#endif
+  sumRelativeSquaresBody(values, n, start, slope, sum);
+  return sum;
 }
 
 }  // namespace omnimapper::perception::planes
