@@ -229,5 +229,24 @@ TEST(PlaneComparison, AComparatorIsAFewLines) {
   EXPECT_NE(found.labels[kWidth / 2 - 1], found.labels[kWidth / 2]);
 }
 
+/// Cuts a plane in the middle of each row but one: what is left and right of the cut is of one component all the same.
+struct CutButInOneRow {
+  PlanePixels pixels;
+  bool valid(int pixel) const { return pixels.planes[pixel] != 0; }
+  bool similar(int, int b) const { return b % pixels.width != kWidth / 2 || b / pixels.width == kHeight / 2; }
+};
+
+const PlaneComparison kCutButInOneRow{kSamePlane.find, [](const PlanePixels& pixels, const PlaneComparisonOptions&) {
+                                        return connectComponents(pixels.width, pixels.height, CutButInOneRow{pixels});
+                                      }};
+
+TEST(PlaneComparison, RunsOfOneComponentMayLieSideBySide) {
+  const auto found = segment(Table(), kCutButInOneRow);
+  ASSERT_EQ(found.planes.size(), 1U);
+  EXPECT_EQ(found.planes[0].inliers, kWidth * kHeight);
+  EXPECT_EQ(found.planes[0].outline.corners.size(), 4U);
+  EXPECT_TRUE(found.planes[0].holes.empty());
+}
+
 }  // namespace
 }  // namespace omnimapper::perception

@@ -70,7 +70,10 @@ std::vector<TracedLine> traceOutlines(const std::vector<std::uint16_t>& labels, 
   Tracer tracer(labels, width, height);
   for (const PixelRun& run : runs) {
     const auto pixel = static_cast<std::size_t>(run.row) * static_cast<std::size_t>(width);
-    if (labels[pixel + static_cast<std::size_t>(run.begin)] == 0 || tracer.isTraced(run.begin, run.row)) continue;
+    const auto begin = pixel + static_cast<std::size_t>(run.begin);
+    // A run that goes on to the left of its begin has no edge there.
+    if (run.begin > 0 && labels[begin - 1] == labels[begin]) continue;
+    if (labels[begin] == 0 || tracer.isTraced(run.begin, run.row)) continue;
     TracedLine line = tracer.trace(run.begin, run.row);
     if (line.area > 0 || -line.area >= min_hole) lines.push_back(std::move(line));
   }

@@ -15,8 +15,8 @@ struct TracedLine {
   std::vector<PixelCorner> corners;
 };
 
-/// Traces the edges between labels, 4-connected, for each label but 0. `runs` are the runs of equal labels. Lines
-/// around fewer than `min_hole` pixels of a hole are left out.
+/// Traces the edges between labels, 4-connected, for each label but 0. `runs` are the runs of equal labels,
+/// each in one piece or several. Lines around fewer than `min_hole` pixels of a hole are left out.
 std::vector<TracedLine> traceOutlines(const std::vector<std::uint16_t>& labels, int width, int height,
                                       const std::vector<PixelRun>& runs, int min_hole);
 
