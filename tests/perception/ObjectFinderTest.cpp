@@ -117,6 +117,15 @@ TEST(ObjectFinder, ATableInPiecesIsOneSurface) {
   EXPECT_NEAR(found.objects[0].box_size.x(), 0.2, 0.02);
 }
 
+TEST(ObjectFinder, ATableIsCoplanarWithItselfWhateverTheOptions) {
+  ObjectOptions options;
+  options.coplanar_distance = 0;
+  PlaneOptions sensor;
+  sensor.bend_at_1m = 0;
+  const TableScene table = withThreeThings();
+  EXPECT_EQ(find(table, rooms::render(table.scene).depth, options, sensor).objects.size(), 3U);
+}
+
 TEST(ObjectFinder, FiltersLeaveOutWhatIsTooSmallTooLargeOrHangs) {
   TableScene table = withThreeThings();
   ObjectOptions options;

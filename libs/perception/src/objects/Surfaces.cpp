@@ -19,8 +19,8 @@ bool areCoplanar(const PlaneRegion& a, const PlaneRegion& b, const ObjectOptions
   if (a.plane_in_sensor.normal.dot(b.plane_in_sensor.normal) < std::cos(options.coplanar_angle)) return false;
   const double depth = std::max(a.centroid.z(), b.centroid.z());
   const double farthest = options.coplanar_distance + bend_at_1m * depth * depth;
-  return std::abs(signedDistance(a.plane_in_sensor, b.centroid)) < farthest &&
-         std::abs(signedDistance(b.plane_in_sensor, a.centroid)) < farthest;
+  return std::abs(signedDistance(a.plane_in_sensor, b.centroid)) <= farthest &&
+         std::abs(signedDistance(b.plane_in_sensor, a.centroid)) <= farthest;
 }
 
 HullNeighbourhood hullOf(const PlaneSegmentation& planes, const Surface& surface) {
@@ -43,8 +43,9 @@ std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectO
     if (taken[i] || largest.plane_in_sensor.normal.dot(up) < std::cos(options.max_tilt)) continue;
     Surface surface;
     surface.plane = static_cast<int>(i);
-    double area = 0;
-    for (std::size_t j = i; j < planes.planes.size(); ++j) {
+    surface.pieces.push_back(surface.plane);
+    double area = areaOf(largest);
+    for (std::size_t j = i + 1; j < planes.planes.size(); ++j) {
       if (taken[j] || !areCoplanar(largest, planes.planes[j], options, bend_at_1m)) continue;
       surface.pieces.push_back(static_cast<int>(j));
       area += areaOf(planes.planes[j]);
