@@ -3,6 +3,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "ColouredRooms.h"
@@ -183,7 +184,8 @@ TEST(PlaneComparison, NormalsFindTheLargePlanesOfRooms) {
   EXPECT_GT(sum.pixelsRight(), 0.5);
 }
 
-// Whatever the image: labels are those of planes, and each plane has as many pixels as it says.
+// Whatever the image: labels are those of planes, each plane has as many pixels as it says, and its covariance is
+// positive definite.
 TEST(PlaneComparison, AnyImageOfAnySizeIsTakenByEach) {
   PlaneOptions options;
   options.min_pixels = 1;
@@ -203,8 +205,10 @@ TEST(PlaneComparison, AnyImageOfAnySizeIsTakenByEach) {
       const auto found = PlaneSegmenter(options, by(*comparison)).segment(image, colours);
       std::vector<int> pixels(found.planes.size() + 1, 0);
       for (const auto label : found.labels) ++pixels.at(label);
-      for (std::size_t i = 0; i < found.planes.size(); ++i)
+      for (std::size_t i = 0; i < found.planes.size(); ++i) {
         EXPECT_EQ(found.planes[i].inliers, pixels[i + 1]) << "seed " << seed;
+        EXPECT_EQ(found.planes[i].covariance.llt().info(), Eigen::Success) << "seed " << seed;
+      }
     }
   }
 }

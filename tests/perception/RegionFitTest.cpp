@@ -36,6 +36,12 @@ TEST(RegionFit, PiecesOfOneLabelThatBendApartAreEachFlat) {
   }
 }
 
+TEST(RegionFit, PixelsInOneLineHaveNoPlane) {
+  const auto flat = [](int) { return 1.; };
+  EXPECT_EQ(fitted(flat, 1, kWidth - 2).size(), 1U) << "one column on the left, two on the right";
+  EXPECT_TRUE(fitted(flat, 1, kWidth).empty());
+}
+
 TEST(RegionFit, TheRmsIsThatOfTheDistancesFromThePlane) {
   // Columns are by turns 1 mm nearer and farther than 1 m.
   const auto wall = fitted([](int x) { return 1 / (x % 2 == 0 ? 0.999 : 1.001); }, 0, 0);

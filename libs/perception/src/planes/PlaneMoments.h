@@ -12,7 +12,8 @@ struct ImagePlane {
 
 struct ImagePlaneFit {
   ImagePlane plane;
-  double squares = 0;  ///< sum of squared residuals [1/m^2]
+  double squares = 0;       ///< sum of squared residuals [1/m^2]
+  bool determined = false;  ///< not if the pixels are in one line or fewer than three
 };
 
 /// Sums over pixels at (u, v) with the inverse depth q: all that least squares need. Sums of parts add up.
@@ -40,7 +41,7 @@ struct PlaneMoments {
     return s;
   }
 
-  /// Pixels in one line or fewer than three have no plane: slopes of 0 then.
+  /// Where it is not determined, its slopes are 0.
   ImagePlaneFit fit() const {
     if (n < 1) return {};
     const double mu = u / n, mv = v / n, mq = q / n;
@@ -48,12 +49,13 @@ struct PlaneMoments {
     const double suq = uq - mu * q, svq = vq - mv * q, sqq = qq - mq * q;
     const double determinant = suu * svv - suv * suv;
     ImagePlane plane;
-    if (determinant > 1e-9 * suu * svv) {
+    const bool determined = determinant > 1e-9 * suu * svv;
+    if (determined) {
       plane.a = (suq * svv - svq * suv) / determinant;
       plane.b = (svq * suu - suq * suv) / determinant;
     }
     plane.c = mq - plane.a * mu - plane.b * mv;
-    return {plane, std::fmax(0.0, sqq - plane.a * suq - plane.b * svq)};
+    return {plane, std::fmax(0.0, sqq - plane.a * suq - plane.b * svq), determined};
   }
 
   /// Sum of squared residuals from any plane [1/m^2].

@@ -68,9 +68,9 @@ void setPlane(const ImagePlane& plane, const PlaneMoments& m, const Pinhole& cam
   region.covariance = 0.5 * (covariance + covariance.transpose());
 }
 
-FittedRegion fit(const RegionSums& sums, const ImagePlane& of_cells, const Pinhole& camera, const DepthNoise& noise) {
+FittedRegion fit(const RegionSums& sums, const ImagePlane& of_cells, const ImagePlane& correction,
+                 const Pinhole& camera, const DepthNoise& noise) {
   const PlaneMoments& m = sums.residuals;
-  const ImagePlane correction = m.fit().plane;
   FittedRegion fitted;
   fitted.plane = {of_cells.a + correction.a, of_cells.b + correction.b, of_cells.c + correction.c};
   setPlane(fitted.plane, m, camera, noise, fitted.result);
@@ -121,7 +121,10 @@ std::vector<FittedRegion> fitRegions(const InverseDepth& inverse, const Pinhole&
   }
   std::vector<FittedRegion> fitted;
   for (std::size_t i = 0; i < component.size(); ++i) {
-    fitted.push_back(fit(sums[i], planes[i], camera, noise));
+    const ImagePlaneFit correction = sums[i].residuals.fit();
+    place[static_cast<std::size_t>(component[i])] = correction.determined ? static_cast<int>(fitted.size()) : kNone;
+    if (!correction.determined) continue;
+    fitted.push_back(fit(sums[i], planes[i], correction.plane, camera, noise));
     fitted.back().component = component[i];
   }
   addRms(inverse, camera, components, place, fitted);

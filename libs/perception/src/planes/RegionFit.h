@@ -18,7 +18,8 @@ struct FittedRegion {
   PlaneRegion result;  ///< without contours
 };
 
-/// Fits the plane of each component with at least `min_pixels`; the one with most pixels first.
+/// Fits the plane of each component with at least `min_pixels` that are not all in one line; the one with most pixels
+/// first.
 std::vector<FittedRegion> fitRegions(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
                                      const Components& components, const PixelLabels& labels,
                                      const CellRegions& regions, int min_pixels);
