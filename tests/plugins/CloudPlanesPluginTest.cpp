@@ -80,6 +80,20 @@ TEST(CloudPlanesPlugin, ObservationsWithoutPointsHaveNoPlanes) {
   EXPECT_TRUE(planesOf(labelled<mrpt::obs::CObservationPointCloud>())->planes.empty());
 }
 
+TEST(CloudPlanesPlugin, ACloudThatWasNotLoadedIsAnErrorThatNamesItsFile) {
+  auto outside = labelled<mrpt::obs::CObservationPointCloud>();
+  outside.setAsExternalStorage("/nowhere/cloud.txt",
+                               mrpt::obs::CObservationPointCloud::ExternalStorageFormat::PlainTextFile);
+  try {
+    planesOf(outside);
+    FAIL() << "nothing was thrown";
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::missing_images);
+    EXPECT_NE(std::string(error.what()).find("velodyne"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("/nowhere/cloud.txt"), std::string::npos) << error.what();
+  }
+}
+
 TEST(CloudPlanesPlugin, TakesTheSensorsThatCountAndNothingElse) {
   const auto all = made(""), some = made("sensor_labels = left, velodyne\n"), others = made("sensor_labels = left\n");
   EXPECT_FALSE(all.extractors.front().plugin->wants(mrpt::obs::CObservation2DRangeScan()));

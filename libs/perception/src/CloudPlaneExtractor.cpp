@@ -49,6 +49,11 @@ std::vector<Eigen::Vector3f> pointsOf(const mrpt::obs::CObservation& raw, double
   const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&raw);
   if (cloud == nullptr)
     throw base::Error(base::ExitCode::internal, raw.sensorLabel + ": neither a point cloud nor a Velodyne scan");
+  if (!cloud->pointcloud && cloud->isExternallyStored()) {
+    throw base::Error(base::ExitCode::missing_images, raw.sensorLabel + ": the point cloud is in " +
+                                                          cloud->getExternalStorageFile() +
+                                                          ", which was not loaded; is it there?");
+  }
   if (!cloud->pointcloud) return {};
   const auto& points = *cloud->pointcloud;
   return pointsOf(points.getPointsBufferRef_x(), points.getPointsBufferRef_y(), points.getPointsBufferRef_z());

@@ -30,8 +30,9 @@ class CloudPlaneExtractor {
 
   /// Planes with the observation's stamp and sensorPose, in the frame of that pose, label "<its label>.planes". Of a
   /// Velodyne scan without points these are made of its packets, as if the sensor stood still. Throws
-  /// Error(unreadable_input) for packets that do not fit their calibration, and Error(internal) for other observations.
-  /// Thread-safe; the same cloud gives the same bits.
+  /// Error(unreadable_input) for packets that do not fit their calibration, Error(missing_images) for clouds that are
+  /// in files and were not loaded (sources load them), and Error(internal) for other observations. Thread-safe; the
+  /// same cloud gives the same bits.
   std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation& raw) const;
 
  private:
