@@ -11,11 +11,14 @@
 #include <omnimapper/plugins/PerceptionPictures.h>
 #include <omnimapper/testing/Fixtures.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 
 #include "output/Drawing.h"
+#include "pictures/LaserPicture.h"
 
 namespace omnimapper::plugins {
 namespace {
@@ -124,6 +127,31 @@ TEST_F(PerceptionPicturesTest, linesLieOverTheScan) {
   EXPECT_TRUE(isNear(image, 590, 400, obs::indexColour(0)));
   EXPECT_TRUE(isNear(image, 590, 300, obs::indexColour(0)));
   EXPECT_TRUE(isNear(image, 590, 150, mrpt::img::TColor(255, 255, 255)));
+}
+
+// How many lines that are not white a row of the picture crosses; a row that lies on one crosses fewer.
+int squaresInARow(const Image& picture) {
+  int most = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    int lines = 0;
+    for (int x = 1; x < picture.width; ++x) lines += picture.at(x - 1, y).r == 255 && picture.at(x, y).r < 255;
+    most = std::max(most, lines);
+  }
+  return most;
+}
+
+TEST_F(PerceptionPicturesTest, rangesBeyondAllMeasureHaveTheirPictureToo) {
+  mrpt::obs::CObservation2DRangeScan scan;
+  scan.sensorLabel = "laser";
+  scan.maxRange = std::numeric_limits<float>::max();
+  scan.resizeScan(2);  // MRPT has no angle for the beam of a scan of one
+  scan.setScanRangeValidity(0, true);
+  for (const float range : {150.F, 1e17F, 1e38F}) {
+    scan.setScanRange(0, range);
+    const int squares = squaresInARow(drawLaserPicture(scan, {}));
+    EXPECT_GE(squares, 9) << range;
+    EXPECT_LE(squares, 103) << range << ": 101 lines, sensor and point";
+  }
 }
 
 TEST_F(PerceptionPicturesTest, aFolderThatCannotBeIsAnError) {

@@ -13,13 +13,15 @@ namespace omnimapper::plugins {
 namespace {
 
 constexpr int kSide = 800;  // of the picture [px]
+constexpr int kMostSquares = 100;
 constexpr Rgb kPaper{255, 255, 255}, kSquares{225, 225, 225}, kPoints{130, 130, 130}, kSensor{0, 0, 0};
 
 std::vector<Eigen::Vector2d> pointsOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   std::vector<Eigen::Vector2d> points;
   for (std::size_t i = 0; i < scan.getScanSize(); ++i) {
     const double range = static_cast<double>(scan.getScanRange(i)), angle = static_cast<double>(scan.getScanAngle(i));
-    if (!scan.getScanRangeValidity(i) || !std::isfinite(range) || range >= static_cast<double>(scan.maxRange)) continue;
+    if (!scan.getScanRangeValidity(i) || !std::isfinite(range) || !std::isfinite(angle)) continue;
+    if (range >= static_cast<double>(scan.maxRange)) continue;
     points.emplace_back(range * std::cos(angle), range * std::sin(angle));
   }
   return points;
@@ -45,12 +47,16 @@ class View {
   double scale_;  // [px / m]
 };
 
+// Of 1 m, or of 10, 100 and so on in a wide view, so that there are at most kMostSquares in a row.
 void drawSquares(Image& picture, const View& view) {
   const Eigen::Vector2d low = view.lowest(), high = view.highest();
+  double side = 1;  // [m]
+  while ((high - low).maxCoeff() / side > kMostSquares) side *= 10;
   for (int axis = 0; axis < 2; ++axis) {
-    for (double line = std::ceil(low[axis]); line <= high[axis]; ++line) {
+    const double first = std::ceil(low[axis] / side);
+    for (int i = 0; i <= kMostSquares && side * (first + i) <= high[axis]; ++i) {
       Eigen::Vector2d from = low, to = high;
-      from[axis] = to[axis] = line;
+      from[axis] = to[axis] = side * (first + i);
       drawLine(picture, view(from), view(to), {kSquares, 1});
     }
   }
