@@ -18,6 +18,7 @@
 #include <set>
 
 #include "output/Drawing.h"
+#include "pictures/CameraPicture.h"
 #include "pictures/LaserPicture.h"
 
 namespace omnimapper::plugins {
@@ -96,6 +97,18 @@ TEST_F(PerceptionPicturesTest, planesLieWhereTheCameraSeesThem) {
   EXPECT_FALSE(isGrey(image, 30, 30)) << "filled";
   EXPECT_TRUE(isGrey(image, 45, 36)) << "in the hole";
   EXPECT_TRUE(isGrey(image, 10, 10)) << "beside it";
+}
+
+TEST_F(PerceptionPicturesTest, aPictureThroughAnotherLensIsNotDrawnOver) {
+  const auto scan = depthsAt(1);
+  scan->hasIntensityImage = true;
+  scan->intensityImage = mrpt::img::CImage(100, 80, mrpt::img::CH_RGB);
+  scan->intensityImage.filledRectangle(0, 0, 99, 79, mrpt::img::TColor(200, 0, 0));
+  scan->cameraParams.setIntrinsicParamsFromValues(525, 525, 49.5, 39.5);
+  scan->cameraParamsIntensity = scan->cameraParams;
+  EXPECT_EQ(drawCameraPicture(*scan, {}).at(50, 40).r, 133) << "half of it greyed";
+  scan->cameraParamsIntensity.setIntrinsicParamsFromValues(580, 580, 49.5, 39.5);
+  EXPECT_EQ(drawCameraPicture(*scan, {}).at(50, 40).g, 240) << "depth, as near as the nearest";
 }
 
 TEST_F(PerceptionPicturesTest, objectsHaveTheirBoxAndPoints) {

@@ -1,6 +1,7 @@
 #include "RangeScan.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/perception/PictureView.h>
 
 #include <cmath>
 
@@ -76,14 +77,15 @@ ScanColours::ScanColours(const CObservation3DRangeScan& scan)
   const Eigen::Vector3d colour_in_sensor(depth_from_colour.x(), depth_from_colour.y(), depth_from_colour.z());
   colour_from_depth_ = colour_from_sensor * sensorFromOptical().rotation.toRotationMatrix();
   depth_in_colour_ = -(colour_from_sensor * colour_in_sensor);
-  same_view_ = scan.doDepthAndIntensityCamerasCoincide() && width_ == static_cast<int>(scan.rangeImage.cols()) &&
-               static_cast<int>(rows_.size()) == static_cast<int>(scan.rangeImage.rows());
+  same_view_ = isPictureOfDepthView(scan);
 }
 
 void ScanColours::readImage(const mrpt::img::CImage& image) {
   if (image.isEmpty() || image.getPixelDepth() != mrpt::img::PixelDepth::D8U) return;
+  const auto channels = static_cast<int>(image.channelCount());
+  if (channels != 1 && channels != 3) return;
   width_ = static_cast<int>(image.getWidth());
-  channels_ = static_cast<int>(image.channelCount());
+  channels_ = channels;
   red_first_ = image.getChannelsOrder() == std::string("RGB");
   rows_.resize(image.getHeight());
   for (std::size_t y = 0; y < rows_.size(); ++y) rows_[y] = image.ptrLine<std::uint8_t>(static_cast<unsigned>(y));

@@ -53,7 +53,7 @@ class ScanColours {
   /// Throws Error(missing_images) where the image is in a file that cannot be read.
   explicit ScanColours(const mrpt::obs::CObservation3DRangeScan& scan);
 
-  /// Whether there is an image with colours, or greys, of 8 bits.
+  /// Whether there is an image of 8 bits with 3 channels of colours, or 1 of greys.
   bool exist() const { return channels_ > 0; }
   /// Of what the pixel in column x and row y of the depth image sees at that depth [m]; none outside the picture.
   std::optional<obs::Rgb> at(int x, int y, double depth) const {

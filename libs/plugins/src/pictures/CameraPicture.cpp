@@ -6,6 +6,7 @@
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/obs/IndexColour.h>
 #include <omnimapper/perception/EdgeExtractor.h>
+#include <omnimapper/perception/PictureView.h>
 
 #include <algorithm>
 #include <array>
@@ -60,11 +61,10 @@ Rgb greyed(int red, int green, int blue) {
 }
 
 bool showsTheDepth(const CObservation3DRangeScan& scan) {
+  if (!perception::isPictureOfDepthView(scan)) return false;
   const auto& image = scan.intensityImage;
-  return scan.hasIntensityImage && !image.isEmpty() && image.getPixelDepth() == mrpt::img::PixelDepth::D8U &&
-         static_cast<int>(image.getWidth()) == static_cast<int>(scan.rangeImage.cols()) &&
-         static_cast<int>(image.getHeight()) == static_cast<int>(scan.rangeImage.rows()) &&
-         scan.doDepthAndIntensityCamerasCoincide();
+  return image.getPixelDepth() == mrpt::img::PixelDepth::D8U &&
+         (image.channelCount() == 1 || image.channelCount() == 3);
 }
 
 Image colourPicture(const mrpt::img::CImage& colours) {

@@ -1,0 +1,23 @@
+#include <omnimapper/perception/PictureView.h>
+
+namespace omnimapper::perception {
+
+namespace {
+
+bool isOneCamera(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b) {
+  return a.fx() == b.fx() && a.fy() == b.fy() && a.cx() == b.cx() && a.cy() == b.cy();
+}
+
+}  // namespace
+
+// doDepthAndIntensityCamerasCoincide() compares places and turns alone.
+bool isPictureOfDepthView(const mrpt::obs::CObservation3DRangeScan& scan) {
+  const auto& image = scan.intensityImage;
+  const auto& camera = scan.cameraParamsIntensity;
+  return scan.hasIntensityImage && !image.isEmpty() &&
+         static_cast<int>(image.getWidth()) == static_cast<int>(scan.rangeImage.cols()) &&
+         static_cast<int>(image.getHeight()) == static_cast<int>(scan.rangeImage.rows()) &&
+         scan.doDepthAndIntensityCamerasCoincide() && (camera.fx() == 0 || isOneCamera(scan.cameraParams, camera));
+}
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+#include <omnimapper/perception/PlaneExtractor.h>
+
+#include "RangeScan.h"
+#include "RangeScans.h"
+
+namespace omnimapper::perception {
+namespace {
+
+using namespace scans;
+
+const auto kWall = [](int, int) { return 2.; };
+
+TEST(RangeScan, APictureOfAnotherFocalLengthIsNotReadPixelByPixel) {
+  // The picture is seen through 580 px where depth has 525, and 20 px farther left; it is red left of column 80.
+  auto scan = rangeScan(kWall);
+  scan.cameraParams = camera(kWidth, kHeight, 525);
+  addColours(scan);
+  scan.cameraParamsIntensity.setIntrinsicParamsFromValues(580, 580, 0.5 * (kWidth - 1) - 20, 0.5 * (kHeight - 1));
+  const ScanDepth depth(scan);
+  const ScanColours colours(scan);
+  EXPECT_FALSE(colours.areOfDepthView());
+  const int row = kHeight / 2, column = 130;
+  const auto place = colours.placeOf(column, row, 2);
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->x, static_cast<int>((column - 79.5) / 525 * 580 + 59.5 + 0.5));
+  EXPECT_EQ(colours.at(column, row, 2)->green, 220);
+  EXPECT_EQ(colours.at(column - 40, row, 2)->red, 200) << "green, pixel by pixel";
+  scan.cameraParamsIntensity = scan.cameraParams;
+  EXPECT_TRUE(ScanColours(scan).areOfDepthView());
+  scan.cameraParamsIntensity.setIntrinsicParamsFromValues(0, 0, 0, 0);
+  EXPECT_TRUE(ScanColours(scan).areOfDepthView()) << "not calibrated";
+}
+
+TEST(RangeScan, PicturesOfTwoOrFourChannelsAreNone) {
+  auto scan = rangeScan(kWall);
+  addColours(scan);
+  EXPECT_TRUE(PlaneExtractor({}, {}).extract(scan)->planes.at(0).colour);
+  for (const int channels : {2, 4}) {
+    scan.intensityImage.resize(kWidth, kHeight, static_cast<mrpt::img::TImageChannels>(channels));
+    ASSERT_EQ(static_cast<int>(scan.intensityImage.channelCount()), channels);
+    EXPECT_FALSE(ScanColours(scan).exist()) << channels;
+    EXPECT_FALSE(PlaneExtractor({}, {}).extract(scan)->planes.at(0).colour);
+  }
+}
+
+}  // namespace
+}  // namespace omnimapper::perception
