@@ -142,11 +142,18 @@ TEST_F(Comparator, IsSwappedByTheIni) {
   EXPECT_EQ(countOnWall({"--set", "planes.comparator=plane_colour"}), three);
 }
 
-TEST_F(Comparator, OfColoursWithoutAPictureIsAnError) {
+TEST_F(Comparator, OfColoursWithoutAPictureLeavesScansOutAndIsAnErrorAlone) {
   simulate("colour = false\n");
-  const Words by_colour{"--set", "planes.comparator=plane_colour"};
-  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, perceive(log_, scratch_ / "derived.rawlog", by_colour),
-                        {"kinect", "picture", "comparator = plane"}));
+  const std::string derived = scratch_ / "derived.rawlog";
+  const Words words{"kinect", "picture", "comparator = plane"};
+  Words by_colour{"--set", "planes.comparator=plane_colour"};
+  EXPECT_TRUE(endedWith(ExitCode::damaged_input, perceive(log_, derived, by_colour), words));
+  EXPECT_EQ(ofClass<CObservationPlanes>(readLog(derived)).size(), 0U);
+  EXPECT_FALSE(readLog(derived).empty()) << "what the other extractors made of them";
+  fs::remove(derived);
+  by_colour.insert(by_colour.end(), {"--set", "perception.extractors=planes"});
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, perceive(log_, derived, by_colour), words));
+  EXPECT_FALSE(fs::exists(derived));
   EXPECT_TRUE(endedWith(ExitCode::wrong_type,
                         perceive(log_, scratch_ / "derived.rawlog", {"--set", "planes.comparator=colour"}),
                         {"plane | plane_colour | normals"}));
