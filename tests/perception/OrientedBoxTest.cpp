@@ -33,5 +33,21 @@ TEST(OrientedBox, OfOnePointHasNoSize) {
   EXPECT_LT((box.frame_from_box.translation - Vector3d(1, 2, 3)).norm(), 1e-12);
 }
 
+TEST(OrientedBox, IsExtendedAlongItsAxes) {
+  const Vector3d x(std::cos(M_PI / 6), std::sin(M_PI / 6), 0), y(-x.y(), x.x(), 0), middle(1, 2, 3);
+  std::vector<Vector3d> corners;
+  for (const double a : {-0.2, 0.2}) {
+    for (const double b : {-0.1, 0.1}) {
+      for (const double c : {-0.05, 0.05}) corners.push_back(middle + a * x + b * y + c * Vector3d::UnitZ());
+    }
+  }
+  const auto box = boxAlong(Vector3d::UnitZ(), corners);
+  const auto same = extended(box, {middle.cast<float>()});
+  EXPECT_LT((same.size - box.size).norm(), 1e-6);
+  const auto longer = extended(box, {(middle + 0.4 * x + 0.02 * y).cast<float>()});
+  EXPECT_LT((longer.size - Vector3d(0.6, 0.2, 0.1)).norm(), 1e-5);
+  EXPECT_LT((longer.frame_from_box.translation - (middle + 0.1 * x)).norm(), 1e-5);
+}
+
 }  // namespace
 }  // namespace omnimapper::perception::objects

@@ -52,7 +52,7 @@ using objects::Surface;
 constexpr double kSigmas = 3;          // what noise may do
 constexpr double kLowest = 0.02;       // share of a thing's points that may be noise below the rest
 constexpr double kFoot = 0.03;         // [m] beside the noise, of a thing that may be lost in the surface
-constexpr std::size_t kSample = 4096;  // points of a cluster from which its surface, axis and covariance are taken
+constexpr std::size_t kSample = 4096;  // points of a cluster that tell its surface, its axes and its covariance
 constexpr double kHullMargin = 0.05;   // [m] a thing on the edge of a table hides where it ends
 
 // Pixels with a depth that are not of the place, and their points [m].
@@ -133,22 +133,31 @@ Clusters clustersOf(const DepthImage& image, const ClusterComparator& near, cons
   return pixelsOf(labels);
 }
 
-// Those of all pixels or, evenly among them, of no more than `most`.
-std::vector<Eigen::Vector3d> pointsOf(const std::vector<int>& pixels, const OrganisedPoints& all,
-                                      std::size_t most = std::numeric_limits<std::size_t>::max()) {
-  const std::size_t step = (pixels.size() - 1) / most + 1;
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(pixels.size() / step + 2);
-  for (std::size_t k = 0; k < pixels.size(); k += step) {
-    const auto i = static_cast<std::size_t>(pixels[k]);
-    points.emplace_back(static_cast<double>(all.x[i]), static_cast<double>(all.y[i]), static_cast<double>(all.z[i]));
-  }
+Eigen::Vector3f pointOf(int pixel, const OrganisedPoints& all) {
+  const auto i = static_cast<std::size_t>(pixel);
+  return {all.x[i], all.y[i], all.z[i]};
+}
+
+// No more than kSample points, evenly among the pixels.
+std::vector<Eigen::Vector3d> sampleOf(const std::vector<int>& pixels, const OrganisedPoints& all) {
+  const std::size_t step = (pixels.size() - 1) / kSample + 1;
+  std::vector<Eigen::Vector3d> sample;
+  sample.reserve(pixels.size() / step + 1);
+  for (std::size_t k = 0; k < pixels.size(); k += step) sample.push_back(pointOf(pixels[k], all).cast<double>());
+  return sample;
+}
+
+std::vector<Eigen::Vector3f> pointsOf(const std::vector<int>& pixels, const OrganisedPoints& all) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(pixels.size() + 1);
+  for (const int pixel : pixels) points.push_back(pointOf(pixel, all));
   return points;
 }
 
-Eigen::Vector3d meanOf(const std::vector<Eigen::Vector3d>& points) {
+template <class Point>
+Eigen::Vector3d meanOf(const std::vector<Point>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& point : points) sum += point;
+  for (const auto& point : points) sum += point.template cast<double>();
   return sum / static_cast<double>(points.size());
 }
 
@@ -214,15 +223,15 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
   const ClusterComparator near{points, labels, of_place, static_cast<float>(options_.max_gap), noise};
 
   for (auto& pixels : clustersOf(image, near, options_, sensor_)) {
-    const auto sample = pointsOf(pixels, points, kSample);
+    const auto sample = sampleOf(pixels, points);
     const Eigen::Vector3d middle = meanOf(sample);
     const auto [surface, gap] = surfaceUnder(sample, middle, planes, surfaces, options_.max_standing_gap);
     if (surface == nullptr && options_.on_surfaces_only) continue;
     const auto* const under =
         surface == nullptr ? nullptr : &planes.planes[static_cast<std::size_t>(surface->plane)].plane_in_sensor;
     const Eigen::Vector3d axis = under == nullptr ? leastAxisOf(sample, middle) : under->normal;
-    // The box of all is no smaller.
-    if (objects::boxAlong(axis, sample).size.prod() > options_.max_volume) continue;
+    auto box = objects::boxAlong(axis, sample);
+    if (box.size.prod() > options_.max_volume) continue;  // with all points it is no smaller
 
     auto cluster = pointsOf(pixels, points);
     ObjectRegion region;
@@ -232,9 +241,10 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
       region.surface = surface->plane;
       // The box goes down to it where the lowest of the thing was taken for the surface.
       const double foot = kFoot + kSigmas * sensor_.noise_at_1m * region.centroid.z() * region.centroid.z();
-      if (gap < foot) cluster.push_back(region.centroid - signedDistance(*under, region.centroid) * under->normal);
+      const Eigen::Vector3d below = region.centroid - signedDistance(*under, region.centroid) * under->normal;
+      if (gap < foot) cluster.push_back(below.cast<float>());
     }
-    const auto box = objects::boxAlong(axis, cluster);
+    box = objects::extended(box, cluster);
     if (box.size.maxCoeff() < options_.min_size || box.size.prod() > options_.max_volume) continue;
     region.sensor_from_box = box.frame_from_box;
     region.box_size = box.size;

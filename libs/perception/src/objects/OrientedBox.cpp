@@ -72,4 +72,20 @@ OrientedBox boxAlong(const Eigen::Vector3d& axis, const std::vector<Eigen::Vecto
   return box;
 }
 
+OrientedBox extended(const OrientedBox& box, const std::vector<Eigen::Vector3f>& points) {
+  const Eigen::Matrix3d axes = box.frame_from_box.rotation.toRotationMatrix();
+  const Eigen::Vector3d middle = axes.transpose() * box.frame_from_box.translation;
+  const Eigen::Matrix3f along = axes.transpose().cast<float>();
+  Eigen::Array3f low = (middle - 0.5 * box.size).cast<float>(), high = (middle + 0.5 * box.size).cast<float>();
+  for (const auto& point : points) {
+    const Eigen::Array3f place = along * point;
+    low = low.min(place);
+    high = high.max(place);
+  }
+  OrientedBox result = box;
+  result.size = (high - low).cast<double>();
+  result.frame_from_box.translation = axes * (0.5 * (low + high)).matrix().cast<double>();
+  return result;
+}
+
 }  // namespace omnimapper::perception::objects

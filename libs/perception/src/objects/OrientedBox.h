@@ -16,4 +16,7 @@ struct OrientedBox {
 /// least area; x is the longer of them. One point at least.
 OrientedBox boxAlong(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points);
 
+/// The box with the same axes around a box and all of the points.
+OrientedBox extended(const OrientedBox& box, const std::vector<Eigen::Vector3f>& points);
+
 }  // namespace omnimapper::perception::objects
