@@ -120,8 +120,8 @@ void printRooms(const std::vector<Method>& methods, int rooms, int clutter) {
         times.push_back(timeOf(method.find, truth.scan));
       }
       std::printf("| %d | %s | %.3f | %.3f | %.2f | %.2f | %.4f | %.4f |\n", beams, method.name.c_str(), score.recall(),
-                  score.precision(), 100 * score.meanEndError(), 100 * quantile(score.end_errors, 0.5),
-                  quantile(times, 0.5), quantile(times, 0.95));
+                  score.precision(), 100 * score.meanEndError(), 100 * bench::quantile(score.end_errors, 0.5),
+                  bench::quantile(times, 0.5), bench::quantile(times, 0.95));
       std::fflush(stdout);
     }
   }
@@ -199,9 +199,10 @@ void printLogs(const std::vector<Method>& methods, const std::vector<std::string
       std::printf("| %s | %zu | %s | %.2f | %.1f %% | %.3f | %.3f | %.2f | %.2f | %.4f | %.4f |\n",
                   log.substr(log.rfind('/') + 1).c_str(), pairs.size(), method.name.c_str(),
                   double(result.lines) / double(std::max<std::size_t>(1, pairs.size())),
-                  100.0 * result.again / std::max(1, result.lines), quantile(result.turns, 0.5) / degree,
-                  quantile(result.turns, 0.95) / degree, 1000 * quantile(result.offsets, 0.5),
-                  1000 * quantile(result.offsets, 0.95), quantile(result.times, 0.5), quantile(result.times, 0.95));
+                  100.0 * result.again / std::max(1, result.lines), bench::quantile(result.turns, 0.5) / degree,
+                  bench::quantile(result.turns, 0.95) / degree, 1000 * bench::quantile(result.offsets, 0.5),
+                  1000 * bench::quantile(result.offsets, 0.95), bench::quantile(result.times, 0.5),
+                  bench::quantile(result.times, 0.95));
       std::fflush(stdout);
     }
   }

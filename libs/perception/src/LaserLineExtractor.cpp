@@ -64,7 +64,7 @@ std::vector<Stretch> partedAtGaps(const ScanPoints& points, const std::vector<St
     int first = -1, last = -1;
     for (int i = stretch.first; i <= stretch.last; ++i) {
       if (points.chiSquare(i, stretch.line) > options.gate * options.gate) continue;
-      if (last >= 0 && points.isGap(last, i, options.max_gap)) {
+      if (last >= 0 && (points.isGap(last, i, options.max_gap) || points.isBehind(last, i, options.max_gap))) {
         parts.push_back({first, last, stretch.line});
         first = -1;
       }

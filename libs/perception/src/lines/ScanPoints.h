@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/perception/LaserLineExtractor.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace omnimapper::perception::lines {
 struct Line {
   double nx = 1, ny = 0, distance = 0;
 };
+
+/// How much farther apart beams meet a wall than one that faces them, at the most: at 87 degrees.
+inline constexpr double kSteepestWall = 20;
 
 /// The beams of a scan that met something, in their order, one array for each number.
 struct ScanPoints {
@@ -40,9 +44,17 @@ struct ScanPoints {
   /// Whether a line that has points i < j, and none between them, is two lines. Of two beams side by side nothing is
   /// known in between, however far apart they meet the wall; one beam may fail.
   bool isGap(int i, int j, double max_gap) const {
-    const int between = beam[j] - beam[i] + (beam[j] < beam[i] ? beams : 0) - 1;
+    const int between = beamsBetween(i, j);
     return between > 0 && distanceBetween(i, j) > (between == 1 ? 2 * max_gap : max_gap);
   }
+  /// Whether only a wall that points at the sensor itself could have both, and none between them: those are a thing and
+  /// what is behind it.
+  bool isBehind(int i, int j, double max_gap) const {
+    const double distance = distanceBetween(i, j);
+    const double facing = step * (beamsBetween(i, j) + 1) * std::min(range[i], range[j]);
+    return distance > max_gap && distance > kSteepestWall * facing;
+  }
+  int beamsBetween(int i, int j) const { return beam[j] - beam[i] + (beam[j] < beam[i] ? beams : 0) - 1; }
   double distanceBetween(int i, int j) const { return std::hypot(x[i] - x[j], y[i] - y[j]); }
 };
 
