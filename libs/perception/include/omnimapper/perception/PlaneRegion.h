@@ -27,6 +27,8 @@ struct Contour {
 struct PlaneRegion {
   geometry::Plane3 plane_in_sensor;  ///< normal towards the sensor, distance > 0
   /// Of the two changes of the normal [rad] and that of the distance [m], as geometry/PlaneTangent.h defines them.
+  /// Positive definite. It counts the noise of pixels, correlated among neighbours, and the steps of the sensor; it
+  /// does not count DepthNoise::bend, which is alike in all views and does not shrink with the number of pixels.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m], mean of the inliers, put on the plane
   int inliers = 0;                                     ///< pixels
