@@ -1,4 +1,5 @@
 // omnimapper-import: makes MRPT rawlogs of other programs' logs.
+#include <omnimapper/base/AtomicFile.h>
 #include <map>
 #include <tuple>
 
@@ -75,6 +76,7 @@ int main(int argc, char** argv) {
   addPcd(app, arguments);
   return program::run(app, argc, argv, [&] {
     const auto& [input, output] = std::tie(arguments.input, arguments.output);
+    base::refuseToReplaceInput(output, {input});
     if (carmen->parsed()) return static_cast<int>(importCarmen(input, output, kOdometryNames.at(arguments.odometry)));
     if (tum->parsed())
       return static_cast<int>(importRgbd(input, output, arguments.rgbd, arguments.images == "external"));

@@ -1,4 +1,5 @@
 // omnimapper-perceive: rawlog in, rawlog out with what the extractors of an INI derive.
+#include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/mapper/PerceptionRun.h>
 #include <omnimapper/plugins/PerceptionPictures.h>
@@ -51,6 +52,9 @@ int run(Arguments& arguments) {
   plugins::registerPlugins();
   auto config = base::Config::fromFiles(arguments.inis);
   for (const auto& setting : arguments.settings) config.set(setting);
+  for (const auto& inputs : {arguments.run.logs, arguments.inis}) {
+    base::refuseToReplaceInput(arguments.run.output, inputs);
+  }
   program::listenForInterrupts();
   std::unique_ptr<plugins::PerceptionPictures> pictures;
   if (!arguments.pictures.empty()) {

@@ -175,6 +175,25 @@ TEST(AtomicFile, AFullDiskKeepsTheOldContent) {
   EXPECT_TRUE(holdsInChild([&] { return mounted() && failsWhole(folder.path(), std::string(500'000, 'n')); }));
 }
 
+TEST(AtomicFile, AnInputIsNotReplacedByWhateverName) {
+  const ScratchFolder scratch;
+  writeText(scratch / "in", "text");
+  fs::create_symlink(scratch / "in", scratch / "link");
+  const std::string other_path = scratch / "./in";
+  for (const auto& output : {scratch / "in", scratch / "link", other_path}) {
+    try {
+      refuseToReplaceInput(output, {scratch / "none", scratch / "in"});
+      ADD_FAILURE() << output;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::command_line);
+      EXPECT_NE(std::string(error.what()).find(output), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_NO_THROW(refuseToReplaceInput(scratch / "out", {scratch / "in"}));
+  writeText(scratch / "out", "text");
+  EXPECT_NO_THROW(refuseToReplaceInput(scratch / "out", {scratch / "in"}));
+}
+
 TEST(AtomicFile, MakesFoldersWithTheirParents) {
   ScratchFolder folder;
   makeWritableFolder(folder / "a/b/c");

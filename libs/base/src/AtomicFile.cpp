@@ -108,4 +108,14 @@ void writeFile(const std::string& path, const std::function<void(std::ostream&)>
   });
 }
 
+void refuseToReplaceInput(const std::string& output, const std::vector<std::string>& inputs) {
+  for (const auto& input : inputs) {
+    std::error_code none;  // what cannot be found is not the same
+    if (std::filesystem::equivalent(input, output, none)) {
+      throw Error(ExitCode::command_line,
+                  output + ": would be read and replaced; give the output a name of its own (" + input + " is read)");
+    }
+  }
+}
+
 }  // namespace omnimapper::base

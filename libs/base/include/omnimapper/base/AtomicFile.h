@@ -3,6 +3,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace omnimapper::base {
 
@@ -17,5 +18,8 @@ void replaceFile(const std::string& path, const std::function<void(const std::st
 
 /// The same for text and bytes through a stream; a failed stream counts as a failed write.
 void writeFile(const std::string& path, const std::function<void(std::ostream&)>& write);
+
+/// Throws Error(command_line) if `output` is one of the files that are read, by whatever name, link or path.
+void refuseToReplaceInput(const std::string& output, const std::vector<std::string>& inputs);
 
 }  // namespace omnimapper::base
