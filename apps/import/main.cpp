@@ -1,5 +1,6 @@
 // omnimapper-import: makes MRPT rawlogs of other programs' logs.
 #include <omnimapper/base/AtomicFile.h>
+
 #include <map>
 #include <tuple>
 

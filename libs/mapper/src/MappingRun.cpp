@@ -16,6 +16,7 @@
 #include <set>
 #include <thread>
 
+#include "SourceWarnings.h"
 #include "TakeUp.h"
 
 namespace omnimapper::mapper {
@@ -83,12 +84,7 @@ std::exception_ptr tried(Engine& engine, const std::function<void()>& work) {
 }
 
 void warnOf(const source::SourceReport& report, bool stopped, Engine& engine) {
-  if (!report.message.empty()) engine.warn(report.message);
-  if (report.missing_images > 0) {
-    engine.warn(std::to_string(report.missing_images) + " observations were left out because an external file of " +
-                "theirs cannot be read, first " + report.first_missing_image +
-                "; put the files there, or name their folder as [source] images_folder");
-  }
+  for (const auto& warning : warningsOf(report)) engine.warn(warning);
   if (stopped) engine.warn("interrupted: this is the map of what was read until then");
 }
 

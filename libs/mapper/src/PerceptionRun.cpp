@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "PerceivedLog.h"
+#include "SourceWarnings.h"
 
 namespace omnimapper::mapper {
 
@@ -87,16 +88,16 @@ bool work(source::ObservationSource& log, const SensorPoses& sensor_poses, Line&
   return stopped || (log.report().ending == source::SourceReport::Ending::open && stop());
 }
 
+// What an earlier run left is not replaced by an empty file.
 void refuseNothing(const PerceptionRequest& request, const std::string& ini, const PerceptionResult& result) {
   for (const auto& extractor : result.extractors) {
     if (extractor.taken > 0) return;
   }
-  if (result.code != base::ExitCode::ok) return;
   std::string logs;
   for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
-  throw base::Error(base::ExitCode::nothing_to_map, logs + ": no observation that an extractor of " + ini +
-                                                        " makes something of; nothing was written.\nWhat was read:\n" +
-                                                        result.source.text());
+  throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::nothing_to_map : result.code,
+                    logs + ": no observation that an extractor of " + ini +
+                        " makes something of; nothing was written.\nWhat was read:\n" + result.source.text());
 }
 
 }  // namespace
@@ -134,7 +135,7 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
     output.finish();
     refuseNothing(request, config.file(), result);
   });
-  if (!result.source.message.empty()) result.warnings.push_back(result.source.message);
+  for (auto& warning : warningsOf(result.source)) result.warnings.push_back(std::move(warning));
   if (result.code == base::ExitCode::interrupted)
     result.warnings.push_back("interrupted: this is what was made of the log until then");
   result.wall_seconds = watch.seconds();

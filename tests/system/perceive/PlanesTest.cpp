@@ -128,4 +128,19 @@ TEST(PlanesRecording, OfFreiburg1Rpy) {
   }
 }
 
+TEST_F(Planes, NeitherTheLogThatIsReadNorAGoodOldOutputIsLost) {
+  const std::string log = scratch_ / "copy.rawlog", output = scratch_ / "derived.rawlog";
+  fs::copy_file(kHome, log);
+  const std::string content = readFile(log);
+  EXPECT_TRUE(endedWith(ExitCode::command_line, perceive(log, log), {"copy.rawlog", "name of its own"}));
+  EXPECT_EQ(readFile(log), content);
+
+  ASSERT_TRUE(endedWith(ExitCode::ok, perceive(log, output)));
+  const std::string good = readFile(output);
+  writeFile(log, content.substr(0, 20000));  // before the first depth image ends
+  EXPECT_TRUE(endedWith(ExitCode::damaged_input, perceive(log, output, {"--set", "perception.extractors=planes"}),
+                        {"copy.rawlog", "nothing was written"}));
+  EXPECT_EQ(readFile(output), good);
+}
+
 }  // namespace
