@@ -135,7 +135,7 @@ TEST(ClusterComparator, PartsThingsOnceTheirTableIsMasked) {
     }
   }
   const auto points = backProject(DepthImage(depth.data(), kWidth, kHeight, kCamera));
-  const std::vector<bool> none{false, false}, wall{false, true};
+  const std::vector<std::uint8_t> none{0, 0}, wall{0, 1};
   EXPECT_EQ(connectComponents(kWidth, kHeight, ClusterComparator{points, labels, none}).pixels.size(), 1U);
   EXPECT_EQ(connectComponents(kWidth, kHeight, ClusterComparator{points, labels, wall}).pixels,
             (std::vector<int>{40, 20}));
@@ -146,7 +146,7 @@ TEST(ClusterComparator, AGapInDepthPartsThings) {
   for (std::size_t i = 0; i < depth.size(); ++i) depth[i] = i % kWidth < 30 ? 1.F : 1.1F;
   const auto points = backProject(DepthImage(depth.data(), kWidth, kHeight, kCamera));
   const std::vector<std::uint16_t> labels(depth.size(), 0);
-  const std::vector<bool> masked{false};
+  const std::vector<std::uint8_t> masked{0};
   EXPECT_EQ(connectComponents(kWidth, kHeight, ClusterComparator{points, labels, masked}).pixels,
             (std::vector<int>{30 * kHeight, 50 * kHeight}));
 }

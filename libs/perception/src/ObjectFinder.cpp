@@ -55,14 +55,20 @@ constexpr double kFoot = 0.03;         // [m] beside the noise, of a thing that 
 constexpr std::size_t kSample = 4096;  // points of a cluster that tell its surface, its axes and its covariance
 constexpr double kHullMargin = 0.05;   // [m] a thing on the edge of a table hides where it ends
 
+Eigen::Vector3f pointOf(int pixel, const OrganisedPoints& all) {
+  const auto i = static_cast<std::size_t>(pixel);
+  return {all.x[i], all.y[i], all.z[i]};
+}
+
 // Pixels with a depth that are not of the place, and their points [m].
 struct Doubtful {
   std::vector<std::size_t> pixels;
   std::vector<float> x, y, z;
 
-  Doubtful(const std::vector<std::uint16_t>& labels, const OrganisedPoints& points, const std::vector<bool>& of_place) {
+  Doubtful(const std::vector<std::uint16_t>& labels, const OrganisedPoints& points,
+           const std::vector<std::uint8_t>& of_place) {
     for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (!of_place[labels[i]] && !std::isnan(points.z[i])) pixels.push_back(i);
+      if (of_place[labels[i]] == 0 && !std::isnan(points.z[i])) pixels.push_back(i);
     }
     for (auto* of_pixels : {&x, &y, &z}) of_pixels->reserve(pixels.size());
     for (const std::size_t i : pixels) {
@@ -90,8 +96,9 @@ void lowerToPlane(const geometry::Plane3& plane, const Doubtful& points, float h
 // Labels in which whatever lies on a surface is of its first piece: where the plane of a thing's side goes on over the
 // table, pixels are on both, and beside edges some are on neither.
 std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const OrganisedPoints& points,
-                                          const std::vector<Surface>& surfaces, const std::vector<bool>& of_place,
-                                          double min_height, double noise_at_1m) {
+                                          const std::vector<Surface>& surfaces,
+                                          const std::vector<std::uint8_t>& of_place, double min_height,
+                                          double noise_at_1m) {
   std::vector<std::uint16_t> labels = planes.labels;
   const Doubtful doubtful(labels, points, of_place);
   const auto height = static_cast<float>(min_height), noise = static_cast<float>(kSigmas * noise_at_1m);
@@ -102,9 +109,10 @@ std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const
       lowerToPlane(planes.planes[static_cast<std::size_t>(piece)].plane_in_sensor, doubtful, height, noise, excess);
     for (std::size_t k = 0; k < excess.size(); ++k) {
       if (excess[k] >= 0) continue;
-      const Eigen::Vector3d point = Eigen::Vector3f(doubtful.x[k], doubtful.y[k], doubtful.z[k]).cast<double>();
+      const std::size_t i = doubtful.pixels[k];
+      const Eigen::Vector3d point = pointOf(static_cast<int>(i), points).cast<double>();
       if (surface.hull.holds(surface.across.transpose() * point, kHullMargin))
-        labels[doubtful.pixels[k]] = static_cast<std::uint16_t>(surface.plane + 1);
+        labels[i] = static_cast<std::uint16_t>(surface.plane + 1);
     }
   }
   return labels;
@@ -113,7 +121,10 @@ std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const
 using Clusters = std::vector<std::vector<int>>;  // pixels, ascending
 
 Clusters pixelsOf(const std::vector<std::int32_t>& labels) {
-  Clusters clusters(static_cast<std::size_t>(*std::max_element(labels.begin(), labels.end())));
+  std::vector<std::size_t> counts(static_cast<std::size_t>(*std::max_element(labels.begin(), labels.end())) + 1, 0);
+  for (const std::int32_t label : labels) ++counts[static_cast<std::size_t>(label)];
+  Clusters clusters(counts.size() - 1);
+  for (std::size_t i = 0; i < clusters.size(); ++i) clusters[i].reserve(counts[i + 1]);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] > 0) clusters[static_cast<std::size_t>(labels[i] - 1)].push_back(static_cast<int>(i));
   }
@@ -131,11 +142,6 @@ Clusters clustersOf(const DepthImage& image, const ClusterComparator& near, cons
   auto labels = connectComponents(width, height, ConvexClusterComparator{near, normals}).labels(options.min_points);
   growLabels(width, height, near, std::numeric_limits<int>::max(), labels);
   return pixelsOf(labels);
-}
-
-Eigen::Vector3f pointOf(int pixel, const OrganisedPoints& all) {
-  const auto i = static_cast<std::size_t>(pixel);
-  return {all.x[i], all.y[i], all.z[i]};
 }
 
 // No more than kSample points, evenly among the pixels.

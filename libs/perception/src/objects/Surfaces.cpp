@@ -59,13 +59,13 @@ std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectO
   return surfaces;
 }
 
-std::vector<bool> labelsOfThePlace(const PlaneSegmentation& planes, const ObjectOptions& options,
-                                   const std::vector<Surface>& surfaces) {
-  std::vector<bool> of_place(planes.planes.size() + 1, false);
+std::vector<std::uint8_t> labelsOfThePlace(const PlaneSegmentation& planes, const ObjectOptions& options,
+                                           const std::vector<Surface>& surfaces) {
+  std::vector<std::uint8_t> of_place(planes.planes.size() + 1, 0);
   for (std::size_t i = 0; i < planes.planes.size(); ++i)
-    of_place[i + 1] = areaOf(planes.planes[i]) >= options.min_surface_area;
+    of_place[i + 1] = areaOf(planes.planes[i]) >= options.min_surface_area ? 1 : 0;
   for (const Surface& surface : surfaces) {
-    for (const int piece : surface.pieces) of_place[static_cast<std::size_t>(piece) + 1] = true;
+    for (const int piece : surface.pieces) of_place[static_cast<std::size_t>(piece) + 1] = 1;
   }
   return of_place;
 }

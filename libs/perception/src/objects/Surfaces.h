@@ -22,7 +22,7 @@ std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectO
                                   const Eigen::Vector3d& up);
 
 /// For each label, 0 included: whether its pixels belong to no thing, but to a surface or another large plane.
-std::vector<bool> labelsOfThePlace(const PlaneSegmentation& planes, const ObjectOptions& options,
-                                   const std::vector<Surface>& surfaces);
+std::vector<std::uint8_t> labelsOfThePlace(const PlaneSegmentation& planes, const ObjectOptions& options,
+                                           const std::vector<Surface>& surfaces);
 
 }  // namespace omnimapper::perception::objects

@@ -14,13 +14,13 @@ namespace omnimapper::perception {
 struct ClusterComparator {
   const OrganisedPoints& points;
   const std::vector<std::uint16_t>& labels;  ///< of each pixel, such as those of PlaneSegmentation
-  const std::vector<bool>& masked;           ///< for each label, 0 included, whether its pixels are left out
+  const std::vector<std::uint8_t>& masked;   ///< for each label, 0 included, whether its pixels are left out
   float max_gap = 0.02F;                     ///< [m]
   float max_gap_at_1m = 0.0069F;             ///< [m] of noise, times the squared depth; it adds to max_gap
 
   bool valid(int pixel) const {
     const auto i = static_cast<std::size_t>(pixel);
-    return !masked[labels[i]] && !std::isnan(points.z[i]);
+    return masked[labels[i]] == 0 && !std::isnan(points.z[i]);
   }
 
   bool similar(int a, int b) const {
