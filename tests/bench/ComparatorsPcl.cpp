@@ -5,6 +5,7 @@
 #include <pcl/segmentation/rgb_plane_coefficient_comparator.h>
 
 #include "ComparatorPeers.h"
+#include "PclClouds.h"
 
 namespace omnimapper::bench {
 
@@ -12,28 +13,6 @@ namespace {
 
 using Point = pcl::PointXYZRGB;
 using Cloud = pcl::PointCloud<Point>;
-
-Cloud::Ptr cloudOf(const RgbdFrame& frame) {
-  const auto width = static_cast<std::uint32_t>(frame.width), height = static_cast<std::uint32_t>(frame.height);
-  auto cloud = pcl::make_shared<Cloud>(width, height);
-  cloud->is_dense = false;
-  const perception::Pinhole& c = frame.camera;
-  std::size_t i = 0;
-  for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x, ++i) {
-      const auto z = frame.units[i] == 0 ? std::numeric_limits<float>::quiet_NaN()
-                                         : static_cast<float>(frame.units[i] * frame.metres_per_unit);
-      Point& point = (*cloud)[i];
-      point.x = z * static_cast<float>((x - c.cx) / c.fx);
-      point.y = z * static_cast<float>((y - c.cy) / c.fy);
-      point.z = z;
-      point.r = frame.rgb[3 * i];
-      point.g = frame.rgb[3 * i + 1];
-      point.b = frame.rgb[3 * i + 2];
-    }
-  }
-  return cloud;
-}
 
 std::vector<std::uint16_t> planes(const Cloud::Ptr& cloud, bool by_colour) {
   using Normals = pcl::IntegralImageNormalEstimation<Point, pcl::Normal>;
@@ -71,7 +50,7 @@ std::vector<std::uint16_t> planes(const Cloud::Ptr& cloud, bool by_colour) {
 
 ComparatorPeer peer(const std::string& name, bool by_colour) {
   auto cloud = std::make_shared<Cloud::Ptr>();
-  return {name, [cloud](const RgbdFrame& frame) { *cloud = cloudOf(frame); },
+  return {name, [cloud](const RgbdFrame& frame) { *cloud = colouredCloud(frame); },
           [cloud, by_colour] { return planes(*cloud, by_colour); }};
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "EdgePeers.h"
+#include "PclClouds.h"
 
 namespace omnimapper::bench {
 
@@ -14,28 +15,6 @@ namespace {
 using Point = pcl::PointXYZRGB;
 using Cloud = pcl::PointCloud<Point>;
 using Normals = pcl::PointCloud<pcl::Normal>;
-
-Cloud::Ptr cloudOf(const RgbdFrame& frame) {
-  auto cloud =
-      pcl::make_shared<Cloud>(static_cast<std::uint32_t>(frame.width), static_cast<std::uint32_t>(frame.height));
-  cloud->is_dense = false;
-  const perception::Pinhole& c = frame.camera;
-  std::size_t i = 0;
-  for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x, ++i) {
-      const float z = frame.units[i] == 0 ? std::numeric_limits<float>::quiet_NaN()
-                                          : static_cast<float>(frame.units[i] * frame.metres_per_unit);
-      Point& point = (*cloud)[i];
-      point.x = z * static_cast<float>((x - c.cx) / c.fx);
-      point.y = z * static_cast<float>((y - c.cy) / c.fy);
-      point.z = z;
-      point.r = frame.rgb[3 * i];
-      point.g = frame.rgb[3 * i + 1];
-      point.b = frame.rgb[3 * i + 2];
-    }
-  }
-  return cloud;
-}
 
 Normals::Ptr normalsOf(const Cloud::Ptr& cloud) {
   auto normals = pcl::make_shared<Normals>();
@@ -66,7 +45,8 @@ std::vector<std::uint8_t> labelsOf(Detector& detector, const Cloud::Ptr& cloud, 
 template <class Run>
 EdgePeer peer(const std::string& name, const Run& run) {
   auto cloud = std::make_shared<Cloud::Ptr>();
-  return {name, [cloud](const RgbdFrame& frame) { *cloud = cloudOf(frame); }, [cloud, run] { return run(*cloud); }};
+  return {name, [cloud](const RgbdFrame& frame) { *cloud = colouredCloud(frame); },
+          [cloud, run] { return run(*cloud); }};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <pcl/point_types.h>
 #include <pcl/segmentation/organized_multi_plane_segmentation.h>
 
+#include "PclClouds.h"
 #include "PlanePeers.h"
 
 namespace omnimapper::bench {
@@ -11,22 +12,6 @@ namespace {
 
 using Point = pcl::PointXYZ;
 using Normals = pcl::IntegralImageNormalEstimation<Point, pcl::Normal>;
-
-pcl::PointCloud<Point>::Ptr cloudOf(const DepthFrame& frame) {
-  const auto width = static_cast<std::uint32_t>(frame.width), height = static_cast<std::uint32_t>(frame.height);
-  auto cloud = pcl::make_shared<pcl::PointCloud<Point>>(width, height);
-  cloud->is_dense = false;
-  const perception::Pinhole& c = frame.camera;
-  std::size_t i = 0;
-  for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x, ++i) {
-      const auto z = frame.units[i] == 0 ? std::numeric_limits<float>::quiet_NaN()
-                                         : static_cast<float>(frame.units[i] * frame.metres_per_unit);
-      (*cloud)[i] = Point(z * static_cast<float>((x - c.cx) / c.fx), z * static_cast<float>((y - c.cy) / c.fy), z);
-    }
-  }
-  return cloud;
-}
 
 pcl::PointCloud<pcl::Normal>::Ptr normalsOf(const pcl::PointCloud<Point>::Ptr& cloud,
                                             Normals::NormalEstimationMethod method) {
@@ -41,7 +26,7 @@ pcl::PointCloud<pcl::Normal>::Ptr normalsOf(const pcl::PointCloud<Point>::Ptr& c
 }
 
 std::vector<std::uint16_t> planes(const DepthFrame& frame, Normals::NormalEstimationMethod method, bool refined) {
-  const auto cloud = cloudOf(frame);
+  const auto cloud = organisedCloud<Point>(frame);
   pcl::OrganizedMultiPlaneSegmentation<Point, pcl::Normal, pcl::Label> segmentation;
   segmentation.setMinInliers(1000);
   segmentation.setAngularThreshold(3 * M_PI / 180);
@@ -73,7 +58,7 @@ std::vector<PlanePeer> pclPlanes() {
   for (const auto& [name, method] : {std::pair{"PCL average 3D gradient", Normals::AVERAGE_3D_GRADIENT},
                                      std::pair{"PCL covariance normals", Normals::COVARIANCE_MATRIX}}) {
     peers.push_back({name + std::string(" alone"), [method = method](const DepthFrame& frame) {
-                       normalsOf(cloudOf(frame), method);
+                       normalsOf(organisedCloud<Point>(frame), method);
                        return std::vector<std::uint16_t>(frame.units.size(), 0);
                      }});
     for (const bool refined : {false, true}) {
