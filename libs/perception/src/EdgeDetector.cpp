@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "DepthSensor.h"
 #include "edges/Canny.h"
 #include "edges/Creases.h"
 #include "edges/Jumps.h"
@@ -14,15 +15,7 @@ namespace omnimapper::perception {
 const base::OptionTable<EdgeOptions>& EdgeOptions::table() {
   using base::Range;
   static const auto table =
-      base::OptionTable<EdgeOptions>()
-          .number("noise_at_1m_m", &EdgeOptions::noise_at_1m, Range::positive(),
-                  "Standard deviation of a pixel's depth at 1 m; it grows with the square of the depth.")
-          .number("step_at_1m_m", &EdgeOptions::step_at_1m, Range::notNegative(),
-                  "Step between two depths that the sensor can tell apart at 1 m; 0 if it has none.")
-          .number("correlation_area_px2", &EdgeOptions::correlation_area, {1, 10000},
-                  "How many neighbouring pixels share one error.")
-          .number("min_depth_m", &EdgeOptions::min_depth, Range::positive(), "Nearer pixels are left out.")
-          .number("max_depth_m", &EdgeOptions::max_depth, Range::positive(), "Farther pixels are left out.")
+      depthSensorTable<EdgeOptions>()
           .flag("jumps", &EdgeOptions::jumps, "Look for occluding, occluded and boundary edges.")
           .number("jump_sigmas", &EdgeOptions::jump_sigmas, Range::positive(),
                   "Least jump in depth of an occluding edge, in standard deviations of a difference of two pixels.")
@@ -74,13 +67,7 @@ double angleSigma(const DepthImage& image, const EdgeOptions& options) {
 
 void markHighCurvature(const planes::InverseDepth& inverse, const DepthImage& image, const EdgeOptions& options,
                        EdgeImage& edges) {
-  NormalOptions of_normals;
-  of_normals.noise_at_1m = options.noise_at_1m;
-  of_normals.step_at_1m = options.step_at_1m;
-  of_normals.min_depth = options.min_depth;
-  of_normals.max_depth = options.max_depth;
-  of_normals.radius = options.window_radius;
-  const NormalImage normals = NormalEstimator(of_normals).estimate(image);
+  const NormalImage normals = NormalEstimator(normalsBy(options, options.window_radius)).estimate(image);
   edges::markCreases(inverse, image.camera(), normals,
                      {options.min_turn, options.turn_sigmas * angleSigma(image, options), 2 * options.window_radius,
                       options.min_turn_pixels},

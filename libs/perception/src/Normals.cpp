@@ -10,20 +10,6 @@
 
 namespace omnimapper::perception {
 
-const base::OptionTable<NormalOptions>& NormalOptions::table() {
-  using base::Range;
-  static const auto table =
-      base::OptionTable<NormalOptions>()
-          .number("noise_at_1m_m", &NormalOptions::noise_at_1m, Range::positive(),
-                  "Standard deviation of a pixel's depth at 1 m; it grows with the square of the depth.")
-          .number("step_at_1m_m", &NormalOptions::step_at_1m, Range::notNegative(),
-                  "Step between two depths that the sensor can tell apart at 1 m; 0 if it has none.")
-          .number("min_depth_m", &NormalOptions::min_depth, Range::positive(), "Nearer pixels are left out.")
-          .number("max_depth_m", &NormalOptions::max_depth, Range::positive(), "Farther pixels are left out.")
-          .integer("window_radius_px", &NormalOptions::radius, {1, 7}, "The window has 2 radius + 1 pixels a side.");
-  return table;
-}
-
 namespace {
 
 // A pixel is on a plane within so many standard deviations.

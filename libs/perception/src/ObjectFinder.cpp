@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "DepthSensor.h"
 #include "objects/OrientedBox.h"
 #include "objects/Surfaces.h"
 
@@ -138,7 +139,7 @@ Clusters clustersOf(const DepthImage& image, const ClusterComparator& near, cons
   const int width = image.width(), height = image.height();
   if (options.comparator == ObjectOptions::Comparator::euclidean)
     return pixelsOf(connectComponents(width, height, near).labels(options.min_points));
-  const NormalImage normals = NormalEstimator(sensor.normals()).estimate(image);
+  const NormalImage normals = NormalEstimator(normalsBy(sensor)).estimate(image);
   auto labels = connectComponents(width, height, ConvexClusterComparator{near, normals}).labels(options.min_points);
   growLabels(width, height, near, std::numeric_limits<int>::max(), labels);
   return pixelsOf(labels);

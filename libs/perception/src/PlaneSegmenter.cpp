@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "DepthSensor.h"
 #include "planes/Description.h"
 #include "planes/LabelledPlanes.h"
 
@@ -11,30 +12,13 @@ namespace omnimapper::perception {
 const base::OptionTable<PlaneOptions>& PlaneOptions::table() {
   using base::Range;
   static const auto table =
-      base::OptionTable<PlaneOptions>()
-          .number("noise_at_1m_m", &PlaneOptions::noise_at_1m, Range::positive(),
-                  "Standard deviation of a pixel's depth at 1 m; it grows with the square of the depth.")
-          .number("step_at_1m_m", &PlaneOptions::step_at_1m, Range::notNegative(),
-                  "Step between two depths that the sensor can tell apart at 1 m; 0 if it has none.")
+      depthSensorTable<PlaneOptions>()
           .number("bend_at_1m_m", &PlaneOptions::bend_at_1m, Range::notNegative(),
                   "By how much the sensor may show a flat wall bent, at 1 m.")
-          .number("correlation_area_px2", &PlaneOptions::correlation_area, {1, 10000},
-                  "How many neighbouring pixels share one error.")
-          .number("min_depth_m", &PlaneOptions::min_depth, Range::positive(), "Nearer pixels are left out.")
-          .number("max_depth_m", &PlaneOptions::max_depth, Range::positive(), "Farther pixels are left out.")
           .integer("min_pixels", &PlaneOptions::min_pixels, {1, 1e9}, "Planes with fewer pixels are left out.")
           .integer("min_hole_pixels", &PlaneOptions::min_hole_pixels, {1, 1e9},
                    "Holes with fewer pixels are not outlined.");
   return table;
-}
-
-NormalOptions PlaneOptions::normals() const {
-  NormalOptions options;
-  options.noise_at_1m = noise_at_1m;
-  options.step_at_1m = step_at_1m;
-  options.min_depth = min_depth;
-  options.max_depth = max_depth;
-  return options;
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "DepthSensor.h"
 #include "planes/Description.h"
 #include "road/GroundGrowth.h"
 
@@ -14,15 +15,7 @@ namespace omnimapper::perception {
 const base::OptionTable<RoadOptions>& RoadOptions::table() {
   using base::Range;
   static const auto table =
-      base::OptionTable<RoadOptions>()
-          .number("noise_at_1m_m", &RoadOptions::noise_at_1m, Range::positive(),
-                  "Standard deviation of a pixel's depth at 1 m; it grows with the square of the depth.")
-          .number("step_at_1m_m", &RoadOptions::step_at_1m, Range::notNegative(),
-                  "Step between two depths that the sensor can tell apart at 1 m; 0 if it has none.")
-          .number("correlation_area_px2", &RoadOptions::correlation_area, {1, 10000},
-                  "How many neighbouring pixels share one error.")
-          .number("min_depth_m", &RoadOptions::min_depth, Range::positive(), "Nearer pixels are left out.")
-          .number("max_depth_m", &RoadOptions::max_depth, Range::positive(), "Farther pixels are left out.")
+      depthSensorTable<RoadOptions>()
           .integer("window_radius_px", &RoadOptions::window_radius, {1, 7},
                    "The window of a normal has 2 radius + 1 pixels a side.")
           .number("max_tilt_deg", &RoadOptions::max_tilt, {0, 89}, "Of the ground from the expected one.")
@@ -47,13 +40,7 @@ constexpr float kStanding = 0.707F;  // cosine: a surface steeper than 45 degree
 constexpr int kFoot = 12;            // [px]
 
 NormalImage normalsOf(const DepthImage& image, const RoadOptions& options) {
-  NormalOptions of_normals;
-  of_normals.noise_at_1m = options.noise_at_1m;
-  of_normals.step_at_1m = options.step_at_1m;
-  of_normals.min_depth = options.min_depth;
-  of_normals.max_depth = options.max_depth;
-  of_normals.radius = options.window_radius;
-  return NormalEstimator(of_normals).estimate(image);
+  return NormalEstimator(normalsBy(options, options.window_radius)).estimate(image);
 }
 
 // Pixels of connected components that are large enough.

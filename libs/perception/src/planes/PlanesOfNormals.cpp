@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../DepthSensor.h"
 #include "LabelledPlanes.h"
 
 namespace omnimapper::perception::planes {
@@ -68,9 +69,7 @@ PixelLabels padded(const std::vector<std::int32_t>& labels, const InverseDepth& 
 
 LabelledPlanes planesOfNormals(const DepthImage& image, const InverseDepth& inverse, const PlaneOptions& options) {
   const OrganisedPoints points = backProject(image, options.min_depth, options.max_depth);
-  NormalOptions of_normals = options.normals();
-  of_normals.radius = kRadius;
-  const NormalImage normals = NormalEstimator(of_normals).estimate(image);
+  const NormalImage normals = NormalEstimator(normalsBy(options, kRadius)).estimate(image);
   const double variance = options.noise().pixelVariance() + options.bend_at_1m * options.bend_at_1m;
   const SmoothComparator comparator{points, normals, kMinCosine, static_cast<float>(kSigmas * std::sqrt(variance))};
   const Components components = connectComponents(image.width(), image.height(), comparator);

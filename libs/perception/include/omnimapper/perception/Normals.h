@@ -1,6 +1,5 @@
 #pragma once
 
-#include <omnimapper/base/OptionTable.h>
 #include <omnimapper/perception/DepthImage.h>
 #include <omnimapper/perception/DepthNoise.h>
 
@@ -14,8 +13,6 @@ struct NormalOptions {
   double min_depth = 0.2;                   ///< [m]
   double max_depth = 12;                    ///< [m]
   int radius = 4;                           ///< [px] of the square window, of 2 radius + 1 pixels a side; 1 to 7
-
-  static const base::OptionTable<NormalOptions>& table();
 };
 
 /// Unit normals in the order of an image's pixels, towards the sensor, in its optical frame. Not a number where none

@@ -22,8 +22,6 @@ struct PlaneOptions {
   int min_hole_pixels = 30;                            ///< smaller holes are not outlined
 
   DepthNoise noise() const { return {noise_at_1m, step_at_1m, bend_at_1m, correlation_area}; }
-  /// For normals of the same sensor.
-  NormalOptions normals() const;
   static const base::OptionTable<PlaneOptions>& table();
 };
 

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/perception/Normals.h>
+
+namespace omnimapper::perception {
+
+/// What the options of every extractor of depth images say of the sensor.
+template <class Options>
+base::OptionTable<Options> depthSensorTable() {
+  using base::Range;
+  return base::OptionTable<Options>()
+      .number("noise_at_1m_m", &Options::noise_at_1m, Range::positive(),
+              "Standard deviation of a pixel's depth at 1 m; it grows with the square of the depth.")
+      .number("step_at_1m_m", &Options::step_at_1m, Range::notNegative(),
+              "Step between two depths that the sensor can tell apart at 1 m; 0 if it has none.")
+      .number("correlation_area_px2", &Options::correlation_area, {1, 10000},
+              "How many neighbouring pixels share one error.")
+      .number("min_depth_m", &Options::min_depth, Range::positive(), "Nearer pixels are left out.")
+      .number("max_depth_m", &Options::max_depth, Range::positive(), "Farther pixels are left out.");
+}
+
+/// Normals by that sensor.
+template <class Options>
+NormalOptions normalsBy(const Options& sensor, int radius = NormalOptions().radius) {
+  NormalOptions options;
+  options.noise_at_1m = sensor.noise_at_1m;
+  options.step_at_1m = sensor.step_at_1m;
+  options.min_depth = sensor.min_depth;
+  options.max_depth = sensor.max_depth;
+  options.radius = radius;
+  return options;
+}
+
+}  // namespace omnimapper::perception
