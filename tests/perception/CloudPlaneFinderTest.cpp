@@ -5,8 +5,10 @@
 #include <omnimapper/perception/OrganisedPoints.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <thread>
 
 #include "PlaneAgreement.h"
@@ -198,31 +200,67 @@ TEST(CloudPlaneFinder, NoisyRoomsHaveTheirWallsAndTheSameSeedGivesTheSameBits) {
   }
 }
 
-TEST(CloudPlaneFinder, TheCovarianceIsThatOfTwoHundredNoisyClouds) {
+const geometry::Plane3 kTilted = geometry::Plane3::through({2, 0, -0.5}, Eigen::Vector3d(-0.3, 0.1, 1).normalized());
+constexpr int kClouds = 200;
+
+/// Chi-square of the one plane in each of 200 noisy clouds, with points every `spacing` [m], all of them off by one
+/// draw of `bias` [m] along their rays.
+std::vector<double> chi2OfClouds(const CloudPlaneOptions& options, double spacing, double bias) {
+  std::vector<double> chi2;
   testing::Dice dice(11);
-  auto options = everyPoint();
-  options.gate = 5;  // so that hardly a point is left out
-  const geometry::Plane3 truth = geometry::Plane3::through({2, 0, -0.5}, Eigen::Vector3d(-0.3, 0.1, 1).normalized());
-  double sum = 0;
-  constexpr int kClouds = 200;
   for (int n = 0; n < kClouds; ++n) {
     Cloud cloud;
-    addTable(1.5, -0.5, 1, 1, 0, cloud);
-    for (auto& p : cloud) {
-      const double z = -(truth.normal.x() * static_cast<double>(p.x()) + truth.normal.y() * static_cast<double>(p.y()) +
-                         truth.distance) /
-                       truth.normal.z();
-      const Eigen::Vector3d noise(dice.normal(0.01), dice.normal(0.01), dice.normal(0.01));
-      p = (Eigen::Vector3d(static_cast<double>(p.x()), static_cast<double>(p.y()), z) + noise).cast<float>();
+    const double off = dice.normal(bias);
+    for (double x = 1.5; x < 2.5; x += spacing) {
+      for (double y = -0.5; y < 0.5; y += spacing) {
+        const double z = -(kTilted.normal.x() * x + kTilted.normal.y() * y + kTilted.distance) / kTilted.normal.z();
+        const Eigen::Vector3d point(x, y, z);
+        const Eigen::Vector3d noise(dice.normal(0.01), dice.normal(0.01), dice.normal(0.01));
+        cloud.push_back((point + off * point.normalized() + noise).cast<float>());
+      }
     }
     const auto found = CloudPlaneFinder(options).find(cloud);
-    ASSERT_EQ(found.planes.size(), 1U);
-    const Eigen::Vector3d error = geometry::minus(found.planes[0].plane_in_sensor, truth);
-    sum += error.dot(found.planes[0].covariance.inverse() * error);
+    EXPECT_EQ(found.planes.size(), 1U);
+    for (const auto& plane : found.planes) {
+      const Eigen::Vector3d error = geometry::minus(kTilted, plane.plane_in_sensor);
+      chi2.push_back(error.dot(plane.covariance.inverse() * error));
+    }
   }
-  // Chi-square of 600 degrees of freedom: 95 % within 534 and 670.
+  return chi2;
+}
+
+double sumOf(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
+
+// Chi-square of 600 degrees of freedom: 95 % within 534 and 670.
+TEST(CloudPlaneFinder, TheCovarianceIsThatOfTwoHundredNoisyClouds) {
+  auto options = everyPoint();
+  options.bias_sigma = 0;
+  options.gate = 5;  // so that hardly a point is left out
+  const double sum = sumOf(chi2OfClouds(options, 0.02, 0));
   EXPECT_GT(sum, 534);
   EXPECT_LT(sum, 670);
+}
+
+TEST(CloudPlaneFinder, TheCovarianceCountsThePointsThatWereAveraged) {
+  CloudPlaneOptions options;  // a voxel of some twenty points, the gate that is the default
+  options.bias_sigma = 0;
+  const double sum = sumOf(chi2OfClouds(options, 0.006, 0));
+  EXPECT_GT(sum, 534);
+  EXPECT_LT(sum, 670);
+}
+
+TEST(CloudPlaneFinder, TheCovarianceCountsWhatAllPointsAreOffAlike) {
+  CloudPlaneOptions options;
+  const auto chi2 = chi2OfClouds(options, 0.01, options.bias_sigma);
+  // That the error may also change over the view is to spare here.
+  EXPECT_LT(sumOf(chi2), 670);
+  EXPECT_GT(sumOf(chi2), 200);
+  const auto beyond = std::count_if(chi2.begin(), chi2.end(), [](double value) { return value > 7.815; });
+  EXPECT_LT(beyond, 0.08 * kClouds) << "5 % are beyond 7.815";
+  options.bias_sigma = 0;
+  EXPECT_GT(sumOf(chi2OfClouds(options, 0.01, 0.01)), 10000) << "by noise alone";
 }
 
 }  // namespace

@@ -29,8 +29,9 @@ std::vector<float> depths(int width, int height, const std::function<double(int,
 const Pinhole kCamera{100, 100, 79.5, 59.5};
 constexpr int kWidth = 160, kHeight = 120;
 
-PlaneSegmentation segment(const std::vector<float>& image, int width = kWidth, int height = kHeight) {
-  return PlaneSegmenter(PlaneOptions()).segment(DepthImage(image.data(), width, height, kCamera));
+PlaneSegmentation segment(const std::vector<float>& image, int width = kWidth, int height = kHeight,
+                          const PlaneOptions& options = {}) {
+  return PlaneSegmenter(options).segment(DepthImage(image.data(), width, height, kCamera));
 }
 
 double depthOf(const Plane3& plane, int x, int y) {
@@ -69,7 +70,9 @@ TEST(PlaneSegmenter, AWallStraightAheadIsOnePlaneAsWorkedByHand) {
 TEST(PlaneSegmenter, TheVarianceOfAWallStraightAheadIsAsWorkedByHand) {
   // 1/z = a x/f + b y/f + c: with the image symmetric about its middle, a, b and c err independently. The turn about
   // the second axis is d times the error of a, the distance's d^2 times that of c.
-  const auto found = segment(depths(kWidth, kHeight, [](int, int) { return 2; }));
+  PlaneOptions options;
+  options.bend_at_1m = options.scale_sigma = 0;
+  const auto found = segment(depths(kWidth, kHeight, [](int, int) { return 2; }), kWidth, kHeight, options);
   ASSERT_EQ(found.planes.size(), 1U);
   const double n = kWidth * kHeight, variance = DepthNoise().meanVariance();
   const double of_a = variance / (n * (kWidth * kWidth - 1) / 12.0) * 1e4;
@@ -79,6 +82,22 @@ TEST(PlaneSegmenter, TheVarianceOfAWallStraightAheadIsAsWorkedByHand) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(covariance(i, i), expected[i], 1e-3 * expected[i]) << i;
   EXPECT_LT(std::abs(covariance(0, 1)), 1e-4 * expected[0]);
   EXPECT_LT(std::abs(covariance(0, 2)), 1e-4 * std::sqrt(expected[0] * expected[2]));
+}
+
+TEST(PlaneSegmenter, AnErrorOfScaleIsOneOfTheDistanceAlone) {
+  PlaneOptions options;
+  options.scale_sigma = 0;
+  const Plane3 wall = {Eigen::Vector3d(0.3, -0.2, -0.9).normalized(), 1.8};
+  const auto image = depths(kWidth, kHeight, [&](int x, int y) { return depthOf(wall, x, y); });
+  const auto exact = segment(image, kWidth, kHeight, options);
+  options.scale_sigma = 0.03;
+  const auto scaled = segment(image, kWidth, kHeight, options);
+  ASSERT_EQ(scaled.planes.size(), 1U);
+  Eigen::Matrix3d added = scaled.planes[0].covariance - exact.planes.at(0).covariance;
+  const double of_distance = 0.03 * scaled.planes[0].plane_in_sensor.distance;
+  EXPECT_NEAR(added(2, 2), of_distance * of_distance, 1e-9);
+  added(2, 2) = 0;
+  EXPECT_LT(added.norm(), 1e-12);
 }
 
 TEST(PlaneSegmenter, ATiltedPlaneIsExact) {

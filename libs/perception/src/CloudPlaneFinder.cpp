@@ -19,6 +19,15 @@ const base::OptionTable<CloudPlaneOptions>& CloudPlaneOptions::table() {
                   "Standard deviation of a point along its ray, near the sensor.")
           .number("noise_at_1m_m", &Options::noise_at_1m, Range::notNegative(),
                   "The part of it that grows with the square of the range, at 1 m: 0.0023 for a Kinect.")
+          .number("correlated_points", &Options::correlated_points, {1, 10000},
+                  "How many neighbouring points share one error: 9 for a Kinect.")
+          .number(
+              "bias_sigma_m", &Options::bias_sigma, Range::notNegative(),
+              "Standard deviation of what neighbouring points are off alike along their rays; covariances count it.")
+          .number("bend_at_1m_m", &Options::bend_at_1m, Range::notNegative(),
+                  "The most of it that grows with the square of the range, at 1 m: 0.004 for a Kinect.")
+          .number("scale_sigma", &Options::scale_sigma, {0, 1},
+                  "The part of it that grows with the range: 0.01 for a Kinect.")
           .number("gate_sigmas", &Options::gate, Range::positive(),
                   "A point more standard deviations than that from a plane is not on it.")
           .number("sample_radius_m", &Options::sample_radius, Range::positive(),
@@ -56,7 +65,7 @@ CloudPlaneFinder::CloudPlaneFinder(const CloudPlaneOptions& options) : options_(
 
 CloudPlanes CloudPlaneFinder::find(const std::vector<Eigen::Vector3f>& points) const {
   const auto voxels = clouds::averaged(points, options_.voxel, options_.min_range, options_.max_range);
-  clouds::LoosePoints left = clouds::loosen(voxels.means, options_);
+  clouds::LoosePoints left = clouds::loosen(voxels, options_);
   SplitMix random(static_cast<std::uint64_t>(options_.seed));
   CloudPlanes result;
   std::vector<std::uint16_t> of_voxel(voxels.means.size(), 0);

@@ -20,6 +20,10 @@ base::OptionTable<Options> depthSensorTable() {
       .number("max_depth_m", &Options::max_depth, Range::positive(), "Farther pixels are left out.");
 }
 
+/// What the options of those that tell covariances add.
+inline constexpr char kScaleHelp[] =
+    "Relative error of depth that all pixels share, standard deviation; covariances count it.";
+
 /// Normals by that sensor.
 template <class Options>
 NormalOptions normalsBy(const Options& sensor, int radius = NormalOptions().radius) {

@@ -169,7 +169,7 @@ Eigen::Vector3d meanOf(const std::vector<Point>& points) {
 }
 
 // Of the mean of `all` points, of which some are told. Noise moves each point along its ray by itself; what bends the
-// image moves all alike.
+// image, and the scale of depths, move all alike.
 Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, std::size_t all, const DepthNoise& noise) {
   const auto count = static_cast<double>(points.size());
   Eigen::Matrix3d apart = Eigen::Matrix3d::Zero();
@@ -179,9 +179,9 @@ Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, std
     apart += by_inverse_depth * by_inverse_depth.transpose();
     together += by_inverse_depth / count;
   }
-  const double bend_sigma = 0.5 * noise.bend;
+  const Eigen::Vector3d mean = meanOf(points);
   return noise.meanVariance() / (count * static_cast<double>(all)) * apart +
-         bend_sigma * bend_sigma * together * together.transpose();
+         noise.bendVariance() * together * together.transpose() + noise.scale * noise.scale * mean * mean.transpose();
 }
 
 struct Standing {

@@ -16,6 +16,7 @@ const base::OptionTable<RoadOptions>& RoadOptions::table() {
   using base::Range;
   static const auto table =
       depthSensorTable<RoadOptions>()
+          .number("scale_sigma", &RoadOptions::scale_sigma, {0, 1}, kScaleHelp)
           .integer("window_radius_px", &RoadOptions::window_radius, {1, 7},
                    "The window of a normal has 2 radius + 1 pixels a side.")
           .number("max_tilt_deg", &RoadOptions::max_tilt, {0, 89}, "Of the ground from the expected one.")

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../CommonError.h"
 #include "FlatGrid.h"
 
 namespace omnimapper::perception::clouds {
@@ -20,23 +21,57 @@ constexpr float kHalo = 2.5F;
 // tell no plane.
 constexpr double kMostTurn = 0.1;
 
-// Covariance of the plane's two turns and its distance: each point tells n.p + d = 0 with its own deviation.
-Eigen::Matrix3d covarianceOf(const LoosePoints& points, const std::vector<int>& members, const geometry::Plane3& plane,
-                             double gate) {
+using geometry::Plane3;
+
+// What a point tells of a plane's two turns and its distance, by n.p + d = 0.
+Eigen::Vector3d rowOf(const Eigen::Vector3d& point, const Eigen::Matrix<double, 3, 2>& basis) {
+  return {basis.col(0).dot(point), basis.col(1).dot(point), 1};
+}
+
+// A voxel's mean errs by less than a point does, but for errors that neighbours share.
+double informationOf(const LoosePoints& points, int member, const Plane3& plane, const CloudPlaneOptions& options) {
+  const auto i = static_cast<std::size_t>(member);
+  const double of_point = static_cast<double>(points.tolerance(i, plane)) / (options.gate * options.gate);
+  return static_cast<double>(points.of[i]) / (options.correlated_points * of_point);
+}
+
+// [m] by which what all points share may move a point along its ray.
+double sharedSigma(double range, const CloudPlaneOptions& options) {
+  const double bend = 0.5 * options.bend_at_1m * range * range;  // it is two standard deviations
+  return std::hypot(options.bias_sigma, bend, options.scale_sigma * range);
+}
+
+// Covariance of the plane's two turns and its distance: by the noise of points, and by errors along the rays that are
+// alike for neighbouring rays and so do not average out.
+Eigen::Matrix3d covarianceOf(const LoosePoints& points, const std::vector<int>& members, const Plane3& plane,
+                             const Eigen::Vector3d& centroid, const CloudPlaneOptions& options) {
   const auto basis = geometry::tangentBasis(plane.normal);
+  const auto across = geometry::tangentBasis(centroid.normalized());
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();  // what an error, and its slopes over the rays, make of the sums
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  double weights = 0;
   for (const int member : members) {
-    const Eigen::Vector3d p = points.at(static_cast<std::size_t>(member));
-    const double information_of_point =
-        gate * gate / static_cast<double>(points.tolerance(static_cast<std::size_t>(member), plane));
-    const Eigen::Vector3d row(basis.col(0).dot(p), basis.col(1).dot(p), 1);
-    information += information_of_point * row * row.transpose();
+    const Eigen::Vector3d p = points.at(static_cast<std::size_t>(member)), ray = p.normalized();
+    const double of_point = informationOf(points, member, plane, options);
+    const Eigen::Vector3d row = rowOf(p, basis);
+    const Eigen::Vector2d turned = across.transpose() * ray;
+    information += of_point * row * row.transpose();
+    spread += of_point * turned * turned.transpose();
+    weights += of_point;
+    const double off = sharedSigma(p.norm(), options) * plane.normal.dot(ray);
+    shared += of_point * off * row * Eigen::RowVector3d(1, turned.x(), turned.y());
   }
-  return information.inverse();
+  const CommonError error = commonError(spread / weights);
+  Eigen::Matrix3d of_error = Eigen::Matrix3d::Zero();
+  of_error(0, 0) = error.offset;
+  of_error.bottomRightCorner<2, 2>() = error.slope;
+  const Eigen::Matrix3d by_noise = information.inverse(), by_sums = by_noise * shared;
+  return by_noise + by_sums * of_error * by_sums.transpose();
 }
 
 CloudPlane describe(const LoosePoints& points, const std::vector<int>& members, const geometry::Plane3& roughly,
-                    double gate) {
+                    const CloudPlaneOptions& options) {
   CloudPlane plane;
   plane.plane_in_sensor = fitPlane(points, members, roughly);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -51,7 +86,7 @@ CloudPlane describe(const LoosePoints& points, const std::vector<int>& members, 
   plane.rms = std::sqrt(squares / plane.inliers);
   plane.centroid = sum / plane.inliers;
   plane.centroid -= geometry::signedDistance(plane.plane_in_sensor, plane.centroid) * plane.plane_in_sensor.normal;
-  plane.covariance = covarianceOf(points, members, plane.plane_in_sensor, gate);
+  plane.covariance = covarianceOf(points, members, plane.plane_in_sensor, plane.centroid, options);
   return plane;
 }
 
@@ -77,7 +112,7 @@ std::vector<PlanePatch> findPatches(const LoosePoints& points, const geometry::P
   for (std::size_t c = 0; c < members.size(); ++c) {
     if (static_cast<int>(members[c].size()) < options.min_points) continue;
     PlanePatch patch{std::move(members[c]), {}};
-    patch.result = describe(points, patch.members, plane, options.gate);
+    patch.result = describe(points, patch.members, plane, options);
     const double turn = patch.result.covariance(0, 0) + patch.result.covariance(1, 1);
     if (!(turn > 0 && turn < kMostTurn)) continue;
     const double range = patch.result.centroid.norm();

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "../planes/Lanes.h"
-#include "VoxelGrid.h"
 
 namespace omnimapper::perception::clouds {
 
@@ -126,11 +125,13 @@ void LoosePoints::remove(const std::vector<bool>& flags) {
   keep(y);
   keep(z);
   keep(along);
+  keep(of);
   keep(group);
   keep(number);
 }
 
-LoosePoints loosen(const std::vector<Eigen::Vector3f>& points, const CloudPlaneOptions& options) {
+LoosePoints loosen(const Voxels& voxels, const CloudPlaneOptions& options) {
+  const auto& points = voxels.means;
   int groups = 0;
   const auto group = cubesOf(points, options.sample_radius, groups);
   // Counting sort by group.
@@ -142,7 +143,7 @@ LoosePoints loosen(const std::vector<Eigen::Vector3f>& points, const CloudPlaneO
   LoosePoints loose;
   loose.everywhere = static_cast<float>(options.gate * options.gate * options.range_sigma * options.range_sigma);
   const auto n = static_cast<std::size_t>(place.back());
-  for (auto* values : {&loose.x, &loose.y, &loose.z, &loose.along}) values->resize(n);
+  for (auto* values : {&loose.x, &loose.y, &loose.z, &loose.along, &loose.of}) values->resize(n);
   loose.group.resize(n);
   loose.number.resize(n);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -153,6 +154,7 @@ LoosePoints loosen(const std::vector<Eigen::Vector3f>& points, const CloudPlaneO
     loose.z[to] = points[i].z();
     loose.along[to] = static_cast<float>(options.gate * options.gate * options.noise_at_1m * options.noise_at_1m) *
                       points[i].squaredNorm();
+    loose.of[to] = static_cast<float>(voxels.sizes[i]);
     loose.group[to] = group[i];
     loose.number[to] = static_cast<int>(i);
   }
@@ -167,7 +169,7 @@ geometry::Plane3 fitPlane(const LoosePoints& points, const std::vector<int>& mem
   double weights = 0;
   for (const int member : members) {
     const auto i = static_cast<std::size_t>(member);
-    const double weight = 1 / static_cast<double>(points.tolerance(i, roughly));
+    const double weight = static_cast<double>(points.of[i] / points.tolerance(i, roughly));
     const Eigen::Vector3d p = points.at(i) - origin;
     sum += weight * p;
     squares += weight * p * p.transpose();

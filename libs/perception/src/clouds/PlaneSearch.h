@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "../SplitMix.h"
+#include "VoxelGrid.h"
 
 namespace omnimapper::perception::clouds {
 
@@ -15,6 +16,7 @@ struct LoosePoints {
   float everywhere = 0;        ///< [m^2] square of what each may be off
   std::vector<float> x, y, z;  ///< [m]
   std::vector<float> along;    ///< square of what it may be off along its ray over its range; times distance^2: [m^2]
+  std::vector<float> of;       ///< how many points it is the mean of
   std::vector<int> group;      ///< never falls from one point to the next
   std::vector<int> number;     ///< what the point was called before
 
@@ -31,15 +33,16 @@ struct LoosePoints {
   void remove(const std::vector<bool>& flags);
 };
 
-/// Groups points by cubes of `options.sample_radius`, and tells how far they may be off.
-LoosePoints loosen(const std::vector<Eigen::Vector3f>& points, const CloudPlaneOptions& options);
+/// Groups means of points by cubes of `options.sample_radius`, and tells how far they may be off.
+LoosePoints loosen(const Voxels& voxels, const CloudPlaneOptions& options);
 
 /// The plane that most points are on, of those through three neighbours and after least squares; none if fewer than
 /// `options.min_points` are. Normal towards the origin.
 std::optional<geometry::Plane3> findPlane(const LoosePoints& points, const CloudPlaneOptions& options,
                                           SplitMix& random);
 
-/// Least squares, weighted by how far points may be off a plane that is known roughly. Normal towards the origin.
+/// Least squares, weighted by how far points may be off a plane that is known roughly, and by how many each is the mean
+/// of. Normal towards the origin.
 geometry::Plane3 fitPlane(const LoosePoints& points, const std::vector<int>& members, const geometry::Plane3& roughly);
 
 }  // namespace omnimapper::perception::clouds

@@ -69,7 +69,7 @@ Voxels averaged(const std::vector<Eigen::Vector3f>& points, double voxel, double
   const auto least = static_cast<float>(min_range * min_range), most = static_cast<float>(max_range * max_range);
   const auto per_metre = static_cast<float>(voxel > 0 ? 1 / voxel : 0);
   Numbering numbering;
-  std::vector<int> sizes;
+  std::vector<int>& sizes = voxels.sizes;
   for (const Eigen::Vector3f& point : points) {
     const float range = point.squaredNorm();
     const std::uint64_t key = range >= least && range <= most ? keyOf(point, per_metre) : kNoKey;

@@ -9,6 +9,7 @@ constexpr int kNoVoxel = -1;
 
 struct Voxels {
   std::vector<Eigen::Vector3f> means;  ///< in the order in which voxels were first met
+  std::vector<int> sizes;              ///< of how many points each is the mean
   std::vector<int> of_point;           ///< for each point; kNoVoxel for what was left out
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../CommonError.h"
 #include "RunSums.h"
 
 namespace omnimapper::perception::planes {
@@ -53,6 +54,22 @@ Eigen::Matrix3d covarianceOfRayPlane(const PlaneMoments& m, const Pinhole& camer
   return variance * information.ldlt().solve(Eigen::Matrix3d::Identity());
 }
 
+// Of the same, by what all pixels share: the bend of the image about the middle of the region, and the scale of depths.
+Eigen::Matrix3d sharedCovariance(const Eigen::Vector3d& w, const PlaneMoments& m, const Pinhole& camera,
+                                 const DepthNoise& noise) {
+  const Eigen::Vector2d middle(m.u / (m.n * camera.fx), m.v / (m.n * camera.fy));
+  Eigen::Matrix2d spread;
+  spread << m.uu / (camera.fx * camera.fx), m.uv / (camera.fx * camera.fy),  //
+      m.uv / (camera.fx * camera.fy), m.vv / (camera.fy * camera.fy);
+  spread = spread / m.n - middle * middle.transpose();
+  const CommonError bend = commonError(spread);
+  Eigen::Matrix<double, 3, 2> by_slope;  // of w: a slope turns the plane about the middle
+  by_slope << Eigen::Matrix2d::Identity(), -middle.transpose();
+  Eigen::Matrix3d covariance = by_slope * bend.slope * by_slope.transpose();
+  covariance(2, 2) += bend.offset;
+  return noise.bendVariance() * covariance + noise.scale * noise.scale * w * w.transpose();
+}
+
 // n . p + d = 0 for p = z ray gives 1/z = -n . ray / d: w = -n / d.
 void setPlane(const ImagePlane& plane, const PlaneMoments& m, const Pinhole& camera, const DepthNoise& noise,
               PlaneRegion& region) {
@@ -63,7 +80,8 @@ void setPlane(const ImagePlane& plane, const PlaneMoments& m, const Pinhole& cam
   Eigen::Matrix3d derivative;  // of the tangent of the normal, and of d, by w
   derivative.topRows<2>() = -d * geometry::tangentBasis(normal).transpose();
   derivative.row(2) = d * d * normal.transpose();
-  const Eigen::Matrix3d of_w = covarianceOfRayPlane(m, camera, noise.meanVariance());
+  const Eigen::Matrix3d of_w =
+      covarianceOfRayPlane(m, camera, noise.meanVariance()) + sharedCovariance(w, m, camera, noise);
   const Eigen::Matrix3d covariance = derivative * of_w * derivative.transpose();
   region.covariance = 0.5 * (covariance + covariance.transpose());
 }

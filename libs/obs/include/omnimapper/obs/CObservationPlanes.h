@@ -14,8 +14,8 @@ namespace omnimapper::obs {
 struct ObservedPlane {
   geometry::Plane3 plane_in_sensor;  ///< distance >= 0: the normal points to where the sensor is
   /// Of the two changes of the normal [rad] and that of the distance [m], as geometry/PlaneTangent.h defines them.
-  /// By the noise of its points, for depth images the steps of the sensor too. What bends the whole image or cloud,
-  /// such as a wrong calibration, is not in it, though it may be the larger error of a plane of many points.
+  /// By the noise of its points, and by what they share, such as a wrong calibration, as far as the extractor was told
+  /// of it. The latter is alike in all observations of one sensor.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m] mean of its points, on the plane
   geometry::Polygon3 outline;                          ///< [m] on the plane; may be concave

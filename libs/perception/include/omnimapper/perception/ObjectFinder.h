@@ -32,7 +32,7 @@ struct ObjectOptions {
 struct ObjectRegion {
   std::vector<int> pixels;                               ///< row by row, ascending
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();    ///< [m] mean of its points
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< [m^2] of that mean, by the noise and bend of the sensor
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< [m^2] of that mean, by noise, bend and scale of the sensor
   geometry::Se3 sensor_from_box;  ///< middle and axes; z is the normal of the surface it stands on, else its least axis
   Eigen::Vector3d box_size = Eigen::Vector3d::Zero();  ///< [m] whole length along each axis; down to the surface
   std::optional<int> surface;                          ///< index of the plane that it stands on

@@ -27,8 +27,9 @@ struct Contour {
 struct PlaneRegion {
   geometry::Plane3 plane_in_sensor;  ///< normal towards the sensor, distance > 0
   /// Of the two changes of the normal [rad] and that of the distance [m], as geometry/PlaneTangent.h defines them.
-  /// Positive definite. It counts the noise of pixels, correlated among neighbours, and the steps of the sensor; it
-  /// does not count DepthNoise::bend, which is alike in all views and does not shrink with the number of pixels.
+  /// Positive definite. It counts the noise of pixels, correlated among neighbours, the steps of the sensor, and what
+  /// does not shrink with the number of pixels: DepthNoise::bend, which moves and turns the plane, and scale. These are
+  /// alike in all views of one sensor: planes of several images agree better with one another than it says.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m], mean of the inliers, put on the plane
   int inliers = 0;                                     ///< pixels

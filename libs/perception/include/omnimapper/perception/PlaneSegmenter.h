@@ -16,12 +16,13 @@ struct PlaneOptions {
   double step_at_1m = DepthNoise().step;               ///< [m]
   double bend_at_1m = DepthNoise().bend;               ///< [m]
   double correlation_area = DepthNoise().correlation;  ///< [px^2]
+  double scale_sigma = DepthNoise().scale;             ///< [-]
   double min_depth = 0.2;                              ///< [m]
   double max_depth = 12;                               ///< [m]
   int min_pixels = 1000;                               ///< of a plane
   int min_hole_pixels = 30;                            ///< smaller holes are not outlined
 
-  DepthNoise noise() const { return {noise_at_1m, step_at_1m, bend_at_1m, correlation_area}; }
+  DepthNoise noise() const { return {noise_at_1m, step_at_1m, bend_at_1m, correlation_area, scale_sigma}; }
   static const base::OptionTable<PlaneOptions>& table();
 };
 

@@ -13,6 +13,7 @@ struct RoadOptions {
   double noise_at_1m = 0.0042;                                  ///< [m]
   double step_at_1m = 0.001;                                    ///< [m]
   double correlation_area = 16;                                 ///< [px^2]
+  double scale_sigma = DepthNoise().scale;                      ///< [-]
   double min_depth = 0.4;                                       ///< [m]
   double max_depth = 20;                                        ///< [m]
   int window_radius = 7;                                        ///< [px] of the windows of normals
@@ -24,7 +25,7 @@ struct RoadOptions {
   int min_pixels = 200;    ///< of a piece of ground
   int min_hole_pixels = 100;  ///< smaller holes are not outlined
 
-  DepthNoise noise() const { return {noise_at_1m, step_at_1m, 0, correlation_area}; }
+  DepthNoise noise() const { return {noise_at_1m, step_at_1m, 0, correlation_area, scale_sigma}; }
   static const base::OptionTable<RoadOptions>& table();
 };
 
