@@ -59,7 +59,7 @@ TEST(SensorCorrections, OneForTheRunFindsHowTheSensorIsMounted) {
   for (const auto& [variable, record] : engine->view().graph.variables()) {
     if (record.kind->kind() == "se3") id = variable;
   }
-  const auto covariance = engine->view().uncertainty.joint({id});
+  const auto covariance = engine->view().jointCovariance({id});
   ASSERT_TRUE(covariance);
   for (int axis = 0; axis < 6; ++axis) {
     EXPECT_NEAR(found[0][axis], truth[axis], 3 * std::sqrt((*covariance)(axis, axis))) << "axis " << axis;

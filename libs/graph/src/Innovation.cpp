@@ -7,7 +7,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "Linearised.h"
+#include "omnimapper/graph/Linearised.h"
 
 namespace omnimapper::graph {
 

@@ -1,12 +1,11 @@
-#include "Linearised.h"
+#include "omnimapper/graph/Linearised.h"
 
 #include "BoundFactor.h"
 
 namespace omnimapper::graph {
 
-Linearised::Linearised(const Graph& graph, base::FactorId factor) {
+Linearised::Linearised(const Graph& graph, const FactorRecord& record) {
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const FactorRecord& record = graph.factor(factor);
   const BoundFactor bound(graph, record);
   std::vector<RowMatrix> blocks(record.variables.size());
   std::vector<const double*> values;

@@ -3,6 +3,7 @@
 #include <omnimapper/base/Error.h>
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -22,15 +23,18 @@ struct Marginals::State {
   int rows = 0;                                         // of the information matrix
   std::unique_ptr<SparseCholesky> cholesky;
 
-  Span span(base::VariableId id) const {
+  std::optional<Span> find(base::VariableId id) const {
     const auto found = spans.find(id);
     if (found != spans.end()) return found->second;
     const auto held = std::lower_bound(fixed.begin(), fixed.end(), id,
                                        [](const auto& one, base::VariableId wanted) { return one.first < wanted; });
-    if (held == fixed.end() || held->first != id)
-      throw base::Error(base::ExitCode::internal, "marginals: variable " + toString(id) +
-                                                      " is bound by no factor of positive weight, or not here");
-    return {-1, held->second};
+    if (held == fixed.end() || held->first != id) return std::nullopt;
+    return Span{-1, held->second};
+  }
+  Span span(base::VariableId id) const {
+    if (const auto found = find(id)) return *found;
+    throw base::Error(base::ExitCode::internal,
+                      "marginals: variable " + toString(id) + " is bound by no factor of positive weight, or not here");
   }
   /// The half-solved columns of a variable, none for a fixed one.
   std::vector<SparseVector> halves(Span span) const {
@@ -89,6 +93,10 @@ Marginals::Marginals(const Graph& graph) : state_(std::make_unique<State>()) {
 Marginals::~Marginals() = default;
 Marginals::Marginals(Marginals&&) noexcept = default;
 Marginals& Marginals::operator=(Marginals&&) noexcept = default;
+
+bool Marginals::contains(base::VariableId id) const {
+  return state_->find(id).has_value();
+}
 
 Eigen::MatrixXd Marginals::covariance(base::VariableId id) const {
   return jointCovariance({id});

@@ -4,9 +4,9 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "Linearised.h"
 #include "OverturnTrial.h"
 #include "PoseCycle.h"
+#include "omnimapper/graph/Linearised.h"
 
 namespace omnimapper::graph {
 

@@ -36,7 +36,7 @@ class Check {
     }
     for (const auto& evidence : batch_.evidence()) needLandmark(evidence.landmark, "evidence");
     for (const auto id : batch_.retiredLandmarks()) needLandmark(id, "retired landmark");
-    for (const auto& [from, into] : batch_.merges()) checkMerge(from, into);
+    for (const auto& merge : batch_.merges()) checkMerge(merge.from, merge.into);
     for (const auto id : batch_.removedVariables()) checkRemoved(id);
     if (const auto& place = batch_.sessionPlace()) {
       const std::string why = whyFixed(*place, graph_, map_);
@@ -180,6 +180,11 @@ bool Batch::empty() const {
          merges_.empty() && decisions_.empty() && !session_place_;
 }
 
+bool Batch::changesGraph() const {
+  return !(added_variables_.empty() && added_factors_.empty() && removed_factors_.empty() &&
+           removed_variables_.empty() && weights_.empty() && merges_.empty() && !session_place_);
+}
+
 base::VariableId Batch::addVariable(std::shared_ptr<const graph::Variable> kind, const Eigen::VectorXd& value,
                                     bool fixed) {
   added_variables_.push_back({std::move(kind), value, fixed});
@@ -238,7 +243,10 @@ AppliedBatch apply(const Batch& batch, const BatchOrigin& origin, graph::Graph& 
   for (const auto id : batch.retiredLandmarks()) {
     map.landmarks.edit(finalId(id, applied.landmarks))->state = map::Landmark::State::retired;
   }
-  for (const auto& [from, into] : batch.merges()) merge(from, into, graph, map);
+  for (const auto& [from, into, payload] : batch.merges()) {
+    merge(from, into, graph, map);
+    if (payload) map.landmarks.edit(into)->payload = payload;
+  }
   for (const auto id : batch.removedVariables()) graph.removeVariable(id);
   if (batch.sessionPlace()) placeSession(*batch.sessionPlace(), graph, map);
   return applied;

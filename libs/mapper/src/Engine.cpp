@@ -98,7 +98,10 @@ void Engine::finish() {
     while (auto group = queue_.next()) tried([&] { release(*group, false); });
     while (!moments_.empty()) tried([&] { processNext(); });
     while (committer_.jobs() > 0) tried([&] { committer_.applyJobs(true, busy_.jobs); });
-    if (!map_.key_frames.empty()) tried([&] { solveNow(settings_.solver.final()); });
+    if (!map_.key_frames.empty()) {
+      tried([&] { solveNow(settings_.solver.final()); });
+      tried([&] { conclude(); });
+    }
   }
   tried([&] { collectSections(); });
   times_.add("perception wait", busy_.perception);
@@ -264,6 +267,20 @@ void Engine::commit(base::KeyFrameId id) {
   committer_.applyJobs(false, busy_.jobs);
   if (estimator_.isDue()) solveNow(settings_.solver.running());
   committer_.followUp(id, view(), busy_.plugins);
+}
+
+// Each plugin sees what those before it concluded.
+void Engine::conclude() {
+  const base::Stamp now = map_.key_frames.back().stamp;
+  for (auto& [section, plugin] : plugins_.measurement) {
+    const StopWatch watch;
+    const Batch batch = plugin->atEnd(view());
+    busy_.plugins += watch.seconds();
+    times_.add("plugin " + section, watch.seconds());
+    if (batch.empty()) continue;
+    committer_.apply(batch, {section, now}, *plugin);
+    if (batch.changesGraph()) solveNow(settings_.solver.final());
+  }
 }
 
 void Engine::solveNow(const graph::SolveOptions& options) {

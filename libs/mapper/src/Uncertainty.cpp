@@ -1,11 +1,10 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
-#include <omnimapper/graph/Marginals.h>
+#include <omnimapper/graph/GrownMarginals.h>
 #include <omnimapper/mapper/Uncertainty.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <mutex>
 
 namespace omnimapper::mapper {
@@ -86,17 +85,10 @@ std::optional<Matrix6d> Uncertainty::between(const map::Map& map, const graph::G
   return covariance;
 }
 
-std::optional<Eigen::MatrixXd> Uncertainty::joint(const std::vector<base::VariableId>& ids) const {
-  const bool all_known = solved_ && std::all_of(ids.begin(), ids.end(), [&](base::VariableId id) {
-                           if (!solved_->graph.contains(id)) return false;
-                           const auto& variable = solved_->graph.variable(id);
-                           const auto& factors = variable.factors;
-                           return variable.fixed || std::any_of(factors.begin(), factors.end(), [&](auto factor) {
-                                    return solved_->graph.factor(factor).weight > 0;
-                                  });
-                         });
-  if (!all_known || !solved_->marginals()) return std::nullopt;
-  return solved_->marginals()->jointCovariance(ids);
+std::optional<Eigen::MatrixXd> Uncertainty::joint(const graph::Graph& graph,
+                                                  const std::vector<base::VariableId>& ids) const {
+  if (!solved_ || !solved_->marginals()) return std::nullopt;
+  return graph::jointCovariance(*solved_->marginals(), graph, ids);
 }
 
 }  // namespace omnimapper::mapper

@@ -15,6 +15,7 @@
 #include <omnimapper/plugins/NoMotionPlugin.h>
 #include <omnimapper/plugins/ObjectsPlugin.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
+#include <omnimapper/plugins/PlaneLandmarksPlugin.h>
 #include <omnimapper/plugins/PlanesPlugin.h>
 #include <omnimapper/plugins/PointsOutput.h>
 #include <omnimapper/plugins/ReportOutput.h>
@@ -45,6 +46,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(LoopClosurePluginFactory));
   registerClass(CLASS_ID(RobotPosePluginFactory));
   registerClass(CLASS_ID(GpsPluginFactory));
+  registerClass(CLASS_ID(PlaneLandmarksPluginFactory));
   registerClass(CLASS_ID(GraphOutputFactory));
   registerClass(CLASS_ID(GridOutputFactory));
   registerClass(CLASS_ID(LiveWindowFactory));

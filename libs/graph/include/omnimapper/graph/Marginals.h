@@ -19,6 +19,8 @@ class Marginals {
   Marginals(Marginals&&) noexcept;
   Marginals& operator=(Marginals&&) noexcept;
 
+  /// Whether it is fixed, or bound by a factor of positive weight: what the functions below can answer for.
+  bool contains(base::VariableId id) const;
   /// [tangentSize x tangentSize]. Throws Error(internal) if no factor of positive weight binds the variable.
   Eigen::MatrixXd covariance(base::VariableId id) const;
   /// Of several variables together, blocks in the order of `ids`. Throws as covariance(). An id may stand there twice.

@@ -2,16 +2,31 @@
 
 #include <omnimapper/base/Id.h>
 #include <omnimapper/base/Stamp.h>
+#include <omnimapper/geometry/Polygon3.h>
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace omnimapper::map {
+
+class KeyFrames;
+
+/// How a landmark looks in the map, for whoever draws or exports it. All in the frame of the map [m].
+struct LandmarkShape {
+  std::string label;                                               ///< what a user calls it: "wall", "table"
+  std::vector<geometry::Polygon3> surfaces;                        ///< flat, each may be concave
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;  ///< from, to
+  std::vector<Eigen::Vector3d> points;
+  std::optional<Eigen::Vector3d> normal;                        ///< unit, to the free side
+  std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value: for tables and exports
+};
 
 /// What a landmark is beside what is optimised: a plane's extent, a sign's text, an object's model. Immutable; a plugin
 /// that learns more gives a new one. Points in it are in the base of the key frame that saw them.
@@ -21,6 +36,10 @@ class LandmarkPayload {
   /// Name in files, unique among payloads: its reader is registered under it.
   virtual std::string_view kind() const = 0;
   virtual void write(std::ostream& out) const = 0;
+  /// `values`: those of the landmark's variables, in their order; none if it has none or they are gone.
+  virtual LandmarkShape shape(const std::vector<Eigen::VectorXd>& /*values*/, const KeyFrames& /*key_frames*/) const {
+    return {};
+  }
 };
 
 /// Something in the place that was seen, and may be seen again (thesis 4).

@@ -41,7 +41,11 @@ class Batch {
   /// It is no longer there: nothing is to be associated with it any more.
   void retireLandmark(base::LandmarkId id) { retired_landmarks_.push_back(id); }
   /// Both are one thing: `from` gives its factors and evidence to `into`, variable by variable, and its variables go.
-  void mergeLandmarks(base::LandmarkId from, base::LandmarkId into) { merges_.emplace_back(from, into); }
+  /// A payload replaces the one of `into`; null keeps that.
+  void mergeLandmarks(base::LandmarkId from, base::LandmarkId into,
+                      std::shared_ptr<const map::LandmarkPayload> payload = nullptr) {
+    merges_.push_back({from, into, std::move(payload)});
+  }
 
   struct NewVariable {
     std::shared_ptr<const graph::Variable> kind;
@@ -57,8 +61,14 @@ class Batch {
     base::LandmarkId landmark;
     std::shared_ptr<const map::LandmarkPayload> payload;
   };
+  struct Merge {
+    base::LandmarkId from, into;
+    std::shared_ptr<const map::LandmarkPayload> payload;
+  };
   /// No edit and no decision.
   bool empty() const;
+  /// Whether it is more than decisions, evidence and retired landmarks.
+  bool changesGraph() const;
   const std::vector<NewVariable>& addedVariables() const { return added_variables_; }
   const std::vector<graph::FactorRecord>& addedFactors() const { return added_factors_; }
   const std::vector<NewLandmark>& addedLandmarks() const { return added_landmarks_; }
@@ -67,7 +77,7 @@ class Batch {
   const std::vector<std::pair<base::FactorId, double>>& weights() const { return weights_; }
   const std::vector<Evidence>& evidence() const { return evidence_; }
   const std::vector<base::LandmarkId>& retiredLandmarks() const { return retired_landmarks_; }
-  const std::vector<std::pair<base::LandmarkId, base::LandmarkId>>& merges() const { return merges_; }
+  const std::vector<Merge>& merges() const { return merges_; }
   const std::optional<SessionPlace>& sessionPlace() const { return session_place_; }
   /// A decision's `hypothesis`, where it has one, is the number of the factor in addedFactors().
   const std::vector<Decision>& decisions() const { return decisions_; }
@@ -88,7 +98,7 @@ class Batch {
   std::vector<std::pair<base::FactorId, double>> weights_;
   std::vector<Evidence> evidence_;
   std::vector<base::LandmarkId> retired_landmarks_;
-  std::vector<std::pair<base::LandmarkId, base::LandmarkId>> merges_;
+  std::vector<Merge> merges_;
   std::vector<Decision> decisions_;
   std::optional<SessionPlace> session_place_;
 };

@@ -95,6 +95,7 @@ class Engine {
   std::vector<Perceived> gather(Moment& moment, base::KeyFrameId id);
   void measure(base::KeyFrameId id, const std::vector<Perceived>& perceived);
   void commit(base::KeyFrameId id);
+  void conclude();
   void solveNow(const graph::SolveOptions& options);
   void collectSections();
   void takeUp(SavedMap saved, const SessionStart& start);

@@ -52,6 +52,9 @@ class MeasurementPlugin {
   virtual void retired(const map::KeyFrame& /*frame*/) {}
   /// After all batches of `frame` were applied, and after the solve if there was one.
   virtual FollowUp afterCommit(const map::KeyFrame& /*frame*/, const View& /*view*/) { return {}; }
+  /// At the end of the log, after the last solve: what only the whole of it tells. The graph is solved again if this is
+  /// any edit.
+  virtual Batch atEnd(const View& /*view*/) { return {}; }
 
   /// What a map file keeps of it so that a later session can go on; the name of the section is the engine's. None if
   /// frames, landmarks and graph say it all.

@@ -20,6 +20,10 @@ struct State {
   std::optional<Eigen::Matrix<double, 6, 6>> covarianceBetween(base::KeyFrameId from, base::KeyFrameId to) const {
     return uncertainty.between(map, graph, from, to);
   }
+  /// Joint covariance of variables, as Uncertainty::joint().
+  std::optional<Eigen::MatrixXd> jointCovariance(const std::vector<base::VariableId>& ids) const {
+    return uncertainty.joint(graph, ids);
+  }
   /// Every factor that speaks of the landmark, in the order of ids.
   std::vector<base::FactorId> factorsOf(base::LandmarkId id) const;
   /// Active landmarks of a plugin, by its INI section: what a new observation may be associated with.

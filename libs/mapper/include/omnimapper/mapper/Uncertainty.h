@@ -26,9 +26,9 @@ class Uncertainty {
   std::optional<Eigen::Matrix<double, 6, 6>> between(const map::Map& map, const graph::Graph& graph,
                                                      base::KeyFrameId from, base::KeyFrameId to) const;
 
-  /// Joint covariance of variables in their tangents, blocks in the order of `ids`. None as above, or if one is too
-  /// new to be in the factored graph.
-  std::optional<Eigen::MatrixXd> joint(const std::vector<base::VariableId>& ids) const;
+  /// Joint covariance of variables of `graph` in their tangents, blocks in the order of `ids`; those that came since
+  /// the graph was factored as graph::jointCovariance() has them. None as above.
+  std::optional<Eigen::MatrixXd> joint(const graph::Graph& graph, const std::vector<base::VariableId>& ids) const;
 
  private:
   struct Solved;

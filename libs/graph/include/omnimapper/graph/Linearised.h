@@ -12,7 +12,9 @@ struct Linearised {
   Eigen::VectorXd residual;                ///< whitened
   std::vector<Eigen::MatrixXd> jacobians;  ///< whitened, by the tangent of each of its variables
 
-  Linearised(const Graph& graph, base::FactorId factor);
+  /// Of a factor that is not in the graph, but binds variables of it. Throws Error(internal) if it does not.
+  Linearised(const Graph& graph, const FactorRecord& record);
+  Linearised(const Graph& graph, base::FactorId factor) : Linearised(graph, graph.factor(factor)) {}
 };
 
 }  // namespace omnimapper::graph

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/mapper/Association.h>
+#include <omnimapper/mapper/PluginFactory.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::plugins {
+
+struct PlaneLandmarksOptions : mapper::AssociationOptions {
+  bool planes = true;                                                  ///< measure CObservationPlanes
+  bool lines = true;                                                   ///< measure CObservationLaserLines
+  double min_area = 0.1;                                               ///< [m^2] of a new landmark, seen as a plane
+  double min_length = 0.8;                                             ///< [m] of a new landmark, seen as a line
+  double max_gap = 0.5;                                                ///< [m] between surfaces of one landmark
+  double plane_sigma = 0.01;                                           ///< [m] a surface is so far from flat
+  double plane_angle_sigma = base::option_text::kRadiansPerDegree;     ///< [rad]
+  double line_sigma = 0.01;                                            ///< [m]
+  double line_angle_sigma = base::option_text::kRadiansPerDegree / 2;  ///< [rad]
+  double upright_sigma = 5 * base::option_text::kRadiansPerDegree;     ///< [rad]
+  double loss_scale = 3;                                               ///< [sigma] of the Huber loss
+
+  static const base::OptionTable<PlaneLandmarksOptions>& table();
+};
+
+/// Planes of walls, tables and floors as landmarks (thesis 4.2), measured by the planes of depth images and clouds
+/// (CObservationPlanes) and by the lines of 2D lasers (CObservationLaserLines) alike: one wall is one landmark, whoever
+/// sees it. A landmark that was seen as lines of one height alone is held upright, weakly. Coplanar surfaces that are
+/// apart are landmarks of their own; landmarks that turn out to be one are merged. Opposite faces of a wall are two.
+class PlaneLandmarksPlugin : public mapper::MeasurementPlugin {
+ public:
+  PlaneLandmarksPlugin(const PlaneLandmarksOptions& options, const mapper::PluginContext& context);
+  ~PlaneLandmarksPlugin() override;
+
+  bool wants(const mrpt::obs::CObservation& observation) const override;
+  mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                        const mapper::View& view) override;
+  void applied(const mapper::AppliedBatch& ids) override;
+  mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
+  mapper::Batch atEnd(const mapper::View& view) override;
+  void restore(const map::MapSection* saved, const mapper::View& view) override;
+
+ private:
+  class Moment;
+
+  PlaneLandmarksOptions options_;
+  mapper::PluginContext context_;
+  std::unique_ptr<class KnownPlanes> known_;
+  std::size_t merged_at_solve_ = 0;
+};
+
+class PlaneLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
+  DEFINE_MRPT_OBJECT(PlaneLandmarksPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "PlaneLandmarksPlugin"; }
+  std::string summary() const override { return "Walls, tables and floors, seen as planes and as lines of a laser."; }
+  const std::vector<base::OptionSpec>& options() const override { return PlaneLandmarksOptions::table().specs(); }
+  void registerKinds(mapper::Kinds& kinds) const override;
+  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
+                                                  const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <omnimapper/mapper/View.h>
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "PlaneExtent.h"
+#include "PlaneSighting.h"
+
+namespace omnimapper::plugins {
+
+/// The plane landmarks of a map with their extents as they are now, to find those that a sighting may be of. What it
+/// keeps follows from the map, and is worked out anew where key frames have moved.
+class KnownPlanes {
+ public:
+  /// A landmark on its plane in the map.
+  struct Surface {
+    base::LandmarkId id;
+    base::VariableId variable;
+    geometry::Plane3 plane;
+    std::vector<Eigen::Vector2d> hull;  ///< [m, PlaneAxes of the plane]
+    Eigen::Vector3d middle;             ///< [m] of the hull
+    double radius = 0;                  ///< [m] of the hull about the middle
+    base::KeyFrameId last_seen_from;
+    std::size_t solve = 0;  ///< number of solves when this was worked out
+    const map::LandmarkPayload* payload = nullptr;
+  };
+
+  /// `owner`: INI section.
+  explicit KnownPlanes(std::string owner) : owner_(std::move(owner)) {}
+
+  void restore(const mapper::State& state);
+  void add(base::LandmarkId id) { surfaces_[id].id = id; }
+  /// Of what was retired or merged nothing is kept.
+  void update(const mapper::View& view);
+  const std::map<base::LandmarkId, Surface>& all() const { return surfaces_; }
+
+ private:
+  std::string owner_;
+  std::map<base::LandmarkId, Surface> surfaces_;
+};
+
+/// Gap between a surface and points of another, both dropped on the plane of the first [m]; 0 where they overlap.
+double gapBetween(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map);
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,99 @@
+#include "PlaneMerging.h"
+
+#include <mrpt/math/distributions.h>
+#include <omnimapper/geometry/PlaneTangent.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <set>
+
+#include "PlaneFactors.h"
+#include "PlaneVariable.h"
+
+namespace omnimapper::plugins {
+
+namespace {
+
+using Surface = KnownPlanes::Surface;
+
+std::vector<Eigen::Vector3d> cornersOf(const Surface& surface) {
+  const PlaneAxes axes(surface.plane);
+  std::vector<Eigen::Vector3d> corners;
+  for (const auto& corner : surface.hull) corners.push_back(axes.inSpace(corner));
+  return corners;
+}
+
+// One is where the other is, as far as anybody can see. Whatever the covariance allows, what is farther apart than this
+// looks like two.
+bool lookAlike(const Surface& a, const Surface& b) {
+  constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m]
+  if (a.hull.empty() || b.hull.empty()) return false;
+  if ((a.middle - b.middle).norm() > a.radius + b.radius) return false;
+  if (a.plane.normal.dot(b.plane.normal) < std::cos(kTurn)) return false;
+  const Surface &larger = a.radius > b.radius ? a : b, &smaller = a.radius > b.radius ? b : a;
+  if (std::abs(signedDistance(larger.plane, smaller.middle)) > kOff) return false;
+  return gapBetween(a, cornersOf(b)) <= 0 && gapBetween(b, cornersOf(a)) <= 0;
+}
+
+// Of the change that takes a's plane to b's, by all that ties them together.
+std::optional<double> chi2OfDifference(const Surface& a, const Surface& b, const mapper::View& view) {
+  const auto joint = view.jointCovariance({a.variable, b.variable});
+  if (!joint) return std::nullopt;
+  const Eigen::Vector3d difference = geometry::minus(b.plane, a.plane);
+  Eigen::Matrix<double, 3, 6> by_both = Eigen::Matrix<double, 3, 6>::Zero();
+  by_both.topLeftCorner<3, 3>() = -Eigen::Matrix3d::Identity();
+  by_both.block<2, 2>(0, 3) =
+      geometry::tangentBasis(a.plane.normal).transpose() * geometry::tangentBasis(b.plane.normal);
+  by_both(2, 5) = 1;
+  const Eigen::Matrix3d covariance = by_both * *joint * by_both.transpose();
+  return difference.dot(covariance.ldlt().solve(difference));
+}
+
+}  // namespace
+
+mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& options, const std::string& section,
+                         const mapper::View& view) {
+  known.update(view);
+  const double limit = mrpt::math::chi2inv(options.confidence, 3);
+  mapper::Batch batch;
+  std::set<base::LandmarkId> merged;
+  const auto& all = known.all();
+  for (auto a = all.begin(); a != all.end(); ++a) {
+    for (auto b = std::next(a); b != all.end(); ++b) {
+      if (merged.count(a->first) > 0) break;
+      if (merged.count(b->first) > 0 || !lookAlike(a->second, b->second)) continue;
+      const auto chi2 = chi2OfDifference(a->second, b->second, view);
+      if (!chi2 || *chi2 > limit * options.inflation * options.inflation) continue;
+      merged.insert(a->first);
+      merged.insert(b->first);
+      const map::Landmark &kept = view.map.landmark(a->first), &gone = view.map.landmark(b->first);
+      const auto& kept_payload = dynamic_cast<const PlanePayload&>(*kept.payload);
+      const auto& gone_payload = dynamic_cast<const PlanePayload&>(*gone.payload);
+      const bool seen_as_plane = kept_payload.wasSeenAsPlane() || gone_payload.wasSeenAsPlane();
+      const auto of_kept = uprightFactor(view.graph, kept.variables.front());
+      const auto of_gone = uprightFactor(view.graph, gone.variables.front());
+      if (of_gone && (of_kept || seen_as_plane)) batch.removeFactor(*of_gone);
+      if (of_kept && seen_as_plane) batch.removeFactor(*of_kept);
+      batch.mergeLandmarks(gone.id, kept.id, kept_payload.with(gone_payload));
+      mapper::Decision decision;
+      decision.stamp = view.map.key_frames.back().stamp;
+      decision.plugin = section;
+      decision.kind = "merge";
+      decision.from = view.map.key_frames.back().id;
+      decision.accepted = true;
+      decision.reason = "two landmarks are one";
+      decision.numbers = {
+          {"landmark", kept.id.index}, {"other", gone.id.index}, {"chi-square", *chi2}, {"limit", limit}};
+      batch.log(std::move(decision));
+    }
+  }
+  return batch;
+}
+
+std::optional<base::FactorId> uprightFactor(const graph::Graph& graph, base::VariableId plane) {
+  for (const auto id : graph.factorsOf(plane))
+    if (graph.factor(id).factor->kind() == UprightFactor::kKind) return id;
+  return std::nullopt;
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <omnimapper/mapper/Batch.h>
+#include <omnimapper/mapper/View.h>
+#include <omnimapper/plugins/PlaneLandmarksPlugin.h>
+
+#include <optional>
+#include <string>
+
+#include "KnownPlanes.h"
+
+namespace omnimapper::plugins {
+
+/// Merges landmarks that turn out to be one: they overlap, and their planes differ by no more than the map leaves open.
+mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& options, const std::string& section,
+                         const mapper::View& view);
+
+/// The factor that holds a plane upright, if there is one.
+std::optional<base::FactorId> uprightFactor(const graph::Graph& graph, base::VariableId plane);
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,155 @@
+#include "PlanePayload.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
+#include <omnimapper/graph/ByteIo.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "PlaneExtent.h"
+#include "PlaneSighting.h"
+#include "PlaneVariable.h"
+
+namespace omnimapper::plugins {
+
+namespace {
+
+constexpr std::uint64_t kVersion = 1;
+
+// What people call a surface of that slope, so high above the ground that the base stands on [m].
+std::string labelOf(const geometry::Plane3& plane, double height) {
+  constexpr double kUpright = 0.2, kLevel = 0.95;  // of the normal's height
+  constexpr double kGround = 0.15;                 // [m]
+  if (std::abs(plane.normal.z()) < kUpright) return "wall";
+  if (plane.normal.z() < -kLevel) return "ceiling";
+  if (plane.normal.z() < kLevel) return "slope";
+  return height > kGround ? "table" : height > -kGround ? "floor" : "level surface";
+}
+
+void writeId(std::ostream& out, base::KeyFrameId id) {
+  graph::writeUint(out, id.session, 2);
+  graph::writeUint(out, id.index, 4);
+}
+
+base::KeyFrameId readId(std::istream& in) {
+  const auto session = static_cast<std::uint16_t>(graph::readUint(in, 2));
+  return {session, static_cast<std::uint32_t>(graph::readUint(in, 4))};
+}
+
+std::string number(double value) {
+  const double rounded = std::round(value * 1000) / 1000;
+  std::string text = std::to_string(rounded + 0.0);
+  text.erase(text.size() - 3);
+  return text;
+}
+
+}  // namespace
+
+bool PlanePayload::wasSeenAsPlane() const {
+  return std::any_of(seen_by.begin(), seen_by.end(), [](const auto& sensor) { return sensor.second.planes > 0; });
+}
+
+std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, const PlaneSighting& sighting,
+                                                       bool tells_more) const {
+  auto more = std::make_shared<PlanePayload>(*this);
+  if (tells_more) more->patches.push_back({frame, sighting.outline_in_base});
+  SeenBy& seen = more->seen_by[sighting.sensor_label];
+  ++(sighting.is_line ? seen.lines : seen.planes);
+  more->last_seen_from = frame;
+  return more;
+}
+
+std::shared_ptr<const PlanePayload> PlanePayload::with(const PlanePayload& other) const {
+  auto both = std::make_shared<PlanePayload>(*this);
+  both->patches.insert(both->patches.end(), other.patches.begin(), other.patches.end());
+  for (const auto& [label, seen] : other.seen_by) {
+    both->seen_by[label].planes += seen.planes;
+    both->seen_by[label].lines += seen.lines;
+  }
+  both->last_seen_from = std::max(last_seen_from, other.last_seen_from);
+  return both;
+}
+
+map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& values,
+                                       const map::KeyFrames& key_frames) const {
+  map::LandmarkShape shape;
+  if (values.empty()) return shape;
+  const auto plane = planeFromValue(values.front().data());
+  const PlaneAxes axes(plane);
+  const auto corners = cornersInMap(patches, key_frames);
+  const auto hull = hullOn(axes, corners);
+  if (hull.empty()) return shape;
+  geometry::Polygon3 surface;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& corner : hull) {
+    surface.vertices.push_back(axes.inSpace(corner));
+    middle += surface.vertices.back() / static_cast<double>(hull.size());
+  }
+  shape.label = labelOf(plane, middle.z() - key_frames.front().map_from_base.z());
+  shape.normal = plane.normal;
+  // A laser alone tells how long a wall is, not how high.
+  if (wasSeenAsPlane() && surface.vertices.size() > 2) {
+    shape.surfaces.push_back(surface);
+    shape.properties.emplace_back("area_m2", number(geometry::area(hull)));
+  } else if (hull.size() > 1) {
+    const auto [low, high] =
+        std::minmax_element(hull.begin(), hull.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
+    shape.lines.emplace_back(axes.inSpace(*low), axes.inSpace(*high));
+    shape.properties.emplace_back("length_m", number((*high - *low).norm()));
+  }
+  for (const auto& [label, seen] : seen_by) {
+    shape.properties.emplace_back("seen_by_" + label, std::to_string(seen.planes + seen.lines));
+  }
+  return shape;
+}
+
+void PlanePayload::write(std::ostream& out) const {
+  graph::writeUint(out, kVersion, 1);
+  graph::writeUint(out, patches.size(), 4);
+  for (const auto& patch : patches) {
+    writeId(out, patch.frame);
+    graph::writeUint(out, patch.outline_in_base.size(), 4);
+    for (const auto& point : patch.outline_in_base)
+      for (const double coordinate : point) graph::writeDouble(out, coordinate);
+  }
+  writeId(out, last_seen_from);
+  graph::writeUint(out, seen_by.size(), 4);
+  for (const auto& [label, seen] : seen_by) {
+    graph::writeText(out, label);
+    graph::writeUint(out, seen.planes, 4);
+    graph::writeUint(out, seen.lines, 4);
+  }
+}
+
+void PlanePayload::addTo(map::PayloadRegistry& registry) {
+  registry.add("plane", [](std::istream& in) {
+    if (const auto version = graph::readUint(in, 1); version > kVersion) {
+      throw base::Error(base::ExitCode::unreadable_input,
+                        "a plane of version " + std::to_string(version) + ": this program reads versions up to " +
+                            std::to_string(kVersion) + "; take the OmniMapper that wrote the map");
+    }
+    auto payload = std::make_shared<PlanePayload>();
+    for (auto left = graph::readUint(in, 4); left > 0; --left) {
+      SurfacePatch patch;
+      patch.frame = readId(in);
+      for (auto points = graph::readUint(in, 4); points > 0; --points) {
+        Eigen::Vector3d point;
+        for (double& coordinate : point) coordinate = graph::readDouble(in);
+        patch.outline_in_base.push_back(point);
+      }
+      payload->patches.push_back(std::move(patch));
+    }
+    payload->last_seen_from = readId(in);
+    for (auto left = graph::readUint(in, 4); left > 0; --left) {
+      const std::string label = graph::readText(in);
+      SeenBy& seen = payload->seen_by[label];
+      seen.planes = static_cast<std::uint32_t>(graph::readUint(in, 4));
+      seen.lines = static_cast<std::uint32_t>(graph::readUint(in, 4));
+    }
+    return payload;
+  });
+}
+
+}  // namespace omnimapper::plugins

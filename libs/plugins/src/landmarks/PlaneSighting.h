@@ -1,0 +1,35 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+#include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/graph/Factor.h>
+#include <omnimapper/graph/Noise.h>
+#include <omnimapper/plugins/PlaneLandmarksPlugin.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace omnimapper::plugins {
+
+/// One plane of a depth image or one line of a laser, as it binds a plane landmark. All in the frame of the base.
+struct PlaneSighting {
+  bool is_line = false;
+  std::string sensor_label;
+  geometry::Plane3 plane_in_base;                ///< of a line: the upright plane through it
+  std::vector<Eigen::Vector3d> outline_in_base;  ///< [m] convex, or the two ends of a line
+  double size = 0;                               ///< [m^2], of a line [m]
+  std::shared_ptr<const graph::Factor> factor;
+  graph::SquareRootInformation noise;
+};
+
+/// What cannot be used of an observation is left out: not finite, without extent, without a covariance.
+/// `up_in_base` is unit: what upright means for the planes of lines.
+std::vector<PlaneSighting> planeSightings(const mrpt::obs::CObservation& observation, const Eigen::Vector3d& up_in_base,
+                                          const PlaneLandmarksOptions& options);
+
+/// Of a plane, with what a surface is off from flat added as it would be about `middle`, where its points are.
+Eigen::Matrix3d withRoughness(const geometry::Plane3& plane, const Eigen::Matrix3d& covariance,
+                              const Eigen::Vector3d& middle, double angle_sigma, double distance_sigma);
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
+
+#include <cmath>
+#include <random>
+
+namespace omnimapper::geometry {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+Points rectangle(double x, double y, double width, double height) {
+  return {{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
+}
+
+TEST(ConvexPolygon2, HullOfASquareWithPointsInsideAndOnEdgesIsTheSquare) {
+  const Points hull = convexHull({{1, 1}, {0, 0}, {0.5, 0.5}, {1, 0}, {0.5, 0}, {0, 1}, {0, 0}});
+  EXPECT_EQ(hull, (Points{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_DOUBLE_EQ(area(hull), 1);
+}
+
+TEST(ConvexPolygon2, HullOfALineIsItsEnds) {
+  EXPECT_EQ(convexHull({{1, 1}, {3, 3}, {2, 2}}), (Points{{1, 1}, {3, 3}}));
+  EXPECT_EQ(convexHull({{1, 1}, {1, 1}}), (Points{{1, 1}}));
+  EXPECT_TRUE(convexHull({}).empty());
+}
+
+TEST(ConvexPolygon2, IntersectionOfTwoRectanglesWorkedByHand) {
+  const Points common = intersection(rectangle(0, 0, 2, 2), rectangle(1, 1.5, 4, 4));
+  EXPECT_DOUBLE_EQ(area(common), 0.5);
+  EXPECT_TRUE(intersection(rectangle(0, 0, 1, 1), rectangle(3, 0, 1, 1)).empty());
+}
+
+TEST(ConvexPolygon2, ACrossHasNoCornerOfOneInTheOther) {
+  const Points across = rectangle(-2, -0.5, 4, 1), along = rectangle(-0.5, -2, 1, 4);
+  EXPECT_DOUBLE_EQ(distance(across, along), 0);
+  EXPECT_DOUBLE_EQ(area(intersection(across, along)), 1);
+}
+
+TEST(ConvexPolygon2, DistanceOfPolygonsSegmentsAndPoints) {
+  EXPECT_DOUBLE_EQ(distance(rectangle(0, 0, 1, 1), rectangle(1.5, 2, 1, 1)), std::hypot(0.5, 1));
+  EXPECT_DOUBLE_EQ(distance({{0, 0}, {2, 0}}, {{1, -1}, {1, 1}}), 0);
+  EXPECT_DOUBLE_EQ(distance({{0, 0}, {2, 0}}, {{3, 1}}), std::hypot(1, 1));
+  EXPECT_DOUBLE_EQ(distance(rectangle(0, 0, 4, 4), {{1, 1}, {2, 2}}), 0);
+}
+
+TEST(ConvexPolygon2, NoPairOfRandomPointsIsNearerThanTheHulls) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (int round = 0; round < 100; ++round) {
+    Points a, b;
+    for (int i = 0; i < 8; ++i) a.emplace_back(normal(random), normal(random));
+    for (int i = 0; i < 8; ++i) b.emplace_back(3 + normal(random), normal(random));
+    const Points hull_a = convexHull(a), hull_b = convexHull(b);
+    const double gap = distance(hull_a, hull_b);
+    for (const auto& p : a)
+      for (const auto& q : b) EXPECT_GE((p - q).norm(), gap);
+    EXPECT_EQ(gap > 0, intersection(hull_a, hull_b).empty());
+    EXPECT_NEAR(area(intersection(hull_a, hull_b)), area(intersection(hull_b, hull_a)), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace omnimapper::geometry
