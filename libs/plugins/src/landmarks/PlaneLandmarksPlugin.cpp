@@ -76,7 +76,8 @@ class PlaneLandmarksPlugin::Moment {
       mapper::Decision decision = decisionOf(sightings[i]);
       match.tell(decision);
       if (match.pairing) decision.numbers.emplace_back("landmark", pairings[*match.pairing].landmark.index);
-      if (match.kind == mapper::Match::Kind::matched) {
+      if (match.kind == mapper::Match::Kind::matched || spansTwo(match, pairings)) {
+        decision.accepted = true;
         addToKnown(sightings[i], pairings[*match.pairing], std::move(decision));
       } else if (match.kind == mapper::Match::Kind::unknown) {
         addNew(sightings[i], std::move(decision));
@@ -105,6 +106,13 @@ class PlaneLandmarksPlugin::Moment {
       }
     }
     return pairings;
+  }
+
+  // Of two landmarks on one plane, say on both sides of a door: each is as right, and now they touch.
+  bool spansTwo(const mapper::Match& match, const std::vector<mapper::Pairing>& pairings) const {
+    if (match.kind != mapper::Match::Kind::ambiguous) return false;
+    const auto& all = known_.all();
+    return onOnePlane(all.at(pairings[*match.pairing].landmark), all.at(*match.rival));
   }
 
   // Wide open: what is near enough is for the covariance to say.
@@ -150,9 +158,8 @@ class PlaneLandmarksPlugin::Moment {
   }
 
   void addToKnown(const PlaneSighting& sighting, const mapper::Pairing& pairing, mapper::Decision decision) {
-    const map::Landmark& landmark = view_.map.landmark(pairing.landmark);
-    const auto& payload = dynamic_cast<const PlanePayload&>(*landmark.payload);
-    if (!isJoined(landmark.id)) {
+    const base::LandmarkId id = pairing.landmark;
+    if (!isJoined(id)) {
       // The first thing that ties this session to the map: if it were wrong, everything would be.
       decision.accepted = false;
       decision.reason = "waits for the consistency test";
@@ -161,13 +168,16 @@ class PlaneLandmarksPlugin::Moment {
     }
     batch_.log(std::move(decision));
     batch_.addFactor(pairing.record);
-    if (!sighting.is_line && !payload.wasSeenAsPlane()) {
+    // A landmark may be met twice in a moment: the second time goes on from what the first made of it.
+    auto& payload = payloads_[id];
+    if (!payload) payload = std::dynamic_pointer_cast<const PlanePayload>(view_.map.landmark(id).payload);
+    if (!sighting.is_line && !payload->wasSeenAsPlane()) {
       if (const auto upright = uprightFactor(view_.graph, pairing.record.variables.back()))
         batch_.removeFactor(*upright);
     }
-    const auto& surface = known_.all().at(landmark.id);
-    const bool tells_more = reachesOver(surface, inMap(sighting.outline_in_base));
-    batch_.addEvidence(landmark.id, payload.with(frame_.id, sighting, tells_more));
+    const bool tells_more = reachesOver(known_.all().at(id), inMap(sighting.outline_in_base));
+    payload = payload->with(frame_.id, sighting, tells_more);
+    batch_.addEvidence(id, payload);
   }
 
   // Whether a corner lies outside by more than edges are seen alike.
@@ -240,6 +250,7 @@ class PlaneLandmarksPlugin::Moment {
   Se3 map_from_base_;
   double pose_sigma_ = 0;  // [m] of the base in the map
   std::vector<Fresh> fresh_;
+  std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>> payloads_;  // of those that were met
   mapper::Batch batch_;
 };
 

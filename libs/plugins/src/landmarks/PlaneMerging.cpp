@@ -23,15 +23,8 @@ std::vector<Eigen::Vector3d> cornersOf(const Surface& surface) {
   return corners;
 }
 
-// One is where the other is, as far as anybody can see. Whatever the covariance allows, what is farther apart than this
-// looks like two.
-bool lookAlike(const Surface& a, const Surface& b) {
-  constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m]
-  if (a.hull.empty() || b.hull.empty()) return false;
+bool overlap(const Surface& a, const Surface& b) {
   if ((a.middle - b.middle).norm() > a.radius + b.radius) return false;
-  if (a.plane.normal.dot(b.plane.normal) < std::cos(kTurn)) return false;
-  const Surface &larger = a.radius > b.radius ? a : b, &smaller = a.radius > b.radius ? b : a;
-  if (std::abs(signedDistance(larger.plane, smaller.middle)) > kOff) return false;
   return gapBetween(a, cornersOf(b)) <= 0 && gapBetween(b, cornersOf(a)) <= 0;
 }
 
@@ -51,6 +44,14 @@ std::optional<double> chi2OfDifference(const Surface& a, const Surface& b, const
 
 }  // namespace
 
+bool onOnePlane(const Surface& a, const Surface& b) {
+  constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m]
+  if (a.hull.empty() || b.hull.empty()) return false;
+  if (a.plane.normal.dot(b.plane.normal) < std::cos(kTurn)) return false;
+  const Surface &larger = a.radius > b.radius ? a : b, &smaller = a.radius > b.radius ? b : a;
+  return std::abs(signedDistance(larger.plane, smaller.middle)) <= kOff;
+}
+
 mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& options, const std::string& section,
                          const mapper::View& view) {
   known.update(view);
@@ -61,7 +62,7 @@ mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& option
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = std::next(a); b != all.end(); ++b) {
       if (merged.count(a->first) > 0) break;
-      if (merged.count(b->first) > 0 || !lookAlike(a->second, b->second)) continue;
+      if (merged.count(b->first) > 0 || !onOnePlane(a->second, b->second) || !overlap(a->second, b->second)) continue;
       const auto chi2 = chi2OfDifference(a->second, b->second, view);
       if (!chi2 || *chi2 > limit * options.inflation * options.inflation) continue;
       merged.insert(a->first);

@@ -15,7 +15,7 @@ namespace omnimapper::plugins {
 struct PlaneLandmarksOptions : mapper::AssociationOptions {
   bool planes = true;                                                  ///< measure CObservationPlanes
   bool lines = true;                                                   ///< measure CObservationLaserLines
-  double min_area = 0.1;                                               ///< [m^2] of a new landmark, seen as a plane
+  double min_area = 0.25;                                              ///< [m^2] of a new landmark, seen as a plane
   double min_length = 0.8;                                             ///< [m] of a new landmark, seen as a line
   double max_gap = 0.5;                                                ///< [m] between surfaces of one landmark
   double plane_sigma = 0.01;                                           ///< [m] a surface is so far from flat
