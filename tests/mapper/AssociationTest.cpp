@@ -26,7 +26,7 @@ class AssociationOfPoints : public ::testing::Test {
     const auto id = graph_.addVariable(graph::point2(), Eigen::Vector2d(x, y));
     graph_.addFactor({{pose_, id},
                       std::make_shared<graph::PointFactor2>(Eigen::Vector2d(x, y)),
-                      SquareRootInformation::fromSigmas(Eigen::Vector2d(10, 10))});
+                      SquareRootInformation::fromSigmas(Eigen::Vector2d(1e4, 1e4))});
     // As if many had seen it: where it is is known, whatever the pose.
     graph_.setFixed(id, true);
     points_.push_back(id);

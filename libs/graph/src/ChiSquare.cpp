@@ -1,4 +1,4 @@
-#include "ChiSquare.h"
+#include "omnimapper/graph/ChiSquare.h"
 
 #include <cmath>
 

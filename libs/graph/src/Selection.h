@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "ChiSquare.h"
 #include "FalseVolume.h"
 #include "Innovation.h"
+#include "omnimapper/graph/ChiSquare.h"
 #include "omnimapper/graph/Consistency.h"
 
 namespace omnimapper::graph {

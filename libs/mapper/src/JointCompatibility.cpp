@@ -1,6 +1,6 @@
 #include "JointCompatibility.h"
 
-#include <mrpt/math/distributions.h>
+#include <omnimapper/graph/ChiSquare.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -229,9 +229,9 @@ double chi2Limit(double confidence, Eigen::Index rows) {
   }
   const auto place = static_cast<std::size_t>(rows);
   if (rows == 0) return 0;
-  if (place >= known.limits.size()) return mrpt::math::chi2inv(confidence, static_cast<unsigned>(rows));
+  if (place >= known.limits.size()) return graph::chiSquareQuantile(confidence, static_cast<int>(rows));
   if (!(known.limits[place] > 0)) {
-    known.limits[place] = mrpt::math::chi2inv(confidence, static_cast<unsigned>(rows));
+    known.limits[place] = graph::chiSquareQuantile(confidence, static_cast<int>(rows));
   }
   return known.limits[place];
 }

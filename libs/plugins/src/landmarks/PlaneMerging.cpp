@@ -1,7 +1,7 @@
 #include "PlaneMerging.h"
 
-#include <mrpt/math/distributions.h>
 #include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/graph/ChiSquare.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -55,7 +55,7 @@ bool onOnePlane(const Surface& a, const Surface& b) {
 mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& options, const std::string& section,
                          const mapper::View& view) {
   known.update(view);
-  const double limit = mrpt::math::chi2inv(options.confidence, 3);
+  const double limit = graph::chiSquareQuantile(options.confidence, 3);
   mapper::Batch batch;
   std::set<base::LandmarkId> merged;
   const auto& all = known.all();
