@@ -18,6 +18,7 @@
 #include <omnimapper/plugins/PlaneLandmarksPlugin.h>
 #include <omnimapper/plugins/PlanesPlugin.h>
 #include <omnimapper/plugins/PointsOutput.h>
+#include <omnimapper/plugins/RelationsPlugin.h>
 #include <omnimapper/plugins/ReportOutput.h>
 #include <omnimapper/plugins/RoadPlugin.h>
 #include <omnimapper/plugins/RobotPosePlugin.h>
@@ -47,6 +48,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(RobotPosePluginFactory));
   registerClass(CLASS_ID(GpsPluginFactory));
   registerClass(CLASS_ID(PlaneLandmarksPluginFactory));
+  registerClass(CLASS_ID(RelationsPluginFactory));
   registerClass(CLASS_ID(GraphOutputFactory));
   registerClass(CLASS_ID(GridOutputFactory));
   registerClass(CLASS_ID(LiveWindowFactory));

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 
-#include "PlaneVariable.h"
-
 namespace omnimapper::plugins {
+
+PlanePayload KnownPlanes::emptyPayload() const {
+  PlanePayload empty;
+  empty.form = form_;
+  return empty;
+}
 
 void KnownPlanes::restore(const mapper::State& state) {
   for (const auto id : state.candidates(owner_)) add(id);
@@ -24,7 +28,7 @@ void KnownPlanes::update(const mapper::View& view) {
     if (surface.payload == landmark->payload.get() && surface.solve == view.solves.size() + 1) continue;
     const auto& payload = dynamic_cast<const PlanePayload&>(*landmark->payload);
     surface.variable = landmark->variables.front();
-    surface.plane = planeFromValue(view.graph.value(surface.variable).data());
+    surface.plane = form().plane(view.graph.value(surface.variable));
     const PlaneAxes axes(surface.plane);
     surface.hull = hullOn(axes, cornersInMap(payload.patches, view.map.key_frames));
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();

@@ -30,8 +30,11 @@ class KnownPlanes {
   };
 
   /// `owner`: INI section.
-  explicit KnownPlanes(std::string owner) : owner_(std::move(owner)) {}
+  KnownPlanes(std::string owner, SurfaceForm::Kind form) : owner_(std::move(owner)), form_(form) {}
 
+  const SurfaceForm& form() const { return SurfaceForm::of(form_); }
+  /// Of a landmark that nobody has seen yet.
+  PlanePayload emptyPayload() const;
   void restore(const mapper::State& state);
   void add(base::LandmarkId id) { surfaces_[id].id = id; }
   /// Of what was retired or merged nothing is kept.
@@ -40,6 +43,7 @@ class KnownPlanes {
 
  private:
   std::string owner_;
+  SurfaceForm::Kind form_;
   std::map<base::LandmarkId, Surface> surfaces_;
 };
 

@@ -11,7 +11,8 @@
 #include "KnownPlanes.h"
 #include "PlaneFactors.h"
 #include "PlaneMerging.h"
-#include "PlaneVariable.h"
+#include "SurfaceForm.h"
+#include "WallFactor.h"
 
 IMPLEMENTS_MRPT_OBJECT(PlaneLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -26,6 +27,9 @@ const base::OptionTable<PlaneLandmarksOptions>& PlaneLandmarksOptions::table() {
   static const auto table = [] {
     auto own =
         base::OptionTable<Options>()
+            .choice("form", &Options::form, {{"plane", Options::Form::plane}, {"wall", Options::Form::wall}},
+                    "What is optimised: planes in space, or, in a planar map with level lasers, walls as lines on the "
+                    "floor. Of walls only lines are taken.")
             .flag("planes", &Options::planes, "Take the planes of depth images and clouds.")
             .flag("lines", &Options::lines, "Take the lines of 2D lasers.")
             .number("min_area_m2", &Options::min_area, Range::notNegative(),
@@ -59,6 +63,7 @@ class PlaneLandmarksPlugin::Moment {
       : options_(options),
         context_(context),
         known_(known),
+        form_(known.form()),
         frame_(frame),
         view_(view),
         map_from_base_(geometry::fromMrpt(mapper::poseOf(view.graph, frame.pose))) {
@@ -209,10 +214,11 @@ class PlaneLandmarksPlugin::Moment {
     decision.reason = (large ? "new: " : "too small for a new one: ") + decision.reason;
     batch_.log(std::move(decision));
     if (!large) return;
-    const auto variable = batch_.addVariable(planeVariable(), toValue(plane));
-    const auto landmark = batch_.addLandmark("plane", {variable}, PlanePayload().with(frame_.id, sighting, true));
+    const auto variable = batch_.addVariable(form_.variable(), form_.value(plane, points));
+    const auto landmark =
+        batch_.addLandmark("plane", {variable}, known_.emptyPayload().with(frame_.id, sighting, true));
     batch_.addFactor(record(sighting, variable, landmark));
-    if (sighting.is_line) {
+    if (sighting.is_line && form_.mayLean()) {
       graph::FactorRecord upright{
           {variable},
           std::make_shared<UprightFactor>(),
@@ -245,6 +251,7 @@ class PlaneLandmarksPlugin::Moment {
   const PlaneLandmarksOptions& options_;
   const mapper::PluginContext& context_;
   const KnownPlanes& known_;
+  const SurfaceForm& form_;
   const map::KeyFrame& frame_;
   const mapper::View& view_;
   Se3 map_from_base_;
@@ -255,7 +262,19 @@ class PlaneLandmarksPlugin::Moment {
 };
 
 PlaneLandmarksPlugin::PlaneLandmarksPlugin(const PlaneLandmarksOptions& options, const mapper::PluginContext& context)
-    : options_(options), context_(context), known_(std::make_unique<KnownPlanes>(context.section)) {}
+    : options_(options),
+      context_(context),
+      known_(std::make_unique<KnownPlanes>(context.section, options.form == PlaneLandmarksOptions::Form::wall
+                                                                ? SurfaceForm::Kind::wall
+                                                                : SurfaceForm::Kind::plane)) {
+  if (options.form != PlaneLandmarksOptions::Form::wall) return;
+  options_.planes = false;
+  if (context.motion == mapper::Motion::planar) return;
+  throw base::Error(base::ExitCode::out_of_range,
+                    "[" + context.section +
+                        "] form = wall needs [mapper] motion = planar; for a map in space "
+                        "take form = plane");
+}
 
 PlaneLandmarksPlugin::~PlaneLandmarksPlugin() = default;
 
@@ -268,7 +287,7 @@ mapper::Batch PlaneLandmarksPlugin::measure(const map::KeyFrame& frame, const ma
                                             const mapper::View& view) {
   known_->update(view);
   Moment moment(options_, context_, *known_, frame, view);
-  return moment.take(planeSightings(observed.observation, moment.upInBase(), options_));
+  return moment.take(planeSightings(observed.observation, moment.upInBase(), known_->form(), options_));
 }
 
 void PlaneLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {
@@ -290,10 +309,12 @@ void PlaneLandmarksPlugin::restore(const map::MapSection*, const mapper::View& v
 }
 
 void PlaneLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
-  kinds.factors.add(planeVariable());
+  kinds.factors.add(SurfaceForm::of(SurfaceForm::Kind::plane).variable());
+  kinds.factors.add(SurfaceForm::of(SurfaceForm::Kind::wall).variable());
   PlaneFactor::addTo(kinds.factors);
   LineOnPlaneFactor::addTo(kinds.factors);
   UprightFactor::addTo(kinds.factors);
+  WallFactor::addTo(kinds.factors);
   PlanePayload::addTo(kinds.payloads);
 }
 

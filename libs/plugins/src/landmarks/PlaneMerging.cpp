@@ -1,6 +1,5 @@
 #include "PlaneMerging.h"
 
-#include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/graph/ChiSquare.h>
 
 #include <Eigen/Cholesky>
@@ -8,7 +7,6 @@
 #include <set>
 
 #include "PlaneFactors.h"
-#include "PlaneVariable.h"
 
 namespace omnimapper::plugins {
 
@@ -29,17 +27,13 @@ bool overlap(const Surface& a, const Surface& b) {
 }
 
 // Of the change that takes a's plane to b's, by all that ties them together.
-std::optional<double> chi2OfDifference(const Surface& a, const Surface& b, const mapper::View& view) {
+std::optional<double> chi2OfDifference(const SurfaceForm& form, const Surface& a, const Surface& b,
+                                       const mapper::View& view) {
   const auto joint = view.jointCovariance({a.variable, b.variable});
   if (!joint) return std::nullopt;
-  const Eigen::Vector3d difference = geometry::minus(b.plane, a.plane);
-  Eigen::Matrix<double, 3, 6> by_both = Eigen::Matrix<double, 3, 6>::Zero();
-  by_both.topLeftCorner<3, 3>() = -Eigen::Matrix3d::Identity();
-  by_both.block<2, 2>(0, 3) =
-      geometry::tangentBasis(a.plane.normal).transpose() * geometry::tangentBasis(b.plane.normal);
-  by_both(2, 5) = 1;
-  const Eigen::Matrix3d covariance = by_both * *joint * by_both.transpose();
-  return difference.dot(covariance.ldlt().solve(difference));
+  const auto [change, by_both] = form.difference(view.graph.value(a.variable), view.graph.value(b.variable));
+  const Eigen::MatrixXd covariance = by_both * *joint * by_both.transpose();
+  return change.dot(covariance.ldlt().solve(change));
 }
 
 }  // namespace
@@ -55,7 +49,7 @@ bool onOnePlane(const Surface& a, const Surface& b) {
 mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& options, const std::string& section,
                          const mapper::View& view) {
   known.update(view);
-  const double limit = graph::chiSquareQuantile(options.confidence, 3);
+  const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize());
   mapper::Batch batch;
   std::set<base::LandmarkId> merged;
   const auto& all = known.all();
@@ -63,7 +57,7 @@ mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& option
     for (auto b = std::next(a); b != all.end(); ++b) {
       if (merged.count(a->first) > 0) break;
       if (merged.count(b->first) > 0 || !onOnePlane(a->second, b->second) || !overlap(a->second, b->second)) continue;
-      const auto chi2 = chi2OfDifference(a->second, b->second, view);
+      const auto chi2 = chi2OfDifference(known.form(), a->second, b->second, view);
       if (!chi2 || *chi2 > limit * options.inflation * options.inflation) continue;
       merged.insert(a->first);
       merged.insert(b->first);

@@ -10,7 +10,6 @@
 
 #include "PlaneExtent.h"
 #include "PlaneSighting.h"
-#include "PlaneVariable.h"
 
 namespace omnimapper::plugins {
 
@@ -76,7 +75,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
                                        const map::KeyFrames& key_frames) const {
   map::LandmarkShape shape;
   if (values.empty()) return shape;
-  const auto plane = planeFromValue(values.front().data());
+  const auto plane = SurfaceForm::of(form).plane(values.front());
   const PlaneAxes axes(plane);
   const auto corners = cornersInMap(patches, key_frames);
   const auto hull = hullOn(axes, corners);
@@ -107,6 +106,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
 
 void PlanePayload::write(std::ostream& out) const {
   graph::writeUint(out, kVersion, 1);
+  graph::writeUint(out, static_cast<std::uint64_t>(form), 1);
   graph::writeUint(out, patches.size(), 4);
   for (const auto& patch : patches) {
     writeId(out, patch.frame);
@@ -131,6 +131,7 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
                             std::to_string(kVersion) + "; take the OmniMapper that wrote the map");
     }
     auto payload = std::make_shared<PlanePayload>();
+    payload->form = graph::readUint(in, 1) == 0 ? SurfaceForm::Kind::plane : SurfaceForm::Kind::wall;
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
       SurfacePatch patch;
       patch.frame = readId(in);

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "SurfaceForm.h"
+
 namespace omnimapper::plugins {
 
 /// A part of a surface as one observation showed it.
@@ -27,6 +29,7 @@ struct SeenBy {
 /// What is known of a plane landmark beside where its plane is (thesis 4.2.2.1). Its parts hang on the key frames that
 /// saw them and are put on the optimised plane when somebody asks, so that a loop closure moves them for free.
 struct PlanePayload : map::LandmarkPayload {
+  SurfaceForm::Kind form = SurfaceForm::Kind::plane;
   std::vector<SurfacePatch> patches;      ///< those that tell something of the extent that the others do not
   std::map<std::string, SeenBy> seen_by;  ///< sensor label
   base::KeyFrameId last_seen_from;

@@ -60,7 +60,8 @@ std::optional<PlaneSighting> ofPlane(const obs::ObservedPlane& seen, const Se3& 
 // The line x cos a + y sin a = d of the scan, with its middle as far as s along it: errors of a and d turn the
 // direction by -da against the normal, and move the middle by dd - s da (doc/derivations/line_on_plane.md).
 std::optional<PlaneSighting> ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor,
-                                    const Eigen::Vector3d& up_in_base, const PlaneLandmarksOptions& options) {
+                                    const Eigen::Vector3d& up_in_base, const SurfaceForm& form,
+                                    const PlaneLandmarksOptions& options) {
   const Eigen::Vector2d along = geometry::direction(seen.segment_in_sensor);
   const Eigen::Vector2d middle = geometry::middle(seen.segment_in_sensor);
   const double length = geometry::length(seen.segment_in_sensor);
@@ -75,18 +76,23 @@ std::optional<PlaneSighting> ofLine(const obs::LaserLine& seen, const Se3& base_
   const auto inBase = [&](const Eigen::Vector2d& point) -> Eigen::Vector3d {
     return base_from_sensor * Eigen::Vector3d(point.x(), point.y(), 0);
   };
-  const Eigen::Vector3d direction = base_from_sensor.rotation * Eigen::Vector3d(along.x(), along.y(), 0);
+  Eigen::Vector3d direction = base_from_sensor.rotation * Eigen::Vector3d(along.x(), along.y(), 0);
   Eigen::Vector3d normal = up_in_base.cross(direction);
   if (normal.norm() < 0.5) return std::nullopt;  // a scan that stands: its lines tell of no upright plane
   normal.normalize();
   const Eigen::Vector3d from_wall = base_from_sensor.translation - inBase(middle);
-  if (normal.dot(from_wall) < 0) normal = -normal;
+  if (normal.dot(from_wall) < 0) {
+    // The free side is on the left of the direction; the residual's first row, and so da, turns with it.
+    normal = -normal;
+    direction = -direction;
+    covariance(0, 1) = covariance(1, 0) = -covariance(0, 1);
+  }
   return PlaneSighting{true,
                        {},
                        Plane3::through(inBase(middle), normal),
                        {inBase(seen.segment_in_sensor.from), inBase(seen.segment_in_sensor.to)},
                        length,
-                       std::make_shared<LineOnPlaneFactor>(direction, inBase(middle)),
+                       form.ofLine(direction, inBase(middle)),
                        graph::SquareRootInformation::fromCovariance(covariance)};
 }
 
@@ -102,7 +108,7 @@ Eigen::Matrix3d withRoughness(const Plane3& plane, const Eigen::Matrix3d& covari
 }
 
 std::vector<PlaneSighting> planeSightings(const mrpt::obs::CObservation& observation, const Eigen::Vector3d& up_in_base,
-                                          const PlaneLandmarksOptions& options) {
+                                          const SurfaceForm& form, const PlaneLandmarksOptions& options) {
   std::vector<PlaneSighting> sightings;
   const auto take = [&](std::optional<PlaneSighting> sighting, const std::string& label) {
     if (!sighting) return;
@@ -115,7 +121,7 @@ std::vector<PlaneSighting> planeSightings(const mrpt::obs::CObservation& observa
   } else if (const auto* lines = dynamic_cast<const obs::CObservationLaserLines*>(&observation)) {
     const Se3 base_from_sensor = geometry::fromMrpt(lines->sensorPose);
     for (const auto& line : lines->lines)
-      take(ofLine(line, base_from_sensor, up_in_base, options), lines->source_label);
+      take(ofLine(line, base_from_sensor, up_in_base, form, options), lines->source_label);
   }
   return sightings;
 }

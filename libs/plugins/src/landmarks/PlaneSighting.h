@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "SurfaceForm.h"
+
 namespace omnimapper::plugins {
 
 /// One plane of a depth image or one line of a laser, as it binds a plane landmark. All in the frame of the base.
@@ -26,7 +28,7 @@ struct PlaneSighting {
 /// What cannot be used of an observation is left out: not finite, without extent, without a covariance.
 /// `up_in_base` is unit: what upright means for the planes of lines.
 std::vector<PlaneSighting> planeSightings(const mrpt::obs::CObservation& observation, const Eigen::Vector3d& up_in_base,
-                                          const PlaneLandmarksOptions& options);
+                                          const SurfaceForm& form, const PlaneLandmarksOptions& options);
 
 /// Of a plane, with what a surface is off from flat added as it would be about `middle`, where its points are.
 Eigen::Matrix3d withRoughness(const geometry::Plane3& plane, const Eigen::Matrix3d& covariance,

@@ -13,6 +13,8 @@
 namespace omnimapper::plugins {
 
 struct PlaneLandmarksOptions : mapper::AssociationOptions {
+  enum class Form { plane, wall };
+  Form form = Form::plane;
   bool planes = true;                                                  ///< measure CObservationPlanes
   bool lines = true;                                                   ///< measure CObservationLaserLines
   double min_area = 0.25;                                              ///< [m^2] of a new landmark, seen as a plane

@@ -1,0 +1,203 @@
+#include "RelationFactors.h"
+
+#include <omnimapper/geometry/Angle.h>
+#include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/graph/ByteIo.h>
+
+#include <cmath>
+
+#include "PlaneVariable.h"
+#include "WallVariable.h"
+
+namespace omnimapper::plugins {
+
+namespace {
+
+using Kinds = std::vector<std::string_view>;
+template <int Rows, int Columns>
+using RowMajorMap = Eigen::Map<Eigen::Matrix<double, Rows, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
+
+const Kinds& twoWalls() {
+  static const Kinds kinds = {"wall", "wall"};
+  return kinds;
+}
+
+const Kinds& twoPlanes() {
+  static const Kinds kinds = {"plane", "plane"};
+  return kinds;
+}
+
+double headingOf(const geometry::Segment2& wall) {
+  const Eigen::Vector2d along = geometry::direction(wall);
+  return std::atan2(along.y(), along.x());
+}
+
+/// How a normal changes with the tangent of its plane.
+Eigen::Matrix3d normalByPlane(const geometry::Plane3& plane) {
+  Eigen::Matrix3d by_plane = Eigen::Matrix3d::Zero();
+  by_plane.leftCols<2>() = geometry::tangentBasis(plane.normal);
+  return by_plane;
+}
+
+/// b's normal across a's, and its derivatives by both.
+struct Across {
+  Eigen::Vector2d value;
+  Eigen::Matrix<double, 2, 3> by_a, by_b;
+
+  Across(const geometry::Plane3& a, const geometry::Plane3& b) {
+    const Eigen::Matrix<double, 3, 2> basis = geometry::tangentBasis(a.normal);
+    value = basis.transpose() * b.normal;
+    by_b = basis.transpose() * normalByPlane(b);
+    // The basis follows the normal: b1 is the unit axis e made square to n, b2 = n x b1.
+    int axis = 0;
+    a.normal.cwiseAbs().minCoeff(&axis);
+    const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector3d square = along - a.normal * a.normal.dot(along);
+    const double length = square.norm();
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector3d dn = basis.col(i);
+      const Eigen::Vector3d dsquare = -dn * a.normal.dot(along) - a.normal * dn.dot(along);
+      const Eigen::Vector3d db1 = (dsquare - basis.col(0) * basis.col(0).dot(dsquare)) / length;
+      const Eigen::Vector3d db2 = dn.cross(basis.col(0)) + a.normal.cross(db1);
+      by_a.col(i) << db1.dot(b.normal), db2.dot(b.normal);
+    }
+    by_a.col(2).setZero();
+  }
+};
+
+}  // namespace
+
+const Kinds& PointOnWallFactor::variableKinds() const {
+  static const Kinds kinds = {"point2", "wall"};
+  return kinds;
+}
+
+void PointOnWallFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Segment2 wall = wallFromValue(values[1]);
+  const Eigen::Vector2d from_wall = Eigen::Vector2d(values[0][0], values[0][1]) - middle(wall);
+  residual[0] = normalOf(wall).dot(from_wall);
+  if (!jacobians) return;
+  if (jacobians[0]) RowMajorMap<1, 2>{jacobians[0]} = normalOf(wall).transpose();
+  if (jacobians[1]) RowMajorMap<1, 2>{jacobians[1]} << -direction(wall).dot(from_wall), -1;
+}
+
+void PointOnWallFactor::write(std::ostream&) const {}
+
+const Kinds& PointOnPlaneFactor::variableKinds() const {
+  static const Kinds kinds = {"point3", "plane"};
+  return kinds;
+}
+
+void PointOnPlaneFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Plane3 plane = planeFromValue(values[1]);
+  const Eigen::Vector3d point(values[0][0], values[0][1], values[0][2]);
+  residual[0] = signedDistance(plane, point);
+  if (!jacobians) return;
+  if (jacobians[0]) RowMajorMap<1, 3>{jacobians[0]} = plane.normal.transpose();
+  if (jacobians[1]) RowMajorMap<1, 3>{jacobians[1]} << point.transpose() * geometry::tangentBasis(plane.normal), 1;
+}
+
+void PointOnPlaneFactor::write(std::ostream&) const {}
+
+const Kinds& WallTurnFactor::variableKinds() const {
+  return twoWalls();
+}
+
+void WallTurnFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  residual[0] = geometry::wrapToPi(headingOf(wallFromValue(values[1])) - headingOf(wallFromValue(values[0])) -
+                                   quarters_ * geometry::kPi / 2);
+  if (!jacobians) return;
+  if (jacobians[0]) RowMajorMap<1, 2>{jacobians[0]} << -1, 0;
+  if (jacobians[1]) RowMajorMap<1, 2>{jacobians[1]} << 1, 0;
+}
+
+void WallTurnFactor::write(std::ostream& out) const {
+  graph::writeUint(out, static_cast<std::uint64_t>(quarters_), 1);
+}
+
+const Kinds& WallsAlignedFactor::variableKinds() const {
+  return twoWalls();
+}
+
+void WallsAlignedFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Segment2 a = wallFromValue(values[0]), b = wallFromValue(values[1]);
+  const Eigen::Vector2d between = middle(b) - middle(a);
+  residual[0] = geometry::wrapToPi(headingOf(b) - headingOf(a));
+  residual[1] = normalOf(a).dot(between);
+  if (!jacobians) return;
+  if (jacobians[0]) RowMajorMap<2, 2>{jacobians[0]} << -1, 0, -direction(a).dot(between), -1;
+  if (jacobians[1]) RowMajorMap<2, 2>{jacobians[1]} << 1, 0, 0, normalOf(a).dot(normalOf(b));
+}
+
+void WallsAlignedFactor::write(std::ostream&) const {}
+
+const Kinds& PlanesParallelFactor::variableKinds() const {
+  return twoPlanes();
+}
+
+void PlanesParallelFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const Across across(planeFromValue(values[0]), planeFromValue(values[1]));
+  Eigen::Map<Eigen::Vector2d>{residual} = across.value;
+  if (!jacobians) return;
+  if (jacobians[0]) RowMajorMap<2, 3>{jacobians[0]} = across.by_a;
+  if (jacobians[1]) RowMajorMap<2, 3>{jacobians[1]} = across.by_b;
+}
+
+void PlanesParallelFactor::write(std::ostream&) const {}
+
+const Kinds& PlanesSquareFactor::variableKinds() const {
+  return twoPlanes();
+}
+
+void PlanesSquareFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Plane3 a = planeFromValue(values[0]), b = planeFromValue(values[1]);
+  residual[0] = a.normal.dot(b.normal);
+  if (!jacobians) return;
+  if (jacobians[0]) RowMajorMap<1, 3>{jacobians[0]} = b.normal.transpose() * normalByPlane(a);
+  if (jacobians[1]) RowMajorMap<1, 3>{jacobians[1]} = a.normal.transpose() * normalByPlane(b);
+}
+
+void PlanesSquareFactor::write(std::ostream&) const {}
+
+const Kinds& PlanesAlignedFactor::variableKinds() const {
+  return twoPlanes();
+}
+
+void PlanesAlignedFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Plane3 a = planeFromValue(values[0]), b = planeFromValue(values[1]);
+  const Across across(a, b);
+  Eigen::Map<Eigen::Vector2d>{residual} = across.value;
+  residual[2] = signedDistance(b, near_) - signedDistance(a, near_);
+  if (!jacobians) return;
+  const auto fill = [&](double* into, const Eigen::Matrix<double, 2, 3>& turn, const geometry::Plane3& plane,
+                        double sign) {
+    RowMajorMap<3, 3> by_plane(into);
+    by_plane.topRows<2>() = turn;
+    by_plane.row(2) = sign * near_.transpose() * normalByPlane(plane);
+    by_plane(2, 2) += sign;
+  };
+  if (jacobians[0]) fill(jacobians[0], across.by_a, a, -1);
+  if (jacobians[1]) fill(jacobians[1], across.by_b, b, 1);
+}
+
+void PlanesAlignedFactor::write(std::ostream& out) const {
+  for (const double coordinate : near_) graph::writeDouble(out, coordinate);
+}
+
+void addRelationsTo(graph::FactorRegistry& registry) {
+  registry.add("point_on_wall", [](std::istream&) { return std::make_shared<PointOnWallFactor>(); });
+  registry.add("point_on_plane", [](std::istream&) { return std::make_shared<PointOnPlaneFactor>(); });
+  registry.add("wall_turn", [](std::istream& in) {
+    return std::make_shared<WallTurnFactor>(static_cast<int>(graph::readUint(in, 1)));
+  });
+  registry.add("walls_aligned", [](std::istream&) { return std::make_shared<WallsAlignedFactor>(); });
+  registry.add("planes_parallel", [](std::istream&) { return std::make_shared<PlanesParallelFactor>(); });
+  registry.add("planes_square", [](std::istream&) { return std::make_shared<PlanesSquareFactor>(); });
+  registry.add("planes_aligned", [](std::istream& in) {
+    Eigen::Vector3d near;
+    for (double& coordinate : near) coordinate = graph::readDouble(in);
+    return std::make_shared<PlanesAlignedFactor>(near);
+  });
+}
+
+}  // namespace omnimapper::plugins

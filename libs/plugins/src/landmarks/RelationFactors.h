@@ -1,0 +1,100 @@
+#pragma once
+
+#include <omnimapper/graph/Factor.h>
+#include <omnimapper/graph/FactorRegistry.h>
+
+#include <Eigen/Core>
+
+namespace omnimapper::plugins {
+
+/// Virtual measurements (thesis 4.5): what buildings are like, said of two landmarks. Derivations:
+/// doc/derivations/relations.md.
+
+/// A point lies on a wall. Variables: point2, wall. Residual: its distance [m], positive on the free side.
+class PointOnWallFactor : public graph::Factor {
+ public:
+  std::string_view kind() const override { return "point_on_wall"; }
+  int residualSize() const override { return 1; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+};
+
+/// A point lies on a plane. Variables: point3, plane. Residual: its distance [m], positive on the free side.
+class PointOnPlaneFactor : public graph::Factor {
+ public:
+  std::string_view kind() const override { return "point_on_plane"; }
+  int residualSize() const override { return 1; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+};
+
+/// Two walls at a multiple of the right angle. Variables: wall a, wall b. Residual: b's direction less a's less so many
+/// quarter turns [rad], in (-pi, pi].
+class WallTurnFactor : public graph::Factor {
+ public:
+  explicit WallTurnFactor(int quarters) : quarters_(quarters & 3) {}
+
+  std::string_view kind() const override { return "wall_turn"; }
+  int residualSize() const override { return 1; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+
+ private:
+  int quarters_;
+};
+
+/// Two walls on one line, with the same free side. Variables: wall a, wall b. Residual: b's direction less a's [rad],
+/// then the distance of b's middle from a [m].
+class WallsAlignedFactor : public graph::Factor {
+ public:
+  std::string_view kind() const override { return "walls_aligned"; }
+  int residualSize() const override { return 2; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+};
+
+/// Two planes side by side, or face to face. Variables: plane a, plane b. Residual: the part of b's normal across a's,
+/// in the axes of geometry::tangentBasis(a) [rad to first order].
+class PlanesParallelFactor : public graph::Factor {
+ public:
+  std::string_view kind() const override { return "planes_parallel"; }
+  int residualSize() const override { return 2; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+};
+
+/// Two planes at a right angle. Variables: plane a, plane b. Residual: the product of the normals [rad to first order].
+class PlanesSquareFactor : public graph::Factor {
+ public:
+  std::string_view kind() const override { return "planes_square"; }
+  int residualSize() const override { return 1; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+};
+
+/// Two surfaces on one plane, with the same free side. Variables: plane a, plane b. Residual: as PlanesParallelFactor,
+/// then b's distance less a's, as far from the origin as `near`, where both are [m].
+class PlanesAlignedFactor : public graph::Factor {
+ public:
+  explicit PlanesAlignedFactor(const Eigen::Vector3d& near_in_map) : near_(near_in_map) {}
+
+  std::string_view kind() const override { return "planes_aligned"; }
+  int residualSize() const override { return 3; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+
+ private:
+  Eigen::Vector3d near_;
+};
+
+/// Teaches a registry to read what they write.
+void addRelationsTo(graph::FactorRegistry& registry);
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,44 @@
+#include "WallVariable.h"
+
+#include <omnimapper/geometry/Angle.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace omnimapper::plugins {
+
+namespace {
+
+class WallVariable : public graph::Variable {
+ public:
+  std::string_view kind() const override { return "wall"; }
+  int ambientSize() const override { return 4; }
+  int tangentSize() const override { return 2; }
+  void plus(const double* x, const double* delta, double* y) const override {
+    const geometry::Segment2 wall = wallFromValue(x);
+    const Eigen::Vector2d shifted = middle(wall) + delta[1] * normalOf(wall);
+    const Eigen::Vector2d half = Eigen::Rotation2Dd(delta[0]) * (0.5 * (wall.to - wall.from));
+    Eigen::Map<Eigen::Vector4d>{y} = toValue(geometry::Segment2{shifted - half, shifted + half});
+  }
+  void minus(const double* y, const double* x, double* delta) const override {
+    const geometry::Segment2 to = wallFromValue(y), from = wallFromValue(x);
+    const Eigen::Vector2d a = direction(from), b = direction(to);
+    delta[0] = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    delta[1] = normalOf(from).dot(middle(to) - middle(from));
+  }
+};
+
+}  // namespace
+
+const std::shared_ptr<const graph::Variable>& wallVariable() {
+  static const std::shared_ptr<const graph::Variable> kind = std::make_shared<WallVariable>();
+  return kind;
+}
+
+Eigen::Vector4d toValue(const geometry::Segment2& wall) {
+  Eigen::Vector4d value;
+  value << wall.from, wall.to;
+  return value;
+}
+
+}  // namespace omnimapper::plugins
