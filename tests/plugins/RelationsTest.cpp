@@ -89,7 +89,7 @@ TEST(RelationFactors, MakeABoxOfFourWalls) {
   }
   const auto noise = graph::SquareRootInformation::fromSigmas(Eigen::VectorXd::Constant(1, 0.01));
   for (int i = 1; i < 4; ++i) {
-    graph.addFactor({{ids[0], ids[i]}, std::make_shared<WallTurnFactor>(-i), noise});
+    graph.addFactor({{ids[0], ids[i]}, std::make_shared<WallTurnFactor>(i), noise});
     const auto corner = graph.addVariable(graph::point2(), middle(truth[i]), true);
     graph.addFactor({{corner, ids[i]}, std::make_shared<PointOnWallFactor>(), noise});
   }

@@ -120,8 +120,10 @@ TEST_P(SurfaceFormTest, DifferenceChangesAsItSays) {
   const SurfaceForm& form = SurfaceForm::of(GetParam());
   const auto& kind = *form.variable();
   const int size = kind.tangentSize();
-  const std::vector<Eigen::Vector3d> outline = {{2, 0, 0}, {2, 4, 0}};
-  const Eigen::VectorXd a = form.value({{-1, 0, 0}, 2}, outline);
+  // The axes of a plane's tangent jump where two coordinates of its normal are as small: not here.
+  const geometry::Plane3 plane{{-0.8, 0.6, 0}, 2};
+  const Eigen::Vector3d foot = -plane.distance * plane.normal, along(0.6, 0.8, 0);
+  const Eigen::VectorXd a = form.value(plane, {foot - along, foot + along});
   Eigen::VectorXd b(4), delta = Eigen::VectorXd::Constant(size, 0.01);
   kind.plus(a.data(), delta.data(), b.data());
   const auto difference = form.difference(a, b);
