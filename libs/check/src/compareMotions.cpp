@@ -18,7 +18,7 @@ using Mounting = MotionFacts::Mounting;
 
 constexpr double kMoved = 0.1, kTurned = 0.1;  // [m] [rad] what a match tells from rest for sure
 constexpr double kStillWay = 1e-4, kStillTurn = 1e-4;
-constexpr std::size_t kFewestPairs = 8;
+constexpr std::size_t kFewestMotions = 8;
 constexpr double kMatchSigma = 0.01;        // [m] of a match at best
 constexpr double kMatchAngleSigma = 0.003;  // [rad]
 
@@ -67,7 +67,7 @@ std::optional<Fit> fit(const std::vector<Rows>& rows) {
       squared += off[i] * off[i];
       ++used;
     }
-    if (used < kFewestPairs) return std::nullopt;
+    if (used < kFewestMotions) return std::nullopt;
     result.solution = normal.ldlt().solve(right);
     const double variance = std::max(kMatchSigma * kMatchSigma, squared / (2 * static_cast<double>(used)));
     result.covariance = variance * normal.inverse();
@@ -95,7 +95,7 @@ std::optional<Mounting> mountingOf(const std::vector<MatchedMotion>& motions) {
 
 // Standard deviation after one unit, of squared errors per unit, robustly by their median.
 std::optional<double> noiseOf(const std::vector<double>& squared_per_unit, double chi2_median) {
-  if (squared_per_unit.size() < kFewestPairs) return std::nullopt;
+  if (squared_per_unit.size() < kFewestMotions) return std::nullopt;
   return std::sqrt(std::max(0.0, quantile(squared_per_unit, 0.5) / chi2_median));
 }
 

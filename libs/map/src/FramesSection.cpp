@@ -11,9 +11,9 @@ namespace omnimapper::map {
 
 namespace {
 
-const std::string kName = "frames";
+const std::string kFramesName = "frames";
 // Version 2 says of each key frame whether the reference sensor saw something there.
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kFramesVersion = 2;
 
 // The rotation matrix is what CPose3D keeps: angles or a quaternion would round, and a map saved twice would differ.
 void writePose(ByteWriter& out, const mrpt::poses::CPose3D& pose) {
@@ -47,11 +47,11 @@ mrpt::obs::CObservation::ConstPtr readObservation(ByteReader& in) {
     memory.assignMemoryNotOwn(bytes.data(), bytes.size());
     object = mrpt::serialization::archiveFrom(memory).ReadObject();
   } catch (const std::exception& error) {
-    refuse(kName,
+    refuse(kFramesName,
            "an observation cannot be read; load the library that has its class. MRPT says: " + base::sentenceOf(error));
   }
   auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
-  if (!observation) refuse(kName, "holds something that is no observation where one should be");
+  if (!observation) refuse(kFramesName, "holds something that is no observation where one should be");
   return observation;
 }
 
@@ -94,7 +94,7 @@ Map mapOf(std::vector<KeyFrame> frames) {
   try {
     for (KeyFrame& frame : frames) map.key_frames.insert(std::move(frame));
   } catch (const base::Error& error) {
-    refuse(kName, std::string(error.what()) + ": the file is damaged");
+    refuse(kFramesName, std::string(error.what()) + ": the file is damaged");
   }
   return map;
 }
@@ -105,15 +105,15 @@ MapSection framesToSection(const Map& map) {
   ByteWriter out;
   out.uint(map.key_frames.size(), 4);
   for (const KeyFrame& frame : map.key_frames) writeFrame(out, frame);
-  return {kName, kVersion, out.take()};
+  return {kFramesName, kFramesVersion, out.take()};
 }
 
 Map framesFromSection(const MapSection& section) {
-  expectSection(section, kName, kVersion);
-  ByteReader in(section.bytes, placeOf(kName));
+  expectSection(section, kFramesName, kFramesVersion);
+  ByteReader in(section.bytes, placeOf(kFramesName));
   std::vector<KeyFrame> frames;
   for (std::uint64_t left = in.uint(4); left > 0; --left) frames.push_back(readFrame(in, section.version));
-  expectEnd(in, kName);
+  expectEnd(in, kFramesName);
   return mapOf(std::move(frames));
 }
 

@@ -9,8 +9,8 @@ namespace omnimapper::map {
 
 namespace {
 
-const std::string kName = "landmarks";
-constexpr std::uint32_t kVersion = 1;
+const std::string kLandmarksName = "landmarks";
+constexpr std::uint32_t kLandmarksVersion = 1;
 // Indices that were given and are gone take memory: a number beyond this is damaged.
 constexpr std::uint64_t kMaxHoles = 1'000'000;
 
@@ -54,7 +54,7 @@ Landmark readLandmark(ByteReader& in, base::LandmarkId id, const PayloadRegistry
   landmark.last_seen = readStamp(in);
   const std::uint64_t state = in.uint(1);
   if (state > static_cast<std::uint64_t>(Landmark::State::merged)) {
-    refuse(kName, "landmark " + toString(id) + " is in an unknown state: the file is damaged");
+    refuse(kLandmarksName, "landmark " + toString(id) + " is in an unknown state: the file is damaged");
   }
   landmark.state = static_cast<Landmark::State>(state);
   landmark.merged_into = readId<base::LandmarkTag>(in);
@@ -74,13 +74,13 @@ MapSection landmarksToSection(const Map& map) {
     writeId(out, id);
     writeLandmark(out, landmark);
   }
-  return {kName, kVersion, out.take()};
+  return {kLandmarksName, kLandmarksVersion, out.take()};
 }
 
 base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection& section,
                                                                const PayloadRegistry& payloads) {
-  expectSection(section, kName, kVersion);
-  ByteReader in(section.bytes, placeOf(kName));
+  expectSection(section, kLandmarksName, kLandmarksVersion);
+  ByteReader in(section.bytes, placeOf(kLandmarksName));
   std::map<std::uint16_t, std::uint32_t> next;
   for (std::uint64_t left = in.uint(4); left > 0; --left) {
     const auto id = readId<base::LandmarkTag>(in);
@@ -91,7 +91,7 @@ base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection&
     const std::uint32_t at = table.nextId(id.session).index;
     const auto end = next.find(id.session);
     if (end == next.end() || id.index > end->second || id.index < at || id.index - at > kMaxHoles) {
-      refuse(kName, "id " + toString(id) + " is out of order: the file is damaged");
+      refuse(kLandmarksName, "id " + toString(id) + " is out of order: the file is damaged");
     }
     while (table.nextId(id.session).index < id.index) table.skip(id.session);
   };
@@ -101,7 +101,7 @@ base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection&
     table.add(id.session, readLandmark(in, id, payloads));
   }
   for (const auto& [session, index] : next) skipTo({session, index});
-  expectEnd(in, kName);
+  expectEnd(in, kLandmarksName);
   return table;
 }
 

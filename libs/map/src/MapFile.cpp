@@ -21,7 +21,7 @@ namespace {
 const std::string kMagic = "OMNIMAP\n";
 constexpr std::uint32_t kFormatVersion = 1;
 
-[[noreturn]] void refuse(const std::string& what, const std::string& reason) {
+[[noreturn]] void refuseFile(const std::string& what, const std::string& reason) {
   throw base::Error(base::ExitCode::unreadable_input, what + ": " + reason);
 }
 
@@ -48,10 +48,10 @@ std::uint32_t checksumOf(const std::string& header, std::string_view bytes) {
 std::string contentOf(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in)
-    refuse(path, std::string("cannot be opened (") + std::strerror(errno) + "). Check the name of the map file.");
+    refuseFile(path, std::string("cannot be opened (") + std::strerror(errno) + "). Check the name of the map file.");
   std::ostringstream content;
   content << in.rdbuf();
-  if (in.bad()) refuse(path, "cannot be read to its end. Check the disk.");
+  if (in.bad()) refuseFile(path, "cannot be read to its end. Check the disk.");
   return std::move(content).str();
 }
 
@@ -65,7 +65,7 @@ MapSection readSection(ByteReader& in, const std::string& path, std::uint32_t nu
   section.version = static_cast<std::uint32_t>(in.uint(4));
   section.bytes = in.block();
   if (checksumOf(headerOf(section), section.bytes) != checksum) {
-    refuse(what, "its checksum does not fit: the file is damaged. Take another copy of it.");
+    refuseFile(what, "its checksum does not fit: the file is damaged. Take another copy of it.");
   }
   return section;
 }
@@ -75,24 +75,24 @@ MapSection readSection(ByteReader& in, const std::string& path, std::uint32_t nu
 MapFile MapFile::read(const std::string& path) {
   const std::string content = contentOf(path);
   if (content.compare(0, kMagic.size(), kMagic) != 0) {
-    refuse(path, "is no map file of OmniMapper: it does not begin with \"OMNIMAP\".");
+    refuseFile(path, "is no map file of OmniMapper: it does not begin with \"OMNIMAP\".");
   }
   ByteReader in(content, path);
   in.raw(kMagic.size());
   const std::uint64_t format = in.uint(4);
   if (format != kFormatVersion) {
-    refuse(path, "was written in format " + std::to_string(format) + ", and this program reads format " +
-                     std::to_string(kFormatVersion) + ". Use the OmniMapper that wrote it, or a later one.");
+    refuseFile(path, "was written in format " + std::to_string(format) + ", and this program reads format " +
+                         std::to_string(kFormatVersion) + ". Use the OmniMapper that wrote it, or a later one.");
   }
   const std::uint64_t count = in.uint(4);
   MapFile file;
   for (std::uint64_t i = 0; i < count; ++i) {
     MapSection section = readSection(in, path, static_cast<std::uint32_t>(i + 1));
-    if (file.find(section.name)) refuse(path, "has two sections \"" + section.name + "\": the file is damaged.");
+    if (file.find(section.name)) refuseFile(path, "has two sections \"" + section.name + "\": the file is damaged.");
     file.sections_.push_back(std::move(section));
   }
   if (!in.atEnd()) {
-    refuse(path, "goes on after the last of its " + std::to_string(count) + " sections: the file is damaged.");
+    refuseFile(path, "goes on after the last of its " + std::to_string(count) + " sections: the file is damaged.");
   }
   return file;
 }

@@ -5,8 +5,8 @@
 namespace omnimapper::map {
 
 namespace {
-const std::string kName = "sessions";
-constexpr std::uint32_t kVersion = 1;
+const std::string kSessionsName = "sessions";
+constexpr std::uint32_t kSessionsVersion = 1;
 }  // namespace
 
 MapSection sessionsToSection(const Map& map) {
@@ -20,12 +20,12 @@ MapSection sessionsToSection(const Map& map) {
     out.uint(session.joined_at.has_value(), 1);
     if (session.joined_at) writeId(out, *session.joined_at);
   }
-  return {kName, kVersion, out.take()};
+  return {kSessionsName, kSessionsVersion, out.take()};
 }
 
 std::vector<Session> sessionsFromSection(const MapSection& section) {
-  expectSection(section, kName, kVersion);
-  ByteReader in(section.bytes, placeOf(kName));
+  expectSection(section, kSessionsName, kSessionsVersion);
+  ByteReader in(section.bytes, placeOf(kSessionsName));
   std::vector<Session> sessions;
   for (std::uint64_t left = in.uint(4); left > 0; --left) {
     Session session;
@@ -35,11 +35,11 @@ std::vector<Session> sessionsFromSection(const MapSection& section) {
     session.joined = in.uint(1) != 0;
     if (in.uint(1) != 0) session.joined_at = readId<base::KeyFrameTag>(in);
     if (!sessions.empty() && session.number <= sessions.back().number) {
-      refuse(kName, "session " + std::to_string(session.number) + " is out of order: the file is damaged");
+      refuse(kSessionsName, "session " + std::to_string(session.number) + " is out of order: the file is damaged");
     }
     sessions.push_back(std::move(session));
   }
-  expectEnd(in, kName);
+  expectEnd(in, kSessionsName);
   return sessions;
 }
 

@@ -13,7 +13,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr std::uint16_t kMost = 60000;  // counts stay below it
+constexpr std::uint16_t kMostCounts = 60000;  // counts stay below it
 
 class Mover {
  public:
@@ -96,7 +96,7 @@ void BeamGrid::add(const Placed& placed) {
   const auto pass = [&](const Eigen::Vector2d& to) {
     walk(from, to, [&](int x, int y) {
       Cell& passed = cell(x, y);
-      if (passed.passes < kMost) ++passed.passes;
+      if (passed.passes < kMostCounts) ++passed.passes;
       return true;
     });
   };
@@ -104,7 +104,7 @@ void BeamGrid::add(const Placed& placed) {
     const Eigen::Vector2d to = inCells(point);
     pass(to);
     Cell& end = cell(static_cast<int>(to.x()), static_cast<int>(to.y()));
-    if (end.hits < kMost) ++end.hits;
+    if (end.hits < kMostCounts) ++end.hits;
   }
   for (const auto& point : placed.scan->misses) pass(inCells(point));
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr double kJudgedWithin = 0.3;  // [m] of a partner for the overlap
 constexpr double kJudgedLoss = 0.1;    // [m]
 // The loss has the scale of so many times what most points are away from their lines.
-constexpr double kMost = 0.5, kSpreads = 4.5;
+constexpr double kQuantile = 0.5, kSpreads = 4.5;
 constexpr double kSmallestLoss = 0.07;  // [m]
 // A point of the reference without a line holds a point of the scan from all sides, but by less than a line: it is
 // clutter, or an edge that the next beam passes. It says little of which directions the walls fix.
@@ -92,7 +92,7 @@ ScanMatch PointToLineMatcher::match(const MatchReference& reference, const Plana
   for (int i = 0; i < options_.max_iterations; ++i) {
     partners.find(pose, reach);
     if (partners.count() == 0) return toMatch(partners, scan, guess.reference_from_scan);
-    const double spread = kSpreads * partners.quantile(pose, kMost);
+    const double spread = kSpreads * partners.quantile(pose, kQuantile);
     loss_scale = std::clamp(spread, kSmallestLoss, std::max(kSmallestLoss, loss_scale));
     const double moved = refine(partners, guess, loss_scale, wide, pose);
     if (!wide && moved < kStill && reach < 1.01 * std::max(options_.min_distance, kReachOfLoss * loss_scale)) {

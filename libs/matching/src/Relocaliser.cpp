@@ -10,7 +10,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kTurn = 6.28318530717958647692;
 constexpr double kMetresPerRadian = 2;              // how far away a scan of the map counts that looks another way
 constexpr double kAstray = 0.3, kAstrayTurn = 0.1;  // [m] [rad] by which the matcher may err along a corridor
 constexpr double kHopeless = 0.3;                   // mean logarithms of likelihoods by which a candidate is out
@@ -18,7 +18,7 @@ constexpr std::size_t kSectors = 30;
 constexpr double kSpread = 0.05;  // of mean logarithms of likelihoods over a cell of the grid that they are read from
 
 double turn(const TPose2D& a, const TPose2D& b) {
-  return std::abs(std::remainder(a.phi - b.phi, 2 * kPi));
+  return std::abs(std::remainder(a.phi - b.phi, kTurn));
 }
 double distance(const TPose2D& a, const TPose2D& b) {
   return std::hypot(a.x - b.x, a.y - b.y);

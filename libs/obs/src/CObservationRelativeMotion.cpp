@@ -18,7 +18,7 @@ namespace omnimapper::obs {
 
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / 3.14159265358979323846;
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 std::string stampText(base::Stamp stamp) {
   return stamp == base::Stamp() ? "none" : base::formatUnix(stamp);
@@ -74,12 +74,12 @@ void CObservationRelativeMotion::getDescriptionAsText(std::ostream& out) const {
     out << "Length of the span [s]:     " << base::secondsBetween(begin, timestamp) << "\n";
   const auto& p = begin_from_end;
   out << "Pose of the end in the start, x y z [m]: " << p.x() << " " << p.y() << " " << p.z() << "\n"
-      << "Pose of the end in the start, yaw pitch roll [deg]: " << p.yaw() * kDegreesPerRadian << " "
-      << p.pitch() * kDegreesPerRadian << " " << p.roll() * kDegreesPerRadian << "\n"
+      << "Pose of the end in the start, yaw pitch roll [deg]: " << p.yaw() * kDegrees << " " << p.pitch() * kDegrees
+      << " " << p.roll() * kDegrees << "\n"
       << "Standard deviations, x y z [m] in the base at the end: ";
   for (int i = 0; i < 3; ++i) out << std::sqrt(covariance(i, i)) << " ";
   out << "\nStandard deviations, rotation vector [deg] in the base at the end: ";
-  for (int i = 3; i < 6; ++i) out << std::sqrt(covariance(i, i)) * kDegreesPerRadian << " ";
+  for (int i = 3; i < 6; ++i) out << std::sqrt(covariance(i, i)) * kDegrees << " ";
   out << "\nCovariance (x y z [m], rotation vector [rad]):\n" << covariance << "\n";
 }
 

@@ -50,7 +50,7 @@ namespace {
 
 using objects::Surface;
 
-constexpr double kSigmas = 3;          // what noise may do
+constexpr double kNoiseSigmas = 3;     // what noise may do
 constexpr double kLowest = 0.02;       // share of a thing's points that may be noise below the rest
 constexpr double kFoot = 0.03;         // [m] beside the noise, of a thing that may be lost in the surface
 constexpr std::size_t kSample = 4096;  // points of a cluster that tell its surface, its axes and its covariance
@@ -102,7 +102,7 @@ std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const
                                           double noise_at_1m) {
   std::vector<std::uint16_t> labels = planes.labels;
   const Doubtful doubtful(labels, points, of_place);
-  const auto height = static_cast<float>(min_height), noise = static_cast<float>(kSigmas * noise_at_1m);
+  const auto height = static_cast<float>(min_height), noise = static_cast<float>(kNoiseSigmas * noise_at_1m);
   std::vector<float> excess;
   for (const Surface& surface : surfaces) {
     excess.assign(doubtful.pixels.size(), 0.F);
@@ -226,7 +226,7 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
   const auto surfaces = objects::findSurfaces(planes, options_, sensor_.bend_at_1m, up);
   const auto of_place = objects::labelsOfThePlace(planes, options_, surfaces);
   const auto labels = withRemainders(planes, points, surfaces, of_place, options_.min_height, sensor_.noise_at_1m);
-  const auto noise = static_cast<float>(kSigmas * sensor_.noise_at_1m);
+  const auto noise = static_cast<float>(kNoiseSigmas * sensor_.noise_at_1m);
   const ClusterComparator near{points, labels, of_place, static_cast<float>(options_.max_gap), noise};
 
   for (auto& pixels : clustersOf(image, near, options_, sensor_)) {
@@ -247,7 +247,7 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
     if (under != nullptr) {
       region.surface = surface->plane;
       // The box goes down to it where the lowest of the thing was taken for the surface.
-      const double foot = kFoot + kSigmas * sensor_.noise_at_1m * region.centroid.z() * region.centroid.z();
+      const double foot = kFoot + kNoiseSigmas * sensor_.noise_at_1m * region.centroid.z() * region.centroid.z();
       const Eigen::Vector3d below = region.centroid - signedDistance(*under, region.centroid) * under->normal;
       if (gap < foot) cluster.push_back(below.cast<float>());
     }

@@ -38,7 +38,7 @@ namespace {
 
 constexpr int kLeastSeed = 200;      // pixels of a component that the second pass begins with
 constexpr float kStanding = 0.707F;  // cosine: a surface steeper than 45 degrees to the ground stands on it
-constexpr int kFoot = 12;            // [px]
+constexpr int kFootRows = 12;        // [px]
 
 NormalImage normalsOf(const DepthImage& image, const RoadOptions& options) {
   return NormalEstimator(normalsBy(options, options.window_radius)).estimate(image);
@@ -59,7 +59,7 @@ std::vector<std::uint8_t> feetOf(const NormalImage& normals, const Eigen::Vector
   for (int y = 0; y < normals.height; ++y) {
     for (int& of_column : left) {
       const float cosine = normals.x()[i] * up.x() + normals.y()[i] * up.y() + normals.z()[i] * up.z();
-      of_column = cosine < kStanding ? kFoot : of_column - 1;
+      of_column = cosine < kStanding ? kFootRows : of_column - 1;
       feet[i++] = of_column > 0;
     }
   }

@@ -20,13 +20,6 @@ RTCDevice device() {
   return instance;
 }
 
-/// A triangle in the map, as a hit needs it.
-struct Placed {
-  Eigen::Vector3d corner, normal;
-  std::array<Eigen::Vector2f, 3> texture_at;
-  int surface;
-};
-
 }  // namespace
 
 /// The bodies that share a moment, built for casting.
@@ -87,6 +80,13 @@ class Scene::Part {
   }
 
  private:
+  /// A triangle in the map, as a hit needs it.
+  struct Placed {
+    Eigen::Vector3d corner, normal;
+    std::array<Eigen::Vector2f, 3> texture_at;
+    int surface;
+  };
+
   RTCScene scene_;
   std::vector<Placed> placed_;
   std::vector<float> corners_;

@@ -9,6 +9,7 @@
 #include "CarmenLasers.h"
 #include "CarmenLine.h"
 #include "LineReader.h"
+#include "refuse.h"
 
 namespace omnimapper::source {
 
@@ -20,10 +21,6 @@ constexpr const char* kOdometryLabel = "ODOM";
 constexpr const char* kScanOdometrySuffix = "_ODOM";
 constexpr std::size_t kBadLinesKept = 10;
 constexpr std::uint64_t kLinesUntilFirstWord = 1000;
-
-[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
-  throw base::Error(base::ExitCode::unreadable_input, path + ": " + reason);
-}
 
 // Throws if none of the first lines begins with a word of CARMEN.
 void checkKind(const std::string& path) {

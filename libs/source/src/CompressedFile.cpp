@@ -11,6 +11,8 @@
 #include <cstring>
 #include <vector>
 
+#include "refuse.h"
+
 namespace omnimapper::source {
 
 /// One compressed member after another.
@@ -86,10 +88,6 @@ class Bzip2Decoder : public CompressedFile::Decoder {
 };
 
 constexpr std::size_t kChunk = 1 << 16;
-
-[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
-  throw base::Error(base::ExitCode::unreadable_input, path + ": " + reason);
-}
 
 }  // namespace
 

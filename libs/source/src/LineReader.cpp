@@ -3,13 +3,13 @@
 namespace omnimapper::source {
 
 namespace {
-constexpr std::size_t kChunk = 1 << 16;
+constexpr std::size_t kReadAtOnce = 1 << 16;
 constexpr std::size_t kLongest = 1 << 20;
 }  // namespace
 
 bool LineReader::refill() {
-  buffer_.resize(kChunk);
-  buffer_.resize(file_.read(buffer_.data(), kChunk));
+  buffer_.resize(kReadAtOnce);
+  buffer_.resize(file_.read(buffer_.data(), kReadAtOnce));
   next_ = 0;
   return !buffer_.empty();
 }

@@ -28,7 +28,7 @@ struct Header {
   std::string data;
 };
 
-[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+[[noreturn]] void refusePcd(const std::string& path, const std::string& reason) {
   throw base::Error(base::ExitCode::unreadable_input, path + ": is no PCD file that can be read: " + reason);
 }
 
@@ -61,17 +61,17 @@ void readHeaderLine(const std::string& text, Header& header) {
 Header readHeader(std::istream& in, const std::string& path) {
   Header header;
   for (std::string line; header.data.empty() && std::getline(in, line);) readHeaderLine(line, header);
-  if (header.data.empty()) refuse(path, "it has no line DATA");
+  if (header.data.empty()) refusePcd(path, "it has no line DATA");
   for (Field& field : header.fields) {
     field.offset = header.row;
     const bool is_known = field.type == 'F' ? field.size == 4 || field.size == 8 : field.size <= 8;
-    if (!is_known || field.count > kLongestRow) refuse(path, "its field " + field.name + " has no known size");
+    if (!is_known || field.count > kLongestRow) refusePcd(path, "its field " + field.name + " has no known size");
     header.row += field.bytes();
   }
-  if (header.row > kLongestRow) refuse(path, "its points are too large");
+  if (header.row > kLongestRow) refusePcd(path, "its points are too large");
   const bool fits =
       header.width <= kMostPoints && header.height <= kMostPoints && header.width * header.height <= kMostPoints;
-  if (!fits) refuse(path, "it has too many points");
+  if (!fits) refusePcd(path, "it has too many points");
   header.points = header.width * header.height;
   return header;
 }
@@ -82,7 +82,7 @@ std::string decompressed(const std::string& from, std::size_t size, const std::s
   std::string to;  // grows as data comes: the size is only what the header claims
   std::size_t i = 0;
   const auto next = [&] {
-    if (i >= from.size()) refuse(path, "its data ends too early");
+    if (i >= from.size()) refusePcd(path, "its data ends too early");
     return static_cast<std::size_t>(static_cast<unsigned char>(from[i++]));
   };
   while (to.size() < size && i < from.size()) {
@@ -94,10 +94,10 @@ std::string decompressed(const std::string& from, std::size_t size, const std::s
     std::size_t length = control >> 5;
     if (length == 7) length += next();
     const std::size_t back = ((control & 31) << 8) + next() + 1;
-    if (back > to.size()) refuse(path, "its data is damaged");
+    if (back > to.size()) refusePcd(path, "its data is damaged");
     for (std::size_t k = 0; k < length + 2; ++k) to.push_back(to[to.size() - back]);
   }
-  if (to.size() != size) refuse(path, "its data is damaged");
+  if (to.size() != size) refusePcd(path, "its data is damaged");
   return to;
 }
 
@@ -115,16 +115,16 @@ class Numbers {
     if (header.data == "binary_compressed") {
       field_by_field_ = true;
       const std::uint32_t compressed = readCount(in), whole = readCount(in);
-      if (whole != size) refuse(path, "its data is not as large as its points");
+      if (whole != size) refusePcd(path, "its data is not as large as its points");
       bytes_ = decompressed(rest(in, compressed), size, path);
     } else if (header.data == "binary") {
       bytes_ = rest(in, size);
     } else if (header.data == "ascii") {
       readText(in);
     } else {
-      refuse(path, "its data is '" + header.data + "'");
+      refusePcd(path, "its data is '" + header.data + "'");
     }
-    if (bytes_.size() < size) refuse(path, "its data ends too early");
+    if (bytes_.size() < size) refusePcd(path, "its data ends too early");
   }
 
   /// Of the field's first number, whatever its type.
@@ -213,7 +213,7 @@ PcdCloud readPcd(const std::string& path) {
   if (!in) throw base::Error(base::ExitCode::unreadable_input, path + ": cannot be opened");
   const Header header = readHeader(in, path);
   const Field *x = fieldNamed(header, {"x"}), *y = fieldNamed(header, {"y"}), *z = fieldNamed(header, {"z"});
-  if (x == nullptr || y == nullptr || z == nullptr) refuse(path, "it lacks x, y or z");
+  if (x == nullptr || y == nullptr || z == nullptr) refusePcd(path, "it lacks x, y or z");
   const Field *rgb = fieldNamed(header, {"rgb", "rgba"}), *label = fieldNamed(header, {"label"});
   const Numbers numbers(in, header, path);
   PcdCloud cloud;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "refuse.h"
+
 namespace omnimapper::source {
 
 namespace {
@@ -14,10 +16,6 @@ namespace fs = std::filesystem;
 constexpr double kUnit = 1e-4;              // [m]
 constexpr double kFirstStamp = 1e9;         // [s] of clouds without stamps
 constexpr double kPixelsFromTheRay = 0.25;  // a pinhole camera's points lie on the rays of their pixels
-
-[[noreturn]] void refuse(const std::string& name, const std::string& reason) {
-  throw base::Error(base::ExitCode::unreadable_input, name + ": " + reason);
-}
 
 /// pixel = focal * slope + middle, by least squares over points.
 struct Axis {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "RgbdFolderForms.h"
+#include "refuse.h"
 
 namespace omnimapper::source {
 
@@ -29,10 +30,6 @@ const std::map<std::string, Intrinsics>& knownIntrinsics() {
       {"freiburg3", {535.4, 539.2, 320.1, 247.6}}, {"icl_nuim", {481.2, 480.0, 319.5, 239.5}},
       {"7_scenes", {585.0, 585.0, 320.0, 240.0}},  {"openni", {525.0, 525.0, 319.5, 239.5}}};
   return known;
-}
-
-[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
-  throw base::Error(base::ExitCode::unreadable_input, path + ": " + reason);
 }
 
 // The number behind "fx:", "fx =" or "\"fx\":" in a text.

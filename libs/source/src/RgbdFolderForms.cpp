@@ -5,15 +5,13 @@
 #include <map>
 #include <sstream>
 
+#include "refuse.h"
+
 namespace omnimapper::source {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
-  throw base::Error(base::ExitCode::unreadable_input, path.string() + ": " + reason);
-}
 
 /// A list of "stamp ..." lines; '#' begins a comment.
 std::vector<std::pair<base::Stamp, std::string>> readList(const fs::path& path) {

@@ -18,15 +18,15 @@ using planes::LaneMask;
 using planes::Lanes;
 
 // What a pixel and its neighbour may be to each other: of other direction, or only one of them with a normal.
-enum Mark : std::int32_t { kRight = 1, kBelow = 2, kGapRight = 4, kGapBelow = 8 };
+enum CreaseMark : std::int32_t { kCreaseRight = 1, kCreaseBelow = 2, kGapRight = 4, kGapBelow = 8 };
 
-struct RowTask {
+struct CreaseTask {
   const float *x, *y, *z;  // normals of the row
   const float* inverse;
   float least, noise;  // squared chords between unit normals; that of noise at 1/z = 1
 };
 
-OMNIMAPPER_KERNEL_BODY void compare(const RowTask& task, int at, std::ptrdiff_t step, int turned, int gap,
+OMNIMAPPER_KERNEL_BODY void compare(const CreaseTask& task, int at, std::ptrdiff_t step, int turned, int gap,
                                     LaneMask& marks) {
   Lanes x, y, z, other_x, other_y, other_z, q;
   planes::load(x, task.x + at);
@@ -45,22 +45,22 @@ OMNIMAPPER_KERNEL_BODY void compare(const RowTask& task, int at, std::ptrdiff_t 
 }
 
 // `below`: whether there is a row below.
-OMNIMAPPER_KERNEL_BODY void markRowBody(const RowTask& task, int end, int width, bool below, std::uint8_t* to) {
+OMNIMAPPER_KERNEL_BODY void markRowBody(const CreaseTask& task, int end, int width, bool below, std::uint8_t* to) {
   for (int x = 0; x < end; x += kLanes) {
     LaneMask marks{};
-    compare(task, x, 1, kRight, kGapRight, marks);
-    if (below) compare(task, x, width, kBelow, kGapBelow, marks);
+    compare(task, x, 1, kCreaseRight, kGapRight, marks);
+    if (below) compare(task, x, width, kCreaseBelow, kGapBelow, marks);
     storeMarks(marks, to + x);
   }
 }
 
 #ifdef OMNIMAPPER_KERNEL_AVX2
-OMNIMAPPER_KERNEL_AVX2 void markRowAvx2(const RowTask& task, int end, int width, bool below, std::uint8_t* to) {
+OMNIMAPPER_KERNEL_AVX2 void markRowAvx2(const CreaseTask& task, int end, int width, bool below, std::uint8_t* to) {
   markRowBody(task, end, width, below, to);
 }
 #endif
 
-void markRow(const RowTask& task, int end, int width, bool below, std::uint8_t* to) {
+void markRow(const CreaseTask& task, int end, int width, bool below, std::uint8_t* to) {
 #ifdef OMNIMAPPER_KERNEL_AVX2
   if (planes::hasAvx2()) return markRowAvx2(task, end, width, below, to);
 #endif
@@ -91,7 +91,7 @@ class CreaseMarking {
     std::vector<std::uint8_t> marks(static_cast<std::size_t>(inverse_.stride + kLanes), 0);
     for (int y = 0; y < height; ++y) {
       const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(y) * width;
-      const RowTask task{
+      const CreaseTask task{
           normals_.x() + first, normals_.y() + first, normals_.z() + first, inverse_.at(0, y), least_, noise_};
       // Eight from the last but one column on would read behind the image; those few are done by themselves.
       const int lanes_end = std::max(0, (width - 1) / kLanes * kLanes);
@@ -131,11 +131,11 @@ class CreaseMarking {
   std::uint8_t markOf(int x, int y) const {
     int mark = 0;
     if (x + 1 < normals_.width) {
-      mark |= turns(x, y, x + 1, y) ? kRight : 0;
+      mark |= turns(x, y, x + 1, y) ? kCreaseRight : 0;
       mark |= hasNormal(x, y) != hasNormal(x + 1, y) ? kGapRight : 0;
     }
     if (y + 1 < normals_.height) {
-      mark |= turns(x, y, x, y + 1) ? kBelow : 0;
+      mark |= turns(x, y, x, y + 1) ? kCreaseBelow : 0;
       mark |= hasNormal(x, y) != hasNormal(x, y + 1) ? kGapBelow : 0;
     }
     return static_cast<std::uint8_t>(mark);
@@ -145,8 +145,8 @@ class CreaseMarking {
     int before_gap = kNone;
     forEachMark(marks.data(), static_cast<int>(marks.size()) - kLanes, [&](int x) {
       const int mark = marks[static_cast<std::size_t>(x)];
-      if ((mark & kRight) != 0) addTurn({x, y, 1, 0, 1});
-      if ((mark & kBelow) != 0) addTurn({x, y, 0, 1, 1});
+      if ((mark & kCreaseRight) != 0) addTurn({x, y, 1, 0, 1});
+      if ((mark & kCreaseBelow) != 0) addTurn({x, y, 0, 1, 1});
       if ((mark & kGapRight) != 0) {
         if (!hasNormal(x, y) && before_gap != kNone) endGap({before_gap, y, 1, 0, x + 1 - before_gap});
         before_gap = x;

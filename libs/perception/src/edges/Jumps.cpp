@@ -17,17 +17,24 @@ using planes::LaneMask;
 using planes::Lanes;
 
 // What a pixel and a neighbour may be to each other: far apart, or only one of them measured.
-enum Mark : std::int32_t { kRight = 1, kBelow = 2, kBelowRight = 4, kBelowLeft = 8, kHoleRight = 16, kHoleBelow = 32 };
+enum JumpMark : std::int32_t {
+  kRight = 1,
+  kBelow = 2,
+  kBelowRight = 4,
+  kBelowLeft = 8,
+  kHoleRight = 16,
+  kHoleBelow = 32
+};
 
 // While labels are made: beside a hole that nothing was found behind; beside one that was bridged.
 constexpr std::uint8_t kOpen = 64, kBridged = 128;
 
-struct RowTask {
+struct JumpTask {
   const float *here, *below;
   float least, share;
 };
 
-OMNIMAPPER_KERNEL_BODY void compare(const Lanes& q, const float* neighbour, const RowTask& task, int apart, int hole,
+OMNIMAPPER_KERNEL_BODY void compare(const Lanes& q, const float* neighbour, const JumpTask& task, int apart, int hole,
                                     LaneMask& marks) {
   Lanes other;
   planes::load(other, neighbour);
@@ -38,7 +45,7 @@ OMNIMAPPER_KERNEL_BODY void compare(const Lanes& q, const float* neighbour, cons
   if (hole != 0) marks |= (near > 0.F) & (far <= 0.F) & hole;
 }
 
-OMNIMAPPER_KERNEL_BODY void markRowBody(const RowTask& task, int n, std::uint8_t* to) {
+OMNIMAPPER_KERNEL_BODY void markRowBody(const JumpTask& task, int n, std::uint8_t* to) {
   for (int x = 0; x < n; x += kLanes) {
     Lanes q;
     planes::load(q, task.here + x);
@@ -52,12 +59,12 @@ OMNIMAPPER_KERNEL_BODY void markRowBody(const RowTask& task, int n, std::uint8_t
 }
 
 #ifdef OMNIMAPPER_KERNEL_AVX2
-OMNIMAPPER_KERNEL_AVX2 void markRowAvx2(const RowTask& task, int n, std::uint8_t* to) {
+OMNIMAPPER_KERNEL_AVX2 void markRowAvx2(const JumpTask& task, int n, std::uint8_t* to) {
   markRowBody(task, n, to);
 }
 #endif
 
-void markRow(const RowTask& task, int n, std::uint8_t* to) {
+void markRow(const JumpTask& task, int n, std::uint8_t* to) {
 #ifdef OMNIMAPPER_KERNEL_AVX2
   if (planes::hasAvx2()) return markRowAvx2(task, n, to);
 #endif
@@ -82,8 +89,8 @@ class JumpMarking {
     const std::vector<float> nothing(static_cast<std::size_t>(inverse_.stride + kLanes + 1), 0.F);
     for (int y = 0; y < inverse_.height; ++y) {
       const bool last = y + 1 == inverse_.height;
-      const RowTask task{inverse_.at(0, y), last ? nothing.data() + 1 : inverse_.at(0, y + 1), thresholds_.least,
-                         thresholds_.share};
+      const JumpTask task{inverse_.at(0, y), last ? nothing.data() + 1 : inverse_.at(0, y + 1), thresholds_.least,
+                          thresholds_.share};
       markRow(task, inverse_.stride, marks.data());
       readRow(marks, y);
     }

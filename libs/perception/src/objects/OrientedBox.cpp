@@ -11,7 +11,7 @@ namespace omnimapper::perception::objects {
 
 namespace {
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+double crossProduct(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
@@ -27,7 +27,7 @@ Rectangle around(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector
   rectangle.low.setConstant(std::numeric_limits<double>::infinity());
   rectangle.high = -rectangle.low;
   for (const auto& point : points) {
-    const Eigen::Vector2d along(x_axis.dot(point), cross(x_axis, point));
+    const Eigen::Vector2d along(x_axis.dot(point), crossProduct(x_axis, point));
     rectangle.low = rectangle.low.cwiseMin(along);
     rectangle.high = rectangle.high.cwiseMax(along);
   }

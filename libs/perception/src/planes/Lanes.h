@@ -17,6 +17,7 @@ typedef float Lanes __attribute__((vector_size(32)));
 typedef std::int32_t LaneMask __attribute__((vector_size(32)));
 
 constexpr int kLanes = 8;
+constexpr float kLaneColumns[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 OMNIMAPPER_KERNEL_BODY void load(Lanes& lanes, const float* from) {
   std::memcpy(&lanes, from, sizeof(lanes));

@@ -6,8 +6,6 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-constexpr float kColumns[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
-
 struct LaneSums {
   Lanes r{}, xr{}, rr{}, z{}, xz{};
 };
@@ -31,7 +29,7 @@ OMNIMAPPER_KERNEL_BODY double total(const Lanes& lanes) {
 OMNIMAPPER_KERNEL_BODY void sumRunBody(const float* values, int n, float start, float slope, RunSums& sums) {
   LaneSums s;
   Lanes columns, q, one = Lanes{} + 1.F;
-  load(columns, kColumns);
+  load(columns, kLaneColumns);
   int i = 0;
   for (; i + kLanes <= n; i += kLanes) {
     load(q, values + i);
@@ -49,7 +47,7 @@ OMNIMAPPER_KERNEL_BODY void sumRunBody(const float* values, int n, float start, 
 
 OMNIMAPPER_KERNEL_BODY void sumRelativeSquaresBody(const float* values, int n, float start, float slope, double& sum) {
   Lanes columns, q, one = Lanes{} + 1.F, squares{};
-  load(columns, kColumns);
+  load(columns, kLaneColumns);
   int i = 0;
   for (; i + kLanes <= n; i += kLanes) {
     load(q, values + i);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFewCells = 8;
 constexpr double kExplainedShare = 0.7;
-constexpr double kSigmas = 3;
+constexpr double kRegionSigmas = 3;
 
 class SmallRegions {
  public:
@@ -21,7 +21,7 @@ class SmallRegions {
                CellRegions& regions)
       : inverse_(inverse),
         camera_(camera),
-        tolerance_(static_cast<float>(kSigmas * std::sqrt(noise.pixelVariance()))),
+        tolerance_(static_cast<float>(kRegionSigmas * std::sqrt(noise.pixelVariance()))),
         grid_(grid),
         r_(regions),
         cells_(regions.regions.size()),

@@ -9,8 +9,6 @@ namespace {
 
 typedef std::uint16_t Labels __attribute__((vector_size(kLanes * sizeof(std::uint16_t))));
 
-constexpr float kColumns[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
-
 OMNIMAPPER_KERNEL_BODY void storeLabels(const LaneMask& labels, std::uint16_t* to) {
   const Labels narrow = __builtin_convertvector(labels, Labels);
   std::memcpy(to, &narrow, sizeof(narrow));
@@ -45,7 +43,7 @@ OMNIMAPPER_KERNEL_BODY void consider(int k, const Lanes& q, const Lanes& plane, 
 OMNIMAPPER_KERNEL_BODY void labelPixelsOf(int count, const float* values, int stride, const TileCandidates& c,
                                           float tolerance, std::uint16_t* labels) {
   Lanes columns;
-  load(columns, kColumns);
+  load(columns, kLaneColumns);
   for (int y = 0; y < kCell; ++y, values += stride, labels += stride) {
     for (int x = 0; x < kCell; x += kLanes) {
       Lanes q;

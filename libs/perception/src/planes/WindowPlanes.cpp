@@ -10,9 +10,7 @@ namespace omnimapper::perception::planes {
 namespace {
 
 constexpr double kLargest = 32767;
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-constexpr float kColumns[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
-
+constexpr float kNoPlane = std::numeric_limits<float>::quiet_NaN();
 // One over the square root, to 2 units in the last place, of normal numbers: a first guess from the exponent, then
 // Newton steps. Plain operations, so that it gives the same bits everywhere.
 OMNIMAPPER_KERNEL_BODY void inverseRoot(const Lanes& value, Lanes& root) {
@@ -105,12 +103,12 @@ OMNIMAPPER_KERNEL_BODY void normalsAt(const RowTask& t, int x, const NormalRow& 
   keepNear(t.below, x, middle + to_below, t.tolerance, flat);
   keepNear(t.below, x + t.radius, middle + to_right + to_below, t.tolerance, flat);
   Lanes columns;
-  load(columns, kColumns);
+  load(columns, kLaneColumns);
   const Lanes wx = a * t.fx, wy = b * t.fy;
   const Lanes wz = middle - a * (columns + (static_cast<float>(x) - t.cx)) - b * t.down;
   Lanes scale;
   inverseRoot(wx * wx + wy * wy + wz * wz, scale);
-  const Lanes none = Lanes{} + kNone;
+  const Lanes none = Lanes{} + kNoPlane;
   store(flat ? -wx * scale : none, to.x + x);
   store(flat ? -wy * scale : none, to.y + x);
   store(flat ? -wz * scale : none, to.z + x);
@@ -201,8 +199,8 @@ void WindowPlanes::next(const NormalRow& to) {
                      static_cast<float>(y_ - camera_.cy)};
   const bool narrow = width_ < side + kLanes - 1;
   for (float* row : {to.x, to.y, to.z}) {
-    std::fill(row, row + (narrow ? width_ : radius_), kNone);
-    std::fill(row + std::max(0, width_ - radius_), row + width_, kNone);
+    std::fill(row, row + (narrow ? width_ : radius_), kNoPlane);
+    std::fill(row + std::max(0, width_ - radius_), row + width_, kNoPlane);
   }
   ++y_;
 #ifdef OMNIMAPPER_KERNEL_AVX2

@@ -6,7 +6,7 @@ IMPLEMENTS_MRPT_OBJECT(CloudPlanesPluginFactory, omnimapper::mapper::ExtractorFa
 
 namespace omnimapper::plugins {
 
-using Section = SharedSection<perception::CloudPlaneOptions, perception::CloudSensorOptions>;
+using CloudPlanesSection = SharedSection<perception::CloudPlaneOptions, perception::CloudSensorOptions>;
 
 bool CloudPlanesPlugin::wants(const mrpt::obs::CObservation& raw) const {
   return extractor_.wants(raw);
@@ -17,13 +17,13 @@ std::vector<mrpt::obs::CObservation::Ptr> CloudPlanesPlugin::extract(const mrpt:
 }
 
 const std::vector<base::OptionSpec>& CloudPlanesPluginFactory::options() const {
-  return Section::options();
+  return CloudPlanesSection::options();
 }
 
 std::unique_ptr<mapper::Extractor> CloudPlanesPluginFactory::make(const base::ConfigSection& section,
                                                                   const mapper::PluginContext&) const {
-  return std::make_unique<CloudPlanesPlugin>(Section::read<perception::CloudPlaneOptions>(section),
-                                             Section::read<perception::CloudSensorOptions>(section));
+  return std::make_unique<CloudPlanesPlugin>(CloudPlanesSection::read<perception::CloudPlaneOptions>(section),
+                                             CloudPlanesSection::read<perception::CloudSensorOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

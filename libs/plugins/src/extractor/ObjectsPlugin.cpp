@@ -8,7 +8,7 @@ namespace omnimapper::plugins {
 
 using mrpt::obs::CObservation3DRangeScan;
 using namespace perception;
-using Section = SharedSection<PlaneOptions, OutlineOptions, ObjectOptions, ObjectPointOptions>;
+using ObjectsSection = SharedSection<PlaneOptions, OutlineOptions, ObjectOptions, ObjectPointOptions>;
 
 bool ObjectsPlugin::wants(const mrpt::obs::CObservation& raw) const {
   const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
@@ -21,14 +21,14 @@ std::vector<mrpt::obs::CObservation::Ptr> ObjectsPlugin::extract(const mrpt::obs
 }
 
 const std::vector<base::OptionSpec>& ObjectsPluginFactory::options() const {
-  return Section::options();
+  return ObjectsSection::options();
 }
 
 std::unique_ptr<mapper::Extractor> ObjectsPluginFactory::make(const base::ConfigSection& section,
                                                               const mapper::PluginContext&) const {
-  return std::make_unique<ObjectsPlugin>(
-      ObjectExtractor::Options{Section::read<PlaneOptions>(section), Section::read<OutlineOptions>(section),
-                               Section::read<ObjectOptions>(section), Section::read<ObjectPointOptions>(section)});
+  return std::make_unique<ObjectsPlugin>(ObjectExtractor::Options{
+      ObjectsSection::read<PlaneOptions>(section), ObjectsSection::read<OutlineOptions>(section),
+      ObjectsSection::read<ObjectOptions>(section), ObjectsSection::read<ObjectPointOptions>(section)});
 }
 
 }  // namespace omnimapper::plugins

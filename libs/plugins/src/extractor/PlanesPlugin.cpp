@@ -7,7 +7,8 @@ IMPLEMENTS_MRPT_OBJECT(PlanesPluginFactory, omnimapper::mapper::ExtractorFactory
 namespace omnimapper::plugins {
 
 using mrpt::obs::CObservation3DRangeScan;
-using Section = SharedSection<perception::PlaneComparisonOptions, perception::PlaneOptions, perception::OutlineOptions>;
+using PlanesSection =
+    SharedSection<perception::PlaneComparisonOptions, perception::PlaneOptions, perception::OutlineOptions>;
 
 bool PlanesPlugin::wants(const mrpt::obs::CObservation& raw) const {
   const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
@@ -19,14 +20,14 @@ std::vector<mrpt::obs::CObservation::Ptr> PlanesPlugin::extract(const mrpt::obs:
 }
 
 const std::vector<base::OptionSpec>& PlanesPluginFactory::options() const {
-  return Section::options();
+  return PlanesSection::options();
 }
 
 std::unique_ptr<mapper::Extractor> PlanesPluginFactory::make(const base::ConfigSection& section,
                                                              const mapper::PluginContext&) const {
-  return std::make_unique<PlanesPlugin>(Section::read<perception::PlaneOptions>(section),
-                                        Section::read<perception::OutlineOptions>(section),
-                                        Section::read<perception::PlaneComparisonOptions>(section));
+  return std::make_unique<PlanesPlugin>(PlanesSection::read<perception::PlaneOptions>(section),
+                                        PlanesSection::read<perception::OutlineOptions>(section),
+                                        PlanesSection::read<perception::PlaneComparisonOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

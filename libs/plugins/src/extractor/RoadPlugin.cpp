@@ -7,7 +7,7 @@ IMPLEMENTS_MRPT_OBJECT(RoadPluginFactory, omnimapper::mapper::ExtractorFactory, 
 namespace omnimapper::plugins {
 
 using mrpt::obs::CObservation3DRangeScan;
-using Section = SharedSection<perception::RoadOptions, perception::OutlineOptions, perception::RoadPoseOptions>;
+using RoadSection = SharedSection<perception::RoadOptions, perception::OutlineOptions, perception::RoadPoseOptions>;
 
 bool RoadPlugin::wants(const mrpt::obs::CObservation& raw) const {
   const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
@@ -19,14 +19,14 @@ std::vector<mrpt::obs::CObservation::Ptr> RoadPlugin::extract(const mrpt::obs::C
 }
 
 const std::vector<base::OptionSpec>& RoadPluginFactory::options() const {
-  return Section::options();
+  return RoadSection::options();
 }
 
 std::unique_ptr<mapper::Extractor> RoadPluginFactory::make(const base::ConfigSection& section,
                                                            const mapper::PluginContext&) const {
-  return std::make_unique<RoadPlugin>(Section::read<perception::RoadOptions>(section),
-                                      Section::read<perception::OutlineOptions>(section),
-                                      Section::read<perception::RoadPoseOptions>(section));
+  return std::make_unique<RoadPlugin>(RoadSection::read<perception::RoadOptions>(section),
+                                      RoadSection::read<perception::OutlineOptions>(section),
+                                      RoadSection::read<perception::RoadPoseOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

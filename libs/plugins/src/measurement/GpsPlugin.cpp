@@ -13,7 +13,7 @@ IMPLEMENTS_MRPT_OBJECT(GpsPluginFactory, omnimapper::mapper::MeasurementPluginFa
 namespace omnimapper::plugins {
 
 namespace {
-constexpr std::uint32_t kSavedVersion = 1;
+constexpr std::uint32_t kSavedGpsVersion = 1;
 }
 
 const base::OptionTable<GpsOptions>& GpsOptions::table() {
@@ -114,12 +114,12 @@ std::optional<map::MapSection> GpsPlugin::save() const {
   writeVariableId(out, *map_from_enu_);
   for (const double number : {origin_->latitude, origin_->longitude, origin_->altitude})
     graph::writeDouble(out, number);
-  return map::MapSection{{}, kSavedVersion, out.str()};
+  return map::MapSection{{}, kSavedGpsVersion, out.str()};
 }
 
 void GpsPlugin::restore(const map::MapSection* saved, const mapper::View& view) {
   if (!saved) return;
-  expectVersion(*saved, kSavedVersion);
+  expectVersion(*saved, kSavedGpsVersion);
   std::istringstream in(saved->bytes);
   const auto id = readVariableId(in, view, saved->name);
   const double latitude = graph::readDouble(in), longitude = graph::readDouble(in), altitude = graph::readDouble(in);

@@ -82,7 +82,7 @@ matching::LocalScan beamsOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   return local;
 }
 
-matching::LocalScan pointsOf(const mrpt::obs::CObservationPointCloud& cloud) {
+matching::LocalScan localScanOf(const mrpt::obs::CObservationPointCloud& cloud) {
   const auto rotation = cloud.sensorPose.getRotationMatrix().asEigen();
   matching::LocalScan local{{cloud.sensorPose.x(), cloud.sensorPose.y(), 0}, {}};
   for (std::size_t i = 0; i < cloud.pointcloud->size(); ++i) {
@@ -104,7 +104,7 @@ matching::LocalScan beamsInBase(const map::KeyFrame& frame, const std::string& c
     if (observation->sensorLabel != cloud_label) continue;
     if (const auto* points = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get())) cloud = points;
   }
-  return cloud ? pointsOf(*cloud) : matching::LocalScan();
+  return cloud ? localScanOf(*cloud) : matching::LocalScan();
 }
 
 }  // namespace omnimapper::plugins

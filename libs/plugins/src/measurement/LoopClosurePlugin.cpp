@@ -203,16 +203,16 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
   return places;
 }
 
-using Section = SharedSection<LoopClosureOptions, matching::ScanMatcherOptions>;
+using LoopClosureSection = SharedSection<LoopClosureOptions, matching::ScanMatcherOptions>;
 
 const std::vector<base::OptionSpec>& LoopClosurePluginFactory::options() const {
-  return Section::options();
+  return LoopClosureSection::options();
 }
 
 std::unique_ptr<mapper::MeasurementPlugin> LoopClosurePluginFactory::make(const base::ConfigSection& section,
                                                                           const mapper::PluginContext& context) const {
-  return std::make_unique<LoopClosurePlugin>(Section::read<LoopClosureOptions>(section),
-                                             Section::read<matching::ScanMatcherOptions>(section), context);
+  return std::make_unique<LoopClosurePlugin>(LoopClosureSection::read<LoopClosureOptions>(section),
+                                             LoopClosureSection::read<matching::ScanMatcherOptions>(section), context);
 }
 
 }  // namespace omnimapper::plugins

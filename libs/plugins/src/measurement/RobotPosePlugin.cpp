@@ -13,7 +13,7 @@ IMPLEMENTS_MRPT_OBJECT(RobotPosePluginFactory, omnimapper::mapper::MeasurementPl
 namespace omnimapper::plugins {
 
 namespace {
-constexpr std::uint32_t kSavedVersion = 1;
+constexpr std::uint32_t kSavedPosesVersion = 1;
 }
 
 const base::OptionTable<RobotPoseOptions>& RobotPoseOptions::table() {
@@ -88,12 +88,12 @@ std::optional<map::MapSection> RobotPosePlugin::save() const {
   if (!map_from_reference_) return std::nullopt;
   std::ostringstream out;
   writeVariableId(out, *map_from_reference_);
-  return map::MapSection{{}, kSavedVersion, out.str()};
+  return map::MapSection{{}, kSavedPosesVersion, out.str()};
 }
 
 void RobotPosePlugin::restore(const map::MapSection* saved, const mapper::View& view) {
   if (!saved) return;
-  expectVersion(*saved, kSavedVersion);
+  expectVersion(*saved, kSavedPosesVersion);
   if (options_.reference_is_map) {
     throw base::Error(base::ExitCode::unreadable_input,
                       "[" + context_.section +

@@ -24,7 +24,7 @@ namespace {
 using mrpt::obs::CObservation3DRangeScan;
 using Walk = std::vector<PixelPoint>;
 
-constexpr double kNearest = 0.01;  // [m] nothing nearer is drawn
+constexpr double kNearestDrawn = 0.01;  // [m] nothing nearer is drawn
 constexpr Rgb kBlack{0, 0, 0};
 
 Rgb colourOf(std::size_t index) {
@@ -39,7 +39,7 @@ class Projection {
       : fx_(camera.fx()), fy_(camera.fy()), cx_(camera.cx()), cy_(camera.cy()) {}
 
   std::optional<PixelPoint> operator()(const Eigen::Vector3d& p) const {
-    if (!(p.x() > kNearest)) return std::nullopt;
+    if (!(p.x() > kNearestDrawn)) return std::nullopt;
     return PixelPoint{cx_ - fx_ * p.y() / p.x() + 0.5, cy_ - fy_ * p.z() / p.x() + 0.5};
   }
   Walk operator()(const geometry::Polygon3& polygon) const {

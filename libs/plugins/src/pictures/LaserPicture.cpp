@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSide = 800;  // of the picture [px]
 constexpr int kMostSquares = 100;
-constexpr Rgb kPaper{255, 255, 255}, kSquares{225, 225, 225}, kPoints{130, 130, 130}, kSensor{0, 0, 0};
+constexpr Rgb kGround{255, 255, 255}, kSquares{225, 225, 225}, kPoints{130, 130, 130}, kSensor{0, 0, 0};
 
 std::vector<Eigen::Vector2d> pointsOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   std::vector<Eigen::Vector2d> points;
@@ -81,7 +81,7 @@ Image drawLaserPicture(const mrpt::obs::CObservation2DRangeScan& scan,
                        const std::vector<mrpt::obs::CObservation::Ptr>& derived) {
   const auto points = pointsOf(scan);
   const View view(points);
-  Image picture(kSide, kSide, kPaper);
+  Image picture(kSide, kSide, kGround);
   drawSquares(picture, view);
   for (const auto& point : points) drawDot(picture, view(point), {kPoints, 4});
   drawDot(picture, view({0, 0}), {kSensor, 9});

@@ -273,19 +273,19 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanMatch& m
   return planarMotion(motion, covariance);
 }
 
-using Section = SharedSection<ScanOdometryOptions, matching::ScanTrackerOptions, matching::ScanMatcherOptions,
-                              perception::LaserPointsOptions>;
+using ScanOdometrySection = SharedSection<ScanOdometryOptions, matching::ScanTrackerOptions,
+                                          matching::ScanMatcherOptions, perception::LaserPointsOptions>;
 
 const std::vector<base::OptionSpec>& ScanOdometryPluginFactory::options() const {
-  return Section::options();
+  return ScanOdometrySection::options();
 }
 
 std::unique_ptr<mapper::PosePlugin> ScanOdometryPluginFactory::make(const base::ConfigSection& section,
                                                                     const mapper::PluginContext&) const {
-  auto options = Section::read<ScanOdometryOptions>(section);
-  options.tracker = Section::read<matching::ScanTrackerOptions>(section);
-  return std::make_unique<ScanOdometryPlugin>(options, Section::read<matching::ScanMatcherOptions>(section),
-                                              Section::read<perception::LaserPointsOptions>(section));
+  auto options = ScanOdometrySection::read<ScanOdometryOptions>(section);
+  options.tracker = ScanOdometrySection::read<matching::ScanTrackerOptions>(section);
+  return std::make_unique<ScanOdometryPlugin>(options, ScanOdometrySection::read<matching::ScanMatcherOptions>(section),
+                                              ScanOdometrySection::read<perception::LaserPointsOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

@@ -13,7 +13,7 @@ namespace {
 constexpr double kViewSpacing = 0.5;   // [m] of places to look from, at least
 constexpr double kSeenSpacing = 0.25;  // [m] of places that are to be seen, at least
 constexpr double kLeaveRoom = 8.0;     // [m] a way into another room counts as so much longer
-constexpr double kEnough = 0.98;       // part of a room that is to be seen
+constexpr double kEnoughSeen = 0.98;   // part of a room that is to be seen
 
 // A lattice over the room's inside, row by row.
 class Lattice {
@@ -91,7 +91,7 @@ std::vector<Eigen::Vector2d> placesToSee(const Room& room, const FloorPlan& plan
   for (int i = 0; i < static_cast<int>(places.size()); ++i) candidates.emplace(gainOf(i), -i);
   const auto visible = static_cast<double>(std::count(open.begin(), open.end(), 1));
   std::vector<Eigen::Vector2d> chosen;
-  for (double seen = 0; seen < kEnough * visible;) {
+  for (double seen = 0; seen < kEnoughSeen * visible;) {
     const auto [gain, minus_number] = candidates.top();
     candidates.pop();
     const int best = -minus_number;

@@ -14,8 +14,8 @@ namespace omnimapper::sim {
 namespace {
 
 constexpr double kDegree = base::option_text::kRadiansPerDegree;
-constexpr std::uint64_t kBeamStreams = 0x100;  // and one for each beam above it
-constexpr double kSceneAge = 0.005;            // [s] of a sweep in which people may be taken as standing
+constexpr std::uint64_t kBeamStreams2d = 0x100;  // and one for each beam above it
+constexpr double kSweepAge = 0.005;              // [s] of a sweep in which people may be taken as standing
 
 bool somethingMoves(const World& world) {
   return std::any_of(world.bodies.begin(), world.bodies.end(),
@@ -101,8 +101,8 @@ std::vector<Echo> Laser2d::echoes(int k) const {
   // MRPT keeps the aperture in single precision: the beams are those that a reader of the log will assume.
   const double aperture = static_cast<double>(static_cast<float>(options_.aperture));
   const double sign = options_.counter_clockwise ? 1 : -1;
-  const int slices = options_.sweep > kSceneAge && somethingMoves(*context().world)
-                         ? static_cast<int>(std::ceil(options_.sweep / kSceneAge))
+  const int slices = options_.sweep > kSweepAge && somethingMoves(*context().world)
+                         ? static_cast<int>(std::ceil(options_.sweep / kSweepAge))
                          : 1;
   std::vector<Echo> all;
   for (int slice = 0; slice < slices; ++slice) {
@@ -116,7 +116,7 @@ std::vector<Echo> Laser2d::echoes(int k) const {
       const geometry::Se3 map_from_sensor = mapFromSensor(time);
       beams.push_back({map_from_sensor.translation,
                        (map_from_sensor.rotation * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0)).normalized()});
-      randoms.push_back(randomOf(k, kBeamStreams + static_cast<std::uint64_t>(i)));
+      randoms.push_back(randomOf(k, kBeamStreams2d + static_cast<std::uint64_t>(i)));
       middle += time / (end - first);
     }
     const auto echoes = optics_.measure(context().scenes->at(middle), beams, std::move(randoms));

@@ -13,8 +13,8 @@
 namespace omnimapper::sim {
 
 namespace {
-constexpr std::uint64_t kBeamStreams = 0x100;
-constexpr double kSceneAge = 0.01;  // [s] in which people may be taken as standing
+constexpr std::uint64_t kBeamStreams3d = 0x100;
+constexpr double kSliceAge = 0.01;  // [s] in which people may be taken as standing
 }  // namespace
 
 // Of the data sheet of the Velodyne VLP-16 (range 100 m, 3 cm typical accuracy, 2 mm steps, beam of 3 mrad).
@@ -43,7 +43,7 @@ Laser3d::Laser3d(const Laser3dOptions& options, const SensorOptions& mount, cons
 
 Measurement Laser3d::measure(int k) const {
   const double turn_time = options_.takes_time ? 1 / options().rate : 0;
-  const int slices = std::clamp(static_cast<int>(std::ceil(turn_time / kSceneAge)), 1, options_.columns);
+  const int slices = std::clamp(static_cast<int>(std::ceil(turn_time / kSliceAge)), 1, options_.columns);
   auto points = mrpt::maps::CPointsMapXYZI::Create();
   std::vector<Echo> kept;
   for (int slice = 0; slice < slices; ++slice) {
@@ -60,7 +60,7 @@ Measurement Laser3d::measure(int k) const {
         directions_in_sensor.emplace_back(std::cos(elevation) * std::cos(azimuth),
                                           std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
         beams.push_back({map_from_sensor.translation, map_from_sensor.rotation * directions_in_sensor.back()});
-        randoms.push_back(randomOf(k, kBeamStreams + static_cast<std::uint64_t>(column * options_.rings + ring)));
+        randoms.push_back(randomOf(k, kBeamStreams3d + static_cast<std::uint64_t>(column * options_.rings + ring)));
       }
     }
     const double middle = timeOf(k) + turn_time * 0.5 * (first + end) / options_.columns;

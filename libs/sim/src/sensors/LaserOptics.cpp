@@ -9,7 +9,7 @@ namespace omnimapper::sim {
 namespace {
 
 constexpr double kWhite = 0.9;        // what white_range is for
-constexpr int kPanes = 6;             // a beam passes at most
+constexpr int kMostPanes = 6;         // a beam passes at most
 constexpr double kPast = 1e-3;        // [m] behind a pane the beam goes on from
 constexpr double kSpeckle = 0.15;     // standard deviation of the power's logarithm
 constexpr double kGlassIndex = 1.52;  // window glass
@@ -63,7 +63,7 @@ struct LaserOptics::Return {
 
 /// How a beam's dice fall at the panes on its way: the same for all of its rays.
 struct LaserOptics::Fate {
-  std::array<double, kPanes> at_pane;
+  std::array<double, kMostPanes> at_pane;
 };
 
 LaserOptics::LaserOptics(const LaserOpticsOptions& options, const Scenes& scenes, int scouts)
@@ -81,7 +81,7 @@ std::vector<LaserOptics::Return> LaserOptics::cast(const Scene& scene, const std
     who.push_back(i);
   }
   std::vector<Hit> hits;
-  for (int pane = 0; pane <= kPanes && !open.empty(); ++pane) {
+  for (int pane = 0; pane <= kMostPanes && !open.empty(); ++pane) {
     scene.cast(open, hits);
     std::vector<Ray> next;
     std::vector<std::size_t> next_who;
@@ -101,7 +101,7 @@ std::vector<LaserOptics::Return> LaserOptics::cast(const Scene& scene, const std
         next.push_back(ray_behind);
         next_who.push_back(i);
       };
-      if (material.transmission <= 0 || pane == kPanes) {
+      if (material.transmission <= 0 || pane == kMostPanes) {
         takeEcho(static_cast<double>(material.infrared));
         continue;
       }

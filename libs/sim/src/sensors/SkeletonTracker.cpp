@@ -20,7 +20,6 @@ using Eigen::Vector3d;
 using mrpt::obs::CObservationSkeleton;
 
 constexpr std::uint64_t kFrameStream = 1, kPersonStream = 2, kActStream = 3, kActFrameStream = 4;
-constexpr double kDegree = M_PI / 180;
 // A joint is inside its limb, and the torso's in the middle of it: what is hit less than this before it is the limb.
 constexpr double kFlesh = 0.25;  // [m]
 constexpr double kGuessed = 3;   // times the noise
@@ -39,7 +38,7 @@ Vector3d gaussianVector(Random& random, double sigma) {
 }
 
 // 0 while the arm hangs, 1 from begin to end.
-double raised(const Person::Pointing& act, double time) {
+double raisedEvenly(const Person::Pointing& act, double time) {
   const double outside = std::max({act.begin - time, time - act.end, 0.0});
   return std::max(0.0, 1 - outside / kArmRaiseTime);
 }
@@ -142,13 +141,14 @@ void SkeletonTracker::missTarget(const View& view, int k, int person, Skeleton& 
   Random of_frame = randomOf(k, kActFrameStream);
   for (std::size_t i = 0; i < acts.size(); ++i) {
     const Person::Pointing& act = acts[i];
-    const double share = raised(act, view.time);
+    const double share = raisedEvenly(act, view.time);
     if (share <= 0) continue;
     constexpr int kMostActs = 1 << 12;  // of one person, to number the acts of all
     Random of_act = randomOf(person * kMostActs + static_cast<int>(i), kActStream);
     const auto draw = [&](double mean, double sigma) {
       const double of_this_act = of_act.gaussian(), of_this_frame = of_frame.gaussian();
-      return kDegree * (mean + sigma * (act_part * of_this_act + frame_part * of_this_frame));
+      return base::option_text::kRadiansPerDegree *
+             (mean + sigma * (act_part * of_this_act + frame_part * of_this_frame));
     };
     const Vector3d hand = in_map[jointOf(act.right_arm, Limb::hand)];
     const auto move = [&](Vector3d& joint, const PointingStatistics& statistics) {

@@ -116,13 +116,13 @@ void drawClock(Texture& texture, Random& random, const std::string& font_file) {
   hand(hours - std::floor(hours), 0.62 * r, 0.035 * r);
 }
 
-struct Kind {
+struct PosterLook {
   double width, height;  // [m]
   double spread;         // part by which the seed changes the size
   void (*draw)(Texture&, Random&, const std::string&);
 };
 
-Kind kindOf(PosterKind kind) {
+PosterLook lookOf(PosterKind kind) {
   switch (kind) {
     case PosterKind::poster:
       return {0.6, 0.84, 0.25, drawPoster};
@@ -140,16 +140,16 @@ Kind kindOf(PosterKind kind) {
 
 Body makePoster(const PosterSpec& spec) {
   if (spec.width < 0 || spec.height < 0) throw std::invalid_argument(spec.name + ": a negative size");
-  const Kind kind = kindOf(spec.kind);
+  const PosterLook look = lookOf(spec.kind);
   constexpr std::uint64_t kStream = 0x9057e7;
   Random random(spec.seed, {kStream, static_cast<std::uint64_t>(spec.kind)});
-  const double scale = random.uniform(1 - kind.spread, 1 + kind.spread);
-  const double width = spec.width > 0 ? spec.width : scale * kind.width,
-               height = spec.height > 0 ? spec.height : scale * kind.height;
+  const double scale = random.uniform(1 - look.spread, 1 + look.spread);
+  const double width = spec.width > 0 ? spec.width : scale * look.width,
+               height = spec.height > 0 ? spec.height : scale * look.height;
   const double pixels_per_metre = 512 / std::max(width, height);
   Texture picture = blankTexture(std::max(16L, std::lround(width * pixels_per_metre)),
                                  std::max(16L, std::lround(height * pixels_per_metre)), Colour::Ones());
-  kind.draw(picture, random, spec.font_file);
+  look.draw(picture, random, spec.font_file);
   return makePlate({spec.name, SurfaceKind::poster, std::make_shared<const Texture>(std::move(picture)), width, height,
                     kPosterThickness, Colour::Constant(0.8f), spec.map_from_poster});
 }

@@ -208,14 +208,15 @@ Texture print(Random& random, int side) {
   return texture;
 }
 
-struct Kind {
+struct NamedTexture {
   const char* name;
   double side;  // [m]
 };
 // In the order of TextureKind.
-constexpr Kind kKinds[] = {{"wood", 0.6},    {"planks", 0.8},   {"carpet", 0.5},  {"tiles", 1.2}, {"bricks", 1.0},
-                           {"plaster", 2.0}, {"concrete", 2.0}, {"asphalt", 1.0}, {"cloth", 0.1}, {"wallpaper", 0.6},
-                           {"noise", 1.0},   {"checker", 0.8},  {"books", 0.5},   {"print", 0.25}};
+constexpr NamedTexture kKinds[] = {{"wood", 0.6},   {"planks", 0.8},    {"carpet", 0.5},   {"tiles", 1.2},
+                                   {"bricks", 1.0}, {"plaster", 2.0},   {"concrete", 2.0}, {"asphalt", 1.0},
+                                   {"cloth", 0.1},  {"wallpaper", 0.6}, {"noise", 1.0},    {"checker", 0.8},
+                                   {"books", 0.5},  {"print", 0.25}};
 
 Texture drawTexture(TextureKind kind, Random& random, int side) {
   switch (kind) {
@@ -256,7 +257,7 @@ Texture drawTexture(TextureKind kind, Random& random, int side) {
 const std::vector<std::string>& textureKindNames() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;
-    for (const Kind& kind : kKinds) list.emplace_back(kind.name);
+    for (const NamedTexture& kind : kKinds) list.emplace_back(kind.name);
     return list;
   }();
   return names;

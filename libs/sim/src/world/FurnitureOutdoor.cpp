@@ -8,7 +8,7 @@ namespace {
 
 using Piece = FurniturePiece;
 
-geometry::Se3 shifted(double x, double y, double z) {
+geometry::Se3 movedTo(double x, double y, double z) {
   return {Eigen::Quaterniond::Identity(), {x, y, z}};
 }
 
@@ -50,7 +50,7 @@ void tree(Piece& p) {
     const double radius = p.random.uniform(0.12, 0.2) * p.length, angle = p.random.uniform(0, 2 * M_PI);
     const double out = p.random.uniform(0, p.length / 2 - radius);
     const double z = p.random.uniform(0.5, 1.0) * (p.height - radius);
-    p.mesh.at(shifted(out * std::cos(angle), out * std::sin(angle), z)).addSphere(leaves, radius, 10);
+    p.mesh.at(movedTo(out * std::cos(angle), out * std::sin(angle), z)).addSphere(leaves, radius, 10);
   }
   p.mesh.at({});
 }

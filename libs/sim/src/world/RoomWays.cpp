@@ -10,9 +10,9 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kRobotRadius = 0.33;  // a way through a room is this wide to both sides [m]
-constexpr double kCell = 0.1;          // of the grid [m]
-constexpr double kEnough = 0.9;        // part of the free floor that is to be reached
+constexpr double kRobotRadius = 0.33;   // a way through a room is this wide to both sides [m]
+constexpr double kCell = 0.1;           // of the grid [m]
+constexpr double kEnoughReached = 0.9;  // part of the free floor that is to be reached
 
 double distanceOf(const Vector2d& p, const Ring& ring) {
   if (contains(ring, p)) return 0;
@@ -90,7 +90,7 @@ bool RoomWays::areOpen() const {
   std::vector<Cell> cells = cells_;
   const std::size_t reached = markReached(static_cast<int>(first - cells_.begin()), cells);
   const bool all_doors = std::find(cells.begin(), cells.end(), door) == cells.end();
-  return all_doors && static_cast<double>(reached) >= kEnough * static_cast<double>(free_count);
+  return all_doors && static_cast<double>(reached) >= kEnoughReached * static_cast<double>(free_count);
 }
 
 }  // namespace omnimapper::sim

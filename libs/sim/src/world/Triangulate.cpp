@@ -19,10 +19,10 @@ double cross(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
 }
 
 // A ring that visits points by number; where a hole was joined, a point is visited twice.
-using Walk = std::vector<int>;
+using Corners = std::vector<int>;
 
-Walk walkOf(const Ring& ring, int first, bool counter_clockwise) {
-  Walk walk(ring.size());
+Corners walkOf(const Ring& ring, int first, bool counter_clockwise) {
+  Corners walk(ring.size());
   std::iota(walk.begin(), walk.end(), first);
   if ((doubleArea(ring) > 0) != counter_clockwise) std::reverse(walk.begin(), walk.end());
   return walk;
@@ -34,7 +34,7 @@ bool isInside(const Vector2d& p, const Vector2d& a, const Vector2d& b, const Vec
 
 // Joins a hole, given clockwise, by a cut from its rightmost point to a point of the outer walk that it sees past the
 // other holes. There is one to the right of a hole if no other hole reaches farther to the right.
-void joinHole(const std::vector<Vector2d>& points, const std::vector<Walk>& holes, Walk hole, Walk& outer) {
+void joinHole(const std::vector<Vector2d>& points, const std::vector<Corners>& holes, Corners hole, Corners& outer) {
   const auto rightmost = std::max_element(hole.begin(), hole.end(), [&](int i, int j) {
     return points[i].x() < points[j].x() || (points[i].x() == points[j].x() && points[i].y() < points[j].y());
   });
@@ -48,7 +48,7 @@ void joinHole(const std::vector<Vector2d>& points, const std::vector<Walk>& hole
     const bool convex = cross(before, to, after) > 0;
     const bool left_of_first = cross(before, to, from) > 0, left_of_second = cross(to, after, from) > 0;
     if (convex ? !(left_of_first && left_of_second) : !(left_of_first || left_of_second)) return false;
-    const auto crosses = [&](const Walk& walk) {
+    const auto crosses = [&](const Corners& walk) {
       for (std::size_t i = 0; i < walk.size(); ++i) {
         const Vector2d &a = points[walk[i]], &b = points[walk[(i + 1) % walk.size()]];
         if (a == to || b == to || a == from || b == from) continue;
@@ -73,7 +73,7 @@ void joinHole(const std::vector<Vector2d>& points, const std::vector<Walk>& hole
   outer.insert(outer.begin() + static_cast<std::ptrdiff_t>(best) + 1, hole.begin(), hole.end());
 }
 
-std::vector<std::array<int, 3>> clipEars(const std::vector<Vector2d>& points, Walk walk) {
+std::vector<std::array<int, 3>> clipEars(const std::vector<Vector2d>& points, Corners walk) {
   std::vector<std::array<int, 3>> triangles;
   while (walk.size() >= 3) {
     bool clipped = false;
@@ -114,11 +114,11 @@ double doubleArea(const Ring& ring) {
 
 std::vector<std::array<int, 3>> triangulate(const std::vector<Ring>& rings) {
   std::vector<Vector2d> points;
-  std::vector<Walk> holes;
-  Walk outer;
+  std::vector<Corners> holes;
+  Corners outer;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     if (rings[i].size() < 3 || doubleArea(rings[i]) == 0) throw std::invalid_argument("triangulate: an empty ring");
-    const Walk walk = walkOf(rings[i], static_cast<int>(points.size()), i == 0);
+    const Corners walk = walkOf(rings[i], static_cast<int>(points.size()), i == 0);
     points.insert(points.end(), rings[i].begin(), rings[i].end());
     if (i == 0) {
       outer = walk;
@@ -126,13 +126,13 @@ std::vector<std::array<int, 3>> triangulate(const std::vector<Ring>& rings) {
       holes.push_back(walk);
     }
   }
-  const auto right = [&](const Walk& walk) {
+  const auto right = [&](const Corners& walk) {
     double x = -std::numeric_limits<double>::infinity();
     for (const int i : walk) x = std::max(x, points[i].x());
     return x;
   };
-  std::stable_sort(holes.begin(), holes.end(), [&](const Walk& a, const Walk& b) { return right(a) > right(b); });
-  for (const Walk& hole : holes) joinHole(points, holes, hole, outer);
+  std::stable_sort(holes.begin(), holes.end(), [&](const Corners& a, const Corners& b) { return right(a) > right(b); });
+  for (const Corners& hole : holes) joinHole(points, holes, hole, outer);
   return clipEars(points, outer);
 }
 
