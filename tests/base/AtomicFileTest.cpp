@@ -15,7 +15,7 @@
 #include <sstream>
 #include <thread>
 
-namespace omnimapper::base {
+namespace omnimapper::base::atomic_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -224,4 +224,4 @@ TEST(AtomicFile, WritingIntoAFolderThatIsNotThereIsAnError) {
 }
 
 }  // namespace
-}  // namespace omnimapper::base
+}  // namespace omnimapper::base::atomic_file_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace omnimapper::base {
+namespace omnimapper::base::config_test {
 namespace {
 
 struct TriggerOptions {
@@ -228,4 +228,4 @@ TEST(Config, NearestNameIsByEditDistanceOrNone) {
 }
 
 }  // namespace
-}  // namespace omnimapper::base
+}  // namespace omnimapper::base::config_test

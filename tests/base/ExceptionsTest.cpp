@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+namespace exceptions_test {
 namespace {
 
 using omnimapper::base::sentenceOf;
@@ -21,3 +22,4 @@ TEST(Exceptions, OfOthersTellAll) {
 }
 
 }  // namespace
+}  // namespace exceptions_test

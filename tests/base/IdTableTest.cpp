@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace omnimapper::base {
+namespace omnimapper::base::id_table_test {
 namespace {
 
 using Table = IdTable<LandmarkId, std::string>;
@@ -66,4 +66,4 @@ TEST(IdTable, WhatIsNotThereIsNull) {
 }
 
 }  // namespace
-}  // namespace omnimapper::base
+}  // namespace omnimapper::base::id_table_test

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <unordered_set>
 
-namespace omnimapper::base {
+namespace omnimapper::base::id_test {
 namespace {
 
 TEST(Id, OrdersBySessionThenIndexWhichIsTheOrderOfCommit) {
@@ -34,4 +34,4 @@ TEST(Id, OfDifferentThingsAreDifferentTypes) {
 }
 
 }  // namespace
-}  // namespace omnimapper::base
+}  // namespace omnimapper::base::id_test

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Numbers.h>
 
+namespace numbers_test {
 namespace {
 
 using namespace omnimapper::base;
@@ -19,3 +20,4 @@ TEST(Numbers, briefIsAsShortAsItsDigitsAllow) {
 }
 
 }  // namespace
+}  // namespace numbers_test

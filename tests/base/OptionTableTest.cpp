@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace omnimapper::base {
+namespace omnimapper::base::option_table_test {
 namespace {
 
 enum class Metric { point, line };
@@ -150,4 +150,4 @@ TEST(OptionTable, ReadsFlagsChoicesAndLists) {
 }
 
 }  // namespace
-}  // namespace omnimapper::base
+}  // namespace omnimapper::base::option_table_test

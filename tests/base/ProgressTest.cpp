@@ -4,7 +4,7 @@
 #include <sstream>
 #include <thread>
 
-namespace omnimapper::base {
+namespace omnimapper::base::progress_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -50,4 +50,4 @@ TEST(Progress, TheDefaultSaysNothingAnywhere) {
 }
 
 }  // namespace
-}  // namespace omnimapper::base
+}  // namespace omnimapper::base::progress_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace omnimapper::base {
+namespace omnimapper::base::stamp_test {
 namespace {
 
 // 2000-01-01 00:00:00 UTC is Unix second 946684800; 1601 lies 11644473600 s before 1970, a tick is 100 ns.
@@ -95,4 +95,4 @@ TEST(Stamp, DifferencesAreExactToTheTick) {
 }
 
 }  // namespace
-}  // namespace omnimapper::base
+}  // namespace omnimapper::base::stamp_test

@@ -1,7 +1,7 @@
 // Findings about odometry, held against the motion of the scans.
 #include "CheckedLog.h"
 
-namespace omnimapper::check {
+namespace omnimapper::check::odometry_test {
 namespace {
 
 using mrpt::poses::CPose2D;
@@ -118,4 +118,4 @@ TEST(Odometry, ThatIsNoNumberIsCounted) {
 }
 
 }  // namespace
-}  // namespace omnimapper::check
+}  // namespace omnimapper::check::odometry_test

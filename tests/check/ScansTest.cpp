@@ -1,7 +1,7 @@
 // Findings about 2D scans and where their laser is.
 #include "CheckedLog.h"
 
-namespace omnimapper::check {
+namespace omnimapper::check::scans_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -155,4 +155,4 @@ TEST(SensorPose, ThatIsSaidRightNeedsNothing) {
 }
 
 }  // namespace
-}  // namespace omnimapper::check
+}  // namespace omnimapper::check::scans_test

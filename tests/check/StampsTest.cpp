@@ -1,7 +1,7 @@
 // Findings about stamps.
 #include "CheckedLog.h"
 
-namespace omnimapper::check {
+namespace omnimapper::check::stamps_test {
 namespace {
 
 TEST(Stamps, OfAGoodLogHaveTheirRateAndNothingIsSaidOrProposed) {
@@ -77,4 +77,4 @@ TEST(Stamps, ThatComeLateWidenTheWindow) {
 }
 
 }  // namespace
-}  // namespace omnimapper::check
+}  // namespace omnimapper::check::stamps_test

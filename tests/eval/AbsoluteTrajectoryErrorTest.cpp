@@ -4,7 +4,7 @@
 
 #include "Trajectories.h"
 
-namespace omnimapper::eval {
+namespace omnimapper::eval::absolute_trajectory_error_test {
 namespace {
 
 PairingOptions aligning(Alignment alignment) {
@@ -223,4 +223,4 @@ TEST(Alignment, IsChosenByName) {
 }
 
 }  // namespace
-}  // namespace omnimapper::eval
+}  // namespace omnimapper::eval::absolute_trajectory_error_test

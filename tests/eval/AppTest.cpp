@@ -11,7 +11,7 @@
 
 #include "Trajectories.h"
 
-namespace omnimapper::eval {
+namespace omnimapper::eval::app_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST_F(EvalApp, ExitCodesTellWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace omnimapper::eval
+}  // namespace omnimapper::eval::app_test

@@ -7,7 +7,7 @@
 
 #include "Trajectories.h"
 
-namespace omnimapper::eval {
+namespace omnimapper::eval::association_test {
 namespace {
 
 const auto kTenth = base::durationFromSeconds(0.1);
@@ -157,4 +157,4 @@ TEST(Trajectory, SortingRefusesAStampThatStandsTwice) {
 }
 
 }  // namespace
-}  // namespace omnimapper::eval
+}  // namespace omnimapper::eval::association_test

@@ -5,7 +5,7 @@
 
 #include "Trajectories.h"
 
-namespace omnimapper::eval {
+namespace omnimapper::eval::plot_test {
 namespace {
 
 int countOf(const std::string& text, const std::string& word) {
@@ -83,4 +83,4 @@ TEST(Plot, OfNoErrorsIsAnEmptyDrawing) {
 }
 
 }  // namespace
-}  // namespace omnimapper::eval
+}  // namespace omnimapper::eval::plot_test

@@ -11,7 +11,7 @@
 
 #include "Trajectories.h"
 
-namespace omnimapper::eval {
+namespace omnimapper::eval::relation_error_test {
 namespace {
 
 constexpr double kDegree = geometry::kPi / 180;
@@ -162,4 +162,4 @@ TEST(RelationError, OfTheOdometryOfAcesIsTheKnownOne) {
 }
 
 }  // namespace
-}  // namespace omnimapper::eval
+}  // namespace omnimapper::eval::relation_error_test

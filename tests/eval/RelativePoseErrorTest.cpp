@@ -4,7 +4,7 @@
 
 #include "Trajectories.h"
 
-namespace omnimapper::eval {
+namespace omnimapper::eval::relative_pose_error_test {
 namespace {
 
 PairingOptions aligning(Alignment alignment) {
@@ -122,4 +122,4 @@ TEST(RelativePoseError, UnitsAreChosenByName) {
 }
 
 }  // namespace
-}  // namespace omnimapper::eval
+}  // namespace omnimapper::eval::relative_pose_error_test

@@ -8,7 +8,7 @@
 
 #include "Trajectories.h"
 
-namespace omnimapper::eval {
+namespace omnimapper::eval::tum_file_test {
 namespace {
 
 using testing::ScratchFolder;
@@ -153,4 +153,4 @@ TEST_F(TumFile, ReadsTheGroundTruthOfMrptsDemos) {
 }
 
 }  // namespace
-}  // namespace omnimapper::eval
+}  // namespace omnimapper::eval::tum_file_test

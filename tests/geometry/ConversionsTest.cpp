@@ -7,7 +7,7 @@
 #include "omnimapper/geometry/Conversions.h"
 #include "omnimapper/geometry/Covariance.h"
 
-namespace omnimapper::geometry {
+namespace omnimapper::geometry::conversions_test {
 namespace {
 
 using mrpt::poses::CPose2D;
@@ -122,4 +122,4 @@ TEST(Conversions, G2oInformationGivesTheSameChi2ForSmallErrors) {
 }
 
 }  // namespace
-}  // namespace omnimapper::geometry
+}  // namespace omnimapper::geometry::conversions_test

@@ -5,7 +5,7 @@
 
 #include "omnimapper/geometry/Covariance.h"
 
-namespace omnimapper::geometry {
+namespace omnimapper::geometry::covariance_test {
 namespace {
 
 template <int n>
@@ -109,4 +109,4 @@ TEST(Covariance, TransportInPlaneAndSpaceAgree) {
 }
 
 }  // namespace
-}  // namespace omnimapper::geometry
+}  // namespace omnimapper::geometry::covariance_test

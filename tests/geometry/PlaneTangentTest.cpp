@@ -3,7 +3,7 @@
 
 #include <random>
 
-namespace omnimapper::geometry {
+namespace omnimapper::geometry::plane_tangent_test {
 namespace {
 
 Eigen::Vector3d drawn(std::mt19937_64& engine) {
@@ -79,4 +79,4 @@ TEST(PlaneTangent, TransportAgreesWithMovedSmallChanges) {
 }
 
 }  // namespace
-}  // namespace omnimapper::geometry
+}  // namespace omnimapper::geometry::plane_tangent_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace omnimapper::geometry {
+namespace omnimapper::geometry::polygon3_test {
 namespace {
 
 // An L of area 3: a square of 2 x 2 without its upper right quarter, counter-clockwise seen from above.
@@ -69,4 +69,4 @@ TEST(Polygon3, NotANumberIsContainedNowhere) {
 }
 
 }  // namespace
-}  // namespace omnimapper::geometry
+}  // namespace omnimapper::geometry::polygon3_test

@@ -5,7 +5,7 @@
 
 #include "omnimapper/geometry/Se3.h"
 
-namespace omnimapper::geometry {
+namespace omnimapper::geometry::se3_test {
 namespace {
 
 Eigen::Vector3d randomVector(std::mt19937& rng, double size) {
@@ -148,4 +148,4 @@ TEST(Se3, LiftKeepsPlanarMotionsAndTheirTangent) {
 }
 
 }  // namespace
-}  // namespace omnimapper::geometry
+}  // namespace omnimapper::geometry::se3_test

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Segment2.h>
 
-namespace omnimapper::geometry {
+namespace omnimapper::geometry::segment2_test {
 namespace {
 
 TEST(Segment2, LengthDirectionAndMiddleAsWorkedByHand) {
@@ -28,4 +28,4 @@ TEST(Segment2, OneThatIsAPointHasNoDirection) {
 }
 
 }  // namespace
-}  // namespace omnimapper::geometry
+}  // namespace omnimapper::geometry::segment2_test

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/TumLine.h>
 
+namespace tum_line_test {
 namespace {
 
 using namespace omnimapper;
@@ -17,3 +18,4 @@ TEST(TumLine, isStampPositionAndQuaternionWithScalarLastAndNotNegative) {
 }
 
 }  // namespace
+}  // namespace tum_line_test

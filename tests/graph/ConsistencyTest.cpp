@@ -7,7 +7,7 @@
 
 #include "Worlds.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::consistency_test {
 namespace {
 
 using base::FactorId;
@@ -300,4 +300,4 @@ TEST(ConsistencyTest, WhatIsNoHypothesisIsAnError) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::consistency_test

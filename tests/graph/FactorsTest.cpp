@@ -8,7 +8,7 @@
 #include "Worlds.h"
 #include "omnimapper/graph/FactorRegistry.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::factors_test {
 namespace {
 
 const double kHalf = std::sqrt(0.5);
@@ -141,4 +141,4 @@ TEST(Factors, ReadBackByTheRegistryTheyMeasureTheSame) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::factors_test

@@ -4,7 +4,7 @@
 #include "FalseClosures.h"
 #include "Worlds.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::false_closures_test {
 namespace {
 
 using Method = ConsistencyOptions::Method;
@@ -55,4 +55,4 @@ TEST(FalseClosuresInManhattanTest, DoNoHarm) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::false_closures_test

@@ -9,7 +9,7 @@
 #include "Worlds.h"
 #include "omnimapper/graph/G2o.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::g2o_test {
 namespace {
 
 G2oContent read(const std::string& text) {
@@ -174,4 +174,4 @@ TEST(G2o, WritesAFile) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::g2o_test

@@ -9,7 +9,7 @@
 #include "omnimapper/graph/ByteIo.h"
 #include "omnimapper/graph/GraphArchive.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::graph_archive_test {
 namespace {
 
 using base::ExitCode;
@@ -187,4 +187,4 @@ TEST(ByteIo, IsLittleEndianAndKeepsEveryBit) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::graph_archive_test

@@ -6,7 +6,7 @@
 #include "Worlds.h"
 #include "omnimapper/graph/Graph.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::graph_test {
 namespace {
 
 using base::FactorId;
@@ -176,4 +176,4 @@ TEST(Graph, DoesNotTakeAPoseInSpaceForAPlanarOne) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::graph_test

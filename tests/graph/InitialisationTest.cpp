@@ -6,7 +6,7 @@
 #include "Worlds.h"
 #include "omnimapper/graph/Initialisation.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::initialisation_test {
 namespace {
 
 using base::VariableId;
@@ -161,4 +161,4 @@ TEST(Initialisation, MixesPlanarAndSpatialPoses) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::initialisation_test

@@ -4,7 +4,7 @@
 #include "../../libs/graph/src/Innovation.h"
 #include "Worlds.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::innovation_test {
 namespace {
 
 FactorRecord step(base::VariableId a, base::VariableId b, double way, double sigma) {
@@ -51,4 +51,4 @@ TEST_P(Withdrawal, IsTheGraphWithoutIt) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::innovation_test

@@ -5,7 +5,7 @@
 
 #include "omnimapper/graph/Loss.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::loss_test {
 namespace {
 
 const Loss kLosses[] = {Loss::none(), Loss::huber(1.5), Loss::cauchy(1.5), Loss::tukey(3), Loss::gemanMcClure(1.5)};
@@ -52,4 +52,4 @@ TEST(Loss, RefusesAScaleThatIsNone) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::loss_test

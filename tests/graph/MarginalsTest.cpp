@@ -13,7 +13,7 @@
 #include "Worlds.h"
 #include "omnimapper/graph/Marginals.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::marginals_test {
 namespace {
 
 using base::VariableId;
@@ -181,4 +181,4 @@ TEST(Marginals, RefuseWhatHasNone) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::marginals_test

@@ -6,7 +6,7 @@
 
 #include "omnimapper/graph/Noise.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::noise_test {
 namespace {
 
 Eigen::Matrix2d matrix(double a, double b, double c, double d) {
@@ -48,4 +48,4 @@ TEST(SquareRootInformation, RefusesWhatIsNoCovariance) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::noise_test

@@ -4,7 +4,7 @@
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/testing/Fixtures.h>
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::pose_graphs_test {
 namespace {
 
 /// A public benchmark graph and the chi-square of its optimum in g2o's convention. The simulated twins of these tests
@@ -57,4 +57,4 @@ INSTANTIATE_TEST_SUITE_P(Public, PoseGraphsTest,
                                            PoseGraph{"parking-garage.g2o", 1.23869}));
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::pose_graphs_test

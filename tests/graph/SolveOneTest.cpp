@@ -5,7 +5,7 @@
 #include "Worlds.h"
 #include "omnimapper/graph/SolveOne.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::solve_one_test {
 namespace {
 
 TEST(SolveOne, GivesWhatSolveGivesWithAllOthersFixed) {
@@ -36,4 +36,4 @@ TEST(SolveOne, LeavesFixedAndUnboundVariables) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::solve_one_test

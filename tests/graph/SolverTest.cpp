@@ -8,7 +8,7 @@
 #include "Worlds.h"
 #include "omnimapper/graph/Solver.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::solver_test {
 namespace {
 
 using base::FactorId;
@@ -273,4 +273,4 @@ TEST(Solver, AnEmptyGraphIsSolved) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::solver_test

@@ -3,7 +3,7 @@
 #include "Worlds.h"
 #include "omnimapper/graph/Variable.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::variable_test {
 namespace {
 
 struct Case {
@@ -99,4 +99,4 @@ TEST(VariableKinds, YawStaysWithinHalfATurn) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::variable_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace omnimapper::map {
+namespace omnimapper::map::key_frames_test {
 namespace {
 
 KeyFrame keyFrame(std::uint16_t session, std::uint32_t index, double seconds) {
@@ -55,4 +55,4 @@ TEST(KeyFrames, ACopyIsAsItWas) {
 }
 
 }  // namespace
-}  // namespace omnimapper::map
+}  // namespace omnimapper::map::key_frames_test

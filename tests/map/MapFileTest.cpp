@@ -12,6 +12,7 @@
 #include <random>
 #include <sstream>
 
+namespace map_file_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -234,3 +235,4 @@ TEST(FramesSection, laterVersionsAndStrangeBytesAreRefused) {
 }
 
 }  // namespace
+}  // namespace map_file_test

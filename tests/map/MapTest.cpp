@@ -5,6 +5,7 @@
 
 #include <random>
 
+namespace map_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -116,3 +117,4 @@ TEST(DenseTrajectory, afterTheNewestKeyFrameTheSourceAloneSpeaks) {
 }
 
 }  // namespace
+}  // namespace map_test

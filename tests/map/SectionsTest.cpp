@@ -9,7 +9,7 @@
 #include <ostream>
 
 // The sections of a map file beside that of a single session's frames.
-namespace omnimapper::map {
+namespace omnimapper::map::sections_test {
 namespace {
 
 class Sign : public LandmarkPayload {
@@ -185,4 +185,4 @@ TEST(SessionFigures, AreOfEachSessionAndNotOfTheLeapBetween) {
 }
 
 }  // namespace
-}  // namespace omnimapper::map
+}  // namespace omnimapper::map::sections_test

@@ -10,7 +10,7 @@
 #include "GraphInvariants.h"
 
 // What batches do to landmarks. Two things, a and b, are seen from one pose.
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::batch_landmarks_test {
 namespace {
 
 using map::Landmark;
@@ -165,4 +165,4 @@ TEST_F(BatchLandmarks, ABatchOfAnOldStateSaysWhyItIsUnfit) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::batch_landmarks_test

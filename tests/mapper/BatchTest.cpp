@@ -9,7 +9,7 @@
 #include <limits>
 #include <sstream>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::batch_test {
 namespace {
 
 using graph::FactorRecord;
@@ -139,4 +139,4 @@ TEST(Batch, WhereOneEditDoesNotFitTheGraphIsLeftAsItWas) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::batch_test

@@ -19,6 +19,7 @@
 #include "../graph/Jacobians.h"
 
 namespace beacons {
+namespace beacon_example_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -159,4 +160,5 @@ TEST(BeaconPayload, IsReadBackAsItWasWrittenAndAnUnknownVersionIsRefused) {
 }
 
 }  // namespace
+}  // namespace beacon_example_test
 }  // namespace beacons

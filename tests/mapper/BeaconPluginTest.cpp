@@ -7,6 +7,7 @@
 #include "BeaconDrive.h"
 
 namespace beacons {
+namespace beacon_plugin_test {
 namespace {
 
 using mrpt::obs::CObservationBearingRange;
@@ -156,4 +157,5 @@ TEST(BeaconPlugin, ASessionFindsItsPlaceInTheMapByTheBeaconsItSeesAgain) {
 }
 
 }  // namespace
+}  // namespace beacon_plugin_test
 }  // namespace beacons

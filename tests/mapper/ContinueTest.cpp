@@ -9,7 +9,7 @@
 #include <cmath>
 
 // Logs that are cut and continued, through a map file, with the plugins of the project.
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::continue_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -257,4 +257,4 @@ TEST_F(ContinueWithReference, ATrackerGoesOnInTheSameFrame) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::continue_test

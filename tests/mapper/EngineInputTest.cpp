@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::engine_input_test {
 namespace {
 
 using mrpt::obs::CObservation;
@@ -312,4 +312,4 @@ TEST(EngineQueue, HoldsNoMoreThanItsLimitWhateverTheWindow) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::engine_input_test

@@ -9,7 +9,7 @@
 
 // What the engine promises to plugins, with plugins made for it: a robot that moves 1 m a second along x and a log of
 // one comment a second, each a key frame.
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::engine_plugins_test {
 namespace {
 
 using mrpt::obs::CObservation;
@@ -243,4 +243,4 @@ TEST_F(EnginePlugins, AnInterruptedRunLeavesWhatIsNotJudgedUnjudged) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::engine_plugins_test

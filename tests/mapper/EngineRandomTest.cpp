@@ -9,7 +9,7 @@
 #include "SteadyMotion.h"
 
 // The engine with a plugin that does everything a plugin may do, at random, on observations that come late at random.
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::engine_random_test {
 namespace {
 
 using mrpt::obs::CObservation;
@@ -177,4 +177,4 @@ TEST(EngineRandom, JobsAndSplicesGiveTheSameBitsWithAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::engine_random_test

@@ -9,7 +9,7 @@
 #include <string>
 
 // Whole maps of simulated logs against the truth. The bounds are about twice what was measured.
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::engine_simulated_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -145,4 +145,4 @@ TEST(EngineSimulated, WithoutOdometryTheLaserGivesTheWay) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::engine_simulated_test

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <set>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::engine_test {
 namespace {
 
 using mrpt::obs::CObservation;
@@ -200,4 +200,4 @@ TEST(EngineSensors, WhatALogBringsPerceivedIsNotPerceivedTwice) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::engine_test

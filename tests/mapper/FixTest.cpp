@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/mapper/Fix.h>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::fix_test {
 namespace {
 
 Fix fixWith(double ahead, double aside, double up, double yaw) {
@@ -34,4 +34,4 @@ TEST(Fix, IsLocatedIfJoinedAndKnownOnTheFloorInEveryDirection) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::fix_test

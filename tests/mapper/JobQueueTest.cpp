@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::job_queue_test {
 namespace {
 
 // A batch that tells how many variables the state had.
@@ -66,4 +66,4 @@ TEST_P(JobQueueOf, WhatAJobThrowsComesOutWhenItIsTakenAndTheOthersGoOn) {
 INSTANTIATE_TEST_SUITE_P(Threads, JobQueueOf, ::testing::Values(1, 2, 4));
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::job_queue_test

@@ -2,7 +2,7 @@
 #include <omnimapper/mapper/Joining.h>
 #include <omnimapper/mapper/PoseFactors.h>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::joining_test {
 namespace {
 
 // Three sessions of two key frames each, linked within themselves.
@@ -75,4 +75,4 @@ TEST(Joining, APlaceInTheMapJoinsIfItsPluginGivesAbsolutePoses) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::joining_test

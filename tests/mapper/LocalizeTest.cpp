@@ -8,7 +8,7 @@
 #include <cmath>
 
 // A log that is only localized in a map, with the plugins of the project.
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::localize_test {
 namespace {
 
 using testing::SimulatedLog;
@@ -178,4 +178,4 @@ TEST_F(Localize, ASessionOfTheMapThatWasNeverJoinedIsNoPlaceToBeLocatedIn) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::localize_test

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <functional>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::mapping_run_test {
 namespace {
 
 using testing::SimulatedLog;
@@ -157,4 +157,4 @@ TEST_F(MappingRun, WithoutAnyOdometryInTheLogTheUserIsTold) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::mapping_run_test

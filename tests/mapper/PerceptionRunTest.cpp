@@ -10,7 +10,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::perception_run_test {
 namespace {
 
 using base::ExitCode;
@@ -153,4 +153,4 @@ TEST_F(PerceptionRunTest, AClockThatStandsStillLosesNothing) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::perception_run_test

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::perception_test {
 namespace {
 
 using mrpt::obs::CObservation;
@@ -140,4 +140,4 @@ TEST_P(Pool, WhatNoExtractorWantsGivesNothing) {
 INSTANTIATE_TEST_SUITE_P(Threads, Pool, ::testing::Values(1, 2, 4));
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::perception_test

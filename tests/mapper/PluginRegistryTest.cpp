@@ -9,7 +9,7 @@
 #include <fstream>
 #include <functional>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::plugin_registry_test {
 namespace {
 
 bool holds(const std::string& text, const std::string& part) {
@@ -158,4 +158,4 @@ TEST_F(PluginRegistry, TheReferenceHoldsEverySectionEveryClassAndEveryKey) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::plugin_registry_test

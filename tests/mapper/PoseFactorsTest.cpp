@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::pose_factors_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -95,4 +95,4 @@ TEST(PoseFactors, AtAQuarterTurnUpTheRotationStaysWhole) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::pose_factors_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::pose_timeline_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -154,4 +154,4 @@ TEST(PoseTimeline, ForgettingLeavesLaterSpansAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::pose_timeline_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::release_queue_test {
 namespace {
 
 using mrpt::obs::CObservation;
@@ -117,4 +117,4 @@ TEST(Queue, KnowsWhatWaitsByLabelClassAndStamp) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::release_queue_test

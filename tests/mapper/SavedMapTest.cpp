@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::saved_map_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -170,4 +170,4 @@ TEST_F(SavedMapFile, ANewSessionStartsWhereTheOptionsSay) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::saved_map_test

@@ -9,6 +9,7 @@
 #include "BeaconDrive.h"
 
 namespace beacons {
+namespace sensor_corrections_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -128,4 +129,5 @@ TEST(SensorCorrections, AreMadeOnceForEachSensorAndBoundByTheirFinalIds) {
 }
 
 }  // namespace
+}  // namespace sensor_corrections_test
 }  // namespace beacons

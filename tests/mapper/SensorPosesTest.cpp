@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::sensor_poses_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -121,4 +121,4 @@ TEST(SensorPoses, ASectionWithoutLabelIsRefused) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::sensor_poses_test

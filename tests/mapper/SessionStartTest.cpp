@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::session_start_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -81,4 +81,4 @@ TEST_F(PlacedSession, AnywhereIsTheMiddleOfTheMapAndAsUncertainAsItIsLarge) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::session_start_test

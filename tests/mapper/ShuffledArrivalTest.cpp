@@ -10,7 +10,7 @@
 #include "GraphInvariants.h"
 
 // The same log with every observation on its way for a time of its own, up to several windows, odometry included.
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::shuffled_arrival_test {
 namespace {
 
 using mrpt::obs::CObservation;
@@ -159,4 +159,4 @@ TEST(ShuffledArrival, LaserOdometryIsNearlyAsGoodAndFarBetterThanWheelsInOrder) 
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::shuffled_arrival_test

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace omnimapper::testing {
+namespace omnimapper::testing::simulated_log_test {
 namespace {
 
 using mrpt::obs::CObservation2DRangeScan;
@@ -76,4 +76,4 @@ TEST(SimulatedLog, ScansOfAnUprightRoomAreWhereTheWallsAre) {
 }
 
 }  // namespace
-}  // namespace omnimapper::testing
+}  // namespace omnimapper::testing::simulated_log_test

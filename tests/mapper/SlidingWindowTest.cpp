@@ -9,7 +9,7 @@
 #include <cmath>
 
 // A session in a map that is held: what its retired key frames told must neither get lost nor count twice.
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::sliding_window_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -135,4 +135,4 @@ TEST(SlidingWindow, NothingRetiresBeforeTheSessionIsJoinedNorWhatIsTooNew) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::sliding_window_test

@@ -13,7 +13,7 @@
 
 // Thesis 5.2.3.3: an observation that comes late gets its place in the trajectory, and nothing else changes. A robot
 // goes 1 m a second; a comment is an observation that earns a key frame.
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::splicing_test {
 namespace {
 
 using mrpt::obs::CObservation;
@@ -220,4 +220,4 @@ reference_is_map = false
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::splicing_test

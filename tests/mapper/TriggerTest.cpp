@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::trigger_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -128,4 +128,4 @@ TEST(Trigger, AsksForEachStretchOfMotionOnce) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::trigger_test

@@ -2,7 +2,7 @@
 #include <omnimapper/mapper/Uncertainty.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::uncertainty_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -96,4 +96,4 @@ TEST_P(UncertaintyOf, WhatNothingDeterminesIsNotKnown) {
 INSTANTIATE_TEST_SUITE_P(Motions, UncertaintyOf, ::testing::Values(Motion::planar, Motion::spatial));
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::uncertainty_test

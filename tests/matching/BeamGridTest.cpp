@@ -6,7 +6,7 @@
 
 #include "Beams.h"
 
-namespace omnimapper::matching {
+namespace omnimapper::matching::beam_grid_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -70,4 +70,4 @@ TEST(BeamGrid, HoldsNothingWithoutScansAndRefusesAMapTooLarge) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::matching::beam_grid_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace omnimapper::matching {
+namespace omnimapper::matching::correlative_search_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -250,4 +250,4 @@ TEST(CorrelativeSearch, ThinnedPointsAreAsFarApartAsAsked) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::matching::correlative_search_test

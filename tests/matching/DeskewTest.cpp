@@ -7,7 +7,7 @@
 
 #include "Scans.h"
 
-namespace omnimapper::matching {
+namespace omnimapper::matching::deskew_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -69,4 +69,4 @@ TEST(Deskew, ASweepTakenOnTheMoveMatchesOnceItIsStraightened) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::matching::deskew_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace omnimapper::matching {
+namespace omnimapper::matching::likelihood_pyramid_test {
 namespace {
 
 std::vector<Eigen::Vector2f> randomPoints(std::uint64_t seed, int count, double size) {
@@ -91,4 +91,4 @@ TEST(LikelihoodPyramid, RefusesWhatItCannotHold) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::matching::likelihood_pyramid_test

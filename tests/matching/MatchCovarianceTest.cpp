@@ -5,7 +5,7 @@
 
 #include "Scans.h"
 
-namespace omnimapper::matching {
+namespace omnimapper::matching::match_covariance_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -42,4 +42,4 @@ TEST(MatchCovariance, IsHonestForSensorsOfAnyNoise) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::matching::match_covariance_test

@@ -2,7 +2,7 @@
 
 #include "Scans.h"
 
-namespace omnimapper::matching {
+namespace omnimapper::matching::planar_scan_test {
 namespace {
 
 using Eigen::Vector2f;
@@ -88,4 +88,4 @@ TEST(PlanarScan, OncePerCellKeepsTheFirstPointOfEach) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::matching::planar_scan_test

@@ -9,7 +9,7 @@
 
 #include "Scans.h"
 
-namespace omnimapper::matching {
+namespace omnimapper::matching::point_to_line_matcher_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -146,4 +146,4 @@ TEST(PointToLineMatcher, RefusesMapsThatAreNotOfPoints) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::matching::point_to_line_matcher_test

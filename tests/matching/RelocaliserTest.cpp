@@ -6,7 +6,7 @@
 
 #include "Beams.h"
 
-namespace omnimapper::matching {
+namespace omnimapper::matching::relocaliser_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -155,4 +155,4 @@ TEST(Relocaliser, PointsThatAreNotFiniteAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::matching::relocaliser_test

@@ -5,7 +5,7 @@
 
 #include "Scans.h"
 
-namespace omnimapper::matching {
+namespace omnimapper::matching::scan_matchers_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -148,4 +148,4 @@ TEST_P(ScanMatchers, GivesTheSameBitsForTheSameScans) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::matching::scan_matchers_test

@@ -4,7 +4,7 @@
 
 #include "Scans.h"
 
-namespace omnimapper::matching {
+namespace omnimapper::matching::scan_tracker_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -83,4 +83,4 @@ TEST(ScanTracker, AlongABareCorridorTheGuessCounts) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::matching::scan_tracker_test

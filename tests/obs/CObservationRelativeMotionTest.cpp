@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-namespace omnimapper::obs {
+namespace omnimapper::obs::c_observation_relative_motion_test {
 namespace {
 
 CObservationRelativeMotion planarMotion() {
@@ -76,4 +76,4 @@ TEST(CObservationRelativeMotion, drawsTheEllipsoidAtTheEndOfTheSpan) {
 }
 
 }  // namespace
-}  // namespace omnimapper::obs
+}  // namespace omnimapper::obs::c_observation_relative_motion_test

@@ -15,7 +15,7 @@
 
 #include "FilledObjects.h"
 
-namespace omnimapper::obs {
+namespace omnimapper::obs::derived_observations_test {
 namespace {
 
 // Reads a row as its header says: groups of fields between { and }, each as often as the field before it counts.
@@ -279,4 +279,4 @@ TEST(CObservationDoorSigns, keepEveryPixelOfTheirPatches) {
 }
 
 }  // namespace
-}  // namespace omnimapper::obs
+}  // namespace omnimapper::obs::derived_observations_test

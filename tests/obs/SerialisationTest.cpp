@@ -11,7 +11,7 @@
 
 #include "FilledObjects.h"
 
-namespace omnimapper::obs {
+namespace omnimapper::obs::serialisation_test {
 namespace {
 
 using mrpt::serialization::archiveFrom;
@@ -134,4 +134,4 @@ TEST(Serialisation, relativeMotionKeepsEveryNumber) {
 }
 
 }  // namespace
-}  // namespace omnimapper::obs
+}  // namespace omnimapper::obs::serialisation_test

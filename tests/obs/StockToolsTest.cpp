@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace omnimapper::obs {
+namespace omnimapper::obs::stock_tools_test {
 namespace {
 
 std::string outputOf(const std::string& command) {
@@ -73,4 +73,4 @@ TEST_F(StockTools, rawlogEditExportsOurClassAsText) {
 }
 
 }  // namespace
-}  // namespace omnimapper::obs
+}  // namespace omnimapper::obs::stock_tools_test

@@ -15,7 +15,7 @@
 
 #include "RangeScans.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::bad_input_test {
 namespace {
 
 using namespace scans;
@@ -200,4 +200,4 @@ TEST(BadInput, APictureOfACameraWithAnImpossibleCalibrationTakesNoLonger) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::bad_input_test

@@ -13,7 +13,7 @@
 
 #include "PlaneAgreement.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::cloud_plane_finder_test {
 namespace {
 
 using Cloud = std::vector<Eigen::Vector3f>;
@@ -264,4 +264,4 @@ TEST(CloudPlaneFinder, TheCovarianceCountsWhatAllPointsAreOffAlike) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::cloud_plane_finder_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::comparators_test {
 namespace {
 
 const Pinhole kCamera{100, 100, 39.5, 31.5};
@@ -152,4 +152,4 @@ TEST(ClusterComparator, AGapInDepthPartsThings) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::comparators_test

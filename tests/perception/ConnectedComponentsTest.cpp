@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::connected_components_test {
 namespace {
 
 /// Letters that are equal belong together; blanks to nothing.
@@ -99,4 +99,4 @@ TEST(ConnectedComponents, AgreeWithFloodFillOnRandomImages) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::connected_components_test

@@ -6,7 +6,7 @@
 
 #include "objects/ConvexHull.h"
 
-namespace omnimapper::perception::objects {
+namespace omnimapper::perception::objects::convex_hull_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -56,4 +56,4 @@ TEST(ConvexHull, OfManyPointsOnALineIsItsEnds) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception::objects
+}  // namespace omnimapper::perception::objects::convex_hull_test

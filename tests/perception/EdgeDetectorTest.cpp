@@ -11,7 +11,7 @@
 
 #include "DepthRooms.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::edge_detector_test {
 namespace {
 
 const Pinhole kCamera{100, 100, 39.5, 31.5};
@@ -287,4 +287,4 @@ TEST(EdgeDetector, SeveralThreadsAtOnceGetWhatOneGets) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::edge_detector_test

@@ -9,7 +9,7 @@
 
 #include "RangeScans.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::edge_extractor_test {
 namespace {
 
 using namespace scans;
@@ -103,4 +103,4 @@ TEST(EdgeExtractor, SeveralThreadsAtOnceGetWhatOneGets) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::edge_extractor_test

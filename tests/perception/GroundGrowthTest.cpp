@@ -5,7 +5,7 @@
 #include "planes/InverseDepth.h"
 #include "road/GroundGrowth.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::ground_growth_test {
 namespace {
 
 constexpr int kWidth = 96, kHeight = 112, kFoot = 60;  // [px]; the wall is above that row
@@ -48,4 +48,4 @@ TEST(GroundGrowth, WhatIsBarredDoesNotGrowButSeedsStay) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::ground_growth_test

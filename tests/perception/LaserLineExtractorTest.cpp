@@ -8,7 +8,7 @@
 #include <limits>
 #include <thread>
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::laser_line_extractor_test {
 namespace {
 
 using mrpt::obs::CObservation2DRangeScan;
@@ -311,4 +311,4 @@ TEST(LaserLineExtractor, SeveralThreadsAtOnceGetWhatOneGets) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::laser_line_extractor_test

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::laser_points_extractor_test {
 namespace {
 
 using mrpt::obs::CObservation2DRangeScan;
@@ -162,4 +162,4 @@ TEST(LaserPointsExtractor, SeveralThreadsAtOnceGetWhatOneGets) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::laser_points_extractor_test

@@ -8,7 +8,7 @@
 
 #include "DepthRooms.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::normals_test {
 namespace {
 
 const Pinhole kCamera{100, 100, 39.5, 31.5};
@@ -117,4 +117,4 @@ TEST(OrganisedPoints, AreOnTheRaysOfTheirPixels) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::normals_test

@@ -7,7 +7,7 @@
 #include "RangeScans.h"
 #include "TableScene.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::object_extractor_test {
 namespace {
 
 using rooms::TableScene;
@@ -90,4 +90,4 @@ TEST(ObjectExtractor, RepetitionChangesNoBitAndNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::object_extractor_test

@@ -6,7 +6,7 @@
 
 #include "TableScene.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::object_finder_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -220,4 +220,4 @@ TEST(ObjectFinder, CentroidsVaryAsTheirCovarianceSays) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::object_finder_test

@@ -4,7 +4,7 @@
 
 #include "objects/OrientedBox.h"
 
-namespace omnimapper::perception::objects {
+namespace omnimapper::perception::objects::oriented_box_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -50,4 +50,4 @@ TEST(OrientedBox, IsExtendedAlongItsAxes) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception::objects
+}  // namespace omnimapper::perception::objects::oriented_box_test

@@ -3,7 +3,7 @@
 
 #include "PlaneAgreement.h"
 
-namespace omnimapper::perception::rooms {
+namespace omnimapper::perception::rooms::plane_agreement_test {
 namespace {
 
 Agreement compareRows(const std::vector<std::uint16_t>& truth, const std::vector<std::uint16_t>& labels) {
@@ -68,4 +68,4 @@ TEST(PlaneAgreement, PartsOfAFaceThatDoNotMeetAreTwoPlanesAndCountsAddUp) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception::rooms
+}  // namespace omnimapper::perception::rooms::plane_agreement_test

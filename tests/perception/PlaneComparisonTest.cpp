@@ -9,7 +9,7 @@
 #include "ColouredRooms.h"
 #include "PlaneAgreement.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::plane_comparison_test {
 namespace {
 
 constexpr int kWidth = 200, kHeight = 150;  // no multiple of a cell's side
@@ -253,4 +253,4 @@ TEST(PlaneComparison, RunsOfOneComponentMayLieSideBySide) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::plane_comparison_test

@@ -10,7 +10,7 @@
 
 #include "RangeScans.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::plane_extractor_test {
 namespace {
 
 using namespace scans;
@@ -270,4 +270,4 @@ TEST(PlaneExtractor, ThreadsAndRepetitionChangeNoBit) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::plane_extractor_test

@@ -12,7 +12,7 @@
 
 #include "PlaneAgreement.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::plane_quality_test {
 namespace {
 
 using rooms::Scene;
@@ -230,4 +230,4 @@ TEST(PlaneQuality, TheCovarianceCountsABendOfTheImageDrawnForEachRendering) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::plane_quality_test

@@ -10,7 +10,7 @@
 
 #include "DepthRooms.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::plane_segmenter_test {
 namespace {
 
 using geometry::Plane3;
@@ -279,4 +279,4 @@ TEST(PlaneSegmenter, ThreadsAndRepetitionChangeNoBit) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::plane_segmenter_test

@@ -4,7 +4,7 @@
 #include "RangeScan.h"
 #include "RangeScans.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::range_scan_test {
 namespace {
 
 using namespace scans;
@@ -45,4 +45,4 @@ TEST(RangeScan, PicturesOfTwoOrFourChannelsAreNone) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::range_scan_test

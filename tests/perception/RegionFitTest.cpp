@@ -6,7 +6,7 @@
 
 #include "planes/RegionFit.h"
 
-namespace omnimapper::perception::planes {
+namespace omnimapper::perception::planes::region_fit_test {
 namespace {
 
 constexpr int kWidth = 96, kHeight = 48;
@@ -50,4 +50,4 @@ TEST(RegionFit, TheRmsIsThatOfTheDistancesFromThePlane) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception::planes
+}  // namespace omnimapper::perception::planes::region_fit_test

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::rgb_edges_test {
 namespace {
 
 const Pinhole kCamera{100, 100, 39.5, 31.5};
@@ -155,4 +155,4 @@ TEST(RgbEdges, AnEmptyPictureHasNone) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::rgb_edges_test

@@ -14,7 +14,7 @@
 
 #include "RangeScans.h"
 
-namespace omnimapper::perception {
+namespace omnimapper::perception::road_segmenter_test {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
@@ -227,4 +227,4 @@ TEST(RoadExtractor, TheExpectedGroundIsThatOfTheBaseSeenFromTheSensor) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::perception::road_segmenter_test

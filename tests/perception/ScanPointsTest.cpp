@@ -2,7 +2,7 @@
 
 #include "lines/ScanPoints.h"
 
-namespace omnimapper::perception::lines {
+namespace omnimapper::perception::lines::scan_points_test {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180, kMaxGap = 0.2;
@@ -43,4 +43,4 @@ TEST(ScanPoints, BeamsWithoutEchoLeaveAGapOnceTheyAreTwo) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception::lines
+}  // namespace omnimapper::perception::lines::scan_points_test

@@ -11,7 +11,7 @@
 
 #include "../graph/Jacobians.h"
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::antenna_factor_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -127,4 +127,4 @@ TEST(AntennaFactor, BytesThatAreCutShortAreRefused) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::antenna_factor_test

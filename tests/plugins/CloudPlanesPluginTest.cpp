@@ -7,7 +7,7 @@
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/plugins/registerPlugins.h>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::cloud_planes_plugin_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -115,4 +115,4 @@ TEST(CloudPlanesPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::cloud_planes_plugin_test

@@ -6,7 +6,7 @@
 #include <omnimapper/plugins/EdgesPlugin.h>
 #include <omnimapper/plugins/registerPlugins.h>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::edges_plugin_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -50,4 +50,4 @@ TEST(EdgesPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::edges_plugin_test

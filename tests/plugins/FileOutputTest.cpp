@@ -21,6 +21,7 @@
 
 #include "BoxWorld.h"
 
+namespace file_output_test {
 namespace {
 
 using namespace box_world;
@@ -249,3 +250,4 @@ TEST(SummaryOutput, holdsTheFiguresOfTheRun) {
 }
 
 }  // namespace
+}  // namespace file_output_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::gps_plugin_test {
 namespace {
 
 using mrpt::obs::CObservationGPS;
@@ -218,4 +218,4 @@ TEST(GpsPlugin, TheQualityOfAFixIsItsSigma) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::gps_plugin_test

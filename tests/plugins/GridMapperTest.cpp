@@ -5,6 +5,7 @@
 
 #include "BoxWorld.h"
 
+namespace grid_mapper_test {
 namespace {
 
 using namespace box_world;
@@ -131,3 +132,4 @@ TEST(GridMapper, aPoseThatIsNoPlaceIsLeftOut) {
 }
 
 }  // namespace
+}  // namespace grid_mapper_test

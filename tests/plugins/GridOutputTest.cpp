@@ -11,6 +11,7 @@
 
 #include "BoxWorld.h"
 
+namespace grid_output_test {
 namespace {
 
 using namespace box_world;
@@ -279,3 +280,4 @@ TEST(GridPicture, aStrayBeamDoesNotMakeTheBuildingSmall) {
 }
 
 }  // namespace
+}  // namespace grid_output_test

@@ -5,7 +5,7 @@
 #include <omnimapper/plugins/registerPlugins.h>
 #include <omnimapper/testing/LineScans.h>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::laser_lines_plugin_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -44,4 +44,4 @@ TEST(LaserLinesPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::laser_lines_plugin_test

@@ -5,7 +5,7 @@
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/plugins/registerPlugins.h>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::laser_points_plugin_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -56,4 +56,4 @@ TEST(LaserPointsPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::laser_points_plugin_test

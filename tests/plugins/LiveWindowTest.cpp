@@ -14,6 +14,7 @@
 #include "BoxWorld.h"
 #include "CloseWindows.h"
 
+namespace live_window_test {
 namespace {
 
 using namespace box_world;
@@ -134,3 +135,4 @@ TEST(LiveWindow, withoutADisplayTheErrorNamesTheRemedy) {
 }
 
 }  // namespace
+}  // namespace live_window_test

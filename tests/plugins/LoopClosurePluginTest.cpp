@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::loop_closure_plugin_test {
 namespace {
 
 constexpr double kDegree = base::option_text::kRadiansPerDegree;
@@ -87,4 +87,4 @@ TEST(LoopClosurePlugin, OnTheSecondLapClosuresLieOnTheTruth) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::loop_closure_plugin_test

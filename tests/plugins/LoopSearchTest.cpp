@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::loop_search_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -141,4 +141,4 @@ TEST_F(LoopSearchVerdict, NothingIsSoughtWhereThePlaceIsKnownAsWellAsAClosureWou
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::loop_search_test

@@ -3,7 +3,7 @@
 #include <omnimapper/mapper/PoseTimeline.h>
 #include <omnimapper/plugins/NoMotionPlugin.h>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::no_motion_plugin_test {
 namespace {
 
 base::Stamp at(double seconds) {
@@ -42,4 +42,4 @@ TEST(NoMotionPlugin, IsAskedLastTakesNothingAndHoldsUpNobody) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::no_motion_plugin_test

@@ -6,7 +6,7 @@
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/plugins/registerPlugins.h>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::objects_plugin_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -42,4 +42,4 @@ TEST(ObjectsPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::objects_plugin_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::odometry_plugin_test {
 namespace {
 
 using mapper::PosePlugin;
@@ -163,4 +163,4 @@ TEST(OdometryPlugin, TakesItsOwnLabelOrTheFirstThatComes) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::odometry_plugin_test

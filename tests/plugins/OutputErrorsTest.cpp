@@ -16,6 +16,7 @@
 
 #include "BoxWorld.h"
 
+namespace output_errors_test {
 namespace {
 
 using namespace box_world;
@@ -126,3 +127,4 @@ TEST(Outputs, optionsAreReadAndMisspeltOnesRefused) {
 }
 
 }  // namespace
+}  // namespace output_errors_test

@@ -21,7 +21,7 @@
 #include "pictures/CameraPicture.h"
 #include "pictures/LaserPicture.h"
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::perception_pictures_test {
 namespace {
 
 using mrpt::obs::CObservation3DRangeScan;
@@ -188,4 +188,4 @@ TEST(FillAreas, EvenOddToTheMiddleOfPixels) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::perception_pictures_test

@@ -5,7 +5,7 @@
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/plugins/registerPlugins.h>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::planes_plugin_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -82,4 +82,4 @@ TEST(PlanesPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::planes_plugin_test

@@ -11,6 +11,7 @@
 
 #include "BoxWorld.h"
 
+namespace report_output_test {
 namespace {
 
 using namespace box_world;
@@ -226,3 +227,4 @@ TEST(Png, mrptReadsBackEveryPixel) {
 }
 
 }  // namespace
+}  // namespace report_output_test

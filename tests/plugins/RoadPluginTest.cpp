@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::road_plugin_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -62,4 +62,4 @@ TEST(RoadPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::road_plugin_test

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::robot_pose_plugin_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -133,4 +133,4 @@ TEST(RobotPosePlugin, WantsItsLabelOnly) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::robot_pose_plugin_test

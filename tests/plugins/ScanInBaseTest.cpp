@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::scan_in_base_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -62,4 +62,4 @@ TEST(ScanInBase, ASweepOfAnUpsideDownSensorGoesTheOtherWayRound) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::scan_in_base_test

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::scan_odometry_plugin_test {
 namespace {
 
 using mrpt::obs::CObservation;
@@ -342,4 +342,4 @@ TEST(ScanOdometryPlugin, ItsCovarianceHasRoomForARealWorldButNotMore) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::scan_odometry_plugin_test

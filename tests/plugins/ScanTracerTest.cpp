@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+namespace scan_tracer_test {
 namespace {
 
 using namespace omnimapper::plugins;
@@ -212,3 +213,4 @@ TEST(ScanTracer, whoStoodThereAndWentIsForgotten) {
 }
 
 }  // namespace
+}  // namespace scan_tracer_test

@@ -11,6 +11,7 @@
 
 #include "CameraFixture.h"
 
+namespace colour_camera_test {
 namespace {
 
 using namespace omnimapper;
@@ -206,3 +207,4 @@ TEST(ColourCamera, gainBrightensCornersDarkenNoiseIsAsTold) {
 }
 
 }  // namespace
+}  // namespace colour_camera_test

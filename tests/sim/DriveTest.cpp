@@ -5,6 +5,7 @@
 
 #include "SmallWorlds.h"
 
+namespace drive_test {
 namespace {
 
 using namespace omnimapper;
@@ -236,3 +237,4 @@ TEST(Drive, aHandSwaysSmoothlyAtEyeHeight) {
 }
 
 }  // namespace
+}  // namespace drive_test

@@ -5,6 +5,7 @@
 
 #include "CameraFixture.h"
 
+namespace frame_test {
 namespace {
 
 using namespace omnimapper;
@@ -141,3 +142,4 @@ TEST(Frame, theProjectorsShadowLiesOnTheLeftAndIsAsWideAsTheDisparityJumps) {
 }
 
 }  // namespace
+}  // namespace frame_test

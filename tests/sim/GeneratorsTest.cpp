@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 
+namespace generators_test {
 namespace {
 
 using namespace omnimapper;
@@ -258,3 +259,4 @@ TEST(Generators, plansAreDrawnWithTheirRooms) {
 }
 
 }  // namespace
+}  // namespace generators_test

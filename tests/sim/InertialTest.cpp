@@ -9,6 +9,7 @@
 #include "SensorRun.h"
 #include "SmallWorlds.h"
 
+namespace inertial_test {
 namespace {
 
 using namespace omnimapper;
@@ -170,3 +171,4 @@ TEST(Gps, withoutSkyThereIsNoFix) {
 }
 
 }  // namespace
+}  // namespace inertial_test

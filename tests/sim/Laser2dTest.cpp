@@ -7,6 +7,7 @@
 #include "SensorRun.h"
 #include "SmallWorlds.h"
 
+namespace laser2d_test {
 namespace {
 
 using namespace omnimapper;
@@ -253,3 +254,4 @@ TEST(Laser2d, aModelsFiguresCountWhereNoneAreGiven) {
 }
 
 }  // namespace
+}  // namespace laser2d_test

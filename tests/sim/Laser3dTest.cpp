@@ -7,6 +7,7 @@
 #include "SensorRun.h"
 #include "SmallWorlds.h"
 
+namespace laser3d_test {
 namespace {
 
 using namespace omnimapper;
@@ -78,3 +79,4 @@ TEST(Laser3d, isOfIntensityAndDropsWhatIsLost) {
 }
 
 }  // namespace
+}  // namespace laser3d_test

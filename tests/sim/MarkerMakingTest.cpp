@@ -5,6 +5,7 @@
 
 #include <opencv2/aruco.hpp>
 
+namespace marker_making_test {
 namespace {
 
 using namespace omnimapper;
@@ -71,3 +72,4 @@ TEST(MarkerMaking, refusesWhatIsNotThere) {
 }
 
 }  // namespace
+}  // namespace marker_making_test

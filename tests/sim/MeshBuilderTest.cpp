@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+namespace mesh_builder_test {
 namespace {
 
 using namespace omnimapper;
@@ -153,3 +154,4 @@ TEST(MeshBuilder, texturesLieUprightForWhoLooks) {
 }
 
 }  // namespace
+}  // namespace mesh_builder_test

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 
+namespace object_making_test {
 namespace {
 
 using namespace omnimapper;
@@ -120,3 +121,4 @@ TEST(ObjectMaking, anUnknownShapeOrSizeIsRefusedWithTheKnownOnes) {
 }
 
 }  // namespace
+}  // namespace object_making_test

@@ -8,6 +8,7 @@
 #include "SensorRun.h"
 #include "SmallWorlds.h"
 
+namespace odometry_test {
 namespace {
 
 using namespace omnimapper;
@@ -110,3 +111,4 @@ TEST(Odometry, encodersCountWhatTheWheelsRolled) {
 }
 
 }  // namespace
+}  // namespace odometry_test

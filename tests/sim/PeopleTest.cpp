@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+namespace people_test {
 namespace {
 
 using namespace omnimapper;
@@ -264,3 +265,4 @@ TEST(People, whatNobodyCanDoIsRefusedByName) {
 }
 
 }  // namespace
+}  // namespace people_test

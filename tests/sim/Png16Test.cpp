@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+namespace png16_test {
 namespace {
 
 using omnimapper::sim::png16;
@@ -34,3 +35,4 @@ TEST(Png16, valuesMustFillThePicture) {
 }
 
 }  // namespace
+}  // namespace png16_test

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+namespace pointing_error_test {
 namespace {
 
 using namespace omnimapper;
@@ -34,3 +35,4 @@ TEST(PointingError, aDirectionWithAnErrorHasIt) {
 }
 
 }  // namespace
+}  // namespace pointing_error_test

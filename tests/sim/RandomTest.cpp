@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+namespace random_test {
 namespace {
 
 using namespace omnimapper;
@@ -30,3 +31,4 @@ TEST(Random, momentsAreThoseOfTheirDistributions) {
 }
 
 }  // namespace
+}  // namespace random_test

@@ -7,6 +7,7 @@
 #include "SensorRun.h"
 #include "SmallWorlds.h"
 
+namespace range_bearing_test {
 namespace {
 
 using namespace omnimapper;
@@ -116,3 +117,4 @@ TEST(RangeBearing, noiseMissesAndFalseAlarmsComeAtTheirRates) {
 }
 
 }  // namespace
+}  // namespace range_bearing_test

@@ -12,6 +12,7 @@
 
 #include "CameraFixture.h"
 
+namespace rgbd_camera_test {
 namespace {
 
 using namespace omnimapper;
@@ -269,3 +270,4 @@ TEST(RgbdCamera, whatCannotBeIsRefused) {
 }
 
 }  // namespace
+}  // namespace rgbd_camera_test

@@ -3,6 +3,7 @@
 
 #include <thread>
 
+namespace scene_test {
 namespace {
 
 using namespace omnimapper;
@@ -120,3 +121,4 @@ TEST(Scene, threadsMayAskAtOnce) {
 }
 
 }  // namespace
+}  // namespace scene_test

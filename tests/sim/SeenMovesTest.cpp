@@ -4,6 +4,7 @@
 
 #include "SeenMoves.h"
 
+namespace seen_moves_test {
 namespace {
 
 using namespace omnimapper;
@@ -40,3 +41,4 @@ TEST(SeenMoves, areNotThoseAfterTheEndOfTheRun) {
 }
 
 }  // namespace
+}  // namespace seen_moves_test

@@ -4,6 +4,7 @@
 #include <omnimapper/sim/Scene.h>
 #include <omnimapper/sim/SignMaking.h>
 
+namespace sign_making_test {
 namespace {
 
 using namespace omnimapper;
@@ -156,3 +157,4 @@ TEST(PosterMaking, kindsAndSeedsDiffer) {
 }
 
 }  // namespace
+}  // namespace sign_making_test

@@ -11,6 +11,7 @@
 #include "SensorRun.h"
 #include "SmallWorlds.h"
 
+namespace skeleton_tracker_test {
 namespace {
 
 using namespace omnimapper;
@@ -206,3 +207,4 @@ TEST(SkeletonTracker, anUnknownTargetOfTheTablesIsRefused) {
 }
 
 }  // namespace
+}  // namespace skeleton_tracker_test

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+namespace text_drawing_test {
 namespace {
 
 using namespace omnimapper;
@@ -102,3 +103,4 @@ TEST(TextDrawing, aMissingFontIsAnErrorThatNamesIt) {
 }
 
 }  // namespace
+}  // namespace text_drawing_test

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+namespace textures_test {
 namespace {
 
 using namespace omnimapper;
@@ -69,3 +70,4 @@ TEST(Textures, anUnknownKindIsAnErrorThatListsTheKnown) {
 }
 
 }  // namespace
+}  // namespace textures_test

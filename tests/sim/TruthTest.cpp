@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+namespace truth_test {
 namespace {
 
 using namespace omnimapper;
@@ -131,3 +132,4 @@ INSTANTIATE_TEST_SUITE_P(PlacesAndSeeds, Truth,
                          });
 
 }  // namespace
+}  // namespace truth_test

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+namespace world_ini_test {
 namespace {
 
 using namespace omnimapper;
@@ -258,3 +259,4 @@ TEST(WorldIni, everyKindOfSectionSaysItsOptions) {
 }
 
 }  // namespace
+}  // namespace world_ini_test

@@ -10,7 +10,7 @@
 
 #include "Logs.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::action_spans_test {
 namespace {
 
 using namespace logs;
@@ -218,4 +218,4 @@ TEST_F(ActionSpansTest, thrunsModelGivesTheSameBitsAtEachReadingAndTheCovariance
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::action_spans_test

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace omnimapper::source {
+namespace omnimapper::source::bounded_queue_test {
 namespace {
 
 constexpr std::size_t kManyBytes = 1 << 30;
@@ -98,4 +98,4 @@ TEST(BoundedQueue, takesWhatCanOnlyBeMoved) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::bounded_queue_test

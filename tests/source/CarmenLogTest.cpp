@@ -6,7 +6,7 @@
 
 #include "Logs.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::carmen_log_test {
 namespace {
 
 using logs::readAll;
@@ -269,4 +269,4 @@ TEST_F(CarmenLogTest, whatIsNoCarmenLogIsRefused) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::carmen_log_test

@@ -8,7 +8,7 @@
 
 #include "Logs.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::damage_test {
 namespace {
 
 using namespace logs;
@@ -226,4 +226,4 @@ TEST_F(DamageTest, whatIsNoRawlogIsRefusedWithAWayOut) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::damage_test

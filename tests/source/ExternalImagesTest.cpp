@@ -9,7 +9,7 @@
 
 #include "Logs.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::external_images_test {
 namespace {
 
 using namespace logs;
@@ -122,4 +122,4 @@ TEST_F(ExternalImagesTest, theFolderOfTheProcessIsPutBack) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::external_images_test

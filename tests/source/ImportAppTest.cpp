@@ -10,7 +10,7 @@
 #include "Logs.h"
 #include "RgbdImages.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::import_app_test {
 namespace {
 
 using base::ExitCode;
@@ -183,4 +183,4 @@ TEST_F(ImportAppTest, cloudsThatNoCameraSawAreNamed) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::import_app_test

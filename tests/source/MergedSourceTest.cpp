@@ -5,7 +5,7 @@
 
 #include "Logs.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::merged_source_test {
 namespace {
 
 using namespace logs;
@@ -92,4 +92,4 @@ TEST(MergedSource, noSourceIsAnEmptyStream) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::merged_source_test

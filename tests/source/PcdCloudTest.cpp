@@ -9,7 +9,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace omnimapper::source {
+namespace omnimapper::source::pcd_cloud_test {
 namespace {
 
 class PcdCloudTest : public ::testing::Test {
@@ -173,4 +173,4 @@ TEST(PcdRecording, tableTopScenesHaveLabels) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::pcd_cloud_test

@@ -6,7 +6,7 @@
 
 #include "Logs.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::rawlog_source_test {
 namespace {
 
 using namespace logs;
@@ -173,4 +173,4 @@ TEST_F(RawlogSourceTest, openRawlogsMergesByStampAndCountsTimeFromTheEarliestLog
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::rawlog_source_test

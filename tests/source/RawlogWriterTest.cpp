@@ -9,7 +9,7 @@
 
 #include "Logs.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::rawlog_writer_test {
 namespace {
 
 using namespace logs;
@@ -80,4 +80,4 @@ TEST(RawlogWriter, folderThatDoesNotExistIsNamed) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::rawlog_writer_test

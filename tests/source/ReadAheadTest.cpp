@@ -9,7 +9,7 @@
 
 #include "Logs.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::read_ahead_test {
 namespace {
 
 using namespace logs;
@@ -211,4 +211,4 @@ TEST(ReadAhead, reportAndProgressMayBeAskedFromAnotherThread) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::read_ahead_test

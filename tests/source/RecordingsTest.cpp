@@ -10,7 +10,7 @@
 #include "Logs.h"
 
 // Real logs; each property has its simulated twin in the other tests of this folder.
-namespace omnimapper::source {
+namespace omnimapper::source::recordings_test {
 namespace {
 
 using logs::readAll;
@@ -141,4 +141,4 @@ TEST(Recordings, intelHasAllItsScansWithTheRepairedStampsOfTheReference) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::recordings_test

@@ -5,7 +5,7 @@
 
 #include "RgbdImages.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::rgbd_folder_test {
 namespace {
 
 using mrpt::obs::CObservation3DRangeScan;
@@ -148,4 +148,4 @@ TEST(RgbdFolderRecording, keyFramesTakeTheStampsOfTheirPoses) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::rgbd_folder_test

@@ -4,7 +4,7 @@
 
 #include "Logs.h"
 
-namespace omnimapper::source {
+namespace omnimapper::source::selection_test {
 namespace {
 
 using namespace logs;
@@ -96,4 +96,4 @@ TEST(SourceOptions, areReadFromAnIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source
+}  // namespace omnimapper::source::selection_test

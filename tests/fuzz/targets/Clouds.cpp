@@ -12,7 +12,7 @@ namespace {
 
 using namespace perception;
 
-CloudPlaneOptions takeOptions(Input& input) {
+CloudPlaneOptions takeCloudOptions(Input& input) {
   CloudPlaneOptions options;
   options.voxel = input.flag() ? 0 : input.between(0, 0.3);
   options.min_range = input.between(0, 1);
@@ -103,7 +103,7 @@ void extractPackets(Input& input, const CloudPlaneOptions& options) {
 void clouds(const std::uint8_t* data, std::size_t size) {
   Input input(data, size);
   const int work = input.take<std::uint8_t>() % 8;
-  const CloudPlaneOptions options = takeOptions(input);
+  const CloudPlaneOptions options = takeCloudOptions(input);
   mayRefuse([&] {
     if (work == 0) return extractPackets(input, options);
     const auto points = takePoints(input);

@@ -57,7 +57,7 @@ mrpt::obs::CObservation2DRangeScan takeScan(Input& input) {
   return scan;
 }
 
-LaserLineOptions takeOptions(Input& input) {
+LaserLineOptions takeLaserOptions(Input& input) {
   LaserLineOptions options;
   options.method = input.flag() ? LaserLineOptions::Method::ransac : LaserLineOptions::Method::split_and_merge;
   options.min_range = input.between(0, 1);
@@ -91,7 +91,7 @@ void requireSound(const obs::CObservationLaserLines& found, const mrpt::obs::COb
 
 void laserScans(const std::uint8_t* data, std::size_t size) {
   Input input(data, size);
-  const LaserLineOptions options = takeOptions(input);
+  const LaserLineOptions options = takeLaserOptions(input);
   LaserPointsOptions of_points;
   of_points.spacing = input.between(0, 0.5);
   of_points.isolated_distance = input.between(0, 2);

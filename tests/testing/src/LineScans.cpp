@@ -1,3 +1,4 @@
+#include <omnimapper/geometry/Angle.h>
 #include <omnimapper/testing/LineScans.h>
 
 #include <Eigen/Geometry>
@@ -9,8 +10,8 @@ namespace omnimapper::testing {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 using Eigen::Vector2d;
+using geometry::kPi;
 
 struct Side {
   Vector2d from, to;

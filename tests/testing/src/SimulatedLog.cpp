@@ -9,6 +9,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/topography/conversions.h>
+#include <omnimapper/geometry/Angle.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ using mrpt::poses::CPose3D;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using geometry::kPi;
 constexpr double kRamp = 1;  // [s]
 
 // Heading along a bend of a quarter turn, part in [0, 1]: the turning sets in and ends without a jerk.
