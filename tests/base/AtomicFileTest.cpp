@@ -219,7 +219,15 @@ TEST(AtomicFile, AFolderThatCannotBeMadeOrWrittenIsRefusedByName) {
 
 TEST(AtomicFile, WritingIntoAFolderThatIsNotThereIsAnError) {
   ScratchFolder folder;
-  EXPECT_THROW(writeText(folder / "missing/a.txt", "x"), Error);
+  const std::string path = folder / "missing/a.txt";
+  try {
+    writeText(path, "x");
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::unwritable_output);
+    EXPECT_EQ(std::string(error.what()).find(path), 0U) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("room"), std::string::npos) << error.what();
+  }
   EXPECT_FALSE(fs::exists(folder / "missing"));
 }
 

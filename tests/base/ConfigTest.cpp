@@ -114,7 +114,7 @@ TEST(Config, LinesOfWindowsAndAByteOrderMarkAreRead) {
 
 TEST(Config, AnUnknownKeyNamesFileSectionKeyAndTheNearestKnownOne) {
   expectError([] { trigger("[trigger]\ndistence_m = 1\n"); }, ExitCode::unknown_key,
-              {"test.ini", "[trigger]", "'distence_m'", "'distance_m'"});
+              {"test.ini:2: [trigger]", "'distence_m'", "'distance_m'"});
   expectError([] { trigger("[trigger]\nDistance_m = 1\n"); }, ExitCode::unknown_key, {"'distance_m'"});
   // Nothing is near: all that is known is listed.
   expectError([] { trigger("[trigger]\nxyzzyq = 1\n"); }, ExitCode::unknown_key,
@@ -129,14 +129,14 @@ TEST(Config, KeysThatSomebodyElseReadsArePassed) {
 
 TEST(Config, AWrongTypeNamesFileSectionKeyValueAndDefault) {
   expectError([] { trigger("[trigger]\nevery = often\n"); }, ExitCode::wrong_type,
-              {"test.ini", "[trigger]", "every = 'often'", "whole number", "default 1"});
+              {"test.ini:2: [trigger]", "every = 'often'", "whole number", "default 1"});
   expectError([] { trigger("[trigger]\nevery = 2.5\n"); }, ExitCode::wrong_type, {"2.5"});
   expectError([] { trigger("[trigger]\nevery =\n"); }, ExitCode::wrong_type, {"every = ''"});
 }
 
 TEST(Config, AValueOutOfRangeNamesTheRange) {
-  expectError([] { trigger("[trigger]\nangle_deg = 200\n"); }, ExitCode::out_of_range,
-              {"test.ini", "[trigger]", "angle_deg = '200'", "[0, 180]"});
+  expectError([] { trigger("; remark\n[trigger]\n\nangle_deg = 200\n"); }, ExitCode::out_of_range,
+              {"test.ini:4: [trigger]", "angle_deg = '200'", "[0, 180]"});
   expectError([] { trigger("[trigger]\ndistance_m = -2\n"); }, ExitCode::out_of_range, {"> 0"});
 }
 
@@ -175,7 +175,26 @@ TEST(Config, SettingsOfTheCommandLineReplaceAndAdd) {
 TEST(Config, SettingsOfTheCommandLineMeetTheSameChecks) {
   Config config = parsed("[trigger]\n");
   config.set("trigger.evry=5");
-  expectError([&] { config.section("trigger").read<TriggerOptions>(); }, ExitCode::unknown_key, {"'every'"});
+  expectError([&] { config.section("trigger").read<TriggerOptions>(); }, ExitCode::unknown_key,
+              {"--set trigger.evry: [trigger]", "'every'"});
+  config = parsed("[trigger]\nevery = 3\n");
+  config.set("trigger.every=often");
+  expectError([&] { config.section("trigger").read<TriggerOptions>(); }, ExitCode::wrong_type,
+              {"--set trigger.every: [trigger]", "'often'"});
+  config.set("trigger.every=1");
+  config.set("triger.every=1");
+  config.section("trigger");
+  expectError([&] { config.refuseUnreadSections(); }, ExitCode::unknown_key, {"--set triger.every: ", "'trigger'"});
+}
+
+TEST(Config, OfSeveralFilesThePlaceIsThatOfTheOneThatCounts) {
+  const omnimapper::testing::ScratchFolder folder;
+  writeFile(folder / "first.ini", [](std::ostream& out) { out << "[trigger]\nevery = 0\nangle_deg = 200\n"; });
+  writeFile(folder / "over.ini", [](std::ostream& out) { out << "\n\n[trigger]\nevery = 0\n"; });
+  const auto config = Config::fromFiles({folder / "first.ini", folder / "over.ini"});
+  EXPECT_EQ(config.placeOf("trigger", "every"), folder / "over.ini:4");
+  EXPECT_EQ(config.placeOf("Trigger", "angle_deg"), folder / "first.ini:3");
+  EXPECT_EQ(config.placeOf("nowhere"), config.file());
 }
 
 TEST(Config, ASettingOfAnotherFormIsAnErrorOfTheCommandLine) {
@@ -188,7 +207,8 @@ TEST(Config, ASettingOfAnotherFormIsAnErrorOfTheCommandLine) {
 TEST(Config, ASectionThatNobodyReadIsRefusedWithTheNearestName) {
   const Config config = parsed("[trigger]\n[triger2]\nevery = 2\n");
   config.section("trigger");
-  expectError([&] { config.refuseUnreadSections(); }, ExitCode::unknown_key, {"test.ini", "[triger2]", "'trigger'"});
+  expectError([&] { config.refuseUnreadSections(); }, ExitCode::unknown_key,
+              {"test.ini:2: ", "[triger2]", "'trigger'"});
   config.section("triger2");
   EXPECT_NO_THROW(config.refuseUnreadSections());
 }

@@ -84,7 +84,7 @@ TEST(Outputs, aFolderThatWentAwayIsAnErrorNamingTheFile) {
   ScratchFolder folder;
   for (const OutputCase& output : cases()) {
     const auto plugin = make(output, folder / "gone");
-    const std::string message = failure(base::ExitCode::disk_full, [&] { plugin->finish(boxRun().view()); });
+    const std::string message = failure(base::ExitCode::unwritable_output, [&] { plugin->finish(boxRun().view()); });
     EXPECT_NE(message.find(output.files[0]), std::string::npos) << output.factory->name() << ": " << message;
   }
 }

@@ -27,6 +27,23 @@ bool syncPath(const std::string& path) {
   return synced;
 }
 
+// Why nothing can be written into a folder; empty if it can.
+std::string whyUnwritable(const std::string& folder) {
+  std::error_code none;
+  if (!fs::exists(folder, none)) return "there is no such folder";
+  if (!fs::is_directory(folder, none)) return "it is a file";
+  return ::access(folder.c_str(), W_OK | X_OK) == 0 ? "" : std::strerror(errno);
+}
+
+std::string folderOf(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path().string() : ".";
+}
+
+[[noreturn]] void failForFolder(const std::string& path, const std::string& which, const std::string& reason) {
+  throw Error(ExitCode::unwritable_output, path + ": cannot write into " + which + " folder (" + reason +
+                                               "); choose another or mend its permissions.");
+}
+
 [[noreturn]] void failWrite(const std::string& path, const std::string& temporary, const std::string& reason) {
   std::error_code ignored;
   fs::remove(temporary, ignored);
@@ -48,7 +65,7 @@ fs::path temporaryOf(const fs::path& target) {
 // Removes what processes left behind that were killed while they wrote `target`.
 void removeLeftovers(const fs::path& target) {
   const std::string prefix = temporaryPrefix(target), end = target.extension().string();
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const fs::path folder = folderOf(target);
   std::error_code ignored;
   std::vector<fs::path> left;
   for (fs::directory_iterator entry(folder, ignored), last; !ignored && entry != last; entry.increment(ignored)) {
@@ -67,19 +84,15 @@ void removeLeftovers(const fs::path& target) {
 }  // namespace
 
 void makeWritableFolder(const std::string& folder) {
-  const auto refuse = [&](const std::string& reason) {
-    throw Error(ExitCode::unwritable_output, folder + ": cannot write into this folder (" + reason +
-                                                 "); choose another with -o or mend its permissions.");
-  };
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) refuse(error.message());
-  if (!fs::is_directory(folder)) refuse("it is a file");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) refuse(std::strerror(errno));
+  if (error) failForFolder(folder, "this", error.message());
+  if (const auto reason = whyUnwritable(folder); !reason.empty()) failForFolder(folder, "this", reason);
 }
 
 void replaceFile(const std::string& path, const std::function<void(const std::string&)>& save) {
   const fs::path target(path);
+  if (const auto reason = whyUnwritable(folderOf(target)); !reason.empty()) failForFolder(path, "its", reason);
   const std::string temporary = temporaryOf(target).string();
   removeLeftovers(target);
   try {
@@ -95,7 +108,7 @@ void replaceFile(const std::string& path, const std::function<void(const std::st
   if (!fs::exists(temporary)) failWrite(path, temporary, "nothing was written");
   if (!syncPath(temporary)) failWrite(path, temporary, std::strerror(errno));
   if (std::rename(temporary.c_str(), path.c_str()) != 0) failWrite(path, temporary, std::strerror(errno));
-  syncPath(target.has_parent_path() ? target.parent_path().string() : ".");
+  syncPath(folderOf(target));
 }
 
 void writeFile(const std::string& path, const std::function<void(std::ostream&)>& write) {

@@ -29,16 +29,23 @@ std::string withoutComment(const std::string& text) {
   return trimmed(text);
 }
 
+// Where sections and keys stand, by section and key in lower case; a section's own key is "".
+using Places = std::map<std::pair<std::string, std::string>, std::string>;
+
+std::pair<std::string, std::string> placeKey(const std::string& section, const std::string& key) {
+  return {lowerCase(section), lowerCase(key)};  // MRPT's reader tells no case apart
+}
+
 // The INI reduced to "[section]" and "key = value", each still on its line. MRPT's reader keeps the last of two equal
 // keys in silence and takes a line without '=' for nothing: both are refused here, with their line.
-std::string checkedText(const std::string& text, const std::string& file) {
+std::string checkedText(const std::string& text, const std::string& file, Places& places) {
   const bool has_byte_order_mark = text.compare(0, 3, "\xEF\xBB\xBF") == 0;
   std::istringstream in(has_byte_order_mark ? text.substr(3) : text);
   std::ostringstream out;
   std::set<std::string> seen_sections, seen_keys;
   std::string line, section;
   for (int number = 1; std::getline(in, line); ++number) {
-    const std::string at = file + ":" + std::to_string(number) + ": ";
+    const std::string place = file + ":" + std::to_string(number), at = place + ": ";
     const std::string body = withoutComment(line);
     if (body.empty()) {
       out << "\n";
@@ -52,6 +59,7 @@ std::string checkedText(const std::string& text, const std::string& file) {
         throw Error(ExitCode::unknown_key, at + "section [" + section + "] stands twice; join the two");
       }
       seen_keys.clear();
+      places[placeKey(section, "")] = place;
       out << "[" << section << "]\n";
       continue;
     }
@@ -63,6 +71,7 @@ std::string checkedText(const std::string& text, const std::string& file) {
     if (!seen_keys.insert(key).second) {
       throw Error(ExitCode::unknown_key, at + "key '" + key + "' stands twice in [" + section + "]; remove one");
     }
+    places[placeKey(section, key)] = place;
     out << key << " = " << trimmed(body.substr(equals + 1)) << "\n";
   }
   return out.str();
@@ -126,6 +135,7 @@ Config Config::fromFiles(const std::vector<std::string>& paths) {
       for (const auto& key : keys) config.ini_.write(section, key, over.ini_.read_string(section, key, ""));
     }
     config.file_ += " + " + paths[i];
+    for (const auto& [key, place] : over.places_) config.places_[key] = place;
   }
   return config;
 }
@@ -133,7 +143,7 @@ Config Config::fromFiles(const std::vector<std::string>& paths) {
 Config Config::fromText(const std::string& text, const std::string& name_for_messages) {
   Config config;
   config.file_ = name_for_messages;
-  const std::string checked = checkedText(text, name_for_messages);
+  const std::string checked = checkedText(text, name_for_messages, config.places_);
   try {
     config.ini_.setContent(checked);
   } catch (const std::exception& error) {  // MRPT expands ${name}, $env{NAME} and $eval{expression} in values
@@ -153,6 +163,14 @@ void Config::set(const std::string& assignment) {
                 "--set " + assignment + ": expected section.key=value, such as --set mapper.window_s=2");
   }
   ini_.write(section, key, trimmed(assignment.substr(equals + 1)));
+  const std::string place = "--set " + section + "." + key;
+  places_.emplace(placeKey(section, ""), place);
+  places_[placeKey(section, key)] = place;
+}
+
+std::string Config::placeOf(const std::string& section, const std::string& key) const {
+  const auto place = places_.find(placeKey(section, key));
+  return place == places_.end() ? file_ : place->second;
 }
 
 bool Config::has(const std::string& section) const {
@@ -177,7 +195,8 @@ void Config::refuseUnreadSections() const {
   const std::vector<std::string> known(asked_.begin(), asked_.end());
   for (const auto& section : unreadSections()) {
     if (ini_.keyExists(section, "class")) continue;
-    throw Error(ExitCode::unknown_key, file_ + ": nobody reads section [" + section + "]" + suggestion(section, known));
+    throw Error(ExitCode::unknown_key,
+                placeOf(section) + ": nobody reads section [" + section + "]" + suggestion(section, known));
   }
 }
 
@@ -203,12 +222,12 @@ void ConfigSection::refuseUnknownKeys(const std::vector<OptionSpec>& specs,
   for (const auto& key : keys) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     throw Error(ExitCode::unknown_key,
-                config_->file() + ": [" + name_ + "] has no key '" + key + "'" + suggestion(key, known));
+                config_->placeOf(name_, key) + ": [" + name_ + "] has no key '" + key + "'" + suggestion(key, known));
   }
 }
 
 void ConfigSection::throwBadValue(const OptionSpec& spec, const std::string& text, const BadValue& bad) const {
-  const std::string place = config_->file() + ": [" + name_ + "] " + spec.key + " = '" + text + "'";
+  const std::string place = config_->placeOf(name_, spec.key) + ": [" + name_ + "] " + spec.key + " = '" + text + "'";
   const std::string remedy = " (default " + spec.default_value + ")";
   if (bad.kind == BadValue::Kind::range) {
     throw Error(ExitCode::out_of_range, place + " is out of range: must be " + bad.expected + remedy);

@@ -49,7 +49,7 @@ TEST_F(OutputFolder, IsMadeWithItsParents) {
 TEST_F(OutputFolder, ThatCannotBeMadeOrWrittenIsRefusedByName) {
   const std::string file = writeFile(scratch_ / "file", "a file");
   for (const std::string& folder : {file, file + "/below", std::string("/proc/self")}) {
-    EXPECT_TRUE(endedWith(ExitCode::unwritable_output, map({log_path_}, folder), {folder, "-o"}));
+    EXPECT_TRUE(endedWith(ExitCode::unwritable_output, map({log_path_}, folder), {folder, "permissions"}));
   }
   EXPECT_EQ(readFile(file), "a file");
 }

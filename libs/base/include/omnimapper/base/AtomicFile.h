@@ -13,7 +13,8 @@ void makeWritableFolder(const std::string& folder);
 /// Writes a file so that at any moment `path` holds either its old content or the whole new one: `save` writes to
 /// the temporary name it is given (same folder, same extension), which is synced and renamed. What a process left
 /// behind that was killed while it wrote `path` is removed first.
-/// Throws Error(disk_full) with the system's reason if anything of it fails; the temporary file is removed then.
+/// Throws Error(unwritable_output) for a folder that is not there or may not be written, and Error(disk_full) with the
+/// system's reason if anything of it fails; the temporary file is removed then.
 void replaceFile(const std::string& path, const std::function<void(const std::string& temporary_path)>& save);
 
 /// The same for text and bytes through a stream; a failed stream counts as a failed write.

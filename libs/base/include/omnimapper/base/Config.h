@@ -4,8 +4,10 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/OptionTable.h>
 
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace omnimapper::base {
@@ -18,7 +20,8 @@ class ConfigSection {
   const std::string& name() const { return name_; }
 
   /// The struct with its defaults overwritten by this section. `also_known` are keys that somebody else reads here.
-  /// Throws Error unknown_key, wrong_type or out_of_range, naming file, section, key, value, bounds and nearest key.
+  /// Throws Error unknown_key, wrong_type or out_of_range, naming file and line or --set, section, key, value, bounds
+  /// and nearest key.
   template <class Struct>
   Struct read(const std::vector<std::string>& also_known = {}) const {
     const auto& table = Struct::table();
@@ -68,6 +71,8 @@ class Config {
   std::vector<std::string> switchedOffPlugins() const;
 
   const std::string& file() const { return file_; }
+  /// Where a key, or without one a section, was set: "office.ini:12", "--set planes.max_depth_m"; else file().
+  std::string placeOf(const std::string& section, const std::string& key = "") const;
   /// The INI as read, settings of the command line included.
   std::string text() const { return ini_.getContent(); }
 
@@ -77,6 +82,8 @@ class Config {
 
   mrpt::config::CConfigFileMemory ini_;
   std::string file_;
+  std::map<std::pair<std::string, std::string>, std::string>
+      places_;  // of section and key in lower case; no key: of it
   mutable std::set<std::string> asked_;
 };
 
