@@ -32,6 +32,7 @@ base::ExitCode importCarmen(const std::string& input, const std::string& output,
       rawlog.add(*observation);
       progress.report(log.progress(), "importing " + input);
     }
+    refuseNothing(input, log.report());
   });
   printSummary(log);
   return log.report().exitCode();

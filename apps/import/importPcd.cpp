@@ -19,6 +19,7 @@ base::ExitCode importPcd(const std::string& folder, const std::string& output,
           rawlog.add(*observation);
           progress.report(clouds.progress(), "importing " + folder);
         }
+        refuseNothing(folder, clouds.report());
       },
       source::ColourImages::jpeg);
   std::cout << clouds.report().text();

@@ -16,17 +16,18 @@ base::ExitCode importRgbd(const std::string& folder, const std::string& output,
                           const source::RgbdFolderOptions& options, bool external_images) {
   source::RgbdFolder images(folder, options);
   const std::string stem = std::filesystem::path(output).replace_extension().string(), truth = stem + ".truth.tum";
-  if (external_images) base::makeWritableFolder(stem + "_Images");
   base::TerminalProgress progress(std::cerr, isatty(STDERR_FILENO) != 0);
   const auto fill = [&](source::RawlogWriter& rawlog) {
     while (const auto observation = images.next()) {
       if (external_images) {
+        base::makeWritableFolder(stem + "_Images");
         source::moveImagesToFiles(*observation, stem + "_Images",
                                   options.label + "_" + base::formatUnix(observation->timestamp, 6));
       }
       rawlog.add(*observation);
       progress.report(images.progress(), "importing " + folder);
     }
+    refuseNothing(folder, images.report());
   };
   source::writeRawlog(output, fill, source::ColourImages::jpeg);
   if (!images.groundTruth().empty()) {

@@ -29,6 +29,7 @@ CLI::App* addCarmen(CLI::App& app, Arguments& arguments) {
       ->add_option("--odometry", arguments.odometry,
                    "automatic: lines if no stamp of the log runs backwards, else scans")
       ->check(CLI::IsMember(kOdometryNames))
+      ->capture_default_str()
       ->type_name("NAME");
   return carmen;
 }
@@ -42,13 +43,18 @@ CLI::App* addTum(CLI::App& app, Arguments& arguments) {
       "freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file with fx, fy, cx, cy; default: "
       "as the folder's name tells");
   tum->add_option("--tolerance", arguments.rgbd.largest_difference, "between stamps of depth and colour [s]")
+      ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   tum->add_option("--depth-units", arguments.rgbd.depth_units, "values of a depth image in a metre; 0: as usual")
+      ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  tum->add_option("--rate", arguments.rgbd.rate, "of images without stamps [1/s]")->check(CLI::PositiveNumber);
-  tum->add_option("--label", arguments.rgbd.label, "sensor label");
+  tum->add_option("--rate", arguments.rgbd.rate, "of images without stamps [1/s]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  tum->add_option("--label", arguments.rgbd.label, "sensor label")->capture_default_str();
   tum->add_option("--images", arguments.images, "embedded in the rawlog, or external files beside it")
-      ->check(CLI::IsMember({"embedded", "external"}));
+      ->check(CLI::IsMember({"embedded", "external"}))
+      ->capture_default_str();
   return tum;
 }
 
@@ -57,12 +63,19 @@ CLI::App* addPcd(CLI::App& app, Arguments& arguments) {
   pcd->add_option("DIR", arguments.input, "folder")->required();
   pcd->add_option("OUT", arguments.output, "rawlog to write")->required();
   pcd->add_option("--rate", arguments.pcd.rate, "of the clouds, which have no stamps [1/s]")
-      ->check(CLI::PositiveNumber);
-  pcd->add_option("--label", arguments.pcd.label, "sensor label");
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  pcd->add_option("--label", arguments.pcd.label, "sensor label")->capture_default_str();
   return pcd;
 }
 
 }  // namespace
+
+void refuseNothing(const std::string& input, const source::SourceReport& report) {
+  if (report.observations() > 0) return;
+  throw base::Error(base::ExitCode::unreadable_input,
+                    input + ": nothing of it can be imported; nothing was written.\nWhat was read:\n" + report.text());
+}
 
 int main(int argc, char** argv) {
   CLI::App app(

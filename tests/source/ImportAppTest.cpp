@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include "Logs.h"
 #include "RgbdImages.h"
@@ -73,7 +74,15 @@ TEST_F(ImportAppTest, exitCodesTellWhatWentWrong) {
   EXPECT_EQ(run("carmen " + in_ + " " + out_), ExitCode::unreadable_input);
   EXPECT_TRUE(says(in_ + ": No such file")) << output_;
   logs::writePlain(in_, log_);
-  EXPECT_EQ(run("carmen " + in_ + " " + folder_.path() + "/no/x.rawlog"), ExitCode::disk_full);
+  EXPECT_EQ(run("carmen " + in_ + " " + folder_.path() + "/no/x.rawlog"), ExitCode::unwritable_output);
+}
+
+TEST_F(ImportAppTest, aLogOfNothingLeavesWhatIsThere) {
+  logs::writePlain(in_, "# remarks alone\n");
+  logs::writePlain(out_, "an older log");
+  EXPECT_EQ(run("carmen " + in_ + " " + out_), ExitCode::unreadable_input) << output_;
+  EXPECT_TRUE(says(in_) && says("nothing was written")) << output_;
+  EXPECT_EQ(std::filesystem::file_size(out_), 12U);
 }
 
 /// A folder of two pairs and a depth image without a colour image of its time.
@@ -110,6 +119,30 @@ TEST_F(ImportTumTest, writesARawlogAndTheTruthBesideIt) {
   ASSERT_TRUE(truth >> stamp >> x >> y >> z);
   EXPECT_EQ(stamp, 10);
   EXPECT_EQ(z, 3);
+}
+
+TEST_F(ImportTumTest, withoutAnImageThatCanBeReadNothingIsWritten) {
+  for (const char* images : {"depth", "rgb"}) std::filesystem::remove_all(folder_ / images);
+  EXPECT_EQ(import("--intrinsics freiburg1 --images external"), ExitCode::unreadable_input) << output_;
+  EXPECT_TRUE(says("nothing was written") && says("external file cannot be read: 2")) << output_;
+  EXPECT_FALSE(says(" 0 bytes")) << output_;
+  EXPECT_TRUE(std::filesystem::is_empty(result_.path()));
+}
+
+TEST_F(ImportTumTest, aListThatIsMissingIsNamed) {
+  std::filesystem::remove(folder_ / "depth.txt");
+  EXPECT_EQ(import("--intrinsics freiburg1"), ExitCode::unreadable_input);
+  EXPECT_TRUE(says(folder_.path()) && says("no depth.txt")) << output_;
+  std::filesystem::remove(folder_ / "rgb.txt");
+  for (const std::string name : {"a", "b", "c"})  // by stamps, as TUM has them, no two names are equal
+    std::filesystem::rename(folder_ / ("rgb/" + name + ".png"), folder_ / ("rgb/0" + name + ".png"));
+  EXPECT_EQ(import("--intrinsics freiburg1"), ExitCode::unreadable_input);
+  EXPECT_TRUE(says("depth.txt and rgb.txt") && says("are they missing?")) << output_;
+}
+
+TEST_F(ImportTumTest, helpTellsTheDefaults) {
+  EXPECT_EQ(run("tum --help"), ExitCode::ok);
+  for (const char* value : {"0.02", "30", "RGBD", "embedded"}) EXPECT_TRUE(says(value)) << value << ": " << output_;
 }
 
 TEST_F(ImportTumTest, imagesMayStayOutsideTheRawlog) {

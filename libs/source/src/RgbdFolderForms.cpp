@@ -139,6 +139,11 @@ RgbdFolderContent readEqualNames(const fs::path& folder, const RgbdFolderOptions
       content.pairs.push_back({stampOfImage(index, options), depth, colour->second});
     ++index;
   }
+  if (content.pairs.empty()) {
+    refuse(folder,
+           "no image of depth/ has the name of one of rgb/ or image/; of a TUM RGB-D folder, whose images are named by "
+           "their stamps, depth.txt and rgb.txt tell which belong together: are they missing?");
+  }
   const std::string name = fs::absolute(folder).lexically_normal().string();
   if (name.find("icl") != std::string::npos || name.find("ICL") != std::string::npos) {
     content.usual_intrinsics = "icl_nuim";
@@ -193,6 +198,8 @@ RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions
   RgbdFolderContent content;
   if (fs::exists(folder / "depth.txt"))
     content = readTum(folder, options);
+  else if (fs::exists(folder / "rgb.txt"))
+    refuse(folder, "has rgb.txt but no depth.txt: a TUM RGB-D folder needs both");
   else if (fs::is_directory(folder / "depth") &&
            (fs::is_directory(folder / "rgb") || fs::is_directory(folder / "image")))
     content = readEqualNames(folder, options);

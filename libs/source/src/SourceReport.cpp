@@ -65,8 +65,9 @@ base::ExitCode SourceReport::exitCode() const {
 }
 
 std::string SourceReport::text() const {
-  std::string text = toString(ending) + ": " + std::to_string(objects) + " objects, " + std::to_string(bytes) +
-                     " bytes uncompressed, " + std::to_string(observations()) + " observations\n";
+  std::string text = toString(ending) + ": " + std::to_string(objects) + " objects, ";
+  if (bytes > 0) text += std::to_string(bytes) + " bytes uncompressed, ";  // other programs' logs have none
+  text += std::to_string(observations()) + " observations\n";
   if (!message.empty()) text += message + "\n";
   if (!sensors.empty()) {
     char row[400];
