@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "objects/ConvexHull.h"
+#include "ConvexHull.h"
 
-namespace omnimapper::perception::objects::convex_hull_test {
+namespace omnimapper::perception::convex_hull_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -56,4 +56,4 @@ TEST(ConvexHull, OfManyPointsOnALineIsItsEnds) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception::objects::convex_hull_test
+}  // namespace omnimapper::perception::convex_hull_test

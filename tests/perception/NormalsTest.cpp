@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
 #include <omnimapper/perception/Normals.h>
 #include <omnimapper/perception/OrganisedPoints.h>
 
@@ -114,6 +115,29 @@ TEST(OrganisedPoints, AreOnTheRaysOfTheirPixels) {
   EXPECT_TRUE(std::isnan(points.z[1]) && std::isnan(points.x[2]));
   EXPECT_FLOAT_EQ(points.x[3], 0.01F);
   EXPECT_FLOAT_EQ(points.z[3], 2);
+}
+
+TEST(NormalEstimator, OptionsThatMakeNoSenseAreRefused) {
+  const auto refuses = [](const NormalOptions& options) {
+    try {
+      NormalEstimator{options};
+      return false;
+    } catch (const base::Error& error) {
+      return error.code() == base::ExitCode::out_of_range;
+    }
+  };
+  EXPECT_FALSE(refuses({}));
+  for (const int radius : {0, 8}) {
+    NormalOptions options;
+    options.radius = radius;
+    EXPECT_TRUE(refuses(options)) << radius;
+  }
+  NormalOptions options;
+  options.min_depth = 0;
+  EXPECT_TRUE(refuses(options)) << "it divides by it";
+  options = {};
+  options.noise_at_1m = -1;
+  EXPECT_TRUE(refuses(options));
 }
 
 }  // namespace

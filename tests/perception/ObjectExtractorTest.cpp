@@ -39,7 +39,8 @@ std::string bytesOf(const mrpt::obs::CObservation& observation) {
 
 TEST(ObjectExtractor, ABlockOnATableIsWhereItStands) {
   const auto scan = tableScan();
-  const auto [planes, objects] = extract(scan);
+  const auto [planes, objects, has_surface] = extract(scan);
+  EXPECT_TRUE(has_surface);
   EXPECT_EQ(objects->sensorLabel, "kinect.objects");
   EXPECT_EQ(objects->source_label, "kinect");
   EXPECT_EQ(objects->timestamp, scan.timestamp);

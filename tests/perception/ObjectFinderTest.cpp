@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
 #include <omnimapper/perception/ObjectFinder.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <set>
 
 #include "TableScene.h"
@@ -217,6 +219,30 @@ TEST(ObjectFinder, CentroidsVaryAsTheirCovarianceSays) {
   }
   EXPECT_LT(chi_square / kTimes, 1.5) << "no smaller than the error; larger, for the bend that this sensor has not";
   EXPECT_GT(exact.covariance.eigenvalues().real().minCoeff(), 0);
+}
+
+TEST(ObjectFinder, OptionsThatMakeNoSenseAreRefused) {
+  const auto refused = [](const ObjectOptions& options, const PlaneOptions& sensor, const std::string& word) {
+    try {
+      ObjectFinder(options, sensor);
+      ADD_FAILURE() << word << " was taken";
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::out_of_range);
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  PlaneOptions sensor;
+  sensor.min_depth = sensor.max_depth;
+  refused({}, sensor, "min_depth_m");
+  ObjectOptions options;
+  options.min_points = 0;
+  refused(options, {}, "min_points");
+  options = {};
+  options.max_gap = -0.1;
+  refused(options, {}, "max_gap_m");
+  options = {};
+  options.max_volume = std::nan("");
+  refused(options, {}, "max_volume_m3");
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace omnimapper::perception::objects {
+namespace omnimapper::perception {
 
 namespace {
 
@@ -72,4 +72,4 @@ HullNeighbourhood::HullNeighbourhood(const std::vector<Eigen::Vector2d>& corners
   }
 }
 
-}  // namespace omnimapper::perception::objects
+}  // namespace omnimapper::perception

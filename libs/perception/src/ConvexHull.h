@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace omnimapper::perception::objects {
+namespace omnimapper::perception {
 
 /// The corners of the convex hull, counter-clockwise; points on its edges are left out. Source: Andrew's monotone
 /// chain, on what Akl and Toussaint's polygon of extreme points leaves (A fast convex hull algorithm, IPL 7(5), 1978).
@@ -32,4 +32,4 @@ class HullNeighbourhood {
   std::vector<Side> sides_;
 };
 
-}  // namespace omnimapper::perception::objects
+}  // namespace omnimapper::perception

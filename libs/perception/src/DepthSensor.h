@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/base/Error.h>
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/perception/Normals.h>
 
@@ -23,6 +24,17 @@ base::OptionTable<Options> depthSensorTable() {
 /// What the options of those that tell covariances add.
 inline constexpr char kScaleHelp[] =
     "Relative error of depth that all pixels share, standard deviation; covariances count it.";
+
+/// Throws Error(out_of_range) unless 0 < min_depth < max_depth.
+template <class Options>
+void refuseDepths(const char* who, const Options& options) {
+  using base::option_text::format;
+  if (options.min_depth > 0 && options.min_depth < options.max_depth) return;
+  throw base::Error(base::ExitCode::out_of_range,
+                    std::string(who) + ": min_depth_m = " + format(options.min_depth) +
+                        " must be > 0 and below max_depth_m = " + format(options.max_depth) +
+                        "; make the span from one to the other the sensor's");
+}
 
 /// Normals by that sensor.
 template <class Options>

@@ -74,7 +74,17 @@ std::vector<EdgeKind> wantedKinds(const EdgeOptions& options, bool picture) {
   return kinds;
 }
 
+std::string labelOf(const mrpt::obs::CObservation3DRangeScan& scan, EdgeKind kind) {
+  return scan.sensorLabel + kEdgesSuffix + nameOf(kind);
+}
+
 }  // namespace
+
+std::vector<std::string> EdgeExtractor::labelsOf(const mrpt::obs::CObservation3DRangeScan& scan) const {
+  std::vector<std::string> labels;
+  for (const EdgeKind kind : wantedKinds(options_, ScanColours(scan).exist())) labels.push_back(labelOf(scan, kind));
+  return labels;
+}
 
 std::vector<mrpt::obs::CObservationPointCloud::Ptr> EdgeExtractor::extract(
     const mrpt::obs::CObservation3DRangeScan& scan) const {
@@ -88,12 +98,15 @@ std::vector<mrpt::obs::CObservationPointCloud::Ptr> EdgeExtractor::extract(
     const auto points = edgePoints(edges, depth.image(), kind);
     auto cloud = mrpt::maps::CSimplePointsMap::Create();
     cloud->reserve(points.size());
-    for (const auto& p : points) cloud->insertPointFast(p.z(), -p.x(), -p.y());
+    for (const auto& point : points) {
+      const Eigen::Vector3f p = toSensor(point);
+      cloud->insertPointFast(p.x(), p.y(), p.z());
+    }
     auto derived = mrpt::obs::CObservationPointCloud::Create();
     derived->pointcloud = cloud;
     derived->sensorPose = scan.sensorPose;
     derived->timestamp = scan.timestamp;
-    derived->sensorLabel = scan.sensorLabel + kEdgesSuffix + nameOf(kind);
+    derived->sensorLabel = labelOf(scan, kind);
     clouds.push_back(std::move(derived));
   }
   return clouds;

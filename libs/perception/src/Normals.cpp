@@ -1,3 +1,4 @@
+#include <omnimapper/base/Error.h>
 #include <omnimapper/perception/Normals.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "DepthSensor.h"
 #include "planes/WindowPlanes.h"
 
 namespace omnimapper::perception {
@@ -87,6 +89,18 @@ class Spreading {
 };
 
 }  // namespace
+
+NormalEstimator::NormalEstimator(const NormalOptions& options) : options_(options) {
+  using base::option_text::format;
+  const auto refuse = [](const std::string& what) { throw base::Error(base::ExitCode::out_of_range, what); };
+  if (options.radius < 1 || options.radius > 7)
+    refuse("normals: a window's radius of " + std::to_string(options.radius) + " px: must be in [1, 7]");
+  if (!(options.noise_at_1m > 0) || !(options.step_at_1m >= 0)) {
+    refuse("normals: noise_at_1m_m = " + format(options.noise_at_1m) +
+           " must be > 0, step_at_1m_m = " + format(options.step_at_1m) + " must be >= 0");
+  }
+  refuseDepths("normals", options);
+}
 
 NormalImage NormalEstimator::estimate(const DepthImage& image) const {
   NormalImage normals;

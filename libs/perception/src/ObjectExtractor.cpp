@@ -58,7 +58,9 @@ ObjectExtractor::Found ObjectExtractor::extract(const mrpt::obs::CObservation3DR
   found.objects->source_label = scan.sensorLabel;
   const geometry::Se3 sensor_from_optical = sensorFromOptical();
   const Eigen::Matrix3d turn = sensor_from_optical.rotation.toRotationMatrix();
-  for (const ObjectRegion& region : finder_.find(depth.image(), planes, upInOptical(scan.sensorPose))) {
+  const Eigen::Vector3d up = upInOptical(scan.sensorPose);
+  found.has_surface = finder_.hasSurface(planes, up);
+  for (const ObjectRegion& region : finder_.find(depth.image(), planes, up)) {
     obs::ObservedObject object;
     object.centroid = toSensor(region.centroid);
     object.covariance = turn * region.covariance * turn.transpose();

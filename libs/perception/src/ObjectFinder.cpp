@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "DepthSensor.h"
 #include "objects/OrientedBox.h"
@@ -215,6 +216,33 @@ Eigen::Vector3d leastAxisOf(const std::vector<Eigen::Vector3d>& points, const Ei
 }
 
 }  // namespace
+
+ObjectFinder::ObjectFinder(const ObjectOptions& options, const PlaneOptions& sensor)
+    : options_(options), sensor_(sensor) {
+  refuseDepths("objects", sensor);
+  const auto refuse = [](const std::string& key, double value, const char* bound) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      "objects: " + key + " = " + base::option_text::format(value) + ": must be " + bound);
+  };
+  if (options.min_points < 1) refuse("min_points", options.min_points, ">= 1");
+  const std::pair<const char*, double> lengths[] = {{"coplanar_distance_m", options.coplanar_distance},
+                                                    {"min_height_m", options.min_height},
+                                                    {"max_gap_m", options.max_gap},
+                                                    {"max_standing_gap_m", options.max_standing_gap},
+                                                    {"min_size_m", options.min_size}};
+  for (const auto& [key, value] : lengths) {
+    if (!(value >= 0 && std::isfinite(value))) refuse(key, value, ">= 0");
+  }
+  const std::pair<const char*, double> sizes[] = {{"min_surface_area_m2", options.min_surface_area},
+                                                  {"max_volume_m3", options.max_volume}};
+  for (const auto& [key, value] : sizes) {
+    if (!(value > 0)) refuse(key, value, "> 0");
+  }
+}
+
+bool ObjectFinder::hasSurface(const PlaneSegmentation& planes, const Eigen::Vector3d& up) const {
+  return !objects::findSurfaces(planes, options_, sensor_.bend_at_1m, up).empty();
+}
 
 std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const PlaneSegmentation& planes,
                                              const Eigen::Vector3d& up) const {

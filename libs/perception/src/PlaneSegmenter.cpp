@@ -37,11 +37,7 @@ std::vector<obs::Rgb> widened(const std::vector<obs::Rgb>& from, int width, int 
 
 PlaneSegmenter::PlaneSegmenter(const PlaneOptions& options, const PlaneComparisonOptions& comparison)
     : options_(options), comparison_(comparison) {
-  if (!(options.min_depth < options.max_depth)) {
-    throw base::Error(base::ExitCode::out_of_range,
-                      "planes: min_depth_m = " + std::to_string(options.min_depth) + " is not below max_depth_m = " +
-                          std::to_string(options.max_depth) + "; make the span from one to the other the sensor's");
-  }
+  refuseDepths("planes", options);
 }
 
 PlaneSegmentation PlaneSegmenter::segment(const DepthImage& image, const std::vector<obs::Rgb>& colours) const {

@@ -41,7 +41,7 @@ std::vector<float> depthsOf(const CObservation3DRangeScan& scan) {
 
 geometry::Se3 sensorFromOptical() {
   Eigen::Matrix3d axes;
-  axes << toSensor(Eigen::Vector3d::UnitX()), toSensor(Eigen::Vector3d::UnitY()), toSensor(Eigen::Vector3d::UnitZ());
+  for (int i = 0; i < 3; ++i) axes.col(i) = toSensor<double>(Eigen::Vector3d::Unit(i));
   return {Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()};
 }
 

@@ -16,8 +16,14 @@ namespace omnimapper::perception {
 
 /// From a camera's optical frame (x right, y down, z forward) to MRPT's frame of a range camera (x forward, y left,
 /// z up), which observations are in. No digit is lost.
-inline Eigen::Vector3d toSensor(const Eigen::Vector3d& in_optical) {
+template <class Scalar>
+Eigen::Matrix<Scalar, 3, 1> toSensor(const Eigen::Matrix<Scalar, 3, 1>& in_optical) {
   return {in_optical.z(), -in_optical.x(), -in_optical.y()};
+}
+
+/// And back.
+inline Eigen::Vector3d toOptical(const Eigen::Vector3d& in_sensor) {
+  return {-in_sensor.y(), -in_sensor.z(), in_sensor.x()};
 }
 
 /// The same as a turn.

@@ -16,8 +16,7 @@ const base::OptionTable<RoadPoseOptions>& RoadPoseOptions::table() {
 geometry::Plane3 expectedGround(const mrpt::obs::CObservation3DRangeScan& scan, double ground_height) {
   const geometry::Plane3 in_sensor = geometry::inverse(geometry::fromMrpt(scan.sensorPose)) *
                                      geometry::Plane3{Eigen::Vector3d::UnitZ(), -ground_height};
-  const Eigen::Vector3d& n = in_sensor.normal;
-  return {{-n.y(), -n.z(), n.x()}, in_sensor.distance};  // the inverse of toSensor()
+  return {toOptical(in_sensor.normal), in_sensor.distance};
 }
 
 std::shared_ptr<obs::CObservationPlanes> RoadExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {

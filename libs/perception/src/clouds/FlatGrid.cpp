@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../ConvexHull.h"
 #include "../planes/Outlines.h"
 #include "../planes/Simplify.h"
 
@@ -15,32 +16,6 @@ namespace {
 constexpr int kMostCells = 1000;  // a side
 constexpr double kTolerance = 1;  // [cell] of a concave outline's corners
 constexpr int kLeastHole = 4;     // [cell]
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-// Counter-clockwise as the columns go right and the rows up: Andrew's monotone chain.
-std::vector<int> convexHull(const FlatGrid& grid, std::vector<int> members) {
-  std::sort(members.begin(), members.end(), [&](int a, int b) {
-    const Eigen::Vector2d p = grid.at(a), q = grid.at(b);
-    return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
-  });
-  std::vector<int> hull;
-  const auto extend = [&](int member, std::size_t least) {
-    while (hull.size() >= least + 2) {
-      const Eigen::Vector2d a = grid.at(hull[hull.size() - 2]), b = grid.at(hull.back());
-      if (cross(b - a, grid.at(member) - b) > 0) break;
-      hull.pop_back();
-    }
-    hull.push_back(member);
-  };
-  for (const int member : members) extend(member, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto member = members.rbegin() + 1; member != members.rend(); ++member) extend(*member, lower);
-  hull.pop_back();
-  return hull;
-}
 
 Eigen::Vector3d onPlane(const FlatGrid& grid, int member, const geometry::Plane3& plane) {
   const Eigen::Vector3d p = grid.point(member);
@@ -125,6 +100,16 @@ void outlineConcave(const FlatGrid& grid, const Components& components, int comp
   }
 }
 
+void outlineConvex(const FlatGrid& grid, const std::vector<int>& members, CloudPlane& plane) {
+  const geometry::Plane3& in_sensor = plane.plane_in_sensor;
+  const auto basis = geometry::tangentBasis(in_sensor.normal);
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(members.size());
+  for (const int member : members) points.emplace_back(basis.transpose() * grid.point(member));
+  for (const auto& corner : convexHull(std::move(points)))
+    plane.outline.vertices.emplace_back(basis * corner - in_sensor.distance * in_sensor.normal);
+}
+
 // So that they go counter-clockwise against the normal, and holes the other way round.
 void orient(CloudPlane& plane) {
   if (areaVector(plane.outline).dot(plane.plane_in_sensor.normal) >= 0) return;
@@ -164,8 +149,7 @@ int FlatGrid::cellOrNone(int point) const {
 void outline(const FlatGrid& grid, const Components& components, int component, const std::vector<int>& members,
              CloudPlaneOptions::Outline kind, CloudPlane& plane) {
   if (kind == CloudPlaneOptions::Outline::convex) {
-    for (const int member : convexHull(grid, members))
-      plane.outline.vertices.push_back(onPlane(grid, member, plane.plane_in_sensor));
+    outlineConvex(grid, members, plane);
   } else {
     outlineConcave(grid, components, component, members, plane);
   }

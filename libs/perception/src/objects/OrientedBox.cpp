@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "ConvexHull.h"
+#include "../ConvexHull.h"
 
 namespace omnimapper::perception::objects {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "ConvexHull.h"
+#include "../ConvexHull.h"
 
 namespace omnimapper::perception::objects {
 

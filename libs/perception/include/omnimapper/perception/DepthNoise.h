@@ -12,9 +12,9 @@ struct DepthNoise {
   double step = 0.0029;    ///< [1/m] between two values that the sensor can report
   double bend = 0.004;     ///< [1/m] by which a flat wall may seem bent: errors of calibration and lens
   double correlation = 9;  ///< [px^2]: neighbours that share an error; 1 = each pixel errs by itself
-  /// [-] relative error of all depths alike, standard deviation. Two of the three sensors of the TUM RGB-D benchmark
-  /// had depths 3 % off as they came, the third none, and all less than 1 % after calibration. Source: Sturm et al.: A
-  /// benchmark for the evaluation of RGB-D SLAM systems, IROS 2012, and its page on the depth scale.
+  /// [-] relative error of all depths alike, standard deviation; between a calibrated sensor's and one's as it comes:
+  /// of the three sensors of the TUM RGB-D benchmark two were 3 % off, one not at all. Source: Sturm et al.: A
+  /// benchmark for the evaluation of RGB-D SLAM systems, IROS 2012, and its page of file formats (depth scale).
   double scale = 0.01;
 
   /// Of one pixel, steps counted.

@@ -4,6 +4,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/perception/EdgeDetector.h>
 
+#include <string>
 #include <vector>
 
 namespace omnimapper::perception {
@@ -24,6 +25,8 @@ class EdgeExtractor {
   /// Error(missing_images) for images that are in files and were not loaded; sources load them. Thread-safe; the same
   /// scan gives the same bits.
   std::vector<mrpt::obs::CObservationPointCloud::Ptr> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
+  /// Of the clouds that extract() makes of the scan. Throws where its picture was not loaded.
+  std::vector<std::string> labelsOf(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
  private:
   EdgeOptions options_;

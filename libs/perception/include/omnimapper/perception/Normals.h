@@ -34,7 +34,9 @@ struct NormalImage {
 /// 2 radius steps away. Images narrower than the window and seven pixels have none.
 class NormalEstimator {
  public:
-  explicit NormalEstimator(const NormalOptions& options) : options_(options) {}
+  /// Throws Error(out_of_range) for a radius out of 1 to 7, a noise that is not positive, a negative step, or depths
+  /// that are not 0 < min_depth < max_depth.
+  explicit NormalEstimator(const NormalOptions& options);
 
   /// Thread-safe.
   NormalImage estimate(const DepthImage& image) const;

@@ -29,9 +29,10 @@ class ObjectExtractor {
   struct Found {
     std::shared_ptr<obs::CObservationPlanes> planes;
     std::shared_ptr<obs::CObservationObjects> objects;
+    bool has_surface = false;  ///< whether the scan shows a level surface that things may stand on
   };
 
-  /// Throws Error(out_of_range) for min_depth >= max_depth.
+  /// Throws as PlaneSegmenter and ObjectFinder.
   explicit ObjectExtractor(const Options& options)
       : options_(options), segmenter_(options.planes), finder_(options.objects, options.planes) {}
 

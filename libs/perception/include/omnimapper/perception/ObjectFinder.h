@@ -43,13 +43,17 @@ struct ObjectRegion {
 /// are things. A Kinect bends a table, so that it is found in pieces: pieces that lie in one plane are one surface.
 class ObjectFinder {
  public:
-  ObjectFinder(const ObjectOptions& options, const PlaneOptions& sensor) : options_(options), sensor_(sensor) {}
+  /// Throws Error(out_of_range) for depths that are not 0 < min_depth < max_depth, for fewer than one point, and for
+  /// areas, volumes or lengths that are negative or not finite.
+  ObjectFinder(const ObjectOptions& options, const PlaneOptions& sensor);
 
   /// The planes are those that a PlaneSegmenter with the same PlaneOptions found in this image. `up` is unit, in the
-  /// optical frame. The one with most pixels first. Throws Error(unreadable_input) for planes of an image of another
-  /// size. Thread-safe.
+  /// optical frame. The one with most pixels first; none of an image without pixels. Throws
+  /// Error(unreadable_input) for planes of an image of another size. Thread-safe; the same bits each time.
   std::vector<ObjectRegion> find(const DepthImage& image, const PlaneSegmentation& planes,
                                  const Eigen::Vector3d& up) const;
+  /// Whether any of these planes is a level surface that things may stand on.
+  bool hasSurface(const PlaneSegmentation& planes, const Eigen::Vector3d& up) const;
 
  private:
   ObjectOptions options_;

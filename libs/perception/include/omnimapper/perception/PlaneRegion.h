@@ -19,7 +19,10 @@ struct PixelCorner {
 /// lies on its left as the image is seen: outer lines run counter-clockwise, those around holes clockwise.
 struct Contour {
   std::vector<PixelCorner> corners;
-  geometry::Polygon3 polygon_in_sensor;  ///< [m], a vertex for each corner, on the plane
+  /// [m], a vertex for each corner: where the ray through it meets the region's plane. Where it meets it beyond twice
+  /// the largest depth, or never, since the pixel sees the plane edge-on, the vertex is that far along the ray, off the
+  /// plane.
+  geometry::Polygon3 polygon_in_sensor;
 };
 
 /// A connected part of the image that is flat to what the sensor can tell.

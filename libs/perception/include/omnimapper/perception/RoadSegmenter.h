@@ -30,8 +30,10 @@ struct RoadOptions {
 };
 
 struct RoadSegmentation {
-  PlaneSegmentation ground;        ///< its connected pieces, with the planes that fit them best; the largest first
-  std::vector<std::uint8_t> sure;  ///< of each pixel: 1 where its own normal says that it is ground
+  PlaneSegmentation ground;  ///< its connected pieces, with the planes that fit them best; the largest first
+  /// Of each pixel, row by row: 1 where its own normal says that it is ground, before the second pass; else 0. Of the
+  /// size of the image, 1 pixel or none too.
+  std::vector<std::uint8_t> sure;
 };
 
 /// Finds the ground that can be driven on, which need not be flat (thesis 3.4.7): connected parts of the image whose
