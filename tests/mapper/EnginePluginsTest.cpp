@@ -189,16 +189,23 @@ TEST_F(EnginePlugins, AnInvalidBatchIsAnErrorThatLeavesTheGraphWhole) {
   EXPECT_EQ(view.graph.variables().size(), 5U + 4U) << "nothing of the bad batch";
 }
 
-TEST_F(EnginePlugins, AnExtractorThatFailsIsHeardOf) {
+TEST_F(EnginePlugins, AnExtractorThatFailsIsHeardOfAndEndsNothing) {
   class Failing : public Extractor {
    public:
     bool wants(const CObservation&) const override { return true; }
-    std::vector<CObservation::Ptr> extract(const CObservation&) const override {
-      throw base::Error(base::ExitCode::damaged_input, "cannot make sense of it");
+    std::vector<CObservation::Ptr> extract(const CObservation& raw) const override {
+      if (raw.timestamp == at(1)) throw base::Error(base::ExitCode::unreadable_input, "cannot make sense of it");
+      return {};
     }
   };
   set_.extractors.push_back({"failing", std::make_unique<Failing>()});
-  EXPECT_THROW(run(3), base::Error);
+  run(3);
+  const auto view = engine_->view();
+  EXPECT_EQ(view.map.key_frames.size(), 3U);
+  EXPECT_EQ(engine_->extractionErrors().code(), base::ExitCode::damaged_input);
+  ASSERT_EQ(view.warnings.size(), 1U);
+  for (const auto& word : {std::string("1 times"), base::formatUnix(at(1), 6), std::string("cannot make sense")})
+    EXPECT_NE(view.warnings[0].find(word), std::string::npos) << word << ": " << view.warnings[0];
 }
 
 TEST_F(EnginePlugins, AJobThatFailsCostsNeitherTheOtherJobsNorTheLastSolve) {

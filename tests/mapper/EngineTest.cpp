@@ -8,6 +8,7 @@
 #include <omnimapper/testing/MapperRun.h>
 
 #include <algorithm>
+#include <atomic>
 #include <set>
 
 namespace omnimapper::mapper::engine_test {
@@ -197,6 +198,52 @@ TEST(EngineSensors, WhatALogBringsPerceivedIsNotPerceivedTwice) {
   const auto again = makeEngine(kLaserIni);
   testing::run(*again, perceived);
   EXPECT_EQ(testing::bitsOf(again->view()), testing::bitsOf(raw->view()));
+}
+
+// An extractor of laser points that counts how often it was at work.
+class Counting : public Extractor {
+ public:
+  Counting(std::unique_ptr<Extractor> inner, std::atomic<int>& count) : inner_(std::move(inner)), count_(count) {}
+  bool wants(const CObservation& raw) const override { return inner_->wants(raw); }
+  std::vector<CObservation::Ptr> extract(const CObservation& raw) const override {
+    ++count_;
+    return inner_->extract(raw);
+  }
+  std::vector<DerivedName> namesOf(const CObservation& raw) const override { return inner_->namesOf(raw); }
+
+ private:
+  std::unique_ptr<Extractor> inner_;
+  std::atomic<int>& count_;
+};
+
+TEST(EngineSensors, AnExtractorDoesNotWorkOnWhatALogBringsPerceived) {
+  SimulatedLogOptions options;
+  options.place = SimulatedLogOptions::Place::box;
+  options.laps = 0.3;
+  const SimulatedLog log(options);
+  plugins::registerPlugins();
+  const auto config = base::Config::fromText(kLaserIni, "test.ini");
+  const auto settings = EngineSettings::read(config);
+  const auto& names = settings.engine;
+  std::vector<CObservation::Ptr> perceived;
+  const auto extractor = std::move(makePlugins({{}, {"laser_points"}, {}, {}}, config, {}).extractors.front().plugin);
+  for (const auto& observation : log.observations()) {
+    if (extractor->wants(*observation))
+      for (const auto& derived : extractor->extract(*observation)) perceived.push_back(derived);
+    perceived.push_back(observation);
+  }
+  std::string bits;
+  for (const int threads : {1, 2, 4}) {
+    auto plugins = makePlugins({names.pose_plugins, {"laser_points"}, names.measurement_plugins, {}}, config, {});
+    std::atomic<int> count{0};
+    plugins.extractors.front().plugin = std::make_unique<Counting>(std::move(plugins.extractors.front().plugin), count);
+    mapper::Engine engine(settings, "test", SensorPoses({}, config), std::move(plugins), threads);
+    testing::run(engine, perceived);
+    EXPECT_EQ(count, 0) << threads;
+    EXPECT_GT(engine.view().map.key_frames.size(), 3U);
+    if (threads == 1) bits = testing::bitsOf(engine.view());
+    EXPECT_EQ(testing::bitsOf(engine.view()), bits) << threads;
+  }
 }
 
 }  // namespace

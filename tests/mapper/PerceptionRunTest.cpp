@@ -55,10 +55,10 @@ class PerceptionRunTest : public ::testing::Test {
   }
   PerceptionResult run(const std::vector<std::string>& logs, const std::string& output, bool with_raw = false,
                        const std::string& extractors = "planes") {
-    auto config = base::Config::fromText("[perception]\nextractors = " + extractors + "\n[planes]\n" + planes_ +
-                                             "class = PlaneExtractor\n" +
-                                             (extractors == "planes" ? "" : "[objects]\nclass = ObjectExtractor\n"),
-                                         "test.ini");
+    auto config = base::Config::fromText(
+        "[perception]\nextractors = " + extractors + "\n[planes]\n" + planes_ + "class = PlaneExtractor\n" +
+            (extractors == "planes" ? "" : "[objects]\nclass = ObjectExtractor\nmax_tilt_deg = 180\n"),
+        "test.ini");
     PerceptionRequest request;
     request.logs = logs;
     request.output = output;

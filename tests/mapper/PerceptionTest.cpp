@@ -40,13 +40,13 @@ class Suffix : public Extractor {
   std::string suffix_;
 };
 
-using Result = std::vector<Perceived>;
+using Result = PerceivedParts;
 
 // Of what was derived; the observation itself comes first.
 std::vector<std::string> texts(const Result& result) {
   std::vector<std::string> all;
-  for (std::size_t i = 1; i < result.size(); ++i) {
-    all.push_back(dynamic_cast<const CObservationComment&>(*result[i].observation).text);
+  for (std::size_t i = 1; i < result.parts.size(); ++i) {
+    all.push_back(dynamic_cast<const CObservationComment&>(*result.parts[i].observation).text);
   }
   return all;
 }
@@ -75,6 +75,49 @@ TEST_P(Pool, AnExceptionComesOutOfItsFutureAndOfNoOther) {
   EXPECT_EQ(texts(before.get()), std::vector<std::string>{"a.one"});
   EXPECT_THROW(bad.get(), std::runtime_error);
   EXPECT_EQ(texts(after.get()), std::vector<std::string>{"b.one"});
+}
+
+TEST_P(Pool, AnObservationThatAnExtractorCannotTakeIsCountedAndTheOthersTakeIt) {
+  class Strict : public Suffix {
+   public:
+    using Suffix::Suffix;
+    std::vector<CObservation::Ptr> extract(const CObservation&) const override {
+      throw base::Error(base::ExitCode::missing_images, "no picture");
+    }
+  };
+  const Strict strict(".one");
+  const Suffix two(".two");
+  base::WorkerPool workers(GetParam());
+  const Perception perception({&strict, &two}, {}, workers);
+  const auto result = perception.submit(comment("a")).get();
+  EXPECT_EQ(texts(result), std::vector<std::string>{"a.two"});
+  EXPECT_EQ(result.errors.count(), 1U);
+  EXPECT_EQ(result.errors.code(), base::ExitCode::missing_images);
+}
+
+TEST_P(Pool, WhatTheLogBringsIsNotMadeAnew) {
+  class Named : public Suffix {
+   public:
+    using Suffix::Suffix;
+    std::vector<DerivedName> namesOf(const CObservation& raw) const override {
+      return {{CLASS_ID(CObservationComment), raw.sensorLabel + ".x"},
+              {CLASS_ID(CObservationComment), raw.sensorLabel + ".y"}};
+    }
+  };
+  const Named named(".one");
+  base::WorkerPool workers(GetParam());
+  const Perception perception({&named}, {}, workers);
+  const auto labelled = [](const std::string& label) {
+    auto made = comment("brought");
+    made->sensorLabel = label;
+    return made;
+  };
+  const auto raw = labelled("raw"), x = labelled("raw.x"), y = labelled("raw.y");
+  auto other_class = mrpt::obs::CObservationOdometry::Create();
+  other_class->sensorLabel = "raw.y";
+  EXPECT_TRUE(texts(perception.submit(raw, {raw, x, y}).get()).empty());
+  EXPECT_EQ(texts(perception.submit(raw, {raw, x}).get()).size(), 1U) << "a part of it is not all";
+  EXPECT_EQ(texts(perception.submit(raw, {raw, x, other_class}).get()).size(), 1U);
 }
 
 TEST_P(Pool, WhatHasNotBegunAtTheEndIsLeftOutAndItsFutureSaysSo) {
@@ -117,14 +160,14 @@ TEST_P(Pool, PluginsPrepareWhatTheyWantOfTheRawAndTheDerived) {
   const Counter counter;
   base::WorkerPool workers(GetParam());
   const Perception perception({&one}, {&counter}, workers);
-  const auto result = perception.submit(comment("abc")).get();
+  const auto result = perception.submit(comment("abc")).get().parts;
   ASSERT_EQ(result.size(), 2U);
   const auto length = [&](std::size_t i) {
     return dynamic_cast<const Counter::Length&>(*result[i].prepared.front()).length;
   };
   EXPECT_EQ(length(0), 3U);
   EXPECT_EQ(length(1), 7U);
-  EXPECT_EQ(perception.submit(mrpt::obs::CObservationOdometry::Create()).get().front().prepared.front(), nullptr);
+  EXPECT_EQ(perception.submit(mrpt::obs::CObservationOdometry::Create()).get().parts.front().prepared.front(), nullptr);
 }
 
 TEST_P(Pool, WhatNoExtractorWantsGivesNothing) {
@@ -134,7 +177,7 @@ TEST_P(Pool, WhatNoExtractorWantsGivesNothing) {
   const auto odometry = mrpt::obs::CObservationOdometry::Create();
   EXPECT_FALSE(perception.wants(*odometry));
   EXPECT_TRUE(perception.wants(*comment("a")));
-  EXPECT_EQ(perception.submit(odometry).get().size(), 1U) << "itself";
+  EXPECT_EQ(perception.submit(odometry).get().parts.size(), 1U) << "itself";
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Pool, ::testing::Values(1, 2, 4));

@@ -84,10 +84,18 @@ TEST_F(PluginRegistry, ASectionThatIsMissingOrHasNoClassIsNamed) {
   for (const std::string section : {"wheels", "wheel"}) {
     const auto error = errorOf([&] { makePlugins({{section}, {}, {}, {}}, config, {}); });
     EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
-    EXPECT_TRUE(holds(error.what(), "my.ini: [" + section + "]")) << error.what();
+    EXPECT_TRUE(holds(error.what(), ": [" + section + "]")) << error.what();
     EXPECT_TRUE(holds(error.what(), "class")) << error.what();
     EXPECT_EQ(holds(error.what(), "no such section"), section == "wheel") << error.what();
   }
+}
+
+TEST_F(PluginRegistry, APluginThatIsNamedTwiceIsRefused) {
+  const auto config = base::Config::fromText("[points]\nclass = LaserPointsExtractor\n", "my.ini");
+  const auto error = errorOf([&] { makePlugins({{}, {"points", "points"}, {}, {}}, config, {}); });
+  EXPECT_EQ(error.code(), base::ExitCode::out_of_range);
+  for (const std::string part : {"my.ini", "extractor [points]", "twice"})
+    EXPECT_TRUE(holds(error.what(), part)) << error.what();
 }
 
 TEST_F(PluginRegistry, AWrongOptionOfAPluginIsRefusedWhenItIsMade) {

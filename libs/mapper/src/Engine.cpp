@@ -104,6 +104,7 @@ void Engine::finish() {
     }
   }
   tried([&] { collectSections(); });
+  if (extraction_errors_.count() > 0) warn(extraction_errors_.sentence());
   times_.add("perception wait", busy_.perception);
   times_.add("job wait", busy_.jobs);
   times_.add("engine", busy_.total - busy_.perception - busy_.jobs - busy_.plugins - busy_.solve - busy_.outputs);
@@ -154,17 +155,19 @@ void Engine::release(const ReleaseQueue::Group& group, bool late) {
   }
   const auto motion = [this](base::Stamp begin, base::Stamp end) { return chain_.motion(begin, end, false); };
   Moment moment{group.stamp, false, {}};
+  std::vector<mrpt::obs::CObservation::ConstPtr> fired;
   for (const auto& observation : group.observations) {
     const bool fires = late ? trigger_.firesLate(observation->sensorLabel, group.stamp, motion)
                             : trigger_.fires(observation->sensorLabel, group.stamp, motion);
     if (fires) {
       if (reference_sensor_.empty()) reference_sensor_ = observation->sensorLabel;
-      moment.observations.push_back({observation, perception_.submit(observation)});
+      fired.push_back(observation);
     } else {
       ++counts_.not_triggered;
     }
     moment.reference = moment.reference || observation->sensorLabel == reference_sensor_;
   }
+  for (const auto& raw : fired) moment.observations.push_back(perception_.submit(raw, fired));
   if (moment.observations.empty() && !moment.reference) return;
   moments_.push_back(std::move(moment));
   while (moments_.size() > kPipelineDepth) processNext();
@@ -225,9 +228,10 @@ std::vector<Perceived> Engine::gather(Moment& moment, base::KeyFrameId id) {
   std::vector<Perceived> raw, derived;
   for (auto& pending : moment.observations) {
     const Timed timed(busy_.perception);
-    auto all = pending.perceived.get();
-    raw.push_back(std::move(all.front()));
-    std::move(all.begin() + 1, all.end(), std::back_inserter(derived));
+    auto [parts, errors] = pending.get();
+    extraction_errors_.add(errors);
+    raw.push_back(std::move(parts.front()));
+    std::move(parts.begin() + 1, parts.end(), std::back_inserter(derived));
   }
   map::KeyFrame& frame = map_.key_frames.edit(id);
   std::vector<Perceived> added;

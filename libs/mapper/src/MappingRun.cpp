@@ -228,6 +228,8 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
     sources.emplace_back(section, plugin.get());
     if (!plugin->isFallback()) measuring.insert(section);
   }
+  std::vector<std::pair<std::string, const Extractor*>> extractors;
+  for (const auto& [section, plugin] : plugins.extractors) extractors.emplace_back(section, plugin.get());
   Engine engine(settings, context.title, std::move(sensor_poses), std::move(plugins), request.threads);
   engine.setStop(stop);
   if (const auto off = config.switchedOffPlugins(); !off.empty()) {
@@ -249,9 +251,13 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   warnOf(report, stopped, engine);
   const auto unknown_labels = unknownLabels(config, labelledSections(options, perception), report, engine.view().map);
   for (const auto& sentence : unknown_labels) engine.warn(sentence);
-  for (const auto& [section, plugin] : sources) {
-    for (const auto& sentence : plugin->warnings()) engine.warn("[" + section + "] " + sentence);
-  }
+  const auto warn = [&](const auto& all) {
+    for (const auto& [section, plugin] : all) {
+      for (const auto& sentence : plugin->warnings()) engine.warn("[" + section + "] " + sentence);
+    }
+  };
+  warn(sources);
+  warn(extractors);
   if (!context.map_is_held) warnOfNothingMeasured(measuring, engine);
   auto result = resultOf(engine.view());
   warnOf(engine.view().counts, result.new_key_frames, engine);
@@ -261,6 +267,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   result.warnings = engine.view().warnings;
   result.source = report;
   result.code = stopped ? base::ExitCode::interrupted : report.exitCode();
+  if (result.code == base::ExitCode::ok) result.code = engine.extractionErrors().code();
   // A map that is continued is there already: better that one than one broken off.
   const bool keep_old = result.new_key_frames == 0 || !request.continue_map.empty();
   if (keep_old && failure) std::rethrow_exception(failure);

@@ -29,7 +29,7 @@ void PerceivedLog::add(const CObservation::Ptr& raw, std::vector<Outcome> outcom
 
 void PerceivedLog::finish() {
   writeMoment();
-  if (first_error_ && !has_succeeded_) throw *first_error_;
+  if (errors_.first() && !has_succeeded_) throw *errors_.first();
   warn();
 }
 
@@ -39,7 +39,7 @@ void PerceivedLog::writeMoment() {
     std::vector<CObservation::Ptr> all;
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       if (!outcomes[i].wanted) continue;
-      write(outcomes[i], result_.extractors[i]);
+      write(outcomes[i], *raw, result_.extractors[i]);
       all.insert(all.end(), outcomes[i].derived.begin(), outcomes[i].derived.end());
     }
     if (request_.show) request_.show(*raw, all);
@@ -48,8 +48,11 @@ void PerceivedLog::writeMoment() {
   written_.clear();
 }
 
-void PerceivedLog::write(Outcome& outcome, PerceptionResult::Count& count) {
-  if (outcome.error) return fail(*outcome.error, count);
+void PerceivedLog::write(Outcome& outcome, const CObservation& raw, PerceptionResult::Count& count) {
+  if (outcome.error) {
+    ++count.failed;
+    return errors_.add(*outcome.error, raw);
+  }
   has_succeeded_ = true;
   count.taken += !outcome.derived.empty();
   for (const auto& derived : outcome.derived) {
@@ -65,11 +68,6 @@ void PerceivedLog::write(Outcome& outcome, PerceptionResult::Count& count) {
   }
 }
 
-void PerceivedLog::fail(const base::Error& error, PerceptionResult::Count& count) {
-  ++count.failed;
-  if (!first_error_) first_error_ = error;
-}
-
 // With the observations that were read, those that an earlier run derived are written too.
 bool PerceivedLog::bringsAlready(const CObservation& derived) const {
   return request_.with_raw && std::any_of(moment_.begin(), moment_.end(),
@@ -82,12 +80,7 @@ bool PerceivedLog::isWritten(const CObservation& derived) const {
 
 void PerceivedLog::warn() {
   auto& warnings = result_.warnings;
-  if (first_error_) {
-    std::size_t failed = 0;
-    for (const auto& count : result_.extractors) failed += count.failed;
-    warnings.push_back(std::to_string(failed) + " times an extractor could not take an observation, which was left " +
-                       "out; the first: " + first_error_->what());
-  }
+  if (errors_.count() > 0) warnings.push_back(errors_.sentence());
   if (in_log_ > 0)
     warnings.push_back(std::to_string(in_log_) +
                        " derived observations are in the log already and were not written a second time; without " +
@@ -96,9 +89,7 @@ void PerceivedLog::warn() {
     warnings.push_back(std::to_string(repeated_) +
                        " derived observations have the label and stamp of another one and were left out, first " +
                        first_repeated_ + "; name one extractor of them in [perception] extractors");
-  if (!first_error_ || result_.code != base::ExitCode::ok) return;
-  const bool lacks_images = first_error_->code() == base::ExitCode::missing_images;
-  result_.code = lacks_images ? base::ExitCode::missing_images : base::ExitCode::damaged_input;
+  if (result_.code == base::ExitCode::ok) result_.code = errors_.code();
 }
 
 }  // namespace omnimapper::mapper

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/mapper/ExtractionErrors.h>
 #include <omnimapper/mapper/PerceptionRun.h>
 #include <omnimapper/source/RawlogWriter.h>
 
@@ -32,8 +33,7 @@ class PerceivedLog {
     std::vector<Outcome> outcomes;
   };
   void writeMoment();
-  void write(Outcome& outcome, PerceptionResult::Count& count);
-  void fail(const base::Error& error, PerceptionResult::Count& count);
+  void write(Outcome& outcome, const mrpt::obs::CObservation& raw, PerceptionResult::Count& count);
   bool bringsAlready(const mrpt::obs::CObservation& derived) const;
   bool isWritten(const mrpt::obs::CObservation& derived) const;
   void warn();
@@ -43,7 +43,7 @@ class PerceivedLog {
   PerceptionResult& result_;
   std::vector<Entry> moment_;                          // of one stamp
   std::vector<mrpt::obs::CObservation::Ptr> written_;  // what was derived of it
-  std::optional<base::Error> first_error_;
+  ExtractionErrors errors_;
   bool has_succeeded_ = false;
   std::size_t in_log_ = 0, repeated_ = 0;
   std::string first_repeated_;

@@ -5,19 +5,40 @@
 
 namespace omnimapper::mapper {
 
+using mrpt::obs::CObservation;
+
+namespace {
+
+bool isBrought(const std::vector<DerivedName>& names, const std::vector<CObservation::ConstPtr>& brought) {
+  return !names.empty() && std::all_of(names.begin(), names.end(), [&](const DerivedName& name) {
+    return std::any_of(brought.begin(), brought.end(), [&](const auto& observation) {
+      return observation->sensorLabel == name.label && observation->GetRuntimeClass() == name.type;
+    });
+  });
+}
+
+}  // namespace
+
 bool Perception::wants(const mrpt::obs::CObservation& raw) const {
   const auto takes = [&](const auto* part) { return part->wants(raw); };
   return std::any_of(extractors_.begin(), extractors_.end(), takes) ||
          std::any_of(plugins_.begin(), plugins_.end(), takes);
 }
 
-std::future<std::vector<Perceived>> Perception::submit(mrpt::obs::CObservation::ConstPtr raw) const {
-  return pool_.submit<std::vector<Perceived>>([this, raw] {
-    std::vector<Perceived> all;
-    all.push_back(prepared(raw));
+std::future<PerceivedParts> Perception::submit(CObservation::ConstPtr raw,
+                                               std::vector<CObservation::ConstPtr> brought) const {
+  return pool_.submit<PerceivedParts>([this, raw = std::move(raw), brought = std::move(brought)] {
+    PerceivedParts all;
+    all.parts.push_back(prepared(raw));
     for (const auto* extractor : extractors_) {
       if (!extractor->wants(*raw)) continue;
-      for (auto& derived : extractor->extract(*raw)) all.push_back(prepared(derived));
+      std::vector<CObservation::Ptr> made;
+      try {
+        if (!isBrought(extractor->namesOf(*raw), brought)) made = extractor->extract(*raw);
+      } catch (const base::Error& error) {
+        all.errors.add(error, *raw);
+      }
+      for (const auto& derived : made) all.parts.push_back(prepared(derived));
     }
     return all;
   });

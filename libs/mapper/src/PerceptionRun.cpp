@@ -111,7 +111,8 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
   const auto source_options = config.section("source").read<source::SourceOptions>();
   if (options.extractors.empty()) {
     throw base::Error(base::ExitCode::out_of_range,
-                      config.file() + ": [perception] extractors is empty: name the sections of the extractors");
+                      config.placeOf("perception", "extractors") +
+                          ": [perception] extractors is empty: name the sections of the extractors");
   }
   loadPluginLibraries(config);
   PluginContext context;
@@ -136,6 +137,9 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
     refuseNothing(request, config.file(), result);
   });
   for (auto& warning : warningsOf(result.source)) result.warnings.push_back(std::move(warning));
+  for (const auto& [section, extractor] : plugins.extractors) {
+    for (const auto& warning : extractor->warnings()) result.warnings.push_back("[" + section + "] " + warning);
+  }
   if (result.code == base::ExitCode::interrupted)
     result.warnings.push_back("interrupted: this is what was made of the log until then");
   result.wall_seconds = watch.seconds();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <tuple>
 
 namespace omnimapper::mapper {
@@ -82,8 +83,14 @@ namespace {
 template <class Factory, class Plugin>
 void makeAll(const std::vector<std::string>& names, PluginKind kind, const base::Config& config, PluginContext context,
              std::vector<Named<Plugin>>& plugins) {
+  std::set<std::string> made;
   for (const auto& name : names) {
-    const std::string place = config.file() + ": [" + name + "]";
+    if (!made.insert(name).second) {
+      throw base::Error(base::ExitCode::out_of_range, config.file() + ": the " + toString(kind) + " [" + name +
+                                                          "] is named twice; name it once, or give the second a " +
+                                                          "section of its own");
+    }
+    const std::string place = config.placeOf(name, "class") + ": [" + name + "]";
     const auto section = config.section(name);
     std::string class_name;
     if (!section.find("class", class_name)) {

@@ -81,7 +81,7 @@ TEST_F(Perceive, WithoutTheRawScansItMapsAsTheRawLogDoes) {
 
 TEST_F(Perceive, WhatCannotBeIsSaid) {
   EXPECT_TRUE(endedWith(ExitCode::out_of_range, perceive(raw_, derived_, {"--set", "perception.extractors="}),
-                        {"laser2d.ini", "[perception] extractors"}));
+                        {"--set perception.extractors: [perception] extractors"}));
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, perceive(scratch_ / "none.rawlog", derived_), {"none.rawlog"}));
   EXPECT_TRUE(endedWith(ExitCode::nothing_to_map, perceive(raw_, derived_, {"--set", "source.labels=odometry"}),
                         {"no observation that an extractor"}));

@@ -1,3 +1,4 @@
+#include <omnimapper/perception/PlaneExtractor.h>
 #include <omnimapper/plugins/CloudPlanesPlugin.h>
 
 #include "../SharedSection.h"
@@ -14,6 +15,10 @@ bool CloudPlanesPlugin::wants(const mrpt::obs::CObservation& raw) const {
 
 std::vector<mrpt::obs::CObservation::Ptr> CloudPlanesPlugin::extract(const mrpt::obs::CObservation& raw) const {
   return {extractor_.extract(raw)};
+}
+
+std::vector<mapper::DerivedName> CloudPlanesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + perception::kPlanesSuffix}};
 }
 
 const std::vector<base::OptionSpec>& CloudPlanesPluginFactory::options() const {

@@ -1,19 +1,25 @@
 #include <omnimapper/plugins/EdgesPlugin.h>
 
+#include "DepthScan.h"
+
 IMPLEMENTS_MRPT_OBJECT(EdgesPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
 
-using mrpt::obs::CObservation3DRangeScan;
-
 bool EdgesPlugin::wants(const mrpt::obs::CObservation& raw) const {
-  const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
-  return scan != nullptr && scan->hasRangeImage;
+  return depthScanOf(raw) != nullptr;
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> EdgesPlugin::extract(const mrpt::obs::CObservation& raw) const {
-  const auto clouds = extractor_.extract(dynamic_cast<const CObservation3DRangeScan&>(raw));
+  const auto clouds = extractor_.extract(*depthScanOf(raw));
   return {clouds.begin(), clouds.end()};
+}
+
+std::vector<mapper::DerivedName> EdgesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+  std::vector<mapper::DerivedName> names;
+  for (auto& label : extractor_.labelsOf(*depthScanOf(raw)))
+    names.push_back({CLASS_ID(mrpt::obs::CObservationPointCloud), std::move(label)});
+  return names;
 }
 
 const std::vector<base::OptionSpec>& EdgesPluginFactory::options() const {

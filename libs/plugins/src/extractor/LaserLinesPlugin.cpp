@@ -12,6 +12,10 @@ std::vector<mrpt::obs::CObservation::Ptr> LaserLinesPlugin::extract(const mrpt::
   return {extractor_.extract(dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(raw))};
 }
 
+std::vector<mapper::DerivedName> LaserLinesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(obs::CObservationLaserLines), raw.sensorLabel + perception::kLinesSuffix}};
+}
+
 const std::vector<base::OptionSpec>& LaserLinesPluginFactory::options() const {
   return perception::LaserLineOptions::table().specs();
 }

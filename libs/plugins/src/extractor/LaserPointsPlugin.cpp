@@ -1,3 +1,4 @@
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/plugins/LaserPointsPlugin.h>
 
 IMPLEMENTS_MRPT_OBJECT(LaserPointsPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
@@ -10,6 +11,10 @@ bool LaserPointsPlugin::wants(const mrpt::obs::CObservation& raw) const {
 
 std::vector<mrpt::obs::CObservation::Ptr> LaserPointsPlugin::extract(const mrpt::obs::CObservation& raw) const {
   return {extractor_.extract(dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(raw))};
+}
+
+std::vector<mapper::DerivedName> LaserPointsPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(mrpt::obs::CObservationPointCloud), raw.sensorLabel + perception::kPointsSuffix}};
 }
 
 const std::vector<base::OptionSpec>& LaserPointsPluginFactory::options() const {

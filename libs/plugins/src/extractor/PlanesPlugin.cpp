@@ -1,22 +1,25 @@
 #include <omnimapper/plugins/PlanesPlugin.h>
 
 #include "../SharedSection.h"
+#include "DepthScan.h"
 
 IMPLEMENTS_MRPT_OBJECT(PlanesPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
 
-using mrpt::obs::CObservation3DRangeScan;
 using PlanesSection =
     SharedSection<perception::PlaneComparisonOptions, perception::PlaneOptions, perception::OutlineOptions>;
 
 bool PlanesPlugin::wants(const mrpt::obs::CObservation& raw) const {
-  const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
-  return scan != nullptr && scan->hasRangeImage;
+  return depthScanOf(raw) != nullptr;
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> PlanesPlugin::extract(const mrpt::obs::CObservation& raw) const {
-  return {extractor_.extract(dynamic_cast<const CObservation3DRangeScan&>(raw))};
+  return {extractor_.extract(*depthScanOf(raw))};
+}
+
+std::vector<mapper::DerivedName> PlanesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + perception::kPlanesSuffix}};
 }
 
 const std::vector<base::OptionSpec>& PlanesPluginFactory::options() const {

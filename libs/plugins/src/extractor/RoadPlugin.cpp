@@ -1,21 +1,24 @@
 #include <omnimapper/plugins/RoadPlugin.h>
 
 #include "../SharedSection.h"
+#include "DepthScan.h"
 
 IMPLEMENTS_MRPT_OBJECT(RoadPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
 
-using mrpt::obs::CObservation3DRangeScan;
 using RoadSection = SharedSection<perception::RoadOptions, perception::OutlineOptions, perception::RoadPoseOptions>;
 
 bool RoadPlugin::wants(const mrpt::obs::CObservation& raw) const {
-  const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
-  return scan != nullptr && scan->hasRangeImage;
+  return depthScanOf(raw) != nullptr;
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> RoadPlugin::extract(const mrpt::obs::CObservation& raw) const {
-  return {extractor_.extract(dynamic_cast<const CObservation3DRangeScan&>(raw))};
+  return {extractor_.extract(*depthScanOf(raw))};
+}
+
+std::vector<mapper::DerivedName> RoadPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + perception::kRoadSuffix}};
 }
 
 const std::vector<base::OptionSpec>& RoadPluginFactory::options() const {

@@ -58,6 +58,9 @@ class Engine {
   /// Adds time spent outside the engine, such as reading the log.
   void addTime(const std::string& stage, double seconds) { times_.add(stage, seconds); }
 
+  /// What extractors could not take; finish() warns of it.
+  const ExtractionErrors& extractionErrors() const { return extraction_errors_; }
+
   View view() const {
     return {{map_, graph_, estimator_.uncertainty()},
             decisions_,
@@ -71,16 +74,11 @@ class Engine {
   }
 
  private:
-  /// An observation with what the pool is making of it.
-  struct Pending {
-    mrpt::obs::CObservation::Ptr raw;
-    std::future<std::vector<Perceived>> perceived;
-  };
   /// All observations of one stamp, past the trigger. Without any, the stamp only hangs on its key frame.
   struct Moment {
     base::Stamp stamp;
     bool reference;  // one of them, or of those that hang, is of the reference sensor
-    std::vector<Pending> observations;
+    std::vector<std::future<PerceivedParts>> observations;  // what the pool makes of each
   };
 
   bool isCovered(base::Stamp stamp) const;
@@ -123,6 +121,7 @@ class Engine {
   StageTimes times_;
   RunCounts counts_;
   std::vector<std::string> warnings_;
+  ExtractionErrors extraction_errors_;
   std::vector<map::MapSection> sections_;
   std::string reference_sensor_;
   BusyTimes busy_;

@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/WorkerPool.h>
+#include <omnimapper/mapper/ExtractionErrors.h>
 #include <omnimapper/mapper/Extractor.h>
 #include <omnimapper/mapper/MeasurementPlugin.h>
 
@@ -17,8 +18,15 @@ struct Perceived {
   std::vector<std::unique_ptr<const Prepared>> prepared;
 };
 
+/// All that the pool made of one observation.
+struct PerceivedParts {
+  std::vector<Perceived> parts;  ///< the observation itself, then what the extractors made of it, in their order
+  ExtractionErrors errors;       ///< of extractors that could not take it
+};
+
 /// What happens to an observation in the worker pool, ahead of the engine: extractors derive observations from it, and
-/// measurement plugins prepare what they want of it and of those. Depends on the observation alone.
+/// measurement plugins prepare what they want of it and of those. Depends on the observation, and on those given with
+/// it, alone.
 class Perception {
  public:
   /// All of them stay the caller's and must outlive this, and this the tasks in the pool.
@@ -28,8 +36,10 @@ class Perception {
 
   /// Whether an extractor or a plugin takes it.
   bool wants(const mrpt::obs::CObservation& raw) const;
-  /// `raw` itself, then what the extractors make of it, in their order. Exceptions come out of the future.
-  std::future<std::vector<Perceived>> submit(mrpt::obs::CObservation::ConstPtr raw) const;
+  /// Extractors all of whose results are among `brought`, observations of the same stamp that came with the log, are
+  /// spared. What they throw as base::Error is in the result; other exceptions come out of the future.
+  std::future<PerceivedParts> submit(mrpt::obs::CObservation::ConstPtr raw,
+                                     std::vector<mrpt::obs::CObservation::ConstPtr> brought = {}) const;
 
  private:
   Perceived prepared(mrpt::obs::CObservation::ConstPtr observation) const;

@@ -12,6 +12,7 @@ class LaserPointsPlugin : public mapper::Extractor {
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mapper::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   perception::LaserPointsExtractor extractor_;

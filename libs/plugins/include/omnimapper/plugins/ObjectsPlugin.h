@@ -3,18 +3,26 @@
 #include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/perception/ObjectExtractor.h>
 
+#include <atomic>
+
 namespace omnimapper::plugins {
 
 /// perception::ObjectExtractor for the worker pool.
 class ObjectsPlugin : public mapper::Extractor {
  public:
-  explicit ObjectsPlugin(const perception::ObjectExtractor::Options& options) : extractor_(options) {}
+  explicit ObjectsPlugin(const perception::ObjectExtractor::Options& options)
+      : extractor_(options), on_surfaces_only_(options.objects.on_surfaces_only) {}
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mapper::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
+  /// If no scan showed a level surface.
+  std::vector<std::string> warnings() const override;
 
  private:
+  mutable std::atomic<std::size_t> scans_{0}, with_surface_{0};
   perception::ObjectExtractor extractor_;
+  bool on_surfaces_only_;
 };
 
 class ObjectsPluginFactory : public mapper::ExtractorFactory {
