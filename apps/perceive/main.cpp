@@ -2,12 +2,14 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/mapper/PerceptionRun.h>
+#include <omnimapper/mapper/PluginHelp.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/plugins/Findings.h>
 #include <omnimapper/plugins/PerceptionPictures.h>
 #include <omnimapper/plugins/registerPlugins.h>
 #include <unistd.h>
 
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <thread>
 
@@ -20,9 +22,9 @@ using namespace omnimapper;
 struct Arguments {
   std::vector<std::string> inis, settings;
   mapper::PerceptionRequest run;
-  std::string pictures;
+  std::string pictures, print_ini;
   int picture_every = 10;
-  bool quiet = false;
+  bool quiet = false, verbose = false, list_plugins = false;
 };
 
 void addOptions(CLI::App& app, Arguments& arguments) {
@@ -31,9 +33,9 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       "INI\n"
       "derive. omnimapper-graphslam takes it beside the raw one: -r raw.rawlog -r derived.rawlog\n"
       "Example: omnimapper-perceive -i ini/laser2d.ini -r office.rawlog -o derived.rawlog");
-  app.add_option("-i,--ini", arguments.inis, "INI file: which extractors; a further one counts over it")->required();
-  app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)")->required();
-  app.add_option("-o,--output", arguments.run.output, "rawlog to write")->required();
+  app.add_option("-i,--ini", arguments.inis, "INI file: which extractors; a further one counts over it");
+  app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
+  app.add_option("-o,--output", arguments.run.output, "rawlog to write");
   app.add_flag("--with-raw", arguments.run.with_raw, "put the observations that were read into it too");
   app.add_option("--pictures", arguments.pictures, "folder for pictures of what was found, over what the sensor saw");
   app.add_option("--picture-every", arguments.picture_every, "so many observations of a sensor make one (10)")
@@ -42,7 +44,11 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the bytes do not depend on them")
       ->check(CLI::Range(1, 256));
+  app.add_flag("--list-plugins", arguments.list_plugins,
+               "list the plugin classes, with -i those of its libraries too, and leave");
+  app.add_option("--print-ini", arguments.print_ini, "print the documented section of a plugin class and leave");
   app.add_flag("-q,--quiet", arguments.quiet, "no progress, no summary");
+  app.add_flag("-v,--verbose", arguments.verbose, "also say what the logs hold");
   app.footer(
       "MRPT's tools stop at the first class they do not know: RawLogViewer -l libomnimapper-obs.so derived.rawlog\n"
       "Exit codes: doc/exit_codes.md (0 only for the whole of a whole log).");
@@ -52,19 +58,27 @@ int run(Arguments& arguments) {
   plugins::registerPlugins();
   auto config = base::Config::fromFiles(arguments.inis);
   for (const auto& setting : arguments.settings) config.set(setting);
+  if (arguments.list_plugins || !arguments.print_ini.empty()) mapper::loadPluginLibraries(config);
+  if (arguments.list_plugins) return std::cout << mapper::listPlugins(), 0;
+  if (!arguments.print_ini.empty()) return std::cout << mapper::printIni(arguments.print_ini), 0;
+  if (arguments.inis.empty() || arguments.run.logs.empty() || arguments.run.output.empty())
+    throw base::Error(base::ExitCode::command_line, "-i INI, -r LOG and -o RAWLOG are needed; see --help");
   for (const auto& inputs : {arguments.run.logs, arguments.inis}) {
     base::refuseToReplaceInput(arguments.run.output, inputs);
   }
   program::listenForInterrupts();
-  std::unique_ptr<plugins::PerceptionPictures> pictures;
-  if (!arguments.pictures.empty()) {
-    pictures = std::make_unique<plugins::PerceptionPictures>(arguments.pictures, arguments.picture_every);
-    arguments.run.show = [&](const auto& raw, const auto& derived) { pictures->add(raw, derived); };
-  }
+  std::optional<plugins::PerceptionPictures> pictures;
+  plugins::Findings findings;
+  if (!arguments.pictures.empty()) pictures.emplace(arguments.pictures, arguments.picture_every);
+  arguments.run.show = [&](const auto& raw, const auto& derived) {
+    findings.add(derived);
+    if (pictures) pictures->add(raw, derived);
+  };
   std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
   const auto result = mapper::runPerception(arguments.run, config, *progress, program::isInterrupted);
   progress.reset();  // its line is free for the summary
-  if (!arguments.quiet) std::cout << mapper::toText(result, arguments.run.output);
+  if (arguments.verbose) std::cout << result.source.text();
+  if (!arguments.quiet) std::cout << findings.text() << mapper::toText(result, arguments.run.output);
   if (!arguments.quiet && pictures) std::cout << pictures->count() << " pictures in " << arguments.pictures << "\n";
   for (const auto& warning : result.warnings) std::cerr << "omnimapper-perceive: warning: " << warning << "\n";
   return static_cast<int>(result.code);

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationObjects.h>
@@ -97,6 +99,34 @@ TEST_F(PerceptionPicturesTest, planesLieWhereTheCameraSeesThem) {
   EXPECT_FALSE(isGrey(image, 30, 30)) << "filled";
   EXPECT_TRUE(isGrey(image, 45, 36)) << "in the hole";
   EXPECT_TRUE(isGrey(image, 10, 10)) << "beside it";
+}
+
+// Pixels of a row of the legend that have that colour.
+int inkIn(const Image& picture, const mrpt::img::TColor& colour) {
+  int count = 0;
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 30; ++x) {
+      const Rgb& p = picture.at(x, y);
+      count += p.r == colour.R && p.g == colour.G && p.b == colour.B;
+    }
+  }
+  return count;
+}
+
+TEST_F(PerceptionPicturesTest, aLegendTellsWhatColoursMeanWhereThereIsRoom) {
+  const auto scan = depthsAt(1);
+  EXPECT_FALSE(inkIn(drawCameraPicture(*scan, {plane()}), {255, 255, 255})) << "100 px are too few";
+  scan->rangeImage_setSize(480, 640);
+  scan->rangeImage.fill(2000);
+  scan->cameraParams.setIntrinsicParamsFromValues(500, 500, 319.5, 239.5);
+  EXPECT_GT(inkIn(drawCameraPicture(*scan, {plane()}), obs::indexColour(0)), 40) << "its swatch";
+  EXPECT_EQ(inkIn(drawCameraPicture(*scan, {}), obs::indexColour(0)), 0) << "nothing to tell";
+  auto edges = mrpt::obs::CObservationPointCloud::Create();
+  edges->sensorLabel = "kinect.edges.occluded";
+  auto points = mrpt::maps::CSimplePointsMap::Create();
+  points->insertPoint(2, 0, 0);
+  edges->pointcloud = points;
+  EXPECT_GT(inkIn(drawCameraPicture(*scan, {edges}), {230, 0, 0}), 40);
 }
 
 TEST_F(PerceptionPicturesTest, aPictureThroughAnotherLensIsNotDrawnOver) {

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "../output/Drawing.h"
+#include "Legend.h"
 
 namespace omnimapper::plugins {
 
@@ -168,8 +169,14 @@ void drawCloud(Image& picture, const Projection& project, const mrpt::maps::CPoi
   drawPoints(picture, project, points, {colour, 2});
 }
 
+/// How a cloud is drawn, and its name in the legend.
+struct CloudStyle {
+  Rgb colour;
+  std::string name;
+};
+
 // Edges by their kind, as thesis figure 4 has them; other clouds by their number.
-Rgb colourOfCloud(const std::string& label, std::size_t index) {
+CloudStyle styleOfCloud(const std::string& label, std::size_t index) {
   static const std::map<perception::EdgeKind, Rgb> kinds{{perception::kBoundary, {40, 80, 255}},
                                                          {perception::kOccluding, {0, 220, 0}},
                                                          {perception::kOccluded, {230, 0, 0}},
@@ -177,9 +184,10 @@ Rgb colourOfCloud(const std::string& label, std::size_t index) {
                                                          {perception::kRgb, {0, 230, 230}}};
   for (const auto& [kind, colour] : kinds) {
     const std::string end = std::string(perception::kEdgesSuffix) + perception::nameOf(kind);
-    if (label.size() > end.size() && label.compare(label.size() - end.size(), end.size(), end) == 0) return colour;
+    if (label.size() > end.size() && label.compare(label.size() - end.size(), end.size(), end) == 0)
+      return {colour, std::string("edge: ") + perception::nameOf(kind)};
   }
-  return colourOf(index);
+  return {colourOf(index), label};
 }
 
 }  // namespace
@@ -188,16 +196,27 @@ Image drawCameraPicture(const CObservation3DRangeScan& scan, const std::vector<m
   Image picture = showsTheDepth(scan) ? colourPicture(scan.intensityImage) : depthPicture(scan);
   const Projection project(scan.cameraParams);
   std::size_t clouds = 0;
+  std::vector<LegendRow> legend;
+  const auto tell = [&](std::size_t count, Rgb colour, const std::string& text) {
+    if (count > 0) legend.push_back({colour, text});
+  };
   for (const auto& observation : derived) {
     if (const auto* planes = dynamic_cast<const obs::CObservationPlanes*>(observation.get())) {
       drawPlanes(picture, project, *planes);
+      const std::size_t n = planes->planes.size();
+      tell(n, colourOf(0), std::to_string(n) + " planes, a colour each: outline, holes, normal");
     } else if (const auto* objects = dynamic_cast<const obs::CObservationObjects*>(observation.get())) {
       drawObjects(picture, project, *objects);
+      const std::size_t n = objects->objects.size();
+      tell(n, colourOf(0), std::to_string(n) + " objects, a colour each: points, box");
     } else if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get())) {
-      if (cloud->pointcloud)
-        drawCloud(picture, project, *cloud->pointcloud, colourOfCloud(cloud->sensorLabel, clouds++));
+      if (!cloud->pointcloud) continue;
+      const CloudStyle style = styleOfCloud(cloud->sensorLabel, clouds++);
+      drawCloud(picture, project, *cloud->pointcloud, style.colour);
+      tell(cloud->pointcloud->size(), style.colour, style.name);
     }
   }
+  drawLegend(picture, legend);
   return picture;
 }
 

@@ -1,5 +1,6 @@
 #include "LaserPicture.h"
 
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/IndexColour.h>
 
@@ -7,6 +8,7 @@
 #include <cmath>
 
 #include "../output/Drawing.h"
+#include "Legend.h"
 
 namespace omnimapper::plugins {
 
@@ -48,7 +50,8 @@ class View {
 };
 
 // Of 1 m, or of 10, 100 and so on in a wide view, so that there are at most kMostSquares in a row.
-void drawSquares(Image& picture, const View& view) {
+// Returns their side [m].
+double drawSquares(Image& picture, const View& view) {
   const Eigen::Vector2d low = view.lowest(), high = view.highest();
   double side = 1;  // [m]
   while ((high - low).maxCoeff() / side > kMostSquares) side *= 10;
@@ -60,9 +63,14 @@ void drawSquares(Image& picture, const View& view) {
       drawLine(picture, view(from), view(to), {kSquares, 1});
     }
   }
+  return side;
 }
 
-void drawLines(Image& picture, const View& view, const obs::CObservationLaserLines& found) {
+void drawLines(Image& picture, const View& view, const obs::CObservationLaserLines& found,
+               std::vector<LegendRow>& legend) {
+  const auto first = obs::indexColour(0);
+  if (!found.lines.empty())
+    legend.push_back({{first.R, first.G, first.B}, std::to_string(found.lines.size()) + " lines, a colour each"});
   for (std::size_t i = 0; i < found.lines.size(); ++i) {
     const auto colour = obs::indexColour(i);
     const Pen pen{{colour.R, colour.G, colour.B}, 3};
@@ -82,13 +90,16 @@ Image drawLaserPicture(const mrpt::obs::CObservation2DRangeScan& scan,
   const auto points = pointsOf(scan);
   const View view(points);
   Image picture(kSide, kSide, kGround);
-  drawSquares(picture, view);
+  const double side = drawSquares(picture, view);
+  std::vector<LegendRow> legend{{kSquares, "squares of " + base::brief(side) + " m, the sensor in black"},
+                                {kPoints, "scan"}};
   for (const auto& point : points) drawDot(picture, view(point), {kPoints, 4});
   drawDot(picture, view({0, 0}), {kSensor, 9});
   for (const auto& observation : derived) {
     if (const auto* lines = dynamic_cast<const obs::CObservationLaserLines*>(observation.get()))
-      drawLines(picture, view, *lines);
+      drawLines(picture, view, *lines, legend);
   }
+  drawLegend(picture, legend);
   return picture;
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../output/Image.h"
+
+namespace omnimapper::plugins {
+
+/// What a colour of a picture means.
+struct LegendRow {
+  Rgb colour;
+  std::string text;
+};
+
+/// Draws what the colours mean into the upper left corner, on a light ground. A picture that is too small for it keeps
+/// what it shows.
+void drawLegend(Image& picture, const std::vector<LegendRow>& rows);
+
+}  // namespace omnimapper::plugins
