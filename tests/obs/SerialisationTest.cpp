@@ -5,8 +5,11 @@
 #include <mrpt/opengl/Visualizable.h>
 #include <mrpt/serialization/CArchive.h>
 #include <omnimapper/obs/registerClasses.h>
+#include <omnimapper/testing/Fixtures.h>
 
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "FilledObjects.h"
@@ -50,6 +53,36 @@ TEST(Serialisation, everyClassComesBackAsTheSameBytes) {
     const auto empty = std::dynamic_pointer_cast<CSerializable>(id->createObject());
     EXPECT_NE(bytesOf(*empty), bytes);
     EXPECT_EQ(bytesOf(*objectFrom(bytesOf(*empty))), bytesOf(*empty));
+  }
+}
+
+std::vector<char> contentOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// tests/obs/version_0 keeps what the first versions wrote of filledObjects(), and what their text export said of it.
+// These files are never written anew: a later version of a class adds files of its own.
+TEST(Serialisation, bytesOfVersion0AreReadAsWhatTheyWere) {
+  registerClasses();
+  for (const auto* id : allClasses()) {
+    SCOPED_TRACE(id->className);
+    const std::string name = id->className;
+    const std::string stem = testing::sourceFile("tests/obs/version_0/" + name.substr(name.rfind(':') + 1));
+    const auto bytes = contentOf(stem + ".bin"), text = contentOf(stem + ".txt");
+    ASSERT_GT(bytes.size(), name.size() + 2);
+    EXPECT_EQ(bytes[1 + name.size()], 0) << "the version, behind the name";
+    const auto object = objectFrom(bytes);
+    ASSERT_TRUE(object);
+    EXPECT_EQ(object->GetRuntimeClass(), id);
+    const auto& observation = dynamic_cast<const mrpt::obs::CObservation&>(*object);
+    EXPECT_EQ(observation.exportTxtDataRow() + "\n", std::string(text.begin(), text.end()));
+    EXPECT_FALSE(observation.sensorLabel.empty());
+    EXPECT_EQ(base::formatUnix(observation.timestamp), "1137834225.9737601");
+    const auto written = bytesOf(*object);
+    if (written[1 + name.size()] == 0) {
+      EXPECT_EQ(written, bytes);
+    }
   }
 }
 

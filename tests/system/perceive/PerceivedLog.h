@@ -16,7 +16,7 @@ using namespace runs;
 using omnimapper::testing::runProgram;
 using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
 
-inline Ended perceive(const std::string& log, const std::string& output, const Words& more = {}) {
+inline Words perceiving(const std::string& log, const std::string& output, const Words& more) {
   Words words{omnimapper::testing::ownProgram("omnimapper-perceive"),
               "-i",
               omnimapper::testing::sourceFile("ini/perceive.ini"),
@@ -25,7 +25,11 @@ inline Ended perceive(const std::string& log, const std::string& output, const W
               "-o",
               output};
   words.insert(words.end(), more.begin(), more.end());
-  return runProgram(words);
+  return words;
+}
+
+inline Ended perceive(const std::string& log, const std::string& output, const Words& more = {}) {
+  return runProgram(perceiving(log, output, more));
 }
 
 inline Observations readLog(const std::string& path) {

@@ -1,10 +1,12 @@
 // ini/perceive.ini: planes and laser lines of a log, which MRPT's own tools read.
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/serialization/CArchive.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/source/RawlogWriter.h>
 
 #include <sstream>
 
@@ -66,6 +68,57 @@ TEST_F(Planes, MapAlikeFromTheRawLogAndFromWhatWasDerived) {
   for (const char* file : {"trajectory.tum", "graph.g2o", "grid.png"}) {
     EXPECT_TRUE(readFile(scratch_ / "merged" + "/" + file) == readFile(scratch_ / "raw" + "/" + file)) << file;
   }
+}
+
+TEST_F(Planes, ScansWithoutCalibrationEndNoMapAndAreSaid) {
+  const std::string bad = scratch_ / "bad.rawlog";
+  omnimapper::source::writeRawlog(bad, [&](omnimapper::source::RawlogWriter& rawlog) {
+    for (const auto& observation : readLog(kHome)) {
+      if (auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation))
+        scan->cameraParams.setIntrinsicParamsFromValues(0, 0, 0, 0);
+      rawlog.add(*observation);
+    }
+  });
+  const Words more{"-i", omnimapper::testing::sourceFile("ini/perceive.ini"), "--set",
+                   "perception.extractors=laser_points, planes"};
+  EXPECT_TRUE(endedWith(ExitCode::damaged_input, map({bad}, scratch_ / "bad", more),
+                        {"an extractor could make nothing of", "'kinect' at 17000000", "calibrate"}));
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({kHome}, scratch_ / "good", more)));
+  EXPECT_TRUE(readFile(scratch_ / "bad/trajectory.tum") == readFile(scratch_ / "good/trajectory.tum"));
+  EXPECT_TRUE(fs::exists(scratch_ / "bad/map.omnimap"));
+}
+
+TEST_F(Planes, AreCountedAndThePluginsListed) {
+  const auto ended = perceive(kHome, derived_, {"-v"});
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended));
+  std::size_t planes = 0;
+  for (const auto& one : ofClass<CObservationPlanes>(readLog(derived_))) planes += one->planes.size();
+  for (const auto& words : {"kinect.planes: " + std::to_string(planes) + " planes in 16 observations",
+                            std::string(" lines in 301 obs"), std::string("CObservation3DRangeScan")})
+    EXPECT_NE(ended.out.find(words), std::string::npos) << words << "\n" << ended.out;
+  const std::string program = omnimapper::testing::ownProgram("omnimapper-perceive");
+  EXPECT_NE(runProgram({program, "--list-plugins"}).out.find("PlaneExtractor"), std::string::npos);
+  EXPECT_NE(runProgram({program, "--print-ini", "PlaneExtractor"}).out.find("scale_sigma"), std::string::npos);
+  EXPECT_TRUE(endedWith(ExitCode::command_line, runProgram({program}), {"-i", "-r", "-o"}));
+  EXPECT_TRUE(endedWith(ExitCode::unwritable_output, perceive(kHome, scratch_ / "none/x.rawlog"), {"none/x.rawlog"}));
+  EXPECT_TRUE(endedWith(ExitCode::unwritable_output, perceive(kHome, derived_, {"--pictures", derived_ + "/below"}),
+                        {"permissions"}));
+  EXPECT_TRUE(endedWith(ExitCode::wrong_type, perceive(kHome, derived_, {"--set", "planes.min_pixels=many"}),
+                        {"--set planes.min_pixels: [planes]"}));
+}
+
+TEST_F(Planes, NoLevelSurfaceForThingsIsSaid) {
+  const std::string ini = omnimapper::testing::sourceFile("ini/objects.ini"), things = scratch_ / "things.rawlog";
+  const std::string program = omnimapper::testing::ownProgram("omnimapper-perceive");
+  const auto good = runProgram({program, "-i", ini, "-r", kHome, "-o", things});
+  EXPECT_TRUE(endedWith(ExitCode::ok, good));
+  EXPECT_EQ(good.err.find("level"), std::string::npos) << good.err;
+  // As a camera that is said to look down by 45 degrees.
+  EXPECT_TRUE(endedWith(
+      ExitCode::ok,
+      runProgram({program, "-i", ini, "-r", kHome, "-o", things, "--set", "mapper.sensors=camera", "--set",
+                  "camera.label=kinect", "--set", "camera.pose_pitch_deg=45", "--set", "objects.max_tilt_deg=5"}),
+      {"[objects]", "level surface", "max_tilt_deg"}));
 }
 
 TEST_F(Planes, AreDescribedAndExportedByRawlogEdit) {
