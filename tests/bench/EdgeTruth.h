@@ -27,14 +27,16 @@ struct TrueEdges {
 /// Edges of the exact geometry. Two 8-connected neighbours are on a jump if the plane that one of them lies on (of what
 /// is not flat: its depth), continued to the other's ray, misses it by `least_jump` of the nearer depth, either way
 /// round. Its edge pixels are where the measured data begin on either side, on the same surface. Two 4-connected ones
-/// on planes that meet are on a crease if these turn by `least_turn` [rad].
+/// on planes that meet are on a crease if these turn by `least_turn` [rad]. Where one of two neighbours is nearer than
+/// `nearest` or farther than what the camera sees, or nothing is there, the other is on a boundary.
 class EdgeTruth {
  public:
-  EdgeTruth(const sim::Simulation& simulation, double least_jump, double least_turn)
+  EdgeTruth(const sim::Simulation& simulation, double least_jump, double least_turn, double nearest)
       : simulation_(simulation),
         surfaces_(sim::numberSurfaces(simulation.world())),
         least_jump_(least_jump),
-        least_turn_(least_turn) {}
+        least_turn_(least_turn),
+        nearest_(nearest) {}
 
   TrueEdges at(const sim::Sensor& camera, int k) {
     const sim::Measurement measurement = camera.measure(k);
@@ -43,6 +45,7 @@ class EdgeTruth {
     depths_ = decode(measurement.truth_files.at(1).bytes);
     TrueEdges result{frameOf(scan), {}};
     frame_ = &result.frame;
+    farthest_ = static_cast<double>(scan.maxRange);
     result.labels.assign(result.frame.units.size(), 0);
     const geometry::Se3 map_from_optical =
         *simulation_.mapFromBase().at(camera.timeOf(k)) * geometry::fromMrpt(scan.sensorPose) * sensorFromOptical();
@@ -90,6 +93,7 @@ class EdgeTruth {
   }
 
   double depth(int x, int y) const { return 0.0002 * depths_.at<std::uint16_t>(y, x); }
+  bool inRange(int x, int y) const { return depth(x, y) >= nearest_ && depth(x, y) <= farthest_; }
   int name(int x, int y) const { return names_.at<std::uint16_t>(y, x); }
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * frame_->width + x); }
 
@@ -118,6 +122,11 @@ class EdgeTruth {
   void judge(int x, int y, int dx, int dy, double time, const geometry::Se3& optical_from_map,
              std::vector<std::uint8_t>& labels) {
     const int rx = x + dx, ry = y + dy;
+    if (inRange(x, y) != inRange(rx, ry)) {
+      inRange(x, y) ? mark(x, y, -dx, -dy, perception::kBoundary, labels)
+                    : mark(rx, ry, dx, dy, perception::kBoundary, labels);
+      return;
+    }
     if (depth(x, y) == 0 || depth(rx, ry) == 0 || name(x, y) == name(rx, ry)) return;
     const Plane here = planeInOptical(name(x, y), time, optical_from_map),
                 there = planeInOptical(name(rx, ry), time, optical_from_map);
@@ -147,7 +156,7 @@ class EdgeTruth {
 
   const sim::Simulation& simulation_;
   std::vector<sim::SurfaceRef> surfaces_;
-  double least_jump_, least_turn_;
+  double least_jump_, least_turn_, nearest_, farthest_ = 0;
   std::map<int, Plane> planes_;
   cv::Mat names_, depths_;
   const RgbdFrame* frame_ = nullptr;

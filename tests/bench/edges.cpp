@@ -158,7 +158,7 @@ struct TruthOptions {
   std::string ini, sensor = "kinect";
   std::vector<std::string> settings;
   int frames = 20, reach = 3;
-  double least_jump = 0.02, least_turn_deg = 45;
+  double least_jump = 0.02, least_turn_deg = 45, nearest = 0.5;
 };
 
 std::vector<TrueEdges> simulate(const TruthOptions& options) {
@@ -166,7 +166,8 @@ std::vector<TrueEdges> simulate(const TruthOptions& options) {
   for (const auto& setting : options.settings) config.set(setting);
   for (const char* truth : {"labels", "true_depth"}) config.set(options.sensor + "." + truth + "=true");
   const sim::Simulation simulation(config);
-  EdgeTruth truth(simulation, options.least_jump, options.least_turn_deg * base::option_text::kRadiansPerDegree);
+  EdgeTruth truth(simulation, options.least_jump, options.least_turn_deg * base::option_text::kRadiansPerDegree,
+                  options.nearest);
   std::vector<TrueEdges> frames;
   for (const auto& sensor : simulation.sensors()) {
     if (sensor->label() != options.sensor) continue;
@@ -195,7 +196,8 @@ void printTruth(const TruthOptions& options) {
       results[m].push_back(judged(all[m].run(), frame.labels, frame.frame.width, options.reach));
     }
   }
-  for (const auto kind : {perception::kOccluding, perception::kOccluded, perception::kHighCurvature}) {
+  for (const auto kind :
+       {perception::kBoundary, perception::kOccluding, perception::kOccluded, perception::kHighCurvature}) {
     for (std::size_t m = 0; m < all.size(); ++m) {
       Share precision, recall;
       for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -228,6 +230,7 @@ int main(int argc, char** argv) {
   app.add_option("--frames", truth.frames, "how many of its frames")->check(CLI::PositiveNumber);
   app.add_option("--reach", truth.reach, "[px] between found and true edges")->check(CLI::PositiveNumber);
   app.add_option("--jump", truth.least_jump, "least true jump, in parts of the depth");
+  app.add_option("--nearest", truth.nearest, "[m] what that camera sees; the farthest its observations tell");
   app.add_option("--turn", truth.least_turn_deg, "least true turn [deg]");
   CLI11_PARSE(app, argc, argv);
   base::keepFreedMemory();  // as our programs do

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/perception/RoadExtractor.h>
+#include <omnimapper/perception/RoadSegmenter.h>
+#include <omnimapper/sim/Simulation.h>
+
+#include <functional>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+namespace omnimapper::bench {
+
+/// How many measured pixels of what is there are taken for ground.
+struct RoadCount {
+  double all = 0;
+  double sure = 0;      ///< by their own normal
+  double accepted = 0;  ///< in the end
+  RoadCount operator+(const RoadCount& other) const {
+    return {all + other.all, sure + other.sure, accepted + other.accepted};
+  }
+};
+
+/// What simulated cameras see of a road, against the truth.
+class RoadAgreement {
+ public:
+  /// The camera, which is to tell its labels, is that of this name. `frames` of it are seen.
+  RoadAgreement(const sim::Simulation& simulation, const std::string& camera, int frames,
+                const perception::RoadOptions& options, const std::function<double()>& clock)
+      : options_(options), clock_(clock) {
+    kinds_.push_back(sim::SurfaceKind::clutter);
+    for (const auto& ref : sim::numberSurfaces(simulation.world())) {
+      const sim::Body& body = simulation.world().bodies[static_cast<std::size_t>(ref.body)];
+      kinds_.push_back(body.surfaces[static_cast<std::size_t>(ref.surface)].kind);
+    }
+    for (const auto& sensor : simulation.sensors()) {
+      if (sensor->label() != camera) continue;
+      for (int i = 0; i < frames; ++i) look(sensor->measure(i * sensor->count() / frames));
+    }
+  }
+
+  const std::map<sim::SurfaceKind, RoadCount>& ofKinds() const { return of_kind_; }
+  /// [s] that each frame took.
+  const std::vector<double>& times() const { return times_; }
+  RoadCount ground() const { return of(sim::SurfaceKind::road) + of(sim::SurfaceKind::floor); }
+  /// A kerb ends the one and begins the other.
+  RoadCount kerbs() const { return of(sim::SurfaceKind::kerb); }
+  RoadCount others() const {
+    RoadCount all;
+    for (const auto& [kind, count] : of_kind_) {
+      if (kind != sim::SurfaceKind::road && kind != sim::SurfaceKind::floor && kind != sim::SurfaceKind::kerb)
+        all = all + count;
+    }
+    return all;
+  }
+
+ private:
+  RoadCount of(sim::SurfaceKind kind) const {
+    const auto found = of_kind_.find(kind);
+    return found == of_kind_.end() ? RoadCount() : found->second;
+  }
+
+  void look(const sim::Measurement& measurement) {
+    const auto& scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan&>(*measurement.observation);
+    const std::string& png = measurement.truth_files.at(0).bytes;
+    const cv::Mat names = cv::imdecode(std::vector<char>(png.begin(), png.end()), cv::IMREAD_UNCHANGED);
+    const auto& c = scan.cameraParams;
+    const perception::DepthImage image(scan.rangeImage.data(), static_cast<double>(scan.rangeUnits),
+                                       static_cast<int>(c.ncols), static_cast<int>(c.nrows),
+                                       {c.fx(), c.fy(), c.cx(), c.cy()});
+    const double begin = clock_();
+    const auto found = perception::RoadSegmenter(options_).segment(image, perception::expectedGround(scan, 0));
+    times_.push_back(clock_() - begin);
+    for (std::size_t i = 0; i < found.sure.size(); ++i) {
+      const double depth = scan.rangeImage.data()[i] * static_cast<double>(scan.rangeUnits);
+      if (!(depth >= options_.min_depth && depth <= options_.max_depth)) continue;
+      RoadCount& count = of_kind_[kinds_[names.at<std::uint16_t>(static_cast<int>(i))]];
+      ++count.all;
+      count.sure += found.sure[i];
+      count.accepted += found.ground.labels[i] != 0;
+    }
+  }
+
+  perception::RoadOptions options_;
+  std::function<double()> clock_;
+  std::vector<sim::SurfaceKind> kinds_;  // by label
+  std::map<sim::SurfaceKind, RoadCount> of_kind_;
+  std::vector<double> times_;
+};
+
+}  // namespace omnimapper::bench
