@@ -1,13 +1,8 @@
 // MRPT's RawLogViewer draws what was perceived: seen on a screenshot.
 #include <mrpt/img/CImage.h>
-#include <mrpt/obs/CObservation.h>
-#include <omnimapper/source/RawlogWriter.h>
 
-#include <chrono>
 #include <cmath>
-#include <functional>
 
-#include "../../obs/FilledObjects.h"
 #include "PerceivedLog.h"
 
 namespace {
@@ -48,8 +43,6 @@ Drawn look(const mrpt::img::CImage& screen) {
   return drawn;
 }
 
-constexpr int kFew = 300;  // coloured pixels, of what is made of lines and points
-
 class RawLogViewer : public PerceivedHome {
  protected:
   void SetUp() override {
@@ -59,13 +52,11 @@ class RawLogViewer : public PerceivedHome {
       if (!isInstalled(program)) GTEST_SKIP() << program << " is not on this machine (scripts/packages-test.txt)";
     }
   }
-  // Once so many pixels of the 3D view have a colour.
-  Drawn show(const std::string& log, int coloured = 8000) {
+  Drawn show(const std::string& log) {
     const std::string picture = scratch_ / "screen.png", script = "tests/system/perceive/raw_log_viewer.sh";
     // With a home of its own: RawLogViewer keeps its settings there.
     const auto ended = runProgram({"env", "HOME=" + scratch_.path(), "xvfb-run", "-a", "-s", "-screen 0 1280x960x24",
-                                   omnimapper::testing::sourceFile(script), OMNIMAPPER_OBS_LIBRARY, log, picture,
-                                   std::to_string(coloured)});
+                                   omnimapper::testing::sourceFile(script), OMNIMAPPER_OBS_LIBRARY, log, picture});
     EXPECT_EQ(ended.code, 0) << toString(ended);
     mrpt::img::CImage screen;
     if (!screen.loadFromFile(picture)) return {};
@@ -93,39 +84,6 @@ TEST_F(RawLogViewer, DrawsPlanesOfFreiburg1Rpy) {
   EXPECT_GT(drawn.coloured, 3000);
   EXPECT_GE(drawn.colours, 4);
   EXPECT_GT(drawn.lines_of_text, 50);
-}
-
-/// Eight of an observation that is made up, one a second.
-std::string logOf(const std::function<mrpt::serialization::CSerializable::Ptr()>& make,
-                  const omnimapper::testing::ScratchFolder& scratch) {
-  const std::string path = scratch / "made.rawlog";
-  omnimapper::source::writeRawlog(path, [&](omnimapper::source::RawlogWriter& rawlog) {
-    for (int i = 0; i < 8; ++i) {
-      const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(make());
-      observation->timestamp += std::chrono::seconds(i);
-      rawlog.add(*observation);
-    }
-  });
-  return path;
-}
-
-TEST_F(RawLogViewer, DrawsLaserLines) {
-  EXPECT_GT(show(logOf(omnimapper::obs::filledLines, scratch_), kFew).coloured, kFew);
-}
-
-TEST_F(RawLogViewer, DrawsObjects) {
-  const Drawn drawn = show(logOf(omnimapper::obs::filledThings, scratch_), kFew);
-  EXPECT_GT(drawn.coloured, kFew);
-  EXPECT_GE(drawn.colours, 2);
-}
-
-TEST_F(RawLogViewer, DrawsDoorSigns) {
-  EXPECT_GT(show(logOf(omnimapper::obs::filledSigns, scratch_), kFew).coloured, kFew);
-}
-
-TEST_F(RawLogViewer, DrawsCloudsOfEdges) {
-  ASSERT_TRUE(endedWith(ExitCode::ok, perceive(kHome, derived_, {"--set", "perception.extractors=edges"})));
-  EXPECT_GT(show(derived_, kFew).coloured, kFew);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #!/bin/sh
 # Opens a rawlog in MRPT's RawLogViewer, selects its sixth row, goes nearer until the 3D view is full of colours, and
-# takes a picture of the screen, which is to be 1280 x 960 pixels. COLOURED: how many pixels are full.
+# takes a picture of the screen, which is to be 1280 x 960 pixels.
 #
-# Usage: xvfb-run -a -s '-screen 0 1280x960x24' raw_log_viewer.sh LIBRARY LOG PICTURE COLOURED
+# Usage: xvfb-run -a -s '-screen 0 1280x960x24' raw_log_viewer.sh LIBRARY LOG PICTURE
 set -eu
-library=$1 log=$2 picture=$3 coloured=$4
+library=$1 log=$2 picture=$3
 
 RawLogViewer -l "$library" "$log" >/dev/null 2>&1 &
 viewer=$!
@@ -28,7 +28,7 @@ for _ in $(seq 60); do
   xdotool mousemove 840 670 click --repeat 8 4 # turns the wheel
   sleep 0.3
   import -window root "$picture"
-  [ "$(colours)" -lt "$coloured" ] || exit 0
+  [ "$(colours)" -lt 8000 ] || exit 0
 done
 echo "$(colours) coloured pixels in the 3D view" >&2
 exit 1
