@@ -5,9 +5,8 @@
 
 #include "../../bench/RoadAgreement.h"
 
+namespace omnimapper::road_test {
 namespace {
-
-using namespace omnimapper;
 
 TEST(Road, OfASimulatedSlopeIsFoundAndHardlyAnythingElse) {
   auto config = base::Config::fromFile(testing::sourceFile("rawlogs/road.ini"));
@@ -23,3 +22,4 @@ TEST(Road, OfASimulatedSlopeIsFoundAndHardlyAnythingElse) {
 }
 
 }  // namespace
+}  // namespace omnimapper::road_test
