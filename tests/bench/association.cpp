@@ -1,0 +1,189 @@
+// How many lines of a laser are matched with the wrong landmark, nearest neighbour against joint compatibility: a
+// simulated log, whose truth tells which surface each beam met, is mapped with both. A landmark is the surface that
+// most of its lines lie on; a line that lies on one of another plane is matched wrong. Prints a Markdown table.
+//
+// Example: bench-association -i ini/home_planes.ini --simulated out/home -o out/association
+#include <omnimapper/base/Progress.h>
+#include <omnimapper/eval/AbsoluteTrajectoryError.h>
+#include <omnimapper/eval/TumFile.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/graph/ByteIo.h>
+#include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/plugins/registerPlugins.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace omnimapper;
+
+struct Setup {
+  std::string ini, section = "plane_landmarks", simulated, out;
+  std::vector<std::string> settings;
+  int threads = 1;
+
+  std::string name() const { return std::filesystem::path(simulated).filename().string(); }
+  std::string log() const { return simulated + "/" + name() + ".rawlog"; }
+};
+
+struct Outcome {
+  std::size_t key_frames = 0, landmarks = 0, matches = 0, wrong = 0;
+  double ate = 0, milliseconds = 0;  // of the plugin, for a key frame
+};
+
+/// What the simulator tells of the laser: the surface of each beam of a scan, and the planes of surfaces.
+class Truth {
+ public:
+  explicit Truth(const std::string& folder) {
+    std::ifstream world(folder + "/landmarks.json");
+    for (const auto& surface : nlohmann::json::parse(world)["surfaces"]) {
+      const auto& n = surface["normal"];
+      planes_[surface["label"].get<int>()] = {{n[0].get<double>(), n[1].get<double>(), n[2].get<double>()},
+                                              surface["distance"].get<double>()};
+    }
+    std::ifstream scans(folder + "/truth/laser.jsonl");
+    for (std::string line; std::getline(scans, line);) {
+      const auto scan = nlohmann::json::parse(line);
+      std::vector<int> beams;
+      for (const auto& run : scan["truth"]["surfaces"]) beams.insert(beams.end(), run[1].get<int>(), run[0].get<int>());
+      scans_[key(scan["stamp"].get<double>())] = std::move(beams);
+    }
+  }
+  /// The one that most beams of a line met.
+  int surfaceOf(base::Stamp stamp, const obs::LaserLine& line) const {
+    const auto& beams = scans_.at(key(base::unixSeconds(stamp)));
+    std::map<int, int> counts;
+    for (std::size_t i = line.first_beam; i <= line.last_beam && i < beams.size(); ++i) ++counts[beams[i]];
+    return most(counts);
+  }
+  bool areOnePlane(int a, int b) const {
+    if (a == b) return true;
+    const auto &p = planes_.at(a), &q = planes_.at(b);
+    return p.normal.dot(q.normal) > 0.9998 && std::abs(p.distance - q.distance) < 0.02;
+  }
+  static int most(const std::map<int, int>& counts) {
+    return std::max_element(counts.begin(), counts.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+  }
+
+ private:
+  // A double of Unix time is good to a microsecond.
+  static std::int64_t key(double unix_seconds) { return std::llround(unix_seconds * 1e4); }
+
+  std::map<int, geometry::Plane3> planes_;
+  std::map<std::int64_t, std::vector<int>> scans_;
+};
+
+// Of a line's factor: direction and middle in the base.
+Eigen::Vector3d middleOf(const graph::Factor& factor) {
+  std::stringstream bytes;
+  factor.write(bytes);
+  Eigen::Matrix<double, 6, 1> numbers;
+  for (double& number : numbers) number = graph::readDouble(bytes);
+  return numbers.tail<3>();
+}
+
+const obs::LaserLine* lineOf(const map::KeyFrame& frame, const Eigen::Vector3d& middle) {
+  for (const auto& observation : frame.observations) {
+    const auto* lines = dynamic_cast<const obs::CObservationLaserLines*>(observation.get());
+    if (!lines) continue;
+    for (const auto& line : lines->lines) {
+      const Eigen::Vector2d in_sensor = geometry::middle(line.segment_in_sensor);
+      const Eigen::Vector3d in_base =
+          geometry::fromMrpt(lines->sensorPose) * Eigen::Vector3d(in_sensor.x(), in_sensor.y(), 0);
+      if ((in_base - middle).norm() < 1e-9) return &line;
+    }
+  }
+  return nullptr;
+}
+
+Outcome judge(const Setup& setup, const std::string& folder, const Truth& truth) {
+  const auto saved = mapper::readMap(folder, mapper::registeredKinds());
+  std::map<base::VariableId, const map::KeyFrame*> frames;
+  for (const auto& frame : saved.map.key_frames) frames[frame.pose] = &frame;
+  std::map<base::LandmarkId, std::map<int, int>> surfaces;  // of the lines of each landmark
+  for (const auto& [id, record] : saved.graph.factors()) {
+    if (record.tags.owner != setup.section || record.factor->kind() != "line_on_plane") continue;
+    const map::KeyFrame& frame = *frames.at(record.variables[0]);
+    const auto* line = lineOf(frame, middleOf(*record.factor));
+    if (line) ++surfaces[*record.tags.landmark][truth.surfaceOf(frame.stamp, *line)];
+  }
+  Outcome outcome;
+  outcome.key_frames = saved.map.key_frames.size();
+  outcome.landmarks = surfaces.size();
+  for (const auto& [id, counts] : surfaces) {
+    const int own = Truth::most(counts);
+    for (const auto& [surface, count] : counts) {
+      outcome.matches += static_cast<std::size_t>(count);
+      if (!truth.areOnePlane(own, surface)) outcome.wrong += static_cast<std::size_t>(count);
+    }
+  }
+  return outcome;
+}
+
+Outcome run(const Setup& setup, const std::string& method, const Truth& truth, const eval::Trajectory& way) {
+  auto config = base::Config::fromFile(setup.ini);
+  for (const auto& setting : setup.settings) config.set(setting);
+  config.set(setup.section + ".association=" + method);
+  config.set("mapper.output_plugins=map,trajectory,summary");
+  mapper::RunRequest request;
+  request.logs = {setup.log()};
+  request.output_folder = setup.out + "/" + method;
+  request.threads = setup.threads;
+  std::filesystem::create_directories(request.output_folder);
+  base::Progress quiet;
+  mapper::runMapping(request, config, quiet, [] { return false; });
+  Outcome outcome = judge(setup, request.output_folder + "/map.omnimap", truth);
+  eval::PairingOptions pairing;
+  pairing.alignment = eval::Alignment::yaw;
+  const auto estimate = eval::readTum(request.output_folder + "/trajectory.tum");
+  outcome.ate = eval::absoluteTrajectoryError(estimate, way, pairing).translation.rmse;
+  std::ifstream in(request.output_folder + "/summary.json");
+  const auto summary = nlohmann::json::parse(in);
+  outcome.milliseconds = 1e3 * summary["stage_times"]["plugin " + setup.section]["seconds"].get<double>() /
+                         static_cast<double>(outcome.key_frames);
+  return outcome;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Setup setup;
+  CLI::App app("Wrong matches of nearest neighbour and joint compatibility, by the truth.");
+  app.add_option("-i,--ini", setup.ini)->required();
+  app.add_option("--simulated", setup.simulated, "folder that omnimapper-simulate made")->required();
+  app.add_option("-o,--output", setup.out)->required();
+  app.add_option("--section", setup.section, "of the plugin; default plane_landmarks");
+  app.add_option("--threads", setup.threads);
+  app.add_option("--set", setup.settings, "section.key=value");
+  CLI11_PARSE(app, argc, argv);
+  plugins::registerPlugins();
+  const Truth truth(setup.simulated);
+  const auto way = eval::readTrajectory(setup.simulated + "/truth.tum");
+  std::printf(
+      "| association | key frames | landmarks | matches | wrong per 1,000 | ATE | per key frame |\n"
+      "|---|---|---|---|---|---|---|\n");
+  for (const std::string method : {"nearest", "joint"}) {
+    const Outcome outcome = run(setup, method, truth, way);
+    std::printf("| %s | %zu | %zu | %zu | %.1f | %.3f m | %.2f ms |\n", method.c_str(), outcome.key_frames,
+                outcome.landmarks, outcome.matches,
+                1e3 * static_cast<double>(outcome.wrong) / static_cast<double>(outcome.matches), outcome.ate,
+                outcome.milliseconds);
+    std::fflush(stdout);
+  }
+}
