@@ -17,6 +17,7 @@
 #include <omnimapper/plugins/OdometryPlugin.h>
 #include <omnimapper/plugins/PlaneLandmarksPlugin.h>
 #include <omnimapper/plugins/PlanesPlugin.h>
+#include <omnimapper/plugins/PointLandmarksPlugin.h>
 #include <omnimapper/plugins/PointsOutput.h>
 #include <omnimapper/plugins/RelationsPlugin.h>
 #include <omnimapper/plugins/ReportOutput.h>
@@ -49,6 +50,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(GpsPluginFactory));
   registerClass(CLASS_ID(PlaneLandmarksPluginFactory));
   registerClass(CLASS_ID(RelationsPluginFactory));
+  registerClass(CLASS_ID(PointLandmarksPluginFactory));
   registerClass(CLASS_ID(GraphOutputFactory));
   registerClass(CLASS_ID(GridOutputFactory));
   registerClass(CLASS_ID(LiveWindowFactory));

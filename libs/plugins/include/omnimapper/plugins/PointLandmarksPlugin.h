@@ -1,0 +1,60 @@
+#pragma once
+
+#include <omnimapper/mapper/Association.h>
+#include <omnimapper/mapper/PluginFactory.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace omnimapper::plugins {
+
+struct PointLandmarksOptions : mapper::AssociationOptions {
+  std::string label;       ///< empty: every sensor of ranges and bearings
+  double sigma_range = 0;  ///< [m] 0: as the observation tells
+  double sigma_yaw = 0;    ///< [rad] 0: as the observation tells
+  double sigma_pitch = 0;  ///< [rad] 0: as the observation tells
+  double loss_scale = 3;   ///< [sigma] of the Huber loss
+
+  static const base::OptionTable<PointLandmarksOptions>& table();
+};
+
+/// Points as landmarks, measured by ranges and bearings (mrpt::obs::CObservationBearingRange, thesis 4.6.2.1): of the
+/// plane by range and yaw in a planar map, of space by pitch too in a spatial one. What tells its number is the
+/// landmark of that number; a sighting of it that does not fit is kept in the graph with weight 0, so that who asks
+/// whether the landmark has moved finds it. What tells none (id -1) is associated, and
+/// points that turn out to be one are merged.
+class PointLandmarksPlugin : public mapper::MeasurementPlugin {
+ public:
+  PointLandmarksPlugin(const PointLandmarksOptions& options, const mapper::PluginContext& context);
+  ~PointLandmarksPlugin() override;
+
+  bool wants(const mrpt::obs::CObservation& observation) const override;
+  mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                        const mapper::View& view) override;
+  void applied(const mapper::AppliedBatch& ids) override;
+  mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
+  mapper::Batch atEnd(const mapper::View& view) override;
+  void restore(const map::MapSection* saved, const mapper::View& view) override;
+
+ private:
+  class Moment;
+
+  PointLandmarksOptions options_;
+  mapper::PluginContext context_;
+  std::unique_ptr<class KnownPoints> known_;
+  std::size_t merged_at_solve_ = 0;
+};
+
+class PointLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
+  DEFINE_MRPT_OBJECT(PointLandmarksPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "PointLandmarksPlugin"; }
+  std::string summary() const override { return "Points and markers, from ranges and bearings."; }
+  const std::vector<base::OptionSpec>& options() const override { return PointLandmarksOptions::table().specs(); }
+  void registerKinds(mapper::Kinds& kinds) const override;
+  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
+                                                  const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,76 @@
+#include "PointPayload.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/graph/ByteIo.h>
+
+namespace omnimapper::plugins {
+
+constexpr std::uint64_t kVersion = 1;
+
+std::string PointPayload::label() const {
+  return number < 0 ? "point" : "marker " + std::to_string(number);
+}
+
+std::shared_ptr<const PointPayload> PointPayload::with(const std::string& sensor_label,
+                                                       double height_of_sighting) const {
+  auto more = std::make_shared<PointPayload>(*this);
+  ++more->seen_by[sensor_label];
+  more->height += (height_of_sighting - height) / more->sightings();
+  return more;
+}
+
+std::shared_ptr<const PointPayload> PointPayload::with(const PointPayload& other) const {
+  auto both = std::make_shared<PointPayload>(*this);
+  for (const auto& [label, sightings] : other.seen_by) both->seen_by[label] += sightings;
+  both->height += (other.height - height) * other.sightings() / both->sightings();
+  return both;
+}
+
+std::uint32_t PointPayload::sightings() const {
+  std::uint32_t sum = 0;
+  for (const auto& [label, sightings] : seen_by) sum += sightings;
+  return sum;
+}
+
+map::LandmarkShape PointPayload::shape(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames&) const {
+  map::LandmarkShape shape;
+  if (values.empty()) return shape;
+  const Eigen::VectorXd& value = values.front();
+  shape.label = label();
+  shape.points.emplace_back(value[0], value[1], value.size() > 2 ? value[2] : height);
+  if (number >= 0) shape.properties.emplace_back("number", std::to_string(number));
+  for (const auto& [label, sightings] : seen_by)
+    shape.properties.emplace_back("seen_by_" + label, std::to_string(sightings));
+  return shape;
+}
+
+void PointPayload::write(std::ostream& out) const {
+  graph::writeUint(out, kVersion, 1);
+  graph::writeUint(out, static_cast<std::uint32_t>(number), 4);
+  graph::writeDouble(out, height);
+  graph::writeUint(out, seen_by.size(), 4);
+  for (const auto& [label, sightings] : seen_by) {
+    graph::writeText(out, label);
+    graph::writeUint(out, sightings, 4);
+  }
+}
+
+void PointPayload::addTo(map::PayloadRegistry& registry) {
+  registry.add("point", [](std::istream& in) {
+    if (const auto version = graph::readUint(in, 1); version > kVersion) {
+      throw base::Error(base::ExitCode::unreadable_input,
+                        "a point of version " + std::to_string(version) + ": this program reads versions up to " +
+                            std::to_string(kVersion) + "; take the OmniMapper that wrote the map");
+    }
+    auto payload = std::make_shared<PointPayload>();
+    payload->number = static_cast<std::int32_t>(graph::readUint(in, 4));
+    payload->height = graph::readDouble(in);
+    for (auto left = graph::readUint(in, 4); left > 0; --left) {
+      const std::string label = graph::readText(in);
+      payload->seen_by[label] = static_cast<std::uint32_t>(graph::readUint(in, 4));
+    }
+    return payload;
+  });
+}
+
+}  // namespace omnimapper::plugins
