@@ -6,7 +6,7 @@
 
 #include "PointDrive.h"
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::point_landmarks_plugin_test {
 namespace {
 
 using geometry::kPi;
@@ -248,4 +248,4 @@ TEST(PointLandmarksPlugin, ANumberWhoseLandmarkIsRetiredMakesANewOne) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::point_landmarks_plugin_test

@@ -9,7 +9,7 @@
 #include "../graph/Jacobians.h"
 #include "landmarks/RangeBearingFactor.h"
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::range_bearing_factor_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -153,4 +153,4 @@ TEST(RangeBearingFactors, ComeBackFromAFile) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::range_bearing_factor_test

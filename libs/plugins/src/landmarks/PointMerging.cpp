@@ -12,7 +12,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr double kFarthest = 0.5;  // [m] whatever the covariance allows
+constexpr double kFarthestApart = 0.5;  // [m] whatever the covariance allows
 
 bool seenAtOnce(base::VariableId a, base::VariableId b, const graph::Graph& graph) {
   std::set<base::VariableId> seen_from;
@@ -22,7 +22,7 @@ bool seenAtOnce(base::VariableId a, base::VariableId b, const graph::Graph& grap
   return false;
 }
 
-std::optional<double> chi2OfDifference(base::VariableId a, base::VariableId b, const mapper::View& view) {
+std::optional<double> chi2OfGap(base::VariableId a, base::VariableId b, const mapper::View& view) {
   const auto joint = view.jointCovariance({a, b});
   if (!joint) return std::nullopt;
   const Eigen::VectorXd difference = view.graph.value(b) - view.graph.value(a);
@@ -45,9 +45,9 @@ mapper::Batch mergeAlike(const KnownPoints& known, const PointLandmarksOptions& 
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = std::next(a); b != all.end() && nameless(a->first); ++b) {
       const Eigen::VectorXd& there = view.graph.value(a->second);
-      if (!nameless(b->first) || (view.graph.value(b->second) - there).norm() > kFarthest) continue;
+      if (!nameless(b->first) || (view.graph.value(b->second) - there).norm() > kFarthestApart) continue;
       if (seenAtOnce(a->second, b->second, view.graph)) continue;
-      const auto chi2 = chi2OfDifference(a->second, b->second, view);
+      const auto chi2 = chi2OfGap(a->second, b->second, view);
       const double limit = graph::chiSquareQuantile(options.confidence, static_cast<int>(there.size()));
       if (!chi2 || *chi2 > limit * options.inflation * options.inflation) continue;
       merged.insert({a->first, b->first});

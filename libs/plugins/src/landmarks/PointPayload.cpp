@@ -5,7 +5,7 @@
 
 namespace omnimapper::plugins {
 
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kPointPayloadVersion = 1;
 
 std::string PointPayload::label() const {
   return number < 0 ? "point" : "marker " + std::to_string(number);
@@ -45,7 +45,7 @@ map::LandmarkShape PointPayload::shape(const std::vector<Eigen::VectorXd>& value
 }
 
 void PointPayload::write(std::ostream& out) const {
-  graph::writeUint(out, kVersion, 1);
+  graph::writeUint(out, kPointPayloadVersion, 1);
   graph::writeUint(out, static_cast<std::uint32_t>(number), 4);
   graph::writeDouble(out, height);
   graph::writeUint(out, seen_by.size(), 4);
@@ -57,10 +57,10 @@ void PointPayload::write(std::ostream& out) const {
 
 void PointPayload::addTo(map::PayloadRegistry& registry) {
   registry.add("point", [](std::istream& in) {
-    if (const auto version = graph::readUint(in, 1); version > kVersion) {
+    if (const auto version = graph::readUint(in, 1); version > kPointPayloadVersion) {
       throw base::Error(base::ExitCode::unreadable_input,
                         "a point of version " + std::to_string(version) + ": this program reads versions up to " +
-                            std::to_string(kVersion) + "; take the OmniMapper that wrote the map");
+                            std::to_string(kPointPayloadVersion) + "; take the OmniMapper that wrote the map");
     }
     auto payload = std::make_shared<PointPayload>();
     payload->number = static_cast<std::int32_t>(graph::readUint(in, 4));

@@ -39,20 +39,20 @@ Matrix3d covarianceOf(const CObservationBearingRange& observation,
   return covariance;
 }
 
-bool isCovariance(const Eigen::MatrixXd& matrix) {
+bool isUsableCovariance(const Eigen::MatrixXd& matrix) {
   return matrix.allFinite() && Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success;
 }
 
-PointMeasurement useless(const CObservationBearingRange::TMeasurement& measured, const std::string& why) {
+PointMeasurement uselessMeasurement(const CObservationBearingRange::TMeasurement& measured, const std::string& why) {
   return {measured.landmarkID, measured.range, std::nullopt, why};
 }
 
 // The point in the sensor, and what range, yaw and pitch change of it.
-struct Ray {
+struct PointRay {
   Vector3d point;
   Matrix3d by_measured;
 
-  explicit Ray(const Vector3d& range_yaw_pitch) {
+  explicit PointRay(const Vector3d& range_yaw_pitch) {
     const double range = range_yaw_pitch[0];
     const double cy = std::cos(range_yaw_pitch[1]), sy = std::sin(range_yaw_pitch[1]);
     const double cp = std::cos(range_yaw_pitch[2]), sp = std::sin(range_yaw_pitch[2]);
@@ -63,7 +63,7 @@ struct Ray {
 };
 
 // doc/derivations/range_bearing.md, "In a planar map".
-std::optional<PointSighting> overFloor(const Ray& ray, const Matrix3d& covariance, const Se3& base_from_sensor) {
+std::optional<PointSighting> overFloor(const PointRay& ray, const Matrix3d& covariance, const Se3& base_from_sensor) {
   const Vector3d from_sensor = base_from_sensor.rotation * ray.point;
   const Eigen::Matrix<double, 2, 3> by_measured =
       (base_from_sensor.rotation.toRotationMatrix() * ray.by_measured).topRows<2>();
@@ -73,16 +73,16 @@ std::optional<PointSighting> overFloor(const Ray& ray, const Matrix3d& covarianc
   Eigen::Matrix2d polar;
   polar << v.transpose() / rho, -v.y() / (rho * rho), v.x() / (rho * rho);
   const Eigen::Matrix2d of_polar = polar * by_measured * covariance * by_measured.transpose() * polar.transpose();
-  if (!isCovariance(of_polar)) return std::nullopt;
+  if (!isUsableCovariance(of_polar)) return std::nullopt;
   return PointSighting{
       base_from_sensor * ray.point, std::max(std::sqrt(of_polar(0, 0)), rho * std::sqrt(of_polar(1, 1))),
       std::make_shared<RangeBearingFactor2>(base_from_sensor.translation.head<2>(), rho, std::atan2(v.y(), v.x())),
       graph::SquareRootInformation::fromCovariance(of_polar)};
 }
 
-std::optional<PointSighting> inSpace(const Ray& ray, const Matrix3d& covariance, const Se3& base_from_sensor) {
+std::optional<PointSighting> inSpace(const PointRay& ray, const Matrix3d& covariance, const Se3& base_from_sensor) {
   const double range = ray.point.norm(), rho = ray.point.head<2>().norm();
-  if (rho < 1e-3 * range || !isCovariance(covariance)) return std::nullopt;
+  if (rho < 1e-3 * range || !isUsableCovariance(covariance)) return std::nullopt;
   // An angle of pitch beyond the zenith is another yaw and pitch of the same ray.
   const Vector3d measured(range, std::atan2(ray.point.y(), ray.point.x()), std::atan2(-ray.point.z(), rho));
   const Vector3d sigmas = covariance.diagonal().cwiseSqrt();
@@ -101,14 +101,14 @@ std::vector<PointMeasurement> pointMeasurements(const CObservationBearingRange& 
   for (const auto& measured : observation.sensedData) {
     const Vector3d range_yaw_pitch(measured.range, measured.yaw, measured.pitch);
     if (!range_yaw_pitch.allFinite() || !(measured.range > 0)) {
-      all.push_back(useless(measured, "no finite range and bearing"));
+      all.push_back(uselessMeasurement(measured, "no finite range and bearing"));
       continue;
     }
     if (measured.landmarkID >= 0 && !seen.insert(measured.landmarkID).second) {
-      all.push_back(useless(measured, "its number stands twice in the observation"));
+      all.push_back(uselessMeasurement(measured, "its number stands twice in the observation"));
       continue;
     }
-    const Ray ray(range_yaw_pitch);
+    const PointRay ray(range_yaw_pitch);
     const Matrix3d covariance = covarianceOf(observation, measured, options);
     auto sighting = motion == mapper::Motion::planar ? overFloor(ray, covariance, base_from_sensor)
                                                      : inSpace(ray, covariance, base_from_sensor);

@@ -16,10 +16,10 @@ using geometry::wrapToPi;
 
 // At the sensor, and straight above it, directions are undefined: the bound keeps numbers finite there, and changes
 // nothing elsewhere.
-constexpr double kNearest = 1e-9;  // [m]
+constexpr double kNearestPoint = 1e-9;  // [m]
 
 template <int Rows, int Columns>
-using RowMajorMap = Eigen::Map<Eigen::Matrix<double, Rows, Columns, Eigen::RowMajor>>;
+using JacobianMap = Eigen::Map<Eigen::Matrix<double, Rows, Columns, Eigen::RowMajor>>;
 
 }  // namespace
 
@@ -33,20 +33,20 @@ void RangeBearingFactor2::evaluate(const double* const* values, double* residual
   const double c = std::cos(base[2]), s = std::sin(base[2]), dx = point[0] - base[0], dy = point[1] - base[1];
   const Eigen::Vector2d in_base(c * dx + s * dy, c * dy - s * dx);
   const Eigen::Vector2d d = in_base - sensor_in_base_;
-  const double range = std::max(d.norm(), kNearest);
+  const double range = std::max(d.norm(), kNearestPoint);
   residual[0] = range - range_;
   residual[1] = wrapToPi(std::atan2(d.y(), d.x()) - bearing_);
   if (!jacobians) return;
   Eigen::Matrix2d by_d;
   by_d << d.x() / range, d.y() / range, -d.y() / (range * range), d.x() / (range * range);
   if (jacobians[0]) {
-    RowMajorMap<2, 3> by_base(jacobians[0]);
+    JacobianMap<2, 3> by_base(jacobians[0]);
     by_base << -by_d, by_d * Eigen::Vector2d(in_base.y(), -in_base.x());
   }
   if (jacobians[1]) {
     Eigen::Matrix2d base_from_map;
     base_from_map << c, s, -s, c;
-    RowMajorMap<2, 2>{jacobians[1]} = by_d * base_from_map;
+    JacobianMap<2, 2>{jacobians[1]} = by_d * base_from_map;
   }
 }
 
@@ -71,7 +71,7 @@ void RangeBearingFactor3::evaluate(const double* const* values, double* residual
   const Se3 map_from_base = graph::se3FromValue(values[0]);
   const Eigen::Vector3d in_base = inverse(map_from_base) * Eigen::Map<const Eigen::Vector3d>(values[1]);
   const Eigen::Vector3d p = inverse(base_from_sensor_) * in_base;
-  const double rho = std::max(p.head<2>().norm(), kNearest), range = std::max(p.norm(), kNearest);
+  const double rho = std::max(p.head<2>().norm(), kNearestPoint), range = std::max(p.norm(), kNearestPoint);
   residual[0] = range - measured_[0];
   residual[1] = wrapToPi(std::atan2(p.y(), p.x()) - measured_[1]);
   residual[2] = wrapToPi(std::atan2(-p.z(), rho) - measured_[2]);
@@ -81,9 +81,9 @@ void RangeBearingFactor3::evaluate(const double* const* values, double* residual
   by_p.row(1) = Eigen::Vector3d(-p.y(), p.x(), 0) / (rho * rho);
   by_p.row(2) = Eigen::Vector3d(p.x() * p.z() / rho, p.y() * p.z() / rho, -rho) / (range * range);
   const Eigen::Matrix3d by_in_base = by_p * base_from_sensor_.rotation.conjugate().toRotationMatrix();
-  if (jacobians[0]) RowMajorMap<3, 6>{jacobians[0]} << -by_in_base, by_in_base * geometry::skew(in_base);
+  if (jacobians[0]) JacobianMap<3, 6>{jacobians[0]} << -by_in_base, by_in_base * geometry::skew(in_base);
   if (jacobians[1])
-    RowMajorMap<3, 3>{jacobians[1]} = by_in_base * map_from_base.rotation.conjugate().toRotationMatrix();
+    JacobianMap<3, 3>{jacobians[1]} = by_in_base * map_from_base.rotation.conjugate().toRotationMatrix();
 }
 
 void RangeBearingFactor3::write(std::ostream& out) const {
