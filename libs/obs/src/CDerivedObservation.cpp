@@ -1,7 +1,7 @@
 #include <mrpt/opengl/stock_objects.h>
 #include <omnimapper/obs/CDerivedObservation.h>
+#include <omnimapper/obs/Drawing.h>
 
-#include "Drawing.h"
 #include "Fields.h"
 #include "TextRow.h"
 

@@ -1,12 +1,12 @@
 #include <mrpt/opengl/CTexturedPlane.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/obs/CObservationDoorSigns.h>
+#include <omnimapper/obs/Drawing.h>
 
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-#include "Drawing.h"
 #include "Fields.h"
 #include "TextRow.h"
 

@@ -1,10 +1,10 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/obs/Drawing.h>
 
 #include <cmath>
 
-#include "Drawing.h"
 #include "Fields.h"
 #include "TextRow.h"
 

@@ -1,10 +1,10 @@
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/obs/CObservationObjects.h>
+#include <omnimapper/obs/Drawing.h>
 
 #include <cmath>
 
-#include "Drawing.h"
 #include "Fields.h"
 #include "TextRow.h"
 

@@ -1,8 +1,8 @@
 #include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/obs/Drawing.h>
 
 #include <cmath>
 
-#include "Drawing.h"
 #include "Fields.h"
 #include "TextRow.h"
 

@@ -1,9 +1,8 @@
-#include "Drawing.h"
-
 #include <mrpt/opengl/CArrow.h>
 #include <mrpt/opengl/CSphere.h>
 #include <mrpt/opengl/CText.h>
 #include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/obs/Drawing.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,8 @@
 #include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/obs/Drawing.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "Drawing.h"
 
 namespace omnimapper::obs {
 
@@ -56,9 +55,11 @@ double across(const Edge& edge, double y) {
 
 // Cut into slabs between the heights of the vertices, any walk is made of trapezoids: nothing can go wrong with holes,
 // notches and walks that cross themselves, as it can where triangles are sought between vertices.
-void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane,
-               const std::vector<geometry::Polygon3>& walks, const mrpt::img::TColor& colour) {
-  if (!isFinite(plane.normal) || !(std::abs(plane.normal.norm() - 1) < 1e-3) || !std::isfinite(plane.distance)) return;
+mrpt::opengl::CSetOfTriangles::Ptr filled(const geometry::Plane3& plane, const std::vector<geometry::Polygon3>& walks) {
+  auto triangles = mrpt::opengl::CSetOfTriangles::Create();
+  if (!isFinite(plane.normal) || !(std::abs(plane.normal.norm() - 1) < 1e-3) || !std::isfinite(plane.distance)) {
+    return triangles;
+  }
   const Eigen::Vector3d origin = -plane.distance * plane.normal;
   const auto basis = geometry::tangentBasis(plane.normal);
   const auto edges = edgesOf(walks, origin, basis);
@@ -67,7 +68,6 @@ void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane
     const Eigen::Vector3d p = origin + basis * Eigen::Vector2d(x, y);
     return mrpt::math::TPoint3Df(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
   };
-  auto triangles = mrpt::opengl::CSetOfTriangles::Create();
   for (std::size_t i = 1; i < heights.size(); ++i) {
     const double low = heights[i - 1], high = heights[i], middle = 0.5 * (low + high);
     std::vector<std::pair<double, const Edge*>> crossed;
@@ -83,6 +83,12 @@ void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane
       triangles->insertTriangle(mrpt::opengl::TTriangle(a, c, d));
     }
   }
+  return triangles;
+}
+
+void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane,
+               const std::vector<geometry::Polygon3>& walks, const mrpt::img::TColor& colour) {
+  const auto triangles = filled(plane, walks);
   if (triangles->getTrianglesCount() == 0) return;
   triangles->enableLight(false);
   triangles->setColor_u8(colour);

@@ -13,7 +13,7 @@
 
 namespace omnimapper::obs {
 
-/// Shapes of what was observed, in MRPT's scenes. Whatever is not a finite number is left out.
+/// Shapes of what was observed or mapped, in MRPT's scenes. Whatever is not a finite number is left out.
 
 mrpt::img::TColor asColor(const Rgb& colour);
 
@@ -28,7 +28,9 @@ mrpt::opengl::CSetOfLines::Ptr makeLines(const mrpt::img::TColor& colour, float 
 void addStroke(mrpt::opengl::CSetOfTriangles& strokes, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                double width);
 
-/// What lies in an odd number of the walks, all on about that plane, as triangles of a translucent colour.
+/// What lies in an odd number of the walks, all on about that plane, as triangles; none if there is nothing finite.
+mrpt::opengl::CSetOfTriangles::Ptr filled(const geometry::Plane3& plane, const std::vector<geometry::Polygon3>& walks);
+/// The same as a part of a scene, of a translucent colour.
 void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane,
                const std::vector<geometry::Polygon3>& walks, const mrpt::img::TColor& colour);
 void addArrow(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
