@@ -24,8 +24,10 @@ struct LandmarkShape {
   std::vector<geometry::Polygon3> surfaces;                        ///< flat, each may be concave
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;  ///< from, to
   std::vector<Eigen::Vector3d> points;
-  std::optional<Eigen::Vector3d> normal;                        ///< unit, to the free side
+  std::vector<base::Stamp> point_stamps;  ///< when it was at each of `points`; empty: at all times
+  std::optional<Eigen::Vector3d> normal;  ///< unit, to the free side
   std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value: for tables and exports
+  /// Of the properties, "seen_by_" and a sensor label tells how often that sensor saw it.
 };
 
 /// What a landmark is beside what is optimised: a plane's extent, a sign's text, an object's model. Immutable; a plugin
