@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "../PlaceOnEarth.h"
 #include "SavedVariable.h"
 
 IMPLEMENTS_MRPT_OBJECT(GpsPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
@@ -13,7 +14,7 @@ IMPLEMENTS_MRPT_OBJECT(GpsPluginFactory, omnimapper::mapper::MeasurementPluginFa
 namespace omnimapper::plugins {
 
 namespace {
-constexpr std::uint32_t kSavedGpsVersion = 1;
+constexpr std::uint32_t kSavedGpsVersion = 2;  // 1: the same without the mark of a place on the earth
 }
 
 const base::OptionTable<GpsOptions>& GpsOptions::table() {
@@ -110,11 +111,8 @@ void GpsPlugin::applied(const mapper::AppliedBatch& ids) {
 
 std::optional<map::MapSection> GpsPlugin::save() const {
   if (!map_from_enu_) return std::nullopt;
-  std::ostringstream out;
-  writeVariableId(out, *map_from_enu_);
-  for (const double number : {origin_->latitude, origin_->longitude, origin_->altitude})
-    graph::writeDouble(out, number);
-  return map::MapSection{{}, kSavedGpsVersion, out.str()};
+  const Geodetic origin{origin_->latitude, origin_->longitude, origin_->altitude};
+  return map::MapSection{{}, kSavedGpsVersion, writePlace({*map_from_enu_, origin})};
 }
 
 void GpsPlugin::restore(const map::MapSection* saved, const mapper::View& view) {
