@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omnimapper/plugins/GeoJsonOutput.h>
 #include <omnimapper/plugins/GraphOutput.h>
 #include <omnimapper/plugins/GridOutput.h>
 #include <omnimapper/plugins/MapOutput.h>
@@ -30,6 +31,7 @@ struct OutputCase {
 const std::vector<OutputCase>& cases() {
   static const std::vector<OutputCase> cases{
       {std::make_shared<plugins::TrajectoryOutputFactory>(), {"trajectory.tum"}},
+      {std::make_shared<plugins::GeoJsonOutputFactory>(), {"floorplan.geojson"}},
       {std::make_shared<plugins::GraphOutputFactory>(), {"graph.g2o"}},
       {std::make_shared<plugins::GridOutputFactory>(), {"grid.pgm", "grid.yaml", "grid.png"}},
       {std::make_shared<plugins::PointsOutputFactory>(), {"points.ply"}},

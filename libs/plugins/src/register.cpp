@@ -3,6 +3,7 @@
 #include <omnimapper/obs/registerClasses.h>
 #include <omnimapper/plugins/CloudPlanesPlugin.h>
 #include <omnimapper/plugins/EdgesPlugin.h>
+#include <omnimapper/plugins/GeoJsonOutput.h>
 #include <omnimapper/plugins/GpsPlugin.h>
 #include <omnimapper/plugins/GraphOutput.h>
 #include <omnimapper/plugins/GridOutput.h>
@@ -51,6 +52,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(PlaneLandmarksPluginFactory));
   registerClass(CLASS_ID(RelationsPluginFactory));
   registerClass(CLASS_ID(PointLandmarksPluginFactory));
+  registerClass(CLASS_ID(GeoJsonOutputFactory));
   registerClass(CLASS_ID(GraphOutputFactory));
   registerClass(CLASS_ID(GridOutputFactory));
   registerClass(CLASS_ID(LiveWindowFactory));

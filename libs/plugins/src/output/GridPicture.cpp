@@ -106,8 +106,8 @@ ScanGrid focused(const ScanGrid& grid, const std::vector<mrpt::math::TPoint3D>& 
   auto [left, right] = trimmed(columns, kCut);
   auto [low, high] = trimmed(rows, kCut);
   for (const auto& place : places) {
-    const int column = static_cast<int>((place.x - grid.min_x) / grid.resolution);
-    const int row = static_cast<int>((place.y - grid.min_y) / grid.resolution);
+    const int column = static_cast<int>(std::clamp<double>((place.x - grid.min_x) / grid.resolution, 0, grid.columns));
+    const int row = static_cast<int>(std::clamp<double>((place.y - grid.min_y) / grid.resolution, 0, grid.rows));
     left = std::min(left, column), right = std::max(right, column);
     low = std::min(low, row), high = std::max(high, row);
   }

@@ -62,6 +62,14 @@ std::string encodeBase64(std::string_view bytes) {
   return out;
 }
 
+std::string cell(const std::string& html) {
+  return "<td>" + html + "</td>";
+}
+
+std::string numberCell(const std::string& html) {
+  return "<td class=\"num\">" + html + "</td>";
+}
+
 std::string grouped(std::size_t number) {
   std::string text = std::to_string(number);
   for (auto place = static_cast<std::ptrdiff_t>(text.size()) - 3; place > 0; place -= 3) {

@@ -14,6 +14,7 @@
 
 #include "GridFloor.h"
 #include "GridMapper.h"
+#include "SceneLandmarks.h"
 #include "SceneParts.h"
 
 IMPLEMENTS_MRPT_OBJECT(LiveWindowFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
@@ -78,7 +79,8 @@ class LiveWindow::Scene {
     mrpt::opengl::COpenGLScene::Ptr scene;
     mrpt::gui::CDisplayWindow3DLocker lock(*window_, scene);
     scene->getViewport()->setCustomBackgroundColor({0.96f, 0.97f, 0.98f});
-    for (const auto& object : {grid_, ground_, points_, trajectory_, refused_, accepted_, pose_}) scene->insert(object);
+    for (const auto& object : {grid_, ground_, points_, trajectory_, refused_, accepted_, pose_, landmarks_})
+      scene->insert(object);
     pose_->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 4.0f));
     window_->setCameraElevationDeg(70);
     window_->setCameraAzimuthDeg(-90);
@@ -101,6 +103,7 @@ class LiveWindow::Scene {
       const auto closures = closuresOf(view.map, view.decisions);
       replace(*accepted_, closureLines(closures, true));
       replace(*refused_, closureLines(closures, false));
+      replace(*landmarks_, landmarkObjects(shapesOf(view), false));
       pose_->setPose(view.map.key_frames.back().map_from_base);
       const auto count =
           std::count_if(closures.begin(), closures.end(), [](const Closure& c) { return c.decision->accepted; });
@@ -182,7 +185,7 @@ class LiveWindow::Scene {
   GridMapper grid_mapper_;
   Group::Ptr grid_ = Group::Create(), ground_ = Group::Create(), points_ = Group::Create(),
              trajectory_ = Group::Create(), refused_ = Group::Create(), accepted_ = Group::Create(),
-             pose_ = Group::Create();
+             pose_ = Group::Create(), landmarks_ = Group::Create();
   std::unordered_map<base::KeyFrameId, mrpt::opengl::CPointCloud::Ptr> clouds_;
   std::unique_ptr<mrpt::gui::CDisplayWindow3D> window_;
 };

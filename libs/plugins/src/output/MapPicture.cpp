@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "FloorPlan.h"
+#include "LandmarkColours.h"
 #include "ScaleBar.h"
 
 namespace omnimapper::plugins {
@@ -49,14 +51,64 @@ std::vector<PixelPoint> simplified(const std::vector<PixelPoint>& all, double to
   return path;
 }
 
+std::vector<PixelPoint> pixelsOf(const GridPicture& grid, const PlanArea& area) {
+  std::vector<PixelPoint> pixels;
+  for (const auto& corner : area) pixels.push_back(grid.pixelOf(corner.x(), corner.y()));
+  return pixels;
+}
+
+void drawBroken(Image& image, PixelPoint from, PixelPoint to, const Pen& pen) {
+  const double dx = to.x - from.x, dy = to.y - from.y;
+  for (const auto& [begin, end] : dashesOf(std::hypot(dx, dy), 4 * pen.width)) {
+    drawLine(image, {from.x + begin * dx, from.y + begin * dy}, {from.x + end * dx, from.y + end * dy}, pen);
+  }
+}
+
+void drawAreas(Image& image, const GridPicture& grid, const std::vector<ShapedLandmark>& landmarks, double width) {
+  for (const auto& landmark : landmarks) {
+    const auto& label = landmark.shape.label;
+    if (coversThePlan(label)) continue;
+    const Pen outline{colourOfLabel(label), width, 0.9}, fill{colourOfLabel(label), 0, landmark.isFaint() ? 0.1 : 0.28};
+    for (const auto& area : fromAbove(landmark.shape).areas) {
+      const auto walk = pixelsOf(grid, area);
+      if (!landmark.moved) fillAreas(image, {walk}, fill);
+      for (std::size_t i = 0, j = walk.size() - 1; i < walk.size(); j = i++)
+        landmark.moved ? drawBroken(image, walk[j], walk[i], outline) : drawLine(image, walk[j], walk[i], outline);
+    }
+  }
+}
+
+void drawLinesAndPoints(Image& image, const GridPicture& grid, const std::vector<ShapedLandmark>& landmarks,
+                        double width) {
+  for (const auto& landmark : landmarks) {
+    const Pen pen{colourOfLabel(landmark.shape.label), (landmark.isFaint() ? 0.8 : 2.4) * width};
+    const PlanShape plan = fromAbove(landmark.shape);
+    for (const auto& [from, to] : plan.lines) {
+      const auto a = grid.pixelOf(from.x(), from.y()), b = grid.pixelOf(to.x(), to.y());
+      landmark.moved ? drawBroken(image, a, b, {pen.colour, width}) : drawLine(image, a, b, pen);
+    }
+    const bool went = !landmark.shape.point_stamps.empty();
+    for (std::size_t i = 0; i < plan.points.size(); ++i) {
+      const auto at = grid.pixelOf(plan.points[i].x(), plan.points[i].y());
+      if (went && i > 0) {
+        drawBroken(image, grid.pixelOf(plan.points[i - 1].x(), plan.points[i - 1].y()), at, {pen.colour, width});
+      }
+      drawDot(image, at, {kPaper, 6 * width});
+      drawDot(image, at, {pen.colour, 4.5 * width});
+    }
+  }
+}
+
 }  // namespace
 
-Image drawMap(const GridPicture& grid, const std::vector<map::StampedPose>& trajectory,
-              const std::vector<Closure>& closures) {
+Image drawMap(const GridPicture& grid, const std::vector<ShapedLandmark>& landmarks,
+              const std::vector<map::StampedPose>& trajectory, const std::vector<Closure>& closures) {
   Image image(grid.image.width, grid.image.height, kPaper);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = grid.image.palette[grid.image.pixels[i]];
   // Thin, so that walls are seen beside and under them.
   const double width = std::max(1.2, std::max(image.width, image.height) / 900.0);
+  drawAreas(image, grid, landmarks, width);
+  drawLinesAndPoints(image, grid, landmarks, width);
   for (const Closure& closure : closures) {
     if (!closure.decision->accepted) continue;
     drawLine(image, pixelOf(grid, closure.from), pixelOf(grid, closure.to), {kClosure, width, 0.6});
@@ -73,14 +125,28 @@ Image drawMap(const GridPicture& grid, const std::vector<map::StampedPose>& traj
   return image;
 }
 
-std::optional<GridPicture> emptyPicture(const std::vector<map::StampedPose>& trajectory, double margin, int side) {
-  if (trajectory.empty()) return std::nullopt;
-  const auto first = trajectory.front().map_from_base.translation();
-  double min_x = first.x, max_x = first.x, min_y = first.y, max_y = first.y;
-  for (const auto& pose : trajectory) {
-    const auto p = pose.map_from_base.translation();
-    min_x = std::min(min_x, p.x), max_x = std::max(max_x, p.x);
-    min_y = std::min(min_y, p.y), max_y = std::max(max_y, p.y);
+std::vector<mrpt::math::TPoint3D> placesOf(const std::vector<map::StampedPose>& trajectory,
+                                           const std::vector<ShapedLandmark>& landmarks) {
+  std::vector<mrpt::math::TPoint3D> places;
+  for (const auto& pose : trajectory) places.push_back(pose.map_from_base.translation());
+  const auto add = [&](const PlanPoint& point) { places.emplace_back(point.x(), point.y(), 0); };
+  for (const auto& landmark : landmarks) {
+    const PlanShape plan = fromAbove(landmark.shape);
+    for (const auto& [from, to] : plan.lines) add(from), add(to);
+    for (const auto& area : plan.areas) std::for_each(area.begin(), area.end(), add);
+    std::for_each(plan.points.begin(), plan.points.end(), add);
+  }
+  return places;
+}
+
+std::optional<GridPicture> emptyPicture(const std::vector<map::StampedPose>& trajectory,
+                                        const std::vector<ShapedLandmark>& landmarks, double margin, int side) {
+  const auto places = placesOf(trajectory, landmarks);
+  if (places.empty()) return std::nullopt;
+  double min_x = places.front().x, max_x = min_x, min_y = places.front().y, max_y = min_y;
+  for (const auto& place : places) {
+    min_x = std::min(min_x, place.x), max_x = std::max(max_x, place.x);
+    min_y = std::min(min_y, place.y), max_y = std::max(max_y, place.y);
   }
   const double width = max_x - min_x + 2 * margin, height = max_y - min_y + 2 * margin;
   GridPicture picture;

@@ -3,6 +3,7 @@
 #include "MapPoints.h"
 #include "OutputFile.h"
 #include "Ply.h"
+#include "SceneLandmarks.h"
 
 IMPLEMENTS_MRPT_OBJECT(PointsOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
 
@@ -21,11 +22,15 @@ const base::OptionTable<PointsOptions>& PointsOptions::table() {
 }
 
 PointsOutput::PointsOutput(const PointsOptions& options, const mapper::PluginContext& context)
-    : options_(options), path_(outputPath(context, "points.ply")) {}
+    : options_(options),
+      path_(outputPath(context, "points.ply")),
+      landmarks_path_(outputPath(context, "landmarks.ply")) {}
 
 void PointsOutput::finish(const mapper::View& view) {
   const auto points = pointsOf(view.map, options_);
   points.empty() ? removeFile(path_) : writeBytes(path_, encodePly(points));
+  const auto landmarks = landmarkTriangles(shapesOf(view));
+  landmarks.empty() ? removeFile(landmarks_path_) : writeBytes(landmarks_path_, encodePly(landmarks));
 }
 
 std::unique_ptr<mapper::OutputPlugin> PointsOutputFactory::make(const base::ConfigSection& section,

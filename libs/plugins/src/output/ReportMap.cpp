@@ -7,6 +7,7 @@
 
 #include "DecisionText.h"
 #include "Html.h"
+#include "LandmarkLayers.h"
 #include "MapPicture.h"
 #include "ScaleBar.h"
 
@@ -35,13 +36,6 @@ std::string closureGroup(const GridPicture& grid, const std::vector<Closure>& cl
   return "<g class=\"" + std::string(accepted ? "accepted" : "refused") + "\">\n" + lines + "</g>\n";
 }
 
-std::string pathData(const std::vector<PixelPoint>& path) {
-  std::string data;
-  for (const PixelPoint& point : path)
-    data += (data.empty() ? "M" : "L") + base::fixed(point.x, 1) + " " + base::fixed(point.y, 1);
-  return data;
-}
-
 std::string dot(const char* kind, PixelPoint at, double radius) {
   return "<circle class=\"" + std::string(kind) + "\" cx=\"" + base::fixed(at.x, 1) + "\" cy=\"" +
          base::fixed(at.y, 1) + "\" r=\"" + base::fixed(radius, 1) + "\"><title>" + kind + "</title></circle>\n";
@@ -59,28 +53,36 @@ std::string scaleBar(const GridPicture& grid) {
          " m</text>\n";
 }
 
-std::string toggle(const char* layer, const char* key, const std::string& label, bool on) {
-  return "<label><input type=\"checkbox\" data-layer=\"" + std::string(layer) + "\"" + (on ? " checked=\"\"" : "") +
-         "/><i class=\"" + key + "\"></i>" + label + "</label>";
+std::string toggle(const std::string& layer, const std::string& key, const std::string& label, bool on) {
+  return "<label><input type=\"checkbox\" data-layer=\"" + layer + "\"" + (on ? " checked=\"\"" : "") + "/><i " + key +
+         "></i>" + label + "</label>";
 }
 
-std::string legend(const std::vector<Closure>& closures, std::size_t max_refused) {
+std::string legend(const std::vector<LandmarkLayer>& landmarks, const std::vector<Closure>& closures,
+                   std::size_t max_refused) {
   const auto accepted = static_cast<std::size_t>(
       std::count_if(closures.begin(), closures.end(), [](const Closure& c) { return c.decision->accepted; }));
   const std::size_t refused = closures.size() - accepted;
   std::string refused_label = "closures refused: " + grouped(refused);
   if (refused > max_refused) refused_label += " (" + grouped(max_refused) + " drawn)";
-  return "<div class=\"toggles\">" + toggle("track", "kt", "trajectory", true) +
-         toggle("accepted", "ka", "closures accepted: " + grouped(accepted), true) +
-         toggle("refused", "kr", refused_label, true) +
+  std::string layers;
+  for (const auto& layer : landmarks) {
+    layers += toggle(layer.name, "style=\"color:" + layer.colour + "\"",
+                     escapeHtml(layer.label) + ": " + grouped(layer.count), layer.shown);
+  }
+  return "<div class=\"toggles\">" + toggle("track", "class=\"kt\"", "trajectory", true) +
+         toggle("accepted", "class=\"ka\"", "closures accepted: " + grouped(accepted), true) +
+         toggle("refused", "class=\"kr\"", refused_label, true) + layers +
          "<span class=\"zoom\"><button data-zoom=\"0.7\" aria-label=\"closer\">+</button><button data-zoom=\"1.43\" "
          "aria-label=\"further\">&#8722;</button><button data-zoom=\"0\">whole map</button></span></div>";
 }
 
 }  // namespace
 
-std::string drawReportMap(const GridPicture& grid, const std::vector<map::StampedPose>& trajectory,
-                          const std::vector<Closure>& closures, std::size_t max_refused) {
+std::string drawReportMap(const GridPicture& grid, const std::vector<ShapedLandmark>& landmarks,
+                          const std::vector<map::StampedPose>& trajectory, const std::vector<Closure>& closures,
+                          std::size_t max_refused) {
+  const auto layers = landmarkLayers(grid, landmarks);
   const std::string width = std::to_string(grid.image.width), height = std::to_string(grid.image.height);
   const auto paths = simplifiedPaths(grid, trajectory, 0.3);
   const double radius = std::max(grid.image.width, grid.image.height) / 160.0;
@@ -89,15 +91,16 @@ std::string drawReportMap(const GridPicture& grid, const std::vector<map::Stampe
                     "\" data-max-y=\"" + base::brief(grid.max_y, 9) +
                     "\" role=\"img\" aria-label=\"map from above\">\n<image width=\"" + width + "\" height=\"" +
                     height + "\" href=\"data:image/png;base64," + encodeBase64(encodePng(grid.image)) + "\"/>\n";
+  for (const auto& layer : layers) svg += layer.svg;
   svg += closureGroup(grid, closures, false, max_refused) + closureGroup(grid, closures, true, closures.size());
   std::string data;
-  for (const auto& path : paths) data += pathData(path);
+  for (const auto& path : paths) data += svgPath(path);
   svg += "<g class=\"track\"><path class=\"track\" d=\"" + data + "\"/>\n";
   for (const auto& path : paths) svg += dot("start", path.front(), radius) + dot("end", path.back(), radius);
   svg += "</g>\n" + scaleBar(grid) + "</svg>\n";
-  return "<section class=\"card map\">" + legend(closures, max_refused) + svg +
+  return "<section class=\"card map\">" + legend(layers, closures, max_refused) + svg +
          "<p class=\"note\">x points right, y up. Ring: start; dot: end. Hold the pointer over a closure for its "
-         "reason. "
+         "reason, over a landmark for what it is. "
          "To look closer: the buttons, or Ctrl and the wheel; then drag.</p></section>\n";
 }
 

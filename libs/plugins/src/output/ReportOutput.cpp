@@ -43,18 +43,25 @@ void ReportOutput::finish(const mapper::View& view) {
   // What was located nowhere is not drawn into the map.
   if (view.map_is_held && figuresOf(view, trajectory).located == 0) trajectory.clear();
   const auto closures = closuresOf(view.map, view.decisions);
+  const auto landmarks = shapesOf(view);
   ScanGridOptions grid_options;
   grid_options.resolution = options_.resolution;
   grid_options.max_range = options_.max_range;
+  grid_options.margin = 0.5;  // walls lie on the border of what scans have seen
   const auto grid = buildScanGrid(mapOnly(view), grid_options);
-  std::vector<mrpt::math::TPoint3D> places;
-  for (const auto& pose : trajectory) places.push_back(pose.map_from_base.translation());
-  const auto picture = grid ? std::optional(drawGridToSize(focused(*grid, places), options_.picture_side))
-                            : emptyPicture(trajectory, 1.0, options_.picture_side);
+  const auto picture =
+      grid ? std::optional(drawGridToSize(focused(*grid, placesOf(trajectory, landmarks)), options_.picture_side))
+           : emptyPicture(trajectory, landmarks, 1.0, options_.picture_side);
   const std::string map_file = outputPath(context_, "map.png");
-  picture ? writeBytes(map_file, encodePng(drawMap(*picture, trajectory, closures))) : removeFile(map_file);
-  writeBytes(outputPath(context_, "report.html"), drawReport({view, context_, picture ? &*picture : nullptr, trajectory,
-                                                              closures, static_cast<std::size_t>(options_.max_rows)}));
+  picture ? writeBytes(map_file, encodePng(drawMap(*picture, landmarks, trajectory, closures))) : removeFile(map_file);
+  const ReportInput input{view,
+                          context_,
+                          picture ? &*picture : nullptr,
+                          trajectory,
+                          closures,
+                          landmarks,
+                          static_cast<std::size_t>(options_.max_rows)};
+  writeBytes(outputPath(context_, "report.html"), drawReport(input));
 }
 
 std::unique_ptr<mapper::OutputPlugin> ReportOutputFactory::make(const base::ConfigSection& section,

@@ -6,6 +6,7 @@
 
 #include "Html.h"
 #include "ReportCurves.h"
+#include "ReportLandmarks.h"
 #include "ReportMap.h"
 #include "ReportStyle.h"
 #include "ReportTables.h"
@@ -45,6 +46,7 @@ std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
                        base::fixed(input.picture->max_y - input.picture->minY(), 0) + " m",
                    "mapped");
   }
+  if (!input.landmarks.empty()) html += figure(grouped(input.landmarks.size()), "landmarks");
   html += figure(grouped(figures.closures), "loop closures") +
           figure(grouped(figures.refused_closures), "closures refused") +
           figure(grouped(view.graph.factors().size()), "factors") + figure(large(view.graph.chi2()), "chi-square") +
@@ -86,7 +88,10 @@ std::string drawReport(const ReportInput& input) {
   html +=
       "</style>\n</head>\n<body>\n<main>\n<header><h1>" + title + "</h1><p>Mapping report of OmniMapper</p></header>\n";
   html += drawWarnings(view.warnings) + drawFigures(input, figuresOf(view, input.trajectory));
-  if (input.picture) html += drawReportMap(*input.picture, input.trajectory, input.closures, kMostRefusedClosures);
+  if (input.picture)
+    html += drawReportMap(*input.picture, input.landmarks, input.trajectory, input.closures, kMostRefusedClosures);
+  html += drawLandmarkTable(input.landmarks, startOf(view.map)) +
+          charts("Landmarks", drawSensorBars(input.landmarks) + drawFeatureCurves(view));
   html += charts("Error", drawErrorCurves(view)) + charts("Time", drawTimeCurves(view));
   html += drawSessionTable(view.map) + drawReasonTable(view.decisions) +
           drawDecisionTable(view.map, view.decisions, input.max_rows);

@@ -9,6 +9,7 @@
 
 #include "Closures.h"
 #include "GridPicture.h"
+#include "LandmarkShapes.h"
 
 namespace omnimapper::plugins {
 
@@ -19,6 +20,7 @@ struct ReportInput {
   const GridPicture* picture;  ///< null for a map that is empty
   const std::vector<map::StampedPose>& trajectory;
   const std::vector<Closure>& closures;
+  const std::vector<ShapedLandmark>& landmarks;
   std::size_t max_rows;  ///< of the decision log
 };
 

@@ -34,12 +34,20 @@ header p, .note { color: var(--soft); margin: 4px 0 0; font-size: 13.5px; }
 #map circle.start { fill: #ffffff; } #map circle.end { fill: #2563eb; }
 #map g.accepted line { stroke: #16a34a; stroke-width: 2; vector-effect: non-scaling-stroke; }
 #map g.refused line { stroke: #dc2626; stroke-opacity: 0.35; stroke-width: 1.2; stroke-dasharray: 5 4; vector-effect: non-scaling-stroke; }
+#map g.landmarks path { stroke: currentColor; stroke-width: 4; stroke-linecap: round; fill: none; vector-effect: non-scaling-stroke; }
+#map g.landmarks path.area { stroke-width: 1.6; fill: currentColor; fill-opacity: 0.28; }
+#map g.landmarks path.point { stroke-width: 9; }
+#map g.landmarks path.moved { stroke-width: 2; stroke-dasharray: 1 5; fill: none; }
+#map g.landmarks path.floor { fill-opacity: 0.08; stroke-dasharray: 6 4; pointer-events: stroke; }
+#map g.landmarks g.faint path { stroke-width: 1.2; } #map g.landmarks g.faint path.area { fill-opacity: 0.1; }
+#map g.landmarks g:hover path { stroke-width: 7; }
 #map line:hover { stroke-width: 5; stroke-opacity: 1; }
 #map path.scale { fill: none; stroke: #18212f; stroke-width: 1.5; vector-effect: non-scaling-stroke; }
 #map text.scale { fill: #18212f; font-family: inherit; }
 .toggles, .filters { display: flex; flex-wrap: wrap; gap: 6px 18px; align-items: center; margin: 0 4px 10px; font-size: 14px; }
 .toggles label { display: inline-flex; align-items: center; gap: 6px; }
 .toggles i { width: 22px; height: 0; border-top: 3px solid; }
+.swatch { display: inline-block; width: 10px; height: 10px; border-radius: 3px; margin-right: 6px; }
 .kt { color: #2563eb; } .ka { color: #16a34a; } .toggles .kr { color: #dc2626; border-top-style: dashed; border-top-width: 2px; }
 .zoom { margin-left: auto; display: inline-flex; gap: 6px; }
 button, select, input[type=search] { font: inherit; font-size: 14px; color: inherit; background: var(--card); border: 1px solid var(--line); border-radius: 6px; padding: 4px 10px; }

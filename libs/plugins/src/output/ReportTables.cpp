@@ -14,21 +14,15 @@ namespace omnimapper::plugins {
 
 namespace {
 
-std::string cell(const std::string& html) {
-  return "<td>" + html + "</td>";
-}
-std::string number(const std::string& html) {
-  return "<td class=\"num\">" + html + "</td>";
-}
 std::string verdict(bool accepted) {
   return accepted ? "<td><span class=\"yes\">accepted</span></td>" : "<td><span class=\"no\">refused</span></td>";
 }
 
 std::string row(const mapper::Decision& d, base::Stamp start) {
   return "<tr data-verdict=\"" + std::string(d.accepted ? "accepted" : "refused") + "\" data-kind=\"" +
-         escapeHtml(d.kind) + "\">" + number(toString(d.from)) +
-         number(base::fixed(base::secondsBetween(start, d.stamp), 1)) + cell(escapeHtml(d.plugin)) +
-         cell(escapeHtml(d.kind)) + number(d.to ? toString(*d.to) : "") + verdict(d.accepted) +
+         escapeHtml(d.kind) + "\">" + numberCell(toString(d.from)) +
+         numberCell(base::fixed(base::secondsBetween(start, d.stamp), 1)) + cell(escapeHtml(d.plugin)) +
+         cell(escapeHtml(d.kind)) + numberCell(d.to ? toString(*d.to) : "") + verdict(d.accepted) +
          cell(escapeHtml(d.reason)) + cell(escapeHtml(numbersText(d))) + "</tr>\n";
 }
 
@@ -61,7 +55,7 @@ std::string countTable(const std::string& title, const Counts& counts) {
     if (count == 0) continue;
     std::string words = name;
     std::replace(words.begin(), words.end(), '_', ' ');
-    rows += "<tr>" + cell(escapeHtml(words)) + number(grouped(count)) + "</tr>";
+    rows += "<tr>" + cell(escapeHtml(words)) + numberCell(grouped(count)) + "</tr>";
   }
   return rows.empty() ? ""
                       : "<section class=\"card\"><h3>" + title + "</h3><table class=\"plain\"><tbody>" + rows +
@@ -78,9 +72,9 @@ std::string drawSessionTable(const map::Map& map) {
                                       [&](const auto& other) { return other.number == figures.number; });
     if (session == map.sessions.end()) continue;
     const bool first = session == map.sessions.begin();
-    rows += "<tr>" + number(std::to_string(figures.number)) + cell(escapeHtml(session->title)) +
-            number(grouped(figures.key_frames)) + number(base::fixed(figures.way, 1)) +
-            number(base::fixed(figures.seconds, 1)) + cell(first ? "" : escapeHtml(mapper::joinedText(*session))) +
+    rows += "<tr>" + numberCell(std::to_string(figures.number)) + cell(escapeHtml(session->title)) +
+            numberCell(grouped(figures.key_frames)) + numberCell(base::fixed(figures.way, 1)) +
+            numberCell(base::fixed(figures.seconds, 1)) + cell(first ? "" : escapeHtml(mapper::joinedText(*session))) +
             "</tr>\n";
   }
   return "<section class=\"card\"><h2>Sessions</h2><div class=\"scroll\"><table class=\"sortable\"><thead><tr>"
@@ -89,12 +83,17 @@ std::string drawSessionTable(const map::Map& map) {
          rows + "</tbody></table></div></section>\n";
 }
 
+base::Stamp startOf(const map::Map& map) {
+  const auto& frames = map.key_frames;
+  return frames.empty() ? base::Stamp() : frames[frames.lowerBound(frames.back().id.session, base::Stamp())].stamp;
+}
+
 std::string drawReasonTable(const mapper::DecisionLog& decisions) {
   if (decisions.empty()) return {};
   std::string rows;
   for (const ReasonCount& count : countReasons(decisions)) {
     rows += "<tr>" + cell(escapeHtml(count.plugin)) + cell(escapeHtml(count.kind)) + verdict(count.accepted) +
-            cell(escapeHtml(count.reason)) + number(grouped(count.count)) + "</tr>\n";
+            cell(escapeHtml(count.reason)) + numberCell(grouped(count.count)) + "</tr>\n";
   }
   return "<section class=\"card\"><h2>Decisions by reason</h2><div class=\"scroll\"><table "
          "class=\"sortable\"><thead><tr>"
@@ -105,10 +104,7 @@ std::string drawReasonTable(const mapper::DecisionLog& decisions) {
 
 std::string drawDecisionTable(const map::Map& map, const mapper::DecisionLog& decisions, std::size_t max_rows) {
   if (decisions.empty()) return {};
-  // The log is that of the newest session.
-  const auto& frames = map.key_frames;
-  const base::Stamp start = frames.empty() ? decisions.front().stamp
-                                           : frames[frames.lowerBound(frames.back().id.session, base::Stamp())].stamp;
+  const base::Stamp start = map.key_frames.empty() ? decisions.front().stamp : startOf(map);
   const auto rows = listed(decisions, max_rows);
   std::string note;
   if (rows.size() < decisions.size()) {

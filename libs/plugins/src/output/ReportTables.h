@@ -10,6 +10,8 @@ namespace omnimapper::plugins {
 
 /// How much each session drove and where it was joined; empty for a map of one session.
 std::string drawSessionTable(const map::Map& map);
+/// When the newest session, whose log is told, began; no stamp for an empty map.
+base::Stamp startOf(const map::Map& map);
 /// Counts of decisions by plugin, kind, verdict and reason.
 std::string drawReasonTable(const mapper::DecisionLog& decisions);
 /// The decision log with filters, at most `max_rows` rows: where it is longer, refusals and closures go first.

@@ -5,6 +5,7 @@
 #include <omnimapper/plugins/SceneOutput.h>
 
 #include "OutputFile.h"
+#include "SceneLandmarks.h"
 #include "SceneParts.h"
 
 IMPLEMENTS_MRPT_OBJECT(SceneOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
@@ -19,7 +20,8 @@ const base::OptionTable<SceneOptions>& SceneOptions::table() {
           .number("max_range_m", &Options::max_range, {0.1, 1000}, "Points further from their sensor are left out.")
           .number("corner_spacing_m", &Options::corner_spacing, base::Range::notNegative(),
                   "Way between two key frames whose axes are drawn.")
-          .flag("refused_closures", &Options::refused_closures, "Draw the closures that were refused, too.");
+          .flag("refused_closures", &Options::refused_closures, "Draw the closures that were refused, too.")
+          .flag("names", &Options::names, "Write the names of landmarks beside them.");
   return table;
 }
 
@@ -28,6 +30,11 @@ SceneOutput::SceneOutput(const SceneOptions& options, const mapper::PluginContex
 
 void SceneOutput::finish(const mapper::View& view) {
   mrpt::opengl::COpenGLScene scene;
+  // Colours mean something: they hardly depend on where a surface looks.
+  auto& light = scene.getViewport()->lightParameters();
+  light.ambient = {0.8f, 0.8f, 0.8f, 1.0f};
+  light.diffuse = {0.25f, 0.25f, 0.25f, 1.0f};
+  light.specular = {0, 0, 0, 1.0f};
   scene.insert(groundOf(view.map));
   scene.insert(cloudOf(pointsOf(view.map, {options_.voxel, options_.max_range, PointColour::automatic})));
   scene.insert(trajectoryLines(map::denseTrajectory(view.map)));
@@ -35,6 +42,8 @@ void SceneOutput::finish(const mapper::View& view) {
   const auto closures = closuresOf(view.map, view.decisions);
   scene.insert(closureLines(closures, true));
   if (options_.refused_closures) scene.insert(closureLines(closures, false));
+  // Last, so that what is behind a translucent surface is there when it is drawn.
+  scene.insert(landmarkObjects(shapesOf(view), options_.names));
   // Through memory: MRPT's own compressed file does not notice a full disk.
   mrpt::io::CMemoryStream memory;
   mrpt::serialization::archiveFrom(memory) << scene;

@@ -19,8 +19,8 @@ struct LiveWindowOptions {
   static const base::OptionTable<LiveWindowOptions>& table();
 };
 
-/// A 3D window of MRPT that shows the map while it grows: occupancy grid, points, trajectory, closures, the newest
-/// pose. Drawn anew after each solve. It may be closed at any time; the run goes on.
+/// A 3D window of MRPT that shows the map while it grows: occupancy grid, points, trajectory, closures,
+/// landmarks, the newest pose. Drawn anew after each solve. It may be closed at any time; the run goes on.
 class LiveWindow : public mapper::OutputPlugin {
  public:
   /// Throws Error(command_line) if there is no display to open a window on.

@@ -19,7 +19,9 @@ struct PointsOptions {
 };
 
 /// Writes points.ply (binary, little-endian; x y z [m] in the map, red green blue): the point clouds of the key frames
-/// if there are any, else the ends of the beams of their 2D scans. A map without points gives no file.
+/// if there are any, else the ends of the beams of their 2D scans; and landmarks.ply, the landmarks as a coloured mesh,
+/// apart from the points because viewers show either points or faces of a file. Landmarks that have moved are not in
+/// it. A map without points or landmarks gives no such file.
 class PointsOutput : public mapper::OutputPlugin {
  public:
   PointsOutput(const PointsOptions& options, const mapper::PluginContext& context);
@@ -28,14 +30,16 @@ class PointsOutput : public mapper::OutputPlugin {
 
  private:
   PointsOptions options_;
-  std::string path_;
+  std::string path_, landmarks_path_;
 };
 
 class PointsOutputFactory : public mapper::OutputPluginFactory {
   DEFINE_MRPT_OBJECT(PointsOutputFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "PointsOutput"; }
-  std::string summary() const override { return "Writes points.ply, the coloured points of all key frames."; }
+  std::string summary() const override {
+    return "Writes points.ply, the coloured points of all key frames, and landmarks.ply.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return PointsOptions::table().specs(); }
   std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
                                              const mapper::PluginContext& context) const override;

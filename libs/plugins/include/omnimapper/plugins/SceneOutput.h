@@ -12,12 +12,14 @@ struct SceneOptions {
   double max_range = 30.0;      ///< [m]
   double corner_spacing = 2.0;  ///< [m] of way between two drawn key frames
   bool refused_closures = false;
+  bool names = true;  ///< of landmarks
 
   static const base::OptionTable<SceneOptions>& table();
 };
 
 /// Writes scene.3Dscene, which SceneViewer3D opens: ground grid, points, trajectory, frames of some key frames and
-/// closures (green, refused ones red).
+/// closures (green, refused ones red); landmarks: walls brown, tables violet, floors grey, ceilings light blue,
+/// surfaces translucent with an arrow to their free side, what has moved as an outline of dashes.
 class SceneOutput : public mapper::OutputPlugin {
  public:
   SceneOutput(const SceneOptions& options, const mapper::PluginContext& context);
