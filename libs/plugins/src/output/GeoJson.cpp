@@ -135,7 +135,7 @@ Json propertiesOf(const ShapedLandmark& shaped) {
 }
 
 // The key frames of a session.
-Json trajectoryOf(const map::Map& map, const map::Session& session, const Positions& at) {
+Json wayOf(const map::Map& map, const map::Session& session, const Positions& at) {
   std::vector<PlanPoint> way;
   base::Stamp first, last;
   for (const auto& frame : map.key_frames) {
@@ -173,7 +173,7 @@ std::string encodeGeoJson(const GeoJsonInput& input) {
   }
   for (const auto& session : input.view.map.sessions) {
     if (!input.trajectory) break;
-    Json trajectory = trajectoryOf(input.view.map, session, at);
+    Json trajectory = wayOf(input.view.map, session, at);
     if (!trajectory.is_null()) features.push_back(std::move(trajectory));
   }
   Json collection = {{"type", "FeatureCollection"}, {"name", input.title}};
