@@ -50,7 +50,9 @@ class Truth {
  public:
   explicit Truth(const std::string& folder) {
     std::ifstream world(folder + "/landmarks.json");
-    for (const auto& surface : nlohmann::json::parse(world)["surfaces"]) {
+    const auto landmarks = nlohmann::json::parse(world);
+    for (const auto& surface : landmarks["surfaces"]) {
+      if (!surface.contains("normal")) continue;  // a curved one
       const auto& n = surface["normal"];
       planes_[surface["label"].get<int>()] = {{n[0].get<double>(), n[1].get<double>(), n[2].get<double>()},
                                               surface["distance"].get<double>()};
@@ -72,6 +74,7 @@ class Truth {
   }
   bool areOnePlane(int a, int b) const {
     if (a == b) return true;
+    if (planes_.count(a) == 0 || planes_.count(b) == 0) return false;  // a curved thing
     const auto &p = planes_.at(a), &q = planes_.at(b);
     return p.normal.dot(q.normal) > 0.9998 && std::abs(p.distance - q.distance) < 0.02;
   }
