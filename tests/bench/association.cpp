@@ -72,11 +72,11 @@ class Truth {
     for (std::size_t i = line.first_beam; i <= line.last_beam && i < beams.size(); ++i) ++counts[beams[i]];
     return most(counts);
   }
+  bool isFlat(int surface) const { return planes_.count(surface) > 0; }
   bool areOnePlane(int a, int b) const {
     if (a == b) return true;
-    if (planes_.count(a) == 0 || planes_.count(b) == 0) return false;  // a curved thing
     const auto &p = planes_.at(a), &q = planes_.at(b);
-    return p.normal.dot(q.normal) > 0.9998 && std::abs(p.distance - q.distance) < 0.02;
+    return p.normal.dot(q.normal) > std::cos(0.05) && std::abs(p.distance - q.distance) < 0.05;
   }
   static int most(const std::map<int, int>& counts) {
     return std::max_element(counts.begin(), counts.end(),
@@ -124,7 +124,8 @@ Outcome judge(const Setup& setup, const std::string& folder, const Truth& truth)
     if (record.tags.owner != setup.section || record.factor->kind() != "line_on_plane") continue;
     const map::KeyFrame& frame = *frames.at(record.variables[0]);
     const auto* line = lineOf(frame, middleOf(*record.factor));
-    if (line) ++surfaces[*record.tags.landmark][truth.surfaceOf(frame.stamp, *line)];
+    const int surface = line ? truth.surfaceOf(frame.stamp, *line) : 0;
+    if (truth.isFlat(surface)) ++surfaces[*record.tags.landmark][surface];
   }
   Outcome outcome;
   outcome.key_frames = saved.map.key_frames.size();
