@@ -16,9 +16,11 @@ omnimapper::base::ExitCode importCarmen(const std::string& input, const std::str
                                         omnimapper::source::CarmenOdometry odometry);
 
 /// Leaves the ground truth, if the folder has one, beside the rawlog as <output>.truth.tum, and with `external_images`
-/// the images in <output>_Images.
+/// the images in <output>_Images. With `poses` each image has its true pose beside it in the rawlog, as
+/// CObservationRobotPose.
 omnimapper::base::ExitCode importRgbd(const std::string& folder, const std::string& output,
-                                      const omnimapper::source::RgbdFolderOptions& options, bool external_images);
+                                      const omnimapper::source::RgbdFolderOptions& options, bool external_images,
+                                      bool poses);
 
 omnimapper::base::ExitCode importPcd(const std::string& folder, const std::string& output,
                                      const omnimapper::source::PcdFolderOptions& options);

@@ -17,6 +17,7 @@ const std::map<std::string, CarmenOdometry> kOdometryNames = {
 
 struct Arguments {
   std::string input, output, odometry = "automatic", images = "embedded";
+  bool poses = false;
   source::RgbdFolderOptions rgbd;
   source::PcdFolderOptions pcd;
 };
@@ -55,6 +56,8 @@ CLI::App* addTum(CLI::App& app, Arguments& arguments) {
   tum->add_option("--images", arguments.images, "embedded in the rawlog, or external files beside it")
       ->check(CLI::IsMember({"embedded", "external"}))
       ->capture_default_str();
+  tum->add_flag("--poses", arguments.poses,
+                "the true poses go into the rawlog too, as observations that a map can use");
   return tum;
 }
 
@@ -93,7 +96,8 @@ int main(int argc, char** argv) {
     base::refuseToReplaceInput(output, {input});
     if (carmen->parsed()) return static_cast<int>(importCarmen(input, output, kOdometryNames.at(arguments.odometry)));
     if (tum->parsed())
-      return static_cast<int>(importRgbd(input, output, arguments.rgbd, arguments.images == "external"));
+      return static_cast<int>(
+          importRgbd(input, output, arguments.rgbd, arguments.images == "external", arguments.poses));
     return static_cast<int>(importPcd(input, output, arguments.pcd));
   });
 }

@@ -36,7 +36,7 @@ struct Claim {
   double room;  // in the units of the residual
 };
 
-std::vector<Eigen::Vector3d> cornersOf(const map::LandmarkShape& shape) {
+std::vector<Eigen::Vector3d> outlineOf(const map::LandmarkShape& shape) {
   std::vector<Eigen::Vector3d> corners;
   for (const auto& surface : shape.surfaces)
     corners.insert(corners.end(), surface.vertices.begin(), surface.vertices.end());
@@ -49,7 +49,7 @@ std::vector<Eigen::Vector3d> cornersOf(const map::LandmarkShape& shape) {
 
 // Stretch of a thing along a level direction [m].
 std::optional<std::pair<double, double>> stretch(const Thing& thing, const Eigen::Vector3d& along) {
-  const auto corners = cornersOf(thing.shape);
+  const auto corners = outlineOf(thing.shape);
   if (corners.empty()) return std::nullopt;
   std::pair<double, double> found{1e300, -1e300};
   for (const auto& corner : corners) {
@@ -146,7 +146,7 @@ class Finder {
     const geometry::Plane3 surface = planeFromValue(state_.graph.value(plane.variable).data());
     const Eigen::Vector3d place = state_.graph.value(point.variable);
     if (std::abs(signedDistance(surface, place)) > options_.max_distance) return;
-    const auto corners = cornersOf(plane.shape);
+    const auto corners = outlineOf(plane.shape);
     if (corners.empty()) return;
     Eigen::Vector3d low = corners.front(), high = low;
     for (const auto& corner : corners) {
@@ -188,7 +188,7 @@ class Finder {
                            of_b = planeFromValue(state_.graph.value(b.variable).data());
     const double together = of_a.normal.dot(of_b.normal), reach = std::sin(options_.max_angle);
     if (of_a.normal.cross(of_b.normal).norm() < reach) {
-      const auto corners = cornersOf(b.shape);
+      const auto corners = outlineOf(b.shape);
       if (options_.aligned && together > 0 && !corners.empty()) {
         Eigen::Vector3d near = Eigen::Vector3d::Zero();
         for (const auto& corner : corners) near += corner / static_cast<double>(corners.size());
