@@ -1,0 +1,123 @@
+// What a key frame costs in maps of 100, 200, 400 and 800 landmarks: a row of rooms, four walls each, driven along and
+// back, with odometry and the lines of a laser. Prints a Markdown table; doc/results/landmarks.md shows it.
+//
+//   bench-landmark_cost
+#include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/testing/MapperRun.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <random>
+
+namespace {
+
+using namespace omnimapper;
+using Eigen::Vector2d;
+using geometry::Segment2;
+
+const std::string kIni = R"(
+[mapper]
+pose_plugins        = odometry
+measurement_plugins = walls
+solve_every         = 10
+[odometry]
+class = OdometryPlugin
+[walls]
+class = PlaneLandmarksPlugin
+form  = wall
+)";
+
+constexpr double kRoom = 4;  // [m]
+
+/// The walls that are seen from a place in the corridor: those of its room, one side of the door ahead and behind.
+std::vector<Segment2> wallsAround(double x) {
+  const double from = kRoom * std::floor(x / kRoom), to = from + kRoom;
+  const double half = std::fmod(from / kRoom, 2) == 0 ? 2.0 : 2.4;  // no wall goes on in the next room
+  return {
+      {{to, half}, {from, half}}, {{from, -half}, {to, -half}}, {{to, 0.6}, {to, half}}, {{from, half}, {from, 0.6}}};
+}
+
+class Drive {
+ public:
+  explicit Drive(unsigned seed) : random_(seed) {}
+
+  std::vector<mrpt::obs::CObservation::Ptr> throughRooms(int rooms) {
+    const double end = kRoom * rooms - 1;
+    for (double x = 1; x < end; x += 0.5) step({x, 0, 0});
+    for (double x = end; x > 1; x -= 0.5) step({x, 0, geometry::kPi});
+    return std::move(log_);
+  }
+
+ private:
+  double normal(double sigma) { return sigma * std::normal_distribution<double>()(random_); }
+
+  void step(const geometry::Se2& truth) {
+    const auto stamp = base::stampFromUnix(1e9 + static_cast<double>(log_.size()));
+    if (!log_.empty()) {
+      const geometry::Se2 moved = inverse(truth_) * truth;
+      believed_ = plus(believed_ * moved, {normal(0.01), normal(0.01), normal(0.003)});
+    }
+    truth_ = truth;
+    auto odometry = mrpt::obs::CObservationOdometry::Create();
+    odometry->timestamp = stamp;
+    odometry->sensorLabel = "odometry";
+    odometry->odometry = mrpt::poses::CPose2D(believed_.x, believed_.y, believed_.yaw);
+    log_.push_back(odometry);
+    auto lines = std::make_shared<obs::CObservationLaserLines>();
+    lines->timestamp = stamp;
+    lines->sensorLabel = lines->source_label = "laser";
+    for (const Segment2& wall : wallsAround(truth.x)) lines->lines.push_back(seen(wall));
+    log_.push_back(lines);
+  }
+
+  obs::LaserLine seen(const Segment2& wall) {
+    const geometry::Se2 base_from_map = inverse(truth_);
+    const Vector2d shift(normal(0.005), normal(0.005));
+    const Vector2d a = base_from_map * wall.from + shift, b = base_from_map * wall.to + shift;
+    obs::LaserLine line;
+    line.segment_in_sensor = {a, b};
+    Vector2d out((b - a).normalized().y(), -(b - a).normalized().x());
+    if (out.dot(a) < 0) out = -out;
+    line.angle = std::atan2(out.y(), out.x());
+    line.distance = out.dot(a);
+    line.covariance = Vector2d(1e-5, 5e-5).asDiagonal();
+    line.inliers = 50;
+    return line;
+  }
+
+  std::mt19937 random_;
+  geometry::Se2 truth_{1, 0, 0}, believed_{};
+  std::vector<mrpt::obs::CObservation::Ptr> log_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("What a key frame costs in maps of many landmarks.");
+  unsigned seed = 1;
+  app.add_option("--seed", seed);
+  CLI11_PARSE(app, argc, argv);
+  std::printf(
+      "| rooms | landmarks | key frames | walls plugin | engine | solves | per key frame in all |\n"
+      "|---|---|---|---|---|---|---|\n");
+  for (const int rooms : {25, 50, 100, 200}) {
+    const auto log = Drive(seed).throughRooms(rooms);
+    const auto engine = testing::makeEngine(kIni, {"trigger.distance_m=0.3"});
+    const mapper::StopWatch watch;
+    testing::run(*engine, log);
+    const double seconds = watch.seconds();
+    const auto view = engine->view();
+    std::size_t landmarks = 0;
+    for (const auto& [id, landmark] : view.map.landmarks) landmarks += landmark.state == map::Landmark::State::active;
+    const auto n = static_cast<double>(view.map.key_frames.size());
+    const auto milliseconds = [&](const std::string& stage) {
+      const auto found = view.times.totals().find(stage);
+      return found == view.times.totals().end() ? 0 : 1e3 * found->second.seconds / n;
+    };
+    std::printf("| %d | %zu | %.0f | %.2f ms | %.2f ms | %.2f ms | %.2f ms |\n", rooms, landmarks, n,
+                milliseconds("plugin walls"), milliseconds("engine"), milliseconds("solve"), 1e3 * seconds / n);
+    std::fflush(stdout);
+  }
+}
