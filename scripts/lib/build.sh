@@ -3,22 +3,26 @@
 
 # What one checkout has compiled serves the next one too.
 export CCACHE_BASEDIR=$project_root CCACHE_NOHASHDIR=yes
+# What a file includes is what the compiler says it read, so that nothing is preprocessed twice.
+export CCACHE_DEPEND=yes
 
-# Compilers at once: one for each core, as far as 1.5 GiB for each goes. OMNIMAPPER_JOBS overrides.
+# Compilers at once: one for each core, as far as 2 GiB for each goes. OMNIMAPPER_JOBS overrides.
 build_jobs() {
   local cores memory
   cores=$(nproc)
-  memory=$(awk '/^MemAvailable/ { print int($2 / 1572864) }' /proc/meminfo)
+  memory=$(awk '/^MemAvailable/ { print int($2 / 2097152) }' /proc/meminfo)
   [ "$memory" -ge 1 ] || memory=1
   echo "${OMNIMAPPER_JOBS:-$((cores < memory ? cores : memory))}"
 }
 
-# configure FOLDER [CMAKE-ARGUMENT...]: build/FOLDER.
+# configure FOLDER [CMAKE-ARGUMENT...]: build/FOLDER. One that is new is set up for building all of it in the least time;
+# one that is there stays as it was, so that who changes single files can have it their way.
 configure() {
-  local folder=$1
+  local folder=$1 unity=()
   shift
+  [ -e "$project_root/build/$folder/CMakeCache.txt" ] || unity=(-DOMNIMAPPER_UNITY=ON)
   say "Configuring build/$folder"
-  cmake -S "$project_root" -B "$project_root/build/$folder" -G Ninja --log-level=NOTICE "$@"
+  cmake -S "$project_root" -B "$project_root/build/$folder" -G Ninja --log-level=NOTICE "${unity[@]}" "$@"
 }
 
 # build FOLDER [TARGET...]: all of it, or the targets named.

@@ -8,7 +8,7 @@ namespace omnimapper::perception {
 namespace {
 
 constexpr std::size_t kWorthDropping = 64;  // sorting fewer costs less than looking for the inner ones
-constexpr std::size_t kSample = 1024;       // points among which extreme ones are sought
+constexpr std::size_t kExtremeSample = 1024;       // points among which extreme ones are sought
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -40,7 +40,7 @@ std::vector<Eigen::Vector2d> extremes(const std::vector<Eigen::Vector2d>& points
     const double value[4] = {p.x(), p.y(), p.x() + p.y(), p.x() - p.y()};
     return direction < 4 ? value[direction] : -value[direction - 4];
   };
-  const std::size_t step = (points.size() - 1) / kSample + 1;
+  const std::size_t step = (points.size() - 1) / kExtremeSample + 1;
   for (std::size_t i = 0; i < points.size(); i += step) {
     const Eigen::Vector2d& point = points[i];
     for (std::size_t d = 0; d < farthest.size(); ++d) {
