@@ -7,8 +7,8 @@ namespace omnimapper::perception {
 
 namespace {
 
-constexpr std::size_t kWorthDropping = 64;  // sorting fewer costs less than looking for the inner ones
-constexpr std::size_t kExtremeSample = 1024;       // points among which extreme ones are sought
+constexpr std::size_t kWorthDropping = 64;    // sorting fewer costs less than looking for the inner ones
+constexpr std::size_t kExtremeSample = 1024;  // points among which extreme ones are sought
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
