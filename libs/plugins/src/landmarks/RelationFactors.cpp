@@ -15,7 +15,7 @@ namespace {
 
 using Kinds = std::vector<std::string_view>;
 template <int Rows, int Columns>
-using RowMajorMap = Eigen::Map<Eigen::Matrix<double, Rows, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
+using RelationJacobian = Eigen::Map<Eigen::Matrix<double, Rows, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
 
 const Kinds& twoWalls() {
   static const Kinds kinds = {"wall", "wall"};
@@ -77,8 +77,8 @@ void PointOnWallFactor::evaluate(const double* const* values, double* residual, 
   const Eigen::Vector2d from_wall = Eigen::Vector2d(values[0][0], values[0][1]) - middle(wall);
   residual[0] = normalOf(wall).dot(from_wall);
   if (!jacobians) return;
-  if (jacobians[0]) RowMajorMap<1, 2>{jacobians[0]} = normalOf(wall).transpose();
-  if (jacobians[1]) RowMajorMap<1, 2>{jacobians[1]} << -direction(wall).dot(from_wall), -1;
+  if (jacobians[0]) RelationJacobian<1, 2>{jacobians[0]} = normalOf(wall).transpose();
+  if (jacobians[1]) RelationJacobian<1, 2>{jacobians[1]} << -direction(wall).dot(from_wall), -1;
 }
 
 void PointOnWallFactor::write(std::ostream&) const {}
@@ -93,8 +93,8 @@ void PointOnPlaneFactor::evaluate(const double* const* values, double* residual,
   const Eigen::Vector3d point(values[0][0], values[0][1], values[0][2]);
   residual[0] = signedDistance(plane, point);
   if (!jacobians) return;
-  if (jacobians[0]) RowMajorMap<1, 3>{jacobians[0]} = plane.normal.transpose();
-  if (jacobians[1]) RowMajorMap<1, 3>{jacobians[1]} << point.transpose() * geometry::tangentBasis(plane.normal), 1;
+  if (jacobians[0]) RelationJacobian<1, 3>{jacobians[0]} = plane.normal.transpose();
+  if (jacobians[1]) RelationJacobian<1, 3>{jacobians[1]} << point.transpose() * geometry::tangentBasis(plane.normal), 1;
 }
 
 void PointOnPlaneFactor::write(std::ostream&) const {}
@@ -107,8 +107,8 @@ void WallTurnFactor::evaluate(const double* const* values, double* residual, dou
   residual[0] = geometry::wrapToPi(headingOf(wallFromValue(values[1])) - headingOf(wallFromValue(values[0])) -
                                    quarters_ * geometry::kPi / 2);
   if (!jacobians) return;
-  if (jacobians[0]) RowMajorMap<1, 2>{jacobians[0]} << -1, 0;
-  if (jacobians[1]) RowMajorMap<1, 2>{jacobians[1]} << 1, 0;
+  if (jacobians[0]) RelationJacobian<1, 2>{jacobians[0]} << -1, 0;
+  if (jacobians[1]) RelationJacobian<1, 2>{jacobians[1]} << 1, 0;
 }
 
 void WallTurnFactor::write(std::ostream& out) const {
@@ -125,8 +125,8 @@ void WallsAlignedFactor::evaluate(const double* const* values, double* residual,
   residual[0] = geometry::wrapToPi(headingOf(b) - headingOf(a));
   residual[1] = normalOf(a).dot(between);
   if (!jacobians) return;
-  if (jacobians[0]) RowMajorMap<2, 2>{jacobians[0]} << -1, 0, -direction(a).dot(between), -1;
-  if (jacobians[1]) RowMajorMap<2, 2>{jacobians[1]} << 1, 0, 0, normalOf(a).dot(normalOf(b));
+  if (jacobians[0]) RelationJacobian<2, 2>{jacobians[0]} << -1, 0, -direction(a).dot(between), -1;
+  if (jacobians[1]) RelationJacobian<2, 2>{jacobians[1]} << 1, 0, 0, normalOf(a).dot(normalOf(b));
 }
 
 void WallsAlignedFactor::write(std::ostream&) const {}
@@ -139,8 +139,8 @@ void PlanesParallelFactor::evaluate(const double* const* values, double* residua
   const Across across(planeFromValue(values[0]), planeFromValue(values[1]));
   Eigen::Map<Eigen::Vector2d>{residual} = across.value;
   if (!jacobians) return;
-  if (jacobians[0]) RowMajorMap<2, 3>{jacobians[0]} = across.by_a;
-  if (jacobians[1]) RowMajorMap<2, 3>{jacobians[1]} = across.by_b;
+  if (jacobians[0]) RelationJacobian<2, 3>{jacobians[0]} = across.by_a;
+  if (jacobians[1]) RelationJacobian<2, 3>{jacobians[1]} = across.by_b;
 }
 
 void PlanesParallelFactor::write(std::ostream&) const {}
@@ -153,8 +153,8 @@ void PlanesSquareFactor::evaluate(const double* const* values, double* residual,
   const geometry::Plane3 a = planeFromValue(values[0]), b = planeFromValue(values[1]);
   residual[0] = a.normal.dot(b.normal);
   if (!jacobians) return;
-  if (jacobians[0]) RowMajorMap<1, 3>{jacobians[0]} = b.normal.transpose() * normalByPlane(a);
-  if (jacobians[1]) RowMajorMap<1, 3>{jacobians[1]} = a.normal.transpose() * normalByPlane(b);
+  if (jacobians[0]) RelationJacobian<1, 3>{jacobians[0]} = b.normal.transpose() * normalByPlane(a);
+  if (jacobians[1]) RelationJacobian<1, 3>{jacobians[1]} = a.normal.transpose() * normalByPlane(b);
 }
 
 void PlanesSquareFactor::write(std::ostream&) const {}
@@ -171,7 +171,7 @@ void PlanesAlignedFactor::evaluate(const double* const* values, double* residual
   if (!jacobians) return;
   const auto fill = [&](double* into, const Eigen::Matrix<double, 2, 3>& turn, const geometry::Plane3& plane,
                         double sign) {
-    RowMajorMap<3, 3> by_plane(into);
+    RelationJacobian<3, 3> by_plane(into);
     by_plane.topRows<2>() = turn;
     by_plane.row(2) = sign * near_.transpose() * normalByPlane(plane);
     by_plane(2, 2) += sign;
