@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-namespace omnimapper::geometry {
+namespace omnimapper::geometry::convex_polygon2_test {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -61,4 +61,4 @@ TEST(ConvexPolygon2, NoPairOfRandomPointsIsNearerThanTheHulls) {
 }
 
 }  // namespace
-}  // namespace omnimapper::geometry
+}  // namespace omnimapper::geometry::convex_polygon2_test

@@ -8,7 +8,7 @@
 
 #include "omnimapper/graph/GrownMarginals.h"
 
-namespace omnimapper::graph {
+namespace omnimapper::graph::grown_marginals_test {
 namespace {
 
 using base::VariableId;
@@ -95,4 +95,4 @@ TEST(GrownMarginals, WhatNothingDeterminesHasNone) {
 }
 
 }  // namespace
-}  // namespace omnimapper::graph
+}  // namespace omnimapper::graph::grown_marginals_test

@@ -4,7 +4,7 @@
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/Association.h>
 
-namespace omnimapper::mapper {
+namespace omnimapper::mapper::association_test {
 namespace {
 
 using geometry::Se2;
@@ -142,4 +142,4 @@ TEST_F(AssociationOfPoints, NothingToChooseFromIsAllNew) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::mapper::association_test

@@ -11,7 +11,7 @@
 #include "landmarks/PlaneFactors.h"
 #include "landmarks/PlaneVariable.h"
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::plane_factors_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -192,4 +192,4 @@ TEST(PlaneFactors, ComeBackFromAFile) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::plane_factors_test

@@ -16,7 +16,7 @@
 #include "landmarks/PlanePayload.h"
 #include "landmarks/SurfaceForm.h"
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::plane_landmarks_plugin_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -376,4 +376,4 @@ form  = wall
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::plane_landmarks_plugin_test

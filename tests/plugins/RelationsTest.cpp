@@ -9,7 +9,7 @@
 #include "landmarks/PlaneVariable.h"
 #include "landmarks/Relations.h"
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::relations_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -186,4 +186,4 @@ TEST(Relations, OfWallsAreATree) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::relations_test

@@ -11,7 +11,7 @@
 #include "landmarks/WallFactor.h"
 #include "landmarks/WallVariable.h"
 
-namespace omnimapper::plugins {
+namespace omnimapper::plugins::wall_factor_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -152,4 +152,4 @@ TEST_P(SurfaceFormTest, AValueGivesItsPlaneBack) {
 INSTANTIATE_TEST_SUITE_P(Both, SurfaceFormTest, ::testing::Values(SurfaceForm::Kind::plane, SurfaceForm::Kind::wall));
 
 }  // namespace
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::plugins::wall_factor_test

@@ -15,7 +15,8 @@ namespace {
 
 using Kinds = std::vector<std::string_view>;
 template <int Rows, int Columns>
-using RelationJacobian = Eigen::Map<Eigen::Matrix<double, Rows, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
+using RelationJacobian =
+    Eigen::Map<Eigen::Matrix<double, Rows, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
 
 const Kinds& twoWalls() {
   static const Kinds kinds = {"wall", "wall"};
