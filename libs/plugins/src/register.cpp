@@ -13,6 +13,7 @@
 #include <omnimapper/plugins/LocalizationOutput.h>
 #include <omnimapper/plugins/LoopClosurePlugin.h>
 #include <omnimapper/plugins/MapOutput.h>
+#include <omnimapper/plugins/MoveableThingsPlugin.h>
 #include <omnimapper/plugins/NoMotionPlugin.h>
 #include <omnimapper/plugins/ObjectsPlugin.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
@@ -53,6 +54,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(RelationsPluginFactory));
   registerClass(CLASS_ID(PointLandmarksPluginFactory));
   registerClass(CLASS_ID(GeoJsonOutputFactory));
+  registerClass(CLASS_ID(MoveableThingsPluginFactory));
   registerClass(CLASS_ID(GraphOutputFactory));
   registerClass(CLASS_ID(GridOutputFactory));
   registerClass(CLASS_ID(LiveWindowFactory));

@@ -19,8 +19,9 @@ using geometry::Se3;
 using mrpt::obs::CObservationBearingRange;
 
 // Of range, yaw and pitch.
-Matrix3d covarianceOf(const CObservationBearingRange& observation,
-                      const CObservationBearingRange::TMeasurement& measured, const PointLandmarksOptions& options) {
+Matrix3d covarianceOfMeasurement(const CObservationBearingRange& observation,
+                                 const CObservationBearingRange::TMeasurement& measured,
+                                 const PointLandmarksOptions& options) {
   Matrix3d covariance = Matrix3d::Zero();
   if (observation.validCovariances) {
     for (int row = 0; row < 3; ++row)
@@ -63,7 +64,8 @@ struct PointRay {
 };
 
 // doc/derivations/range_bearing.md, "In a planar map".
-std::optional<PointSighting> overFloor(const PointRay& ray, const Matrix3d& covariance, const Se3& base_from_sensor) {
+std::optional<PointSighting> sightingOverFloor(const PointRay& ray, const Matrix3d& covariance,
+                                               const Se3& base_from_sensor) {
   const Vector3d from_sensor = base_from_sensor.rotation * ray.point;
   const Eigen::Matrix<double, 2, 3> by_measured =
       (base_from_sensor.rotation.toRotationMatrix() * ray.by_measured).topRows<2>();
@@ -80,7 +82,8 @@ std::optional<PointSighting> overFloor(const PointRay& ray, const Matrix3d& cova
       graph::SquareRootInformation::fromCovariance(of_polar)};
 }
 
-std::optional<PointSighting> inSpace(const PointRay& ray, const Matrix3d& covariance, const Se3& base_from_sensor) {
+std::optional<PointSighting> sightingInSpace(const PointRay& ray, const Matrix3d& covariance,
+                                             const Se3& base_from_sensor) {
   const double range = ray.point.norm(), rho = ray.point.head<2>().norm();
   if (rho < 1e-3 * range || !isUsableCovariance(covariance)) return std::nullopt;
   // An angle of pitch beyond the zenith is another yaw and pitch of the same ray.
@@ -109,9 +112,9 @@ std::vector<PointMeasurement> pointMeasurements(const CObservationBearingRange& 
       continue;
     }
     const PointRay ray(range_yaw_pitch);
-    const Matrix3d covariance = covarianceOf(observation, measured, options);
-    auto sighting = motion == mapper::Motion::planar ? overFloor(ray, covariance, base_from_sensor)
-                                                     : inSpace(ray, covariance, base_from_sensor);
+    const Matrix3d covariance = covarianceOfMeasurement(observation, measured, options);
+    auto sighting = motion == mapper::Motion::planar ? sightingOverFloor(ray, covariance, base_from_sensor)
+                                                     : sightingInSpace(ray, covariance, base_from_sensor);
     const bool taken = sighting.has_value();
     all.push_back({std::max(measured.landmarkID, -1), measured.range, std::move(sighting),
                    taken ? "" : "straight above or below the sensor, or without standard deviations"});

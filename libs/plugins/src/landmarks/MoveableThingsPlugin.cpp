@@ -1,0 +1,175 @@
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/graph/ChiSquare.h>
+#include <omnimapper/graph/Solver.h>
+#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugins/MoveableThingsPlugin.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "MovedThingPayload.h"
+#include "ObservedPlaces.h"
+
+IMPLEMENTS_MRPT_OBJECT(MoveableThingsPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<MoveableThingsOptions>& MoveableThingsOptions::table() {
+  using Options = MoveableThingsOptions;
+  using base::Range;
+  static const auto table =
+      base::OptionTable<Options>()
+          .list("landmarks", &Options::landmarks, "Sections whose landmarks may have been moved; empty for all.")
+          .integer("every_solves", &Options::every_solves, Range::notNegative(),
+                   "Looks for them after so many solves, too; 0: at the end of the log alone.")
+          .number("max_weight", &Options::max_weight, Range{0, 1},
+                  "A landmark of less weight is looked at; one that stands keeps 0.9 or more, 99 times of 100.")
+          .integer("min_sightings", &Options::min_sightings, Range{1, 1e6},
+                   "A place is one where it was seen so often; what was seen elsewhere less often was an error.")
+          .number("min_move_m", &Options::min_move, Range::notNegative(), "What moved by less has not moved.")
+          .number("visit_gap_s", &Options::visit_gap, Range::positive(),
+                  "What was out of sight for longer may have been moved in between.")
+          .number("confidence", &Options::confidence, Range{0.5, 0.999999999},
+                  "Sightings of one place are taken for that with this probability.");
+  return table;
+}
+
+namespace {
+
+// The work of one look.
+class Look {
+ public:
+  Look(const MoveableThingsOptions& options, const std::string& section, const mapper::View& view)
+      : options_(options), section_(section), view_(view) {}
+
+  mapper::Batch run() {
+    const auto landmarks = landmarksToWeigh(view_, options_.landmarks);
+    if (landmarks.empty()) return {};
+    Weighing weighing = weighLandmarks(view_.graph, landmarks);
+    std::vector<WeighedLandmark> suspects;
+    for (const auto& landmark : weighing.landmarks) {
+      keepAsTheyWere(landmark.sightings, weighing.graph);
+      const bool has_place =
+          middleOf(view_.map.landmark(landmark.id), valuesOf(landmark), view_.map.key_frames).has_value();
+      if (landmark.weight < options_.max_weight && has_place) suspects.push_back(landmark);
+    }
+    if (!suspects.empty()) {
+      for (const auto& landmark : suspects) setWeights(landmark.sightings, 0, weighing.graph);
+      auto places = tellPlaces(view_.map, weighing.graph, suspects, options_);
+      for (std::size_t i = 0; i < suspects.size(); ++i) judge(suspects[i], std::move(places[i]), weighing.graph);
+      graph::solve(weighing.graph, {graph::SolveOptions::Method::levenberg_marquardt, 50, 1e-7, {}});
+      const SightingFrames frames(view_.map.key_frames);
+      for (const auto& [landmark, seen] : moved_) addRecord(landmark, seen, frames, weighing.graph);
+    }
+    for (const auto& landmark : landmarks) {
+      for (const auto id : landmark.sightings) {
+        const double weight = weighing.graph.factor(id).weight;
+        if (weight != view_.graph.factor(id).weight) batch_.setWeight(id, weight);
+      }
+    }
+    return std::move(batch_);
+  }
+
+ private:
+  std::vector<Eigen::VectorXd> valuesOf(const WeighedLandmark& landmark) const {
+    std::vector<Eigen::VectorXd> values;
+    for (const auto id : landmark.variables) values.push_back(view_.graph.value(id));
+    return values;
+  }
+
+  static void setWeights(const std::vector<base::FactorId>& factors, double weight, graph::Graph& graph) {
+    for (const auto id : factors) graph.setWeight(id, weight);
+  }
+
+  // A sighting that was left without weight while the map grew may fit the map as it is now.
+  void keepAsTheyWere(const std::vector<base::FactorId>& sightings, graph::Graph& graph) const {
+    for (const auto id : sightings) {
+      const double before = view_.graph.factor(id).weight;
+      const Eigen::VectorXd residual = graph.whitenedResidual(id);
+      const double limit = graph::chiSquareQuantile(options_.confidence, static_cast<int>(residual.size()));
+      graph.setWeight(id, before > 0 ? before : residual.squaredNorm() <= limit ? 1 : 0);
+    }
+  }
+
+  void judge(const WeighedLandmark& landmark, std::vector<SeenPlace> places, graph::Graph& graph) {
+    const auto enough = [&](const SeenPlace& place) {
+      return place.sightings.size() >= static_cast<std::size_t>(options_.min_sightings);
+    };
+    places.erase(std::remove_if(places.begin(), places.end(), [&](const auto& place) { return !enough(place); }),
+                 places.end());
+    mapper::Decision decision;
+    decision.stamp = view_.map.key_frames.back().stamp;
+    decision.plugin = section_;
+    decision.kind = "moved thing";
+    decision.from = view_.map.key_frames.back().id;
+    decision.numbers = {{"landmark", landmark.id.index},
+                        {"weight", landmark.weight},
+                        {"chi-square", landmark.chi2},
+                        {"degrees of freedom", landmark.degrees_of_freedom},
+                        {"sightings", static_cast<double>(landmark.sightings.size())},
+                        {"places", static_cast<double>(places.size())}};
+    decision.accepted = places.size() > 1;
+    decision.reason = decision.accepted ? "moved: it was seen in more than one place"
+                      : places.empty()  ? "seen too seldom to tell"
+                                        : "stands where it stood; what does not fit is left out";
+    batch_.log(std::move(decision));
+    if (places.size() > 1) {
+      moved_.emplace_back(landmark, std::move(places));
+    } else if (places.size() == 1) {
+      setWeights(places.front().sightings, 1, graph);
+    }
+  }
+
+  void addRecord(const WeighedLandmark& landmark, const std::vector<SeenPlace>& places, const SightingFrames& frames,
+                 const graph::Graph& graph) {
+    const map::Landmark& gone = view_.map.landmark(landmark.id);
+    auto payload = std::make_shared<MovedThingPayload>();
+    payload->landmark = landmark.id;
+    payload->label = gone.payload->shape(valuesOf(landmark), view_.map.key_frames).label;
+    for (const SeenPlace& place : places) {
+      const auto* first = frames.of(graph.factor(place.sightings.front()));
+      const auto* last = frames.of(graph.factor(place.sightings.back()));
+      const auto middle = middleOf(gone, valuesSeenBy(place.sightings, landmark, graph), view_.map.key_frames);
+      const auto map_from_base = geometry::fromMrpt(mapper::poseOf(graph, last->pose));
+      payload->places.push_back({last->id, inverse(map_from_base) * *middle, first->stamp, last->stamp,
+                                 static_cast<std::uint32_t>(place.sightings.size())});
+    }
+    batch_.addLandmark("moved thing", {}, std::move(payload));
+    batch_.retireLandmark(landmark.id);
+  }
+
+  const MoveableThingsOptions& options_;
+  const std::string& section_;
+  const mapper::View& view_;
+  std::vector<std::pair<WeighedLandmark, std::vector<SeenPlace>>> moved_;
+  mapper::Batch batch_;
+};
+
+}  // namespace
+
+MoveableThingsPlugin::MoveableThingsPlugin(const MoveableThingsOptions& options, const mapper::PluginContext& context)
+    : options_(options), section_(context.section) {}
+
+mapper::FollowUp MoveableThingsPlugin::afterCommit(const map::KeyFrame&, const mapper::View& view) {
+  const auto every = static_cast<std::size_t>(options_.every_solves);
+  if (every == 0 || view.map_is_held || view.solves.size() < looked_at_solve_ + every) return {};
+  looked_at_solve_ = view.solves.size();
+  return {Look(options_, section_, view).run(), {}};
+}
+
+mapper::Batch MoveableThingsPlugin::atEnd(const mapper::View& view) {
+  return view.map_is_held ? mapper::Batch() : Look(options_, section_, view).run();
+}
+
+void MoveableThingsPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+  MovedThingPayload::addTo(kinds.payloads);
+}
+
+std::unique_ptr<mapper::MeasurementPlugin> MoveableThingsPluginFactory::make(
+    const base::ConfigSection& section, const mapper::PluginContext& context) const {
+  return std::make_unique<MoveableThingsPlugin>(section.read<MoveableThingsOptions>(mapper::sectionKeysOfEngine()),
+                                                context);
+}
+
+}  // namespace omnimapper::plugins

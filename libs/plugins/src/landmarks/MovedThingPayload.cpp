@@ -1,0 +1,90 @@
+#include "MovedThingPayload.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/graph/ByteIo.h>
+
+namespace omnimapper::plugins {
+
+namespace {
+
+constexpr std::uint64_t kMovedThingVersion = 1;
+
+template <class Id>
+void writeAnyId(std::ostream& out, Id id) {
+  graph::writeUint(out, id.session, 2);
+  graph::writeUint(out, id.index, 4);
+}
+
+template <class Id>
+Id readAnyId(std::istream& in) {
+  const auto session = static_cast<std::uint16_t>(graph::readUint(in, 2));
+  return {session, static_cast<std::uint32_t>(graph::readUint(in, 4))};
+}
+
+void writeStamp(std::ostream& out, base::Stamp stamp) {
+  graph::writeUint(out, static_cast<std::uint64_t>(stamp.time_since_epoch().count()), 8);
+}
+
+base::Stamp readStamp(std::istream& in) {
+  return base::Stamp(base::Duration(static_cast<std::int64_t>(graph::readUint(in, 8))));
+}
+
+}  // namespace
+
+map::LandmarkShape MovedThingPayload::shape(const std::vector<Eigen::VectorXd>&,
+                                            const map::KeyFrames& key_frames) const {
+  map::LandmarkShape shape;
+  shape.label = "moved " + label;
+  for (const ObservedPlace& place : places) {
+    const Eigen::Vector3d point =
+        geometry::fromMrpt(key_frames.at(place.seen_from).map_from_base) * place.point_in_base;
+    if (!shape.points.empty()) shape.lines.emplace_back(shape.points.back(), point);
+    shape.points.push_back(point);
+    shape.point_stamps.push_back(place.last_seen);
+    const std::string number = "place_" + std::to_string(shape.points.size());
+    shape.properties.emplace_back(number + "_first_seen", base::formatUnix(place.first_seen));
+    shape.properties.emplace_back(number + "_last_seen", base::formatUnix(place.last_seen));
+    shape.properties.emplace_back(number + "_sightings", std::to_string(place.sightings));
+  }
+  return shape;
+}
+
+void MovedThingPayload::write(std::ostream& out) const {
+  graph::writeUint(out, kMovedThingVersion, 1);
+  writeAnyId(out, landmark);
+  graph::writeText(out, label);
+  graph::writeUint(out, places.size(), 4);
+  for (const ObservedPlace& place : places) {
+    writeAnyId(out, place.seen_from);
+    for (const double coordinate : place.point_in_base) graph::writeDouble(out, coordinate);
+    writeStamp(out, place.first_seen);
+    writeStamp(out, place.last_seen);
+    graph::writeUint(out, place.sightings, 4);
+  }
+}
+
+void MovedThingPayload::addTo(map::PayloadRegistry& registry) {
+  registry.add("moved thing", [](std::istream& in) {
+    if (const auto version = graph::readUint(in, 1); version > kMovedThingVersion) {
+      throw base::Error(base::ExitCode::unreadable_input,
+                        "a moved thing of version " + std::to_string(version) + ": this program reads versions up to " +
+                            std::to_string(kMovedThingVersion) + "; take the OmniMapper that wrote the map");
+    }
+    auto payload = std::make_shared<MovedThingPayload>();
+    payload->landmark = readAnyId<base::LandmarkId>(in);
+    payload->label = graph::readText(in);
+    for (auto left = graph::readUint(in, 4); left > 0; --left) {
+      ObservedPlace place;
+      place.seen_from = readAnyId<base::KeyFrameId>(in);
+      for (double& coordinate : place.point_in_base) coordinate = graph::readDouble(in);
+      place.first_seen = readStamp(in);
+      place.last_seen = readStamp(in);
+      place.sightings = static_cast<std::uint32_t>(graph::readUint(in, 4));
+      payload->places.push_back(place);
+    }
+    return payload;
+  });
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,146 @@
+#include "StaticWeights.h"
+
+#include <omnimapper/graph/ChiSquare.h>
+#include <omnimapper/graph/SolveOne.h>
+#include <omnimapper/graph/Solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace omnimapper::plugins {
+
+namespace {
+
+constexpr double kSettled = 0.01;  // change of weights that is none
+constexpr double kRelaxation = 2;  // lambda of one round over the next
+constexpr int kMostRounds = 20;
+
+// Twice lambda: at a tenth of it, where 99 of 100 static landmarks lie below, the weight is 0.9.
+double twiceLambda(const WeighedLandmark& landmark) {
+  return 10 * graph::chiSquareQuantile(0.99, landmark.degrees_of_freedom);
+}
+
+class WeightEm {
+ public:
+  WeightEm(const graph::Graph& graph, const std::vector<WeighedLandmark>& landmarks)
+      : result_{graph, landmarks, 0, 0} {}
+
+  Weighing fromTheMapAsItStands() {
+    reweigh(1);
+    settle();
+    return conclude();
+  }
+
+  Weighing fromAllThatCount() {
+    for (auto& landmark : result_.landmarks) setWeight(landmark, 1);
+    solve();
+    double largest = 1;
+    measure();
+    for (const auto& landmark : result_.landmarks) largest = std::max(largest, landmark.chi2 / twiceLambda(landmark));
+    for (double scale = 2 * largest; scale > 1; scale /= kRelaxation) {
+      reweigh(scale);
+      solve();
+    }
+    reweigh(1);
+    settle();
+    return conclude();
+  }
+
+ private:
+  void settle() {
+    for (int round = 0; round < kMostRounds; ++round) {
+      solve();
+      if (reweigh(1) < kSettled) return;
+    }
+  }
+
+  void solve() {
+    ++result_.rounds;
+    graph::solve(result_.graph, {graph::SolveOptions::Method::levenberg_marquardt, 20, 1e-4, {}});
+  }
+
+  // The M step; gives the largest change.
+  double reweigh(double scale) {
+    measure();
+    double change = 0;
+    for (auto& landmark : result_.landmarks) {
+      const double weight = std::max(0.0, 1 - landmark.chi2 / (scale * twiceLambda(landmark)));
+      change = std::max(change, std::abs(weight - landmark.weight));
+      setWeight(landmark, weight);
+    }
+    return change;
+  }
+
+  void setWeight(WeighedLandmark& landmark, double weight) {
+    landmark.weight = weight;
+    for (const auto id : landmark.sightings) result_.graph.setWeight(id, weight);
+  }
+
+  // What the sightings of each would cost if they counted, the landmark where they want it. One without weight has been
+  // left where it was.
+  void measure() {
+    for (auto& landmark : result_.landmarks) {
+      for (const auto id : landmark.sightings) result_.graph.setWeight(id, 1);
+      for (const auto id : landmark.variables) graph::solveOne(result_.graph, id);
+      landmark.chi2 = 0;
+      for (const auto id : landmark.sightings) {
+        const double s = result_.graph.whitenedResidual(id).squaredNorm();
+        landmark.chi2 += result_.graph.factor(id).loss.evaluate(s).rho;
+      }
+      for (const auto id : landmark.sightings) result_.graph.setWeight(id, landmark.weight);
+    }
+  }
+
+  // To compare maps, a landmark without weight costs what it would if it were two, one for each of two places: lambda
+  // is so large that a map may bend to keep a few.
+  Weighing conclude() {
+    result_.cost = 2 * result_.graph.cost();
+    for (const auto& landmark : result_.landmarks) {
+      int rows = 0;
+      for (const auto id : landmark.variables) rows += result_.graph.variable(id).kind->tangentSize();
+      const double as_two = landmark.degrees_of_freedom + graph::chiSquareQuantile(0.999, rows);
+      result_.cost += (1 - landmark.weight) * as_two;
+    }
+    return std::move(result_);
+  }
+
+  Weighing result_;
+};
+
+}  // namespace
+
+std::vector<WeighedLandmark> landmarksToWeigh(const mapper::State& state, const std::vector<std::string>& sections) {
+  std::vector<WeighedLandmark> all;
+  const std::set<std::string> named(sections.begin(), sections.end());
+  for (const auto& [id, landmark] : state.map.landmarks) {
+    if (landmark.state != map::Landmark::State::active || landmark.variables.empty()) continue;
+    if (!named.empty() && named.count(landmark.owner) == 0) continue;
+    WeighedLandmark weighed;
+    weighed.id = id;
+    weighed.variables = landmark.variables;
+    for (const auto variable : landmark.variables)
+      weighed.degrees_of_freedom -= state.graph.variable(variable).kind->tangentSize();
+    for (const auto factor : state.factorsOf(id)) {
+      const graph::FactorRecord& record = state.graph.factor(factor);
+      if (record.tags.hypothesis || record.variables.size() <= landmark.variables.size()) continue;
+      weighed.sightings.push_back(factor);
+      weighed.degrees_of_freedom += record.noise.size();
+    }
+    if (weighed.degrees_of_freedom > 0) all.push_back(std::move(weighed));
+  }
+  return all;
+}
+
+Weighing weighLandmarks(const graph::Graph& graph, const std::vector<WeighedLandmark>& landmarks) {
+  Weighing as_it_stands = WeightEm(graph, landmarks).fromTheMapAsItStands();
+  const bool all_fit = std::all_of(as_it_stands.landmarks.begin(), as_it_stands.landmarks.end(),
+                                   [](const auto& landmark) { return landmark.weight > 0.5; });
+  if (all_fit) return as_it_stands;
+  Weighing all_count = WeightEm(graph, landmarks).fromAllThatCount();
+  all_count.rounds += as_it_stands.rounds;
+  as_it_stands.rounds = all_count.rounds;
+  return all_count.cost < as_it_stands.cost ? std::move(all_count) : std::move(as_it_stands);
+}
+
+}  // namespace omnimapper::plugins
