@@ -74,12 +74,6 @@ CLI::App* addPcd(CLI::App& app, Arguments& arguments) {
 
 }  // namespace
 
-void refuseNothing(const std::string& input, const source::SourceReport& report) {
-  if (report.observations() > 0) return;
-  throw base::Error(base::ExitCode::unreadable_input,
-                    input + ": nothing of it can be imported; nothing was written.\nWhat was read:\n" + report.text());
-}
-
 int main(int argc, char** argv) {
   CLI::App app(
       "Makes MRPT rawlogs of other programs' logs.\n"

@@ -22,6 +22,7 @@ const std::string kIni = R"(
 pose_plugins        = odometry
 measurement_plugins = walls
 solve_every         = 10
+solve_growth        = 0.02
 [odometry]
 class = OdometryPlugin
 [walls]

@@ -1,0 +1,9 @@
+#include "Imports.h"
+
+using namespace omnimapper;
+
+void refuseNothing(const std::string& input, const source::SourceReport& report) {
+  if (report.observations() > 0) return;
+  throw base::Error(base::ExitCode::unreadable_input,
+                    input + ": nothing of it can be imported; nothing was written.\nWhat was read:\n" + report.text());
+}
