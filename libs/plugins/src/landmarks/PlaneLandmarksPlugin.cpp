@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "KnownPlanes.h"
 #include "PlaneFactors.h"
@@ -101,13 +102,29 @@ class PlaneLandmarksPlugin::Moment {
     std::vector<Eigen::Vector2d> hull;
   };
 
-  std::vector<mapper::Pairing> pairingsOf(const std::vector<PlaneSighting>& sightings) const {
+  std::vector<mapper::Pairing> pairingsOf(const std::vector<PlaneSighting>& sightings) {
     std::vector<mapper::Pairing> pairings;
     for (std::size_t i = 0; i < sightings.size(); ++i) {
       const Plane3 plane = map_from_base_ * sightings[i].plane_in_base;
       const auto points = inMap(sightings[i].outline_in_base);
+      const auto add = [&](const KnownPlanes::Surface& surface) {
+        pairings.push_back({i, surface.id, record(sightings[i], surface.variable, surface.id)});
+      };
+      std::vector<std::pair<double, const KnownPlanes::Surface*>> apart;
       for (const auto& [id, surface] : known_.all()) {
-        if (mayBe(surface, plane, points)) pairings.push_back({i, id, record(sightings[i], surface.variable, id)});
+        const auto gap = gapIfAlike(surface, plane, points);
+        if (!gap) continue;
+        if (*gap <= options_.max_gap) {
+          add(surface);
+        } else {
+          apart.emplace_back(*gap, &surface);
+        }
+      }
+      // Farther ones where the base may have slid along the wall since it saw them; beyond one that is too far, none.
+      std::stable_sort(apart.begin(), apart.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      for (const auto& [gap, surface] : apart) {
+        if (gap > options_.max_gap + 3 * sigmaSince(surface->last_seen_from)) break;
+        add(*surface);
       }
     }
     return pairings;
@@ -120,21 +137,29 @@ class PlaneLandmarksPlugin::Moment {
     return onOnePlane(all.at(pairings[*match.pairing].landmark), all.at(*match.rival));
   }
 
-  // Wide open: what is near enough is for the covariance to say.
-  bool mayBe(const KnownPlanes::Surface& surface, const Plane3& plane,
-             const std::vector<Eigen::Vector3d>& points) const {
+  // How far apart they are on their plane, if they may be one. Wide open: what is near enough is for the covariance to
+  // say.
+  std::optional<double> gapIfAlike(const KnownPlanes::Surface& surface, const Plane3& plane,
+                                   const std::vector<Eigen::Vector3d>& points) const {
     constexpr double kAlong = 0.8, kFarthest = 0.5;  // cosine of the turn, [m]
-    if (surface.plane.normal.dot(plane.normal) < kAlong) return false;
+    if (surface.plane.normal.dot(plane.normal) < kAlong) return std::nullopt;
     const double reach = kFarthest + 4 * pose_sigma_;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const auto& point : points) middle += point / static_cast<double>(points.size());
-    if (std::abs(signedDistance(surface.plane, middle)) > reach) return false;
+    if (std::abs(signedDistance(surface.plane, middle)) > reach) return std::nullopt;
     const double gap = gapBetween(surface, points);
-    if (gap <= options_.max_gap) return true;
-    if (gap > options_.max_gap + 3 * pose_sigma_) return false;
-    // How far the base may have slid along the wall since it saw it.
-    const auto motion = view_.covarianceBetween(surface.last_seen_from, frame_.id);
-    return motion && gap <= options_.max_gap + 3 * std::sqrt(motion->topLeftCorner<3, 3>().trace());
+    if (gap > options_.max_gap + 3 * pose_sigma_) return std::nullopt;
+    return gap;
+  }
+
+  // [m] of the way since then.
+  double sigmaSince(base::KeyFrameId frame) {
+    const auto [found, is_new] = sigma_since_.try_emplace(frame, 0);
+    if (is_new) {
+      const auto motion = view_.covarianceBetween(frame, frame_.id);
+      if (motion) found->second = std::sqrt(motion->topLeftCorner<3, 3>().trace());
+    }
+    return found->second;
   }
 
   std::vector<Eigen::Vector3d> inMap(const std::vector<Eigen::Vector3d>& in_base) const {
@@ -255,7 +280,8 @@ class PlaneLandmarksPlugin::Moment {
   const map::KeyFrame& frame_;
   const mapper::View& view_;
   Se3 map_from_base_;
-  double pose_sigma_ = 0;  // [m] of the base in the map
+  double pose_sigma_ = 0;                           // [m] of the base in the map
+  std::map<base::KeyFrameId, double> sigma_since_;  // [m]
   std::vector<Fresh> fresh_;
   std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>> payloads_;  // of those that were met
   mapper::Batch batch_;
