@@ -21,10 +21,7 @@ class WallVariable : public graph::Variable {
     Eigen::Map<Eigen::Vector4d>{y} = toValue(geometry::Segment2{shifted - half, shifted + half});
   }
   void minus(const double* y, const double* x, double* delta) const override {
-    const geometry::Segment2 to = wallFromValue(y), from = wallFromValue(x);
-    const Eigen::Vector2d a = direction(from), b = direction(to);
-    delta[0] = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-    delta[1] = normalOf(from).dot(middle(to) - middle(from));
+    Eigen::Map<Eigen::Vector2d>{delta} = wallChange(wallFromValue(x), wallFromValue(y));
   }
 };
 
@@ -33,6 +30,11 @@ class WallVariable : public graph::Variable {
 const std::shared_ptr<const graph::Variable>& wallVariable() {
   static const std::shared_ptr<const graph::Variable> kind = std::make_shared<WallVariable>();
   return kind;
+}
+
+Eigen::Vector2d wallChange(const geometry::Segment2& from, const geometry::Segment2& to) {
+  const Eigen::Vector2d a = direction(from), b = direction(to);
+  return {std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)), normalOf(from).dot(middle(to) - middle(from))};
 }
 
 Eigen::Vector4d toValue(const geometry::Segment2& wall) {

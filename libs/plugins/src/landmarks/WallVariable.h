@@ -20,6 +20,9 @@ inline geometry::Segment2 wallFromValue(const double* value) {
   return {{value[0], value[1]}, {value[2], value[3]}};
 }
 
+/// The change that takes one wall to the other: turn [rad], shift [m].
+Eigen::Vector2d wallChange(const geometry::Segment2& from, const geometry::Segment2& to);
+
 /// Unit, to the free side.
 inline Eigen::Vector2d normalOf(const geometry::Segment2& wall) {
   const Eigen::Vector2d along = direction(wall);
