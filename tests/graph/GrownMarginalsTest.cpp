@@ -5,6 +5,7 @@
 #include <omnimapper/graph/VariableKinds.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "omnimapper/graph/GrownMarginals.h"
 
@@ -74,6 +75,32 @@ TEST(GrownMarginals, WhereOldThingsAreSeenAgainAreNotSmallerThanThoseOfTheWholeG
   const Eigen::MatrixXd more = *joint - Marginals(before.graph).jointCovariance(ids);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(more).eigenvalues().minCoeff(), -1e-12);
   EXPECT_LT((*joint)(0, 0), jointCovariance(marginals, before.graph, {before.poses.back()})->trace());
+}
+
+// Farther than what is looked at first: without landmarks the whole way counts, with them the last of it does.
+TEST(GrownMarginals, AfterALongWayAreThoseOfTheWholeGraphOrALittleMore) {
+  for (const bool sees_landmarks : {false, true}) {
+    Drive before;
+    std::vector<VariableId> points;
+    for (int i = 0; i < 40; ++i) {
+      const Eigen::Vector2d place(10 * std::cos(i), 10 * std::sin(i));
+      points.push_back(before.graph.addVariable(point2(), place, true));
+    }
+    const Marginals marginals(before.graph);
+    VariableId last = before.poses.back();
+    for (int i = 0; i < 200; ++i) {
+      last = drive(before.graph, last);
+      if (!sees_landmarks) continue;
+      see(before.graph, last, points[i % 40]);
+      see(before.graph, last, points[(i + 7) % 40]);
+    }
+    const auto joint = jointCovariance(marginals, before.graph, {last});
+    ASSERT_TRUE(joint);
+    const Eigen::MatrixXd whole = Marginals(before.graph).jointCovariance({last});
+    EXPECT_TRUE(joint->isApprox(whole, 1e-6)) << *joint << "\n\n" << whole;
+    if (!sees_landmarks) continue;
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(*joint - whole).eigenvalues().minCoeff(), -1e-12);
+  }
 }
 
 TEST(GrownMarginals, AFixedVariableHasNone) {

@@ -162,6 +162,20 @@ TEST_F(PlaneLandmarks, AWallSeenByLaserAndCameraIsOne) {
   EXPECT_EQ(payload.seen_by.at("camera").planes, 1U);
 }
 
+TEST_F(PlaneLandmarks, ALineOfASecondHeightTellsHowAWallLeans) {
+  driveTo({});
+  see(linesOf({line({3, -2}, {3, 2})}, 0.2));
+  see(linesOf({line({3, -2}, {3, 2})}, 0.5));
+  EXPECT_EQ(factorsOfKind("upright_plane"), 1U) << "0.3 m of height tell too little";
+  see(linesOf({line({3.05, -2}, {3.05, 2})}, 1.2));
+  ASSERT_EQ(active().size(), 1U);
+  EXPECT_EQ(factorsOfKind("upright_plane"), 0U);
+  solve();
+  EXPECT_NEAR(shapeOf(active()[0]).normal->z(), 0.05, 0.02) << "it leans back by 5 cm over 0.85 m";
+  see(linesOf({line({3.05, -2}, {3.05, 2})}, 1.25));
+  EXPECT_EQ(factorsOfKind("upright_plane"), 0U);
+}
+
 TEST_F(PlaneLandmarks, GrowAsMoreOfThemIsSeen) {
   driveTo({});
   see(planesOf({wallPlane(3, -1, 1)}));

@@ -55,12 +55,6 @@ struct Linearised {
   }
 };
 
-// Whether the session of a key frame lies in the map where it belongs; before that, nothing can be gated.
-bool isJoined(const map::Map& map, base::KeyFrameId frame) {
-  return std::all_of(map.sessions.begin(), map.sessions.end(),
-                     [&](const auto& session) { return session.number != frame.session || session.joined; });
-}
-
 // Why a measurement cannot be used; empty if it can.
 std::string whyUseless(const CObservationBearingRange::TMeasurement& sighting, const std::set<std::int32_t>& seen) {
   if (sighting.landmarkID < 0) return "it tells no number";
@@ -144,7 +138,7 @@ void BeaconPlugin::addToKnown(const Sighting& sighting, const Viewpoint& from, c
   const map::Landmark& landmark = view.map.landmark(known.landmark);
   const auto variable = landmark.variables.front();
   auto sighting_record = record(sighting, from, variable, landmark.id);
-  if (landmark.id.session != from.frame.id.session && !isJoined(view.map, from.frame.id)) {
+  if (!view.areJoined(from.frame.id.session, landmark.id.session)) {
     // The first thing that ties this session to the map: if it were wrong, everything would be.
     decision.reason = "waits for the consistency test";
     batch.addHypothesis(std::move(sighting_record), decision);

@@ -15,7 +15,7 @@ using base::VariableId;
 /// Variables with a place each in one stacked tangent.
 class Stack {
  public:
-  explicit Stack(const Graph& graph) : graph_(graph) {}
+  explicit Stack(const Graph& graph) : graph_(&graph) {}
   bool add(VariableId id) {
     if (!offsets_.emplace(id, size_).second) return false;
     ids_.push_back(id);
@@ -24,38 +24,61 @@ class Stack {
   }
   bool contains(VariableId id) const { return offsets_.count(id) > 0; }
   int offset(VariableId id) const { return offsets_.at(id); }
-  int tangentSize(VariableId id) const { return graph_.variable(id).kind->tangentSize(); }
+  int tangentSize(VariableId id) const { return graph_->variable(id).kind->tangentSize(); }
   int size() const { return size_; }
   const std::vector<VariableId>& ids() const { return ids_; }
 
  private:
-  const Graph& graph_;
+  const Graph* graph_;
   std::map<VariableId, int> offsets_;
   std::vector<VariableId> ids_;
   int size_ = 0;
 };
 
-/// What came since, and the older variables that it hangs on.
+/// What came since and bears on `ids`, the nearest first, `most` variables of it, and the older ones that they hang on.
+/// Factors that lead on to what is left out are left out too: that much less is known.
 struct Growth {
   Stack fresh, older;
   std::vector<base::FactorId> factors;
+  bool is_whole = true;
 
-  Growth(const Marginals& before, const Graph& grown, const std::vector<VariableId>& ids) : fresh(grown), older(grown) {
-    const auto take = [&](VariableId id) {
-      if (grown.variable(id).fixed) return;
-      before.contains(id) ? older.add(id) : fresh.add(id);
-    };
-    for (const VariableId id : ids) take(id);
-    for (std::size_t next = 0; next < fresh.ids().size(); ++next) {
-      for (const auto factor : grown.factorsOf(fresh.ids()[next])) {
-        const FactorRecord& record = grown.factor(factor);
-        if (!(record.weight > 0)) continue;
+  Growth(const Marginals& before, const Graph& grown, const std::vector<VariableId>& ids, std::size_t most)
+      : fresh(grown), older(grown) {
+    const auto is_fresh = [&](VariableId id) { return !grown.variable(id).fixed && !before.contains(id); };
+    for (const VariableId id : ids)
+      if (is_fresh(id)) fresh.add(id);
+    for (std::size_t next = 0; next < fresh.ids().size(); ++next)
+      eachFactor(grown, fresh.ids()[next], [&](base::FactorId, const FactorRecord& record) {
+        for (const VariableId id : record.variables) {
+          if (!is_fresh(id) || fresh.contains(id)) continue;
+          if (fresh.ids().size() < most) {
+            fresh.add(id);
+          } else {
+            is_whole = false;
+          }
+        }
+      });
+    for (const VariableId id : ids)
+      if (before.contains(id) && !grown.variable(id).fixed) older.add(id);
+    for (const VariableId one : fresh.ids())
+      eachFactor(grown, one, [&](base::FactorId factor, const FactorRecord& record) {
+        const auto leads_on = [&](VariableId id) { return is_fresh(id) && !fresh.contains(id); };
+        if (std::any_of(record.variables.begin(), record.variables.end(), leads_on)) return;
         factors.push_back(factor);
-        for (const VariableId id : record.variables) take(id);
-      }
-    }
+        for (const VariableId id : record.variables)
+          if (before.contains(id) && !grown.variable(id).fixed) older.add(id);
+      });
     std::sort(factors.begin(), factors.end());
     factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
+  }
+
+ private:
+  template <class Take>
+  static void eachFactor(const Graph& graph, VariableId id, Take take) {
+    for (const auto factor : graph.factorsOf(id)) {
+      const FactorRecord& record = graph.factor(factor);
+      if (record.weight > 0) take(factor, record);
+    }
   }
 };
 
@@ -102,8 +125,16 @@ std::optional<Following> follow(const Graph& graph, const Growth& growth) {
 std::optional<Eigen::MatrixXd> jointCovariance(const Marginals& before, const Graph& grown,
                                                const std::vector<VariableId>& ids) {
   if (!std::all_of(ids.begin(), ids.end(), [&](VariableId id) { return grown.contains(id); })) return std::nullopt;
-  const Growth growth(before, grown, ids);
-  const auto following = follow(grown, growth);
+  // What is far along the trajectory tells next to nothing, unless nothing near does.
+  constexpr std::size_t kNear = 48;
+  std::size_t most = kNear;
+  Growth growth(before, grown, ids, most);
+  auto following = follow(grown, growth);
+  while (!following && !growth.is_whole) {
+    most *= 4;
+    growth = Growth(before, grown, ids, most);
+    following = follow(grown, growth);
+  }
   if (!following) return std::nullopt;
   const Eigen::MatrixXd older =
       growth.older.size() > 0 ? before.jointCovariance(growth.older.ids()) : Eigen::MatrixXd(0, 0);

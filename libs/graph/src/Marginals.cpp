@@ -3,6 +3,8 @@
 #include <omnimapper/base/Error.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <mutex>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -36,40 +38,77 @@ struct Marginals::State {
     throw base::Error(base::ExitCode::internal,
                       "marginals: variable " + toString(id) + " is bound by no factor of positive weight, or not here");
   }
-  /// The half-solved columns of a variable, none for a fixed one.
-  std::vector<SparseVector> halves(Span span) const {
-    std::vector<SparseVector> columns;
-    for (int i = 0; span.offset >= 0 && i < span.size; ++i) columns.push_back(cholesky->halfSolve(span.offset + i));
-    return columns;
-  }
 };
 
 namespace {
 
-double dot(const SparseVector& a, const SparseVector& b) {
-  double sum = 0;
-  for (std::size_t i = 0, j = 0; i < a.rows.size() && j < b.rows.size();) {
-    if (a.rows[i] == b.rows[j])
-      sum += a.values[i++] * b.values[j++];
-    else if (a.rows[i] < b.rows[j])
-      ++i;
-    else
-      ++j;
+// Entries that are in both: those of the way from where their ways to the root of the elimination tree meet. So they
+// stand together at the end of both.
+std::size_t common(const SparseVector& a, const SparseVector& b) {
+  std::size_t alike = 0, different = std::min(a.rows.size(), b.rows.size()) + 1;
+  while (alike + 1 < different) {
+    const std::size_t tried = (alike + different) / 2;
+    (a.rows[a.rows.size() - tried] == b.rows[b.rows.size() - tried] ? alike : different) = tried;
   }
-  return sum;
+  return alike;
 }
 
-Eigen::MatrixXd block(const std::vector<SparseVector>& rows, const std::vector<SparseVector>& columns) {
-  Eigen::MatrixXd product(rows.size(), columns.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      product(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = dot(rows[i], columns[j]);
-  return product;
+double dot(const SparseVector& a, const SparseVector& b) {
+  const auto shared = static_cast<Eigen::Index>(common(a, b));
+  const auto tail = [&](const SparseVector& vector) {
+    return Eigen::Map<const Eigen::VectorXd>(vector.values.data() + vector.values.size() - shared, shared);
+  };
+  return tail(a).dot(tail(b));
 }
 
 }  // namespace
 
-Marginals::Marginals(const Graph& graph) : state_(std::make_unique<State>()) {
+/// Blocks of covariance, and the half-solved columns that they are made of: what is asked for once is asked for again
+/// at the next key frame.
+class Marginals::Blocks {
+ public:
+  /// Of two variables, of which `later` does not come before `earlier` in the matrix. Valid until forgetIfMany().
+  const Eigen::MatrixXd& of(const SparseCholesky& cholesky, State::Span later, State::Span earlier) {
+    Eigen::MatrixXd& block =
+        blocks_[(static_cast<std::uint64_t>(later.offset) << 32) | static_cast<std::uint64_t>(earlier.offset)];
+    if (block.size() > 0) return block;
+    const auto &left = halves(cholesky, later), &right = halves(cholesky, earlier);
+    block.resize(later.size, earlier.size);
+    for (int i = 0; i < later.size; ++i)
+      for (int j = 0; j < earlier.size; ++j)
+        block(i, j) = dot(left[static_cast<std::size_t>(i)], right[static_cast<std::size_t>(j)]);
+    kept_ += kBlock + static_cast<std::size_t>(block.size());
+    return block;
+  }
+  /// Keeps memory within bounds.
+  void forgetIfMany() {
+    constexpr std::size_t kMost = 4'000'000;  // numbers
+    if (kept_ < kMost) return;
+    blocks_.clear();
+    halves_.clear();
+    kept_ = 0;
+  }
+
+  std::mutex mutex;
+
+ private:
+  static constexpr std::size_t kBlock = 12;  // what a block takes beside its numbers
+
+  const std::vector<SparseVector>& halves(const SparseCholesky& cholesky, State::Span span) {
+    auto& columns = halves_[span.offset];
+    for (int i = static_cast<int>(columns.size()); i < span.size; ++i) {
+      columns.push_back(cholesky.halfSolve(span.offset + i));
+      kept_ += 2 * columns.back().rows.size();
+    }
+    return columns;
+  }
+
+  std::unordered_map<std::uint64_t, Eigen::MatrixXd> blocks_;  // by the two offsets
+  std::unordered_map<int, std::vector<SparseVector>> halves_;
+  std::size_t kept_ = 0;
+};
+
+Marginals::Marginals(const Graph& graph) : state_(std::make_unique<State>()), blocks_(std::make_unique<Blocks>()) {
   checkAnchored(graph);
   NormalEquations equations(graph);
   equations.linearise(equations.values(graph));
@@ -103,20 +142,23 @@ Eigen::MatrixXd Marginals::covariance(base::VariableId id) const {
 }
 
 Eigen::MatrixXd Marginals::jointCovariance(const std::vector<base::VariableId>& ids) const {
-  std::vector<std::vector<SparseVector>> halves;
+  std::vector<State::Span> spans;
   std::vector<int> offsets = {0};
   for (const base::VariableId id : ids) {
-    const State::Span span = state_->span(id);
-    halves.push_back(state_->halves(span));
-    offsets.push_back(offsets.back() + span.size);
+    spans.push_back(state_->span(id));
+    offsets.push_back(offsets.back() + spans.back().size);
   }
   Eigen::MatrixXd joint = Eigen::MatrixXd::Zero(offsets.back(), offsets.back());
+  const std::lock_guard lock(blocks_->mutex);
+  blocks_->forgetIfMany();
   for (std::size_t i = 0; i < ids.size(); ++i)
     for (std::size_t j = 0; j <= i; ++j) {
-      if (halves[i].empty() || halves[j].empty()) continue;
-      const Eigen::MatrixXd part = block(halves[i], halves[j]);
-      joint.block(offsets[i], offsets[j], part.rows(), part.cols()) = part;
-      joint.block(offsets[j], offsets[i], part.cols(), part.rows()) = part.transpose();
+      if (spans[i].offset < 0 || spans[j].offset < 0) continue;
+      const bool in_order = spans[i].offset >= spans[j].offset;
+      const std::size_t later = in_order ? i : j, earlier = in_order ? j : i;
+      const Eigen::MatrixXd& part = blocks_->of(*state_->cholesky, spans[later], spans[earlier]);
+      joint.block(offsets[later], offsets[earlier], part.rows(), part.cols()) = part;
+      joint.block(offsets[earlier], offsets[later], part.cols(), part.rows()) = part.transpose();
     }
   return joint;
 }

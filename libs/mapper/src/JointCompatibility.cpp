@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace omnimapper::mapper {
@@ -18,7 +19,12 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 class Branch {
  public:
   explicit Branch(const JointInnovation& innovation) : innovation_(innovation) {
-    const auto rows = innovation.residual.size();
+    // A branch has one pairing of a measurement at most.
+    std::map<std::size_t, Eigen::Index> largest;
+    for (const PairingRows& pairing : innovation.pairings)
+      largest[pairing.measurement] = std::max(largest[pairing.measurement], pairing.size);
+    Eigen::Index rows = 0;
+    for (const auto& [measurement, size] : largest) rows += size;
     root_.setZero(rows, rows);
     solved_.setZero(rows);
   }
@@ -105,7 +111,8 @@ class Search {
 
  private:
   void descend(std::size_t depth, double cost) {
-    if (cost >= best_cost_ + options_.margin || nodes_ >= options_.max_nodes) return;
+    // The first way down is gone whatever it costs: it is the best so far.
+    if (cost >= best_cost_ + options_.margin || (nodes_ >= options_.max_nodes && best_cost_ < kNever)) return;
     if (depth == order_.size()) return finish(cost);
     const std::size_t m = order_[depth];
     struct Child {

@@ -4,6 +4,13 @@
 
 namespace omnimapper::mapper {
 
+bool State::areJoined(std::uint16_t session, std::uint16_t other) const {
+  if (session == other) return true;
+  return std::all_of(map.sessions.begin(), map.sessions.end(), [&](const map::Session& known) {
+    return known.joined || (known.number != session && known.number != other);
+  });
+}
+
 std::vector<base::FactorId> State::factorsOf(base::LandmarkId id) const {
   std::vector<base::FactorId> factors;
   for (const auto variable : map.landmark(id).variables) {

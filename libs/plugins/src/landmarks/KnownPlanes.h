@@ -16,6 +16,8 @@ namespace omnimapper::plugins {
 /// keeps follows from the map, and is worked out anew where key frames have moved.
 class KnownPlanes {
  public:
+  /// Whether how high a surface reaches is known: a laser's lines tell nothing of it.
+  enum class Heights { unknown, known };
   /// A landmark on its plane in the map.
   struct Surface {
     base::LandmarkId id;
@@ -24,17 +26,18 @@ class KnownPlanes {
     std::vector<Eigen::Vector2d> hull;  ///< [m, PlaneAxes of the plane]
     Eigen::Vector3d middle;             ///< [m] of the hull
     double radius = 0;                  ///< [m] of the hull about the middle
+    Heights heights = Heights::unknown;
     base::KeyFrameId last_seen_from;
     std::size_t solve = 0;  ///< number of solves when this was worked out
-    const map::LandmarkPayload* payload = nullptr;
+    std::shared_ptr<const map::LandmarkPayload> payload;
   };
 
-  /// `owner`: INI section.
-  KnownPlanes(std::string owner, SurfaceForm::Kind form) : owner_(std::move(owner)), form_(form) {}
+  /// `owner`: INI section. `empty`: what is known of a landmark that nobody has seen yet.
+  KnownPlanes(std::string owner, const PlanePayload& empty) : owner_(std::move(owner)), empty_(empty) {}
 
-  const SurfaceForm& form() const { return SurfaceForm::of(form_); }
-  /// Of a landmark that nobody has seen yet.
-  PlanePayload emptyPayload() const;
+  const SurfaceForm& form() const { return SurfaceForm::of(empty_.form); }
+  const PlanePayload& emptyPayload() const { return empty_; }
+  /// Throws Error(out_of_range) if the map's landmarks of that section are no surfaces of that form.
   void restore(const mapper::State& state);
   void add(base::LandmarkId id) { surfaces_[id].id = id; }
   /// Of what was retired or merged nothing is kept.
@@ -43,11 +46,13 @@ class KnownPlanes {
 
  private:
   std::string owner_;
-  SurfaceForm::Kind form_;
+  PlanePayload empty_;
   std::map<base::LandmarkId, Surface> surfaces_;
 };
 
-/// Gap between a surface and points of another, both dropped on the plane of the first [m]; 0 where they overlap.
-double gapBetween(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map);
+/// Gap between a surface and points of another, both dropped on the plane of the first [m]; 0 where they overlap. Where
+/// the surface is upright and the height of one of them is not known, the gap along the floor.
+double gapBetween(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
+                  KnownPlanes::Heights of_points);
 
 }  // namespace omnimapper::plugins

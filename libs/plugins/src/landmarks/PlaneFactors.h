@@ -48,7 +48,7 @@ class LineOnPlaneFactor : public graph::Factor {
   Eigen::Vector3d direction_, middle_;
 };
 
-/// That a plane is upright, for one that was seen as lines of one height only. Variable: plane in map. Residual: the
+/// That a plane is upright, for one that only lines of one height have shown. Variable: plane in map. Residual: the
 /// height of its unit normal, which is the sine of its lean.
 class UprightFactor : public graph::Factor {
  public:

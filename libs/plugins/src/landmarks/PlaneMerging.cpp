@@ -2,10 +2,10 @@
 
 #include <omnimapper/graph/ChiSquare.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <set>
 
+#include "Merging.h"
 #include "PlaneFactors.h"
 
 namespace omnimapper::plugins {
@@ -22,8 +22,8 @@ std::vector<Eigen::Vector3d> cornersOf(const Surface& surface) {
 }
 
 bool overlap(const Surface& a, const Surface& b) {
-  if ((a.middle - b.middle).norm() > a.radius + b.radius) return false;
-  return gapBetween(a, cornersOf(b)) <= 0 && gapBetween(b, cornersOf(a)) <= 0;
+  constexpr double kEdge = 0.05;  // [m] edges are seen that well
+  return gapBetween(a, cornersOf(b), b.heights) <= kEdge && gapBetween(b, cornersOf(a), a.heights) <= kEdge;
 }
 
 // Of the change that takes a's plane to b's, by all that ties them together.
@@ -32,8 +32,7 @@ std::optional<double> chi2OfDifference(const SurfaceForm& form, const Surface& a
   const auto joint = view.jointCovariance({a.variable, b.variable});
   if (!joint) return std::nullopt;
   const auto [change, by_both] = form.difference(view.graph.value(a.variable), view.graph.value(b.variable));
-  const Eigen::MatrixXd covariance = by_both * *joint * by_both.transpose();
-  return change.dot(covariance.ldlt().solve(change));
+  return chi2Of(change, by_both * *joint * by_both.transpose());
 }
 
 }  // namespace
@@ -49,37 +48,29 @@ bool onOnePlane(const Surface& a, const Surface& b) {
 mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& options, const std::string& section,
                          const mapper::View& view) {
   known.update(view);
-  const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize());
+  const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize()) *
+                       options.inflation * options.inflation;
   mapper::Batch batch;
   std::set<base::LandmarkId> merged;
   const auto& all = known.all();
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = std::next(a); b != all.end(); ++b) {
       if (merged.count(a->first) > 0) break;
-      if (merged.count(b->first) > 0 || !onOnePlane(a->second, b->second) || !overlap(a->second, b->second)) continue;
+      if (merged.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
+      if (!onOnePlane(a->second, b->second) || !overlap(a->second, b->second)) continue;
       const auto chi2 = chi2OfDifference(known.form(), a->second, b->second, view);
-      if (!chi2 || *chi2 > limit * options.inflation * options.inflation) continue;
+      if (!chi2 || *chi2 > limit) continue;
       merged.insert(a->first);
       merged.insert(b->first);
       const map::Landmark &kept = view.map.landmark(a->first), &gone = view.map.landmark(b->first);
       const auto& kept_payload = dynamic_cast<const PlanePayload&>(*kept.payload);
       const auto& gone_payload = dynamic_cast<const PlanePayload&>(*gone.payload);
-      const bool seen_as_plane = kept_payload.wasSeenAsPlane() || gone_payload.wasSeenAsPlane();
       const auto of_kept = uprightFactor(view.graph, kept.variables.front());
       const auto of_gone = uprightFactor(view.graph, gone.variables.front());
-      if (of_gone && (of_kept || seen_as_plane)) batch.removeFactor(*of_gone);
-      if (of_kept && seen_as_plane) batch.removeFactor(*of_kept);
+      if (of_gone) batch.removeFactor(*of_gone);
+      if (of_kept && !of_gone) batch.removeFactor(*of_kept);  // something showed how the other leans
       batch.mergeLandmarks(gone.id, kept.id, kept_payload.with(gone_payload));
-      mapper::Decision decision;
-      decision.stamp = view.map.key_frames.back().stamp;
-      decision.plugin = section;
-      decision.kind = "merge";
-      decision.from = view.map.key_frames.back().id;
-      decision.accepted = true;
-      decision.reason = "two landmarks are one";
-      decision.numbers = {
-          {"landmark", kept.id.index}, {"other", gone.id.index}, {"chi-square", *chi2}, {"limit", limit}};
-      batch.log(std::move(decision));
+      batch.log(mergeDecision(view, section, kept.id, gone.id, *chi2, limit));
     }
   }
   return batch;

@@ -15,9 +15,9 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;  // 2: the ground
 
-// What people call a surface of that slope, so high above the ground that the base stands on [m].
+// What people call a surface of that slope, so high above the ground [m].
 std::string labelOf(const geometry::Plane3& plane, double height) {
   constexpr double kUpright = 0.2, kLevel = 0.95;  // of the normal's height
   constexpr double kGround = 0.15;                 // [m]
@@ -86,7 +86,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
     surface.vertices.push_back(axes.inSpace(corner));
     middle += surface.vertices.back() / static_cast<double>(hull.size());
   }
-  shape.label = labelOf(plane, middle.z() - key_frames.front().map_from_base.z());
+  shape.label = labelOf(plane, middle.z() - (ground == Ground::map ? 0 : key_frames.front().map_from_base.z()));
   shape.normal = plane.normal;
   // A laser alone tells how long a wall is, not how high.
   if (wasSeenAsPlane() && surface.vertices.size() > 2) {
@@ -107,6 +107,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
 void PlanePayload::write(std::ostream& out) const {
   graph::writeUint(out, kVersion, 1);
   graph::writeUint(out, static_cast<std::uint64_t>(form), 1);
+  graph::writeUint(out, static_cast<std::uint64_t>(ground), 1);
   graph::writeUint(out, patches.size(), 4);
   for (const auto& patch : patches) {
     writeId(out, patch.frame);
@@ -125,13 +126,15 @@ void PlanePayload::write(std::ostream& out) const {
 
 void PlanePayload::addTo(map::PayloadRegistry& registry) {
   registry.add("plane", [](std::istream& in) {
-    if (const auto version = graph::readUint(in, 1); version > kVersion) {
+    const auto version = graph::readUint(in, 1);
+    if (version > kVersion) {
       throw base::Error(base::ExitCode::unreadable_input,
                         "a plane of version " + std::to_string(version) + ": this program reads versions up to " +
                             std::to_string(kVersion) + "; take the OmniMapper that wrote the map");
     }
     auto payload = std::make_shared<PlanePayload>();
     payload->form = graph::readUint(in, 1) == 0 ? SurfaceForm::Kind::plane : SurfaceForm::Kind::wall;
+    if (version > 1) payload->ground = graph::readUint(in, 1) == 0 ? Ground::start : Ground::map;
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
       SurfacePatch patch;
       patch.frame = readId(in);

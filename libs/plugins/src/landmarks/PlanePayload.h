@@ -3,6 +3,7 @@
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/map/KeyFrames.h>
 #include <omnimapper/map/PayloadRegistry.h>
+#include <omnimapper/plugins/PlaneLandmarksPlugin.h>
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -29,7 +30,10 @@ struct SeenBy {
 /// What is known of a plane landmark beside where its plane is (thesis 4.2.2.1). Its parts hang on the key frames that
 /// saw them and are put on the optimised plane when somebody asks, so that a loop closure moves them for free.
 struct PlanePayload : map::LandmarkPayload {
+  using Ground = PlaneLandmarksOptions::Ground;
+
   SurfaceForm::Kind form = SurfaceForm::Kind::plane;
+  Ground ground = Ground::start;          ///< for what people call it
   std::vector<SurfacePatch> patches;      ///< those that tell something of the extent that the others do not
   std::map<std::string, SeenBy> seen_by;  ///< sensor label
   base::KeyFrameId last_seen_from;

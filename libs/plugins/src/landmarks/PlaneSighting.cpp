@@ -9,7 +9,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <optional>
+#include <string>
+#include <utility>
 
 #include "PlaneExtent.h"
 #include "PlaneFactors.h"
@@ -29,71 +30,77 @@ bool isCovariance(const Eigen::MatrixXd& matrix) {
   return matrix.allFinite() && Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success;
 }
 
-std::optional<PlaneSighting> ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_sensor,
-                                     const PlaneLandmarksOptions& options) {
+constexpr const char* kNoCovariance = "its covariance is singular or not finite";
+
+PlaneSighting useless(PlaneSighting sighting, std::string why) {
+  sighting.why_useless = std::move(why);
+  return sighting;
+}
+
+PlaneSighting ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_sensor,
+                      const PlaneLandmarksOptions& options) {
   const Plane3& in_sensor = seen.plane_in_sensor;
+  PlaneSighting sighting;
   const bool usable = in_sensor.normal.allFinite() && std::abs(in_sensor.normal.norm() - 1) < 1e-3 &&
                       std::isfinite(in_sensor.distance) && seen.centroid.allFinite() &&
                       allFinite(seen.outline.vertices);
-  if (!usable) return std::nullopt;
+  if (!usable) return useless(sighting, "not finite");
   const Eigen::Matrix3d covariance =
       withRoughness(in_sensor, seen.covariance, seen.centroid, options.plane_angle_sigma, options.plane_sigma);
-  if (!isCovariance(covariance)) return std::nullopt;
+  if (!isCovariance(covariance)) return useless(sighting, kNoCovariance);
   const Plane3 in_base = base_from_sensor * Plane3{in_sensor.normal.normalized(), in_sensor.distance};
   const Eigen::Matrix3d in_base_covariance = geometry::transportCovariance(base_from_sensor, in_sensor, covariance);
   std::vector<Eigen::Vector3d> corners;
   for (const auto& vertex : seen.outline.vertices) corners.push_back(base_from_sensor * vertex);
   const PlaneAxes axes(in_base);
   const auto hull = hullOn(axes, corners);
-  if (hull.size() < 3) return std::nullopt;
-  corners.clear();
-  for (const auto& corner : hull) corners.push_back(axes.inSpace(corner));
-  return PlaneSighting{false,
-                       {},
-                       in_base,
-                       std::move(corners),
-                       geometry::area(hull),
-                       std::make_shared<PlaneFactor>(in_base),
-                       graph::SquareRootInformation::fromCovariance(in_base_covariance)};
+  if (hull.size() < 3) return useless(sighting, "its outline has no area");
+  sighting.plane_in_base = in_base;
+  for (const auto& corner : hull) sighting.outline_in_base.push_back(axes.inSpace(corner));
+  sighting.size = geometry::area(hull);
+  sighting.factor = std::make_shared<PlaneFactor>(in_base);
+  sighting.noise = graph::SquareRootInformation::fromCovariance(in_base_covariance);
+  return sighting;
 }
 
-// The line x cos a + y sin a = d of the scan, with its middle as far as s along it: errors of a and d turn the
-// direction by -da against the normal, and move the middle by dd - s da (doc/derivations/line_on_plane.md).
-std::optional<PlaneSighting> ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor,
-                                    const Eigen::Vector3d& up_in_base, const SurfaceForm& form,
-                                    const PlaneLandmarksOptions& options) {
+// The line x cos a + y sin a = d of the scan, with its middle as far as s along e = (-sin a, cos a): errors of a and d
+// turn e by -da against the normal, and move the middle by dd - s da (doc/derivations/line_on_plane.md).
+PlaneSighting ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor, const Eigen::Vector3d& up_in_base,
+                     const SurfaceForm& form, const PlaneLandmarksOptions& options) {
+  PlaneSighting sighting;
+  sighting.is_line = true;
+  sighting.size = geometry::length(seen.segment_in_sensor);
   const Eigen::Vector2d along = geometry::direction(seen.segment_in_sensor);
   const Eigen::Vector2d middle = geometry::middle(seen.segment_in_sensor);
-  const double length = geometry::length(seen.segment_in_sensor);
-  if (!along.allFinite() || !middle.allFinite() || !(length > 0)) return std::nullopt;
-  const double s = middle.dot(Eigen::Vector2d(-std::sin(seen.angle), std::cos(seen.angle)));
+  if (!along.allFinite() || !middle.allFinite()) return useless(sighting, "not finite");
+  if (!(sighting.size > 0)) return useless(sighting, "its ends are one point");
+  const Eigen::Vector2d by_angle(-std::sin(seen.angle), std::cos(seen.angle));
+  const double s = middle.dot(by_angle);
   Eigen::Matrix2d by_line;
   by_line << -1, 0, -s, 1;
   Eigen::Matrix2d covariance = by_line * seen.covariance * by_line.transpose();
   covariance(0, 0) += options.line_angle_sigma * options.line_angle_sigma;
   covariance(1, 1) += options.line_sigma * options.line_sigma;
-  if (!isCovariance(covariance)) return std::nullopt;
+  if (!isCovariance(covariance)) return useless(sighting, kNoCovariance);
   const auto inBase = [&](const Eigen::Vector2d& point) -> Eigen::Vector3d {
     return base_from_sensor * Eigen::Vector3d(point.x(), point.y(), 0);
   };
   Eigen::Vector3d direction = base_from_sensor.rotation * Eigen::Vector3d(along.x(), along.y(), 0);
   Eigen::Vector3d normal = up_in_base.cross(direction);
-  if (normal.norm() < 0.5) return std::nullopt;  // a scan that stands: its lines tell of no upright plane
+  if (normal.norm() < 0.5) return useless(sighting, "the scan does not lie level: no upright plane is known from it");
   normal.normalize();
   const Eigen::Vector3d from_wall = base_from_sensor.translation - inBase(middle);
   if (normal.dot(from_wall) < 0) {
-    // The free side is on the left of the direction; the residual's first row, and so da, turns with it.
-    normal = -normal;
+    normal = -normal;  // the free side is on the left of the direction
     direction = -direction;
-    covariance(0, 1) = covariance(1, 0) = -covariance(0, 1);
   }
-  return PlaneSighting{true,
-                       {},
-                       Plane3::through(inBase(middle), normal),
-                       {inBase(seen.segment_in_sensor.from), inBase(seen.segment_in_sensor.to)},
-                       length,
-                       form.ofLine(direction, inBase(middle)),
-                       graph::SquareRootInformation::fromCovariance(covariance)};
+  const Eigen::Vector3d by_angle_in_base = base_from_sensor.rotation * Eigen::Vector3d(by_angle.x(), by_angle.y(), 0);
+  if (direction.dot(by_angle_in_base) < 0) covariance(0, 1) = covariance(1, 0) = -covariance(0, 1);
+  sighting.plane_in_base = Plane3::through(inBase(middle), normal);
+  sighting.outline_in_base = {inBase(seen.segment_in_sensor.from), inBase(seen.segment_in_sensor.to)};
+  sighting.factor = form.ofLine(direction, inBase(middle));
+  sighting.noise = graph::SquareRootInformation::fromCovariance(covariance);
+  return sighting;
 }
 
 }  // namespace
@@ -110,10 +117,9 @@ Eigen::Matrix3d withRoughness(const Plane3& plane, const Eigen::Matrix3d& covari
 std::vector<PlaneSighting> planeSightings(const mrpt::obs::CObservation& observation, const Eigen::Vector3d& up_in_base,
                                           const SurfaceForm& form, const PlaneLandmarksOptions& options) {
   std::vector<PlaneSighting> sightings;
-  const auto take = [&](std::optional<PlaneSighting> sighting, const std::string& label) {
-    if (!sighting) return;
-    sighting->sensor_label = label;
-    sightings.push_back(std::move(*sighting));
+  const auto take = [&](PlaneSighting sighting, const std::string& label) {
+    sighting.sensor_label = label;
+    sightings.push_back(std::move(sighting));
   };
   if (const auto* planes = dynamic_cast<const obs::CObservationPlanes*>(&observation)) {
     const Se3 base_from_sensor = geometry::fromMrpt(planes->sensorPose);

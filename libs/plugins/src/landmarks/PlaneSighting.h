@@ -22,15 +22,17 @@ struct PlaneSighting {
   std::vector<Eigen::Vector3d> outline_in_base;  ///< [m] convex, or the two ends of a line
   double size = 0;                               ///< [m^2], of a line [m]
   std::shared_ptr<const graph::Factor> factor;
-  graph::SquareRootInformation noise;
+  graph::SquareRootInformation noise = graph::SquareRootInformation::identity(1);
+  std::string why_useless;  ///< not empty: nothing but is_line, sensor_label and size is told
 };
 
-/// What cannot be used of an observation is left out: not finite, without extent, without a covariance.
-/// `up_in_base` is unit: what upright means for the planes of lines.
+/// All planes or lines of an observation, in its order. `up_in_base` is unit: what upright means for the planes of
+/// lines.
 std::vector<PlaneSighting> planeSightings(const mrpt::obs::CObservation& observation, const Eigen::Vector3d& up_in_base,
                                           const SurfaceForm& form, const PlaneLandmarksOptions& options);
 
-/// Of a plane, with what a surface is off from flat added as it would be about `middle`, where its points are.
+/// Covariance of a plane in its tangent [rad, rad, m], with what a surface is off from flat added as it would be about
+/// `middle`, where its points are. All in one frame.
 Eigen::Matrix3d withRoughness(const geometry::Plane3& plane, const Eigen::Matrix3d& covariance,
                               const Eigen::Vector3d& middle, double angle_sigma, double distance_sigma);
 

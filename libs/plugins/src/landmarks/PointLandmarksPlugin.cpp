@@ -80,14 +80,14 @@ class PointLandmarksPlugin::Moment {
     for (std::size_t i = 0; i < measurements.size(); ++i) {
       const auto& match = found.matches[i];
       mapper::Decision decision = decisionOf(*measurements[i]);
-      match.tell(decision);
+      found.tell(i, decision);
       if (!match.pairing) {
         addNew(*measurements[i], std::move(decision));
         continue;
       }
       const mapper::Pairing& pairing = pairings[*match.pairing];
       met_.insert(pairing.landmark);
-      if (match.kind == mapper::Match::Kind::matched || !isJoined(pairing.landmark)) {
+      if (match.kind == mapper::Match::Kind::matched || !view_.areJoined(frame_.id.session, pairing.landmark.session)) {
         addToKnown(*measurements[i], pairing, std::move(decision));
       } else {
         keepWithoutWeight(pairing, std::move(decision));
@@ -109,7 +109,7 @@ class PointLandmarksPlugin::Moment {
     for (std::size_t i = 0; i < measurements.size(); ++i) {
       const auto& match = found.matches[i];
       mapper::Decision decision = decisionOf(*measurements[i]);
-      match.tell(decision);
+      found.tell(i, decision);
       if (match.pairing) decision.numbers.emplace_back("landmark", pairings[*match.pairing].landmark.index);
       if (match.kind == mapper::Match::Kind::matched) {
         addToKnown(*measurements[i], pairings[*match.pairing], std::move(decision));
@@ -164,7 +164,7 @@ class PointLandmarksPlugin::Moment {
   }
 
   void addToKnown(const PointMeasurement& measured, const mapper::Pairing& pairing, mapper::Decision decision) {
-    if (!isJoined(pairing.landmark)) {
+    if (!view_.areJoined(frame_.id.session, pairing.landmark.session)) {
       // The first thing that ties this session to the map: if it were wrong, everything would be.
       decision.accepted = false;
       decision.reason = "waits for the consistency test";
@@ -187,6 +187,10 @@ class PointLandmarksPlugin::Moment {
   }
 
   void addNew(const PointMeasurement& measured, mapper::Decision decision) {
+    if (view_.map_is_held) {
+      decision.reason = "not in the map: " + decision.reason;
+      return batch_.log(std::move(decision));
+    }
     decision.accepted = true;
     decision.reason = "new: " + decision.reason;
     batch_.log(std::move(decision));
@@ -200,13 +204,6 @@ class PointLandmarksPlugin::Moment {
     const auto landmark = batch_.addLandmark(measured.number < 0 ? "point" : "marker", {variable},
                                              payload.with(label_, sighting.point_in_base.z()));
     batch_.addFactor(record(sighting, variable, landmark));
-  }
-
-  bool isJoined(base::LandmarkId landmark) const {
-    if (landmark.session == frame_.id.session) return true;
-    const auto& sessions = view_.map.sessions;
-    return std::all_of(sessions.begin(), sessions.end(),
-                       [&](const auto& session) { return session.number != frame_.id.session || session.joined; });
   }
 
   const PointLandmarksOptions& options_;

@@ -2,10 +2,12 @@
 
 #include <omnimapper/graph/ChiSquare.h>
 
-#include <Eigen/Cholesky>
+#include <algorithm>
 #include <optional>
 #include <set>
+#include <vector>
 
+#include "Merging.h"
 #include "PointPayload.h"
 
 namespace omnimapper::plugins {
@@ -27,9 +29,26 @@ std::optional<double> chi2OfGap(base::VariableId a, base::VariableId b, const ma
   if (!joint) return std::nullopt;
   const Eigen::VectorXd difference = view.graph.value(b) - view.graph.value(a);
   const Eigen::Index n = difference.size();
-  const Eigen::MatrixXd covariance = joint->topLeftCorner(n, n) + joint->bottomRightCorner(n, n) -
-                                     joint->topRightCorner(n, n) - joint->bottomLeftCorner(n, n);
-  return difference.dot(covariance.ldlt().solve(difference));
+  return chi2Of(difference, joint->topLeftCorner(n, n) + joint->bottomRightCorner(n, n) - joint->topRightCorner(n, n) -
+                                joint->bottomLeftCorner(n, n));
+}
+
+struct Nameless {
+  base::LandmarkId id;
+  base::VariableId variable;
+  const Eigen::VectorXd* place;  // [m] in the map
+};
+
+// In the order of x, so that those that are near stand near.
+std::vector<Nameless> namelessOf(const KnownPoints& known, const mapper::View& view) {
+  std::vector<Nameless> nameless;
+  for (const auto& [id, variable] : known.all()) {
+    const auto& payload = dynamic_cast<const PointPayload&>(*view.map.landmark(id).payload);
+    if (payload.number < 0) nameless.push_back({id, variable, &view.graph.value(variable)});
+  }
+  std::stable_sort(nameless.begin(), nameless.end(),
+                   [](const Nameless& a, const Nameless& b) { return (*a.place)[0] < (*b.place)[0]; });
+  return nameless;
 }
 
 }  // namespace
@@ -37,33 +56,25 @@ std::optional<double> chi2OfGap(base::VariableId a, base::VariableId b, const ma
 mapper::Batch mergeAlike(const KnownPoints& known, const PointLandmarksOptions& options, const std::string& section,
                          const mapper::View& view) {
   mapper::Batch batch;
-  std::set<base::LandmarkId> merged;
-  const auto nameless = [&](base::LandmarkId id) {
-    return merged.count(id) == 0 && dynamic_cast<const PointPayload&>(*view.map.landmark(id).payload).number < 0;
-  };
-  const auto& all = known.all();
-  for (auto a = all.begin(); a != all.end(); ++a) {
-    for (auto b = std::next(a); b != all.end() && nameless(a->first); ++b) {
-      const Eigen::VectorXd& there = view.graph.value(a->second);
-      if (!nameless(b->first) || (view.graph.value(b->second) - there).norm() > kFarthestApart) continue;
-      if (seenAtOnce(a->second, b->second, view.graph)) continue;
-      const auto chi2 = chi2OfGap(a->second, b->second, view);
-      const double limit = graph::chiSquareQuantile(options.confidence, static_cast<int>(there.size()));
-      if (!chi2 || *chi2 > limit * options.inflation * options.inflation) continue;
-      merged.insert({a->first, b->first});
-      const auto& payload = dynamic_cast<const PointPayload&>(*view.map.landmark(a->first).payload);
-      const auto& gone = dynamic_cast<const PointPayload&>(*view.map.landmark(b->first).payload);
-      batch.mergeLandmarks(b->first, a->first, payload.with(gone));
-      mapper::Decision decision;
-      decision.stamp = view.map.key_frames.back().stamp;
-      decision.plugin = section;
-      decision.kind = "merge";
-      decision.from = view.map.key_frames.back().id;
-      decision.accepted = true;
-      decision.reason = "two landmarks are one";
-      decision.numbers = {
-          {"landmark", a->first.index}, {"other", b->first.index}, {"chi-square", *chi2}, {"limit", limit}};
-      batch.log(std::move(decision));
+  std::vector<Nameless> left = namelessOf(known, view);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const Nameless& a = left[i];
+    const double limit = graph::chiSquareQuantile(options.confidence, static_cast<int>(a.place->size())) *
+                         options.inflation * options.inflation;
+    for (std::size_t k = i + 1; k < left.size() && (*left[k].place)[0] - (*a.place)[0] <= kFarthestApart; ++k) {
+      const Nameless& b = left[k];
+      if ((*b.place - *a.place).norm() > kFarthestApart || !view.areJoined(a.id.session, b.id.session)) continue;
+      if (seenAtOnce(a.variable, b.variable, view.graph)) continue;
+      const auto chi2 = chi2OfGap(a.variable, b.variable, view);
+      if (!chi2 || *chi2 > limit) continue;
+      const auto kept = std::min(a.id, b.id), gone = std::max(a.id, b.id);
+      const auto payloadOf = [&](base::LandmarkId id) -> const PointPayload& {
+        return dynamic_cast<const PointPayload&>(*view.map.landmark(id).payload);
+      };
+      batch.mergeLandmarks(gone, kept, payloadOf(kept).with(payloadOf(gone)));
+      batch.log(mergeDecision(view, section, kept, gone, *chi2, limit));
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
+      break;
     }
   }
   return batch;

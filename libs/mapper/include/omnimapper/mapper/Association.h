@@ -42,8 +42,9 @@ struct AssociationOptions {
 struct Match {
   enum class Kind {
     matched,
-    unknown,   ///< fits no landmark that is left: it may be a new one
-    ambiguous  ///< fits several alike: of one of them, nobody can tell which
+    unknown,    ///< fits no landmark that is left: it may be a new one
+    ambiguous,  ///< fits several alike: of one of them, nobody can tell which
+    untold      ///< nothing is known of how well the map is known: it cannot be told whether it fits
   };
   Kind kind = Kind::unknown;
   std::optional<std::size_t> pairing;  ///< the one it is, of an ambiguous one the likeliest; else the nearest
@@ -52,7 +53,7 @@ struct Match {
   std::optional<base::LandmarkId> rival;
   double likelihood_ratio = 0;  ///< to the best interpretation with the rival, where there is one
 
-  /// "matched", "new: fits no landmark", "fits two landmarks alike", with the numbers behind it.
+  /// "matched", "none is near", "fits two landmarks alike", with the numbers behind it.
   void tell(Decision& decision) const;
 };
 
@@ -63,6 +64,9 @@ struct Association {
   double limit = 0;            ///< of chi2
   int nodes = 0;               ///< that the search looked at
   bool complete = true;        ///< the search did not run out of nodes
+
+  /// As Match::tell(), with what is to be said of the search.
+  void tell(std::size_t measurement, Decision& decision) const;
 };
 
 /// Whether a landmark may be met twice by measurements of one moment.
@@ -72,7 +76,8 @@ enum class Repeats { no, yes };
 /// map predicts is compared in units of what is not known of it: the covariance of residual i and j is
 /// J_i cov J_j^T, plus the noise where i = j. A measurement alone, and all that are matched together, must pass the
 /// chi-square gate. Among the interpretations that do, the likeliest is taken, where a measurement that is left
-/// unmatched counts like one at its gate. What nobody can tell a covariance of counts as known.
+/// unmatched counts like one at its gate. Landmarks that no factor of positive weight binds are none to match. Of the
+/// landmarks that pass the gate of a measurement the best 32 are looked at.
 Association associate(std::size_t measurements, const std::vector<Pairing>& pairings, const State& state,
                       const AssociationOptions& options, Repeats repeats);
 

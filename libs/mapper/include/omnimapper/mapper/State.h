@@ -4,6 +4,7 @@
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/Uncertainty.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ struct State {
   std::optional<Eigen::MatrixXd> jointCovariance(const std::vector<base::VariableId>& ids) const {
     return uncertainty.joint(graph, ids);
   }
+  /// Whether it is known how two sessions lie to each other: they are one, or both are joined to the map.
+  bool areJoined(std::uint16_t session, std::uint16_t other) const;
   /// Every factor that speaks of the landmark, in the order of ids.
   std::vector<base::FactorId> factorsOf(base::LandmarkId id) const;
   /// Active landmarks of a plugin, by its INI section: what a new observation may be associated with.

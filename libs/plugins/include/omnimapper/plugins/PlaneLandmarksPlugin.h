@@ -4,9 +4,8 @@
 #include <omnimapper/mapper/Association.h>
 #include <omnimapper/mapper/PluginFactory.h>
 
-#include <map>
+#include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,9 @@ namespace omnimapper::plugins {
 struct PlaneLandmarksOptions : mapper::AssociationOptions {
   enum class Form { plane, wall };
   Form form = Form::plane;
+  /// Where tables and floors are counted from: below the first key frame's base, or z = 0 of the map.
+  enum class Ground : std::uint8_t { start = 0, map = 1 };
+  Ground ground = Ground::start;
   bool planes = true;                                                  ///< measure CObservationPlanes
   bool lines = true;                                                   ///< measure CObservationLaserLines
   double min_area = 0.25;                                              ///< [m^2] of a new landmark, seen as a plane
@@ -32,7 +34,7 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
 
 /// Planes of walls, tables and floors as landmarks (thesis 4.2), measured by the planes of depth images and clouds
 /// (CObservationPlanes) and by the lines of 2D lasers (CObservationLaserLines) alike: one wall is one landmark, whoever
-/// sees it. A landmark that was seen as lines of one height alone is held upright, weakly. Coplanar surfaces that are
+/// sees it. A landmark that only lines of one height have shown is held upright, weakly. Coplanar surfaces that are
 /// apart are landmarks of their own; landmarks that turn out to be one are merged. Opposite faces of a wall are two.
 class PlaneLandmarksPlugin : public mapper::MeasurementPlugin {
  public:
@@ -48,8 +50,6 @@ class PlaneLandmarksPlugin : public mapper::MeasurementPlugin {
   void restore(const map::MapSection* saved, const mapper::View& view) override;
 
  private:
-  class Moment;
-
   PlaneLandmarksOptions options_;
   mapper::PluginContext context_;
   std::unique_ptr<class KnownPlanes> known_;

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/geometry/Se3.h>
+#include <omnimapper/mapper/Batch.h>
+#include <omnimapper/plugins/PlaneLandmarksPlugin.h>
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "KnownPlanes.h"
+#include "PlaneSighting.h"
+
+namespace omnimapper::plugins {
+
+/// The work of PlaneLandmarksPlugin on one observation: which landmark each sighting is of, and what becomes of it.
+class PlaneMoment {
+ public:
+  PlaneMoment(const PlaneLandmarksOptions& options, const mapper::PluginContext& context, const KnownPlanes& known,
+              const map::KeyFrame& frame, const mapper::View& view);
+
+  Eigen::Vector3d upInBase() const { return map_from_base_.rotation.conjugate() * Eigen::Vector3d::UnitZ(); }
+  /// To be called once.
+  mapper::Batch take(const std::vector<PlaneSighting>& sightings);
+
+ private:
+  struct Fresh {
+    KnownPlanes::Surface surface;
+    std::shared_ptr<const PlanePayload> payload;
+  };
+
+  std::vector<mapper::Pairing> pairingsOf(const std::vector<PlaneSighting>& sightings);
+  // Of two landmarks on one plane, say on both sides of a door: each is as right, and now they touch.
+  bool spansTwo(const mapper::Match& match, const std::vector<mapper::Pairing>& pairings) const;
+  // How far apart they are on their plane, if they may be one. Wide open: what is near enough is for the covariance to
+  // say.
+  std::optional<double> gapIfAlike(const KnownPlanes::Surface& surface, const PlaneSighting& sighting,
+                                   const std::vector<Eigen::Vector3d>& points) const;
+  // [m] of the way since then.
+  double sigmaSince(base::KeyFrameId frame);
+  std::vector<Eigen::Vector3d> inMap(const std::vector<Eigen::Vector3d>& in_base) const;
+  graph::FactorRecord record(const PlaneSighting& sighting, base::VariableId plane, base::LandmarkId landmark) const;
+  mapper::Decision decisionOf(const PlaneSighting& sighting) const;
+  void addToKnown(const PlaneSighting& sighting, const mapper::Pairing& pairing, mapper::Decision decision);
+  // Whether it is the first that shows how the landmark leans: a plane, or a line of a second height (thesis 4.2.3).
+  static bool tellsLean(const PlaneSighting& sighting, const std::vector<Eigen::Vector3d>& points,
+                        const KnownPlanes::Surface& surface, const PlanePayload& payload);
+  // [m]
+  static double heightOf(const std::vector<Eigen::Vector2d>& on_plane);
+  // Whether a corner lies outside by more than edges are seen alike.
+  static bool reachesOver(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points);
+  void logUseless(const PlaneSighting& sighting);
+  void addNew(const PlaneSighting& sighting, mapper::Decision decision);
+  // Two stretches of one wall, with a door between them.
+  Fresh* alikeInThisMoment(const PlaneSighting& sighting, const std::vector<Eigen::Vector3d>& points);
+
+  const PlaneLandmarksOptions& options_;
+  const mapper::PluginContext& context_;
+  const KnownPlanes& known_;
+  const SurfaceForm& form_;
+  const map::KeyFrame& frame_;
+  const mapper::View& view_;
+  geometry::Se3 map_from_base_;
+  double pose_sigma_ = 0;                           // [m] of the base in the map
+  std::map<base::KeyFrameId, double> sigma_since_;  // [m]
+  std::vector<Fresh> fresh_;
+  std::set<base::FactorId> leaning_;                                          // upright priors that were removed
+  std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>> payloads_;  // of those that were met
+  mapper::Batch batch_;
+};
+
+}  // namespace omnimapper::plugins
