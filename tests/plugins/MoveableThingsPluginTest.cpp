@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
-#include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/plugins/MoveableThingsPlugin.h>
 
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "PointDrive.h"
 #include "landmarks/MovedThingPayload.h"
+#include "output/GeoJson.h"
+#include "output/SceneLandmarks.h"
 
 namespace omnimapper::plugins::moveable_things_plugin_test {
 namespace {
@@ -72,12 +76,60 @@ TEST(MoveableThingsPlugin, OneThatMovedIsFoundWithBothItsPlaces) {
   EXPECT_LT(things.front()->places[0].last_seen, things.front()->places[1].first_seen);
   const auto shape = things.front()->shape({}, view.map.key_frames);
   ASSERT_EQ(shape.points.size(), 2U);
-  ASSERT_EQ(shape.lines.size(), 1U);
-  EXPECT_EQ(shape.label, "moved marker 3");
+  EXPECT_TRUE(shape.lines.empty()) << "the way is no wall";
+  EXPECT_EQ(shape.label, "marker 3");
   EXPECT_LT((shape.points[1] - shape.points[0] - shift).norm(), 0.15);
   EXPECT_LT(testing::trajectoryError(view, SimulatedLog(options)), 0.06);
   EXPECT_TRUE(std::any_of(view.decisions.begin(), view.decisions.end(),
                           [](const auto& decision) { return decision.kind == "moved thing" && decision.accepted; }));
+}
+
+TEST(MoveableThingsPlugin, InOutputsAMovedThingIsItsWayAndStandsNowhere) {
+  const auto engine = testing::makeEngine(kIni, kWithMoveables);
+  testing::run(*engine, movedOnTheWay(twoLaps(), {3}, {0.6, 0.3, 0}));
+  const auto view = engine->view();
+  const auto shapes = shapesOf(view);
+  const auto record = std::find_if(shapes.begin(), shapes.end(),
+                                   [](const auto& shaped) { return shaped.landmark->kind == "moved thing"; });
+  ASSERT_NE(record, shapes.end());
+  EXPECT_TRUE(record->moved);
+  EXPECT_EQ(lengthOf(record->shape), 0) << "a length in the table is a wall's";
+  EXPECT_TRUE(landmarkTriangles({*record}).empty()) << "landmarks.ply has what stands";
+  const auto plan = nlohmann::json::parse(encodeGeoJson({view, "test", true, false}));
+  for (const auto& feature : plan["features"]) {
+    const auto& properties = feature["properties"];
+    const bool moved = properties["label"] == "marker 3";
+    EXPECT_EQ(properties["state"], moved ? "moved" : "present") << feature;
+    if (properties["kind"] != "moved thing") continue;
+    EXPECT_EQ(feature["geometry"]["type"], "LineString") << feature;
+    EXPECT_EQ(feature["geometry"]["coordinates"].size(), 2U);
+    EXPECT_EQ(properties["times"].size(), 2U);
+  }
+}
+
+TEST(MoveableThingsPlugin, RefusesSectionsThatNobodyHas) {
+  const auto engine = testing::makeEngine(kIni, {kWithMoveables[0], "moveables.landmarks=point"});
+  try {
+    testing::run(*engine, SimulatedLog(pointDrive()).observations());
+    FAIL() << "a misspelt section would be none";
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::unknown_key);
+    EXPECT_NE(std::string(error.what()).find("[moveables] landmarks: 'point'"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("did you mean 'points'?"), std::string::npos) << error.what();
+  }
+}
+
+TEST(MoveableThingsPlugin, TakesTheOwnersOfAMapThatIsContinued) {
+  const SimulatedLog log(pointDrive());
+  const auto first = testing::makeEngine(kPointsIni);
+  testing::run(*first, log.observations());
+  MoveableThingsOptions options;
+  options.landmarks = {"points"};
+  mapper::PluginContext context;
+  context.section = "moveables";
+  context.config_text = "[moveables]\nclass = MoveableThingsPlugin\n";
+  const auto view = first->view();
+  EXPECT_NO_THROW(MoveableThingsPlugin(options, context).afterCommit(view.map.key_frames.back(), view));
 }
 
 // Nothing stands: what is left is odometry (thesis 4.6.3.4). Each goes to where another one was.

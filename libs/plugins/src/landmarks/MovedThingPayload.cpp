@@ -35,11 +35,10 @@ base::Stamp readStamp(std::istream& in) {
 map::LandmarkShape MovedThingPayload::shape(const std::vector<Eigen::VectorXd>&,
                                             const map::KeyFrames& key_frames) const {
   map::LandmarkShape shape;
-  shape.label = "moved " + label;
+  shape.label = label;
   for (const ObservedPlace& place : places) {
     const Eigen::Vector3d point =
         geometry::fromMrpt(key_frames.at(place.seen_from).map_from_base) * place.point_in_base;
-    if (!shape.points.empty()) shape.lines.emplace_back(shape.points.back(), point);
     shape.points.push_back(point);
     shape.point_stamps.push_back(place.last_seen);
     const std::string number = "place_" + std::to_string(shape.points.size());

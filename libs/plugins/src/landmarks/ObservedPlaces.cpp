@@ -1,13 +1,16 @@
 #include "ObservedPlaces.h"
 
-#include <omnimapper/base/Error.h>
 #include <omnimapper/graph/ChiSquare.h>
-#include <omnimapper/graph/Marginals.h>
+#include <omnimapper/graph/Linearised.h>
 #include <omnimapper/graph/Solver.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
+
+#include "Merging.h"
+#include "PlanePayload.h"
+#include "SurfaceForm.h"
 
 namespace omnimapper::plugins {
 
@@ -15,7 +18,7 @@ namespace {
 
 const graph::SolveOptions kVisitSolve{graph::SolveOptions::Method::levenberg_marquardt, 30, 1e-6, {}};
 
-// A landmark and sightings of it, with all else held.
+// A landmark, what is known of it by itself, and sightings of it, with all else held.
 class Visit {
  public:
   Visit(const WeighedLandmark& landmark, const graph::Graph& graph) : landmark_(&landmark), whole_(&graph) {
@@ -23,6 +26,7 @@ class Visit {
       const auto& variable = graph.variable(id);
       own_[id] = held_.addVariable(variable.kind, variable.value);
     }
+    for (const auto id : factorsOfItself(landmark, graph)) held_.addFactor(bound(graph.factor(id)));
   }
 
   /// Takes it if it fits.
@@ -95,12 +99,12 @@ std::vector<Visit> visitsOf(const WeighedLandmark& landmark, const SightingFrame
 using VisitVariables = std::vector<std::vector<base::VariableId>>;
 
 VisitVariables splitIntoVisits(const WeighedLandmark& landmark, const std::vector<Visit>& visits, graph::Graph& graph) {
-  for (const auto id : landmark.sightings) graph.setWeight(id, 0);
-  std::vector<base::FactorId> of_itself;  // such as a prior: it holds at every place
-  for (const auto id : graph.factorsOf(landmark.variables.front())) {
-    const auto& record = graph.factor(id);
-    if (record.variables == landmark.variables && !record.tags.hypothesis) of_itself.push_back(id);
+  // Relations too: of which visit they would be nobody knows.
+  for (const auto variable : landmark.variables) {
+    const auto factors = graph.factorsOf(variable);
+    for (const auto id : factors) graph.setWeight(id, 0);
   }
+  const auto of_itself = factorsOfItself(landmark, graph);
   VisitVariables all;
   for (const Visit& visit : visits) {
     std::map<base::VariableId, base::VariableId> own;
@@ -124,23 +128,24 @@ VisitVariables splitIntoVisits(const WeighedLandmark& landmark, const std::vecto
   return all;
 }
 
-// Of the change that takes the landmark of one visit to that of another; infinite if nothing is known of it.
+// Of the change that takes the landmark of one visit to that of another; 0 if nothing can be told.
 double chi2OfMove(const std::vector<base::VariableId>& from, const std::vector<base::VariableId>& to,
-                  const graph::Graph& graph, const graph::Marginals& marginals) {
+                  const graph::Graph& graph, const mapper::Uncertainty& uncertainty) {
   auto ids = from;
   ids.insert(ids.end(), to.begin(), to.end());
-  const Eigen::MatrixXd joint = marginals.jointCovariance(ids);
+  const Eigen::MatrixXd joint = uncertainty.joint(graph, ids).value();
   const Eigen::Index n = joint.rows() / 2;
-  Eigen::VectorXd move(n);
+  SurfaceForm::Difference move{Eigen::VectorXd(n), Eigen::MatrixXd::Zero(n, 2 * n)};
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    const auto& kind = *graph.variable(from[i]).kind;
-    kind.minus(graph.value(to[i]).data(), graph.value(from[i]).data(), move.data() + row);
-    row += kind.tangentSize();
+    const auto one = differenceOf(*graph.variable(from[i]).kind, graph.value(from[i]), graph.value(to[i]));
+    const Eigen::Index size = one.change.size();
+    move.change.segment(row, size) = one.change;
+    move.by_both.block(row, row, size, size) = one.by_both.leftCols(size);
+    move.by_both.block(row, n + row, size, size) = one.by_both.rightCols(size);
+    row += size;
   }
-  const Eigen::MatrixXd covariance = joint.topLeftCorner(n, n) + joint.bottomRightCorner(n, n) -
-                                     joint.topRightCorner(n, n) - joint.bottomLeftCorner(n, n);
-  return move.dot(covariance.ldlt().solve(move));
+  return chi2Of(move.change, move.by_both * joint * move.by_both.transpose()).value_or(0);
 }
 
 std::vector<Eigen::VectorXd> valuesOfVisit(const std::vector<base::VariableId>& variables, const graph::Graph& graph) {
@@ -152,12 +157,13 @@ std::vector<Eigen::VectorXd> valuesOfVisit(const std::vector<base::VariableId>& 
 // Each visit goes to the place that it fits best, else to a new one.
 std::vector<SeenPlace> placesOfVisits(const map::Landmark& landmark, const std::vector<Visit>& visits,
                                       const VisitVariables& variables, const map::Map& map, const graph::Graph& graph,
-                                      const graph::Marginals& marginals, const MoveableThingsOptions& options) {
+                                      const mapper::Uncertainty& uncertainty, const MoveableThingsOptions& options) {
   int rows = 0;
   for (const auto id : variables.front()) rows += graph.variable(id).kind->tangentSize();
   const double limit = graph::chiSquareQuantile(options.confidence, rows);
   std::vector<SeenPlace> places;
   std::vector<std::vector<std::size_t>> members;
+  // How far it moved is that of all that was seen of it: of a wall each visit may have seen another part.
   for (std::size_t i = 0; i < visits.size(); ++i) {
     const auto here = middleOf(landmark, valuesOfVisit(variables[i], graph), map.key_frames);
     double best = limit;
@@ -166,7 +172,7 @@ std::vector<SeenPlace> placesOfVisits(const map::Landmark& landmark, const std::
       for (const std::size_t other : members[p]) {
         const auto there = middleOf(landmark, valuesOfVisit(variables[other], graph), map.key_frames);
         const bool near = here && there && (*here - *there).norm() < options.min_move;
-        const double chi2 = near ? 0 : chi2OfMove(variables[other], variables[i], graph, marginals);
+        const double chi2 = near ? 0 : chi2OfMove(variables[other], variables[i], graph, uncertainty);
         if (chi2 > best) continue;
         best = chi2;
         best_place = p;
@@ -197,9 +203,9 @@ const map::KeyFrame* SightingFrames::of(const graph::FactorRecord& sighting) con
   return nullptr;
 }
 
-std::vector<std::vector<SeenPlace>> tellPlaces(const map::Map& map, const graph::Graph& graph,
-                                               const std::vector<WeighedLandmark>& landmarks,
-                                               const MoveableThingsOptions& options) {
+std::optional<std::vector<std::vector<SeenPlace>>> tellPlaces(const map::Map& map, const graph::Graph& graph,
+                                                              const std::vector<WeighedLandmark>& landmarks,
+                                                              const MoveableThingsOptions& options) {
   const SightingFrames frames(map.key_frames);
   graph::Graph copy = graph;
   std::vector<std::vector<Visit>> visits;
@@ -209,12 +215,13 @@ std::vector<std::vector<SeenPlace>> tellPlaces(const map::Map& map, const graph:
     variables.push_back(splitIntoVisits(landmark, visits.back(), copy));
   }
   graph::solve(copy, kVisitSolve);
-  const graph::Marginals marginals(copy);
+  const mapper::Uncertainty uncertainty(copy);
+  if (!uncertainty.joint(copy, {map.key_frames.back().pose})) return std::nullopt;
   std::vector<std::vector<SeenPlace>> places;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     places.push_back(visits[i].empty() ? std::vector<SeenPlace>()
                                        : placesOfVisits(map.landmark(landmarks[i].id), visits[i], variables[i], map,
-                                                        copy, marginals, options));
+                                                        copy, uncertainty, options));
   }
   return places;
 }
@@ -226,10 +233,47 @@ std::vector<Eigen::VectorXd> valuesSeenBy(const std::vector<base::FactorId>& sig
   return visit.values();
 }
 
+bool isDetermined(const WeighedLandmark& landmark, const std::vector<base::FactorId>& sightings,
+                  const graph::Graph& graph) {
+  constexpr double kLeast = 1e-9;  // of the information in the best known direction
+  auto factors = factorsOfItself(landmark, graph);
+  factors.insert(factors.end(), sightings.begin(), sightings.end());
+  std::map<base::VariableId, Eigen::Index> offsets;
+  Eigen::Index size = 0;
+  for (const auto id : landmark.variables) {
+    offsets[id] = size;
+    size += graph.variable(id).kind->tangentSize();
+  }
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
+  for (const auto id : factors) {
+    const auto& record = graph.factor(id);
+    const graph::Linearised linearised(graph, record);
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(linearised.residual.size(), size);
+    for (std::size_t i = 0; i < record.variables.size(); ++i) {
+      const auto offset = offsets.find(record.variables[i]);
+      if (offset == offsets.end()) continue;
+      jacobian.middleCols(offset->second, linearised.jacobians[i].cols()) = linearised.jacobians[i];
+    }
+    information += jacobian.transpose() * jacobian;
+  }
+  const Eigen::VectorXd known =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(information, Eigen::EigenvaluesOnly).eigenvalues();
+  return known.minCoeff() > kLeast * known.maxCoeff();
+}
+
 std::optional<Eigen::Vector3d> middleOf(const map::Landmark& landmark, const std::vector<Eigen::VectorXd>& values,
-                                        const map::KeyFrames& key_frames) {
+                                        const map::KeyFrames& key_frames, const std::set<base::KeyFrameId>& seen_from) {
   if (!landmark.payload) return std::nullopt;
-  const auto shape = landmark.payload->shape(values, key_frames);
+  auto payload = landmark.payload;
+  if (const auto plane = std::dynamic_pointer_cast<const PlanePayload>(payload)) {
+    auto of_place = std::make_shared<PlanePayload>(*plane);
+    auto& patches = of_place->patches;
+    patches.erase(std::remove_if(patches.begin(), patches.end(),
+                                 [&](const SurfacePatch& patch) { return seen_from.count(patch.frame) == 0; }),
+                  patches.end());
+    if (!patches.empty()) payload = of_place;
+  }
+  const auto shape = payload->shape(values, key_frames);
   auto points = shape.points;
   for (const auto& surface : shape.surfaces)
     points.insert(points.end(), surface.vertices.begin(), surface.vertices.end());

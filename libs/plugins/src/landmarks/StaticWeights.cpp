@@ -127,9 +127,25 @@ std::vector<WeighedLandmark> landmarksToWeigh(const mapper::State& state, const 
       weighed.sightings.push_back(factor);
       weighed.degrees_of_freedom += record.noise.size();
     }
+    for (const auto factor : factorsOfItself(weighed, state.graph))
+      weighed.degrees_of_freedom += state.graph.factor(factor).noise.size();
     if (weighed.degrees_of_freedom > 0) all.push_back(std::move(weighed));
   }
   return all;
+}
+
+std::vector<base::FactorId> factorsOfItself(const WeighedLandmark& landmark, const graph::Graph& graph) {
+  const std::set<base::VariableId> own(landmark.variables.begin(), landmark.variables.end());
+  std::set<base::FactorId> found;
+  for (const auto variable : own) {
+    for (const auto id : graph.factorsOf(variable)) {
+      const auto& record = graph.factor(id);
+      const bool of_itself = std::all_of(record.variables.begin(), record.variables.end(),
+                                         [&](const auto bound) { return own.count(bound) > 0; });
+      if (of_itself && !record.tags.hypothesis) found.insert(id);
+    }
+  }
+  return {found.begin(), found.end()};
 }
 
 Weighing weighLandmarks(const graph::Graph& graph, const std::vector<WeighedLandmark>& landmarks) {

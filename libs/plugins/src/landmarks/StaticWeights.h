@@ -12,7 +12,7 @@ struct WeighedLandmark {
   base::LandmarkId id;
   std::vector<base::VariableId> variables;
   std::vector<base::FactorId> sightings;  ///< factors that bind it to something else, in the order of ids
-  int degrees_of_freedom = 0;             ///< rows of the sightings beyond those that only tell where it is
+  int degrees_of_freedom = 0;             ///< rows beyond those that only tell where it is
   double chi2 = 0;                        ///< of the sightings, as their losses count them
   double weight = 1;
 };
@@ -28,6 +28,9 @@ struct Weighing {
 /// The active landmarks of these sections (of all, if none is named) that were seen more often than it takes to tell
 /// where they are. Hypotheses are the consistency test's.
 std::vector<WeighedLandmark> landmarksToWeigh(const mapper::State& state, const std::vector<std::string>& sections);
+
+/// Factors that speak of nothing but the landmark, such as a prior: they hold wherever it is.
+std::vector<base::FactorId> factorsOfItself(const WeighedLandmark& landmark, const graph::Graph& graph);
 
 /// Expectation maximisation over one weight for each landmark (thesis 4.6.2.2): the least of
 ///   chi2 of all else + sum over landmarks of weight chi2 + lambda (1 - weight)^2

@@ -76,4 +76,21 @@ const SurfaceForm& SurfaceForm::of(Kind kind) {
   return plane;
 }
 
+const SurfaceForm* SurfaceForm::find(const graph::Variable& variable) {
+  for (const Kind kind : {Kind::plane, Kind::wall})
+    if (of(kind).variable()->kind() == variable.kind()) return &of(kind);
+  return nullptr;
+}
+
+SurfaceForm::Difference differenceOf(const graph::Variable& variable, const Eigen::VectorXd& a,
+                                     const Eigen::VectorXd& b) {
+  if (const SurfaceForm* form = SurfaceForm::find(variable)) return form->difference(a, b);
+  const int size = variable.tangentSize();
+  SurfaceForm::Difference difference{Eigen::VectorXd(size), Eigen::MatrixXd(size, 2 * size)};
+  variable.minus(b.data(), a.data(), difference.change.data());
+  difference.by_both.leftCols(size) = -Eigen::MatrixXd::Identity(size, size);
+  difference.by_both.rightCols(size).setIdentity();
+  return difference;
+}
+
 }  // namespace omnimapper::plugins

@@ -19,6 +19,8 @@ class SurfaceForm {
     wall = 1    ///< two (WallVariable); lines of level lasers in a planar map alone
   };
   static const SurfaceForm& of(Kind kind);
+  /// Whose values are of this kind; null if they are of no surface.
+  static const SurfaceForm* find(const graph::Variable& variable);
 
   virtual ~SurfaceForm() = default;
   virtual const std::shared_ptr<const graph::Variable>& variable() const = 0;
@@ -38,5 +40,10 @@ class SurfaceForm {
   };
   virtual Difference difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const = 0;
 };
+
+/// The change that takes a landmark's value `a` to `b`: of a surface its form's, of anything else that of its kind, as
+/// if all its values had one tangent.
+SurfaceForm::Difference differenceOf(const graph::Variable& variable, const Eigen::VectorXd& a,
+                                     const Eigen::VectorXd& b);
 
 }  // namespace omnimapper::plugins

@@ -24,7 +24,8 @@ struct MoveableThingsOptions {
 /// Finds out landmarks that were moved (thesis 4.6): expectation maximisation over one weight per landmark, on a copy
 /// of the graph; then sightings of those with little weight are told apart into the places where they were seen. Moved
 /// ones are retired, no longer bear on the map, and stay in it as a landmark of kind "moved thing" that lists their
-/// places.
+/// places. Those with little weight that were nowhere seen often enough are retired without. The first key frame throws
+/// Error(unknown_key) if `landmarks` names what is neither a plugin's section nor the owner of a landmark.
 class MoveableThingsPlugin : public mapper::MeasurementPlugin {
  public:
   MoveableThingsPlugin(const MoveableThingsOptions& options, const mapper::PluginContext& context);
@@ -35,8 +36,11 @@ class MoveableThingsPlugin : public mapper::MeasurementPlugin {
   mapper::Batch atEnd(const mapper::View& view) override;
 
  private:
+  void refuseUnknownSections(const map::Map& map);
+
   MoveableThingsOptions options_;
   std::string section_;
+  std::string config_text_;  // until the names in it are checked
   std::size_t looked_at_solve_ = 0;
 };
 

@@ -49,6 +49,7 @@ inline std::unique_ptr<mapper::Engine> makeEngine(const std::string& ini, const 
   mapper::PluginContext context;
   context.motion = options.motion;
   context.map_is_held = map_is_held;
+  context.config_text = config.text();
   auto plugins = mapper::makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, {}},
                                      config, context);
   return std::make_unique<mapper::Engine>(options_of_engine, "test", mapper::SensorPoses(options.sensors, config),
