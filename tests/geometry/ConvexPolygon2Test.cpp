@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -25,16 +26,9 @@ TEST(ConvexPolygon2, HullOfALineIsItsEnds) {
   EXPECT_TRUE(convexHull({}).empty());
 }
 
-TEST(ConvexPolygon2, IntersectionOfTwoRectanglesWorkedByHand) {
-  const Points common = intersection(rectangle(0, 0, 2, 2), rectangle(1, 1.5, 4, 4));
-  EXPECT_DOUBLE_EQ(area(common), 0.5);
-  EXPECT_TRUE(intersection(rectangle(0, 0, 1, 1), rectangle(3, 0, 1, 1)).empty());
-}
-
 TEST(ConvexPolygon2, ACrossHasNoCornerOfOneInTheOther) {
   const Points across = rectangle(-2, -0.5, 4, 1), along = rectangle(-0.5, -2, 1, 4);
   EXPECT_DOUBLE_EQ(distance(across, along), 0);
-  EXPECT_DOUBLE_EQ(area(intersection(across, along)), 1);
 }
 
 TEST(ConvexPolygon2, DistanceOfPolygonsSegmentsAndPoints) {
@@ -42,6 +36,18 @@ TEST(ConvexPolygon2, DistanceOfPolygonsSegmentsAndPoints) {
   EXPECT_DOUBLE_EQ(distance({{0, 0}, {2, 0}}, {{1, -1}, {1, 1}}), 0);
   EXPECT_DOUBLE_EQ(distance({{0, 0}, {2, 0}}, {{3, 1}}), std::hypot(1, 1));
   EXPECT_DOUBLE_EQ(distance(rectangle(0, 0, 4, 4), {{1, 1}, {2, 2}}), 0);
+}
+
+// Whether all of the other polygon is beyond one edge.
+bool hasEdgeBetween(const Points& polygon, const Points& other) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d from = polygon[i], edge = polygon[(i + 1) % polygon.size()] - from;
+    const auto isBeyond = [&](const Eigen::Vector2d& p) {
+      return edge.x() * (p - from).y() - edge.y() * (p - from).x() < 0;
+    };
+    if (std::all_of(other.begin(), other.end(), isBeyond)) return true;
+  }
+  return false;
 }
 
 TEST(ConvexPolygon2, NoPairOfRandomPointsIsNearerThanTheHulls) {
@@ -55,8 +61,7 @@ TEST(ConvexPolygon2, NoPairOfRandomPointsIsNearerThanTheHulls) {
     const double gap = distance(hull_a, hull_b);
     for (const auto& p : a)
       for (const auto& q : b) EXPECT_GE((p - q).norm(), gap);
-    EXPECT_EQ(gap > 0, intersection(hull_a, hull_b).empty());
-    EXPECT_NEAR(area(intersection(hull_a, hull_b)), area(intersection(hull_b, hull_a)), 1e-12);
+    EXPECT_EQ(gap > 0, hasEdgeBetween(hull_a, hull_b) || hasEdgeBetween(hull_b, hull_a));
   }
 }
 

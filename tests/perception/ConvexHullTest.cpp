@@ -19,6 +19,7 @@ TEST(ConvexHull, GoesRoundTheOuterPointsCounterClockwise) {
 TEST(ConvexHull, OfLittleIsLittle) {
   EXPECT_TRUE(convexHull({}).empty());
   EXPECT_EQ(convexHull({{1, 2}}).size(), 1U);
+  EXPECT_EQ(convexHull({{1, 2}, {1, 2}}).size(), 1U);
   EXPECT_EQ(convexHull({{0, 0}, {1, 1}, {2, 2}}), (std::vector<Vector2d>{{0, 0}, {2, 2}}));
 }
 
@@ -52,7 +53,7 @@ TEST(ConvexHull, OfManyPointsOnALineIsItsEnds) {
   std::vector<Vector2d> points;
   for (int i = 0; i < 1000; ++i) points.emplace_back(i % 500, 2.0 * (i % 500));
   EXPECT_EQ(convexHull(points), (std::vector<Vector2d>{{0, 0}, {499, 998}}));
-  EXPECT_EQ(convexHull(std::vector<Vector2d>(1000, {1, 2})).front(), Vector2d(1, 2));
+  EXPECT_EQ(convexHull(std::vector<Vector2d>(1000, {1, 2})), std::vector<Vector2d>{Vector2d(1, 2)});
 }
 
 }  // namespace

@@ -14,19 +14,6 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// The part of a convex polygon on the left of the line from `a` to `b`.
-Points clip(const Points& polygon, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  Points left;
-  const auto side = [&](const Eigen::Vector2d& p) { return cross(b - a, p - a); };
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double of_p = side(p), of_q = side(q);
-    if (of_p >= 0) left.push_back(p);
-    if ((of_p > 0 && of_q < 0) || (of_p < 0 && of_q > 0)) left.emplace_back(p + of_p / (of_p - of_q) * (q - p));
-  }
-  return left;
-}
-
 bool isInside(const Points& polygon, const Eigen::Vector2d& p) {
   if (polygon.size() < 3) return false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -75,15 +62,6 @@ double area(const Points& polygon) {
   for (std::size_t i = 2; i < polygon.size(); ++i)
     doubled += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
   return doubled / 2;
-}
-
-Points intersection(const Points& a, const Points& b) {
-  const bool b_clips = b.size() > 2;
-  if (!b_clips && a.size() < 3) return {};
-  Points left = b_clips ? a : b;
-  const Points& by = b_clips ? b : a;
-  for (std::size_t i = 0; i < by.size() && !left.empty(); ++i) left = clip(left, by[i], by[(i + 1) % by.size()]);
-  return convexHull(std::move(left));
 }
 
 double distance(const Points& a, const Points& b) {

@@ -1,5 +1,7 @@
 #include "ConvexHull.h"
 
+#include <omnimapper/geometry/ConvexPolygon2.h>
+
 #include <algorithm>
 #include <array>
 
@@ -9,28 +11,6 @@ namespace {
 
 constexpr std::size_t kWorthDropping = 64;    // sorting fewer costs less than looking for the inner ones
 constexpr std::size_t kExtremeSample = 1024;  // points among which extreme ones are sought
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-std::vector<Eigen::Vector2d> monotoneChain(std::vector<Eigen::Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  if (points.size() < 3) return points;
-  std::vector<Eigen::Vector2d> hull;
-  const auto add = [&](const Eigen::Vector2d& point, std::size_t fixed) {
-    while (hull.size() >= fixed + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
-      hull.pop_back();
-    hull.push_back(point);
-  };
-  for (const auto& point : points) add(point, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
-  hull.pop_back();  // the first again
-  return hull;
-}
 
 // The farthest points in eight directions among some of all, as a convex polygon.
 std::vector<Eigen::Vector2d> extremes(const std::vector<Eigen::Vector2d>& points) {
@@ -47,7 +27,7 @@ std::vector<Eigen::Vector2d> extremes(const std::vector<Eigen::Vector2d>& points
       if (along(d, point) > along(d, farthest[d])) farthest[d] = point;
     }
   }
-  return monotoneChain({farthest.begin(), farthest.end()});
+  return geometry::convexHull({farthest.begin(), farthest.end()});
 }
 
 }  // namespace
@@ -60,7 +40,7 @@ std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points) {
     const auto isInner = [&](const Eigen::Vector2d& point) { return inside.holds(point, -kWithin); };
     points.erase(std::remove_if(points.begin(), points.end(), isInner), points.end());
   }
-  return monotoneChain(std::move(points));
+  return geometry::convexHull(std::move(points));
 }
 
 HullNeighbourhood::HullNeighbourhood(const std::vector<Eigen::Vector2d>& corners) {

@@ -5,8 +5,8 @@
 
 namespace omnimapper::perception {
 
-/// The corners of the convex hull, counter-clockwise; points on its edges are left out. Source: Andrew's monotone
-/// chain, on what Akl and Toussaint's polygon of extreme points leaves (A fast convex hull algorithm, IPL 7(5), 1978).
+/// geometry::convexHull() of many points in less time: of what lies within Akl and Toussaint's polygon of extreme
+/// points (A fast convex hull algorithm, IPL 7(5), 1978) nothing is sorted.
 std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points);
 
 /// Answers for many points whether they are near a convex hull.

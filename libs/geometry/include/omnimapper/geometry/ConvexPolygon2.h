@@ -12,9 +12,6 @@ std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points);
 /// [m^2]; 0 for fewer than three corners. Counter-clockwise polygons have a positive area.
 double area(const std::vector<Eigen::Vector2d>& polygon);
 
-/// What two convex polygons have in common, as convexHull() gives them: a polygon, a segment, a point, or nothing.
-std::vector<Eigen::Vector2d> intersection(const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b);
-
 /// The least distance between two convex polygons (or segments, or points) [m]; 0 where they meet. Neither is empty.
 double distance(const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b);
 
