@@ -47,12 +47,15 @@ TEST(RelationFactors, ResidualsAsWorkedByHand) {
   const Eigen::VectorXd beside = wall({6, 2.05}, {8, 2.05});
   EXPECT_NEAR(residualOf(WallsAlignedFactor(), {level, beside}, 0), 0, 1e-12);
   EXPECT_NEAR(residualOf(WallsAlignedFactor(), {level, beside}, 1), 0.05, 1e-12);
+  EXPECT_NEAR(residualOf(WallShiftFactor(), {level, turned}), -1.5 + 0.5 * (std::cos(0.1) - 1), 1e-12);
   const Plane3 a{{1, 0, 0}, 2}, b{{-std::cos(0.1), std::sin(0.1), 0}, 1}, c{{std::sin(0.1), std::cos(0.1), 0}, 1};
   EXPECT_NEAR(Evaluation({PlanesParallelFactor(), {}, {toValue(a), toValue(b)}}).residual().norm(), std::sin(0.1),
               1e-12);
   EXPECT_NEAR(residualOf(PlanesSquareFactor(), {toValue(a), toValue(c)}), std::sin(0.1), 1e-12);
   const PlanesAlignedFactor aligned(Vector3d(-2, 7, 0));
   EXPECT_NEAR(residualOf(aligned, {toValue(a), toValue(Plane3{{1, 0, 0}, 2.1})}, 2), 0.1, 1e-12);
+  const PlaneShiftFactor shifted(Vector3d(-2, 7, 0));
+  EXPECT_NEAR(residualOf(shifted, {toValue(a), toValue(Plane3{{1, 0, 0}, 2.1})}), 0.1, 1e-12);
 }
 
 TEST(RelationFactors, JacobiansMatchDifferences) {
@@ -68,10 +71,12 @@ TEST(RelationFactors, JacobiansMatchDifferences) {
         {PointOnPlaneFactor(), {graph::point3(), planeVariable()}, {point3, toValue(anyPlane(dice))}});
     graph::expectJacobiansMatchDifferences({WallTurnFactor(i), walls, {anyWall(dice), anyWall(dice)}});
     graph::expectJacobiansMatchDifferences({WallsAlignedFactor(), walls, {anyWall(dice), anyWall(dice)}});
+    graph::expectJacobiansMatchDifferences({WallShiftFactor(), walls, {anyWall(dice), anyWall(dice)}});
     const std::vector<Eigen::VectorXd> two = {toValue(anyPlane(dice)), toValue(anyPlane(dice))};
     graph::expectJacobiansMatchDifferences({PlanesParallelFactor(), planes, two});
     graph::expectJacobiansMatchDifferences({PlanesSquareFactor(), planes, two});
     graph::expectJacobiansMatchDifferences({PlanesAlignedFactor(point3), planes, two});
+    graph::expectJacobiansMatchDifferences({PlaneShiftFactor(point3), planes, two});
   }
 }
 
@@ -115,9 +120,11 @@ TEST(RelationFactors, ComeBackFromAFile) {
   add({q3, p1}, std::make_shared<PointOnPlaneFactor>());
   add({w1, w2}, std::make_shared<WallTurnFactor>(3));
   add({w1, w2}, std::make_shared<WallsAlignedFactor>());
+  add({w1, w2}, std::make_shared<WallShiftFactor>());
   add({p1, p2}, std::make_shared<PlanesParallelFactor>());
   add({p1, p2}, std::make_shared<PlanesSquareFactor>());
   add({p1, p2}, std::make_shared<PlanesAlignedFactor>(Vector3d(1, 2, 3)));
+  add({p1, p2}, std::make_shared<PlaneShiftFactor>(Vector3d(1, 2, 3)));
   std::stringstream bytes;
   graph::writeGraph(graph, bytes);
   auto registry = graph::FactorRegistry::withBuiltIns();
@@ -155,34 +162,6 @@ TEST(Relations, InTheBoxOfTheThesisAreFoundAndWrongOnesRefused) {
   EXPECT_LT(sums.with_wrong, 1.2 * sums.given);
   EXPECT_LT(sums.pose_found, 1.05 * sums.pose_none);
   EXPECT_EQ(sums.wrong_acting, 0);
-}
-
-// A direction that four walls share is told three times, not six.
-TEST(Relations, OfWallsAreATree) {
-  graph::Graph graph;
-  map::Map map;
-  const auto pose = graph.addVariable(graph::se2(), Vector3d::Zero(), true);
-  const std::vector<Segment2> walls = {{{3, 0}, {0, 0}}, {{3, 4}, {3, 0}}, {{0, 4}, {3, 4}}, {{0, 0}, {0, 4}}};
-  for (const Segment2& side : walls) {
-    const auto id = graph.addVariable(wallVariable(), toValue(side));
-    graph.addFactor({{pose, id},
-                     std::make_shared<WallFactor>(direction(side), middle(side)),
-                     graph::SquareRootInformation::fromSigmas(Vector2d(0.01, 0.01))});
-    map::Landmark landmark;
-    landmark.id = map.landmarks.nextId(0);
-    landmark.variables = {id};
-    landmark.evidence = 5;
-    map.landmarks.add(0, landmark);
-  }
-  const mapper::Uncertainty uncertainty(graph);
-  const auto found = findRelations({map, graph, uncertainty}, {}, {});
-  EXPECT_EQ(found.size(), 3u);
-  KnownRelations known;
-  for (const auto& relation : found) known[relation.pair] = true;
-  EXPECT_TRUE(findRelations({map, graph, uncertainty}, {}, known).empty());
-  RelationsOptions shy;
-  shy.min_sightings = 6;
-  EXPECT_TRUE(findRelations({map, graph, uncertainty}, shy, {}).empty());
 }
 
 }  // namespace

@@ -33,11 +33,29 @@ double headingOf(const geometry::Segment2& wall) {
   return std::atan2(along.y(), along.x());
 }
 
+/// The distance of b's middle from a, and its derivatives by both.
+struct Shift {
+  double value;
+  Eigen::RowVector2d by_a, by_b;
+
+  Shift(const geometry::Segment2& a, const geometry::Segment2& b) {
+    const Eigen::Vector2d between = middle(b) - middle(a);
+    value = normalOf(a).dot(between);
+    by_a << -direction(a).dot(between), -1;
+    by_b << 0, normalOf(a).dot(normalOf(b));
+  }
+};
+
 /// How a normal changes with the tangent of its plane.
 Eigen::Matrix3d normalByPlane(const geometry::Plane3& plane) {
   Eigen::Matrix3d by_plane = Eigen::Matrix3d::Zero();
   by_plane.leftCols<2>() = geometry::tangentBasis(plane.normal);
   return by_plane;
+}
+
+/// How the distance of a point changes with the tangent of the plane.
+Eigen::RowVector3d distanceByPlane(const geometry::Plane3& plane, const Eigen::Vector3d& point) {
+  return point.transpose() * normalByPlane(plane) + Eigen::RowVector3d::UnitZ();
 }
 
 /// b's normal across a's, and its derivatives by both.
@@ -65,6 +83,16 @@ struct Across {
     by_a.col(2).setZero();
   }
 };
+
+void writePoint(std::ostream& out, const Eigen::Vector3d& point) {
+  for (const double coordinate : point) graph::writeDouble(out, coordinate);
+}
+
+Eigen::Vector3d readPoint(std::istream& in) {
+  Eigen::Vector3d point;
+  for (double& coordinate : point) coordinate = graph::readDouble(in);
+  return point;
+}
 
 }  // namespace
 
@@ -122,15 +150,29 @@ const Kinds& WallsAlignedFactor::variableKinds() const {
 
 void WallsAlignedFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const geometry::Segment2 a = wallFromValue(values[0]), b = wallFromValue(values[1]);
-  const Eigen::Vector2d between = middle(b) - middle(a);
+  const Shift shift(a, b);
   residual[0] = geometry::wrapToPi(headingOf(b) - headingOf(a));
-  residual[1] = normalOf(a).dot(between);
+  residual[1] = shift.value;
   if (!jacobians) return;
-  if (jacobians[0]) RelationJacobian<2, 2>{jacobians[0]} << -1, 0, -direction(a).dot(between), -1;
-  if (jacobians[1]) RelationJacobian<2, 2>{jacobians[1]} << 1, 0, 0, normalOf(a).dot(normalOf(b));
+  if (jacobians[0]) RelationJacobian<2, 2>{jacobians[0]} << -1, 0, shift.by_a;
+  if (jacobians[1]) RelationJacobian<2, 2>{jacobians[1]} << 1, 0, shift.by_b;
 }
 
 void WallsAlignedFactor::write(std::ostream&) const {}
+
+const Kinds& WallShiftFactor::variableKinds() const {
+  return twoWalls();
+}
+
+void WallShiftFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const Shift shift(wallFromValue(values[0]), wallFromValue(values[1]));
+  residual[0] = shift.value;
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<1, 2>{jacobians[0]} = shift.by_a;
+  if (jacobians[1]) RelationJacobian<1, 2>{jacobians[1]} = shift.by_b;
+}
+
+void WallShiftFactor::write(std::ostream&) const {}
 
 const Kinds& PlanesParallelFactor::variableKinds() const {
   return twoPlanes();
@@ -170,19 +212,28 @@ void PlanesAlignedFactor::evaluate(const double* const* values, double* residual
   Eigen::Map<Eigen::Vector2d>{residual} = across.value;
   residual[2] = signedDistance(b, near_) - signedDistance(a, near_);
   if (!jacobians) return;
-  const auto fill = [&](double* into, const Eigen::Matrix<double, 2, 3>& turn, const geometry::Plane3& plane,
-                        double sign) {
-    RelationJacobian<3, 3> by_plane(into);
-    by_plane.topRows<2>() = turn;
-    by_plane.row(2) = sign * near_.transpose() * normalByPlane(plane);
-    by_plane(2, 2) += sign;
-  };
-  if (jacobians[0]) fill(jacobians[0], across.by_a, a, -1);
-  if (jacobians[1]) fill(jacobians[1], across.by_b, b, 1);
+  if (jacobians[0]) RelationJacobian<3, 3>{jacobians[0]} << across.by_a, -distanceByPlane(a, near_);
+  if (jacobians[1]) RelationJacobian<3, 3>{jacobians[1]} << across.by_b, distanceByPlane(b, near_);
 }
 
 void PlanesAlignedFactor::write(std::ostream& out) const {
-  for (const double coordinate : near_) graph::writeDouble(out, coordinate);
+  writePoint(out, near_);
+}
+
+const Kinds& PlaneShiftFactor::variableKinds() const {
+  return twoPlanes();
+}
+
+void PlaneShiftFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Plane3 a = planeFromValue(values[0]), b = planeFromValue(values[1]);
+  residual[0] = signedDistance(b, near_) - signedDistance(a, near_);
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<1, 3>{jacobians[0]} = -distanceByPlane(a, near_);
+  if (jacobians[1]) RelationJacobian<1, 3>{jacobians[1]} = distanceByPlane(b, near_);
+}
+
+void PlaneShiftFactor::write(std::ostream& out) const {
+  writePoint(out, near_);
 }
 
 void addRelationsTo(graph::FactorRegistry& registry) {
@@ -192,13 +243,11 @@ void addRelationsTo(graph::FactorRegistry& registry) {
     return std::make_shared<WallTurnFactor>(static_cast<int>(graph::readUint(in, 1)));
   });
   registry.add("walls_aligned", [](std::istream&) { return std::make_shared<WallsAlignedFactor>(); });
+  registry.add("wall_shift", [](std::istream&) { return std::make_shared<WallShiftFactor>(); });
   registry.add("planes_parallel", [](std::istream&) { return std::make_shared<PlanesParallelFactor>(); });
   registry.add("planes_square", [](std::istream&) { return std::make_shared<PlanesSquareFactor>(); });
-  registry.add("planes_aligned", [](std::istream& in) {
-    Eigen::Vector3d near;
-    for (double& coordinate : near) coordinate = graph::readDouble(in);
-    return std::make_shared<PlanesAlignedFactor>(near);
-  });
+  registry.add("planes_aligned", [](std::istream& in) { return std::make_shared<PlanesAlignedFactor>(readPoint(in)); });
+  registry.add("plane_shift", [](std::istream& in) { return std::make_shared<PlaneShiftFactor>(readPoint(in)); });
 }
 
 }  // namespace omnimapper::plugins

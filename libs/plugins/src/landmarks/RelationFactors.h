@@ -57,6 +57,17 @@ class WallsAlignedFactor : public graph::Factor {
   void write(std::ostream& out) const override;
 };
 
+/// The second half of WallsAlignedFactor, for two walls of which the turn is told by others. Variables: wall a, wall b.
+/// Residual: the distance of b's middle from a [m].
+class WallShiftFactor : public graph::Factor {
+ public:
+  std::string_view kind() const override { return "wall_shift"; }
+  int residualSize() const override { return 1; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+};
+
 /// Two planes side by side, or face to face. Variables: plane a, plane b. Residual: the part of b's normal across a's,
 /// in the axes of geometry::tangentBasis(a) [rad to first order].
 class PlanesParallelFactor : public graph::Factor {
@@ -86,6 +97,22 @@ class PlanesAlignedFactor : public graph::Factor {
 
   std::string_view kind() const override { return "planes_aligned"; }
   int residualSize() const override { return 3; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+
+ private:
+  Eigen::Vector3d near_;
+};
+
+/// The last row of PlanesAlignedFactor, for two planes that others tell to be parallel. Variables: plane a, plane b.
+/// Residual: b's distance less a's at `near` [m].
+class PlaneShiftFactor : public graph::Factor {
+ public:
+  explicit PlaneShiftFactor(const Eigen::Vector3d& near_in_map) : near_(near_in_map) {}
+
+  std::string_view kind() const override { return "plane_shift"; }
+  int residualSize() const override { return 1; }
   const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;

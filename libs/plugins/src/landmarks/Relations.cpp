@@ -1,6 +1,7 @@
 #include "Relations.h"
 
 #include <omnimapper/geometry/Angle.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/graph/Linearised.h>
 
@@ -8,10 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
+#include "PlaneExtent.h"
 #include "PlaneVariable.h"
 #include "RelationFactors.h"
+#include "ToldRelations.h"
 #include "WallVariable.h"
 
 namespace omnimapper::plugins {
@@ -62,7 +64,7 @@ std::optional<std::pair<double, double>> stretch(const Thing& thing, const Eigen
 class Finder {
  public:
   Finder(const mapper::State& state, const RelationsOptions& options, const KnownRelations& known)
-      : state_(state), options_(options), known_(known) {
+      : state_(state), options_(options), known_(known), told_(known) {
     for (const auto& [id, landmark] : state.map.landmarks) {
       if (landmark.state != map::Landmark::State::active || landmark.variables.size() != 1) continue;
       if (landmark.evidence < static_cast<std::uint32_t>(options.min_sightings)) continue;
@@ -77,6 +79,7 @@ class Finder {
     for (std::size_t i = 0; i < things_.size(); ++i)
       for (std::size_t j = 0; j < things_.size(); ++j) {
         const Thing &a = things_[i], &b = things_[j];
+        if (!mayBeTied(a, b)) continue;
         if (a.kind == "point2" && b.kind == "wall") pointOnWall(a, b);
         if (a.kind == "point3" && b.kind == "plane") pointOnPlane(a, b);
         if (j <= i || a.kind != b.kind) continue;
@@ -85,35 +88,26 @@ class Finder {
       }
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Relation& a, const Relation& b) { return a.likelihood_ratio > b.likelihood_ratio; });
-    thin();
+    // Of what says the same twice the likelier stays.
+    found_.erase(std::remove_if(found_.begin(), found_.end(),
+                                [&](const Relation& relation) {
+                                  const auto& ids = relation.record.variables;
+                                  return !told_.add(relation.record.factor->kind(), ids[0], ids[1]);
+                                }),
+                 found_.end());
     return std::move(found_);
   }
 
  private:
-  // Of what says the same twice the likelier stays.
-  void thin() {
-    std::map<base::VariableId, base::VariableId> parents;
-    const auto root = [&](base::VariableId id) {
-      for (auto up = parents.find(id); up != parents.end(); up = parents.find(id)) id = up->second;
-      return id;
-    };
-    const auto join = [&](base::VariableId a, base::VariableId b) {
-      const auto root_a = root(a), root_b = root(b);
-      if (root_a == root_b) return false;
-      parents[root_a] = root_b;
-      return true;
-    };
-    for (const auto& [pair, acts] : known_)
-      if (acts) join(pair.second.first, pair.second.second);
-    std::set<base::VariableId> placed;
-    found_.erase(std::remove_if(found_.begin(), found_.end(),
-                                [&](const Relation& relation) {
-                                  const auto& ids = relation.record.variables;
-                                  const auto kind = state_.graph.variable(ids[0]).kind->kind();
-                                  const bool is_point = kind == "point2" || kind == "point3";
-                                  return !(is_point ? placed.insert(ids[0]).second : join(ids[0], ids[1]));
-                                }),
-                 found_.end());
+  // Where a session is that nothing has joined, nobody knows; nor does a relation tell.
+  bool mayBeTied(const Thing& a, const Thing& b) const {
+    return a.variable.session == b.variable.session || (isJoined(a) && isJoined(b));
+  }
+  bool isJoined(const Thing& thing) const {
+    const auto& sessions = state_.map.sessions;
+    return std::all_of(sessions.begin(), sessions.end(), [&](const map::Session& session) {
+      return session.number != thing.variable.session || session.joined;
+    });
   }
 
   Eigen::VectorXd sigmas(int angles, int distances) const {
@@ -122,15 +116,9 @@ class Finder {
     all.tail(distances).setConstant(options_.distance_sigma);
     return all;
   }
-  bool isPlaced(base::VariableId point) const {
-    return std::any_of(known_.begin(), known_.end(), [&](const auto& relation) {
-      const auto& [first, second] = relation.first.second;
-      return relation.second && (first == point || second == point);
-    });
-  }
 
   void pointOnWall(const Thing& point, const Thing& wall) {
-    if (!options_.point_on_wall || isPlaced(point.variable)) return;
+    if (!options_.point_on_wall || told_.isPlaced(point.variable)) return;
     const geometry::Segment2 segment = wallFromValue(state_.graph.value(wall.variable).data());
     const Eigen::Vector2d place = state_.graph.value(point.variable), along = direction(segment);
     if (std::abs(normalOf(segment).dot(place - segment.from)) > options_.max_distance) return;
@@ -142,28 +130,29 @@ class Finder {
   }
 
   void pointOnPlane(const Thing& point, const Thing& plane) {
-    if (!options_.point_on_wall || isPlaced(point.variable)) return;
+    if (!options_.point_on_wall || told_.isPlaced(point.variable)) return;
     const geometry::Plane3 surface = planeFromValue(state_.graph.value(plane.variable).data());
     const Eigen::Vector3d place = state_.graph.value(point.variable);
     if (std::abs(signedDistance(surface, place)) > options_.max_distance) return;
     const auto corners = outlineOf(plane.shape);
     if (corners.empty()) return;
-    Eigen::Vector3d low = corners.front(), high = low;
-    for (const auto& corner : corners) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-    const double beyond = kBeyond + options_.max_distance;
-    const bool level = std::abs(surface.normal.z()) > 0.5;
-    const int axes = level ? 3 : 2;  // how high a wall goes nobody may have seen
-    if ((place.head(axes).array() < low.head(axes).array() - beyond).any() ||
-        (place.head(axes).array() > high.head(axes).array() + beyond).any())
-      return;
+    const PlaneAxes axes(surface);
+    const bool upright = std::abs(surface.normal.z()) < 0.5;  // how high a wall goes nobody may have seen
+    const auto dropped = [&](const Eigen::Vector3d& at) {
+      const Eigen::Vector2d on_plane = axes.onto(at);
+      return upright ? Eigen::Vector2d(on_plane.x(), 0) : on_plane;
+    };
+    std::vector<Eigen::Vector2d> seen;
+    for (const auto& corner : corners) seen.push_back(dropped(corner));
+    if (geometry::distance(geometry::convexHull(std::move(seen)), {dropped(place)}) > kBeyond) return;
     weigh(point, plane,
           {"point on surface", std::make_shared<PointOnPlaneFactor>(), sigmas(0, 1), 2 * options_.max_distance});
   }
 
   void twoWalls(const Thing& a, const Thing& b) {
+    const bool turned = told_.isTurned(a.variable, b.variable);
+    const bool may_align = options_.aligned && !told_.isAligned(a.variable, b.variable);
+    if (turned && !may_align) return;
     const geometry::Segment2 of_a = wallFromValue(state_.graph.value(a.variable).data()),
                              of_b = wallFromValue(state_.graph.value(b.variable).data());
     const Eigen::Vector2d along_a = direction(of_a), along_b = direction(of_b);
@@ -172,15 +161,20 @@ class Finder {
     if (std::abs(turn - quarters * kPi / 2) > options_.max_angle) return;
     const bool one_line =
         quarters == 0 && std::abs(normalOf(of_a).dot(middle(of_b) - middle(of_a))) < options_.max_distance;
-    if (options_.aligned && one_line &&
-        weigh(a, b,
-              {"on one line", std::make_shared<WallsAlignedFactor>(), sigmas(1, 1),
-               2 * options_.max_angle * 2 * options_.max_distance}))
-      return;
-    if (quarters % 2 == 0 ? options_.parallel : options_.perpendicular)
+    if (may_align && one_line && wallsAligned(a, b, turned)) return;
+    if (!turned && (quarters % 2 == 0 ? options_.parallel : options_.perpendicular))
       weigh(a, b,
             {quarters % 2 == 0 ? "parallel" : "perpendicular", std::make_shared<WallTurnFactor>(quarters), sigmas(1, 0),
              2 * options_.max_angle});
+  }
+
+  // Of what is turned already only the rest is told.
+  bool wallsAligned(const Thing& a, const Thing& b, bool turned) {
+    if (isKnown("walls_aligned", a, b) || isKnown("wall_shift", a, b)) return false;
+    const double room = 2 * options_.max_distance;
+    if (turned) return weigh(a, b, {"on one line", std::make_shared<WallShiftFactor>(), sigmas(0, 1), room});
+    return weigh(a, b,
+                 {"on one line", std::make_shared<WallsAlignedFactor>(), sigmas(1, 1), 2 * options_.max_angle * room});
   }
 
   void twoPlanes(const Thing& a, const Thing& b) {
@@ -188,29 +182,42 @@ class Finder {
                            of_b = planeFromValue(state_.graph.value(b.variable).data());
     const double together = of_a.normal.dot(of_b.normal), reach = std::sin(options_.max_angle);
     if (of_a.normal.cross(of_b.normal).norm() < reach) {
-      const auto corners = outlineOf(b.shape);
-      if (options_.aligned && together > 0 && !corners.empty()) {
-        Eigen::Vector3d near = Eigen::Vector3d::Zero();
-        for (const auto& corner : corners) near += corner / static_cast<double>(corners.size());
-        const bool one_plane = std::abs(signedDistance(of_a, near)) < options_.max_distance;
-        if (one_plane && weigh(a, b,
-                               {"on one plane", std::make_shared<PlanesAlignedFactor>(near), sigmas(2, 1),
-                                4 * reach * reach * 2 * options_.max_distance}))
-          return;
-      }
-      if (options_.parallel)
+      const bool turned = told_.isTurned(a.variable, b.variable);
+      if (options_.aligned && together > 0 && !told_.isAligned(a.variable, b.variable) &&
+          planesAligned(a, b, of_a, turned))
+        return;
+      if (options_.parallel && !turned)
         weigh(a, b, {"parallel", std::make_shared<PlanesParallelFactor>(), sigmas(2, 0), 4 * reach * reach});
-    } else if (std::abs(together) < reach && options_.perpendicular) {
+    } else if (std::abs(together) < reach && options_.perpendicular && !told_.areSquare(a.variable, b.variable)) {
       weigh(a, b, {"perpendicular", std::make_shared<PlanesSquareFactor>(), sigmas(1, 0), 2 * reach});
     }
   }
 
-  // Whether it is likelier than not, now or when it was found.
+  bool planesAligned(const Thing& a, const Thing& b, const geometry::Plane3& of_a, bool turned) {
+    const auto corners = outlineOf(b.shape);
+    if (corners.empty() || isKnown("planes_aligned", a, b) || isKnown("plane_shift", a, b)) return false;
+    Eigen::Vector3d near = Eigen::Vector3d::Zero();
+    for (const auto& corner : corners) near += corner / static_cast<double>(corners.size());
+    if (std::abs(signedDistance(of_a, near)) > options_.max_distance) return false;
+    const double reach = std::sin(options_.max_angle), room = 2 * options_.max_distance;
+    if (turned) return weigh(a, b, {"on one plane", std::make_shared<PlaneShiftFactor>(near), sigmas(0, 1), room});
+    return weigh(a, b,
+                 {"on one plane", std::make_shared<PlanesAlignedFactor>(near), sigmas(2, 1), 4 * reach * reach * room});
+  }
+
+  static RelatedPair pairOf(std::string_view kind, const Thing& a, const Thing& b) {
+    return {std::string(kind), std::minmax(a.variable, b.variable)};
+  }
+  bool isKnown(std::string_view kind, const Thing& a, const Thing& b) const {
+    return known_.count(pairOf(kind, a, b)) > 0;
+  }
+
+  // Whether it is likelier than not. What was refused stays with the consistency test and is not proposed again.
   bool weigh(const Thing& a, const Thing& b, const Claim& claim) {
-    Relation relation{{std::string(claim.factor->kind()), std::minmax(a.variable, b.variable)},
+    if (isKnown(claim.factor->kind(), a, b)) return false;
+    Relation relation{pairOf(claim.factor->kind(), a, b),
                       {{a.variable, b.variable}, claim.factor, graph::SquareRootInformation::fromSigmas(claim.sigmas)},
                       claim.name};
-    if (known_.count(relation.pair) > 0) return true;
     const auto joint = state_.jointCovariance(relation.record.variables);
     if (!joint) return false;
     const graph::Linearised linearised(state_.graph, relation.record);
@@ -240,6 +247,7 @@ class Finder {
   const mapper::State& state_;
   const RelationsOptions& options_;
   const KnownRelations& known_;
+  ToldRelations told_;
   std::vector<Thing> things_;
   std::vector<Relation> found_;
 };

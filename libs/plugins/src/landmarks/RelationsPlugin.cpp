@@ -14,16 +14,16 @@ const base::OptionTable<RelationsOptions>& RelationsOptions::table() {
   using base::Range;
   static const auto table =
       base::OptionTable<Options>()
-          .flag("point_on_wall", &Options::point_on_wall, "Points that lie on walls and other surfaces.")
+          .flag("point_on_wall", &Options::point_on_wall, "Points that lie on walls, tables and other surfaces.")
           .flag("parallel", &Options::parallel, "Walls and planes in parallel.")
           .flag("perpendicular", &Options::perpendicular, "Walls and planes at right angles.")
           .flag("aligned", &Options::aligned, "Walls on one line, surfaces on one plane.")
           .number("distance_sigma_m", &Options::distance_sigma, Range::positive(),
-                  "Standard deviation of a point from its wall, and of walls from one line.")
+                  "Standard deviation of a point from its wall or table, and of walls from one line.")
           .number("angle_sigma_deg", &Options::angle_sigma, Range::positive(),
                   "Standard deviation of walls from parallel and from the right angle.")
           .number("max_distance_m", &Options::max_distance, Range::positive(),
-                  "Points farther from a wall have nothing to do with it.")
+                  "Points farther from a surface have nothing to do with it; nor walls farther from one line.")
           .number("max_angle_deg", &Options::max_angle, Range::positive(),
                   "Walls farther from parallel and from the right angle stand as they like.")
           .number(

@@ -11,7 +11,7 @@ namespace omnimapper::plugins {
 
 struct RelationsOptions {
   bool point_on_wall = true, parallel = true, perpendicular = true, aligned = true;
-  double distance_sigma = 0.02;  ///< [m] of a point from its wall, of walls from one line
+  double distance_sigma = 0.02;  ///< [m] of a point from its surface, of walls from one line
   double angle_sigma = 1 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double max_distance = 1;                                        ///< [m] what is farther off is not even asked
   double max_angle = 15 * base::option_text::kRadiansPerDegree;   ///< [rad]
@@ -21,9 +21,11 @@ struct RelationsOptions {
   static const base::OptionTable<RelationsOptions>& table();
 };
 
-/// Relations between landmarks as virtual measurements (thesis 4.5): points that lie on a wall, walls at right angles,
-/// in parallel or on one line. They are proposed by likelihood after each solve, of whatever plugins the landmarks are,
-/// and are hypotheses: the consistency test refuses what does not fit, and takes back what no longer does.
+/// Relations between landmarks as virtual measurements (thesis 4.5): points that lie on a surface, a sign's on its wall
+/// or an object's on its table, within its outline; walls at right angles, in parallel or on one line. They are
+/// proposed by likelihood after each solve, of whatever plugins the landmarks are (a variable of one point is a point),
+/// and are hypotheses: the consistency test refuses what does not fit, and takes back what no longer does. A session
+/// that nothing has joined to the map gets none with landmarks of others.
 class RelationsPlugin : public mapper::MeasurementPlugin {
  public:
   RelationsPlugin(const RelationsOptions& options, const mapper::PluginContext& context);
