@@ -3,16 +3,16 @@
 #include <Svg.h>
 
 #include <fstream>
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace omnimapper::bench {
 
-/// One line of a plot: x -> y.
+/// One line of a plot.
 struct PlottedCurve {
   std::string name, colour;
-  std::map<double, double> points;
+  std::vector<std::pair<double, double>> points;  ///< x, y
 };
 
 /// Writes an SVG of curves over common axes that begin at 0, with a legend.
@@ -23,7 +23,7 @@ inline void plotCurves(const std::string& path, const std::string& title, const 
     for (const auto& [x, y] : curve.points) high = high.cwiseMax(Eigen::Vector2d(x, y));
   }
   std::ofstream out(path);
-  eval::Svg svg(out, 640, 360);
+  eval::Svg svg(out, 700, 360);
   svg.text({110, 20}, title, eval::Svg::Anchor::start, 14);
   const eval::Axes axes({60, 35}, {380, 270}, {0, 0}, 1.05 * high);
   axes.draw(svg, x_name, y_name);

@@ -1,10 +1,13 @@
 // The box of thesis 4.5.2.4 without relations between its landmarks, with those that are found, with all true ones, and
-// with wrong ones among them; and whether the covariances can be believed. Prints Markdown; doc/results/relations.md
-// shows it.
+// with wrong ones among them; and whether the covariances can be believed. Prints Markdown, and draws figures 42 to 44;
+// doc/results/relations.md shows both.
 //
-//   bench-relations --seeds 100
+//   bench-relations --seeds 100 --svg doc/results/relations.svg
+#include <Svg.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <fstream>
 
 #include "../plugins/RelationBox.h"
 #include "omnimapper/graph/ChiSquare.h"
@@ -21,13 +24,47 @@ struct Row {
   bool tested;
 };
 
+void drawPanel(eval::Svg& svg, double left, const std::string& title, const RelationBox::Layout& layout,
+               const RelationBox::Layout& truth) {
+  constexpr double kSide = 310;
+  const auto axes = eval::Axes::withEqualScale({left, 50}, {kSide, kSide}, {-3.5, -4}, {3.5, 4});
+  axes.draw(svg, "x [m]", "y [m]");
+  svg.text({left + kSide / 2, 22}, title, eval::Svg::Anchor::middle, 14);
+  const auto drawWalls = [&](const std::vector<geometry::Segment2>& walls, const std::string& colour, double width) {
+    for (const auto& wall : walls) svg.line(axes.pixel(wall.from), axes.pixel(wall.to), colour, width);
+  };
+  drawWalls(truth.walls, "#9a9a9a", 1);
+  drawWalls(layout.walls, "#2471a3", 1.6);
+  std::vector<Eigen::Vector2d> way;
+  for (const auto& pose : layout.poses) way.push_back(axes.pixel(pose));
+  svg.polyline(way, "#c0392b", 0.8);
+  for (const auto& at : way) svg.dot(at, 1.8, "#c0392b");
+  for (const auto& point : layout.points) svg.dot(axes.pixel(point), 2.6, "#1e8449");
+}
+
+// Thesis figures 42, 43 and 44.
+void draw(const std::string& path, unsigned seed) {
+  const RelationBox box(seed);
+  const auto without = RelationBox(seed).run(RelationBox::With::no_relations, 0, true),
+             with = RelationBox(seed).run(RelationBox::With::found, 0, true);
+  std::ofstream out(path);
+  eval::Svg svg(out, 1100, 430);
+  drawPanel(svg, 50, "initial belief", box.initialBelief(), box.truth());
+  drawPanel(svg, 415, "optimised, without relations", without.found, box.truth());
+  drawPanel(svg, 780, "optimised, with relations found", with.found, box.truth());
+  svg.text({550, 418}, "poses red, points green, walls blue; true walls thin grey", eval::Svg::Anchor::middle);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Relations between landmarks in the box of thesis 4.5.2.4.");
   unsigned seeds = 100;
   app.add_option("--seeds", seeds, "Runs of each row; default 100");
+  std::string svg;
+  app.add_option("--svg", svg, "Draws the first run: before, without and with relations");
   CLI11_PARSE(app, argc, argv);
+  if (!svg.empty()) draw(svg, 1);
 
   constexpr int kTrue = 27;
   const Row rows[] = {{"none", RelationBox::With::no_relations, 0, true},

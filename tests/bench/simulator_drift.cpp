@@ -9,12 +9,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 
 #include "../sim/SensorRun.h"
 #include "../sim/SmallWorlds.h"
-#include "LinePlot.h"
+#include "CurvePlot.h"
 
 namespace {
 
@@ -180,12 +179,11 @@ Poses simulate(const Poses& truth, const std::string& keys, std::uint64_t seed) 
 void plot(const std::string& path, const std::string& title, const std::string& unit, double factor,
           double Errors::*sum, const std::map<double, Errors>& recorded, const std::map<double, Errors>& simulated) {
   const auto curve = [&](const std::string& name, const std::string& colour, const std::map<double, Errors>& errors) {
-    bench::Curve result{name, colour, {}};
+    bench::PlottedCurve result{name, colour, {}};
     for (const auto& [way, of_way] : errors) result.points.emplace_back(way, factor * of_way.rms(sum));
     return result;
   };
-  std::ofstream out(path);
-  bench::plotCurves(out, title, "way [m]", "root mean square [" + unit + "]",
+  bench::plotCurves(path, title, "way [m]", "root mean square [" + unit + "]",
                     {curve("ACES", "#c0392b", recorded), curve("simulated", "#2471a3", simulated)});
 }
 

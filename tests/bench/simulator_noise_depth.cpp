@@ -45,8 +45,10 @@ void plotAll(const std::string& folder, const std::vector<Source>& sources) {
       {"angle", "Missing on flat patches", "incidence [deg]", "%", &DepthStatistics::missing_at_angle}};
   for (const Figure& figure : figures) {
     std::vector<bench::PlottedCurve> curves;
-    for (const Source& source : sources)
-      curves.push_back({source.name, source.colour, source.statistics.*figure.curve});
+    for (const Source& source : sources) {
+      const Curve& curve = source.statistics.*figure.curve;
+      curves.push_back({source.name, source.colour, {curve.begin(), curve.end()}});
+    }
     bench::plotCurves(folder + "/simulator_depth_" + figure.file + ".svg", figure.title, figure.x, figure.y, curves);
   }
 }

@@ -11,19 +11,18 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <optional>
 
 #include "../sim/SmallWorlds.h"
+#include "CurvePlot.h"
 #include "LaserFigures.h"
-#include "LinePlot.h"
 
 namespace {
 
 using namespace omnimapper;
-using bench::Curve;
 using bench::LaserFigures;
+using bench::PlottedCurve;
 using geometry::Se2;
 
 /// A log as this program needs it: scans are counted while it is read.
@@ -124,17 +123,11 @@ class Simulated {
   sim::Track track_;
 };
 
-void writePlot(const std::string& path, const std::string& title, const std::string& x, const std::string& y,
-               const std::vector<Curve>& curves) {
-  std::ofstream out(path);
-  bench::plotCurves(out, title, x, y, curves);
-}
-
-std::vector<Curve> noiseCurves(const std::vector<Recording>& all,
-                               std::map<int, LaserFigures::Sum> LaserFigures::*sums) {
-  std::vector<Curve> curves;
+std::vector<PlottedCurve> noiseCurves(const std::vector<Recording>& all,
+                                      std::map<int, LaserFigures::Sum> LaserFigures::*sums) {
+  std::vector<PlottedCurve> curves;
   for (const Recording& recording : all) {
-    Curve curve{recording.name, recording.colour, {}};
+    PlottedCurve curve{recording.name, recording.colour, {}};
     for (const auto& [bin, sum] : recording.laser.*sums) {
       if (sum.count > 300 && bin < 16)
         curve.points.emplace_back((bin + 0.5) * LaserFigures::kBin, 1000 * sum.deviation());
@@ -146,18 +139,18 @@ std::vector<Curve> noiseCurves(const std::vector<Recording>& all,
 
 void writeLaser(const std::vector<Recording>& all, const std::string& folder) {
   const auto walls = noiseCurves(all, &LaserFigures::on_walls), repeated = noiseCurves(all, &LaserFigures::repeated);
-  writePlot(folder + "/simulator_laser_walls.svg", "Residual of ranges to lines through walls", "range [m]",
-            "standard deviation [mm]", walls);
-  writePlot(folder + "/simulator_laser_repeated.svg", "Change of a beam while the robot stands, over root 2",
-            "range [m]", "standard deviation [mm]", repeated);
-  std::vector<Curve> edges;
+  bench::plotCurves(folder + "/simulator_laser_walls.svg", "Residual of ranges to lines through walls", "range [m]",
+                    "standard deviation [mm]", walls);
+  bench::plotCurves(folder + "/simulator_laser_repeated.svg", "Change of a beam while the robot stands, over root 2",
+                    "range [m]", "standard deviation [mm]", repeated);
+  std::vector<PlottedCurve> edges;
   std::printf("| laser | beams without echo | mixed at edges of");
   for (std::size_t b = 0; b < 4; ++b)
     std::printf(" %.1f to %.1f m |", LaserFigures::kGaps[b], LaserFigures::kGaps[b + 1]);
   std::printf("\n|---|---|---|---|---|---|\n");
   for (const Recording& recording : all) {
     const LaserFigures& laser = recording.laser;
-    Curve curve{recording.name, recording.colour, {}};
+    PlottedCurve curve{recording.name, recording.colour, {}};
     std::printf("| %s | %.2f %% |", recording.name.c_str(), 100 * laser.no_echo / laser.beams);
     for (std::size_t b = 0; b < 4; ++b) {
       const double share = laser.edges[b] > 0 ? 100 * laser.mixed[b] / laser.edges[b] : 0;
@@ -168,11 +161,11 @@ void writeLaser(const std::vector<Recording>& all, const std::string& folder) {
     std::printf("\n");
     edges.push_back(curve);
   }
-  writePlot(folder + "/simulator_laser_edges.svg", "Edges with a point between their two sides",
-            "depth of the edge [m]", "part [%]", edges);
+  bench::plotCurves(folder + "/simulator_laser_edges.svg", "Edges with a point between their two sides",
+                    "depth of the edge [m]", "part [%]", edges);
   for (const auto* curves : {&walls, &repeated}) {
     std::printf("\n%s: range [m] and deviation [mm]\n", curves == &walls ? "On walls" : "Standing");
-    for (const Curve& curve : *curves) {
+    for (const PlottedCurve& curve : *curves) {
       std::printf("| %s |", curve.name.c_str());
       for (const auto& [x, y] : curve.points) std::printf(" %.1f: %.1f |", x, y);
       std::printf("\n");

@@ -34,10 +34,24 @@ class RelationBox {
     drive();
   }
 
+  /// Where everything is, or is thought to be, in the map [m].
+  struct Layout {
+    std::vector<Eigen::Vector2d> poses, points;
+    std::vector<geometry::Segment2> walls;
+  };
+  Layout truth() const {
+    Layout layout{{}, points_, walls_};
+    for (const auto& pose : truth_) layout.poses.push_back(pose.translation());
+    return layout;
+  }
+  /// Before anything is optimised.
+  Layout initialBelief() const { return layoutOf(measured_); }
+
   struct Error {
     double pose = 0, landmark = 0;              // mean [m]
     double pose_nees = 0, landmark_nees = 0;    // of the last pose, 3 degrees of freedom; of the first point, 2
     int relations = 0, refused = 0, wrong = 0;  // proposed, not let act, and acting though false
+    Layout found;
   };
   /// `wrong`: so many false relations among those that are proposed; they act at once unless `tested`.
   Error run(With with, int wrong, bool tested) {
@@ -74,6 +88,7 @@ class RelationBox {
       error.wrong += (false_ones.count(id) > 0 || isFalse(record)) && record.weight > 0;
     }
     judge(graph, error);
+    error.found = layoutOf(graph);
     return error;
   }
 
@@ -185,6 +200,14 @@ class RelationBox {
     } else {
       graph::testConsistency(graph, hypotheses);
     }
+  }
+
+  Layout layoutOf(const graph::Graph& graph) const {
+    Layout layout;
+    for (const auto id : pose_ids_) layout.poses.emplace_back(graph.value(id).head<2>());
+    for (const auto id : point_ids_) layout.points.emplace_back(graph.value(id));
+    for (const auto id : wall_ids_) layout.walls.push_back(wallFromValue(graph.value(id).data()));
+    return layout;
   }
 
   void judge(const graph::Graph& graph, Error& error) const {
