@@ -23,18 +23,18 @@ inline void plotCurves(const std::string& path, const std::string& title, const 
     for (const auto& [x, y] : curve.points) high = high.cwiseMax(Eigen::Vector2d(x, y));
   }
   std::ofstream out(path);
-  eval::Svg svg(out, 700, 360);
-  svg.text({110, 20}, title, eval::Svg::Anchor::start, 14);
-  const eval::Axes axes({60, 35}, {380, 270}, {0, 0}, 1.05 * high);
+  eval::Svg svg(out, 760, 370);
+  svg.text({110, 18}, title, eval::Svg::Anchor::start, 14);
+  const eval::Axes axes({110, 47}, {380, 270}, {0, 0}, 1.05 * high);
   axes.draw(svg, x_name, y_name);
-  double y = 50;
+  double y = 62;
   for (const PlottedCurve& curve : curves) {
     std::vector<Eigen::Vector2d> line;
     for (const auto& [at, value] : curve.points) line.push_back(axes.pixel({at, value}));
     svg.polyline(line, curve.colour, 1.5);
     for (const auto& point : line) svg.dot(point, 2.5, curve.colour);
-    svg.line({455, y - 4}, {475, y - 4}, curve.colour, 3);
-    svg.text({480, y}, curve.name, eval::Svg::Anchor::start);
+    svg.line({505, y - 4}, {525, y - 4}, curve.colour, 3);
+    svg.text({530, y}, curve.name, eval::Svg::Anchor::start);
     y += 18;
   }
 }
