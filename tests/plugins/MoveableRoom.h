@@ -21,10 +21,11 @@ namespace omnimapper::plugins {
 /// moves does so between the rounds. The map's frame is that of the first pose, which is the truth's.
 class MoveableRoom {
  public:
-  static constexpr std::size_t kRound = 20;
+  static constexpr std::uint32_t kRound = 20;
   enum class Seen { as_lines, as_planes, never };
 
-  explicit MoveableRoom(unsigned seed = 1) : random_(seed) {
+  /// Between two sessions nothing tells of the way.
+  explicit MoveableRoom(unsigned seed = 1, bool two_sessions = false) : random_(seed) {
     const Eigen::Vector3d sigmas(0.01, 0.01, 0.005);
     mrpt::math::CMatrixDouble66 covariance;
     covariance.setDiagonal(6, 1e-4);
@@ -39,8 +40,9 @@ class MoveableRoom {
         believed = believed * step;
       }
       const auto before = run.map.key_frames.size() > 0 ? run.map.key_frames.back().pose : base::VariableId();
-      const auto& frame = run.addFrame({believed.x, believed.y, 0, believed.yaw, 0, 0});
-      if (i == 0) continue;
+      const bool is_second = two_sessions && i >= kRound;
+      const auto& frame = addFrame(believed, is_second ? 1 : 0);
+      if (i == 0 || (is_second && i == kRound)) continue;
       run.graph.addFactor(mapper::betweenPoses(
           run.motion, before, frame.pose, {{step.x, step.y, 0, step.yaw, 0, 0}, covariance.asEigen()}, "odometry"));
     }
@@ -145,7 +147,10 @@ class MoveableRoom {
     }
     return nullptr;
   }
-  bool isKnown(base::VariableId id) const { return run.uncertainty.joint(run.graph, {id}).has_value(); }
+  bool isKnown(base::VariableId id) const {
+    const auto covariance = run.uncertainty.joint(run.graph, {id});
+    return covariance && covariance->diagonal().maxCoeff() < 1;
+  }
   /// Whether anything of weight binds it.
   bool actsOnAnything(base::LandmarkId id) const {
     const auto factors = run.view().factorsOf(id);
@@ -161,6 +166,17 @@ class MoveableRoom {
   testing::HandMadeRun run;
 
  private:
+  const map::KeyFrame& addFrame(const geometry::Se2& believed, std::uint16_t session) {
+    const mrpt::poses::CPose3D map_from_base(believed.x, believed.y, 0, believed.yaw, 0, 0);
+    if (session == 0) return run.addFrame(map_from_base);
+    const auto index = static_cast<std::uint32_t>(run.map.key_frames.size());
+    map::KeyFrame frame;
+    frame.id = {session, index - kRound};
+    frame.stamp = base::stampFromUnix(2'000'000'000 + index);
+    frame.map_from_base = map_from_base;
+    frame.pose = run.graph.addVariable(mapper::poseVariable(run.motion), mapper::poseValue(run.motion, map_from_base));
+    return run.map.key_frames[run.map.key_frames.insert(frame)];
+  }
   double noise(double sigma) { return sigma * std::normal_distribution<double>()(random_); }
   const map::KeyFrame& frame(std::size_t i) const { return run.map.key_frames[i]; }
   /// At the height of the laser.

@@ -167,6 +167,16 @@ TEST(MoveableThings, WhatIsDeterminedNowhereIsGivenUp) {
   expectWhole(room);
 }
 
+TEST(MoveableThings, ASessionThatOnlyMovedOnesTieToTheMapStaysTied) {
+  MoveableRoom room(1, true);
+  room.addPoint({2, 1}, {2, 2});  // three metres apart no more
+  room.addPoint({-1, 1}, {-1, -2});
+  ASSERT_NO_THROW(room.look());
+  expectWhole(room);
+  EXPECT_EQ(room.run.decisions.back().reason,
+            "cannot tell what has moved: without what seems to have moved a part of the map hangs free");
+}
+
 // Turned by its normal, what two planes are off is in the axes of each: geometry::tangentBasis jumps where another axis
 // of space becomes the least.
 TEST(Differences, ChangeWithBothValuesAsTheyAreTold) {

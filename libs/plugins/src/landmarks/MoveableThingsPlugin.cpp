@@ -6,6 +6,8 @@
 #include <omnimapper/plugins/MoveableThingsPlugin.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "LooseHold.h"
@@ -86,14 +88,25 @@ class Look {
     return graph;
   }
 
-  // Covariances are known of the map after the batch if they were before.
+  // Where each session is in the map is known after the batch if it was before.
   bool leavesTheMapWhole() const {
-    const auto pose = view_.map.key_frames.back().pose;
-    if (!batch_.changesGraph() || !view_.jointCovariance({pose})) return true;
+    if (!batch_.changesGraph()) return true;
     map::Map map = view_.map;
     graph::Graph graph = view_.graph;
     mapper::apply(batch_, {section_, view_.map.key_frames.back().stamp}, graph, map);
-    return mapper::Uncertainty(graph).joint(graph, {pose}).has_value();
+    const mapper::Uncertainty after(graph);
+    std::map<std::uint16_t, base::VariableId> last_poses;
+    for (const auto& frame : view_.map.key_frames) last_poses[frame.id.session] = frame.pose;
+    return std::all_of(last_poses.begin(), last_poses.end(), [&](const auto& of_session) {
+      const std::vector<base::VariableId> pose = {of_session.second};
+      return !isKnown(view_.jointCovariance(pose)) || isKnown(after.joint(graph, pose));
+    });
+  }
+
+  // A direction that nothing determines may come out of the rounding as a variance beyond all bounds.
+  static bool isKnown(const std::optional<Eigen::MatrixXd>& covariance) {
+    constexpr double kUnknown = 1e4;  // [m^2, rad^2]
+    return covariance && covariance->diagonal().maxCoeff() < kUnknown;
   }
 
   mapper::Batch cannotTell(const std::string& why) const {
