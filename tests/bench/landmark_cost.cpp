@@ -1,5 +1,5 @@
 // What a key frame costs in maps of 100, 200, 400 and 800 landmarks: a row of rooms, four walls each, driven along and
-// back, with odometry and the lines of a laser. Prints a Markdown table; doc/results/landmarks.md shows it.
+// back, with odometry and the lines of a laser. Prints a Markdown table; doc/results/planes.md shows it.
 //
 //   bench-landmark_cost
 #include <mrpt/obs/CObservationOdometry.h>
@@ -98,12 +98,14 @@ class Drive {
 int main(int argc, char** argv) {
   CLI::App app("What a key frame costs in maps of many landmarks.");
   unsigned seed = 1;
+  std::vector<int> rooms_of_runs = {25, 50, 100, 200};
   app.add_option("--seed", seed);
+  app.add_option("--rooms", rooms_of_runs, "of each run; four landmarks each");
   CLI11_PARSE(app, argc, argv);
   std::printf(
       "| rooms | landmarks | key frames | walls plugin | engine | solves | per key frame in all |\n"
       "|---|---|---|---|---|---|---|\n");
-  for (const int rooms : {25, 50, 100, 200}) {
+  for (const int rooms : rooms_of_runs) {
     const auto log = Drive(seed).throughRooms(rooms);
     const auto engine = testing::makeEngine(kIni, {"trigger.distance_m=0.3"});
     const mapper::StopWatch watch;

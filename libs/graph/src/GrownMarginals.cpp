@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "omnimapper/graph/Linearised.h"
 
@@ -39,38 +40,40 @@ class Stack {
 /// Factors that lead on to what is left out are left out too: that much less is known.
 struct Growth {
   Stack fresh, older;
+  int asked = 0;  // rows of `fresh` that are of `ids`, the first
   std::vector<base::FactorId> factors;
-  bool is_whole = true;
+  std::set<VariableId> rim;  // those from which left out factors lead on
 
   Growth(const Marginals& before, const Graph& grown, const std::vector<VariableId>& ids, std::size_t most)
       : fresh(grown), older(grown) {
     const auto is_fresh = [&](VariableId id) { return !grown.variable(id).fixed && !before.contains(id); };
-    for (const VariableId id : ids)
+    const auto addOlder = [&](VariableId id) {
+      if (!grown.variable(id).fixed && before.contains(id)) older.add(id);
+    };
+    for (const VariableId id : ids) {
       if (is_fresh(id)) fresh.add(id);
+      addOlder(id);
+    }
+    asked = fresh.size();
     for (std::size_t next = 0; next < fresh.ids().size(); ++next)
       eachFactor(grown, fresh.ids()[next], [&](base::FactorId, const FactorRecord& record) {
-        for (const VariableId id : record.variables) {
-          if (!is_fresh(id) || fresh.contains(id)) continue;
-          if (fresh.ids().size() < most) {
-            fresh.add(id);
-          } else {
-            is_whole = false;
-          }
-        }
+        for (const VariableId id : record.variables)
+          if (is_fresh(id) && fresh.ids().size() < most) fresh.add(id);
       });
-    for (const VariableId id : ids)
-      if (before.contains(id) && !grown.variable(id).fixed) older.add(id);
     for (const VariableId one : fresh.ids())
       eachFactor(grown, one, [&](base::FactorId factor, const FactorRecord& record) {
-        const auto leads_on = [&](VariableId id) { return is_fresh(id) && !fresh.contains(id); };
-        if (std::any_of(record.variables.begin(), record.variables.end(), leads_on)) return;
+        const auto is_left_out = [&](VariableId id) { return is_fresh(id) && !fresh.contains(id); };
+        if (std::any_of(record.variables.begin(), record.variables.end(), is_left_out)) {
+          rim.insert(one);
+          return;
+        }
         factors.push_back(factor);
-        for (const VariableId id : record.variables)
-          if (before.contains(id) && !grown.variable(id).fixed) older.add(id);
+        for (const VariableId id : record.variables) addOlder(id);
       });
     std::sort(factors.begin(), factors.end());
     factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
   }
+  bool isWhole() const { return rim.empty(); }
 
  private:
   template <class Take>
@@ -82,42 +85,59 @@ struct Growth {
   }
 };
 
-/// How the new ones follow the older ones, and what is uncertain of them beside that.
+/// How those of the new ones that are asked for follow the older ones, and what is uncertain of them beside that.
 struct Following {
   Eigen::MatrixXd by_older, own_covariance;
 };
 
-std::optional<Following> follow(const Graph& graph, const Growth& growth) {
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(growth.fresh.size(), growth.fresh.size());
-  Eigen::MatrixXd coupling = Eigen::MatrixXd::Zero(growth.fresh.size(), growth.older.size());
-  for (const auto id : growth.factors) {
-    const FactorRecord& record = graph.factor(id);
-    const Linearised linearised(graph, record);
-    const double weight = record.weight * record.loss.evaluate(linearised.residual.squaredNorm()).first_derivative;
-    for (std::size_t i = 0; i < record.variables.size(); ++i) {
-      if (!growth.fresh.contains(record.variables[i])) continue;
-      const int row = growth.fresh.offset(record.variables[i]);
-      for (std::size_t j = 0; j < record.variables.size(); ++j) {
-        const VariableId other = record.variables[j];
-        const Eigen::MatrixXd part = weight * linearised.jacobians[i].transpose() * linearised.jacobians[j];
-        if (growth.fresh.contains(other)) {
-          information.block(row, growth.fresh.offset(other), part.rows(), part.cols()) += part;
-        } else if (growth.older.contains(other)) {
-          coupling.block(row, growth.older.offset(other), part.rows(), part.cols()) += part;
+struct System {
+  Eigen::MatrixXd information, coupling;  // of the new ones; of them with the older ones
+
+  System(const Graph& graph, const Growth& growth)
+      : information(Eigen::MatrixXd::Zero(growth.fresh.size(), growth.fresh.size())),
+        coupling(Eigen::MatrixXd::Zero(growth.fresh.size(), growth.older.size())) {
+    for (const auto id : growth.factors) {
+      const FactorRecord& record = graph.factor(id);
+      const Linearised linearised(graph, record);
+      const double weight = record.weight * record.loss.evaluate(linearised.residual.squaredNorm()).first_derivative;
+      for (std::size_t i = 0; i < record.variables.size(); ++i) {
+        if (!growth.fresh.contains(record.variables[i])) continue;
+        const int row = growth.fresh.offset(record.variables[i]);
+        for (std::size_t j = 0; j < record.variables.size(); ++j) {
+          const VariableId other = record.variables[j];
+          const Eigen::MatrixXd part = weight * linearised.jacobians[i].transpose() * linearised.jacobians[j];
+          if (growth.fresh.contains(other)) {
+            information.block(row, growth.fresh.offset(other), part.rows(), part.cols()) += part;
+          } else if (growth.older.contains(other)) {
+            coupling.block(row, growth.older.offset(other), part.rows(), part.cols()) += part;
+          }
         }
       }
     }
   }
+};
+
+// None if a direction of what is asked for is determined by nothing.
+std::optional<Following> follow(const Graph& graph, const Growth& growth) {
+  if (growth.asked == 0) return Following{Eigen::MatrixXd(0, growth.older.size()), Eigen::MatrixXd(0, 0)};
   // Scaled to a unit diagonal, so that metres and radians are alike when what is determined by nothing is looked for.
-  constexpr double kNothing = 1e-12;
-  const Eigen::VectorXd diagonal = information.diagonal();
-  if (diagonal.size() > 0 && !(diagonal.minCoeff() > 0)) return std::nullopt;
+  // At the rim directions may be open: a trace of knowledge, too little to tell anybody else, closes them.
+  constexpr double kNothing = 1e-12, kTrace = 1e-9, kOpen = 1e6;
+  System system(graph, growth);
+  for (const VariableId id : growth.rim) {
+    auto diagonal = system.information.diagonal().segment(growth.fresh.offset(id), growth.fresh.tangentSize(id));
+    const double largest = diagonal.maxCoeff();
+    diagonal = diagonal.cwiseMax(kTrace * largest) * (1 + kTrace);
+  }
+  const Eigen::VectorXd diagonal = system.information.diagonal();
+  if (!(diagonal.minCoeff() > 0)) return std::nullopt;
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Eigen::LDLT<Eigen::MatrixXd> root(scale.asDiagonal() * information * scale.asDiagonal());
-  if (root.info() != Eigen::Success) return std::nullopt;
-  if (diagonal.size() > 0 && !(root.vectorD().minCoeff() > kNothing)) return std::nullopt;
-  const Eigen::MatrixXd scaled = scale.asDiagonal();
-  return Following{-scaled * root.solve(scaled * coupling), scaled * root.solve(scaled)};
+  const Eigen::LDLT<Eigen::MatrixXd> root(scale.asDiagonal() * system.information * scale.asDiagonal());
+  if (root.info() != Eigen::Success || !(root.vectorD().minCoeff() > kNothing)) return std::nullopt;
+  Eigen::MatrixXd columns = root.solve(Eigen::MatrixXd::Identity(growth.fresh.size(), growth.asked));
+  if (!growth.isWhole() && columns.diagonal().maxCoeff() > kOpen) return std::nullopt;
+  columns = scale.asDiagonal() * columns * scale.head(growth.asked).asDiagonal();
+  return Following{-columns.transpose() * system.coupling, columns.topRows(growth.asked)};
 }
 
 }  // namespace
@@ -126,11 +146,11 @@ std::optional<Eigen::MatrixXd> jointCovariance(const Marginals& before, const Gr
                                                const std::vector<VariableId>& ids) {
   if (!std::all_of(ids.begin(), ids.end(), [&](VariableId id) { return grown.contains(id); })) return std::nullopt;
   // What is far along the trajectory tells next to nothing, unless nothing near does.
-  constexpr std::size_t kNear = 48;
+  constexpr std::size_t kNear = 24;
   std::size_t most = kNear;
   Growth growth(before, grown, ids, most);
   auto following = follow(grown, growth);
-  while (!following && !growth.is_whole) {
+  while (!following && !growth.isWhole()) {
     most *= 4;
     growth = Growth(before, grown, ids, most);
     following = follow(grown, growth);
@@ -142,7 +162,7 @@ std::optional<Eigen::MatrixXd> jointCovariance(const Marginals& before, const Gr
   int rows = 0;
   for (const VariableId id : ids) rows += grown.variable(id).kind->tangentSize();
   Eigen::MatrixXd by_older = Eigen::MatrixXd::Zero(rows, growth.older.size());
-  Eigen::MatrixXd by_own = Eigen::MatrixXd::Zero(rows, growth.fresh.size());
+  Eigen::MatrixXd by_own = Eigen::MatrixXd::Zero(rows, growth.asked);
   int row = 0;
   for (const VariableId id : ids) {
     const int size = grown.variable(id).kind->tangentSize();

@@ -30,6 +30,8 @@ PlaneMoment::PlaneMoment(const PlaneLandmarksOptions& options, const mapper::Plu
 
 namespace {
 
+constexpr double kSigmas = 4;  // of what the base may be off, to look at a landmark at all
+
 KnownPlanes::Heights heightsOf(const PlaneSighting& sighting) {
   return sighting.is_line ? KnownPlanes::Heights::unknown : KnownPlanes::Heights::known;
 }
@@ -75,18 +77,19 @@ std::vector<mapper::Pairing> PlaneMoment::pairingsOf(const std::vector<PlaneSigh
     };
     std::vector<std::pair<double, const KnownPlanes::Surface*>> apart;
     for (const auto& [id, surface] : known_.all()) {
-      const auto gap = gapIfAlike(surface, sightings[i], points);
-      if (!gap) continue;
-      if (*gap <= options_.max_gap) {
+      const auto miss = missIfAlike(surface, sightings[i], points);
+      if (!miss) continue;
+      if (*miss <= 0) {
         add(surface);
       } else {
-        apart.emplace_back(*gap, &surface);
+        apart.emplace_back(*miss, &surface);
       }
     }
-    // Farther ones where the base may have slid along the wall since it saw them; beyond one that is too far, none.
+    // Farther ones where the base may have slid so far since it saw them; beyond one that is too far, none.
     std::stable_sort(apart.begin(), apart.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& [gap, surface] : apart) {
-      if (gap > options_.max_gap + 3 * sigmaSince(surface->last_seen_from)) break;
+    const double range = sightings[i].outline_in_base.front().norm();
+    for (const auto& [miss, surface] : apart) {
+      if (miss > kSigmas * sigmaSince(surface->last_seen_from, range)) break;
       add(*surface);
     }
   }
@@ -99,27 +102,27 @@ bool PlaneMoment::spansTwo(const mapper::Match& match, const std::vector<mapper:
   return onOnePlane(all.at(pairings[*match.pairing].landmark), all.at(*match.rival));
 }
 
-std::optional<double> PlaneMoment::gapIfAlike(const KnownPlanes::Surface& surface, const PlaneSighting& sighting,
-                                              const std::vector<Eigen::Vector3d>& points) const {
+std::optional<double> PlaneMoment::missIfAlike(const KnownPlanes::Surface& surface, const PlaneSighting& sighting,
+                                               const std::vector<Eigen::Vector3d>& points) const {
   constexpr double kAlong = 0.8, kFarthest = 0.5;  // cosine of the turn, [m]
   const Eigen::Vector3d normal = map_from_base_.rotation * sighting.plane_in_base.normal;
   if (surface.plane.normal.dot(normal) < kAlong) return std::nullopt;
-  const double reach = kFarthest + 4 * pose_sigma_;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const auto& point : points) middle += point / static_cast<double>(points.size());
-  if (std::abs(signedDistance(surface.plane, middle)) > reach) return std::nullopt;
-  const double gap = gapBetween(surface, points, heightsOf(sighting));
-  if (gap > options_.max_gap + 3 * pose_sigma_) return std::nullopt;
-  return gap;
+  const double off = std::abs(signedDistance(surface.plane, middle)) - kFarthest;
+  if (off > kSigmas * pose_sigma_) return std::nullopt;
+  const double gap = gapBetween(surface, points, heightsOf(sighting)) - options_.max_gap;
+  if (gap > kSigmas * pose_sigma_) return std::nullopt;
+  return std::max(off, gap);
 }
 
-double PlaneMoment::sigmaSince(base::KeyFrameId frame) {
-  const auto [found, is_new] = sigma_since_.try_emplace(frame, 0);
+double PlaneMoment::sigmaSince(base::KeyFrameId frame, double range) {
+  const auto [found, is_new] = variances_since_.try_emplace(frame, pose_sigma_ * pose_sigma_, 0);
   if (is_new) {
     const auto motion = view_.covarianceBetween(frame, frame_.id);
-    if (motion) found->second = std::sqrt(motion->topLeftCorner<3, 3>().trace());
+    if (motion) found->second = {motion->topLeftCorner<3, 3>().trace(), motion->bottomRightCorner<3, 3>().trace()};
   }
-  return found->second;
+  return std::sqrt(found->second.first + range * range * found->second.second);
 }
 
 std::vector<Eigen::Vector3d> PlaneMoment::inMap(const std::vector<Eigen::Vector3d>& in_base) const {

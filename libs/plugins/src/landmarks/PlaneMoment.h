@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "KnownPlanes.h"
@@ -36,12 +37,12 @@ class PlaneMoment {
   std::vector<mapper::Pairing> pairingsOf(const std::vector<PlaneSighting>& sightings);
   // Of two landmarks on one plane, say on both sides of a door: each is as right, and now they touch.
   bool spansTwo(const mapper::Match& match, const std::vector<mapper::Pairing>& pairings) const;
-  // How far apart they are on their plane, if they may be one. Wide open: what is near enough is for the covariance to
-  // say.
-  std::optional<double> gapIfAlike(const KnownPlanes::Surface& surface, const PlaneSighting& sighting,
-                                   const std::vector<Eigen::Vector3d>& points) const;
-  // [m] of the way since then.
-  double sigmaSince(base::KeyFrameId frame);
+  // By how much a sighting misses a surface that faces the same way [m]: off its plane, or along it, beyond what is
+  // near enough to look at in any case (<= 0: it is near enough). None if it is none however wrong the base may be.
+  std::optional<double> missIfAlike(const KnownPlanes::Surface& surface, const PlaneSighting& sighting,
+                                    const std::vector<Eigen::Vector3d>& points) const;
+  // How far what is at that range from the base may have slid since then [m, sigma].
+  double sigmaSince(base::KeyFrameId frame, double range);
   std::vector<Eigen::Vector3d> inMap(const std::vector<Eigen::Vector3d>& in_base) const;
   graph::FactorRecord record(const PlaneSighting& sighting, base::VariableId plane, base::LandmarkId landmark) const;
   mapper::Decision decisionOf(const PlaneSighting& sighting) const;
@@ -65,8 +66,8 @@ class PlaneMoment {
   const map::KeyFrame& frame_;
   const mapper::View& view_;
   geometry::Se3 map_from_base_;
-  double pose_sigma_ = 0;                           // [m] of the base in the map
-  std::map<base::KeyFrameId, double> sigma_since_;  // [m]
+  double pose_sigma_ = 0;                                                  // [m] of the base in the map
+  std::map<base::KeyFrameId, std::pair<double, double>> variances_since_;  // of the way [m^2], of the turn [rad^2]
   std::vector<Fresh> fresh_;
   std::set<base::FactorId> leaning_;                                          // upright priors that were removed
   std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>> payloads_;  // of those that were met
