@@ -117,14 +117,20 @@ TEST(LineOnPlaneFactor, JacobiansMatchDifferences) {
   }
 }
 
-TEST(UprightFactor, IsTheSineOfTheLean) {
+TEST(UprightFactor, IsTheTangentOfTheLean) {
   const UprightFactor factor;
-  for (const double lean : {0.0, 0.2, -0.4}) {
+  for (const double lean : {0.0, 0.2, -0.4, 1.4}) {
     const Plane3 plane{{std::cos(lean), 0, std::sin(lean)}, 3};
     const Evaluation evaluation{factor, {planeVariable()}, {toValue(plane)}};
-    EXPECT_NEAR(evaluation.residual()[0], std::sin(lean), 1e-12);
+    EXPECT_NEAR(evaluation.residual()[0], std::tan(lean), 1e-12);
     graph::expectJacobiansMatchDifferences(evaluation);
   }
+}
+
+TEST(UprightFactor, IsFiniteForALevelPlane) {
+  const UprightFactor factor;
+  const Evaluation evaluation{factor, {planeVariable()}, {toValue(Plane3{{0, 0, -1}, 1})}};
+  EXPECT_NEAR(evaluation.residual()[0], -100, 1e-9);
 }
 
 // Two poses, one plane: the second pose and the plane are wrong by much, and found.

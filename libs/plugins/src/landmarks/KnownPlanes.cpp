@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace omnimapper::plugins {
 
@@ -52,7 +53,9 @@ void KnownPlanes::update(const mapper::View& view) {
     surface.variable = landmark->variables.front();
     surface.plane = form().plane(view.graph.value(surface.variable));
     const PlaneAxes axes(surface.plane);
-    surface.hull = hullOn(axes, cornersInMap(payload.patches, view.map.key_frames));
+    const auto corners = cornersInMap(payload.patches, view.map.key_frames);
+    surface.hull = hullOn(axes, corners);
+    std::tie(surface.lowest, surface.highest) = heightsOf(corners);
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (const auto& corner : surface.hull) middle += corner / static_cast<double>(surface.hull.size());
     surface.radius = 0;
@@ -63,6 +66,12 @@ void KnownPlanes::update(const mapper::View& view) {
     surface.payload = landmark->payload;
     surface.solve = view.solves.size() + 1;
   }
+}
+
+std::pair<double, double> heightsOf(const std::vector<Eigen::Vector3d>& points) {
+  const auto [low, high] =
+      std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.z() < b.z(); });
+  return points.empty() ? std::pair(0.0, 0.0) : std::pair(low->z(), high->z());
 }
 
 double gapBetween(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,

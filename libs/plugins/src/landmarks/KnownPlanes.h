@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "PlaneExtent.h"
@@ -23,10 +24,11 @@ class KnownPlanes {
     base::LandmarkId id;
     base::VariableId variable;
     geometry::Plane3 plane;
-    std::vector<Eigen::Vector2d> hull;  ///< [m, PlaneAxes of the plane]
-    Eigen::Vector3d middle;             ///< [m] of the hull
-    double radius = 0;                  ///< [m] of the hull about the middle
+    std::vector<Eigen::Vector2d> hull;                 ///< [m, PlaneAxes of the plane]
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] of the hull
+    double radius = 0;                                 ///< [m] of the hull about the middle
     Heights heights = Heights::unknown;
+    double lowest = 0, highest = 0;  ///< [m] z in the map of what was seen of it
     base::KeyFrameId last_seen_from;
     std::size_t solve = 0;  ///< number of solves when this was worked out
     std::shared_ptr<const map::LandmarkPayload> payload;
@@ -49,6 +51,9 @@ class KnownPlanes {
   PlanePayload empty_;
   std::map<base::LandmarkId, Surface> surfaces_;
 };
+
+/// Lowest and highest z of points [m].
+std::pair<double, double> heightsOf(const std::vector<Eigen::Vector3d>& points);
 
 /// Gap between a surface and points of another, both dropped on the plane of the first [m]; 0 where they overlap. Where
 /// the surface is upright and the height of one of them is not known, the gap along the floor.

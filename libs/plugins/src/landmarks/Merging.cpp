@@ -1,15 +1,22 @@
 #include "Merging.h"
 
+#include <omnimapper/geometry/Angle.h>
+
 #include <Eigen/Cholesky>
 #include <cmath>
 
 namespace omnimapper::plugins {
 
-std::optional<double> chi2Of(const Eigen::VectorXd& difference, const Eigen::MatrixXd& covariance) {
+std::optional<Fit> fitOf(const Eigen::VectorXd& difference, const Eigen::MatrixXd& covariance) {
   const Eigen::LLT<Eigen::MatrixXd> root(covariance);
   if (root.info() != Eigen::Success) return std::nullopt;
-  const double chi2 = difference.dot(root.solve(difference));
-  return std::isfinite(chi2) ? std::optional(chi2) : std::nullopt;
+  Fit fit;
+  fit.chi2 = difference.dot(root.solve(difference));
+  const double root_log_determinant = Eigen::MatrixXd(root.matrixL()).diagonal().array().log().sum();
+  const auto size = static_cast<double>(difference.size());
+  fit.log_density = -0.5 * (fit.chi2 + size * std::log(2 * geometry::kPi)) - root_log_determinant;
+  if (!std::isfinite(fit.log_density)) return std::nullopt;
+  return fit;
 }
 
 mapper::Decision mergeDecision(const mapper::View& view, const std::string& section, base::LandmarkId kept,

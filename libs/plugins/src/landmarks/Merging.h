@@ -8,8 +8,13 @@
 
 namespace omnimapper::plugins {
 
-/// difference^T covariance^-1 difference; none if the covariance is none, or something is not finite.
-std::optional<double> chi2Of(const Eigen::VectorXd& difference, const Eigen::MatrixXd& covariance);
+/// How well a difference fits to what is not known of it.
+struct Fit {
+  double chi2;
+  double log_density;  ///< of the difference, if both are one
+};
+/// None if the covariance is none, or something is not finite.
+std::optional<Fit> fitOf(const Eigen::VectorXd& difference, const Eigen::MatrixXd& covariance);
 
 /// What the log says of two landmarks that were found to be one, now. `chi2`: of the difference between them; `limit`:
 /// that of the test it passed.

@@ -143,8 +143,15 @@ const std::vector<std::string_view>& UprightFactor::variableKinds() const {
 
 void UprightFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const Plane3 plane = planeFromValue(values[0]);
-  residual[0] = plane.normal.z();
-  if (jacobians && jacobians[0]) RowMajorMap<1, 3>(jacobians[0]) << geometry::tangentBasis(plane.normal).row(2), 0;
+  // Nearly level the tangent is beyond all bounds; its cosine is held from there on.
+  constexpr double kLeastCosine = 0.01;
+  const double sine = plane.normal.z(), square = 1 - sine * sine;
+  const bool is_level = square < kLeastCosine * kLeastCosine;
+  const double cosine = is_level ? kLeastCosine : std::sqrt(square);
+  residual[0] = sine / cosine;
+  if (!jacobians || !jacobians[0]) return;
+  const double by_sine = is_level ? 1 / cosine : 1 / (cosine * square);
+  RowMajorMap<1, 3>(jacobians[0]) << by_sine * geometry::tangentBasis(plane.normal).row(2), 0;
 }
 
 void UprightFactor::write(std::ostream&) const {}

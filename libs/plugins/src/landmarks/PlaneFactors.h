@@ -49,7 +49,7 @@ class LineOnPlaneFactor : public graph::Factor {
 };
 
 /// That a plane is upright, for one that only lines of one height have shown. Variable: plane in map. Residual: the
-/// height of its unit normal, which is the sine of its lean.
+/// tangent of its lean, at most 100: a sine would let a plane that few lines hold lie down among all of them.
 class UprightFactor : public graph::Factor {
  public:
   static constexpr std::string_view kKind = "upright_plane";

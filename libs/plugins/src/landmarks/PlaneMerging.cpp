@@ -14,6 +14,8 @@ namespace {
 
 using Surface = KnownPlanes::Surface;
 
+constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m] what is farther apart looks like two
+
 std::vector<Eigen::Vector3d> cornersOf(const Surface& surface) {
   const PlaneAxes axes(surface.plane);
   std::vector<Eigen::Vector3d> corners;
@@ -22,23 +24,21 @@ std::vector<Eigen::Vector3d> cornersOf(const Surface& surface) {
 }
 
 bool overlap(const Surface& a, const Surface& b) {
-  constexpr double kEdge = 0.05;  // [m] edges are seen that well
-  return gapBetween(a, cornersOf(b), b.heights) <= kEdge && gapBetween(b, cornersOf(a), a.heights) <= kEdge;
+  return gapBetween(a, cornersOf(b), b.heights) <= 0 && gapBetween(b, cornersOf(a), a.heights) <= 0;
 }
 
 // Of the change that takes a's plane to b's, by all that ties them together.
-std::optional<double> chi2OfDifference(const SurfaceForm& form, const Surface& a, const Surface& b,
-                                       const mapper::View& view) {
+std::optional<Fit> fitOfDifference(const SurfaceForm& form, const Surface& a, const Surface& b,
+                                   const mapper::View& view) {
   const auto joint = view.jointCovariance({a.variable, b.variable});
   if (!joint) return std::nullopt;
   const auto [change, by_both] = form.difference(view.graph.value(a.variable), view.graph.value(b.variable));
-  return chi2Of(change, by_both * *joint * by_both.transpose());
+  return fitOf(change, by_both * *joint * by_both.transpose());
 }
 
 }  // namespace
 
 bool onOnePlane(const Surface& a, const Surface& b) {
-  constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m]
   if (a.hull.empty() || b.hull.empty()) return false;
   if (a.plane.normal.dot(b.plane.normal) < std::cos(kTurn)) return false;
   const Surface &larger = a.radius > b.radius ? a : b, &smaller = a.radius > b.radius ? b : a;
@@ -50,6 +50,11 @@ mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& option
   known.update(view);
   const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize()) *
                        options.inflation * options.inflation;
+  // Two surfaces may lie anyhow within those bounds: that they are one must be so many times likelier. Where little is
+  // known of how they lie to each other, nobody can tell, and they wait.
+  const int turns = known.form().variable()->tangentSize() - 1;
+  const double least_density =
+      std::log(options.min_likelihood_ratio) - std::log(2 * kOff) - turns * std::log(2 * kTurn);
   mapper::Batch batch;
   std::set<base::LandmarkId> merged;
   const auto& all = known.all();
@@ -58,8 +63,8 @@ mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& option
       if (merged.count(a->first) > 0) break;
       if (merged.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
       if (!onOnePlane(a->second, b->second) || !overlap(a->second, b->second)) continue;
-      const auto chi2 = chi2OfDifference(known.form(), a->second, b->second, view);
-      if (!chi2 || *chi2 > limit) continue;
+      const auto fit = fitOfDifference(known.form(), a->second, b->second, view);
+      if (!fit || fit->chi2 > limit || fit->log_density < least_density) continue;
       merged.insert(a->first);
       merged.insert(b->first);
       const map::Landmark &kept = view.map.landmark(a->first), &gone = view.map.landmark(b->first);
@@ -70,7 +75,7 @@ mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& option
       if (of_gone) batch.removeFactor(*of_gone);
       if (of_kept && !of_gone) batch.removeFactor(*of_kept);  // something showed how the other leans
       batch.mergeLandmarks(gone.id, kept.id, kept_payload.with(gone_payload));
-      batch.log(mergeDecision(view, section, kept.id, gone.id, *chi2, limit));
+      batch.log(mergeDecision(view, section, kept.id, gone.id, fit->chi2, limit));
     }
   }
   return batch;

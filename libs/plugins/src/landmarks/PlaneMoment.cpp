@@ -32,7 +32,7 @@ namespace {
 
 constexpr double kSigmas = 4;  // of what the base may be off, to look at a landmark at all
 
-KnownPlanes::Heights heightsOf(const PlaneSighting& sighting) {
+KnownPlanes::Heights toldBy(const PlaneSighting& sighting) {
   return sighting.is_line ? KnownPlanes::Heights::unknown : KnownPlanes::Heights::known;
 }
 
@@ -111,7 +111,7 @@ std::optional<double> PlaneMoment::missIfAlike(const KnownPlanes::Surface& surfa
   for (const auto& point : points) middle += point / static_cast<double>(points.size());
   const double off = std::abs(signedDistance(surface.plane, middle)) - kFarthest;
   if (off > kSigmas * pose_sigma_) return std::nullopt;
-  const double gap = gapBetween(surface, points, heightsOf(sighting)) - options_.max_gap;
+  const double gap = gapBetween(surface, points, toldBy(sighting)) - options_.max_gap;
   if (gap > kSigmas * pose_sigma_) return std::nullopt;
   return std::max(off, gap);
 }
@@ -181,17 +181,10 @@ bool PlaneMoment::tellsLean(const PlaneSighting& sighting, const std::vector<Eig
   constexpr double kSecondHeight = 0.4;  // [m]
   if (payload.wasSeenAsPlane()) return false;
   if (!sighting.is_line) return true;
-  const PlaneAxes axes(surface.plane);
-  std::vector<Eigen::Vector2d> hull = surface.hull;
-  const double before = heightOf(hull);
-  for (const auto& point : points) hull.push_back(axes.onto(point));
-  return before < kSecondHeight && heightOf(hull) >= kSecondHeight;
-}
-
-double PlaneMoment::heightOf(const std::vector<Eigen::Vector2d>& on_plane) {
-  const auto [low, high] =
-      std::minmax_element(on_plane.begin(), on_plane.end(), [](const auto& a, const auto& b) { return a.y() < b.y(); });
-  return on_plane.empty() ? 0 : high->y() - low->y();
+  const auto [low, high] = heightsOf(points);
+  const double before = surface.highest - surface.lowest;
+  const double now = std::max(high, surface.highest) - std::min(low, surface.lowest);
+  return before < kSecondHeight && now >= kSecondHeight;
 }
 
 bool PlaneMoment::reachesOver(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points) {
@@ -251,7 +244,7 @@ void PlaneMoment::addNew(const PlaneSighting& sighting, mapper::Decision decisio
   fresh.surface.variable = variable;
   fresh.surface.plane = plane;
   fresh.surface.hull = hullOn(PlaneAxes(plane), points);
-  fresh.surface.heights = heightsOf(sighting);
+  fresh.surface.heights = toldBy(sighting);
   fresh.payload = payload;
   fresh_.push_back(std::move(fresh));
 }
@@ -266,7 +259,7 @@ PlaneMoment::Fresh* PlaneMoment::alikeInThisMoment(const PlaneSighting& sighting
       return std::abs(signedDistance(plane, point)) > kOff;
     });
     if (!off && plane.normal.cross(normal).norm() < kTurn && plane.normal.dot(normal) > 0 &&
-        gapBetween(fresh.surface, points, heightsOf(sighting)) <= options_.max_gap)
+        gapBetween(fresh.surface, points, toldBy(sighting)) <= options_.max_gap)
       return &fresh;
   }
   return nullptr;

@@ -50,8 +50,6 @@ class PlaneMoment {
   // Whether it is the first that shows how the landmark leans: a plane, or a line of a second height (thesis 4.2.3).
   static bool tellsLean(const PlaneSighting& sighting, const std::vector<Eigen::Vector3d>& points,
                         const KnownPlanes::Surface& surface, const PlanePayload& payload);
-  // [m]
-  static double heightOf(const std::vector<Eigen::Vector2d>& on_plane);
   // Whether a corner lies outside by more than edges are seen alike.
   static bool reachesOver(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points);
   void logUseless(const PlaneSighting& sighting);

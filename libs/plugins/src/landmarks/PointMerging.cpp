@@ -24,13 +24,13 @@ bool seenAtOnce(base::VariableId a, base::VariableId b, const graph::Graph& grap
   return false;
 }
 
-std::optional<double> chi2OfGap(base::VariableId a, base::VariableId b, const mapper::View& view) {
+std::optional<Fit> fitOfGap(base::VariableId a, base::VariableId b, const mapper::View& view) {
   const auto joint = view.jointCovariance({a, b});
   if (!joint) return std::nullopt;
   const Eigen::VectorXd difference = view.graph.value(b) - view.graph.value(a);
   const Eigen::Index n = difference.size();
-  return chi2Of(difference, joint->topLeftCorner(n, n) + joint->bottomRightCorner(n, n) - joint->topRightCorner(n, n) -
-                                joint->bottomLeftCorner(n, n));
+  return fitOf(difference, joint->topLeftCorner(n, n) + joint->bottomRightCorner(n, n) - joint->topRightCorner(n, n) -
+                               joint->bottomLeftCorner(n, n));
 }
 
 struct Nameless {
@@ -65,14 +65,14 @@ mapper::Batch mergeAlike(const KnownPoints& known, const PointLandmarksOptions& 
       const Nameless& b = left[k];
       if ((*b.place - *a.place).norm() > kFarthestApart || !view.areJoined(a.id.session, b.id.session)) continue;
       if (seenAtOnce(a.variable, b.variable, view.graph)) continue;
-      const auto chi2 = chi2OfGap(a.variable, b.variable, view);
-      if (!chi2 || *chi2 > limit) continue;
+      const auto fit = fitOfGap(a.variable, b.variable, view);
+      if (!fit || fit->chi2 > limit) continue;
       const auto kept = std::min(a.id, b.id), gone = std::max(a.id, b.id);
       const auto payloadOf = [&](base::LandmarkId id) -> const PointPayload& {
         return dynamic_cast<const PointPayload&>(*view.map.landmark(id).payload);
       };
       batch.mergeLandmarks(gone, kept, payloadOf(kept).with(payloadOf(gone)));
-      batch.log(mergeDecision(view, section, kept, gone, *chi2, limit));
+      batch.log(mergeDecision(view, section, kept, gone, fit->chi2, limit));
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
       break;
     }
