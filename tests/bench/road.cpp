@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   for (const auto& setting : settings) config.set(setting);
   config.set(name + ".labels=true");
   const sim::Simulation simulation(config);
-  const bench::RoadAgreement seen(simulation, name, frames, options, processorTime);
+  const bench::RoadAgreement seen(simulation, name, frames, options, bench::processorTime);
   auto times = seen.times();
   std::sort(times.begin(), times.end());
   std::printf(

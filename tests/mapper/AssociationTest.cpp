@@ -133,6 +133,32 @@ TEST_F(AssociationOfPoints, ASearchOutOfNodesGivesTheBestSoFarAndSaysSo) {
   const Association found = associateAll(measured);
   EXPECT_FALSE(found.complete);
   EXPECT_LE(found.nodes, 70);
+  for (int m = 0; m < 10; ++m) EXPECT_EQ(matchOf(found, static_cast<std::size_t>(m)), m);
+  Decision decision;
+  found.tell(3, decision);
+  EXPECT_EQ(decision.reason, "matched; the search was cut short");
+}
+
+// Say, what only a factor of another session that was taken out had bound.
+TEST_F(AssociationOfPoints, ALandmarkThatNothingBindsIsNoneToMatch) {
+  mapPoint(0, 2);
+  points_.push_back(graph_.addVariable(graph::point2(), Eigen::Vector2d(0.6, 2)));
+  const Association found = associateAll({{0.6, 2}});
+  EXPECT_EQ(matchOf(found, 0), 0);
+}
+
+// The point hangs on a pose that nothing holds: how well it is known beside the first pose cannot be said.
+TEST_F(AssociationOfPoints, WhereNothingIsKnownOfHowSureTheMapIsNothingIsMatched) {
+  const auto adrift = graph_.addVariable(graph::se2(), Eigen::Vector3d::Zero());
+  points_.push_back(graph_.addVariable(graph::point2(), Eigen::Vector2d(0, 2)));
+  graph_.addFactor({{adrift, points_.back()},
+                    std::make_shared<graph::PointFactor2>(Eigen::Vector2d(0, 2)),
+                    SquareRootInformation::fromSigmas(Eigen::Vector2d(0.1, 0.1))});
+  const Association found = associateAll({{0, 2}});
+  EXPECT_EQ(found.matches[0].kind, Kind::untold);
+  Decision decision;
+  found.tell(0, decision);
+  EXPECT_FALSE(decision.accepted);
 }
 
 TEST_F(AssociationOfPoints, NothingToChooseFromIsAllNew) {

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <omnimapper/graph/PointFactor.h>
+#include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/Joining.h>
 #include <omnimapper/mapper/PoseFactors.h>
 
@@ -72,6 +74,37 @@ TEST(Joining, APlaceInTheMapJoinsIfItsPluginGivesAbsolutePoses) {
   EXPECT_FALSE(world.joined(1)) << "a guess of the start is no measurement";
   prior({1, 1}, "gps");
   EXPECT_TRUE(world.joined(1));
+}
+
+// Two points are at one height on the page, say.
+class SameHeight : public graph::Factor {
+ public:
+  std::string_view kind() const override { return "same_height"; }
+  int residualSize() const override { return 1; }
+  const std::vector<std::string_view>& variableKinds() const override {
+    static const std::vector<std::string_view> kinds = {"point2", "point2"};
+    return kinds;
+  }
+  void evaluate(const double* const* values, double* residual, double* const*) const override {
+    residual[0] = values[1][1] - values[0][1];
+  }
+  void write(std::ostream&) const override {}
+};
+
+TEST(Joining, LandmarksJoinByWhoSeesThemAndNotByHowTheyStandToEachOther) {
+  ThreeSessions world;
+  std::vector<base::VariableId> points;
+  for (std::uint16_t session = 0; session < 2; ++session) {
+    world.graph.setSession(session);
+    points.push_back(world.graph.addVariable(graph::point2(), Eigen::Vector2d(1, 2)));
+  }
+  world.graph.addFactor({points, std::make_shared<SameHeight>(), graph::SquareRootInformation::identity(1)});
+  EXPECT_FALSE(world.joined(1));
+  world.graph.addFactor({{world.map.keyFrame({1, 1}).pose, points[0]},
+                         std::make_shared<graph::PointFactor2>(Eigen::Vector2d(1, 0)),
+                         graph::SquareRootInformation::identity(2)});
+  EXPECT_TRUE(world.joined(1));
+  EXPECT_EQ(world.map.sessions[1].joined_at, (base::KeyFrameId{1, 1}));
 }
 
 }  // namespace

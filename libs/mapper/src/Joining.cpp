@@ -1,3 +1,4 @@
+#include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/Joining.h>
 
 #include <algorithm>
@@ -14,6 +15,14 @@ std::optional<base::KeyFrameId> frameOf(const graph::FactorRecord& record, std::
     if (bound && frame.id.session == session) return frame.id;
   }
   return std::nullopt;
+}
+
+// How two landmarks stand to each other says nothing of where a session is.
+bool bindsPose(const graph::FactorRecord& record, const graph::Graph& graph) {
+  return std::any_of(record.variables.begin(), record.variables.end(), [&](base::VariableId id) {
+    const auto kind = graph.variable(id).kind->kind();
+    return kind == graph::se2()->kind() || kind == graph::se3()->kind();
+  });
 }
 
 }  // namespace
@@ -33,7 +42,7 @@ void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::st
         std::minmax_element(record.variables.begin(), record.variables.end(),
                             [](base::VariableId a, base::VariableId b) { return a.session < b.session; });
     const std::uint16_t from = absolute.count(record.tags.owner) > 0 ? first : low->session, to = high->session;
-    if (from == to || group[from] == group[to]) continue;
+    if (from == to || group[from] == group[to] || !bindsPose(record, graph)) continue;
     const std::uint16_t kept = std::min(group[from], group[to]), gone = std::max(group[from], group[to]);
     for (auto& session : map.sessions) {
       if (group[session.number] != gone) continue;

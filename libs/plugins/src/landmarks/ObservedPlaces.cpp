@@ -145,7 +145,8 @@ double chi2OfMove(const std::vector<base::VariableId>& from, const std::vector<b
     move.by_both.block(row, n + row, size, size) = one.by_both.rightCols(size);
     row += size;
   }
-  return chi2Of(move.change, move.by_both * joint * move.by_both.transpose()).value_or(0);
+  const auto fit = fitOf(move.change, move.by_both * joint * move.by_both.transpose());
+  return fit ? fit->chi2 : 0;
 }
 
 std::vector<Eigen::VectorXd> valuesOfVisit(const std::vector<base::VariableId>& variables, const graph::Graph& graph) {

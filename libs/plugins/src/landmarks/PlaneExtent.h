@@ -11,7 +11,8 @@
 
 namespace omnimapper::plugins {
 
-/// Two axes on a plane: the first level, the second up where the plane is upright.
+/// Two axes on a plane. Of one that leans from level by more than 26 degrees the first is level and the second leads
+/// up; of others the first goes along the x of the map.
 struct PlaneAxes {
   explicit PlaneAxes(const geometry::Plane3& plane);
 

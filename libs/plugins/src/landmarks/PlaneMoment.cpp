@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "FirstTie.h"
 #include "PlaneExtent.h"
 #include "PlaneFactors.h"
 #include "PlaneMerging.h"
@@ -153,13 +154,7 @@ mapper::Decision PlaneMoment::decisionOf(const PlaneSighting& sighting) const {
 
 void PlaneMoment::addToKnown(const PlaneSighting& sighting, const mapper::Pairing& pairing, mapper::Decision decision) {
   const base::LandmarkId id = pairing.landmark;
-  if (!view_.areJoined(frame_.id.session, id.session)) {
-    // The first thing that ties this session to the map: if it were wrong, everything would be.
-    decision.accepted = false;
-    decision.reason = "waits for the consistency test";
-    batch_.addHypothesis(pairing.record, std::move(decision));
-    return;
-  }
+  if (addAsFirstTie(view_, frame_.id, pairing, decision, batch_)) return;
   batch_.log(std::move(decision));
   batch_.addFactor(pairing.record);
   // A landmark may be met twice in a moment: the second time goes on from what the first made of it.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "FirstTie.h"
 #include "KnownPoints.h"
 #include "PointMerging.h"
 #include "PointPayload.h"
@@ -164,13 +165,7 @@ class PointLandmarksPlugin::Moment {
   }
 
   void addToKnown(const PointMeasurement& measured, const mapper::Pairing& pairing, mapper::Decision decision) {
-    if (!view_.areJoined(frame_.id.session, pairing.landmark.session)) {
-      // The first thing that ties this session to the map: if it were wrong, everything would be.
-      decision.accepted = false;
-      decision.reason = "waits for the consistency test";
-      batch_.addHypothesis(pairing.record, std::move(decision));
-      return;
-    }
+    if (addAsFirstTie(view_, frame_.id, pairing, decision, batch_)) return;
     batch_.log(std::move(decision));
     batch_.addFactor(pairing.record);
     const auto& payload = dynamic_cast<const PointPayload&>(*view_.map.landmark(pairing.landmark).payload);

@@ -9,7 +9,8 @@
 namespace omnimapper::mapper {
 
 /// Says of each session of `map` whether factors that act tie it to the first one, be it by way of others, and which
-/// key frame was first to. What the plugins `absolute` measure ties a session to the map itself.
+/// key frame was first to. What the plugins `absolute` measure ties a session to the map itself; what relates landmarks
+/// alone, without a pose, ties none.
 void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
 
 /// The same of the last session of a map that is held: whether something ties it to a session that is joined.

@@ -27,11 +27,11 @@ struct HandMadeRun {
     return {{map, graph, uncertainty}, decisions, times, counts, solves, warnings, sections, map_is_held, fixes};
   }
 
-  /// A key frame at that estimate, one second after the one before.
+  /// A key frame of the graph's session at that estimate, one second after the one before.
   const map::KeyFrame& addFrame(const mrpt::poses::CPose3D& map_from_base) {
     map::KeyFrame frame;
     const auto index = static_cast<std::uint32_t>(map.key_frames.size());
-    frame.id = {0, index};
+    frame.id = map.key_frames.nextId(graph.session());
     frame.stamp = base::stampFromUnix(1'000'000'000 + static_cast<double>(index));
     frame.map_from_base = map_from_base;
     frame.pose = graph.addVariable(mapper::poseVariable(motion), mapper::poseValue(motion, map_from_base), index == 0);

@@ -1,0 +1,51 @@
+#include "SurfaceRun.h"
+
+namespace omnimapper::plugins::plane_merging_test {
+namespace {
+
+using namespace surface_run;
+
+class PlaneMerging : public SurfaceRun {};
+
+TEST_F(PlaneMerging, TwoTablesOfOneHeightStayTwo) {
+  driveTo({});
+  see(planesOf({tableTop(2, -1, 0.7), tableTop(2, 1, 0.7)}));
+  see(planesOf({tableTop(2, 1, 0.701)}));
+  ASSERT_EQ(active().size(), 2U);
+  EXPECT_EQ(active()[0].evidence, 1U);
+  EXPECT_EQ(active()[1].evidence, 2U);
+  EXPECT_EQ(shapeOf(active()[1]).label, "table");
+}
+
+TEST_F(PlaneMerging, PartsThatAreFoundToBeOneAreMerged) {
+  driveTo({});
+  see(planesOf({wallPlane(3, -2, -1), wallPlane(3, 0, 1)}));
+  ASSERT_EQ(active().size(), 2U);
+  see(planesOf({wallPlane(3, -1.5, 0.5)}));
+  EXPECT_EQ(active().size(), 2U);
+  solve();
+  ASSERT_EQ(active().size(), 1U);
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 3 * 1.6, 0.01);
+  EXPECT_EQ(active()[0].evidence, 3U);
+  EXPECT_EQ(run_.decisions.back().kind, "merge");
+}
+
+TEST_F(PlaneMerging, TheFacesOfAThinWallAreTwo) {
+  driveTo({});
+  see(planesOf({wallPlane(3, -1, 1)}));
+  driveTo({6.1, 0, 0, geometry::kPi, 0, 0});
+  see(planesOf({wallPlane(3, -1, 1)}));
+  solve();
+  EXPECT_EQ(active().size(), 2U);
+}
+
+TEST_F(PlaneMerging, StretchesOfANewWallSeenAtOnceAreOne) {
+  driveTo({});
+  see(linesOf({line({3, -2}, {3, -0.3}), line({3, 0.1}, {3, 2})}));
+  EXPECT_EQ(active().size(), 1U);
+  EXPECT_EQ(factorsOfKind("line_on_plane"), 2U);
+  EXPECT_EQ(factorsOfKind("upright_plane"), 1U);
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins::plane_merging_test
