@@ -35,6 +35,7 @@ struct Setup {
   std::string ini, section = "plane_landmarks", simulated, out;
   std::vector<std::string> settings;
   int threads = 1;
+  bool list = false;
 
   std::string name() const { return std::filesystem::path(simulated).filename().string(); }
   std::string log() const { return simulated + "/" + name() + ".rawlog"; }
@@ -65,12 +66,19 @@ class Truth {
       scans_[key(scan["stamp"].get<double>())] = std::move(beams);
     }
   }
-  /// The one that most beams of a line met.
+  /// The one that most beams of a line met; 0 if fewer than four of five lie on its plane: a line over two surfaces,
+  /// such as a door and its edge, is of neither.
   int surfaceOf(base::Stamp stamp, const obs::LaserLine& line) const {
     const auto& beams = scans_.at(key(base::unixSeconds(stamp)));
     std::map<int, int> counts;
     for (std::size_t i = line.first_beam; i <= line.last_beam && i < beams.size(); ++i) ++counts[beams[i]];
-    return most(counts);
+    const int surface = most(counts);
+    int all = 0, on_plane = 0;
+    for (const auto& [other, count] : counts) {
+      all += count;
+      on_plane += isFlat(surface) && isFlat(other) && areOnePlane(surface, other) ? count : 0;
+    }
+    return 5 * on_plane >= 4 * all ? surface : 0;
   }
   bool isFlat(int surface) const { return planes_.count(surface) > 0; }
   bool areOnePlane(int a, int b) const {
@@ -134,7 +142,11 @@ Outcome judge(const Setup& setup, const std::string& folder, const Truth& truth)
     const int own = Truth::most(counts);
     for (const auto& [surface, count] : counts) {
       outcome.matches += static_cast<std::size_t>(count);
-      if (!truth.areOnePlane(own, surface)) outcome.wrong += static_cast<std::size_t>(count);
+      if (truth.areOnePlane(own, surface)) continue;
+      outcome.wrong += static_cast<std::size_t>(count);
+      if (setup.list)
+        std::printf("landmark %u: %d lines of surface %d, %d of its own, %d\n", id.index, count, surface,
+                    counts.at(own), own);
     }
   }
   return outcome;
@@ -174,6 +186,7 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", setup.out)->required();
   app.add_option("--section", setup.section, "of the plugin; default plane_landmarks");
   app.add_option("--threads", setup.threads);
+  app.add_flag("--list", setup.list, "each landmark with lines of two surfaces, before the table");
   app.add_option("--set", setup.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
   plugins::registerPlugins();

@@ -190,8 +190,10 @@ void print(const Log& log, const std::string& who, double share, const Outcome& 
 int main(int argc, char** argv) {
   CLI::App app("MRPT's demonstration logs of range and bearing: our engine beside MRPT's filters.");
   std::string ini_path = omnimapper::testing::sourceFile("ini/landmarks.ini");
+  std::string only;
   int runs = 3;
   app.add_option("--ini", ini_path, "INI of the mapper")->capture_default_str();
+  app.add_option("--log", only, "this log alone, such as kf-slam_demo");
   app.add_option("--runs", runs, "the least time of so many")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   std::ifstream file(ini_path);
@@ -200,6 +202,7 @@ int main(int argc, char** argv) {
       "| log | part | who | poses | landmarks | trajectory [m] | landmarks [m] | time [s] |\n"
       "|---|---|---|---|---|---|---|---|\n");
   for (const Log& log : kLogs) {
+    if (!only.empty() && log.name != only) continue;
     const std::string path = kMrpt + "datasets/" + log.name + ".rawlog";
     mrpt::obs::CRawlog rawlog;
     if (!rawlog.loadFromRawLogFile(path)) continue;

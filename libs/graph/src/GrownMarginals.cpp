@@ -132,8 +132,10 @@ std::optional<Following> follow(const Graph& graph, const Growth& growth) {
   const Eigen::VectorXd diagonal = system.information.diagonal();
   if (!(diagonal.minCoeff() > 0)) return std::nullopt;
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Eigen::LDLT<Eigen::MatrixXd> root(scale.asDiagonal() * system.information * scale.asDiagonal());
-  if (root.info() != Eigen::Success || !(root.vectorD().minCoeff() > kNothing)) return std::nullopt;
+  const Eigen::LLT<Eigen::MatrixXd> root(scale.asDiagonal() * system.information * scale.asDiagonal());
+  if (root.info() != Eigen::Success) return std::nullopt;
+  const double least = root.matrixLLT().diagonal().minCoeff();
+  if (!(least * least > kNothing)) return std::nullopt;
   Eigen::MatrixXd columns = root.solve(Eigen::MatrixXd::Identity(growth.fresh.size(), growth.asked));
   if (!growth.isWhole() && columns.diagonal().maxCoeff() > kOpen) return std::nullopt;
   columns = scale.asDiagonal() * columns * scale.head(growth.asked).asDiagonal();
@@ -146,7 +148,7 @@ std::optional<Eigen::MatrixXd> jointCovariance(const Marginals& before, const Gr
                                                const std::vector<VariableId>& ids) {
   if (!std::all_of(ids.begin(), ids.end(), [&](VariableId id) { return grown.contains(id); })) return std::nullopt;
   // What is far along the trajectory tells next to nothing, unless nothing near does.
-  constexpr std::size_t kNear = 24;
+  constexpr std::size_t kNear = 12;
   std::size_t most = kNear;
   Growth growth(before, grown, ids, most);
   auto following = follow(grown, growth);
