@@ -1,77 +1,141 @@
 // MRPT's RawLogViewer draws what was perceived: seen on a screenshot.
 #include <mrpt/img/CImage.h>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/serialization/CArchive.h>
+#include <omnimapper/obs/IndexColour.h>
 
 #include <cmath>
 
+#include "../../obs/FilledObjects.h"
 #include "PerceivedLog.h"
 
 namespace {
 
 using namespace perceived;
+using mrpt::img::TColor;
+using namespace omnimapper::obs;
 
-/// What is drawn in the 3D view of the screenshot, whose background is grey.
-struct Drawn {
-  int coloured = 0;       ///< pixels
-  int colours = 0;        ///< hues, of twelve, that many of them have
-  int lines_of_text = 0;  ///< rows of pixels with ink, in the window of text above
-};
+/// A screenshot of RawLogViewer.
+class Screen {
+ public:
+  explicit Screen(const mrpt::img::CImage& image) : image_(image) {}
 
-int hueOf(int red, int green, int blue) {
-  const double alpha = red - 0.5 * (green + blue), beta = 0.5 * std::sqrt(3.) * (green - blue);
-  return static_cast<int>(std::floor((std::atan2(beta, alpha) + M_PI) / (2 * M_PI) * 12)) % 12;
-}
-
-Drawn look(const mrpt::img::CImage& screen) {
-  Drawn drawn;
-  std::vector<int> of_hue(12, 0);
-  for (unsigned y = 545; y < 795; ++y) {
-    const auto* row = screen.ptrLine<std::uint8_t>(y);
-    for (unsigned x = 408; x < 1268; ++x) {
-      const int blue = row[3 * x], green = row[3 * x + 1], red = row[3 * x + 2];
-      if (std::max({red, green, blue}) - std::min({red, green, blue}) < 40) continue;
-      ++drawn.coloured;
-      ++of_hue[static_cast<std::size_t>(hueOf(red, green, blue))];
+  /// Pixels of the 3D view for which that holds.
+  template <class Condition>
+  int count(Condition holds) const {
+    int pixels = 0;
+    for (unsigned y = 545; y < 795; ++y) {
+      for (unsigned x = 408; x < 1268; ++x) pixels += holds(at(x, y));
     }
+    return pixels;
   }
-  for (const int pixels : of_hue) drawn.colours += pixels > 100;
-  for (unsigned y = 100; y < 495; ++y) {
-    const auto* row = screen.ptrLine<std::uint8_t>(y);
-    int ink = 0;
-    for (unsigned x = 408; x < 1000; ++x) ink += row[3 * x] < 100;
-    drawn.lines_of_text += ink > 20;
+  /// Of that colour, which nothing else there has; thin lines have it where they are not mixed with what is behind.
+  int of(const TColor& colour) const {
+    const auto near = [](int a, int b) { return std::abs(a - b) < 5; };
+    return count([&](const TColor& pixel) {
+      return near(pixel.R, colour.R) && near(pixel.G, colour.G) && near(pixel.B, colour.B);
+    });
   }
-  return drawn;
-}
+  /// Neither grey nor nearly so, as the background is.
+  int coloured() const { return count(isColoured); }
+  /// Of twelve, those that many pixels have.
+  int hues() const {
+    std::vector<int> of_hue(12, 0);
+    count(
+        [&](const TColor& pixel) { return isColoured(pixel) && ++of_hue[static_cast<std::size_t>(hueOf(pixel))] > 0; });
+    return static_cast<int>(std::count_if(of_hue.begin(), of_hue.end(), [](int pixels) { return pixels > 100; }));
+  }
+  /// Rows of pixels with ink, in the window of text above the view.
+  int rowsOfText() const {
+    int rows = 0;
+    for (unsigned y = 100; y < 495; ++y) {
+      int ink = 0;
+      for (unsigned x = 408; x < 1000; ++x) ink += at(x, y).B < 100;
+      rows += ink > 20;
+    }
+    return rows;
+  }
+
+ private:
+  TColor at(unsigned x, unsigned y) const {
+    const auto* pixel = image_.ptrLine<std::uint8_t>(y) + 3 * x;
+    return {pixel[2], pixel[1], pixel[0]};
+  }
+  static bool isColoured(const TColor& c) { return std::max({c.R, c.G, c.B}) - std::min({c.R, c.G, c.B}) >= 40; }
+  static int hueOf(const TColor& c) {
+    const double alpha = c.R - 0.5 * (c.G + c.B), beta = 0.5 * std::sqrt(3.) * (c.G - c.B);
+    return static_cast<int>(std::floor((std::atan2(beta, alpha) + M_PI) / (2 * M_PI) * 12)) % 12;
+  }
+
+  mrpt::img::CImage image_;
+};
 
 class RawLogViewer : public PerceivedHome {
  protected:
   void SetUp() override {
     if (omnimapper::testing::kIsSanitized)
       GTEST_SKIP() << "a stock tool cannot load a library that is built with a sanitizer";
-    for (const char* program : {"RawLogViewer", "xvfb-run", "xdotool", "import"}) {
+    for (const char* program : {"RawLogViewer", "xvfb-run", "xdotool", "import", "convert"}) {
       if (!isInstalled(program)) GTEST_SKIP() << program << " is not on this machine (scripts/packages-test.txt)";
     }
   }
-  Drawn show(const std::string& log) {
+
+  /// What RawLogViewer shows of one of the first 40 rows of a log. With OMNIMAPPER_TEST_KEEP, a folder, the picture is
+  /// kept there.
+  Screen show(const std::string& log, std::size_t row) {
     const std::string picture = scratch_ / "screen.png", script = "tests/system/perceive/raw_log_viewer.sh";
     // With a home of its own: RawLogViewer keeps its settings there.
     const auto ended = runProgram({"env", "HOME=" + scratch_.path(), "xvfb-run", "-a", "-s", "-screen 0 1280x960x24",
-                                   omnimapper::testing::sourceFile(script), OMNIMAPPER_OBS_LIBRARY, log, picture});
+                                   omnimapper::testing::sourceFile(script), OMNIMAPPER_OBS_LIBRARY, log,
+                                   std::to_string(row), picture});
     EXPECT_EQ(ended.code, 0) << toString(ended);
-    mrpt::img::CImage screen;
-    if (!screen.loadFromFile(picture)) return {};
-    if (const char* keep = std::getenv("OMNIMAPPER_TEST_KEEP"))
-      fs::copy_file(picture, keep, fs::copy_options::overwrite_existing);
-    return look(screen);
+    mrpt::img::CImage image;
+    if (!image.loadFromFile(picture)) image.resize(1280, 960, mrpt::img::CH_RGB);
+    if (const char* keep = std::getenv("OMNIMAPPER_TEST_KEEP")) {
+      const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+      fs::copy_file(picture, fs::path(keep) / (std::string(test->name()) + ".png"),
+                    fs::copy_options::overwrite_existing);
+    }
+    return Screen(image);
+  }
+
+  /// Of the home, by one extractor.
+  void perceiveHome(const std::string& extractor, const Words& more = {}) {
+    Words words{"--set", "perception.extractors=" + extractor};
+    words.insert(words.end(), more.begin(), more.end());
+    ASSERT_TRUE(endedWith(ExitCode::ok, perceive(kHome, derived_, words)));
+  }
+
+  /// A log of that alone.
+  std::string logOf(const mrpt::serialization::CSerializable& object) {
+    const std::string log = scratch_ / "one.rawlog";
+    mrpt::io::CFileGZOutputStream out(log);
+    mrpt::serialization::archiveFrom(out) << object;
+    return log;
   }
 };
 
+/// The row of a log, among those that the viewer shows without scrolling, that holds most of something.
+template <class Class, class Size>
+std::size_t fullest(const Observations& log, Size size) {
+  std::size_t best = 0, most = 0;
+  for (std::size_t row = 0; row < std::min<std::size_t>(40, log.size()); ++row) {
+    const auto observation = std::dynamic_pointer_cast<Class>(log[row]);
+    if (!observation || size(*observation) <= most) continue;
+    most = size(*observation);
+    best = row;
+  }
+  EXPECT_GT(most, 0u);
+  return best;
+}
+
 TEST_F(RawLogViewer, DrawsPlanesOfASimulatedHome) {
-  ASSERT_TRUE(endedWith(ExitCode::ok, perceive(kHome, derived_, {"--set", "perception.extractors=planes"})));
-  const Drawn drawn = show(derived_);
-  EXPECT_GT(drawn.coloured, 3000);
-  EXPECT_GE(drawn.colours, 4);
-  EXPECT_GT(drawn.lines_of_text, 50);
+  perceiveHome("planes");
+  const Screen screen = show(derived_, 5);
+  EXPECT_GT(screen.coloured(), 3000);
+  EXPECT_GE(screen.hues(), 4);
+  EXPECT_GT(screen.rowsOfText(), 50);
 }
 
 TEST_F(RawLogViewer, DrawsPlanesOfFreiburg1Rpy) {
@@ -80,10 +144,57 @@ TEST_F(RawLogViewer, DrawsPlanesOfFreiburg1Rpy) {
   importFirst(*folder, 10, "freiburg1", scratch_);
   ASSERT_TRUE(
       endedWith(ExitCode::ok, perceive(scratch_ / "raw.rawlog", derived_, {"--set", "perception.extractors=planes"})));
-  const Drawn drawn = show(derived_);
-  EXPECT_GT(drawn.coloured, 3000);
-  EXPECT_GE(drawn.colours, 4);
-  EXPECT_GT(drawn.lines_of_text, 50);
+  const Screen screen = show(derived_, 5);
+  EXPECT_GT(screen.coloured(), 3000);
+  EXPECT_GE(screen.hues(), 4);
+  EXPECT_GT(screen.rowsOfText(), 50);
+}
+
+TEST_F(RawLogViewer, DrawsEachLineOfALaser) {
+  perceiveHome("laser_lines");
+  const auto log = readLog(derived_);
+  const auto size = [](const CObservationLaserLines& seen) { return seen.lines.size(); };
+  const auto row = fullest<CObservationLaserLines>(log, size);
+  const auto count = size(dynamic_cast<const CObservationLaserLines&>(*log.at(row)));
+  EXPECT_GE(count, 8u);
+  const Screen screen = show(derived_, row);
+  for (std::size_t i = 0; i < count; ++i) EXPECT_GT(screen.of(indexColour(i)), 20) << "line " << i;
+  EXPECT_GT(screen.rowsOfText(), 50);
+}
+
+TEST_F(RawLogViewer, DrawsEachThingAndItsName) {
+  perceiveHome("planes", {"--set", "planes.class=ObjectExtractor"});
+  const auto log = readLog(derived_);
+  const auto size = [](const CObservationObjects& seen) { return seen.objects.size(); };
+  const auto row = fullest<CObservationObjects>(log, size);
+  const auto count = size(dynamic_cast<const CObservationObjects&>(*log.at(row)));
+  EXPECT_GE(count, 4u);
+  const Screen screen = show(derived_, row);
+  for (std::size_t i = 0; i < count; ++i) EXPECT_GT(screen.of(indexColour(i)), 20) << "box of thing " << i;
+  EXPECT_GT(screen.coloured(), 2000);  // the points, in their own colours
+}
+
+TEST_F(RawLogViewer, DrawsACloudOfEdges) {
+  perceiveHome("edges");
+  const auto log = readLog(derived_);
+  const auto row = fullest<mrpt::obs::CObservationPointCloud>(
+      log, [](const mrpt::obs::CObservationPointCloud& cloud) { return cloud.pointcloud->size(); });
+  EXPECT_NE(log.at(row)->sensorLabel.find(".edges."), std::string::npos);
+  // MRPT's own drawing of clouds is black; axes are grey with white numbers.
+  EXPECT_GT(show(derived_, row).of({0, 0, 0}), 2000);
+}
+
+TEST_F(RawLogViewer, DrawsSignsOfDoors) {
+  const auto signs = filledSigns();
+  const Screen screen = show(logOf(*signs), 0);
+  for (std::size_t i = 0; i < signs->signs.size(); ++i)
+    EXPECT_GT(screen.of(indexColour(i)), 20) << "ray and frame of sign " << i;
+  EXPECT_GT(screen.of({250, 250, 250}), 100) << "the patch";
+  EXPECT_GT(screen.of({200, 20, 20}), 20) << "the bar along its top";
+}
+
+TEST_F(RawLogViewer, DrawsAMotion) {
+  EXPECT_GT(show(logOf(*filledMotion()), 0).coloured(), 2000);
 }
 
 }  // namespace
