@@ -3,15 +3,9 @@
 // most of its lines lie on; a line that lies on one of another plane is matched wrong. Prints a Markdown table.
 //
 // Example: bench-association -i ini/home_planes.ini --simulated out/home -o out/association
-#include <omnimapper/base/Progress.h>
-#include <omnimapper/eval/AbsoluteTrajectoryError.h>
-#include <omnimapper/eval/TumFile.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/graph/ByteIo.h>
-#include <omnimapper/mapper/MappingRun.h>
-#include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/plugins/registerPlugins.h>
 
@@ -19,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -27,18 +20,18 @@
 #include <string>
 #include <vector>
 
+#include "SimulatedRun.h"
+
 namespace {
 
 using namespace omnimapper;
 
 struct Setup {
-  std::string ini, section = "plane_landmarks", simulated, out;
+  std::string ini, section = "plane_landmarks", out;
+  bench::SimulatedPlace place;
   std::vector<std::string> settings;
   int threads = 1;
   bool list = false;
-
-  std::string name() const { return std::filesystem::path(simulated).filename().string(); }
-  std::string log() const { return simulated + "/" + name() + ".rawlog"; }
 };
 
 struct Outcome {
@@ -123,8 +116,7 @@ const obs::LaserLine* lineOf(const map::KeyFrame& frame, const Eigen::Vector3d& 
   return nullptr;
 }
 
-Outcome judge(const Setup& setup, const std::string& folder, const Truth& truth) {
-  const auto saved = mapper::readMap(folder, mapper::registeredKinds());
+Outcome judge(const Setup& setup, const mapper::SavedMap& saved, const Truth& truth) {
   std::map<base::VariableId, const map::KeyFrame*> frames;
   for (const auto& frame : saved.map.key_frames) frames[frame.pose] = &frame;
   std::map<base::LandmarkId, std::map<int, int>> surfaces;  // of the lines of each landmark
@@ -152,26 +144,13 @@ Outcome judge(const Setup& setup, const std::string& folder, const Truth& truth)
   return outcome;
 }
 
-Outcome run(const Setup& setup, const std::string& method, const Truth& truth, const eval::Trajectory& way) {
-  auto config = base::Config::fromFile(setup.ini);
-  for (const auto& setting : setup.settings) config.set(setting);
-  config.set(setup.section + ".association=" + method);
-  config.set("mapper.output_plugins=map,trajectory,summary");
-  mapper::RunRequest request;
-  request.logs = {setup.log()};
-  request.output_folder = setup.out + "/" + method;
-  request.threads = setup.threads;
-  std::filesystem::create_directories(request.output_folder);
-  base::Progress quiet;
-  mapper::runMapping(request, config, quiet, [] { return false; });
-  Outcome outcome = judge(setup, request.output_folder + "/map.omnimap", truth);
-  eval::PairingOptions pairing;
-  pairing.alignment = eval::Alignment::yaw;
-  const auto estimate = eval::readTum(request.output_folder + "/trajectory.tum");
-  outcome.ate = eval::absoluteTrajectoryError(estimate, way, pairing).translation.rmse;
-  std::ifstream in(request.output_folder + "/summary.json");
-  const auto summary = nlohmann::json::parse(in);
-  outcome.milliseconds = 1e3 * summary["stage_times"]["plugin " + setup.section]["seconds"].get<double>() /
+Outcome run(const Setup& setup, const std::string& method, const Truth& truth) {
+  auto settings = setup.settings;
+  settings.push_back(setup.section + ".association=" + method);
+  const auto mapped = bench::mapSimulated(setup.place, setup.ini, settings, setup.out + "/" + method, setup.threads);
+  Outcome outcome = judge(setup, mapped.saved, truth);
+  outcome.ate = mapped.error.rmse;
+  outcome.milliseconds = 1e3 * mapped.summary["stage_times"]["plugin " + setup.section]["seconds"].get<double>() /
                          static_cast<double>(outcome.key_frames);
   return outcome;
 }
@@ -182,7 +161,7 @@ int main(int argc, char** argv) {
   Setup setup;
   CLI::App app("Wrong matches of nearest neighbour and joint compatibility, by the truth.");
   app.add_option("-i,--ini", setup.ini)->required();
-  app.add_option("--simulated", setup.simulated, "folder that omnimapper-simulate made")->required();
+  app.add_option("--simulated", setup.place.folder, "folder that omnimapper-simulate made")->required();
   app.add_option("-o,--output", setup.out)->required();
   app.add_option("--section", setup.section, "of the plugin; default plane_landmarks");
   app.add_option("--threads", setup.threads);
@@ -190,13 +169,12 @@ int main(int argc, char** argv) {
   app.add_option("--set", setup.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
   plugins::registerPlugins();
-  const Truth truth(setup.simulated);
-  const auto way = eval::readTrajectory(setup.simulated + "/truth.tum");
+  const Truth truth(setup.place.folder);
   std::printf(
       "| association | key frames | landmarks | matches | wrong per 1,000 | ATE | per key frame |\n"
       "|---|---|---|---|---|---|---|\n");
   for (const std::string method : {"nearest", "joint"}) {
-    const Outcome outcome = run(setup, method, truth, way);
+    const Outcome outcome = run(setup, method, truth);
     std::printf("| %s | %zu | %zu | %zu | %.1f | %.3f m | %.2f ms |\n", method.c_str(), outcome.key_frames,
                 outcome.landmarks, outcome.matches,
                 1e3 * static_cast<double>(outcome.wrong) / static_cast<double>(outcome.matches), outcome.ate,
