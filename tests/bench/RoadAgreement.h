@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,9 @@ class RoadAgreement {
     kinds_.push_back(sim::SurfaceKind::clutter);
     for (const auto& ref : sim::numberSurfaces(simulation.world())) {
       const sim::Body& body = simulation.world().bodies[static_cast<std::size_t>(ref.body)];
-      kinds_.push_back(body.surfaces[static_cast<std::size_t>(ref.surface)].kind);
+      const sim::Surface& surface = body.surfaces[static_cast<std::size_t>(ref.surface)];
+      if (surface.kind == sim::SurfaceKind::kerb && surface.face) kerb_tops_.insert(kinds_.size());
+      kinds_.push_back(surface.kind);
     }
     for (const auto& sensor : simulation.sensors()) {
       if (sensor->label() != camera) continue;
@@ -41,12 +44,15 @@ class RoadAgreement {
     }
   }
 
+  /// Of kerbs the sides alone.
   const std::map<sim::SurfaceKind, RoadCount>& ofKinds() const { return of_kind_; }
   /// [s] that each frame took.
   const std::vector<double>& times() const { return times_; }
   RoadCount ground() const { return of(sim::SurfaceKind::road) + of(sim::SurfaceKind::floor); }
-  /// A kerb ends the one and begins the other.
-  RoadCount kerbs() const { return of(sim::SurfaceKind::kerb); }
+  /// What a kerb shows to the road: it ends the one and begins the other.
+  RoadCount kerbSides() const { return of(sim::SurfaceKind::kerb); }
+  /// Level, and as high as the pavement behind.
+  const RoadCount& kerbTops() const { return of_kerb_tops_; }
   RoadCount others() const {
     RoadCount all;
     for (const auto& [kind, count] : of_kind_) {
@@ -76,7 +82,8 @@ class RoadAgreement {
     for (std::size_t i = 0; i < found.sure.size(); ++i) {
       const double depth = scan.rangeImage.data()[i] * static_cast<double>(scan.rangeUnits);
       if (!(depth >= options_.min_depth && depth <= options_.max_depth)) continue;
-      RoadCount& count = of_kind_[kinds_[names.at<std::uint16_t>(static_cast<int>(i))]];
+      const std::size_t surface = names.at<std::uint16_t>(static_cast<int>(i));
+      RoadCount& count = kerb_tops_.count(surface) != 0 ? of_kerb_tops_ : of_kind_[kinds_[surface]];
       ++count.all;
       count.sure += found.sure[i];
       count.accepted += found.ground.labels[i] != 0;
@@ -86,7 +93,9 @@ class RoadAgreement {
   perception::RoadOptions options_;
   std::function<double()> clock_;
   std::vector<sim::SurfaceKind> kinds_;  // by label
+  std::set<std::size_t> kerb_tops_;      // labels
   std::map<sim::SurfaceKind, RoadCount> of_kind_;
+  RoadCount of_kerb_tops_;
   std::vector<double> times_;
 };
 

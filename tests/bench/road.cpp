@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
   app.add_option("--sensor", name, "its RgbdCamera");
   app.add_option("--frames", frames, "how many of its frames")->check(CLI::PositiveNumber);
   app.add_option("--sigmas", options.grow_sigmas, "of the second pass");
+  app.add_option("--step", options.step_sigmas, "deviations of a step that is no ground");
   app.add_option("--tilt", options.max_tilt, "[rad] of the ground from the expected one");
   app.add_option("--slope", options.max_slope, "[rad] by which the expected range grows with the depth");
   app.add_option("--off", options.max_off, "[m] of the ground from the expected one");
@@ -53,8 +54,11 @@ int main(int argc, char** argv) {
       "%zu frames of %s, median %.2f ms\n\n| what was measured there | pixels | by its normal | ground |\n"
       "|---|---|---|---|\n",
       times.size(), std::filesystem::path(ini).filename().c_str(), times.empty() ? 0 : times[times.size() / 2]);
-  for (const auto& [kind, count] : seen.ofKinds()) print(toString(kind), count);
+  for (const auto& [kind, count] : seen.ofKinds())
+    print(kind == sim::SurfaceKind::kerb ? "sides of kerbs" : toString(kind), count);
+  print("tops of kerbs", seen.kerbTops());
   print("ground in all (road, floor)", seen.ground());
   print("all else but kerbs", seen.others());
-  print("all else, kerbs too", seen.others() + seen.kerbs());
+  print("all else, sides of kerbs too", seen.others() + seen.kerbSides());
+  print("all else, tops of kerbs too", seen.others() + seen.kerbSides() + seen.kerbTops());
 }

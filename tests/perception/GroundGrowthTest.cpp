@@ -11,6 +11,7 @@ namespace {
 constexpr int kWidth = 96, kHeight = 112, kFoot = 60;  // [px]; the wall is above that row
 constexpr double kSlope = 0.0014;                      // [1/m] of the ground from one row to the next
 constexpr double kTolerance = 12 * kSlope;
+constexpr double kNoSteps = 1e6;  // [sigma]
 constexpr Pinhole kCamera{500, 500, 47.5, 10};
 
 // Ground that a wall stands on. Seeds are so far below its foot as windows of normals reach.
@@ -22,7 +23,7 @@ planes::PixelLabels grown(const std::vector<std::uint8_t>& barred) {
     seeds.insert(seeds.end(), kWidth, y >= kFoot + 7);
   }
   const auto inverse = planes::invert(DepthImage(depths.data(), kWidth, kHeight, kCamera), 0.4, 20);
-  return road::growGround(inverse, kCamera, seeds, barred, {kTolerance, 16, 7});
+  return road::growGround(inverse, kCamera, seeds, barred, {kTolerance / 4, kTolerance, kNoSteps, 16, 7});
 }
 
 bool isGround(const planes::PixelLabels& labels, int x, int y) {

@@ -17,9 +17,9 @@
 namespace omnimapper::perception::road_segmenter_test {
 namespace {
 
-constexpr int kWidth = 160, kHeight = 120;
+constexpr int kWidth = 320, kHeight = 240;
 constexpr double kCameraHeight = 1.2;  // [m]
-const Pinhole kCamera{100, 100, 79.5, 20.5};
+const Pinhole kCamera{200, 200, 159.5, 41.5};
 // A camera that looks level: up is against y.
 const geometry::Plane3 kExpected{-Eigen::Vector3d::UnitY(), kCameraHeight};
 
@@ -125,8 +125,8 @@ TEST(RoadSegmenter, GroundThatRisesAheadIsFoundAndARampThatIsTooSteepIsNot) {
 TEST(RoadSegmenter, WhatStandsOnItIsNotGround) {
   World world;
   world.thing = 4;
-  world.thing_begin = 60;
-  world.thing_end = 100;
+  world.thing_begin = 120;
+  world.thing_end = 200;
   world.thing_height = 0.8;
   const auto view = look(world);
   const auto shares = sharesOf(view, segment(view));
@@ -152,8 +152,8 @@ TEST(RoadSegmenter, NoisyGroundWithAThingOnASlope) {
   World world;
   world.height = [](double z) { return z < 3 ? 0 : 0.05 * (z - 3); };
   world.thing = 4;
-  world.thing_begin = 60;
-  world.thing_end = 100;
+  world.thing_begin = 120;
+  world.thing_end = 200;
   world.thing_height = 1.5;
   double found = 0, accepted = 0;
   constexpr int kViews = 5;
@@ -169,6 +169,35 @@ TEST(RoadSegmenter, NoisyGroundWithAThingOnASlope) {
   }
   EXPECT_GT(found, 0.9);
   EXPECT_LT(accepted, 0.1) << "the foot of a thing in an image as small as this";
+}
+
+// Of so many rows of the image, from the first on.
+double shareOfRows(const RoadSegmentation& found, int begin, int end) {
+  const auto at = [&](int row) { return found.ground.labels.begin() + static_cast<std::ptrdiff_t>(row) * kWidth; };
+  return 1 - static_cast<double>(std::count(at(begin), at(end), 0)) / ((end - begin) * kWidth);
+}
+
+// Straight ahead, from one side of the image to the other: its side is seen in rows 102 to 110, all at 3.5 m.
+TEST(RoadSegmenter, TheSideOfAKerbIsNotGroundAndWhatIsBeforeAndBehindItIs) {
+  World world;
+  world.height = [](double z) { return z < 3.5 ? 0 : 0.15; };
+  RoadOptions without_steps;
+  without_steps.step_sigmas = 100;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const auto view = look(world, RoadOptions().noise_at_1m, seed);
+    const auto found = segment(view, {});
+    EXPECT_LT(shareOfRows(found, 102, 110), 0.15) << "but for its upper edge";
+    EXPECT_GT(shareOfRows(found, 120, 200), 0.95);
+    EXPECT_GT(shareOfRows(found, 60, 100), 0.9);
+    EXPECT_GT(shareOfRows(segment(view, without_steps), 102, 110), 0.3);
+  }
+}
+
+TEST(RoadSegmenter, NoiseAloneMakesNoSteps) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const auto found = segment(look({}, RoadOptions().noise_at_1m, seed), {});
+    EXPECT_GT(shareOfRows(found, 60, 200), 0.95);
+  }
 }
 
 TEST(RoadSegmenter, ImagesOfNothingHaveNoGround) {

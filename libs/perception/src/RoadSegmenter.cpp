@@ -28,6 +28,9 @@ const base::OptionTable<RoadOptions>& RoadOptions::table() {
               "grow_sigmas", &RoadOptions::grow_sigmas, {1, 100},
               "Pixels of which no normal is known are ground within so many standard deviations of the ground around "
               "them.")
+          .number("step_sigmas", &RoadOptions::step_sigmas, {1, 100},
+                  "A step in the height of the ground, such as a kerb, is not ground if it exceeds so many standard "
+                  "deviations.")
           .integer("min_pixels", &RoadOptions::min_pixels, {1, 1e9}, "Pieces of ground with fewer pixels are left out.")
           .integer("min_hole_pixels", &RoadOptions::min_hole_pixels, {1, 1e9},
                    "Holes with fewer pixels are not outlined.");
@@ -37,8 +40,8 @@ const base::OptionTable<RoadOptions>& RoadOptions::table() {
 namespace {
 
 constexpr int kLeastSeed = 200;      // pixels of a component that the second pass begins with
-constexpr float kStanding = 0.707F;  // cosine: a surface steeper than 45 degrees to the ground stands on it
-constexpr int kFootRows = 12;        // [px]
+constexpr float kStanding = 0.423F;  // cosine: a surface steeper than 65 degrees to the ground stands on it
+constexpr int kFootRows = 6;         // [px]
 
 NormalImage normalsOf(const DepthImage& image, const RoadOptions& options) {
   return NormalEstimator(normalsBy(options, options.window_radius)).estimate(image);
@@ -103,9 +106,10 @@ RoadSegmentation RoadSegmenter::segment(const DepthImage& image, const geometry:
   auto barred = feetOf(normals, comparator.up);
   for (std::size_t i = 0; i < barred.size(); ++i) barred[i] |= !comparator.isNear(i);
   const planes::InverseDepth inverse = planes::invert(image, options_.min_depth, options_.max_depth);
-  const double tolerance = options_.grow_sigmas * std::sqrt(options_.noise().pixelVariance());
-  auto labels = road::growGround(inverse, image.camera(), result.sure, barred,
-                                 {tolerance, options_.correlation_area, options_.window_radius});
+  const double sigma = std::sqrt(options_.noise().pixelVariance());
+  auto labels = road::growGround(
+      inverse, image.camera(), result.sure, barred,
+      {sigma, options_.grow_sigmas * sigma, options_.step_sigmas, options_.correlation_area, options_.window_radius});
   const Components components = connectComponents(labels.stride, labels.rows, SameLabel{labels.values.data()});
   result.ground = planes::describe(inverse, image.camera(), options_.noise(), expectedRegion(expected, image.camera()),
                                    std::move(labels), components,

@@ -13,12 +13,16 @@ TEST(Road, OfASimulatedSlopeIsFoundAndHardlyAnythingElse) {
   config.set("stereo.labels=true");
   const sim::Simulation simulation(config);
   const bench::RoadAgreement seen(simulation, "stereo", 12, {}, [] { return 0.; });
-  const auto ground = seen.ground(), others = seen.others(), kerbs = seen.kerbs();
+  const auto ground = seen.ground(), others = seen.others(), sides = seen.kerbSides(), tops = seen.kerbTops();
   EXPECT_GT(ground.all, 500000);
-  EXPECT_GT(ground.accepted, 0.9 * ground.all);
-  EXPECT_LT(others.accepted, 0.02 * others.all);
-  // A kerb is too low for the noise: of these nearly half is told from the ground, no more.
-  EXPECT_LT(kerbs.accepted, 0.65 * kerbs.all);
+  EXPECT_GT(ground.accepted, 0.91 * ground.all);
+  EXPECT_LT(others.accepted, 0.005 * others.all);
+  EXPECT_GT(sides.all, 10000);
+  EXPECT_LT(sides.accepted, 0.15 * sides.all);
+  EXPECT_LT(others.accepted + sides.accepted, 0.01 * (others.all + sides.all));
+  // The top of a kerb is as level and as high as the pavement, and yet none of it.
+  EXPECT_GT(tops.all, 5000);
+  EXPECT_LT(others.accepted + sides.accepted + tops.accepted, 0.02 * (others.all + sides.all + tops.all));
 }
 
 }  // namespace

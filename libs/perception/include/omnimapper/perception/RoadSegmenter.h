@@ -21,8 +21,9 @@ struct RoadOptions {
   double max_turn = 8 * base::option_text::kRadiansPerDegree;   ///< [rad] from one pixel to the next
   double max_off = 0.3;                                         ///< [m] of the ground from the expected one
   double max_slope = 4 * base::option_text::kRadiansPerDegree;  ///< [rad] by which that grows with the depth
-  double grow_sigmas = 4;  ///< deviations from the ground around it within which a pixel without its normal is ground
-  int min_pixels = 200;    ///< of a piece of ground
+  double grow_sigmas = 4.5;  ///< deviations from the ground around it within which a pixel without its normal is ground
+  double step_sigmas = 9;    ///< deviations of a step in height, such as a kerb, that is no ground
+  int min_pixels = 200;      ///< of a piece of ground
   int min_hole_pixels = 100;  ///< smaller holes are not outlined
 
   DepthNoise noise() const { return {noise_at_1m, step_at_1m, 0, correlation_area, scale_sigma}; }
@@ -40,7 +41,7 @@ struct RoadSegmentation {
 /// normals are near that of the ground expected from the sensor's pose and change smoothly, and which are near it
 /// themselves. Stereo's normals are noisy and have holes: a second pass adds the pixels that lie on the ground around
 /// them, by planes fitted to what was found, but for what is above it on average over a window, and for what stands on
-/// it, as normals tell, and its foot.
+/// it, as normals tell, and its foot; and takes away the steps between two heights of it, such as the sides of kerbs.
 class RoadSegmenter {
  public:
   /// Throws Error(out_of_range) for min_depth >= max_depth.

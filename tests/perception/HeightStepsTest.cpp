@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "road/HeightSteps.h"
+
+namespace omnimapper::perception::height_steps_test {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240;  // [px]
+constexpr double kStep = 1e-5;              // [1/m]
+constexpr double kSlope = 0.001;            // [1/m] of 1/z of the ground from one row to the next
+constexpr double kBlockSigma = 100 * kStep;
+// Of a step of one standard deviation: its sides are means of 38 blocks each.
+const double kOneSigma = 100 * std::sqrt(2 / 38.);
+
+using Offs = std::function<double(int x, int y)>;
+
+road::LocalGround groundOf(const Offs& offs) {
+  road::LocalGround ground;
+  ground.width = kWidth;
+  ground.height = kHeight;
+  ground.step = kStep;
+  ground.columns = kWidth / planes::kCell;
+  ground.rows = kHeight / planes::kCell;
+  ground.camera = {300, 300, 159.5, 20};
+  ground.planes.assign(static_cast<std::size_t>(ground.columns * ground.rows), planes::ImagePlane{0, kSlope, 0.1});
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) ground.offs.push_back(static_cast<std::int16_t>(std::lround(offs(x, y))));
+  }
+  return ground;
+}
+
+/// What is marked, with thresholds of 9 standard deviations.
+class Marks {
+ public:
+  explicit Marks(const Offs& offs) : marks_(road::findHeightSteps(groundOf(offs), kBlockSigma, 9)) {}
+
+  bool at(int x, int y) const { return marks_[static_cast<std::size_t>(y * kWidth + x)] != 0; }
+  int count(const std::function<bool(int x, int y)>& of) const {
+    int marked = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) marked += of(x, y) && at(x, y);
+    }
+    return marked;
+  }
+  /// Rows in which something within a block of that column is marked.
+  int rowsNear(int column) const {
+    int rows = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      rows += count([&](int x, int of_row) { return of_row == y && std::abs(x + 0.5 - column) < 4; }) > 0;
+    }
+    return rows;
+  }
+  int count() const {
+    return count([](int, int) { return true; });
+  }
+
+ private:
+  std::vector<std::uint8_t> marks_;
+};
+
+TEST(HeightSteps, AreFoundAlongTheirLineAndNowhereElse) {
+  const Marks marks([](int x, int) { return x < 160 ? 0 : 12 * kOneSigma; });
+  EXPECT_GT(marks.rowsNear(160), kHeight - 20);
+  EXPECT_EQ(marks.count([](int x, int) { return std::abs(x - 159.5) > 7; }), 0);
+}
+
+TEST(HeightSteps, LieAslantToo) {
+  // To the right of that, across the line.
+  const auto across = [](int x, int y) { return ((x - 160) * 2 - (y - 120)) / std::sqrt(5.); };
+  const Marks marks([&](int x, int y) { return across(x, y) < 0 ? 0 : 15 * kOneSigma; });
+  EXPECT_EQ(marks.count([&](int x, int y) { return std::abs(across(x, y)) > 11; }), 0);
+  int rows = 0;
+  for (int y = 30; y < kHeight - 30; ++y) {
+    bool marked = false;
+    for (int x = 0; x < kWidth; ++x) marked = marked || (std::abs(across(x, y)) < 4 && marks.at(x, y));
+    rows += marked;
+  }
+  EXPECT_GT(rows, 170);
+}
+
+TEST(HeightSteps, AreAsWideAsAnUprightFaceIsHigh) {
+  const double face = 14;  // [px]
+  const double height = face * kSlope / kStep;
+  const Marks marks([&](int, int y) { return height * std::min(1., std::max(0., 0.5 + (120 - y) / face)); });
+  for (int y = 120 - 5; y <= 120 + 5; ++y) {
+    for (int x = 40; x < kWidth - 40; ++x) EXPECT_TRUE(marks.at(x, y)) << x << " " << y;
+  }
+  EXPECT_EQ(marks.count([](int, int y) { return std::abs(y - 120) > 14; }), 0);
+}
+
+TEST(HeightSteps, GoOnWhereTheyAreFaint) {
+  EXPECT_EQ(Marks([](int x, int) { return x < 160 ? 0 : 7 * kOneSigma; }).count(), 0);
+  const Marks strong([](int x, int y) { return x < 160 ? 0 : (y < 80 ? 12 : 7) * kOneSigma; });
+  EXPECT_GT(strong.rowsNear(160), kHeight - 20);
+  const Marks ending([](int x, int y) { return x < 160 ? 0 : (y < 80 ? 12 : 4) * kOneSigma; });
+  EXPECT_EQ(ending.count([](int, int y) { return y > 130; }), 0);
+}
+
+TEST(HeightSteps, SlopesAndBendsAreNone) {
+  const double slope = 20;  // steps from one column to the next: a difference of 15 standard deviations
+  EXPECT_EQ(Marks([&](int x, int) { return slope * std::min(60, std::max(-60, x - 160)); }).count(), 0);
+  EXPECT_EQ(Marks([&](int, int y) { return slope * std::min(60, std::max(-60, y - 120)); }).count(), 0);
+}
+
+TEST(HeightSteps, WhatIsUnknownHasNone) {
+  EXPECT_EQ(Marks([](int, int) { return road::LocalGround::kUnknown; }).count(), 0);
+  EXPECT_EQ(Marks([](int x, int) { return x < 160 ? 0 : road::LocalGround::kUnknown; }).count(), 0);
+}
+
+}  // namespace
+}  // namespace omnimapper::perception::height_steps_test
