@@ -1,6 +1,8 @@
 #include <omnimapper/graph/SolveOne.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "BoundFactor.h"
@@ -8,6 +10,8 @@
 namespace omnimapper::graph {
 
 namespace {
+
+enum class Losses { as_recorded, none };
 
 // The factors of one variable as a function of its value.
 class Neighbourhood {
@@ -17,16 +21,14 @@ class Neighbourhood {
   }
 
   // Cost at `value`; where asked, the normal equations information * step = -gradient of the reweighted problem.
-  double evaluate(const Eigen::VectorXd& value, Eigen::MatrixXd* information, Eigen::VectorXd* gradient) const {
+  double evaluate(const Eigen::VectorXd& value, Losses losses, Eigen::MatrixXd* information,
+                  Eigen::VectorXd* gradient) const {
     double cost = 0;
     for (const auto& factor : factors_) {
       const FactorRecord& record = factor.record();
-      std::vector<const double*> values;
-      std::size_t own = 0;
-      for (std::size_t i = 0; i < record.variables.size(); ++i) {
-        if (record.variables[i] == id_) own = i;
-        values.push_back(record.variables[i] == id_ ? value.data() : graph_.value(record.variables[i]).data());
-      }
+      const auto values = valuesOf(record, value);
+      const auto own = static_cast<std::size_t>(std::find(record.variables.begin(), record.variables.end(), id_) -
+                                                record.variables.begin());
       const int rows = factor.residualSize(), columns = factor.tangentSize(static_cast<int>(own));
       Eigen::VectorXd residual(rows);
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian(rows, columns);
@@ -37,7 +39,7 @@ class Neighbourhood {
         strides[own] = columns;
       }
       factor.evaluate(values.data(), residual.data(), information ? jacobians.data() : nullptr, strides.data());
-      const auto loss = record.loss.evaluate(residual.squaredNorm());
+      const auto loss = (losses == Losses::none ? Loss::none() : record.loss).evaluate(residual.squaredNorm());
       cost += 0.5 * record.weight * loss.rho;
       if (!information) continue;
       const double weight = record.weight * loss.first_derivative;
@@ -47,11 +49,56 @@ class Neighbourhood {
     return cost;
   }
 
+  // Whether the loss of some factor takes most of its say.
+  bool hasOutlier(const Eigen::VectorXd& value) const {
+    return std::any_of(factors_.begin(), factors_.end(), [&](const BoundFactor& factor) {
+      Eigen::VectorXd residual(factor.residualSize());
+      const auto values = valuesOf(factor.record(), value);
+      factor.evaluate(values.data(), residual.data(), nullptr, nullptr);
+      return factor.record().loss.evaluate(residual.squaredNorm()).first_derivative < 0.5;
+    });
+  }
+
  private:
+  std::vector<const double*> valuesOf(const FactorRecord& record, const Eigen::VectorXd& value) const {
+    std::vector<const double*> values;
+    for (const auto id : record.variables) values.push_back(id == id_ ? value.data() : graph_.value(id).data());
+    return values;
+  }
+
   const Graph& graph_;
   base::VariableId id_;
   std::vector<BoundFactor> factors_;
 };
+
+// The value of least cost that is found downhill from `value`, and its cost.
+std::pair<Eigen::VectorXd, double> descend(const Neighbourhood& factors, const Variable& kind, Eigen::VectorXd value,
+                                           Losses losses) {
+  const int size = kind.tangentSize();
+  double damping = 0, least = factors.evaluate(value, losses, nullptr, nullptr);
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(size);
+    const double cost = factors.evaluate(value, losses, &information, &gradient);
+    const double scale = information.diagonal().maxCoeff();
+    if (!(scale > 0)) break;
+    information.diagonal().array() += (damping + 1e-12) * scale;
+    const Eigen::VectorXd step = information.ldlt().solve(-gradient);
+    Eigen::VectorXd moved = value;
+    kind.plus(value.data(), step.data(), moved.data());
+    const double new_cost = moved.allFinite() ? factors.evaluate(moved, losses, nullptr, nullptr) : cost;
+    if (!(new_cost < cost)) {
+      if (damping > 1e3) break;
+      damping = damping == 0 ? 1e-4 : 10 * damping;
+      continue;
+    }
+    value = moved;
+    least = new_cost;
+    damping *= 0.1;
+    if (cost - new_cost < 1e-9 * (1 + cost)) break;
+  }
+  return {value, least};
+}
 
 }  // namespace
 
@@ -59,30 +106,16 @@ void solveOne(Graph& graph, base::VariableId id) {
   const VariableRecord& variable = graph.variable(id);
   if (variable.fixed || variable.factors.empty()) return;
   const Neighbourhood factors(graph, id);
-  const int size = variable.kind->tangentSize();
-  Eigen::VectorXd value = variable.value;
-  double damping = 0;
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(size);
-    const double cost = factors.evaluate(value, &information, &gradient);
-    const double scale = information.diagonal().maxCoeff();
-    if (!(scale > 0)) break;
-    information.diagonal().array() += (damping + 1e-12) * scale;
-    const Eigen::VectorXd step = information.ldlt().solve(-gradient);
-    Eigen::VectorXd moved = value;
-    variable.kind->plus(value.data(), step.data(), moved.data());
-    const double new_cost = moved.allFinite() ? factors.evaluate(moved, nullptr, nullptr) : cost;
-    if (!(new_cost < cost)) {
-      if (damping > 1e3) break;
-      damping = damping == 0 ? 1e-4 : 10 * damping;
-      continue;
-    }
-    value = moved;
-    damping *= 0.1;
-    if (cost - new_cost < 1e-9 * (1 + cost)) break;
+  const Variable& kind = *variable.kind;
+  auto found = descend(factors, kind, variable.value, Losses::as_recorded);
+  // Robust losses have several valleys: from a bad guess a right measurement looks like an outlier. What all say
+  // together is the other place to begin.
+  if (factors.hasOutlier(found.first)) {
+    const auto together = descend(factors, kind, variable.value, Losses::none);
+    auto other = descend(factors, kind, together.first, Losses::as_recorded);
+    if (other.second < found.second) found = std::move(other);
   }
-  graph.setValue(id, value);
+  graph.setValue(id, found.first);
 }
 
 }  // namespace omnimapper::graph

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../MapFolder.h"
+#include "TrueWalls.h"
 
 namespace {
 
@@ -27,22 +28,11 @@ class LandmarkOutputs : public ::testing::Test {
 };
 std::unique_ptr<omnimapper::testing::ScratchFolder> LandmarkOutputs::scratch_;
 
-/// The upright surfaces of the home as lines a x + b y + c = 0 of the world seen from above.
-std::vector<std::array<double, 3>> trueWalls() {
-  std::vector<std::array<double, 3>> walls;
-  const auto truth = json::parse(readFile(sourceFile("rawlogs/home_30s/landmarks.json")));
-  for (const auto& surface : truth["surfaces"]) {
-    if (!surface.contains("normal") || std::abs(surface["normal"][2].get<double>()) > 0.01) continue;
-    walls.push_back({surface["normal"][0], surface["normal"][1], surface["distance"]});
-  }
-  return walls;
-}
-
 TEST_F(LandmarkOutputs, TheFloorPlanHasTheWallsWhereTheyAre) {
   const auto plan = json::parse(readFile(file("floorplan.geojson")));
   const auto world_from_map = omnimapper::geometry::toMrpt(
       omnimapper::eval::readTum(sourceFile("rawlogs/home_30s/truth.tum")).front().world_from_body);
-  const auto walls = trueWalls();
+  const auto walls = trueWalls("rawlogs/home_30s");
   std::size_t seen_well = 0, tables = 0, floors = 0;
   for (const auto& feature : plan["features"]) {
     const auto& properties = feature["properties"];
@@ -55,15 +45,7 @@ TEST_F(LandmarkOutputs, TheFloorPlanHasTheWallsWhereTheyAre) {
     const auto along = [&](int axis) { return ends[1][axis].get<double>() - ends[0][axis].get<double>(); };
     if (std::hypot(along(0), along(1)) < 1.2) continue;  // may be furniture, of which the truth lists no planes
     ++seen_well;
-    double off = 1;  // [m] of the farther end from the nearest surface's line
-    for (const auto& [a, b, c] : walls) {
-      double farthest = 0;
-      for (const auto& end : ends) {
-        const auto p = world_from_map.composePoint({end[0], end[1], 0});
-        farthest = std::max(farthest, std::abs(a * p.x + b * p.y + c));
-      }
-      off = std::min(off, farthest);
-    }
+    const double off = distanceFromWalls(ends, world_from_map, walls);
     EXPECT_LT(off, 0.08) << feature["id"];
   }
   EXPECT_GT(seen_well, 8U);

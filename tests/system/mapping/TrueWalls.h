@@ -1,0 +1,45 @@
+#pragma once
+
+#include <omnimapper/testing/Fixtures.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "../Runs.h"
+
+namespace runs {
+
+/// a x + b y + c = 0 of the world seen from above.
+using TrueWall = std::array<double, 3>;
+
+/// The upright surfaces of a simulated place, by its folder in the sources.
+inline std::vector<TrueWall> trueWalls(const std::string& folder) {
+  std::vector<TrueWall> walls;
+  const auto truth = nlohmann::json::parse(readFile(omnimapper::testing::sourceFile(folder + "/landmarks.json")));
+  for (const auto& surface : truth["surfaces"]) {
+    if (!surface.contains("normal") || std::abs(surface["normal"][2].get<double>()) > 0.01) continue;
+    walls.push_back({surface["normal"][0], surface["normal"][1], surface["distance"]});
+  }
+  return walls;
+}
+
+/// Of the farther of two ends of a wall in the map from the nearest true wall's line [m].
+inline double distanceFromWalls(const nlohmann::json& ends, const mrpt::poses::CPose3D& world_from_map,
+                                const std::vector<TrueWall>& walls) {
+  double off = 1e9;
+  for (const auto& [a, b, c] : walls) {
+    double farthest = 0;
+    for (const auto& end : ends) {
+      const auto p = world_from_map.composePoint({end[0], end[1], 0});
+      farthest = std::max(farthest, std::abs(a * p.x + b * p.y + c));
+    }
+    off = std::min(off, farthest);
+  }
+  return off;
+}
+
+}  // namespace runs
