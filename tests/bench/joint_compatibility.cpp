@@ -1,0 +1,153 @@
+// Joint compatibility branch and bound and nearest neighbour, ours beside MRPT's, on the same random scenes of points:
+// what is matched right, wrong and not at all, in how many scenes the matches do not pass the joint gate, and the time
+// of the processor. All are given the same measurements, predictions and joint covariance, and gate every pair. Prints
+// a Markdown table.
+//
+// MRPT's search has no bound on its nodes: each of its calls runs in a process of its own, which is ended after --limit
+// seconds. What it had not finished counts for nothing in its row but the number of such scenes.
+//
+// Example: bench-joint_compatibility --seeds 100 --limit 1
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "PointAssociation.h"
+
+namespace {
+
+using namespace omnimapper;
+using bench::Answer;
+using bench::PointScene;
+
+/// The answer of a process of its own, none if it takes longer than so many seconds of the processor.
+std::optional<Answer> within(int seconds, std::size_t measurements, const std::function<Answer()>& associate) {
+  int ends[2];
+  if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
+  std::vector<double> numbers(measurements + 1);
+  const auto bytes = static_cast<::ssize_t>(numbers.size() * sizeof(double));
+  const ::pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("no process");
+  if (child == 0) {
+    const ::rlimit limit{static_cast<::rlim_t>(seconds), static_cast<::rlim_t>(seconds)};
+    if (::setrlimit(RLIMIT_CPU, &limit) != 0) ::_exit(1);
+    const Answer answer = associate();
+    for (std::size_t m = 0; m < measurements; ++m)
+      numbers[m] = answer.landmark_of[m] ? static_cast<double>(*answer.landmark_of[m]) : -1;
+    numbers.back() = answer.milliseconds;
+    ::_exit(::write(ends[1], numbers.data(), static_cast<std::size_t>(bytes)) == bytes ? 0 : 1);
+  }
+  ::close(ends[1]);
+  const bool done = ::read(ends[0], numbers.data(), static_cast<std::size_t>(bytes)) == bytes;
+  ::close(ends[0]);
+  ::waitpid(child, nullptr, 0);
+  if (!done) return std::nullopt;
+  Answer answer;
+  for (std::size_t m = 0; m < measurements; ++m)
+    answer.landmark_of.push_back(numbers[m] < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(numbers[m])));
+  answer.milliseconds = numbers.back();
+  return answer;
+}
+
+struct Contender {
+  std::string name;
+  std::function<std::optional<Answer>(const PointScene&)> associate;
+};
+
+struct Tally {
+  std::size_t right = 0, wrong = 0, missed = 0, of_landmarks = 0, measurements = 0;
+  int unfinished = 0, torn = 0;
+  std::vector<double> times;
+
+  void add(const PointScene& scene, const std::optional<Answer>& answer) {
+    unfinished += !answer || !answer->complete;
+    if (!answer) return;
+    torn += !bench::passTogether(scene, *answer);
+    times.push_back(answer->milliseconds);
+    for (std::size_t m = 0; m < scene.truth.size(); ++m) {
+      const auto& found = answer->landmark_of[m];
+      ++measurements;
+      of_landmarks += scene.truth[m].has_value();
+      right += found && found == scene.truth[m];
+      wrong += found && found != scene.truth[m];
+      missed += !found && scene.truth[m];
+    }
+  }
+  static double percent(std::size_t part, std::size_t whole) {
+    return whole ? 100 * static_cast<double>(part) / static_cast<double>(whole) : std::nan("");
+  }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Joint compatibility and nearest neighbour, ours beside MRPT's.");
+  unsigned seeds = 100;
+  int limit = 1, max_nodes = 20000;
+  std::vector<std::size_t> landmarks = {10, 20, 40, 80}, measurements = {5, 10, 15, 20};
+  bench::SceneNoise noise;
+  std::vector<double> sigmas = {0.05, 0.3};
+  app.add_option("--seeds", seeds, "scenes of each row; default 100");
+  app.add_option("--limit", limit, "of a scene, for MRPT's search [s]; default 1");
+  app.add_option("--landmarks", landmarks, "of each size of scene; default 10 20 40 80");
+  app.add_option("--measurements", measurements, "of each size of scene; default 5 10 15 20");
+  app.add_option("--landmark_sigma_m", sigmas, "how well landmarks are known; default 0.05 0.3");
+  app.add_option("--clutter", noise.clutter, "share of measurements that are of no landmark; default 0.2");
+  app.add_option("--max_nodes", max_nodes, "of our search; default 20000, as the plugins'");
+  CLI11_PARSE(app, argc, argv);
+  if (landmarks.size() != measurements.size()) {
+    std::fprintf(stderr, "as many --measurements as --landmarks, please\n");
+    return 1;
+  }
+  using namespace mrpt::slam;
+  const auto peer = [&](TDataAssociationMethod method, TDataAssociationMetric metric) {
+    return [=](const PointScene& scene) -> std::optional<Answer> {
+      if (method == assocNN) return bench::mrpts(scene, method, metric);
+      return within(limit, scene.truth.size(), [&] {
+        bench::mrpts(scene, assocNN, metric);  // what a new process does the first time is not counted
+        return bench::mrpts(scene, method, metric);
+      });
+    };
+  };
+  const auto own = [&](double ratio) {
+    return [&noise, ratio, max_nodes](const PointScene& scene) {
+      return std::optional(bench::ours(scene, noise.measurement, ratio, max_nodes));
+    };
+  };
+  const std::vector<Contender> contenders = {{"ours, joint", own(20)},
+                                             {"ours, joint, the best is taken", own(1)},
+                                             {"MRPT, JCBB, Mahalanobis", peer(assocJCBB, metricMaha)},
+                                             {"MRPT, JCBB, likelihood", peer(assocJCBB, metricML)},
+                                             {"ours, nearest", own(0)},
+                                             {"MRPT, NN, Mahalanobis", peer(assocNN, metricMaha)},
+                                             {"MRPT, NN, likelihood", peer(assocNN, metricML)}};
+  std::printf(
+      "| landmarks known to | landmarks, measured | | right | missed | wrong | beyond the joint gate | median [ms] | "
+      "95 %% [ms] | unfinished "
+      "|\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const double sigma : sigmas) {
+    noise.landmark = sigma;
+    for (std::size_t size = 0; size < landmarks.size(); ++size) {
+      for (const auto& [name, associate] : contenders) {
+        Tally tally;
+        for (unsigned seed = 1; seed <= seeds; ++seed) {
+          const PointScene scene(landmarks[size], measurements[size], noise, seed);
+          tally.add(scene, associate(scene));
+        }
+        std::printf("| %.2f m | %zu, %zu | %s | %.1f %% | %.1f %% | %.1f %% | %d | %.3f | %.3f | %d |\n", sigma,
+                    landmarks[size], measurements[size], name.c_str(), Tally::percent(tally.right, tally.of_landmarks),
+                    Tally::percent(tally.missed, tally.of_landmarks), Tally::percent(tally.wrong, tally.measurements),
+                    tally.torn, bench::quantile(tally.times, 0.5), bench::quantile(tally.times, 0.95),
+                    tally.unfinished);
+        std::fflush(stdout);
+      }
+    }
+  }
+}
