@@ -42,11 +42,19 @@ TEST(OrientedBox, IsExtendedAlongItsAxes) {
     }
   }
   const auto box = boxAlong(Vector3d::UnitZ(), corners);
-  const auto same = extended(box, {middle.cast<float>()});
+  const auto extendedBy = [&](const Vector3d& point, int inner) {
+    PointList points;
+    for (int i = 0; i < inner; ++i) points.push_back(middle.cast<float>());
+    points.push_back(point.cast<float>());
+    return extended(box, points);
+  };
+  const auto same = extendedBy(middle, 0);
   EXPECT_LT((same.size - box.size).norm(), 1e-6);
-  const auto longer = extended(box, {(middle + 0.4 * x + 0.02 * y).cast<float>()});
-  EXPECT_LT((longer.size - Vector3d(0.6, 0.2, 0.1)).norm(), 1e-5);
-  EXPECT_LT((longer.frame_from_box.translation - (middle + 0.1 * x)).norm(), 1e-5);
+  for (int inner = 0; inner < 20; ++inner) {  // wherever in a group of eight points
+    const auto longer = extendedBy(middle + 0.4 * x + 0.02 * y, inner);
+    EXPECT_LT((longer.size - Vector3d(0.6, 0.2, 0.1)).norm(), 1e-5) << inner;
+    EXPECT_LT((longer.frame_from_box.translation - (middle + 0.1 * x)).norm(), 1e-5) << inner;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <omnimapper/perception/ConvexClusterComparator.h>
 #include <omnimapper/perception/GrowLabels.h>
 #include <omnimapper/perception/ObjectFinder.h>
+#include <omnimapper/perception/SameLabel.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "DepthSensor.h"
 #include "objects/OrientedBox.h"
+#include "objects/Remainders.h"
 #include "objects/Surfaces.h"
 
 namespace omnimapper::perception {
@@ -62,73 +64,17 @@ Eigen::Vector3f pointOf(int pixel, const OrganisedPoints& all) {
   return {all.x[i], all.y[i], all.z[i]};
 }
 
-// Pixels with a depth that are not of the place, and their points [m].
-struct Doubtful {
-  std::vector<std::size_t> pixels;
-  std::vector<float> x, y, z;
-
-  Doubtful(const std::vector<std::uint16_t>& labels, const OrganisedPoints& points,
-           const std::vector<std::uint8_t>& of_place) {
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (of_place[labels[i]] == 0 && !std::isnan(points.z[i])) pixels.push_back(i);
-    }
-    for (auto* of_pixels : {&x, &y, &z}) of_pixels->reserve(pixels.size());
-    for (const std::size_t i : pixels) {
-      x.push_back(points.x[i]);
-      y.push_back(points.y[i]);
-      z.push_back(points.z[i]);
-    }
-  }
-};
-
-// By how much points are farther from a plane than what lies on it may be, or what `excess` holds if that is less [m].
-void lowerToPlane(const geometry::Plane3& plane, const Doubtful& points, float height, float noise_at_1m,
-                  std::vector<float>& excess) {
-  const Eigen::Vector3f n = plane.normal.cast<float>();
-  const float a = n.x(), b = n.y(), c = n.z(), d = static_cast<float>(plane.distance);
-  const float *x = points.x.data(), *y = points.y.data(), *z = points.z.data();
-  float* const out = excess.data();
-  const std::size_t count = excess.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    const float here = std::abs(a * x[k] + b * y[k] + c * z[k] + d) - height - noise_at_1m * z[k] * z[k];
-    out[k] = here < out[k] ? here : out[k];
-  }
-}
-
-// Labels in which whatever lies on a surface is of its first piece: where the plane of a thing's side goes on over the
-// table, pixels are on both, and beside edges some are on neither.
-std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const OrganisedPoints& points,
-                                          const std::vector<Surface>& surfaces,
-                                          const std::vector<std::uint8_t>& of_place, double min_height,
-                                          double noise_at_1m) {
-  std::vector<std::uint16_t> labels = planes.labels;
-  const Doubtful doubtful(labels, points, of_place);
-  const auto height = static_cast<float>(min_height), noise = static_cast<float>(kNoiseSigmas * noise_at_1m);
-  std::vector<float> excess;
-  for (const Surface& surface : surfaces) {
-    excess.assign(doubtful.pixels.size(), 0.F);
-    for (const int piece : surface.pieces)
-      lowerToPlane(planes.planes[static_cast<std::size_t>(piece)].plane_in_sensor, doubtful, height, noise, excess);
-    for (std::size_t k = 0; k < excess.size(); ++k) {
-      if (excess[k] >= 0) continue;
-      const std::size_t i = doubtful.pixels[k];
-      const Eigen::Vector3d point = pointOf(static_cast<int>(i), points).cast<double>();
-      if (surface.hull.holds(surface.across.transpose() * point, kHullMargin))
-        labels[i] = static_cast<std::uint16_t>(surface.plane + 1);
-    }
-  }
-  return labels;
-}
-
 using Clusters = std::vector<std::vector<int>>;  // pixels, ascending
 
 Clusters pixelsOf(const std::vector<std::int32_t>& labels) {
-  std::vector<std::size_t> counts(static_cast<std::size_t>(*std::max_element(labels.begin(), labels.end())) + 1, 0);
-  for (const std::int32_t label : labels) ++counts[static_cast<std::size_t>(label)];
-  Clusters clusters(counts.size() - 1);
-  for (std::size_t i = 0; i < clusters.size(); ++i) clusters[i].reserve(counts[i + 1]);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] > 0) clusters[static_cast<std::size_t>(labels[i] - 1)].push_back(static_cast<int>(i));
+  Clusters clusters;
+  const auto end = static_cast<int>(labels.size());
+  const SameLabel<std::int32_t> same{labels.data()};
+  for (int begin = beginOfRun(same, 0, end); begin < end; begin = beginOfRun(same, begin, end)) {
+    const auto cluster = static_cast<std::size_t>(labels[static_cast<std::size_t>(begin)] - 1);
+    if (cluster >= clusters.size()) clusters.resize(cluster + 1);
+    for (const int end_of_run = endOfRun(same, begin, end); begin < end_of_run; ++begin)
+      clusters[cluster].push_back(begin);
   }
   const auto isEmpty = [](const std::vector<int>& pixels) { return pixels.empty(); };
   clusters.erase(std::remove_if(clusters.begin(), clusters.end(), isEmpty), clusters.end());
@@ -155,33 +101,62 @@ std::vector<Eigen::Vector3d> sampleOf(const std::vector<int>& pixels, const Orga
   return sample;
 }
 
-std::vector<Eigen::Vector3f> pointsOf(const std::vector<int>& pixels, const OrganisedPoints& all) {
-  std::vector<Eigen::Vector3f> points;
-  points.reserve(pixels.size() + 1);
-  for (const int pixel : pixels) points.push_back(pointOf(pixel, all));
+objects::PointList pointsOf(const std::vector<int>& pixels, const OrganisedPoints& all) {
+  objects::PointList points;
+  const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
+    to.reserve(pixels.size() + 1);
+    to.resize(pixels.size());
+    std::transform(pixels.begin(), pixels.end(), to.begin(),
+                   [&](int pixel) { return from[static_cast<std::size_t>(pixel)]; });
+  };
+  take(all.x, points.x);
+  take(all.y, points.y);
+  take(all.z, points.z);
   return points;
 }
 
-template <class Point>
-Eigen::Vector3d meanOf(const std::vector<Point>& points) {
+Eigen::Vector3d meanOf(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& point : points) sum += point.template cast<double>();
+  for (const auto& point : points) sum += point;
   return sum / static_cast<double>(points.size());
 }
 
-// Of the mean of `all` points, of which some are told. Noise moves each point along its ray by itself; what bends the
-// image, and the scale of depths, move all alike.
-Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, std::size_t all, const DepthNoise& noise) {
+Eigen::Vector3d meanOf(const objects::PointList& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < points.size(); ++k) sum += points[k].cast<double>();
+  return sum / static_cast<double>(points.size());
+}
+
+// Sum of v v^T, which is symmetric.
+class OuterSum {
+ public:
+  void add(const Eigen::Vector3d& v) {
+    const double x = v.x(), y = v.y(), z = v.z();
+    xx_ += x * x, xy_ += x * y, xz_ += x * z, yy_ += y * y, yz_ += y * z, zz_ += z * z;
+  }
+  Eigen::Matrix3d matrix() const {
+    Eigen::Matrix3d sum;
+    sum << xx_, xy_, xz_, xy_, yy_, yz_, xz_, yz_, zz_;
+    return sum;
+  }
+
+ private:
+  double xx_ = 0, xy_ = 0, xz_ = 0, yy_ = 0, yz_ = 0, zz_ = 0;
+};
+
+// Of the mean of `all` points, of which some are told with their own mean. Noise moves each point along its ray by
+// itself; what bends the image, and the scale of depths, move all alike.
+Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& mean,
+                                 std::size_t all, const DepthNoise& noise) {
   const auto count = static_cast<double>(points.size());
-  Eigen::Matrix3d apart = Eigen::Matrix3d::Zero();
+  OuterSum apart;
   Eigen::Vector3d together = Eigen::Vector3d::Zero();
   for (const auto& point : points) {
     const Eigen::Vector3d by_inverse_depth = -point.z() * point;  // derivative of the point by 1/z
-    apart += by_inverse_depth * by_inverse_depth.transpose();
+    apart.add(by_inverse_depth);
     together += by_inverse_depth / count;
   }
-  const Eigen::Vector3d mean = meanOf(points);
-  return noise.meanVariance() / (count * static_cast<double>(all)) * apart +
+  return noise.meanVariance() / (count * static_cast<double>(all)) * apart.matrix() +
          noise.bendVariance() * together * together.transpose() + noise.scale * noise.scale * mean * mean.transpose();
 }
 
@@ -209,9 +184,9 @@ Standing surfaceUnder(const std::vector<Eigen::Vector3d>& cluster, const Eigen::
 }
 
 Eigen::Vector3d leastAxisOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& mean) {
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const auto& point : points) scatter += (point - mean) * (point - mean).transpose();
-  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
+  OuterSum scatter;
+  for (const auto& point : points) scatter.add(point - mean);
+  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter.matrix()).eigenvectors().col(0);
   return axis.dot(mean) > 0 ? Eigen::Vector3d(-axis) : axis;  // towards the sensor
 }
 
@@ -253,8 +228,9 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
   const OrganisedPoints points = backProject(image, sensor_.min_depth, sensor_.max_depth);
   const auto surfaces = objects::findSurfaces(planes, options_, sensor_.bend_at_1m, up);
   const auto of_place = objects::labelsOfThePlace(planes, options_, surfaces);
-  const auto labels = withRemainders(planes, points, surfaces, of_place, options_.min_height, sensor_.noise_at_1m);
   const auto noise = static_cast<float>(kNoiseSigmas * sensor_.noise_at_1m);
+  const auto labels = objects::withRemainders(planes, points, surfaces, of_place,
+                                              {static_cast<float>(options_.min_height), noise, kHullMargin});
   const ClusterComparator near{points, labels, of_place, static_cast<float>(options_.max_gap), noise};
 
   for (auto& pixels : clustersOf(image, near, options_, sensor_)) {
@@ -271,7 +247,7 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
     auto cluster = pointsOf(pixels, points);
     ObjectRegion region;
     region.centroid = meanOf(cluster);
-    region.covariance = covarianceOfMean(sample, pixels.size(), sensor_.noise());
+    region.covariance = covarianceOfMean(sample, middle, pixels.size(), sensor_.noise());
     if (under != nullptr) {
       region.surface = surface->plane;
       // The box goes down to it where the lowest of the thing was taken for the surface.

@@ -1,33 +1,71 @@
 #include <omnimapper/perception/OrganisedPoints.h>
 
 #include "planes/InverseDepth.h"
+#include "planes/Lanes.h"
 
 namespace omnimapper::perception {
+
+namespace {
+
+using planes::kLanes;
+using planes::LaneMask;
+using planes::Lanes;
+
+// A row of whole cells. Its rays have z = 1 and y = `down`.
+struct RowTask {
+  const float *inverse_depth, *across;
+  float down;
+  int stride;
+};
+
+OMNIMAPPER_KERNEL_BODY void projectRowBody(const RowTask& row, float* x, float* y, float* z) {
+  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+  for (int u = 0; u < row.stride; u += kLanes) {
+    Lanes inverse, across;
+    planes::load(inverse, row.inverse_depth + u);
+    planes::load(across, row.across + u);
+    const LaneMask seen = inverse > 0.F;
+    const Lanes depth = seen ? 1.F / (seen ? inverse : Lanes{} + 1.F) : Lanes{} + kNothing;
+    planes::store(depth * across, x + u);
+    planes::store(depth * row.down, y + u);
+    planes::store(depth, z + u);
+  }
+}
+
+#ifdef OMNIMAPPER_KERNEL_AVX2
+OMNIMAPPER_KERNEL_AVX2 void projectRowAvx2(const RowTask& row, float* x, float* y, float* z) {
+  projectRowBody(row, x, y, z);
+}
+#endif
+
+void projectRow(const RowTask& row, float* x, float* y, float* z) {
+#ifdef OMNIMAPPER_KERNEL_AVX2
+  if (planes::hasAvx2()) return projectRowAvx2(row, x, y, z);
+#endif
+  projectRowBody(row, x, y, z);
+}
+
+}  // namespace
 
 OrganisedPoints backProject(const DepthImage& image, double min_depth, double max_depth) {
   const planes::InverseDepth inverse = planes::invert(image, min_depth, max_depth);
   const Pinhole& camera = image.camera();
-  const auto width = static_cast<std::size_t>(image.width()), height = static_cast<std::size_t>(image.height());
   OrganisedPoints points;
   points.width = image.width();
   points.height = image.height();
-  points.x.resize(width * height);
-  points.y.resize(width * height);
-  points.z.resize(width * height);
-  std::vector<float> across(width);
-  for (std::size_t u = 0; u < width; ++u) {
+  const auto stride = static_cast<std::size_t>(inverse.stride);
+  std::vector<float> across(stride), x(stride), y(stride), z(stride);
+  for (std::size_t u = 0; u < stride; ++u) {
     across[u] = static_cast<float>((static_cast<double>(u) - camera.cx) / camera.fx);
   }
-  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-  for (std::size_t v = 0, first = 0; v < height; ++v, first += width) {
-    const float* from = inverse.at(0, static_cast<int>(v));
+  const auto pixels = static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height);
+  for (auto* all : {&points.x, &points.y, &points.z}) all->reserve(pixels);
+  for (int v = 0; v < points.height; ++v) {
     const auto down = static_cast<float>((static_cast<double>(v) - camera.cy) / camera.fy);
-    for (std::size_t u = 0; u < width; ++u) {
-      const float z = from[u] > 0 ? 1.F / from[u] : kNothing;
-      points.x[first + u] = z * across[u];
-      points.y[first + u] = z * down;
-      points.z[first + u] = z;
-    }
+    projectRow({inverse.at(0, v), across.data(), down, inverse.stride}, x.data(), y.data(), z.data());
+    points.x.insert(points.x.end(), x.begin(), x.begin() + points.width);
+    points.y.insert(points.y.end(), y.begin(), y.begin() + points.width);
+    points.z.insert(points.z.end(), z.begin(), z.begin() + points.width);
   }
   return points;
 }

@@ -12,11 +12,24 @@ struct OrientedBox {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
+/// Points [m], coordinate by coordinate.
+struct PointList {
+  std::vector<float> x, y, z;
+
+  std::size_t size() const { return z.size(); }
+  Eigen::Vector3f operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void push_back(const Eigen::Vector3f& point) {
+    x.push_back(point.x());
+    y.push_back(point.y());
+    z.push_back(point.z());
+  }
+};
+
 /// The box around the points with one side along the unit vector `axis`, which becomes its z, and of the others the
 /// least area; x is the longer of them. One point at least.
 OrientedBox boxAlong(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points);
 
 /// The box with the same axes around a box and all of the points.
-OrientedBox extended(const OrientedBox& box, const std::vector<Eigen::Vector3f>& points);
+OrientedBox extended(const OrientedBox& box, const PointList& points);
 
 }  // namespace omnimapper::perception::objects
