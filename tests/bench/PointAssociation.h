@@ -101,6 +101,7 @@ inline mrpt::math::CMatrixDouble rowsOf(const std::vector<Eigen::Vector2d>& poin
   return rows;
 }
 
+/// As it is by default: a tree tells it which pairs to gate.
 inline Answer mrpts(const PointScene& scene, mrpt::slam::TDataAssociationMethod method,
                     mrpt::slam::TDataAssociationMetric metric) {
   const auto measured = rowsOf(scene.measured_in_base), predicted = rowsOf(scene.predicted_in_base);
@@ -108,9 +109,7 @@ inline Answer mrpts(const PointScene& scene, mrpt::slam::TDataAssociationMethod 
   mrpt::slam::TDataAssociationResults results;
   Answer answer;
   const double from = processorTime();
-  constexpr bool kByTree = false;  // it may leave out pairs that pass their gates
-  mrpt::slam::data_association_full_covariance(measured, predicted, covariance, results, method, metric, kConfidence,
-                                               kByTree);
+  mrpt::slam::data_association_full_covariance(measured, predicted, covariance, results, method, metric, kConfidence);
   answer.milliseconds = processorTime() - from;
   answer.landmark_of.resize(scene.measured_in_base.size());
   for (const auto& [measurement, landmark] : results.associations) answer.landmark_of[measurement] = landmark;
