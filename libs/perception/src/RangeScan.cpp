@@ -32,12 +32,12 @@ std::vector<float> depthsOf(const CObservation3DRangeScan& scan) {
   return metres;
 }
 
-[[noreturn]] void refuseMissing(const std::string& label, const std::string& what, const std::string& file) {
+}  // namespace
+
+void refuseMissing(const std::string& label, const std::string& what, const std::string& file) {
   throw base::Error(base::ExitCode::missing_images,
                     label + ": the " + what + " image is in " + file + ", which was not loaded; is it there?");
 }
-
-}  // namespace
 
 geometry::Se3 sensorFromOptical() {
   Eigen::Matrix3d axes;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace omnimapper::perception {
@@ -28,6 +29,9 @@ inline Eigen::Vector3d toOptical(const Eigen::Vector3d& in_sensor) {
 
 /// The same as a turn.
 geometry::Se3 sensorFromOptical();
+
+/// Throws Error(missing_images): an image ("depth", "colour") of that sensor is in a file that was not loaded.
+[[noreturn]] void refuseMissing(const std::string& label, const std::string& what, const std::string& file);
 
 constexpr std::uint16_t kSaturated = 65535;
 

@@ -1,0 +1,113 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/perception/ArucoMarkerExtractor.h>
+#include <omnimapper/perception/PictureView.h>
+
+#include <cmath>
+
+#include "RangeScan.h"
+#include "markers/MarkerFinder.h"
+#include "markers/MarkerPose.h"
+
+namespace omnimapper::perception {
+
+const base::OptionTable<ArucoMarkerOptions>& ArucoMarkerOptions::table() {
+  using Options = ArucoMarkerOptions;
+  using D = Dictionary;
+  using base::Range;
+  static const auto table =
+      base::OptionTable<Options>()
+          .choice<D>("dictionary", &Options::dictionary,
+                     {{"4x4_50", D::dict_4x4_50},     {"4x4_100", D::dict_4x4_100},    {"4x4_250", D::dict_4x4_250},
+                      {"4x4_1000", D::dict_4x4_1000}, {"5x5_50", D::dict_5x5_50},      {"5x5_100", D::dict_5x5_100},
+                      {"5x5_250", D::dict_5x5_250},   {"5x5_1000", D::dict_5x5_1000},  {"6x6_50", D::dict_6x6_50},
+                      {"6x6_100", D::dict_6x6_100},   {"6x6_250", D::dict_6x6_250},    {"6x6_1000", D::dict_6x6_1000},
+                      {"7x7_50", D::dict_7x7_50},     {"7x7_100", D::dict_7x7_100},    {"7x7_250", D::dict_7x7_250},
+                      {"7x7_1000", D::dict_7x7_1000}, {"original", D::original},       {"april_16h5", D::april_16h5},
+                      {"april_25h9", D::april_25h9},  {"april_36h10", D::april_36h10}, {"april_36h11", D::april_36h11}},
+                     "Which markers there are: cells along a side and how many; ArUco's original ones; AprilTags.")
+          .number("side_m", &Options::side, {1e-3, 100}, "Side of the black square.")
+          .number("corner_sigma_px", &Options::corner_sigma, {1e-3, 100},
+                  "Standard deviation of a corner in the image; covariances are made of it.")
+          .number("min_side_px", &Options::min_side, {8, 10000}, "Markers with a shorter side are left out.")
+          .choice<Refinement>(
+              "refinement", &Options::refinement,
+              {{"none", Refinement::none}, {"gradients", Refinement::gradients}, {"edges", Refinement::edges}},
+              "How corners are found to parts of a pixel: not at all, by gradients around them, by the "
+              "lines along the sides.");
+  return table;
+}
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using mrpt::obs::CObservationBearingRange;
+
+// Range, yaw and pitch of a point in MRPT's axes, away from straight above and below.
+CObservationBearingRange::TMeasurement measurementOf(int id, const Vector3d& point, const Matrix3d& covariance) {
+  const double range = point.norm(), flat_squared = point.head<2>().squaredNorm(), flat = std::sqrt(flat_squared);
+  Matrix3d by_point;
+  by_point.row(0) = point.transpose() / range;
+  by_point.row(1) << -point.y() / flat_squared, point.x() / flat_squared, 0;
+  by_point.row(2) = Vector3d(point.z() * point.x(), point.z() * point.y(), -flat_squared) / (range * range * flat);
+  CObservationBearingRange::TMeasurement measurement;
+  measurement.range = static_cast<float>(range);
+  measurement.yaw = static_cast<float>(std::atan2(point.y(), point.x()));
+  measurement.pitch = static_cast<float>(std::atan2(-point.z(), flat));
+  measurement.landmarkID = id;
+  measurement.covariance = Matrix3d(by_point * covariance * by_point.transpose());
+  return measurement;
+}
+
+float fieldOfView(int pixels, double focal) {
+  return static_cast<float>(2 * std::atan(0.5 * pixels / focal));
+}
+
+// What a camera at that place of the optical frame shows.
+CObservationBearingRange::Ptr observe(const mrpt::obs::CObservation& raw, const mrpt::img::CImage& picture,
+                                      const mrpt::img::TCamera& camera, const mrpt::poses::CPose3D& base_from_optical,
+                                      const ArucoMarkerOptions& options) {
+  auto observation = CObservationBearingRange::Create();
+  observation->timestamp = raw.timestamp;
+  observation->sensorLabel = raw.sensorLabel + kMarkersSuffix;
+  const geometry::Se3 optical_from_sensor = geometry::inverse(sensorFromOptical());
+  observation->sensorLocationOnRobot = geometry::toMrpt(geometry::fromMrpt(base_from_optical) * optical_from_sensor);
+  observation->validCovariances = true;
+  if (picture.isEmpty()) return observation;
+  const markers::LensModel lens(camera, raw.sensorLabel);
+  observation->fieldOfView_yaw = fieldOfView(static_cast<int>(picture.getWidth()), camera.fx());
+  observation->fieldOfView_pitch = fieldOfView(static_cast<int>(picture.getHeight()), camera.fy());
+  const Matrix3d axes = sensorFromOptical().rotation.toRotationMatrix();
+  for (const auto& marker : markers::findMarkers(picture, options)) {
+    const auto pose = markers::poseOfMarker(lens, marker.corners, options.side, options.corner_sigma);
+    if (!pose) continue;
+    observation->sensedData.push_back(measurementOf(marker.id, toSensor(pose->optical_from_marker.translation),
+                                                    axes * pose->covariance_of_middle * axes.transpose()));
+  }
+  return observation;
+}
+
+}  // namespace
+
+CObservationBearingRange::Ptr ArucoMarkerExtractor::extract(const mrpt::obs::CObservationImage& observation) const {
+  try {
+    return observe(observation, observation.image, observation.cameraParams, observation.cameraPose, options_);
+  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
+    refuseMissing(observation.sensorLabel, "colour", observation.image.getExternalStorageFile());
+  }
+}
+
+CObservationBearingRange::Ptr ArucoMarkerExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
+  const mrpt::img::CImage none;
+  const auto& picture = scan.hasIntensityImage ? scan.intensityImage : none;
+  try {
+    // Where both have one view its place is told too, but its calibration may be missing.
+    const auto& camera = isPictureOfDepthView(scan) ? scan.cameraParams : scan.cameraParamsIntensity;
+    return observe(scan, picture, camera, scan.sensorPose + scan.relativePoseIntensityWRTDepth, options_);
+  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
+    refuseMissing(scan.sensorLabel, "colour", picture.getExternalStorageFile());
+  }
+}
+
+}  // namespace omnimapper::perception
