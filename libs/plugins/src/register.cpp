@@ -1,6 +1,7 @@
 #include <mrpt/core/initializer.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/obs/registerClasses.h>
+#include <omnimapper/plugins/ArucoMarkersPlugin.h>
 #include <omnimapper/plugins/CloudPlanesPlugin.h>
 #include <omnimapper/plugins/EdgesPlugin.h>
 #include <omnimapper/plugins/GeoJsonOutput.h>
@@ -40,6 +41,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(OdometryPluginFactory));
   registerClass(CLASS_ID(NoMotionPluginFactory));
   registerClass(CLASS_ID(ScanOdometryPluginFactory));
+  registerClass(CLASS_ID(ArucoMarkersPluginFactory));
   registerClass(CLASS_ID(CloudPlanesPluginFactory));
   registerClass(CLASS_ID(EdgesPluginFactory));
   registerClass(CLASS_ID(LaserLinesPluginFactory));
