@@ -1,4 +1,5 @@
 #include "SurfaceRun.h"
+#include "landmarks/PlanePayload.h"
 
 namespace omnimapper::plugins::plane_merging_test {
 namespace {
@@ -6,6 +7,25 @@ namespace {
 using namespace surface_run;
 
 class PlaneMerging : public SurfaceRun {};
+
+// A table like an L, its arms seen one after the other, and then the corner between them.
+TEST_F(PlaneMerging, ABoundaryAsSeenHasBaysUntilTheyAreSeen) {
+  PlaneLandmarksOptions options;
+  options.boundary = PlaneLandmarksOptions::Boundary::seen;
+  make(options);
+  driveTo({});
+  see(planesOf({plane({2, 0, 0.7}, {1, 0, 0}, {0, 0.3, 0})}));
+  see(planesOf({plane({2.7, 0.5, 0.7}, {0.3, 0, 0}, {0, 0.8, 0})}));
+  ASSERT_EQ(active().size(), 1U);
+  ASSERT_EQ(shapeOf(active()[0]).surfaces.size(), 1U);
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 1.2 + 0.6 * 1.0, 1e-6);
+  see(planesOf({plane({2.2, 0.5, 0.7}, {0.2, 0, 0}, {0, 0.2, 0})}));
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 1.8 + 0.4 * 0.4, 1e-6);
+  const auto patches = [&] { return dynamic_cast<const PlanePayload&>(*active()[0].payload).patches.size(); };
+  EXPECT_EQ(patches(), 3U);
+  see(planesOf({plane({2.2, 0.5, 0.7}, {0.2, 0, 0}, {0, 0.2, 0})}));
+  EXPECT_EQ(patches(), 3U) << "nothing new";
+}
 
 TEST_F(PlaneMerging, TwoTablesOfOneHeightStayTwo) {
   driveTo({});

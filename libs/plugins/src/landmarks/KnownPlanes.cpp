@@ -55,6 +55,8 @@ void KnownPlanes::update(const mapper::View& view) {
     const PlaneAxes axes(surface.plane);
     const auto corners = cornersInMap(payload.patches, view.map.key_frames);
     surface.hull = hullOn(axes, corners);
+    if (payload.boundary == PlanePayload::Boundary::seen)
+      surface.seen = seenOn(axes, payload.patches, view.map.key_frames);
     std::tie(surface.lowest, surface.highest) = heightsOf(corners);
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (const auto& corner : surface.hull) middle += corner / static_cast<double>(surface.hull.size());

@@ -2,6 +2,7 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
+#include <omnimapper/geometry/PolygonUnion.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -22,6 +23,16 @@ std::vector<Eigen::Vector2d> hullOn(const PlaneAxes& axes, const std::vector<Eig
   dropped.reserve(points.size());
   for (const auto& point : points) dropped.push_back(axes.onto(point));
   return geometry::convexHull(std::move(dropped));
+}
+
+std::vector<std::vector<Eigen::Vector2d>> seenOn(const PlaneAxes& axes, const std::vector<SurfacePatch>& patches,
+                                                 const map::KeyFrames& key_frames) {
+  std::vector<std::vector<Eigen::Vector2d>> polygons;
+  for (const auto& patch : patches) {
+    auto& polygon = polygons.emplace_back();
+    for (const auto& corner : cornersInMap({patch}, key_frames)) polygon.push_back(axes.onto(corner));
+  }
+  return geometry::unionOf(polygons);
 }
 
 std::vector<Eigen::Vector3d> cornersInMap(const std::vector<SurfacePatch>& patches, const map::KeyFrames& key_frames) {

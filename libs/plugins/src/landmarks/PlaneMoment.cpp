@@ -2,6 +2,7 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
+#include <omnimapper/geometry/PolygonUnion.h>
 #include <omnimapper/mapper/PoseFactors.h>
 
 #include <algorithm>
@@ -166,7 +167,7 @@ void PlaneMoment::addToKnown(const PlaneSighting& sighting, const mapper::Pairin
     const auto upright = uprightFactor(view_.graph, surface.variable);
     if (upright && leaning_.insert(*upright).second) batch_.removeFactor(*upright);
   }
-  const bool tells_more = reachesOver(surface, points);
+  const bool tells_more = reachesOver(surface, points) || (!sighting.is_line && fillsBay(surface, points));
   payload = payload->with(frame_.id, sighting, tells_more);
   batch_.addEvidence(id, payload);
 }
@@ -188,6 +189,15 @@ bool PlaneMoment::reachesOver(const KnownPlanes::Surface& surface, const std::ve
   return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
     return geometry::distance(surface.hull, {axes.onto(point)}) > kEdge;
   });
+}
+
+bool PlaneMoment::fillsBay(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kBay = 0.03;  // [m^2]
+  if (surface.seen.empty()) return false;
+  const PlaneAxes axes(surface.plane);
+  std::vector<Eigen::Vector2d> polygon;
+  for (const auto& point : points) polygon.push_back(axes.onto(point));
+  return geometry::areaOutside(polygon, surface.seen) > kBay;
 }
 
 void PlaneMoment::logUseless(const PlaneSighting& sighting) {

@@ -15,7 +15,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr std::uint64_t kVersion = 2;  // 2: the ground
+constexpr std::uint64_t kVersion = 3;  // 2: the ground; 3: the boundary
 
 // What people call a surface of that slope, so high above the ground [m].
 std::string labelOf(const geometry::Plane3& plane, double height) {
@@ -80,18 +80,21 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
   const auto corners = cornersInMap(patches, key_frames);
   const auto hull = hullOn(axes, corners);
   if (hull.empty()) return shape;
-  geometry::Polygon3 surface;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const auto& corner : hull) {
-    surface.vertices.push_back(axes.inSpace(corner));
-    middle += surface.vertices.back() / static_cast<double>(hull.size());
-  }
+  for (const auto& corner : hull) middle += axes.inSpace(corner) / static_cast<double>(hull.size());
   shape.label = labelOf(plane, middle.z() - (ground == Ground::map ? 0 : key_frames.front().map_from_base.z()));
   shape.normal = plane.normal;
   // A laser alone tells how long a wall is, not how high.
-  if (wasSeenAsPlane() && surface.vertices.size() > 2) {
-    shape.surfaces.push_back(surface);
-    shape.properties.emplace_back("area_m2", number(geometry::area(hull)));
+  if (wasSeenAsPlane() && hull.size() > 2) {
+    double area = 0;
+    const auto outlines = boundary == Boundary::seen ? seenOn(axes, patches, key_frames)
+                                                     : std::vector<std::vector<Eigen::Vector2d>>{hull};
+    for (const auto& outline : outlines) {
+      area += geometry::area(outline);
+      geometry::Polygon3& surface = shape.surfaces.emplace_back();
+      for (const auto& corner : outline) surface.vertices.push_back(axes.inSpace(corner));
+    }
+    shape.properties.emplace_back("area_m2", number(area));
   } else if (hull.size() > 1) {
     const auto [low, high] =
         std::minmax_element(hull.begin(), hull.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
@@ -108,6 +111,7 @@ void PlanePayload::write(std::ostream& out) const {
   graph::writeUint(out, kVersion, 1);
   graph::writeUint(out, static_cast<std::uint64_t>(form), 1);
   graph::writeUint(out, static_cast<std::uint64_t>(ground), 1);
+  graph::writeUint(out, static_cast<std::uint64_t>(boundary), 1);
   graph::writeUint(out, patches.size(), 4);
   for (const auto& patch : patches) {
     writeId(out, patch.frame);
@@ -135,6 +139,7 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
     auto payload = std::make_shared<PlanePayload>();
     payload->form = graph::readUint(in, 1) == 0 ? SurfaceForm::Kind::plane : SurfaceForm::Kind::wall;
     if (version > 1) payload->ground = graph::readUint(in, 1) == 0 ? Ground::start : Ground::map;
+    if (version > 2) payload->boundary = graph::readUint(in, 1) == 0 ? Boundary::hull : Boundary::seen;
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
       SurfacePatch patch;
       patch.frame = readId(in);

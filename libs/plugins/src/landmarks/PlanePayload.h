@@ -31,9 +31,11 @@ struct SeenBy {
 /// saw them and are put on the optimised plane when somebody asks, so that a loop closure moves them for free.
 struct PlanePayload : map::LandmarkPayload {
   using Ground = PlaneLandmarksOptions::Ground;
+  using Boundary = PlaneLandmarksOptions::Boundary;
 
   SurfaceForm::Kind form = SurfaceForm::Kind::plane;
-  Ground ground = Ground::start;          ///< for what people call it
+  Ground ground = Ground::start;  ///< for what people call it
+  Boundary boundary = Boundary::hull;
   std::vector<SurfacePatch> patches;      ///< those that tell something of the extent that the others do not
   std::map<std::string, SeenBy> seen_by;  ///< sensor label
   base::KeyFrameId last_seen_from;

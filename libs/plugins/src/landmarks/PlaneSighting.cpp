@@ -56,7 +56,11 @@ PlaneSighting ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_senso
   const auto hull = hullOn(axes, corners);
   if (hull.size() < 3) return useless(sighting, "its outline has no area");
   sighting.plane_in_base = in_base;
-  for (const auto& corner : hull) sighting.outline_in_base.push_back(axes.inSpace(corner));
+  if (options.boundary == PlaneLandmarksOptions::Boundary::seen) {
+    sighting.outline_in_base = corners;
+  } else {
+    for (const auto& corner : hull) sighting.outline_in_base.push_back(axes.inSpace(corner));
+  }
   sighting.size = geometry::area(hull);
   sighting.factor = std::make_shared<PlaneFactor>(in_base);
   sighting.noise = graph::SquareRootInformation::fromCovariance(in_base_covariance);

@@ -18,9 +18,10 @@ namespace omnimapper::plugins {
 struct PlaneSighting {
   bool is_line = false;
   std::string sensor_label;
-  geometry::Plane3 plane_in_base;                ///< of a line: the upright plane through it
-  std::vector<Eigen::Vector3d> outline_in_base;  ///< [m] convex, or the two ends of a line
-  double size = 0;                               ///< [m^2], of a line [m]
+  geometry::Plane3 plane_in_base;  ///< of a line: the upright plane through it
+  /// [m] convex, or with boundary = seen as it was seen; of a line its two ends.
+  std::vector<Eigen::Vector3d> outline_in_base;
+  double size = 0;  ///< [m^2], of a line [m]
   std::shared_ptr<const graph::Factor> factor;
   graph::SquareRootInformation noise = graph::SquareRootInformation::identity(1);
   std::string why_useless;  ///< not empty: nothing but is_line, sensor_label and size is told

@@ -17,6 +17,12 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
   /// Where tables and floors are counted from: below the first key frame's base, or z = 0 of the map.
   enum class Ground : std::uint8_t { start = 0, map = 1 };
   Ground ground = Ground::start;
+  /// How what was seen of a surface as a plane becomes its boundary in the map.
+  enum class Boundary : std::uint8_t {
+    hull = 0,  ///< convex
+    seen = 1   ///< the union of what was seen, with bays; holes are closed
+  };
+  Boundary boundary = Boundary::hull;
   bool planes = true;                                                  ///< measure CObservationPlanes
   bool lines = true;                                                   ///< measure CObservationLaserLines
   double min_area = 0.25;                                              ///< [m^2] of a new landmark, seen as a plane

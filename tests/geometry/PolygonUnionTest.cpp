@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
+#include <omnimapper/geometry/PolygonUnion.h>
+
+namespace omnimapper::geometry::polygon_union_test {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+Points rectangle(double x0, double y0, double x1, double y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
+
+TEST(PolygonUnion, OfTwoThatCrossIsConcave) {
+  const auto cross = unionOf({rectangle(-3, -1, 3, 1), rectangle(-1, -3, 1, 3)});
+  ASSERT_EQ(cross.size(), 1U);
+  EXPECT_EQ(cross[0].size(), 12U);
+  EXPECT_NEAR(area(cross[0]), 12 + 12 - 4, 1e-12);
+}
+
+TEST(PolygonUnion, KeepsApartWhatDoesNotTouch) {
+  const auto two = unionOf({rectangle(0, 0, 1, 1), rectangle(2, 0, 3, 1)});
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_NEAR(area(two[0]) + area(two[1]), 2, 1e-12);
+}
+
+TEST(PolygonUnion, GoesCounterClockwiseWhicheverWayTheyWent) {
+  const auto one = unionOf({{{0, 0}, {0, 1}, {1, 1}, {1, 0}}});
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_NEAR(area(one[0]), 1, 1e-12);
+}
+
+TEST(PolygonUnion, ClosesHoles) {
+  const auto ring =
+      unionOf({rectangle(0, 0, 3, 1), rectangle(0, 2, 3, 3), rectangle(0, 0, 1, 3), rectangle(2, 0, 3, 3)});
+  ASSERT_EQ(ring.size(), 1U);
+  EXPECT_NEAR(area(ring[0]), 9, 1e-12);
+}
+
+TEST(PolygonUnion, LeavesOutWhatHasNoArea) {
+  EXPECT_TRUE(unionOf({}).empty());
+  EXPECT_TRUE(unionOf({{}, {{1, 1}}, {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}, {2, 0}}}).empty());
+}
+
+TEST(PolygonUnion, TakesOneThatCrossesItselfForItsHull) {
+  const auto hull = unionOf({{{0, 0}, {1, 1}, {1, 0}, {0, 1}}});
+  ASSERT_EQ(hull.size(), 1U);
+  EXPECT_NEAR(area(hull[0]), 1, 1e-12);
+}
+
+TEST(PolygonUnion, LeavesOutNeedlessCorners) {
+  Points rough;
+  for (int i = 0; i < 100; ++i) rough.emplace_back(0.02 * i, i % 2 == 0 ? 0 : 0.002);
+  rough.emplace_back(2, 1);
+  rough.emplace_back(0, 1);
+  const auto smooth = unionOf({rough});
+  ASSERT_EQ(smooth.size(), 1U);
+  EXPECT_LE(smooth[0].size(), 6U);
+}
+
+TEST(AreaOutside, IsWhatOthersDoNotCover) {
+  const auto seen = unionOf({rectangle(0, 0, 2, 1), rectangle(3, 0, 4, 1)});
+  EXPECT_NEAR(areaOutside(rectangle(1, 0, 5, 1), seen), 1 + 1, 1e-12);
+  EXPECT_NEAR(areaOutside(rectangle(0.5, 0.2, 1, 0.8), seen), 0, 1e-12);
+  EXPECT_NEAR(areaOutside(rectangle(0, 0, 1, 1), {}), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace omnimapper::geometry::polygon_union_test
