@@ -45,7 +45,7 @@ TEST_F(LandmarkOutputs, TheFloorPlanHasTheWallsWhereTheyAre) {
     const auto along = [&](int axis) { return ends[1][axis].get<double>() - ends[0][axis].get<double>(); };
     if (std::hypot(along(0), along(1)) < 1.2) continue;  // may be furniture, of which the truth lists no planes
     ++seen_well;
-    const double off = distanceFromWalls(ends, world_from_map, walls);
+    const double off = endsFromWalls(ends, world_from_map, walls);
     EXPECT_LT(off, 0.08) << feature["id"];
   }
   EXPECT_GT(seen_well, 8U);

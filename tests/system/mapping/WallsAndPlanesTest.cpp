@@ -64,7 +64,7 @@ TEST_F(WallsAndPlanes, OfABoxAreItsFourWallsAtRightAngles) {
   const auto world_from_map = worldFromMap("rawlogs/box");
   const auto truth = trueWalls("rawlogs/box");
   for (const auto& wall : walls)
-    EXPECT_LT(distanceFromWalls(wall["geometry"]["coordinates"], world_from_map, truth), 0.05) << wall["id"];
+    EXPECT_LT(endsFromWalls(wall["geometry"]["coordinates"], world_from_map, truth), 0.05) << wall["id"];
   EXPECT_GE(relationsThatAct(), 3U);
 }
 
@@ -118,7 +118,7 @@ TEST_F(WallsAndPlanes, OfACameraOnGivenPosesAreWhereTheyAre) {
                    ends[1][1].get<double>() - ends[0][1].get<double>()) < 1.2)
       continue;  // may be furniture, of which the truth lists no planes
     ++long_ones;
-    EXPECT_LT(distanceFromWalls(ends, {}, walls), 0.08) << wall["id"];
+    EXPECT_LT(endsFromWalls(ends, {}, walls), 0.08) << wall["id"];
   }
   EXPECT_GE(long_ones, 4U);
   EXPECT_GT(featuresOf("floor", 5).size(), 0U);
