@@ -29,7 +29,7 @@ inline std::vector<TrueWall> trueWalls(const std::string& folder) {
 
 /// Of the farther of two ends of a wall in the map from the nearest true wall's line [m].
 inline double endsFromWalls(const nlohmann::json& ends, const mrpt::poses::CPose3D& world_from_map,
-                                const std::vector<TrueWall>& walls) {
+                            const std::vector<TrueWall>& walls) {
   double off = 1e9;
   for (const auto& [a, b, c] : walls) {
     double farthest = 0;
