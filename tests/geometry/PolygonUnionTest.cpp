@@ -31,10 +31,16 @@ TEST(PolygonUnion, GoesCounterClockwiseWhicheverWayTheyWent) {
 }
 
 TEST(PolygonUnion, ClosesHoles) {
-  const auto ring =
-      unionOf({rectangle(0, 0, 3, 1), rectangle(0, 2, 3, 3), rectangle(0, 0, 1, 3), rectangle(2, 0, 3, 3)});
-  ASSERT_EQ(ring.size(), 1U);
-  EXPECT_NEAR(area(ring[0]), 9, 1e-12);
+  const std::vector<Points> bars = {rectangle(0, 0, 3, 1), rectangle(0, 2, 3, 3), rectangle(0, 0, 1, 3),
+                                    rectangle(2, 0, 3, 3)};
+  std::vector<Points> island_first = {rectangle(1.2, 1.2, 1.8, 1.8)}, island_last = bars;
+  island_first.insert(island_first.end(), bars.begin(), bars.end());
+  island_last.push_back(island_first.front());
+  for (const auto& all : {bars, island_first, island_last}) {
+    const auto ring = unionOf(all);
+    ASSERT_EQ(ring.size(), 1U);
+    EXPECT_NEAR(area(ring[0]), 9, 1e-12);
+  }
 }
 
 TEST(PolygonUnion, LeavesOutWhatHasNoArea) {

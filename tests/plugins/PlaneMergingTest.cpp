@@ -25,6 +25,25 @@ TEST_F(PlaneMerging, ABoundaryAsSeenHasBaysUntilTheyAreSeen) {
   EXPECT_EQ(patches(), 3U);
   see(planesOf({plane({2.2, 0.5, 0.7}, {0.2, 0, 0}, {0, 0.2, 0})}));
   EXPECT_EQ(patches(), 3U) << "nothing new";
+  for (int i = 0; i < 30; ++i) {
+    const double noise = 0.01 * (i % 3 - 1);
+    see(planesOf({plane({2.2 + noise, 0.5, 0.7}, {0.2 + noise, 0, 0}, {0, 0.2 - noise, 0})}));
+  }
+  EXPECT_EQ(patches(), 3U) << "edges are seen a little elsewhere each time";
+}
+
+// Lines of two heights span a hull that a camera's plane lies within.
+TEST_F(PlaneMerging, ABoundaryAsSeenOfAWallThatLinesHaveShownFirst) {
+  PlaneLandmarksOptions options;
+  options.boundary = PlaneLandmarksOptions::Boundary::seen;
+  make(options);
+  driveTo({});
+  see(linesOf({line({3, -2}, {3, 2})}, 0.1));
+  see(linesOf({line({3, -2}, {3, 2})}, 1.9));
+  see(planesOf({wallPlane(3, -1, 1)}));
+  ASSERT_EQ(active().size(), 1U);
+  ASSERT_EQ(shapeOf(active()[0]).surfaces.size(), 1U);
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 2 * 1.6, 0.01);
 }
 
 TEST_F(PlaneMerging, TwoTablesOfOneHeightStayTwo) {

@@ -37,6 +37,19 @@ Area soundAreaOf(const Points& points) {
   return bg::is_valid(whole) ? whole : areaOf(convexHull(points));
 }
 
+// What lay in a hole lies within the outline around it then.
+Areas withoutHoles(const Areas& areas) {
+  Areas all;
+  for (const Area& area : areas) {
+    Area closed;
+    closed.outer() = area.outer();
+    Areas together;
+    bg::union_(all, closed, together);
+    all = std::move(together);
+  }
+  return all;
+}
+
 Points pointsOf(const Area& area) {
   Points points;
   for (const auto& corner : area.outer()) points.emplace_back(corner.x(), corner.y());
@@ -53,8 +66,7 @@ std::vector<Points> unionOf(const std::vector<Points>& polygons) {
     if (!(bg::area(area) > 0)) continue;
     Areas together;
     bg::union_(all, area, together);
-    for (Area& one : together) one.inners().clear();
-    all = std::move(together);
+    all = withoutHoles(together);
   }
   std::vector<Points> outlines;
   for (const Area& area : all) outlines.push_back(pointsOf(area));

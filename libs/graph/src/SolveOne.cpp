@@ -52,6 +52,7 @@ class Neighbourhood {
   // Whether the loss of some factor takes most of its say.
   bool hasOutlier(const Eigen::VectorXd& value) const {
     return std::any_of(factors_.begin(), factors_.end(), [&](const BoundFactor& factor) {
+      if (!(factor.record().weight > 0)) return false;
       Eigen::VectorXd residual(factor.residualSize());
       const auto values = valuesOf(factor.record(), value);
       factor.evaluate(values.data(), residual.data(), nullptr, nullptr);

@@ -262,8 +262,8 @@ void Engine::measure(base::KeyFrameId id, const std::vector<Perceived>& perceive
       times_.add("plugin " + section, watch.seconds());
       busy_.plugins += watch.seconds();
       committer_.apply(batch, {section, frame.stamp}, *plugin);
-      // What is measured by landmarks is told apart by where the robot is.
-      if (plugin->givesAbsolutePoses()) estimator_.refine(id);
+      // Plugins that follow tell landmarks apart by this pose: it takes up what was measured of it first.
+      if (plugin->givesAbsolutePoses() && batch.changesGraph()) estimator_.refine(id);
     }
   }
 }

@@ -49,7 +49,8 @@ class LineOnPlaneFactor : public graph::Factor {
 };
 
 /// That a plane is upright, for one that only lines of one height have shown. Variable: plane in map. Residual: the
-/// tangent of its lean, at most 100: a sine would let a plane that few lines hold lie down among all of them.
+/// tangent of its lean, at most 100. A sine is at most 1: a few wrong lines could turn the plane level, where every
+/// line of a level laser fits it.
 class UprightFactor : public graph::Factor {
  public:
   static constexpr std::string_view kKind = "upright_plane";

@@ -28,12 +28,12 @@ bool overlap(const Surface& a, const Surface& b) {
 }
 
 // Of the change that takes a's plane to b's, by all that ties them together.
-std::optional<Fit> fitOfDifference(const SurfaceForm& form, const Surface& a, const Surface& b,
+std::optional<Fit> fitOfDifference(const SurfaceForm& form, const Surface& a, const Surface& b, double inflation,
                                    const mapper::View& view) {
   const auto joint = view.jointCovariance({a.variable, b.variable});
   if (!joint) return std::nullopt;
   const auto [change, by_both] = form.difference(view.graph.value(a.variable), view.graph.value(b.variable));
-  return fitOf(change, by_both * *joint * by_both.transpose());
+  return fitOf(change, inflation * inflation * by_both * *joint * by_both.transpose());
 }
 
 }  // namespace
@@ -48,8 +48,7 @@ bool onOnePlane(const Surface& a, const Surface& b) {
 mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& options, const std::string& section,
                          const mapper::View& view) {
   known.update(view);
-  const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize()) *
-                       options.inflation * options.inflation;
+  const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize());
   // Two surfaces may lie anyhow within those bounds: that they are one must be so many times likelier. Where little is
   // known of how they lie to each other, nobody can tell, and they wait.
   const int turns = known.form().variable()->tangentSize() - 1;
@@ -63,7 +62,7 @@ mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& option
       if (merged.count(a->first) > 0) break;
       if (merged.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
       if (!onOnePlane(a->second, b->second) || !overlap(a->second, b->second)) continue;
-      const auto fit = fitOfDifference(known.form(), a->second, b->second, view);
+      const auto fit = fitOfDifference(known.form(), a->second, b->second, options.inflation, view);
       if (!fit || fit->chi2 > limit || fit->log_density < least_density) continue;
       merged.insert(a->first);
       merged.insert(b->first);

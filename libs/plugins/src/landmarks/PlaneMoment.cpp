@@ -89,7 +89,8 @@ std::vector<mapper::Pairing> PlaneMoment::pairingsOf(const std::vector<PlaneSigh
     }
     // Farther ones where the base may have slid so far since it saw them; beyond one that is too far, none.
     std::stable_sort(apart.begin(), apart.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    const double range = sightings[i].outline_in_base.front().norm();
+    double range = 0;
+    for (const auto& corner : sightings[i].outline_in_base) range = std::max(range, corner.norm());
     for (const auto& [miss, surface] : apart) {
       if (miss > kSigmas * sigmaSince(surface->last_seen_from, range)) break;
       add(*surface);
@@ -167,7 +168,7 @@ void PlaneMoment::addToKnown(const PlaneSighting& sighting, const mapper::Pairin
     const auto upright = uprightFactor(view_.graph, surface.variable);
     if (upright && leaning_.insert(*upright).second) batch_.removeFactor(*upright);
   }
-  const bool tells_more = reachesOver(surface, points) || (!sighting.is_line && fillsBay(surface, points));
+  const bool tells_more = reachesOver(surface, points) || showsMore(*payload, sighting, surface, points);
   payload = payload->with(frame_.id, sighting, tells_more);
   batch_.addEvidence(id, payload);
 }
@@ -191,13 +192,18 @@ bool PlaneMoment::reachesOver(const KnownPlanes::Surface& surface, const std::ve
   });
 }
 
-bool PlaneMoment::fillsBay(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points) {
-  constexpr double kBay = 0.03;  // [m^2]
-  if (surface.seen.empty()) return false;
+bool PlaneMoment::showsMore(const PlanePayload& payload, const PlaneSighting& sighting,
+                            const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points) {
+  if (payload.boundary != PlanePayload::Boundary::seen || sighting.is_line) return false;
+  constexpr double kBay = 0.03, kEdge = 0.02;  // [m^2], [m] that edges are seen alike
   const PlaneAxes axes(surface.plane);
   std::vector<Eigen::Vector2d> polygon;
-  for (const auto& point : points) polygon.push_back(axes.onto(point));
-  return geometry::areaOutside(polygon, surface.seen) > kBay;
+  double around = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    polygon.push_back(axes.onto(points[i]));
+    around += (points[i] - points[(i + 1) % points.size()]).norm();
+  }
+  return geometry::areaOutside(polygon, surface.seen) > kBay + kEdge * around;
 }
 
 void PlaneMoment::logUseless(const PlaneSighting& sighting) {

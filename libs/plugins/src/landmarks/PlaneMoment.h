@@ -52,8 +52,9 @@ class PlaneMoment {
                         const KnownPlanes::Surface& surface, const PlanePayload& payload);
   // Whether a corner lies outside by more than edges are seen alike.
   static bool reachesOver(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points);
-  // Whether a plane shows a part of the surface that nobody has seen yet, within its hull.
-  static bool fillsBay(const KnownPlanes::Surface& surface, const std::vector<Eigen::Vector3d>& points);
+  // Whether a plane shows a part of the surface that nobody has seen yet, where boundaries are kept as seen.
+  static bool showsMore(const PlanePayload& payload, const PlaneSighting& sighting, const KnownPlanes::Surface& surface,
+                        const std::vector<Eigen::Vector3d>& points);
   void logUseless(const PlaneSighting& sighting);
   void addNew(const PlaneSighting& sighting, mapper::Decision decision);
   // Two stretches of one wall, with a door between them.

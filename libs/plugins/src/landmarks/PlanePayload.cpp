@@ -87,8 +87,9 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
   // A laser alone tells how long a wall is, not how high.
   if (wasSeenAsPlane() && hull.size() > 2) {
     double area = 0;
-    const auto outlines = boundary == Boundary::seen ? seenOn(axes, patches, key_frames)
-                                                     : std::vector<std::vector<Eigen::Vector2d>>{hull};
+    std::vector<std::vector<Eigen::Vector2d>> outlines;
+    if (boundary == Boundary::seen) outlines = seenOn(axes, patches, key_frames);
+    if (outlines.empty()) outlines = {hull};
     for (const auto& outline : outlines) {
       area += geometry::area(outline);
       geometry::Polygon3& surface = shape.surfaces.emplace_back();
