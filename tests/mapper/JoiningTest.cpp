@@ -52,6 +52,27 @@ TEST(Joining, ASessionIsJoinedByAFactorToTheFirstOneThatActs) {
   EXPECT_EQ(joinedText(world.map.sessions[1]), "session 1 was never joined");
 }
 
+TEST(Joining, ManyTiesThatAreRefusedPutItInDoubt) {
+  ThreeSessions world;
+  const auto tie = [&](double weight) {
+    const auto id = world.bind({0, 1}, {1, 1}, "loop_closure");
+    graph::FactorRecord record = world.graph.factor(id);
+    world.graph.removeFactor(id);
+    record.tags.hypothesis = true;
+    record.weight = weight;
+    world.graph.addFactor(record);
+  };
+  for (int i = 0; i < 5; ++i) tie(1);
+  tie(0);
+  tie(0);
+  EXPECT_FALSE(testedTies(world.graph, 1).areInDoubt());
+  tie(0);
+  EXPECT_EQ(testedTies(world.graph, 1).accepted, 5U);
+  EXPECT_EQ(testedTies(world.graph, 1).refused, 3U);
+  EXPECT_TRUE(testedTies(world.graph, 1).areInDoubt());
+  EXPECT_EQ(testedTies(world.graph, 2).accepted, 0U);
+}
+
 TEST(Joining, ASessionIsJoinedByWayOfAnother) {
   ThreeSessions world;
   world.bind({1, 0}, {2, 0}, "loop_closure");

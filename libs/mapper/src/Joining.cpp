@@ -72,6 +72,17 @@ void markLocated(map::Map& map, const graph::Graph& graph, const std::set<std::s
   }
 }
 
+TestedTies testedTies(const graph::Graph& graph, std::uint16_t session) {
+  TestedTies ties;
+  for (const auto& [id, record] : graph.factors()) {
+    if (!record.tags.hypothesis || id.session != session) continue;
+    const auto& variables = record.variables;
+    if (std::all_of(variables.begin(), variables.end(), [&](auto v) { return v.session == session; })) continue;
+    ++(record.weight > 0 ? ties.accepted : ties.refused);
+  }
+  return ties;
+}
+
 std::string joinedText(const map::Session& session) {
   const std::string name = "session " + std::to_string(session.number);
   if (!session.joined) return name + " was never joined";

@@ -88,6 +88,15 @@ void warnOf(const source::SourceReport& report, bool stopped, Engine& engine) {
   if (stopped) engine.warn("interrupted: this is the map of what was read until then");
 }
 
+// A wrong start may look right where rooms are alike.
+void warnOfDoubt(const map::Session& session, Engine& engine) {
+  const TestedTies ties = testedTies(engine.view().graph, session.number);
+  if (!session.joined || !ties.areInDoubt()) return;
+  engine.warn(joinedText(session) + ", but of what ties it to the map " + std::to_string(ties.refused) + " of " +
+              std::to_string(ties.refused + ties.accepted) + " contradict the rest: it may lie in a wrong place " +
+              "that looks alike. See map.png, and give a better start (origin, pose, or anywhere)");
+}
+
 // What is wrong with the place of a session that continues a map.
 void warnOf(const map::Session& session, Engine& engine) {
   if (session.joined) return;
@@ -262,6 +271,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   auto result = resultOf(engine.view());
   warnOf(engine.view().counts, result.new_key_frames, engine);
   if (!context.map_is_held) warnOf(result.sessions.back(), engine);
+  warnOfDoubt(result.sessions.back(), engine);
   const bool is_lost = context.map_is_held && result.located == 0;
   if (context.map_is_held) warnOfPlace(result, engine);
   result.warnings = engine.view().warnings;

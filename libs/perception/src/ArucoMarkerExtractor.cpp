@@ -4,6 +4,7 @@
 #include <omnimapper/perception/PictureView.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "RangeScan.h"
 #include "markers/MarkerFinder.h"
@@ -79,11 +80,16 @@ CObservationBearingRange::Ptr observe(const mrpt::obs::CObservation& raw, const 
   observation->fieldOfView_yaw = fieldOfView(static_cast<int>(picture.getWidth()), camera.fx());
   observation->fieldOfView_pitch = fieldOfView(static_cast<int>(picture.getHeight()), camera.fy());
   const Matrix3d axes = sensorFromOptical().rotation.toRotationMatrix();
-  for (const auto& marker : markers::findMarkers(picture, options)) {
-    const auto pose = markers::poseOfMarker(lens, marker.corners, options.side, options.corner_sigma);
-    if (!pose) continue;
-    observation->sensedData.push_back(measurementOf(marker.id, toSensor(pose->optical_from_marker.translation),
-                                                    axes * pose->covariance_of_middle * axes.transpose()));
+  try {
+    for (const auto& marker : markers::findMarkers(picture, options)) {
+      const auto pose = markers::poseOfMarker(lens, marker.corners, options.side, options.corner_sigma);
+      if (!pose) continue;
+      observation->sensedData.push_back(measurementOf(marker.id, toSensor(pose->optical_from_marker.translation),
+                                                      axes * pose->covariance_of_middle * axes.transpose()));
+    }
+  } catch (const cv::Exception& error) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      raw.sensorLabel + ": OpenCV cannot look for markers in this picture: " + error.err);
   }
   return observation;
 }
