@@ -48,10 +48,32 @@ TEST(PolygonUnion, LeavesOutWhatHasNoArea) {
   EXPECT_TRUE(unionOf({{}, {{1, 1}}, {{0, 0}, {1, 0}}, {{0, 0}, {1, 0}, {2, 0}}}).empty());
 }
 
-TEST(PolygonUnion, TakesOneThatCrossesItselfForItsHull) {
-  const auto hull = unionOf({{{0, 0}, {1, 1}, {1, 0}, {0, 1}}});
-  ASSERT_EQ(hull.size(), 1U);
-  EXPECT_NEAR(area(hull[0]), 1, 1e-12);
+TEST(PolygonUnion, TakesOfOneThatCrossesItselfAllItGoesAround) {
+  const Points bow = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};  // its two halves go around different ways
+  const auto halves = unionOf({bow});
+  ASSERT_EQ(halves.size(), 2U);
+  EXPECT_NEAR(area(halves[0]), 0.25, 1e-12);
+  EXPECT_NEAR(area(halves[1]), 0.25, 1e-12);
+  const auto both = unionOf({bow, rectangle(0, 0, 1, 0.5)});
+  ASSERT_EQ(both.size(), 1U);
+  EXPECT_NEAR(area(both[0]), 0.75, 1e-12);
+}
+
+TEST(PolygonUnion, TakesCornersForOneThatAreAMicrometreApart) {
+  const auto one = unionOf({rectangle(0, 0, 1, 1), rectangle(1 + 4e-7, 0, 2, 1)});
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_NEAR(area(one[0]), 2, 1e-5);
+}
+
+TEST(PolygonUnion, IsTheSameInAnyOrder) {
+  const std::vector<Points> some = {rectangle(0, 0, 2, 1), rectangle(1, 0.5, 3, 2), rectangle(2.5, 0, 2.9, 3),
+                                    rectangle(10, 0, 11, 1)};
+  std::vector<Points> others(some.rbegin(), some.rend());
+  double first = 0, second = 0;
+  for (const auto& outline : unionOf(some)) first += area(outline);
+  for (const auto& outline : unionOf(others)) second += area(outline);
+  EXPECT_NEAR(first, 2 + (3 - 0.5) + (0.4 * 3 - 0.4 * 1.5) + 1, 1e-12);
+  EXPECT_NEAR(first, second, 1e-12);
 }
 
 TEST(PolygonUnion, LeavesOutNeedlessCorners) {

@@ -1,86 +1,80 @@
 #include "omnimapper/geometry/PolygonUnion.h"
 
-// Coordinates are doubles of metres: no need to be scaled to whole numbers.
-#define BOOST_GEOMETRY_NO_ROBUSTNESS
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/multi_polygon.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <polyclipping/clipper.hpp>
 
-#include "omnimapper/geometry/ConvexPolygon2.h"
+#include "omnimapper/geometry/Simplify.h"
 
 namespace omnimapper::geometry {
 
 namespace {
 
-namespace bg = boost::geometry;
+using ClipperLib::Path;
+using ClipperLib::Paths;
 using Points = std::vector<Eigen::Vector2d>;
-using Corner = bg::model::d2::point_xy<double>;
-using Area = bg::model::polygon<Corner, false>;  // counter-clockwise, first point again at the end
-using Areas = bg::model::multi_polygon<Area>;
 
+constexpr double kUnit = 1e-6;       // [m]: Clipper reckons in whole numbers, exactly
 constexpr double kStraight = 0.005;  // [m]
 
-Area areaOf(const Points& points) {
-  Area area;
-  for (const auto& point : points) area.outer().emplace_back(point.x(), point.y());
-  bg::correct(area);
-  return area;
+Path pathOf(const Points& points) {
+  Path path;
+  for (const auto& point : points) path.emplace_back(std::llround(point.x() / kUnit), std::llround(point.y() / kUnit));
+  return path;
 }
 
-// Without needless corners, and sound: the algorithms of Boost want polygons that do not cross themselves.
-Area soundAreaOf(const Points& points) {
-  const Area whole = areaOf(points);
-  Area simple;
-  bg::simplify(whole, simple, kStraight);
-  if (bg::is_valid(simple)) return simple;
-  return bg::is_valid(whole) ? whole : areaOf(convexHull(points));
+Points pointsOf(const Path& path) {
+  Points points;
+  for (const auto& corner : path)
+    points.emplace_back(kUnit * static_cast<double>(corner.X), kUnit * static_cast<double>(corner.Y));
+  return points;
+}
+
+// What the polygon goes around, whichever way; each outline counter-clockwise.
+Paths areasOf(const Points& points) {
+  Points corners;
+  for (const std::size_t i : keptOfLoop(points, kStraight)) corners.push_back(points[i]);
+  Paths areas;
+  ClipperLib::SimplifyPolygon(pathOf(corners), areas, ClipperLib::pftNonZero);
+  return areas;
+}
+
+Paths combined(ClipperLib::ClipType how, const Paths& subject, const Paths& clip) {
+  ClipperLib::Clipper clipper;
+  clipper.AddPaths(subject, ClipperLib::ptSubject, true);
+  clipper.AddPaths(clip, ClipperLib::ptClip, true);
+  Paths result;
+  clipper.Execute(how, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  return result;
 }
 
 // What lay in a hole lies within the outline around it then.
-Areas withoutHoles(const Areas& areas) {
-  Areas all;
-  for (const Area& area : areas) {
-    Area closed;
-    closed.outer() = area.outer();
-    Areas together;
-    bg::union_(all, closed, together);
-    all = std::move(together);
-  }
-  return all;
-}
-
-Points pointsOf(const Area& area) {
-  Points points;
-  for (const auto& corner : area.outer()) points.emplace_back(corner.x(), corner.y());
-  if (!points.empty()) points.pop_back();
-  return points;
+Paths withoutHoles(Paths areas) {
+  areas.erase(std::remove_if(areas.begin(), areas.end(), [](const Path& p) { return !ClipperLib::Orientation(p); }),
+              areas.end());
+  return combined(ClipperLib::ctUnion, areas, {});
 }
 
 }  // namespace
 
 std::vector<Points> unionOf(const std::vector<Points>& polygons) {
-  Areas all;
+  Paths all;
   for (const auto& polygon : polygons) {
-    const Area area = soundAreaOf(polygon);
-    if (!(bg::area(area) > 0)) continue;
-    Areas together;
-    bg::union_(all, area, together);
-    all = withoutHoles(together);
+    Paths areas = areasOf(polygon);
+    std::move(areas.begin(), areas.end(), std::back_inserter(all));
   }
   std::vector<Points> outlines;
-  for (const Area& area : all) outlines.push_back(pointsOf(area));
+  for (const auto& area : withoutHoles(combined(ClipperLib::ctUnion, all, {}))) outlines.push_back(pointsOf(area));
   return outlines;
 }
 
 double areaOutside(const Points& polygon, const std::vector<Points>& outlines) {
-  Areas left{soundAreaOf(polygon)};
-  for (const auto& outline : outlines) {
-    Areas rest;
-    bg::difference(left, areaOf(outline), rest);
-    left = std::move(rest);
-  }
-  return bg::area(left);
+  Paths covered;
+  for (const auto& outline : outlines) covered.push_back(pathOf(outline));
+  double area = 0;
+  for (const auto& left : combined(ClipperLib::ctDifference, areasOf(polygon), covered)) area += ClipperLib::Area(left);
+  return kUnit * kUnit * area;
 }
 
 }  // namespace omnimapper::geometry

@@ -7,7 +7,6 @@
 
 #include "../ConvexHull.h"
 #include "../planes/Outlines.h"
-#include "../planes/Simplify.h"
 
 namespace omnimapper::perception::clouds {
 
@@ -91,8 +90,8 @@ void outlineConcave(const FlatGrid& grid, const Components& components, int comp
   for (const auto& line : planes::traceOutlines(window.labels, window.width, window.height, runs, kLeastHole)) {
     geometry::Polygon3 polygon;
     int last = FlatGrid::kNone;
-    for (const int i : planes::simplified(line.corners, kTolerance)) {
-      const int member = corner_points.at(line.corners[static_cast<std::size_t>(i)]);
+    for (const std::size_t i : planes::cornersNeeded(line.corners, kTolerance)) {
+      const int member = corner_points.at(line.corners[i]);
       if (member != last) polygon.vertices.push_back(onPlane(grid, member, plane.plane_in_sensor));
       last = member;
     }

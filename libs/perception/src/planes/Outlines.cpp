@@ -1,5 +1,7 @@
 #include "Outlines.h"
 
+#include <omnimapper/geometry/Simplify.h>
+
 #include <utility>
 
 namespace omnimapper::perception::planes {
@@ -78,6 +80,13 @@ std::vector<TracedLine> traceOutlines(const std::vector<std::uint16_t>& labels, 
     if (line.area > 0 || -line.area >= min_hole) lines.push_back(std::move(line));
   }
   return lines;
+}
+
+std::vector<std::size_t> cornersNeeded(const std::vector<PixelCorner>& corners, double tolerance) {
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(corners.size());
+  for (const PixelCorner& corner : corners) points.emplace_back(corner.x, corner.y);
+  return geometry::keptOfLoop(points, tolerance);
 }
 
 }  // namespace omnimapper::perception::planes

@@ -20,4 +20,7 @@ struct TracedLine {
 std::vector<TracedLine> traceOutlines(const std::vector<std::uint16_t>& labels, int width, int height,
                                       const std::vector<PixelRun>& runs, int min_hole);
 
+/// Which corners of a closed line are enough for it to within `tolerance` [px]: geometry::keptOfLoop().
+std::vector<std::size_t> cornersNeeded(const std::vector<PixelCorner>& corners, double tolerance);
+
 }  // namespace omnimapper::perception::planes

@@ -3,7 +3,7 @@
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/perception/PlaneExtractor.h>
 
-#include "Simplify.h"
+#include "Outlines.h"
 
 namespace omnimapper::perception::planes {
 
@@ -25,8 +25,8 @@ std::vector<ColourSum> coloursOf(const PlaneSegmentation& found, const ScanDepth
 
 geometry::Polygon3 polygonOf(const Contour& contour, double tolerance) {
   geometry::Polygon3 polygon;
-  for (const int i : simplified(contour.corners, tolerance))
-    polygon.vertices.push_back(toSensor(contour.polygon_in_sensor.vertices[static_cast<std::size_t>(i)]));
+  for (const std::size_t i : cornersNeeded(contour.corners, tolerance))
+    polygon.vertices.push_back(toSensor(contour.polygon_in_sensor.vertices[i]));
   return polygon;
 }
 

@@ -1,5 +1,7 @@
 #include "MapPicture.h"
 
+#include <omnimapper/geometry/Simplify.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,40 +17,6 @@ constexpr Rgb kPaper{255, 255, 255}, kTrack{37, 99, 235}, kClosure{22, 163, 74};
 
 PixelPoint pixelOf(const GridPicture& grid, const mrpt::math::TPoint3D& point) {
   return grid.pixelOf(point.x, point.y);
-}
-
-double distanceToLine(PixelPoint p, PixelPoint a, PixelPoint b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
-  if (length == 0) return std::hypot(p.x - a.x, p.y - a.y);
-  const double along = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (length * length), 0.0, 1.0);
-  return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
-}
-
-std::vector<PixelPoint> simplified(const std::vector<PixelPoint>& all, double tolerance) {
-  if (all.size() < 3) return all;
-  // Keep the point furthest from the chord while it is too far; a stack in place of recursion (Ramer-Douglas-Peucker).
-  std::vector<bool> kept(all.size(), false);
-  kept.front() = kept.back() = true;
-  std::vector<std::pair<std::size_t, std::size_t>> spans{{0, all.size() - 1}};
-  while (!spans.empty()) {
-    const auto [begin, end] = spans.back();
-    spans.pop_back();
-    std::size_t furthest = begin;
-    double distance = tolerance;
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const double here = distanceToLine(all[i], all[begin], all[end]);
-      if (here > distance) furthest = i, distance = here;
-    }
-    if (furthest == begin) continue;
-    kept[furthest] = true;
-    spans.emplace_back(begin, furthest);
-    spans.emplace_back(furthest, end);
-  }
-  std::vector<PixelPoint> path;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (kept[i]) path.push_back(all[i]);
-  }
-  return path;
 }
 
 std::vector<PixelPoint> pixelsOf(const GridPicture& grid, const PlanArea& area) {
@@ -163,12 +131,18 @@ std::optional<GridPicture> emptyPicture(const std::vector<map::StampedPose>& tra
 std::vector<std::vector<PixelPoint>> simplifiedPaths(const GridPicture& grid,
                                                      const std::vector<map::StampedPose>& trajectory,
                                                      double tolerance) {
-  std::vector<std::vector<PixelPoint>> paths;
+  std::vector<std::vector<Eigen::Vector2d>> sessions;
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    if (i == 0 || trajectory[i].session != trajectory[i - 1].session) paths.emplace_back();
-    paths.back().push_back(pixelOf(grid, trajectory[i].map_from_base.translation()));
+    if (i == 0 || trajectory[i].session != trajectory[i - 1].session) sessions.emplace_back();
+    const PixelPoint pixel = pixelOf(grid, trajectory[i].map_from_base.translation());
+    sessions.back().emplace_back(pixel.x, pixel.y);
   }
-  for (auto& path : paths) path = simplified(path, tolerance);
+  std::vector<std::vector<PixelPoint>> paths;
+  for (const auto& session : sessions) {
+    auto& path = paths.emplace_back();
+    for (const std::size_t i : geometry::keptOfLine(session, tolerance))
+      path.push_back({session[i].x(), session[i].y()});
+  }
   return paths;
 }
 
