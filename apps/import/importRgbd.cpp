@@ -1,5 +1,6 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/TumLine.h>
@@ -36,12 +37,45 @@ mrpt::obs::CObservationRobotPose::Ptr poseAt(const source::RgbdFolder& images, b
   return pose;
 }
 
+void refuseWithoutPoses(const source::RgbdFolder& images, const std::string& folder, double tolerance) {
+  const auto& pairs = images.pairs();
+  if (std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return poseAt(images, pair.stamp, tolerance); }))
+    return;
+  throw base::Error(
+      base::ExitCode::unreadable_input,
+      folder +
+          (images.groundTruth().empty() ? ": has no ground truth for --poses (groundtruth.txt, truth_cam_poses.txt, "
+                                          "frame-*.pose.txt)"
+                                        : ": no image has a true pose within " + base::fixed(tolerance, 3) +
+                                              " s of its stamp for --poses; see --tolerance") +
+          "; nothing was written");
+}
+
+// Wrong units of depth or a wrong camera give a map that is wrong and looks right.
+void printCamera(const source::RgbdFolder& images) {
+  const auto& camera = images.camera();
+  std::cout << "camera: " << images.cameraName() << ", fx " << base::fixed(camera.fx(), 1) << " fy "
+            << base::fixed(camera.fy(), 1) << " cx " << base::fixed(camera.cx(), 1) << " cy "
+            << base::fixed(camera.cy(), 1) << " pixels\ndepth: " << images.depthUnits() << " units in a metre";
+  const auto depth = images.medianDepth();
+  std::cout << (depth ? ", median " + base::fixed(*depth, 2) + " m" : ", no pixel has any") << "\n";
+  // A Kinect is made for 0.8 m to 4 m, or 0.4 m to 3 m in its near mode: of its images half cannot lie nearer or
+  // farther. Rooms at 5000 units in a metre read at 1000, or the other way round, come to 4.6 m to 8 m, and to 0.36 m.
+  constexpr double kNearest = 0.4, kFarthest = 4;  // [m]
+  if (!depth || (*depth >= kNearest && *depth <= kFarthest)) return;
+  std::cerr << "omnimapper-import: warning: half of the depths are " << (*depth < kNearest ? "below " : "above ")
+            << base::fixed(*depth, 2) << " m: is --depth-units " << images.depthUnits()
+            << " right? An RGB-D camera sees rooms at 0.4 m to 4 m; with wrong units the map has a wrong scale\n";
+}
+
 }  // namespace
 
 base::ExitCode importRgbd(const std::string& folder, const std::string& output,
                           const source::RgbdFolderOptions& options, bool external_images, bool poses) {
   source::RgbdFolder images(folder, options);
+  if (poses) refuseWithoutPoses(images, folder, options.largest_difference);
   const std::string stem = std::filesystem::path(output).replace_extension().string(), truth = stem + ".truth.tum";
+  std::size_t posed = 0;
   base::TerminalProgress progress(std::cerr, isatty(STDERR_FILENO) != 0);
   const auto fill = [&](source::RawlogWriter& rawlog) {
     while (const auto observation = images.next()) {
@@ -50,8 +84,10 @@ base::ExitCode importRgbd(const std::string& folder, const std::string& output,
         source::moveImagesToFiles(*observation, stem + "_Images",
                                   options.label + "_" + base::formatUnix(observation->timestamp, 6));
       }
-      if (const auto pose = poses ? poseAt(images, observation->timestamp, options.largest_difference) : nullptr)
+      if (const auto pose = poses ? poseAt(images, observation->timestamp, options.largest_difference) : nullptr) {
         rawlog.add(*pose);
+        ++posed;
+      }
       rawlog.add(*observation);
       progress.report(images.progress(), "importing " + folder);
     }
@@ -66,6 +102,8 @@ base::ExitCode importRgbd(const std::string& folder, const std::string& output,
   }
   std::cout << images.report().text() << "depth images without a colour image of their time: " << images.unpaired()
             << "\n";
+  printCamera(images);
+  if (poses) std::cout << "images with a true pose in the rawlog: " << posed << "\n";
   if (!images.groundTruth().empty())
     std::cout << "ground truth of the base (x forward, z up): " << truth << ", " << images.groundTruth().size()
               << " poses\n";

@@ -121,6 +121,31 @@ TEST_F(ImportTumTest, writesARawlogAndTheTruthBesideIt) {
   EXPECT_EQ(z, 3);
 }
 
+TEST_F(ImportTumTest, tellsCameraAndDepthAndWarnsOfUnlikelyUnits) {
+  ASSERT_EQ(import("--intrinsics freiburg1"), ExitCode::ok) << output_;
+  EXPECT_TRUE(says("camera: freiburg1, fx 517.3 fy 516.5 cx 318.6 cy 255.3 pixels")) << output_;
+  EXPECT_TRUE(says("depth: 5000 units in a metre, median 1.00 m")) << output_;
+  EXPECT_FALSE(says("warning")) << output_;
+  ASSERT_EQ(import("--intrinsics freiburg1 --depth-units 1000"), ExitCode::ok) << output_;
+  EXPECT_TRUE(says("warning: half of the depths are above 5.01 m: is --depth-units 1000 right?")) << output_;
+  ASSERT_EQ(import("--intrinsics freiburg1 --depth-units 20000"), ExitCode::ok) << output_;
+  EXPECT_TRUE(says("warning: half of the depths are below 0.25 m: is --depth-units 20000 right?")) << output_;
+}
+
+TEST_F(ImportTumTest, posesThatAreNotThereAreAnError) {
+  EXPECT_EQ(import("--intrinsics freiburg1 --poses"), ExitCode::ok) << output_;
+  EXPECT_TRUE(says("images with a true pose in the rawlog: 1\n")) << output_;
+  EXPECT_EQ(imported().size(), 3U);
+  std::filesystem::remove(out_);
+  writeText("groundtruth.txt", "20.0 1 2 3 0 0 0 1\n");
+  EXPECT_EQ(import("--intrinsics freiburg1 --poses"), ExitCode::unreadable_input);
+  EXPECT_TRUE(says("no image has a true pose within 0.020 s") && says("nothing was written")) << output_;
+  std::filesystem::remove(folder_ / "groundtruth.txt");
+  EXPECT_EQ(import("--intrinsics freiburg1 --poses"), ExitCode::unreadable_input);
+  EXPECT_TRUE(says("has no ground truth for --poses") && says(folder_.path())) << output_;
+  EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
 TEST_F(ImportTumTest, withoutAnImageThatCanBeReadNothingIsWritten) {
   for (const char* images : {"depth", "rgb"}) std::filesystem::remove_all(folder_ / images);
   EXPECT_EQ(import("--intrinsics freiburg1 --images external"), ExitCode::unreadable_input) << output_;

@@ -77,6 +77,9 @@ TEST_F(RgbdFolderTest, pairsOfEqualNamesAndSevenScenesAreForms) {
   const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(equal_names.next());
   ASSERT_TRUE(scan);
   EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 500.5);
+  EXPECT_FLOAT_EQ(scan->rangeUnits, 0.001f) << "as Open3D has ICL-NUIM";
+  std::filesystem::rename(folder_ / "image", folder_ / "rgb");
+  EXPECT_EQ(RgbdFolder(folder_.path(), options).depthUnits(), 5000) << "as ICL-NUIM has itself";
 
   std::filesystem::remove_all(folder_ / "depth");
   writeDepth("frame-000000.depth.png", 1000);
@@ -88,6 +91,34 @@ TEST_F(RgbdFolderTest, pairsOfEqualNamesAndSevenScenesAreForms) {
   const auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(seven_scenes.next());
   ASSERT_TRUE(frame);
   EXPECT_FLOAT_EQ(frame->rangeUnits, 0.001f);
+}
+
+TEST_F(RgbdFolderTest, imagesNamedByNumbersComeInTheirOrder) {
+  for (const char* number : {"10", "2", "0"}) {
+    writeDepth(std::string("depth/") + number + ".png", 700);
+    writeColour(std::string("rgb/") + number + ".png", 9);
+  }
+  const RgbdFolder source(folder_.path(), freiburg1());
+  std::vector<std::string> names;
+  for (const auto& pair : source.pairs()) names.push_back(std::filesystem::path(pair.depth).stem());
+  EXPECT_EQ(names, (std::vector<std::string>{"0", "2", "10"}));
+}
+
+TEST_F(RgbdFolderTest, theMedianDepthIsOfAllPixelsThatHaveOne) {
+  writeTum();
+  writeDepth("depth/a.png", 10000);
+  writeDepth("depth/c.png", 10000);
+  RgbdFolder source(folder_.path(), freiburg1());
+  EXPECT_EQ(source.cameraName(), "freiburg1");
+  EXPECT_FALSE(source.medianDepth());
+  while (source.next()) continue;
+  // Twice the twelve values of 10000 + x + 10 y.
+  EXPECT_DOUBLE_EQ(source.medianDepth().value(), 10011 / 5000.0);
+
+  for (const char* name : {"depth/a.png", "depth/c.png"}) writeDepth(name, 65535);  // wraps around to small values
+  RgbdFolder wrapped(folder_.path(), freiburg1());
+  while (wrapped.next()) continue;
+  EXPECT_DOUBLE_EQ(wrapped.medianDepth().value(), 11 / 5000.0) << "65535 is no depth";
 }
 
 TEST_F(RgbdFolderTest, imagesThatCannotBeReadAreLeftOutAndCounted) {
@@ -137,6 +168,15 @@ TEST(RgbdFolderRecording, freiburg1RpyIsWholeWithTruth) {
   }
   EXPECT_GT(valid, 640 * 480 / 2);
   EXPECT_GT(smooth, 0.97 * valid) << "neighbours are of one surface";
+}
+
+TEST(RgbdFolderRecording, aLivingRoomIsAsLargeAsOne) {
+  const auto folder = testing::sharedData("rgbd/icl_livingroom1");
+  OMNIMAPPER_NEEDS(folder);
+  RgbdFolder source(*folder);
+  EXPECT_EQ(source.cameraName(), "icl_nuim");
+  while (source.next()) continue;
+  EXPECT_NEAR(source.medianDepth().value(), 1.75, 0.01);
 }
 
 TEST(RgbdFolderRecording, keyFramesTakeTheStampsOfTheirPoses) {

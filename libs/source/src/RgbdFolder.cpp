@@ -6,6 +6,7 @@
 #include <charconv>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <sstream>
 
@@ -17,6 +18,8 @@ namespace omnimapper::source {
 namespace {
 
 using mrpt::obs::CObservation3DRangeScan;
+
+constexpr std::size_t kDepthValues = 65536;  // of a depth image of 16 bits
 
 struct Intrinsics {
   double fx, fy, cx, cy;  // [pixel]
@@ -67,8 +70,7 @@ Intrinsics readIntrinsics(const std::string& path) {
   return {values[0], values[1], values[2], values[3]};
 }
 
-Intrinsics intrinsicsOf(const std::string& folder, const std::string& asked, const std::string& usual) {
-  const std::string& name = asked.empty() ? usual : asked;
+Intrinsics intrinsicsOf(const std::string& folder, const std::string& name) {
   if (name.empty()) {
     refuse(folder,
            "does not tell which camera took its images; name it (--intrinsics freiburg1, ..., or a file with fx, "
@@ -95,9 +97,11 @@ bool load(mrpt::img::CImage& image, const std::string& path, int how) {
 
 }  // namespace
 
-RgbdFolder::RgbdFolder(const std::string& folder, const RgbdFolderOptions& options) : options_(options) {
+RgbdFolder::RgbdFolder(const std::string& folder, const RgbdFolderOptions& options)
+    : options_(options), depth_counts_(kDepthValues, 0) {
   auto content = readRgbdFolder(folder, options);
-  const Intrinsics intrinsics = intrinsicsOf(folder, options.intrinsics, content.usual_intrinsics);
+  camera_name_ = options.intrinsics.empty() ? content.usual_intrinsics : options.intrinsics;
+  const Intrinsics intrinsics = intrinsicsOf(folder, camera_name_);
   camera_.setIntrinsicParamsFromValues(intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy);
   if (options_.depth_units <= 0) options_.depth_units = content.usual_depth_units;
   pairs_ = std::move(content.pairs);
@@ -130,7 +134,10 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
     scan->rangeImage_setSize(height, width);
     for (int row = 0; row < height; ++row) {
       const auto* values = depth.ptrLine<std::uint16_t>(static_cast<unsigned>(row));  // at() counts columns in bytes
-      for (int column = 0; column < width; ++column) scan->rangeImage(row, column) = values[column];
+      for (int column = 0; column < width; ++column) {
+        scan->rangeImage(row, column) = values[column];
+        ++depth_counts_[values[column]];
+      }
     }
     scan->cameraParams = camera_;
     scan->cameraParams.ncols = width;
@@ -144,6 +151,16 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
   }
   report_.ending = SourceReport::Ending::complete;
   return nullptr;
+}
+
+std::optional<double> RgbdFolder::medianDepth() const {
+  // 0 is no depth; neither is the largest value, which 7-Scenes has for it.
+  const auto first = depth_counts_.begin() + 1, last = depth_counts_.end() - 1;
+  const std::uint64_t all = std::accumulate(first, last, std::uint64_t{0});
+  if (all == 0) return std::nullopt;
+  std::uint64_t below = 0;
+  const auto middle = std::find_if(first, last, [&](std::uint64_t count) { return 2 * (below += count) >= all; });
+  return static_cast<double>(middle - depth_counts_.begin()) / options_.depth_units;
 }
 
 double RgbdFolder::progress() const {

@@ -113,8 +113,21 @@ RgbdFolderContent readTum(const fs::path& folder, const RgbdFolderOptions& optio
   return content;
 }
 
-std::map<std::string, std::string> filesByStem(const fs::path& folder) {
-  std::map<std::string, std::string> files;
+// Of names that are numbers, 2 comes before 10.
+struct ByNumber {
+  bool operator()(const std::string& a, const std::string& b) const {
+    const auto isNumber = [](const std::string& name) {
+      return std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); });
+    };
+    const bool a_is_number = isNumber(a), b_is_number = isNumber(b);
+    if (a_is_number != b_is_number) return a_is_number;
+    if (!a_is_number || a.size() == b.size()) return a < b;
+    return a.size() < b.size();
+  }
+};
+
+std::map<std::string, std::string, ByNumber> filesByStem(const fs::path& folder) {
+  std::map<std::string, std::string, ByNumber> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.is_regular_file()) files[entry.path().stem().string()] = entry.path().string();
   }
@@ -129,7 +142,9 @@ base::Stamp stampOfImage(std::size_t index, const RgbdFolderOptions& options) {
 RgbdFolderContent readEqualNames(const fs::path& folder, const RgbdFolderOptions& options) {
   RgbdFolderContent content;
   const auto depths = filesByStem(folder / "depth");
-  const auto colours = filesByStem(fs::is_directory(folder / "rgb") ? folder / "rgb" : folder / "image");
+  const bool has_rgb = fs::is_directory(folder / "rgb");
+  const auto colours = filesByStem(folder / (has_rgb ? "rgb" : "image"));
+  content.usual_depth_units = has_rgb ? 5000 : 1000;
   std::size_t index = 0;
   for (const auto& [stem, depth] : depths) {
     const auto colour = colours.find(stem);

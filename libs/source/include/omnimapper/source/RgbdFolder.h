@@ -5,7 +5,10 @@
 #include <omnimapper/source/ObservationSource.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace omnimapper::source {
@@ -13,7 +16,7 @@ namespace omnimapper::source {
 struct RgbdFolderOptions {
   std::string label = "RGBD";
   double largest_difference = 0.02;  ///< between the stamps of depth and colour that make a pair [s]
-  double depth_units = 0;            ///< values of a depth image in a metre; 0: as is usual for the folder's form
+  double depth_units = 0;            ///< values of a depth image in a metre; 0: as is usual, see RgbdFolder
   double rate = 30;                  ///< of images without stamps [1/s]
   /// freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file that has fx, fy, cx and cy: four numbers,
   /// or OpenCV's "Camera.fx: 535.4". Empty: as the folder's form and name tell.
@@ -31,8 +34,10 @@ struct RgbdPair {
 /// own pose (x forward, z up). The forms it knows:
 ///  - TUM RGB-D: depth.txt and rgb.txt with "stamp file" lines, groundtruth.txt with "stamp x y z qx qy qz qw";
 ///    stamps that are running numbers take those of truth_cam_poses.txt, line by line, if it is there;
-///  - pairs of equal names: depth/0001.png with image/ or rgb/0001.jpg (ICL-NUIM), without stamps;
-///  - 7-Scenes: frame-000001.depth.png, .color.png, .pose.txt (4 x 4 matrix).
+///    5000 values of depth in a metre;
+///  - pairs of equal names without stamps, in the order of their numbers: depth/1.png with rgb/1.png (ICL-NUIM's own),
+///    5000 in a metre; depth/00001.png with image/00001.jpg (ICL-NUIM as Open3D and Redwood have it), 1000;
+///  - 7-Scenes: frame-000001.depth.png, .color.png, .pose.txt (4 x 4 matrix); 1000 in a metre.
 class RgbdFolder : public ObservationSource {
  public:
   /// Throws Error(unreadable_input) if the folder is of no known form, a list cannot be read or intrinsics are missing.
@@ -47,15 +52,24 @@ class RgbdFolder : public ObservationSource {
   const std::vector<RgbdPair>& pairs() const { return pairs_; }
   /// Depth images without a colour image of their time.
   std::size_t unpaired() const { return unpaired_; }
+  /// fx, fy, cx, cy of both images [px], and the name or file they are from.
+  const mrpt::img::TCamera& camera() const { return camera_; }
+  const std::string& cameraName() const { return camera_name_; }
+  /// Values of a depth image in a metre.
+  double depthUnits() const { return options_.depth_units; }
+  /// Of all pixels with a depth of all images that next() gave, each counted alike [m]; none before the first.
+  std::optional<double> medianDepth() const;
   /// True poses of the base in the folder's world, as far as it tells them: stamp and pose, in order.
   const std::vector<std::pair<base::Stamp, geometry::Se3>>& groundTruth() const { return ground_truth_; }
 
  private:
   RgbdFolderOptions options_;
+  std::string camera_name_;
   mrpt::img::TCamera camera_;
   std::vector<RgbdPair> pairs_;
   std::vector<std::pair<base::Stamp, geometry::Se3>> ground_truth_;
   std::size_t unpaired_ = 0, next_ = 0;
+  std::vector<std::uint64_t> depth_counts_;  // pixels by their value
   SourceReport report_;
 };
 
