@@ -3,6 +3,8 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
@@ -14,6 +16,7 @@
 #include <omnimapper/testing/Fixtures.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -153,6 +156,48 @@ TEST_F(PerceptionPicturesTest, objectsHaveTheirBoxAndPoints) {
   EXPECT_TRUE(isNear(image, 25, 40, obs::indexColour(0)));
   EXPECT_FALSE(isGrey(image, 50, 40));
   EXPECT_TRUE(isGrey(image, 40, 40));
+}
+
+/// Number 3, 2 m ahead and 0.2 m to the left, of a finder that is there on the base.
+mrpt::obs::CObservationBearingRange::Ptr marker(const mrpt::poses::CPose3D& base_from_finder) {
+  auto markers = mrpt::obs::CObservationBearingRange::Create();
+  markers->sensorLabel = "kinect.markers";
+  markers->sensorLocationOnRobot = base_from_finder;
+  auto& measured = markers->sensedData.emplace_back();
+  measured.range = static_cast<float>(std::hypot(2, 0.2));
+  measured.yaw = static_cast<float>(std::atan2(0.2, 2));
+  measured.pitch = 0;
+  measured.landmarkID = 3;
+  return markers;
+}
+
+TEST_F(PerceptionPicturesTest, markersLieInThePictureOfWhateverCamera) {
+  const auto scan = depthsAt(1);
+  PerceptionPictures pictures(folder_, 1);
+  pictures.add(*scan, {marker(scan->sensorPose)});
+  const auto of_depth = picture("kinect_1.000000.png");
+  EXPECT_TRUE(isNear(of_depth, 39, 39, obs::indexColour(3)));
+  EXPECT_TRUE(isGrey(of_depth, 25, 39));
+  EXPECT_TRUE(isNear(of_depth, 44, 39, {0, 0, 0})) << "its rim";
+  bool has_number = false;
+  for (unsigned x = 47; x < 53; ++x) has_number |= isNear(of_depth, x, 39, {20, 20, 20});
+  EXPECT_TRUE(has_number);
+
+  // Another camera, 0.2 m to the left of where it was found from: straight ahead.
+  mrpt::obs::CObservationImage image;
+  image.sensorLabel = "camera";
+  image.timestamp = base::stampFromUnix(1);
+  image.cameraPose = mrpt::poses::CPose3D(0, 0.2, 0, -1.57079632679, 0, -1.57079632679);
+  image.cameraParams = scan->cameraParams;
+  image.image = mrpt::img::CImage(100, 80, mrpt::img::CH_GRAY);
+  image.image.filledRectangle(0, 0, 99, 79, mrpt::img::TColor(200, 200, 200));
+  pictures.add(image, {marker({})});
+  EXPECT_TRUE(isNear(picture("camera_1.000000.png"), 49, 39, obs::indexColour(3)));
+  EXPECT_TRUE(isGrey(picture("camera_1.000000.png"), 39, 39));
+
+  image.image = mrpt::img::CImage();
+  pictures.add(image, {marker({})});
+  EXPECT_EQ(pictures.count(), 2) << "there is nothing to draw over";
 }
 
 TEST_F(PerceptionPicturesTest, linesLieOverTheScan) {

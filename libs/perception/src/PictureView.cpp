@@ -1,5 +1,8 @@
 #include <omnimapper/perception/PictureView.h>
 
+#include "RangeScan.h"
+#include "markers/LensModel.h"
+
 namespace omnimapper::perception {
 
 namespace {
@@ -18,6 +21,13 @@ bool isPictureOfDepthView(const mrpt::obs::CObservation3DRangeScan& scan) {
          static_cast<int>(image.getWidth()) == static_cast<int>(scan.rangeImage.cols()) &&
          static_cast<int>(image.getHeight()) == static_cast<int>(scan.rangeImage.rows()) &&
          scan.doDepthAndIntensityCamerasCoincide() && (camera.fx() == 0 || isOneCamera(scan.cameraParams, camera));
+}
+
+std::optional<Eigen::Vector2d> pixelOf(const mrpt::img::TCamera& camera, const Eigen::Vector3d& point_in_sensor) {
+  constexpr double kNearest = 0.01;  // [m]
+  if (!(point_in_sensor.x() > kNearest)) return std::nullopt;
+  const markers::LensModel lens(camera, "camera");
+  return lens.project(geometry::inverse(sensorFromOptical()) * point_in_sensor).place;
 }
 
 }  // namespace omnimapper::perception

@@ -1,6 +1,7 @@
 #include "CameraPicture.h"
 
 #include <mrpt/maps/CPointsMap.h>
+#include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/obs/CObservationObjects.h>
 #include <omnimapper/obs/CObservationPlanes.h>
@@ -17,6 +18,7 @@
 
 #include "../output/Drawing.h"
 #include "Legend.h"
+#include "MarkerDrawing.h"
 
 namespace omnimapper::plugins {
 
@@ -25,7 +27,8 @@ namespace {
 using mrpt::obs::CObservation3DRangeScan;
 using Walk = std::vector<PixelPoint>;
 
-constexpr double kNearestDrawn = 0.01;  // [m] nothing nearer is drawn
+constexpr double kNearestDrawn = 0.01;                // [m] nothing nearer is drawn
+constexpr double kHalfTurn = 3.14159265358979323846;  // [rad]
 constexpr Rgb kBlack{0, 0, 0};
 
 Rgb colourOf(std::size_t index) {
@@ -61,11 +64,13 @@ Rgb greyed(int red, int green, int blue) {
   return {mixed(red), mixed(green), mixed(blue)};
 }
 
-bool showsTheDepth(const CObservation3DRangeScan& scan) {
-  if (!perception::isPictureOfDepthView(scan)) return false;
-  const auto& image = scan.intensityImage;
-  return image.getPixelDepth() == mrpt::img::PixelDepth::D8U &&
+bool canBeDrawnOver(const mrpt::img::CImage& image) {
+  return !image.isEmpty() && image.getPixelDepth() == mrpt::img::PixelDepth::D8U &&
          (image.channelCount() == 1 || image.channelCount() == 3);
+}
+
+bool showsTheDepth(const CObservation3DRangeScan& scan) {
+  return perception::isPictureOfDepthView(scan) && canBeDrawnOver(scan.intensityImage);
 }
 
 Image colourPicture(const mrpt::img::CImage& colours) {
@@ -209,12 +214,29 @@ Image drawCameraPicture(const CObservation3DRangeScan& scan, const std::vector<m
       drawObjects(picture, project, *objects);
       const std::size_t n = objects->objects.size();
       tell(n, colourOf(0), std::to_string(n) + " objects, a colour each: points, box");
+    } else if (const auto* markers = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(observation.get())) {
+      drawMarkers(picture, scan.cameraParams, scan.sensorPose, *markers, legend);
     } else if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get())) {
       if (!cloud->pointcloud) continue;
       const CloudStyle style = styleOfCloud(cloud->sensorLabel, clouds++);
       drawCloud(picture, project, *cloud->pointcloud, style.colour);
       tell(cloud->pointcloud->size(), style.colour, style.name);
     }
+  }
+  drawLegend(picture, legend);
+  return picture;
+}
+
+std::optional<Image> drawCameraPicture(const mrpt::obs::CObservationImage& observation,
+                                       const std::vector<mrpt::obs::CObservation::Ptr>& derived) {
+  if (!canBeDrawnOver(observation.image)) return std::nullopt;
+  Image picture = colourPicture(observation.image);
+  // cameraPose is of the optical frame: x right, y down, z forward.
+  const mrpt::poses::CPose3D optical_from_camera = -mrpt::poses::CPose3D(0, 0, 0, -kHalfTurn / 2, 0, -kHalfTurn / 2);
+  std::vector<LegendRow> legend;
+  for (const auto& found : derived) {
+    if (const auto* markers = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(found.get()))
+      drawMarkers(picture, observation.cameraParams, observation.cameraPose + optical_from_camera, *markers, legend);
   }
   drawLegend(picture, legend);
   return picture;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationImage.h>
 
+#include <optional>
 #include <vector>
 
 #include "../output/Image.h"
@@ -9,9 +11,15 @@
 namespace omnimapper::plugins {
 
 /// What a range camera saw, with what was derived of it drawn over: planes filled in the colour of their index,
-/// outlined and with their normals; the points of objects, and their boxes; the points of clouds. Over the colour image
+/// outlined and with their normals; the points of objects, and their boxes; the points of clouds; markers with their
+/// numbers. Over the colour image
 /// where it is of the same view as the depth, else over the depth, near bright.
 Image drawCameraPicture(const mrpt::obs::CObservation3DRangeScan& scan,
                         const std::vector<mrpt::obs::CObservation::Ptr>& derived);
+
+/// The picture of a camera, with the markers that were found in it. None for a picture that is not of 8 bits with 1 or
+/// 3 channels.
+std::optional<Image> drawCameraPicture(const mrpt::obs::CObservationImage& observation,
+                                       const std::vector<mrpt::obs::CObservation::Ptr>& derived);
 
 }  // namespace omnimapper::plugins

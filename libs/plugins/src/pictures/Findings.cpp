@@ -1,4 +1,5 @@
 #include <mrpt/maps/CPointsMap.h>
+#include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
@@ -21,6 +22,8 @@ std::pair<std::string, std::size_t> countOf(const mrpt::obs::CObservation& deriv
     return {"objects", objects->objects.size()};
   if (const auto* signs = dynamic_cast<const obs::CObservationDoorSigns*>(&derived))
     return {"signs", signs->signs.size()};
+  if (const auto* markers = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(&derived))
+    return {"markers", markers->sensedData.size()};
   if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&derived))
     return {"points", cloud->pointcloud ? cloud->pointcloud->size() : 0};
   return {};

@@ -46,4 +46,14 @@ void drawLegend(Image& picture, const std::vector<LegendRow>& rows) {
   }
 }
 
+void drawLabel(Image& picture, int left, int top, const std::string& text) {
+  const int width = kLetter * static_cast<int>(text.size());
+  if (text.empty() || width > picture.width || kRow > picture.height) return;
+  left = std::clamp(left, 0, picture.width - width);
+  top = std::clamp(top, 0, picture.height - kRow);
+  const double x = left, y = top;
+  fillAreas(picture, {{{x, y}, {x + width, y}, {x + width, y + kRow}, {x, y + kRow}}}, {kLegendGround, 0, 0.8});
+  drawText(picture, left, top, text);
+}
+
 }  // namespace omnimapper::plugins

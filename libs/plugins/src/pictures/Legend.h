@@ -17,4 +17,8 @@ struct LegendRow {
 /// what it shows.
 void drawLegend(Image& picture, const std::vector<LegendRow>& rows);
 
+/// Writes a word on a light ground, its upper left corner there [px], or as near as the picture has room for it; a
+/// picture smaller than the word keeps what it shows.
+void drawLabel(Image& picture, int left, int top, const std::string& text);
+
 }  // namespace omnimapper::plugins

@@ -18,6 +18,8 @@ std::optional<Image> draw(const mrpt::obs::CObservation& raw,
   if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw)) {
     if (scan->rangeImage.size() > 0) return drawCameraPicture(*scan, derived);
   }
+  if (const auto* picture = dynamic_cast<const mrpt::obs::CObservationImage*>(&raw))
+    return drawCameraPicture(*picture, derived);
   if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&raw))
     return drawLaserPicture(*scan, derived);
   return std::nullopt;

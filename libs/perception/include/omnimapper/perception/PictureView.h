@@ -2,11 +2,19 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
+#include <Eigen/Core>
+#include <optional>
+
 namespace omnimapper::perception {
 
 /// Whether the picture of a range camera shows in each pixel what the depth image has there: the size is the same, the
 /// place and turn, the focal lengths and the centre. A picture whose camera is not calibrated (focal length 0) counts
 /// as taken with the depth image's.
 bool isPictureOfDepthView(const mrpt::obs::CObservation3DRangeScan& scan);
+
+/// Column and row [px] where a camera shows a point of its frame (x forward, y left, z up) [m], by its lens; the centre
+/// of a pixel has whole numbers. None for what is not before it. Throws Error(unreadable_input) for a camera that
+/// ArucoMarkerExtractor refuses.
+std::optional<Eigen::Vector2d> pixelOf(const mrpt::img::TCamera& camera, const Eigen::Vector3d& point_in_sensor);
 
 }  // namespace omnimapper::perception

@@ -9,7 +9,7 @@
 
 namespace omnimapper::plugins {
 
-/// How many planes, lines, things, signs or points perception found, by label.
+/// How many planes, lines, things, signs, markers or points perception found, by label.
 class Findings {
  public:
   void add(const std::vector<mrpt::obs::CObservation::Ptr>& derived);

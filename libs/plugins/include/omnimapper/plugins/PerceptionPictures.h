@@ -8,8 +8,9 @@
 
 namespace omnimapper::plugins {
 
-/// Pictures of what perception found, to be looked at: planes, objects and points over the image of a range camera,
-/// lines over a laser scan seen from above. PNG files in one folder, named after sensor and stamp.
+/// Pictures of what perception found, to be looked at: planes, objects, points and markers over the image of a range
+/// camera, markers over that of another camera, lines over a laser scan seen from above. PNG files in one folder, named
+/// after sensor and stamp.
 class PerceptionPictures {
  public:
   /// Of each sensor every so manieth observation, the first included. Makes the folder. Throws
