@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -19,36 +18,23 @@ using namespace omnimapper;
 
 namespace {
 
-// The pose of the base at that time, if the folder tells one so near.
-mrpt::obs::CObservationRobotPose::Ptr poseAt(const source::RgbdFolder& images, base::Stamp stamp, double tolerance) {
-  const auto& truth = images.groundTruth();
-  auto nearest = std::lower_bound(truth.begin(), truth.end(), stamp,
-                                  [](const auto& pose, base::Stamp wanted) { return pose.first < wanted; });
-  const auto off = [&](const auto& pose) { return std::abs(base::secondsBetween(pose->first, stamp)); };
-  if (nearest == truth.end() || (nearest != truth.begin() && off(std::prev(nearest)) < off(nearest))) {
-    if (nearest == truth.begin()) return nullptr;
-    --nearest;
-  }
-  if (off(nearest) > tolerance) return nullptr;
-  auto pose = mrpt::obs::CObservationRobotPose::Create();
-  pose->timestamp = stamp;
-  pose->sensorLabel = "poses";
-  pose->pose.mean = geometry::toMrpt(nearest->second);
+mrpt::obs::CObservationRobotPose poseObservation(base::Stamp stamp, const geometry::Se3& world_from_base) {
+  mrpt::obs::CObservationRobotPose pose;
+  pose.timestamp = stamp;
+  pose.sensorLabel = "poses";
+  pose.pose.mean = geometry::toMrpt(world_from_base);
   return pose;
 }
 
 void refuseWithoutPoses(const source::RgbdFolder& images, const std::string& folder, double tolerance) {
   const auto& pairs = images.pairs();
-  if (std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return poseAt(images, pair.stamp, tolerance); }))
-    return;
-  throw base::Error(
-      base::ExitCode::unreadable_input,
-      folder +
-          (images.groundTruth().empty() ? ": has no ground truth for --poses (groundtruth.txt, truth_cam_poses.txt, "
-                                          "frame-*.pose.txt)"
-                                        : ": no image has a true pose within " + base::fixed(tolerance, 3) +
-                                              " s of its stamp for --poses; see --tolerance") +
-          "; nothing was written");
+  const auto is_known = [&](const source::RgbdPair& pair) { return images.truthAt(pair.stamp, tolerance).has_value(); };
+  if (std::any_of(pairs.begin(), pairs.end(), is_known)) return;
+  const std::string why =
+      images.groundTruth().empty()
+          ? "has no ground truth (groundtruth.txt, truth_cam_poses.txt, frame-*.pose.txt)"
+          : "has no true pose within " + base::fixed(tolerance, 3) + " s of any image (--tolerance)";
+  throw base::Error(base::ExitCode::unreadable_input, folder + " " + why + " for --poses; nothing was written");
 }
 
 // Wrong units of depth or a wrong camera give a map that is wrong and looks right.
@@ -84,8 +70,9 @@ base::ExitCode importRgbd(const std::string& folder, const std::string& output,
         source::moveImagesToFiles(*observation, stem + "_Images",
                                   options.label + "_" + base::formatUnix(observation->timestamp, 6));
       }
-      if (const auto pose = poses ? poseAt(images, observation->timestamp, options.largest_difference) : nullptr) {
-        rawlog.add(*pose);
+      const auto truth_there = images.truthAt(observation->timestamp, options.largest_difference);
+      if (poses && truth_there) {
+        rawlog.add(poseObservation(observation->timestamp, *truth_there));
         ++posed;
       }
       rawlog.add(*observation);

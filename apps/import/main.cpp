@@ -46,10 +46,8 @@ CLI::App* addTum(CLI::App& app, Arguments& arguments) {
   tum->add_option("--tolerance", arguments.rgbd.largest_difference, "between stamps of depth and colour [s]")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  tum->add_option(
-         "--depth-units", arguments.rgbd.depth_units,
-         "values of a depth image in a metre; 0: as usual, which is 5000 for TUM and for depth/ with rgb/ (ICL-NUIM), "
-         "1000 for depth/ with image/ (ICL-NUIM by Open3D) and for 7-Scenes")
+  tum->add_option("--depth-units", arguments.rgbd.depth_units,
+                  "values of a depth image in a metre; 0: 1000 of 7-Scenes and where image/ has the colours, else 5000")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   tum->add_option("--rate", arguments.rgbd.rate, "of images without stamps [1/s]")

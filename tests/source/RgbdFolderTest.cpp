@@ -59,6 +59,10 @@ TEST_F(RgbdFolderTest, truthIsOfTheBaseThatLooksAlongX) {
   const RgbdFolder source(folder_.path(), freiburg1());
   ASSERT_EQ(source.groundTruth().size(), 1U);
   const geometry::Se3& world_from_base = source.groundTruth().front().second;
+  const auto stamp = source.groundTruth().front().first;
+  EXPECT_FALSE(source.truthAt(stamp + base::durationFromSeconds(0.3), 0.2));
+  ASSERT_TRUE(source.truthAt(stamp + base::durationFromSeconds(-0.3), 0.4));
+  EXPECT_EQ(source.truthAt(stamp, 0)->translation, world_from_base.translation);
   EXPECT_TRUE((world_from_base * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(1, 3, 3), 1e-6)) << "ahead";
   EXPECT_TRUE((world_from_base * Eigen::Vector3d(0, 1, 0)).isApprox(Eigen::Vector3d(0, 2, 3), 1e-6)) << "left";
   EXPECT_TRUE((world_from_base * Eigen::Vector3d(0, 0, 1)).isApprox(Eigen::Vector3d(1, 2, 4), 1e-6)) << "up";

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <numeric>
@@ -151,6 +152,19 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
   }
   report_.ending = SourceReport::Ending::complete;
   return nullptr;
+}
+
+std::optional<geometry::Se3> RgbdFolder::truthAt(base::Stamp stamp, double tolerance) const {
+  const auto& truth = ground_truth_;
+  auto nearest = std::lower_bound(truth.begin(), truth.end(), stamp,
+                                  [](const auto& pose, base::Stamp wanted) { return pose.first < wanted; });
+  const auto off = [&](const auto& pose) { return std::abs(base::secondsBetween(pose->first, stamp)); };
+  if (nearest == truth.end() || (nearest != truth.begin() && off(std::prev(nearest)) < off(nearest))) {
+    if (nearest == truth.begin()) return std::nullopt;
+    --nearest;
+  }
+  if (off(nearest) > tolerance) return std::nullopt;
+  return nearest->second;
 }
 
 std::optional<double> RgbdFolder::medianDepth() const {

@@ -61,6 +61,8 @@ class RgbdFolder : public ObservationSource {
   std::optional<double> medianDepth() const;
   /// True poses of the base in the folder's world, as far as it tells them: stamp and pose, in order.
   const std::vector<std::pair<base::Stamp, geometry::Se3>>& groundTruth() const { return ground_truth_; }
+  /// The true pose nearest to that time; none if it is more than `tolerance` [s] away.
+  std::optional<geometry::Se3> truthAt(base::Stamp stamp, double tolerance) const;
 
  private:
   RgbdFolderOptions options_;
