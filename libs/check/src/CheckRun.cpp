@@ -1,5 +1,6 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/check/CheckRun.h>
+#include <omnimapper/check/fittingInis.h>
 #include <omnimapper/check/gatherFacts.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
@@ -16,12 +17,10 @@ namespace omnimapper::check {
 
 namespace {
 
-// Of ini/laser2d.ini.
-const std::vector<std::string> kPosePlugins{"scan_odometry", "odometry", "no_motion"};
-
-base::ExitCode codeOf(const source::SourceReport& report, const LogFacts& facts, const std::vector<Finding>& findings) {
+base::ExitCode codeOf(const source::SourceReport& report, const std::vector<FittingIni>& inis,
+                      const std::vector<Finding>& findings) {
   if (report.exitCode() != base::ExitCode::ok) return report.exitCode();
-  if (usableLasers(facts).empty()) return base::ExitCode::nothing_to_map;
+  if (inis.empty()) return base::ExitCode::nothing_to_map;
   const bool has_problem = std::any_of(findings.begin(), findings.end(),
                                        [](const Finding& finding) { return finding.weight == Weight::problem; });
   return has_problem ? base::ExitCode::doubtful_input : base::ExitCode::ok;
@@ -40,10 +39,13 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   const auto facts = gatherFacts(*log, sensor_poses, stop, &progress);
   if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing is said of half a log");
   const auto findings = judge(facts);
-  const auto settings = proposeIni(facts, options.pose_plugins.empty() ? kPosePlugins : options.pose_plugins);
+  const auto inis = fittingInis(facts);
+  std::vector<Setting> settings;
+  if (!inis.empty())
+    settings = proposeIni(facts, options.pose_plugins.empty() ? inis.front().pose_plugins : options.pose_plugins);
   CheckResult result;
-  result.code = codeOf(log->report(), facts, findings);
-  result.text = checkText(joined(logs, " + "), log->report(), facts, findings, settings);
+  result.code = codeOf(log->report(), inis, findings);
+  result.text = checkText(joined(logs, " + "), log->report(), facts, findings, inis, settings);
   if (output_folder.empty()) return result;
   base::makeWritableFolder(output_folder);
   base::writeFile(output_folder + "/check.txt", [&](std::ostream& out) { out << result.text; });

@@ -84,10 +84,21 @@ std::string findingLines(const std::vector<Finding>& findings) {
   return text;
 }
 
+std::string iniLines(const std::vector<FittingIni>& inis) {
+  std::string text;
+  for (const auto& ini : inis) {
+    char line[200];
+    std::snprintf(line, sizeof line, "  %-20s %s\n", ini.file.c_str(), ini.what.c_str());
+    text += line;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string checkText(const std::string& title, const source::SourceReport& report, const LogFacts& facts,
-                      const std::vector<Finding>& findings, const std::vector<Setting>& settings) {
+                      const std::vector<Finding>& findings, const std::vector<FittingIni>& inis,
+                      const std::vector<Setting>& settings) {
   base::Stamp first, last;
   for (const auto& [sensor, stamps] : facts.sensors) {
     if (!base::isValid(stamps.first)) continue;
@@ -99,8 +110,11 @@ std::string checkText(const std::string& title, const source::SourceReport& repo
                      fixed(base::secondsBetween(first, last), 1) + " s\n";
   if (!report.message.empty()) text += report.message + "\n";
   text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + findingLines(findings);
-  if (settings.empty()) return text + "\nini/laser2d.ini fits as it is.\n";
-  return text + "\nTo go over ini/laser2d.ini (-i ini/laser2d.ini -i THIS):\n\n" + toIni(settings);
+  if (inis.empty()) return text;
+  text += "\nSettings for what it holds:\n" + iniLines(inis);
+  const std::string& best = inis.front().file;
+  if (settings.empty()) return text + best + " fits as it is.\n";
+  return text + "\nTo go over " + best + " (-i " + best + " -i THIS):\n\n" + toIni(settings);
 }
 
 }  // namespace omnimapper::check

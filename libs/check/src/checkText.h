@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/check/fittingInis.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
 #include <omnimapper/source/SourceReport.h>
@@ -9,8 +10,9 @@
 
 namespace omnimapper::check {
 
-/// One screen: how the log could be read, a line for each sensor, findings, proposed INI.
+/// One screen: how the log could be read, a line for each sensor, findings, INIs that fit, what to change in the first.
 std::string checkText(const std::string& title, const source::SourceReport& report, const LogFacts& facts,
-                      const std::vector<Finding>& findings, const std::vector<Setting>& settings);
+                      const std::vector<Finding>& findings, const std::vector<FittingIni>& inis,
+                      const std::vector<Setting>& settings);
 
 }  // namespace omnimapper::check

@@ -1,3 +1,4 @@
+#include <omnimapper/check/fittingInis.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
@@ -19,10 +20,7 @@ class Judge {
   std::vector<Finding> findings() {
     for (const auto& [sensor, stamps] : facts_.sensors) judgeStamps(sensor.first, stamps);
     for (const auto& [label, scans] : facts_.scans) judgeScans(label, scans);
-    if (usableLasers(facts_).empty()) {
-      add(Weight::problem, facts_.scans.empty() ? "there are no 2D scans: nothing that ini/laser2d.ini maps"
-                                                : "no laser has scans that can be matched");
-    }
+    judgeContent();
     judgeOdometry();
     for (const auto& laser : usableLasers(facts_)) judgeSensorPose(laser);
     std::stable_sort(findings_.begin(), findings_.end(),
@@ -38,6 +36,17 @@ class Judge {
       if (base::isValid(stamps.first)) first = std::min(first, stamps.first);
     }
     return fixed(base::secondsBetween(first, stamp), 1) + " s after the start";
+  }
+
+  void judgeContent() {
+    const bool is_mappable = !fittingInis(facts_).empty();
+    if (!facts_.scans.empty() && usableLasers(facts_).empty()) {
+      add(is_mappable ? Weight::warning : Weight::problem, "no laser has scans that can be matched");
+    } else if (!is_mappable) {
+      add(Weight::problem,
+          "there is nothing to map: no 2D scans; depth images need odometry or poses (omnimapper-import tum --poses) "
+          "beside them, ranges and bearings need odometry");
+    }
   }
 
   void judgeStamps(const std::string& label, const StampFacts& stamps) {
@@ -99,7 +108,7 @@ class Judge {
 
   void judgeOdometry() {
     if (facts_.odometry.empty()) {
-      add(Weight::warning, "there is no odometry: the motion is left to the scans");
+      if (!usableLasers(facts_).empty()) add(Weight::warning, "there is no odometry: the motion is left to the scans");
       return;
     }
     for (const auto& [label, odometry] : facts_.odometry) {

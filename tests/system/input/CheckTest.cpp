@@ -127,6 +127,24 @@ TEST_F(Check, ALogWithoutAnythingToMapHasItsCode) {
   EXPECT_NE(ended.out.find("no 2D scans"), std::string::npos) << ended.out;
 }
 
+TEST_F(Check, EveryIniThatItNamesMapsTheLog) {
+  const std::vector<std::pair<std::string, Words>> logs{
+      {"rawlogs/home_30s/home_30s.rawlog", {"ini/home_planes.ini", "ini/laser2d.ini", "ini/laser_walls.ini"}},
+      {"rawlogs/box/box.rawlog", {"ini/laser2d.ini", "ini/laser_walls.ini", "ini/landmarks.ini"}}};
+  for (const auto& [name, inis] : logs) {
+    const auto log = omnimapper::testing::sourceFile(name);
+    const auto checked = graphslam({"--check", log});
+    EXPECT_TRUE(endedWith(ExitCode::ok, checked)) << checked.out;
+    EXPECT_NE(checked.out.find(inis.front() + " fits as it is."), std::string::npos) << checked.out;
+    for (const auto& ini : inis) {
+      EXPECT_NE(checked.out.find("\n  " + ini + " "), std::string::npos) << checked.out;
+      EXPECT_TRUE(endedWith(ExitCode::ok,
+                            graphslam({"-i", omnimapper::testing::sourceFile(ini), "-r", log, "-o", scratch_ / "map"})))
+          << ini;
+    }
+  }
+}
+
 TEST_F(Check, ADamagedLogIsJudgedByWhatWasReadable) {
   const auto log = save(ring());
   std::filesystem::resize_file(log, std::filesystem::file_size(log) * 2 / 3 - 7);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <omnimapper/check/LogFacts.h>
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::check {
+
+/// One of the INIs that come with the project.
+struct FittingIni {
+  std::string file;  ///< "ini/laser2d.ini"
+  std::string what;  ///< that it maps
+  std::vector<std::string> pose_plugins;
+};
+
+/// The INIs that can map what the log's sensors saw, that which uses most of them first; none if nothing can.
+std::vector<FittingIni> fittingInis(const LogFacts& facts);
+
+}  // namespace omnimapper::check

@@ -1,0 +1,45 @@
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <omnimapper/check/fittingInis.h>
+#include <omnimapper/check/judge.h>
+#include <omnimapper/obs/CObservationPlanes.h>
+
+#include <algorithm>
+
+namespace omnimapper::check {
+
+namespace {
+
+template <class Class>
+bool holds(const LogFacts& facts) {
+  const std::string name = CLASS_ID(Class)->className;
+  return std::any_of(facts.sensors.begin(), facts.sensors.end(),
+                     [&](const auto& sensor) { return sensor.first.second == name; });
+}
+
+}  // namespace
+
+std::vector<FittingIni> fittingInis(const LogFacts& facts) {
+  const bool has_laser = !usableLasers(facts).empty(), has_odometry = usableOdometry(facts).has_value();
+  const bool sees_depth = holds<mrpt::obs::CObservation3DRangeScan>(facts) || holds<obs::CObservationPlanes>(facts);
+  const std::vector<std::string> of_lasers{"scan_odometry", "odometry", "no_motion"};
+  std::vector<FittingIni> inis;
+  if (sees_depth && (has_laser || has_odometry)) {
+    inis.push_back({"ini/home_planes.ini",
+                    std::string("walls, tables and floors of the range camera") + (has_laser ? " and the laser" : ""),
+                    of_lasers});
+  }
+  if (has_laser) {
+    inis.push_back({"ini/laser2d.ini", "a grid of the laser's scans", of_lasers});
+    inis.push_back({"ini/laser_walls.ini", "the same, with walls as landmarks", of_lasers});
+  }
+  if (sees_depth && holds<mrpt::obs::CObservationRobotPose>(facts))
+    inis.push_back({"ini/rgbd_planes.ini", "walls, tables and floors of a range camera on given poses", {"no_motion"}});
+  if (has_odometry && holds<mrpt::obs::CObservationBearingRange>(facts)) {
+    inis.push_back({"ini/landmarks.ini", "points and markers by their ranges and bearings", {"odometry", "no_motion"}});
+  }
+  return inis;
+}
+
+}  // namespace omnimapper::check
