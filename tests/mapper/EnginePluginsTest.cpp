@@ -22,11 +22,13 @@ using testing::Steady;
 class Scripted : public MeasurementPlugin {
  public:
   bool wants(const CObservation& observation) const override {
-    return dynamic_cast<const CObservationComment*>(&observation) != nullptr;
+    return wants_any && dynamic_cast<const CObservationComment*>(&observation) != nullptr;
   }
   Batch measure(const map::KeyFrame& frame, const Observed&, const View& view) override {
     return on_measure ? on_measure(frame, view) : Batch();
   }
+  bool givesAbsolutePoses() const override { return is_absolute; }
+  bool worksOnLandmarks() const override { return !wants_any; }
   void applied(const AppliedBatch& ids) override { applied_ids.push_back(ids); }
   FollowUp afterCommit(const map::KeyFrame& frame, const View& view) override {
     return after_commit ? FollowUp{after_commit(frame, view), {}} : FollowUp();
@@ -34,6 +36,7 @@ class Scripted : public MeasurementPlugin {
 
   std::function<Batch(const map::KeyFrame&, const View&)> on_measure, after_commit;
   std::vector<AppliedBatch> applied_ids;
+  bool is_absolute = false, wants_any = true;
 };
 
 class CountingOutput : public OutputPlugin {
@@ -58,6 +61,12 @@ class EnginePlugins : public ::testing::Test {
     plugin_ = scripted.get();
     set_.pose.push_back({"steady", std::make_unique<Steady>()});
     set_.measurement.push_back({"scripted", std::move(scripted)});
+  }
+  Scripted* addPlugin(const std::string& section) {
+    auto scripted = std::make_unique<Scripted>();
+    auto* pointer = scripted.get();
+    set_.measurement.push_back({section, std::move(scripted)});
+    return pointer;
   }
   CountingOutput* addOutput(bool fails) {
     auto output = std::make_unique<CountingOutput>(fails);
@@ -153,6 +162,38 @@ TEST_F(EnginePlugins, AHypothesisBringsTheNextSolveForward) {
   std::vector<std::size_t> solved;
   for (const auto& solve : run(30).view().solves) solved.push_back(solve.key_frames);
   EXPECT_EQ(solved, (std::vector<std::size_t>{10, 14, 24, 30}));
+}
+
+// So that landmarks are sought from where the base is, not from where the odometry takes it.
+TEST_F(EnginePlugins, AMeasuredPoseMovesItsKeyFrameBeforeThePluginsThatFollow) {
+  const auto measured = [](std::uint32_t index) { return CPose3D(index, 2, 0, 0, 0, 0); };
+  plugin_->is_absolute = true;
+  plugin_->on_measure = [&](const map::KeyFrame& frame, const View&) {
+    Batch batch;
+    batch.addFactor(posePrior(Motion::planar, frame.pose, measured(frame.id.index),
+                              1e-4 * Eigen::Matrix<double, 6, 6>::Identity(), "scripted"));
+    return batch;
+  };
+  int seen = 0;
+  addPlugin("follows")->on_measure = [&](const map::KeyFrame& frame, const View& view) {
+    EXPECT_NEAR(frame.map_from_base.y(), 2, 0.05) << frame.id.index;
+    EXPECT_NEAR(poseOf(view.graph, frame.pose).y(), 2, 0.05);
+    ++seen;
+    return Batch();
+  };
+  run(5);
+  EXPECT_EQ(seen, 5);
+}
+
+TEST_F(EnginePlugins, ThoseThatNothingCameToAreNamedUnlessTheyWorkOnLandmarks) {
+  addPlugin("of_landmarks")->wants_any = false;
+  EXPECT_TRUE(run(3).idlePlugins().empty());
+}
+
+TEST_F(EnginePlugins, WithoutAnyObservationAllThatWorkOnSomeAreIdle) {
+  addPlugin("second");
+  addPlugin("of_landmarks")->wants_any = false;
+  EXPECT_EQ(run(0).idlePlugins(), (std::vector<std::string>{"scripted", "second"}));
 }
 
 TEST_F(EnginePlugins, AnOutputThatFailsKeepsNoOtherFromItsOwn) {

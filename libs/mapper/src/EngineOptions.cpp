@@ -9,7 +9,8 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
           .choice("motion", &Options::motion, {{"planar", Motion::planar}, {"spatial", Motion::spatial}},
                   "How the base moves: on a floor, or freely.")
           .list("pose_plugins", &Options::pose_plugins, "Sections of the continuous pose sources.")
-          .list("measurement_plugins", &Options::measurement_plugins, "Sections of the measurement plugins, in order.")
+          .list("measurement_plugins", &Options::measurement_plugins,
+                "Sections of the measurement plugins, in order: a measured pose serves those after it.")
           .list("output_plugins", &Options::output_plugins, "Sections of the outputs.")
           .list("sensors", &Options::sensors, "Sections that tell where a sensor is on the base.")
           .list("plugin_libraries", &Options::plugin_libraries, "Shared libraries with further plugin classes.")

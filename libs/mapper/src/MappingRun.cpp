@@ -16,7 +16,7 @@
 #include <set>
 #include <thread>
 
-#include "SourceWarnings.h"
+#include "RunWarnings.h"
 #include "TakeUp.h"
 
 namespace omnimapper::mapper {
@@ -83,54 +83,6 @@ std::exception_ptr tried(Engine& engine, const std::function<void()>& work) {
   }
 }
 
-void warnOf(const source::SourceReport& report, bool stopped, Engine& engine) {
-  for (const auto& warning : warningsOf(report)) engine.warn(warning);
-  if (stopped) engine.warn("interrupted: this is the map of what was read until then");
-}
-
-// A wrong start may look right where rooms are alike.
-void warnOfDoubt(const map::Session& session, Engine& engine) {
-  const TestedTies ties = testedTies(engine.view().graph, session.number);
-  if (!session.joined || !ties.areInDoubt()) return;
-  engine.warn(joinedText(session) + ", but of what ties it to the map " + std::to_string(ties.refused) + " of " +
-              std::to_string(ties.refused + ties.accepted) + " contradict the rest: it may lie in a wrong place " +
-              "that looks alike. See map.png, and give a better start (origin, pose, or anywhere)");
-}
-
-// What is wrong with the place of a session that continues a map.
-void warnOf(const map::Session& session, Engine& engine) {
-  if (session.joined) return;
-  engine.warn(
-      joinedText(session) + " to the map: it lies where [session] start or a single " +
-      "relocalisation says, which may be wrong; see the refused closures and relocalisations in the report. Is it of " +
-      "another place? If not, drive on where the map was made, or give a better start (origin, pose, or anywhere)");
-}
-
-// Of a run that localizes.
-void warnOfPlace(const RunResult& result, Engine& engine) {
-  const std::string of_all = std::to_string(result.located) + " of " + std::to_string(result.fixes) + " key frames";
-  if (result.located == 0) {
-    engine.warn("the log was located nowhere in the map: its trajectory lies where [session] start says");
-  } else if (2 * result.located < result.fixes) {
-    engine.warn("only " + of_all + " were located: was much of the way outside the map, or is [session] start wrong? " +
-                "start = anywhere seeks the whole map");
-  }
-}
-
-void warnOf(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
-  const auto warn = [&](std::size_t count, const std::string& what) {
-    if (count > 0) engine.warn(std::to_string(count) + " observations " + what);
-  };
-  warn(counts.no_stamp, "have no stamp and were left out");
-  warn(counts.repeated_stamp, "repeat the stamp of the one before and were left out");
-  warn(counts.too_late, "came later than [mapper] horizon_s and were left out");
-  warn(counts.hurried,
-       "could not wait for [mapper] window_s, more than queue_limit waited: do the stamps stand still?");
-  warn(counts.unusable, "(odometry or sensor poses) are not finite or run backwards in time and were left out");
-  warn(counts.unconnected, "have no pose: no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
-  if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
-}
-
 // Sections whose `label` and `labels` are those of sensors.
 std::vector<std::string> labelledSections(const EngineOptions& options, const PerceptionOptions& perception) {
   std::vector<std::string> sections = options.sensors;
@@ -138,19 +90,6 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
     sections.insert(sections.end(), names->begin(), names->end());
   }
   return sections;
-}
-
-// A map without a single measurement is what the fallbacks say, and nobody should take it for more.
-void warnOfNothingMeasured(const std::set<std::string>& measuring, Engine& engine) {
-  const auto& view = engine.view();
-  if (view.map.key_frames.size() < 3) return;
-  for (const auto& [id, record] : view.graph.factors()) {
-    const auto& owner = record.tags.owner;
-    if (id.session != view.map.sessions.back().number) continue;
-    if (measuring.count(owner) > 0) return;
-  }
-  engine.warn("nothing was measured: no plugin but the fallbacks made anything of any observation, the map is what " +
-              std::string("they say; are the sensors blind? omnimapper-graphslam --check LOG tells"));
 }
 
 // An empty map is not written: it would take the place of a good one.
@@ -257,7 +196,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   const auto failure_at_end = tried(engine, [&] { engine.finish(); });
 
   const auto report = log.report();
-  warnOf(report, stopped, engine);
+  warnOfLog(report, stopped, engine);
   const auto unknown_labels = unknownLabels(config, labelledSections(options, perception), report, engine.view().map);
   for (const auto& sentence : unknown_labels) engine.warn(sentence);
   const auto warn = [&](const auto& all) {
@@ -267,13 +206,12 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   };
   warn(sources);
   warn(extractors);
-  if (!context.map_is_held) warnOfNothingMeasured(measuring, engine);
+  warnOfNothingMeasured(measuring, engine);
   auto result = resultOf(engine.view());
-  warnOf(engine.view().counts, result.new_key_frames, engine);
-  if (!context.map_is_held) warnOf(result.sessions.back(), engine);
-  warnOfDoubt(result.sessions.back(), engine);
+  warnOfCounts(engine.view().counts, result.new_key_frames, engine);
+  warnOfSession(result.sessions.back(), engine);
   const bool is_lost = context.map_is_held && result.located == 0;
-  if (context.map_is_held) warnOfPlace(result, engine);
+  if (context.map_is_held) warnOfFixes(result, engine);
   result.warnings = engine.view().warnings;
   result.source = report;
   result.code = stopped ? base::ExitCode::interrupted : report.exitCode();

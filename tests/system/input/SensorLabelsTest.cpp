@@ -43,6 +43,13 @@ TEST_F(SensorLabels, ThatNothingHasAreNamedWithTheNearestAndAll) {
   EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"mapper.sensors=front", "front.label=Laser"}), {"[front] label"}));
 }
 
+TEST_F(SensorLabels, OfAPluginThatNothingCameToAreToldByItsName) {
+  const auto ended =
+      mapWith({"mapper.measurement_plugins=loop_closure, beacons", "beacons.class=PointLandmarksPlugin"});
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"warning: [beacons] had nothing to work on", "--check LOG"}));
+  EXPECT_EQ(ended.err.find("[loop_closure]"), std::string::npos) << ended.err;
+}
+
 TEST_F(SensorLabels, ThatTheSourceLeavesOutAreThereForIt) {
   EXPECT_TRUE(endedWith(ExitCode::nothing_to_map, mapWith({"source.labels=lasr, odometry"}),
                         {"[source] labels", "'lasr'", "did you mean 'laser'?", "there are: laser, odometry"}));

@@ -98,7 +98,10 @@ double LineDifferences::jumpAt(int x, int y, const LineDirection& line) const {
       products += static_cast<double>(value - kOne) * unknowns;
     }
   }
-  return squares.ldlt().solve(products).w();
+  // Where one row of blocks is known on either side, a jump and a slope are one.
+  constexpr double kNothing = 1e-6;
+  const Eigen::LDLT<Eigen::Matrix4d> root(squares);
+  return root.vectorD().minCoeff() > kNothing ? root.solve(products).w() : 0;
 }
 
 std::size_t LineDifferences::at(int x, int y) const {

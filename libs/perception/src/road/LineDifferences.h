@@ -36,7 +36,8 @@ class LineDifferences {
   };
   /// Of the line through each block, row by row; 0 where too little is known.
   std::vector<Difference> across(const LineDirection& line) const;
-  /// In steps of the ground: the jump at the line through that block, by least squares beside a steady slope.
+  /// In steps of the ground: the jump at the line through that block, by least squares beside a steady slope;
+  /// 0 where too little is known to tell them apart.
   double jumpAt(int x, int y, const LineDirection& line) const;
 
  private:

@@ -87,13 +87,11 @@ std::vector<mapper::Pairing> PlaneMoment::pairingsOf(const std::vector<PlaneSigh
         apart.emplace_back(*miss, &surface);
       }
     }
-    // Farther ones where the base may have slid so far since it saw them; beyond one that is too far, none.
-    std::stable_sort(apart.begin(), apart.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    // Farther ones where the base may have slid so far since it saw them.
     double range = 0;
     for (const auto& corner : sightings[i].outline_in_base) range = std::max(range, corner.norm());
     for (const auto& [miss, surface] : apart) {
-      if (miss > kSigmas * sigmaSince(surface->last_seen_from, range)) break;
-      add(*surface);
+      if (miss <= kSigmas * sigmaSince(surface->last_seen_from, range)) add(*surface);
     }
   }
   return pairings;

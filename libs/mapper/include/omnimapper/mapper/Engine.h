@@ -58,6 +58,8 @@ class Engine {
   /// Adds time spent outside the engine, such as reading the log.
   void addTime(const std::string& stage, double seconds) { times_.add(stage, seconds); }
 
+  /// Sections of the measurement plugins that no observation came to, though they work on some.
+  std::vector<std::string> idlePlugins() const;
   /// What extractors could not take; finish() warns of it.
   const ExtractionErrors& extractionErrors() const { return extraction_errors_; }
 
@@ -124,6 +126,7 @@ class Engine {
   ExtractionErrors extraction_errors_;
   std::vector<map::MapSection> sections_;
   std::string reference_sensor_;
+  std::set<std::string> fed_;  // measurement plugins that an observation came to
   BusyTimes busy_;
   std::optional<SlidingWindow> window_;  // of a run that localizes
   std::vector<Fix> fixes_;

@@ -34,6 +34,8 @@ class MeasurementPlugin {
   /// Whether this observation, raw or derived, is of its kind. Depends on nothing but the observation and the options;
   /// called from several threads.
   virtual bool wants(const mrpt::obs::CObservation& observation) const = 0;
+  /// Whether it works on the landmarks of others alone: wants() says no to everything then.
+  virtual bool worksOnLandmarks() const { return false; }
   /// Heavy work that needs nothing but the observation and the options. Runs in the worker pool, in several threads,
   /// while the other functions run: it must not read what they change.
   virtual std::unique_ptr<const Prepared> prepare(const mrpt::obs::CObservation& /*observation*/) const { return {}; }

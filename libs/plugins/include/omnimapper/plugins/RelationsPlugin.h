@@ -32,6 +32,7 @@ class RelationsPlugin : public mapper::MeasurementPlugin {
   ~RelationsPlugin() override;
 
   bool wants(const mrpt::obs::CObservation&) const override { return false; }
+  bool worksOnLandmarks() const override { return true; }
   mapper::Batch measure(const map::KeyFrame&, const mapper::Observed&, const mapper::View&) override { return {}; }
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
   mapper::Batch atEnd(const mapper::View& view) override;
