@@ -4,9 +4,11 @@
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/opengl/CText.h>
+#include <omnimapper/mapper/LandmarkShape.h>
 #include <omnimapper/plugins/PointsOutput.h>
 #include <omnimapper/plugins/ReportOutput.h>
 #include <omnimapper/plugins/SceneOutput.h>
+#include <omnimapper/plugins/SummaryOutput.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <output/FloorPlan.h>
 #include <output/LandmarkShapes.h>
@@ -14,6 +16,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "ShapedRun.h"
 
@@ -37,6 +40,22 @@ TEST(LandmarkShapes, areThoseOfWhatIsThereAndOfWhatMovedButNotOfWhatWasMerged) {
   EXPECT_EQ(plugins::sensorsText(plugins::seenBy(shapes[0].shape)), "kinect and laser");
   EXPECT_EQ(plugins::sensorsText(plugins::seenBy(shapes[1].shape)), "laser only");
   EXPECT_EQ(plugins::sensorsText(plugins::seenBy(shapes[3].shape)), "");
+}
+
+TEST(LandmarkShapes, areCountedByLabelAndThoseWithNumbersByKind) {
+  RunRecord run = shapedRun();
+  map::LandmarkShape marker;
+  for (const char* label : {"marker 3", "marker 12", "marker"}) {
+    marker.label = label;
+    add(run, "marker", marker);
+  }
+  add(run, "beacon", {});
+  const std::map<std::string, std::size_t> expected{
+      {"wall", 2}, {"table", 1}, {"floor", 1}, {"marker", 3}, {"beacon", 1}};
+  EXPECT_EQ(mapper::countLandmarks(run.view()), expected) << "neither what has moved nor what was merged";
+  const ScratchFolder folder;
+  plugins::SummaryOutput({}, contextFor(folder.path())).finish(run.view());
+  EXPECT_EQ(nlohmann::json::parse(contentOf(folder / "summary.json"))["landmarks"], nlohmann::json(expected));
 }
 
 TEST(LandmarkShapes, whatIsNotFiniteOrHasNoAreaIsLeftOut) {

@@ -120,6 +120,7 @@ RunResult resultOf(const View& view) {
   RunResult result;
   result.key_frames = view.map.key_frames.size();
   result.factors = view.graph.factors().size();
+  result.landmarks = countLandmarks(view);
   for (const auto& decision : view.decisions) {
     if (decision.kind != "loop closure") continue;
     ++(decision.accepted ? result.closures : result.refused_closures);
@@ -134,6 +135,15 @@ RunResult resultOf(const View& view) {
     result.log_seconds = figures.back().seconds;
   }
   return result;
+}
+
+// The most first; empty without landmarks.
+std::string landmarkLine(const std::map<std::string, std::size_t>& counts) {
+  std::vector<std::pair<std::string, std::size_t>> rows(counts.begin(), counts.end());
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [label, count] : rows) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + label;
+  return text.empty() ? "" : "landmarks         " + text + "\n";
 }
 
 }  // namespace
@@ -248,12 +258,11 @@ std::string toText(const RunResult& result, const std::string& output_folder) {
                 "factors           %zu\n"
                 "loop closures     %zu accepted, %zu refused (reasons: report.html)\n"
                 "way               %.1f m in %.1f s\n"
-                "wall time         %.2f s (%.0f times the log's own pace)\n"
-                "outputs           ",
+                "wall time         %.2f s (%.0f times the log's own pace)\n",
                 result.key_frames, result.factors, result.closures, result.refused_closures, result.way,
                 result.log_seconds, result.wall_seconds,
                 result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
-  return sessions + text + output_folder + "\n";
+  return sessions + text + landmarkLine(result.landmarks) + "outputs           " + output_folder + "\n";
 }
 
 }  // namespace omnimapper::mapper

@@ -18,14 +18,18 @@ class LandmarkOutputs : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     scratch_ = std::make_unique<omnimapper::testing::ScratchFolder>();
-    ASSERT_TRUE(endedWith(ExitCode::ok, graphslam({"-i", sourceFile("ini/home_planes.ini"), "-r",
-                                                   sourceFile("rawlogs/home_30s/home_30s.rawlog"), "-o", file("")})));
+    const auto ended = graphslam({"-i", sourceFile("ini/home_planes.ini"), "-r",
+                                  sourceFile("rawlogs/home_30s/home_30s.rawlog"), "-o", file("")});
+    ASSERT_TRUE(endedWith(ExitCode::ok, ended));
+    said_ = ended.out;
   }
   static void TearDownTestSuite() { scratch_.reset(); }
   static std::string file(const std::string& name) { return *scratch_ / "map/" + name; }
 
   static std::unique_ptr<omnimapper::testing::ScratchFolder> scratch_;
+  static std::string said_;
 };
+std::string LandmarkOutputs::said_;
 std::unique_ptr<omnimapper::testing::ScratchFolder> LandmarkOutputs::scratch_;
 
 TEST_F(LandmarkOutputs, TheFloorPlanHasTheWallsWhereTheyAre) {
@@ -52,6 +56,18 @@ TEST_F(LandmarkOutputs, TheFloorPlanHasTheWallsWhereTheyAre) {
   EXPECT_GT(tables, 0U);
   EXPECT_GT(floors, 0U);
   EXPECT_EQ(plan["features"].back()["properties"]["feature"], "trajectory");
+}
+
+TEST_F(LandmarkOutputs, TheSummaryCountsThemByLabel) {
+  std::map<std::string, std::size_t> in_plan;
+  const auto plan = json::parse(readFile(file("floorplan.geojson")));
+  for (const auto& feature : plan["features"]) {
+    if (feature["properties"].contains("label")) ++in_plan[feature["properties"]["label"]];
+  }
+  const auto landmarks = json::parse(readFile(file("summary.json")))["landmarks"];
+  EXPECT_EQ(landmarks, json(in_plan));
+  const std::string walls = "landmarks         " + landmarks["wall"].dump() + " wall, ";
+  EXPECT_NE(said_.find(walls), std::string::npos) << said_;
 }
 
 TEST_F(LandmarkOutputs, TheSceneHasTheirSurfaces) {

@@ -1,5 +1,7 @@
 #include "LandmarkShapes.h"
 
+#include <omnimapper/mapper/LandmarkShape.h>
+
 #include <algorithm>
 #include <charconv>
 #include <limits>
@@ -40,26 +42,14 @@ void keepFinite(map::LandmarkShape& shape) {
   if (shape.normal && !(shape.normal->norm() > 0.5 && shape.normal->allFinite())) shape.normal.reset();
 }
 
-// None unless the graph has all of them: a shape of half its variables would be a guess.
-std::vector<Eigen::VectorXd> valuesOf(const map::Landmark& landmark, const graph::Graph& graph) {
-  std::vector<Eigen::VectorXd> values;
-  for (const auto id : landmark.variables) {
-    if (!graph.contains(id)) return {};
-    values.push_back(graph.value(id));
-  }
-  return values;
-}
-
 }  // namespace
 
 std::vector<ShapedLandmark> shapesOf(const mapper::State& state) {
   std::vector<ShapedLandmark> shapes;
   for (const auto& [id, landmark] : state.map.landmarks) {
     if (landmark.state == map::Landmark::State::merged) continue;
-    ShapedLandmark shaped{&landmark, {}, landmark.state == map::Landmark::State::retired};
-    if (landmark.payload) shaped.shape = landmark.payload->shape(valuesOf(landmark, state.graph), state.map.key_frames);
+    ShapedLandmark shaped{&landmark, mapper::shapeOf(landmark, state), landmark.state == map::Landmark::State::retired};
     keepFinite(shaped.shape);
-    if (shaped.shape.label.empty()) shaped.shape.label = landmark.kind.empty() ? "landmark" : landmark.kind;
     shapes.push_back(std::move(shaped));
   }
   return shapes;

@@ -1,5 +1,6 @@
 #include <omnimapper/map/SessionFigures.h>
 #include <omnimapper/map/Trajectory.h>
+#include <omnimapper/mapper/LandmarkShape.h>
 #include <omnimapper/plugins/SummaryOutput.h>
 
 #include <nlohmann/json.hpp>
@@ -113,6 +114,7 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
                          {"max", {figures.max_x, figures.max_y, figures.max_z}}};
   summary["sessions"] = sessionsOf(view.map);
   if (view.map_is_held) summary["localization"] = {{"key_frames", figures.fixes}, {"located", figures.located}};
+  summary["landmarks"] = mapper::countLandmarks(view);
   summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
   summary["counts"] = counts;
   summary["graph"] = graphOf(view);

@@ -4,11 +4,13 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/map/Map.h>
+#include <omnimapper/mapper/LandmarkShape.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/source/SourceReport.h>
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -35,10 +37,11 @@ struct RunResult {
   std::size_t key_frames = 0, factors = 0;  ///< of the whole map
   std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;
   std::size_t fixes = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
-  std::vector<map::Session> sessions;  ///< of the whole map; the last is this run
-  double log_seconds = 0;              ///< from first to last stamp
-  double wall_seconds = 0;             ///< of the whole run
-  double way = 0;                      ///< [m] of this run's trajectory
+  std::map<std::string, std::size_t> landmarks;  ///< of the whole map, by label
+  std::vector<map::Session> sessions;            ///< of the whole map; the last is this run
+  double log_seconds = 0;                        ///< from first to last stamp
+  double wall_seconds = 0;                       ///< of the whole run
+  double way = 0;                                ///< [m] of this run's trajectory
 };
 
 /// Log in, map out: opens the logs, makes the plugins, feeds the engine, writes the outputs. Damaged input and `stop`
