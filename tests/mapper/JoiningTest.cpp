@@ -31,6 +31,14 @@ struct ThreeSessions {
     return graph.addFactor(betweenPoses(Motion::planar, map.keyFrame(from).pose, map.keyFrame(to).pose,
                                         {{}, Eigen::Matrix<double, 6, 6>::Identity()}, owner));
   }
+  std::vector<base::VariableId> pointsOf(const std::vector<std::uint16_t>& sessions) {
+    std::vector<base::VariableId> points;
+    for (const auto session : sessions) {
+      graph.setSession(session);
+      points.push_back(graph.addVariable(graph::point2(), Eigen::Vector2d(1, 2)));
+    }
+    return points;
+  }
   bool joined(std::size_t session) {
     markJoined(map, graph, {"gps"});
     return map.sessions[session].joined;
@@ -114,11 +122,7 @@ class SameHeight : public graph::Factor {
 
 TEST(Joining, LandmarksJoinByWhoSeesThemAndNotByHowTheyStandToEachOther) {
   ThreeSessions world;
-  std::vector<base::VariableId> points;
-  for (std::uint16_t session = 0; session < 2; ++session) {
-    world.graph.setSession(session);
-    points.push_back(world.graph.addVariable(graph::point2(), Eigen::Vector2d(1, 2)));
-  }
+  const auto points = world.pointsOf({0, 1});
   world.graph.addFactor({points, std::make_shared<SameHeight>(), graph::SquareRootInformation::identity(1)});
   EXPECT_FALSE(world.joined(1));
   world.graph.addFactor({{world.map.keyFrame({1, 1}).pose, points[0]},
@@ -126,6 +130,20 @@ TEST(Joining, LandmarksJoinByWhoSeesThemAndNotByHowTheyStandToEachOther) {
                          graph::SquareRootInformation::identity(2)});
   EXPECT_TRUE(world.joined(1));
   EXPECT_EQ(world.map.sessions[1].joined_at, (base::KeyFrameId{1, 1}));
+}
+
+TEST(Joining, ASessionIsLocatedByWhatItSeesAndNotByHowLandmarksStandToEachOther) {
+  ThreeSessions world;
+  const auto points = world.pointsOf({0, 2});
+  world.graph.addFactor({points, std::make_shared<SameHeight>(), graph::SquareRootInformation::identity(1)});
+  markLocated(world.map, world.graph, {"gps"});
+  EXPECT_FALSE(world.map.sessions[2].joined);
+  world.graph.addFactor({{world.map.keyFrame({2, 1}).pose, points[0]},
+                         std::make_shared<graph::PointFactor2>(Eigen::Vector2d(1, 0)),
+                         graph::SquareRootInformation::identity(2)});
+  markLocated(world.map, world.graph, {"gps"});
+  EXPECT_TRUE(world.map.sessions[2].joined);
+  EXPECT_EQ(world.map.sessions[2].joined_at, (base::KeyFrameId{2, 1}));
 }
 
 }  // namespace

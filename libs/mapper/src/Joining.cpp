@@ -18,10 +18,10 @@ std::optional<base::KeyFrameId> frameOf(const graph::FactorRecord& record, std::
 }
 
 // How two landmarks stand to each other says nothing of where a session is.
-bool bindsPose(const graph::FactorRecord& record, const graph::Graph& graph) {
+bool bindsPose(const graph::FactorRecord& record, const graph::Graph& graph, std::optional<std::uint16_t> session) {
   return std::any_of(record.variables.begin(), record.variables.end(), [&](base::VariableId id) {
     const auto kind = graph.variable(id).kind->kind();
-    return kind == graph::se2()->kind() || kind == graph::se3()->kind();
+    return (!session || id.session == *session) && (kind == graph::se2()->kind() || kind == graph::se3()->kind());
   });
 }
 
@@ -42,7 +42,7 @@ void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::st
         std::minmax_element(record.variables.begin(), record.variables.end(),
                             [](base::VariableId a, base::VariableId b) { return a.session < b.session; });
     const std::uint16_t from = absolute.count(record.tags.owner) > 0 ? first : low->session, to = high->session;
-    if (from == to || group[from] == group[to] || !bindsPose(record, graph)) continue;
+    if (from == to || group[from] == group[to] || !bindsPose(record, graph, std::nullopt)) continue;
     const std::uint16_t kept = std::min(group[from], group[to]), gone = std::max(group[from], group[to]);
     for (auto& session : map.sessions) {
       if (group[session.number] != gone) continue;
@@ -66,6 +66,7 @@ void markLocated(map::Map& map, const graph::Graph& graph, const std::set<std::s
   for (const auto& [id, record] : graph.factors()) {
     const bool ties = std::any_of(record.variables.begin(), record.variables.end(), is_joined);
     if (record.weight <= 0 || (!ties && absolute.count(record.tags.owner) == 0)) continue;
+    if (!bindsPose(record, graph, session.number)) continue;
     session.joined = true;
     session.joined_at = frameOf(record, session.number, map);
     return;
