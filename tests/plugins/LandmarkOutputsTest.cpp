@@ -36,7 +36,8 @@ TEST(LandmarkShapes, areThoseOfWhatIsThereAndOfWhatMovedButNotOfWhatWasMerged) {
   EXPECT_DOUBLE_EQ(plugins::areaOf(shapes[0].shape), 8);
   EXPECT_DOUBLE_EQ(plugins::lengthOf(shapes[1].shape), 3);
   EXPECT_DOUBLE_EQ(plugins::areaOf(shapes[2].shape), 0.75);
-  EXPECT_DOUBLE_EQ(plugins::heightsOf(shapes[0].shape)->high, 2);
+  EXPECT_DOUBLE_EQ(plugins::boxOf(shapes[0].shape).max().z(), 2);
+  EXPECT_TRUE(plugins::boxOf({}).isEmpty());
   EXPECT_EQ(plugins::sensorsText(plugins::seenBy(shapes[0].shape)), "kinect and laser");
   EXPECT_EQ(plugins::sensorsText(plugins::seenBy(shapes[1].shape)), "laser only");
   EXPECT_EQ(plugins::sensorsText(plugins::seenBy(shapes[3].shape)), "");
@@ -203,7 +204,10 @@ TEST_F(LandmarkReport, theTableTellsWhatEachIsAndWhoSawIt) {
   EXPECT_NE(landmarks.find("kinect 3, laser 9</td><td class=\"num\">0.0</td><td class=\"num\">2.0</td>"),
             std::string::npos)
       << landmarks;
-  EXPECT_NE(landmarks.find("<td class=\"num\">8.00</td>"), std::string::npos);
+  EXPECT_NE(landmarks.find("<td>plane</td><td class=\"num\">1.00</td><td class=\"num\">2.00</td><td class=\"num\">1.00"
+                           "</td><td class=\"num\">8.00</td>"),
+            std::string::npos)
+      << "x, y, z of the middle, area";
   EXPECT_NE(landmarks.find("<td class=\"num\">3.00</td>"), std::string::npos);
   EXPECT_NE(landmarks.find("<td>moved</td>"), std::string::npos);
   EXPECT_NE(landmarks.find("top oak &lt;old&gt;"), std::string::npos);

@@ -122,9 +122,9 @@ Json propertiesOf(const ShapedLandmark& shaped) {
   properties["sightings"] = landmark.evidence;
   if (base::isValid(landmark.first_seen)) properties["first_seen"] = isoTime(landmark.first_seen);
   if (base::isValid(landmark.last_seen)) properties["last_seen"] = isoTime(landmark.last_seen);
-  if (const auto heights = heightsOf(shaped.shape)) {
-    properties["bottom_m"] = std::round(heights->low * 1000) / 1000 + 0.0;
-    properties["top_m"] = std::round(heights->high * 1000) / 1000 + 0.0;
+  if (const Eigen::AlignedBox3d box = boxOf(shaped.shape); !box.isEmpty()) {
+    properties["bottom_m"] = std::round(box.min().z() * 1000) / 1000 + 0.0;
+    properties["top_m"] = std::round(box.max().z() * 1000) / 1000 + 0.0;
   }
   if (!shaped.shape.point_stamps.empty()) {
     Json times = Json::array();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <string_view>
 
 namespace omnimapper::plugins {
@@ -86,19 +85,13 @@ double lengthOf(const map::LandmarkShape& shape) {
   return sum;
 }
 
-std::optional<Heights> heightsOf(const map::LandmarkShape& shape) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Heights heights{kInfinity, -kInfinity};
-  const auto add = [&](const Eigen::Vector3d& point) {
-    heights.low = std::min(heights.low, point.z());
-    heights.high = std::max(heights.high, point.z());
-  };
+Eigen::AlignedBox3d boxOf(const map::LandmarkShape& shape) {
+  Eigen::AlignedBox3d box;
   for (const auto& surface : shape.surfaces)
-    for (const auto& vertex : surface.vertices) add(vertex);
-  for (const auto& [from, to] : shape.lines) add(from), add(to);
-  for (const auto& point : shape.points) add(point);
-  if (heights.low > heights.high) return std::nullopt;
-  return heights;
+    for (const auto& vertex : surface.vertices) box.extend(vertex);
+  for (const auto& [from, to] : shape.lines) box.extend(from).extend(to);
+  for (const auto& point : shape.points) box.extend(point);
+  return box;
 }
 
 geometry::Plane3 planeOf(const geometry::Polygon3& surface, const map::LandmarkShape& shape) {

@@ -3,9 +3,9 @@
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/mapper/State.h>
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,12 +37,8 @@ double areaOf(const map::LandmarkShape& shape);
 /// [m] of all lines.
 double lengthOf(const map::LandmarkShape& shape);
 
-/// From the lowest to the highest point of a landmark [m].
-struct Heights {
-  double low, high;
-};
-/// None if it is nowhere.
-std::optional<Heights> heightsOf(const map::LandmarkShape& shape);
+/// The least box along the axes of the map around all of it [m]; empty if it is nowhere.
+Eigen::AlignedBox3d boxOf(const map::LandmarkShape& shape);
 
 /// The plane of a surface, its normal on the side of `shape.normal`.
 geometry::Plane3 planeOf(const geometry::Polygon3& surface, const map::LandmarkShape& shape);
