@@ -108,6 +108,15 @@ TEST_F(RgbdFolderTest, imagesNamedByNumbersComeInTheirOrder) {
   EXPECT_EQ(names, (std::vector<std::string>{"0", "2", "10"}));
 }
 
+TEST_F(RgbdFolderTest, aCameraIsKnownByAWordOfTheFoldersName) {
+  for (const std::string folder : {"vehicles", "my_icl_room"}) {
+    writeDepth(folder + "/depth/1.png", 700);
+    writeColour(folder + "/image/1.png", 9);
+  }
+  EXPECT_EQ(RgbdFolder(folder_ / "my_icl_room").cameraName(), "icl_nuim");
+  EXPECT_THROW(RgbdFolder(folder_ / "vehicles"), base::Error);
+}
+
 TEST_F(RgbdFolderTest, theMedianDepthIsOfAllPixelsThatHaveOne) {
   writeTum();
   writeDepth("depth/a.png", 10000);

@@ -1,6 +1,7 @@
 #include "RgbdFolderForms.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -84,11 +85,19 @@ std::vector<RgbdPair> pairImages(const fs::path& folder, const std::vector<Image
   return pairs;
 }
 
-std::string freiburgOf(const fs::path& folder) {
+// Whether a word of a folder's path begins so: "icl" begins none of "vehicles".
+bool hasWord(const fs::path& folder, const std::string& beginning) {
   const std::string name = fs::absolute(folder).lexically_normal().string();
+  for (std::size_t at = name.find(beginning); at != std::string::npos; at = name.find(beginning, at + 1)) {
+    if (at == 0 || !std::isalpha(static_cast<unsigned char>(name[at - 1]))) return true;
+  }
+  return false;
+}
+
+std::string freiburgOf(const fs::path& folder) {
   for (const char number : {'1', '2', '3'}) {
     for (const char* word : {"freiburg", "fr"}) {
-      if (name.find(word + std::string(1, number)) != std::string::npos) return std::string("freiburg") + number;
+      if (hasWord(folder, word + std::string(1, number))) return std::string("freiburg") + number;
     }
   }
   return "";
@@ -159,10 +168,7 @@ RgbdFolderContent readEqualNames(const fs::path& folder, const RgbdFolderOptions
            "no image of depth/ has the name of one of rgb/ or image/; of a TUM RGB-D folder, whose images are named by "
            "their stamps, depth.txt and rgb.txt tell which belong together: are they missing?");
   }
-  const std::string name = fs::absolute(folder).lexically_normal().string();
-  if (name.find("icl") != std::string::npos || name.find("ICL") != std::string::npos) {
-    content.usual_intrinsics = "icl_nuim";
-  }
+  if (hasWord(folder, "icl") || hasWord(folder, "ICL")) content.usual_intrinsics = "icl_nuim";
   return content;
 }
 
