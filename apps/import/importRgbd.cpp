@@ -45,7 +45,7 @@ void printCamera(const source::RgbdFolder& images) {
             << base::fixed(camera.cy(), 1) << " pixels\ndepth: " << images.depthUnits() << " units in a metre";
   const auto depth = images.medianDepth();
   std::cout << (depth ? ", median " + base::fixed(*depth, 2) + " m" : ", no pixel has any") << "\n";
-  // A Kinect is made for 0.8 m to 4 m, or 0.4 m to 3 m in its near mode: of its images half cannot lie nearer or
+  // A Kinect is made for 0.8 m to 4 m, or 0.4 m to 3 m in its near mode: half of a room's pixels are seldom nearer or
   // farther. freiburg1_rpy and freiburg3_cabinet read at 1000 units in a metre come to 5.4 m and 7.2 m, ICL-NUIM's
   // living room at 5000 to 0.35 m.
   constexpr double kNearest = 0.4, kFarthest = 4;  // [m]

@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/EdgeImage.h>
 #include <omnimapper/sim/Simulation.h>
 
@@ -47,8 +48,8 @@ class EdgeTruth {
     frame_ = &result.frame;
     farthest_ = static_cast<double>(scan.maxRange);
     result.labels.assign(result.frame.units.size(), 0);
-    const geometry::Se3 map_from_optical =
-        *simulation_.mapFromBase().at(camera.timeOf(k)) * geometry::fromMrpt(scan.sensorPose) * sensorFromOptical();
+    const geometry::Se3 map_from_optical = *simulation_.mapFromBase().at(camera.timeOf(k)) *
+                                           geometry::fromMrpt(scan.sensorPose) * geometry::sensorFromOptical();
     planes_.clear();
     for (int y = 0; y < frame_->height; ++y) {
       for (int x = 0; x < frame_->width; ++x) {
@@ -63,12 +64,6 @@ class EdgeTruth {
 
  private:
   using Plane = std::optional<geometry::Plane3>;
-
-  static geometry::Se3 sensorFromOptical() {
-    Eigen::Matrix3d axes;
-    axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-    return {Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()};
-  }
 
   static cv::Mat decode(const std::string& png) {
     return cv::imdecode(std::vector<char>(png.begin(), png.end()), cv::IMREAD_UNCHANGED);

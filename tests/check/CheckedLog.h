@@ -60,7 +60,7 @@ struct Checked {
     MemorySource source(observations);
     facts = gatherFacts(source);
     findings = judge(facts);
-    settings = proposeIni(facts, {"scan_odometry", "odometry", "no_motion"});
+    settings = proposeIni(facts, {{"scan_odometry", "odometry", "no_motion"}, {"laser_points"}, {"loop_closure"}});
   }
   /// All findings, a line each.
   std::string text() const {

@@ -3,6 +3,8 @@
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/check/fittingInis.h>
+#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/testing/Fixtures.h>
 
 #include <memory>
 
@@ -13,11 +15,11 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// Half a lap of laser and odometry, and of another class an observation beside each scan.
+/// A log, and of another class an observation beside each scan.
 template <class Class>
-Observations with() {
+Observations with(const Observations& log = halfALap()) {
   Observations all;
-  for (const auto& observation : halfALap()) {
+  for (const auto& observation : log) {
     all.push_back(observation);
     if (!std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) continue;
     auto beside = std::make_shared<Class>();
@@ -57,7 +59,30 @@ TEST(FittingInis, OfARangeCameraDependOnWhatTellsItsMotion) {
   alone.push_back(pose);
   EXPECT_EQ(namesFor(alone), (Names{"ini/rgbd_planes.ini"}));
   EXPECT_EQ(Checked(alone).text().find("problem"), std::string::npos) << Checked(alone).text();
-  EXPECT_EQ(fittingInis(Checked(alone).facts).front().pose_plugins, (Names{"no_motion"}));
+  EXPECT_EQ(fittingInis(Checked(alone).facts).front().plugins.pose, (Names{"no_motion"}));
+}
+
+TEST(FittingInis, GoWithoutTheLaserThatIsNotThere) {
+  const Checked checked(without(with<mrpt::obs::CObservation3DRangeScan>(), "laser"));
+  EXPECT_EQ(toIni(proposeIni(checked.facts, fittingInis(checked.facts).front().plugins)),
+            "[mapper]\npose_plugins = odometry, no_motion  ; there is no laser\n"
+            "measurement_plugins = plane_landmarks  ; there is no laser\n\n"
+            "[perception]\nextractors = planes  ; there is no laser\n");
+}
+
+TEST(FittingInis, HaveThePluginsThatTheyAreSaidToHave) {
+  using namespace mrpt::obs;
+  const auto log = with<CObservation3DRangeScan>(with<CObservationBearingRange>(with<CObservationRobotPose>()));
+  const auto inis = fittingInis(Checked(log).facts);
+  EXPECT_EQ(inis.size(), 5U);
+  for (const auto& ini : inis) {
+    const auto config = base::Config::fromFile(omnimapper::testing::sourceFile(ini.file));
+    const auto options = config.section("mapper").read<mapper::EngineOptions>();
+    EXPECT_EQ(ini.plugins.pose, options.pose_plugins) << ini.file;
+    EXPECT_EQ(ini.plugins.measurement, options.measurement_plugins) << ini.file;
+    EXPECT_EQ(ini.plugins.extractors, config.section("perception").read<mapper::PerceptionOptions>().extractors)
+        << ini.file;
+  }
 }
 
 TEST(FittingInis, OfRangesAndBearingsNeedOdometry) {

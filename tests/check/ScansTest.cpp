@@ -90,6 +90,9 @@ TEST(Scans, WhoseMissesAreMarkedAsValidGetALimit) {
   EXPECT_TRUE(checked.says("exactly 8.18 m")) << checked.text();
   EXPECT_EQ(checked.proposed("laser_points", "max_range_m"), "8.10");
   EXPECT_EQ(checked.proposed("scan_odometry", "max_range_m"), "8.10");
+  EXPECT_EQ(checked.proposed("laser_lines", "max_range_m"), "") << "an INI without it gets no keys for it";
+  const auto with_lines = proposeIni(checked.facts, {{"no_motion"}, {"laser_lines"}, {"walls"}});
+  EXPECT_NE(toIni(with_lines).find("[laser_lines]\nmax_range_m = 8.10"), std::string::npos) << toIni(with_lines);
 }
 
 TEST(Scans, OfATiltedPlaneAreLeftOut) {
@@ -111,7 +114,7 @@ TEST(Scans, OfTwoLasersTheOneThatSeesMoreIsTheReference) {
   EXPECT_EQ(checked.text(), "");
   EXPECT_EQ(checked.proposed("mapper", "reference_sensor"), "b_wide");
   EXPECT_EQ(checked.proposed("scan_odometry", "label"), "b_wide");
-  const auto without = proposeIni(checked.facts, {"odometry", "no_motion"});
+  const auto without = proposeIni(checked.facts, {{"odometry", "no_motion"}, {"laser_points"}, {"loop_closure"}});
   EXPECT_TRUE(std::none_of(without.begin(), without.end(), [](const auto& s) { return s.section == "scan_odometry"; }))
       << "an INI without laser odometry gets no keys for it";
 }

@@ -2,6 +2,9 @@
 #include <omnimapper/geometry/ConvexPolygon2.h>
 #include <omnimapper/geometry/PolygonUnion.h>
 
+#include <cmath>
+#include <set>
+
 namespace omnimapper::geometry::polygon_union_test {
 namespace {
 
@@ -65,15 +68,41 @@ TEST(PolygonUnion, TakesCornersForOneThatAreAMicrometreApart) {
   EXPECT_NEAR(area(one[0]), 2, 1e-5);
 }
 
+TEST(PolygonUnion, IsExactFarFromTheOrigin) {
+  for (const double far : {2000., -9e5}) {
+    const auto one = unionOf({rectangle(far, far, far + 2, far + 1), rectangle(far + 1, far, far + 3, far + 1)});
+    ASSERT_EQ(one.size(), 1U);
+    EXPECT_EQ(one[0].size(), 4U);
+    EXPECT_NEAR(areaOutside(rectangle(far, far, far + 4, far + 1), one), 1, 1e-12);
+  }
+}
+
+TEST(PolygonUnion, LeavesOutWhatIsNowhere) {
+  for (const double wrong : {std::nan(""), HUGE_VAL, 1e14}) {
+    const auto one = unionOf({rectangle(0, 0, 1, 1), rectangle(0, 0, wrong, 1)});
+    ASSERT_EQ(one.size(), 1U);
+    EXPECT_NEAR(area(one[0]), 1, 1e-12);
+    EXPECT_NEAR(areaOutside(rectangle(0, 0, 2, 1), {rectangle(0, 0, 1, 1), rectangle(0, 0, 1, wrong)}), 1, 1e-12);
+    EXPECT_EQ(areaOutside(rectangle(0, 0, wrong, 1), {}), 0);
+  }
+}
+
 TEST(PolygonUnion, IsTheSameInAnyOrder) {
   const std::vector<Points> some = {rectangle(0, 0, 2, 1), rectangle(1, 0.5, 3, 2), rectangle(2.5, 0, 2.9, 3),
                                     rectangle(10, 0, 11, 1)};
   std::vector<Points> others(some.rbegin(), some.rend());
-  double first = 0, second = 0;
-  for (const auto& outline : unionOf(some)) first += area(outline);
-  for (const auto& outline : unionOf(others)) second += area(outline);
-  EXPECT_NEAR(first, 2 + (3 - 0.5) + (0.4 * 3 - 0.4 * 1.5) + 1, 1e-12);
-  EXPECT_NEAR(first, second, 1e-12);
+  const auto first = unionOf(some), second = unionOf(others);
+  double all = 0;
+  for (const auto& outline : first) all += area(outline);
+  EXPECT_NEAR(all, 2 + (3 - 0.5) + (0.4 * 3 - 0.4 * 1.5) + 1, 1e-12);
+  const auto cornersOf = [](const std::vector<Points>& outlines) {
+    std::set<std::pair<double, double>> corners;
+    for (const auto& outline : outlines)
+      for (const auto& corner : outline) corners.emplace(corner.x(), corner.y());
+    return corners;
+  };
+  EXPECT_EQ(first.size(), second.size());
+  EXPECT_EQ(cornersOf(first), cornersOf(second));
 }
 
 TEST(PolygonUnion, LeavesOutNeedlessCorners) {

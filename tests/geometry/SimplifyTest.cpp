@@ -27,7 +27,7 @@ TEST(Simplify, KeepsTheEndsOfALineThatComesBack) {
   EXPECT_EQ(keptOfLine({{0, 0}, {0.2, 0}, {0, 0}}, 0.5), (Indices{0, 2}));
 }
 
-TEST(Simplify, LeavesOfASquareItsCornersWhereverTheLoopBegins) {
+TEST(Simplify, LeavesOfASquareItsCornersWhicheverOfThemIsFirst) {
   Points square;
   for (int i = 0; i < 40; ++i) {
     const double along = i % 10, rough = i % 2 == 0 ? 0 : 0.1;

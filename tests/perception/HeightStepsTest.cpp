@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "road/HeightSteps.h"
+#include "road/LineDifferences.h"
 
 namespace omnimapper::perception::height_steps_test {
 namespace {
@@ -60,6 +63,23 @@ class Marks {
  private:
   std::vector<std::uint8_t> marks_;
 };
+
+// Blocks of 4 pixels; the line stands upright through block 40.
+TEST(LineDifferences, TellAJumpFromASlopeWhereMoreThanARowOfBlocksIsKnownOnEitherSide) {
+  const auto jumpBeside = [](const std::vector<int>& blocks_away) {
+    const auto ground = groundOf([&](int x, int) {
+      const int away = x / 4 - 40;
+      const bool is_known = std::find(blocks_away.begin(), blocks_away.end(), std::abs(away)) != blocks_away.end();
+      return is_known ? (away < 0 ? 0. : 120.) : static_cast<double>(road::LocalGround::kFarthest);
+    });
+    const auto upright = road::LineDirection::of(road::LineDirection::kCount / 2);
+    EXPECT_NEAR(std::abs(upright.y), 1, 1e-9);
+    return std::abs(road::LineDifferences(ground).jumpAt(40, 30, upright));
+  };
+  EXPECT_NEAR(jumpBeside({2, 3, 4}), 120, 1e-6);
+  EXPECT_EQ(jumpBeside({2}), 0);
+  EXPECT_EQ(jumpBeside({}), 0);
+}
 
 TEST(HeightSteps, AreFoundAlongTheirLineAndNowhereElse) {
   const Marks marks([](int x, int) { return x < 160 ? 0 : 12 * kOneSigma; });

@@ -195,9 +195,15 @@ TEST_F(PerceptionPicturesTest, markersLieInThePictureOfWhateverCamera) {
   EXPECT_TRUE(isNear(picture("camera_1.000000.png"), 49, 39, obs::indexColour(3)));
   EXPECT_TRUE(isGrey(picture("camera_1.000000.png"), 39, 39));
 
+  image.cameraParams = mrpt::img::TCamera();
+  image.timestamp = base::stampFromUnix(2);
+  pictures.add(image, {marker({})});
+  EXPECT_TRUE(isGrey(picture("camera_2.000000.png"), 49, 39))
+      << "nobody knows where a camera without calibration looks";
+
   image.image = mrpt::img::CImage();
   pictures.add(image, {marker({})});
-  EXPECT_EQ(pictures.count(), 2) << "there is nothing to draw over";
+  EXPECT_EQ(pictures.count(), 3) << "there is nothing to draw over";
 }
 
 TEST_F(PerceptionPicturesTest, linesLieOverTheScan) {

@@ -82,6 +82,21 @@ TEST_F(PlaneLandmarks, MoveThePoseThatSeesThemAgain) {
   EXPECT_LT(run_.map.key_frames.back().map_from_base.x(), 1.03);
 }
 
+// Back after a long way the base takes itself to be 0.9 m off. A wall behind the one it sees again, seen just now, is
+// nearer to where it takes that to be.
+TEST_F(PlaneLandmarks, OneSeenLongAgoIsFoundPastOneThatWasSeenJustNow) {
+  driveTo(CPose3D());
+  see(planesOf({wallPlane(3, -1, 1)}));
+  for (int i = 1; i <= 15; ++i) driveTo(CPose3D(0, -0.8 * i, 0, 0, 0, 0));
+  for (int i = 14; i >= 0; --i) driveTo(CPose3D(0, -0.8 * i, 0, 0, 0, 0));
+  see(planesOf({wallPlane(4.6, -1, 1)}));
+  ASSERT_EQ(active().size(), 2U);
+  see(planesOf({wallPlane(3.9, -1, 1)}));
+  ASSERT_EQ(active().size(), 2U);
+  EXPECT_EQ(active()[0].evidence, 2U);
+  EXPECT_EQ(active()[1].evidence, 1U);
+}
+
 TEST_F(PlaneLandmarks, WhatIsTooFarOffIsNotMatched) {
   driveTo({});
   see(planesOf({wallPlane(3, -1, 1)}));

@@ -1,5 +1,6 @@
 #include <camera/Frame.h>
 #include <gtest/gtest.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 
 #include <cmath>
 
@@ -12,7 +13,7 @@ using namespace omnimapper;
 using sim::Frame;
 using sim::Pinhole;
 
-const geometry::Se3 kLookingAlongX = sim::sensorFromOptical();
+const geometry::Se3 kLookingAlongX = geometry::sensorFromOptical();
 
 TEST(Frame, depthsLieOnTheTruePlanes) {
   sim::CameraFixture fixture;

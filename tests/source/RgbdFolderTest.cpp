@@ -98,23 +98,24 @@ TEST_F(RgbdFolderTest, pairsOfEqualNamesAndSevenScenesAreForms) {
 }
 
 TEST_F(RgbdFolderTest, imagesNamedByNumbersComeInTheirOrder) {
-  for (const char* number : {"10", "2", "0"}) {
+  for (const char* number : {"10", "2", "0009", "0"}) {
     writeDepth(std::string("depth/") + number + ".png", 700);
     writeColour(std::string("rgb/") + number + ".png", 9);
   }
   const RgbdFolder source(folder_.path(), freiburg1());
   std::vector<std::string> names;
   for (const auto& pair : source.pairs()) names.push_back(std::filesystem::path(pair.depth).stem());
-  EXPECT_EQ(names, (std::vector<std::string>{"0", "2", "10"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"0", "2", "0009", "10"}));
 }
 
 TEST_F(RgbdFolderTest, aCameraIsKnownByAWordOfTheFoldersName) {
-  for (const std::string folder : {"vehicles", "my_icl_room"}) {
+  for (const std::string folder : {"vehicles", "iclr", "my_icl_room"}) {
     writeDepth(folder + "/depth/1.png", 700);
     writeColour(folder + "/image/1.png", 9);
   }
   EXPECT_EQ(RgbdFolder(folder_ / "my_icl_room").cameraName(), "icl_nuim");
   EXPECT_THROW(RgbdFolder(folder_ / "vehicles"), base::Error);
+  EXPECT_THROW(RgbdFolder(folder_ / "iclr"), base::Error);
 }
 
 TEST_F(RgbdFolderTest, theMedianDepthIsOfAllPixelsThatHaveOne) {

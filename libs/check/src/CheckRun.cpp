@@ -31,6 +31,7 @@ base::ExitCode codeOf(const source::SourceReport& report, const std::vector<Fitt
 CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& config, const std::string& output_folder,
                      base::Progress& progress, const std::function<bool()>& stop) {
   const auto options = config.section("mapper").read<mapper::EngineOptions>();
+  const auto extractors = config.section("perception").read<mapper::PerceptionOptions>().extractors;
   const mapper::SensorPoses sensor_poses(options.sensors, config);
   const auto log = source::openRawlogs(logs, config.section("source").read<source::SourceOptions>(), [&](double part) {
     progress.report(part, "checking the log");
@@ -40,9 +41,9 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing is said of half a log");
   const auto findings = judge(facts);
   const auto inis = fittingInis(facts);
+  const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins};
   std::vector<Setting> settings;
-  if (!inis.empty())
-    settings = proposeIni(facts, options.pose_plugins.empty() ? inis.front().pose_plugins : options.pose_plugins);
+  if (!inis.empty()) settings = proposeIni(facts, given.pose.empty() ? inis.front().plugins : given);
   CheckResult result;
   result.code = codeOf(log->report(), inis, findings);
   result.text = checkText(joined(logs, " + "), log->report(), facts, findings, inis, settings);

@@ -23,21 +23,28 @@ bool holds(const LogFacts& facts) {
 std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   const bool has_laser = !usableLasers(facts).empty(), has_odometry = usableOdometry(facts).has_value();
   const bool sees_depth = holds<mrpt::obs::CObservation3DRangeScan>(facts) || holds<obs::CObservationPlanes>(facts);
-  const std::vector<std::string> of_lasers{"scan_odometry", "odometry", "no_motion"};
+  const std::vector<std::string> of_lasers{"scan_odometry", "odometry", "no_motion"};  // pose plugins
   std::vector<FittingIni> inis;
   if (sees_depth && (has_laser || has_odometry)) {
     inis.push_back({"ini/home_planes.ini",
                     std::string("walls, tables and floors of the range camera") + (has_laser ? " and the laser" : ""),
-                    of_lasers});
+                    {of_lasers, {"planes", "laser_lines", "laser_points"}, {"plane_landmarks", "loop_closure"}}});
   }
   if (has_laser) {
-    inis.push_back({"ini/laser2d.ini", "a grid of the laser's scans", of_lasers});
-    inis.push_back({"ini/laser_walls.ini", "the same, with walls as landmarks", of_lasers});
+    inis.push_back({"ini/laser2d.ini", "a grid of the laser's scans", {of_lasers, {"laser_points"}, {"loop_closure"}}});
+    inis.push_back({"ini/laser_walls.ini",
+                    "the same, with walls as landmarks",
+                    {of_lasers, {"laser_points", "laser_lines"}, {"walls", "loop_closure", "relations"}}});
   }
-  if (sees_depth && holds<mrpt::obs::CObservationRobotPose>(facts))
-    inis.push_back({"ini/rgbd_planes.ini", "walls, tables and floors of a range camera on given poses", {"no_motion"}});
+  if (sees_depth && holds<mrpt::obs::CObservationRobotPose>(facts)) {
+    inis.push_back({"ini/rgbd_planes.ini",
+                    "walls, tables and floors of a range camera on given poses",
+                    {{"no_motion"}, {"planes"}, {"poses", "plane_landmarks"}}});
+  }
   if (has_odometry && holds<mrpt::obs::CObservationBearingRange>(facts)) {
-    inis.push_back({"ini/landmarks.ini", "points and markers by their ranges and bearings", {"odometry", "no_motion"}});
+    inis.push_back({"ini/landmarks.ini",
+                    "points and markers by their ranges and bearings",
+                    {{"odometry", "no_motion"}, {}, {"points"}}});
   }
   return inis;
 }

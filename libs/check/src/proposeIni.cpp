@@ -17,11 +17,15 @@ namespace {
 
 class Proposal {
  public:
-  explicit Proposal(const LogFacts& facts) : facts_(facts), lasers_(usableLasers(facts)) {}
+  Proposal(const LogFacts& facts, const PluginLists& plugins)
+      : facts_(facts),
+        plugins_(plugins),
+        lasers_(usableLasers(facts)),
+        laser_odometry_(has(plugins.pose, kLaserOdometry)) {}
 
-  std::vector<Setting> settings(const std::vector<std::string>& pose_plugins) {
-    laser_odometry_ = std::count(pose_plugins.begin(), pose_plugins.end(), kLaserOdometry) > 0;
-    proposeEngine(pose_plugins);
+  std::vector<Setting> settings() {
+    proposePlugins();
+    proposeEngine();
     proposeSensorPoses();
     proposeLasers();
     proposeOdometry();
@@ -29,19 +33,40 @@ class Proposal {
   }
 
  private:
-  static constexpr const char* kLaserOdometry = "scan_odometry";
+  static constexpr const char *kLaserOdometry = "scan_odometry", *kLaserLines = "laser_lines";
+
+  static bool has(const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  }
 
   void set(const std::string& section, const std::string& key, const std::string& value, const std::string& reason) {
     settings_.push_back({section, key, value, reason});
   }
 
-  void proposeEngine(std::vector<std::string> pose_plugins) {
-    const auto odometry = std::find(pose_plugins.begin(), pose_plugins.end(), "odometry");
-    if (!usableOdometry(facts_) && odometry != pose_plugins.end()) {
-      pose_plugins.erase(odometry);
-      set("mapper", "pose_plugins", joined(pose_plugins, ", "),
-          facts_.odometry.empty() ? "there is no odometry" : "the odometry is worse than none");
-    }
+  // A list without those of `names`, if it has any.
+  void proposeWithout(const std::vector<std::string>& names, std::vector<std::string> list, const std::string& section,
+                      const std::string& key, const std::string& reason) {
+    const auto end = std::remove_if(list.begin(), list.end(), [&](const auto& name) { return has(names, name); });
+    if (end == list.end()) return;
+    list.erase(end, list.end());
+    set(section, key, joined(list, ", "), reason);
+  }
+
+  void proposePlugins() {
+    const bool is_blind = lasers_.empty(), is_driven = usableOdometry(facts_).has_value();
+    std::vector<std::string> useless;
+    if (is_blind) useless.push_back(kLaserOdometry);
+    if (!is_driven) useless.push_back("odometry");
+    const std::string no_laser = facts_.scans.empty() ? "there is no laser" : "no laser can be matched";
+    const std::string no_odometry =
+        facts_.odometry.empty() ? "there is no odometry" : "the odometry is worse than none";
+    proposeWithout(useless, plugins_.pose, "mapper", "pose_plugins", is_driven ? no_laser : no_odometry);
+    if (!is_blind) return;
+    proposeWithout({"loop_closure", "walls"}, plugins_.measurement, "mapper", "measurement_plugins", no_laser);
+    proposeWithout({"laser_points", kLaserLines}, plugins_.extractors, "perception", "extractors", no_laser);
+  }
+
+  void proposeEngine() {
     double lateness = 0;
     for (const auto& [sensor, stamps] : facts_.sensors) lateness = std::max(lateness, stamps.lateness);
     if (lateness > mapper::EngineOptions().window) {
@@ -101,6 +126,7 @@ class Proposal {
     if (limit > 0) {
       set("laser_points", "max_range_m", fixed(limit, 2), "beams at more met nothing");
       if (laser_odometry_) set(kLaserOdometry, "max_range_m", fixed(limit, 2), "the same");
+      if (has(plugins_.extractors, kLaserLines)) set(kLaserLines, "max_range_m", fixed(limit, 2), "the same");
     }
     if (median > 0 && median < 1.2) {
       set("trigger", "distance_m", "0.3", "the sensor sees little at once");
@@ -141,15 +167,16 @@ class Proposal {
   }
 
   const LogFacts& facts_;
+  const PluginLists& plugins_;
   std::vector<std::string> lasers_;
-  bool laser_odometry_ = false;  // whether the INI has it
+  bool laser_odometry_;
   std::vector<Setting> settings_;
 };
 
 }  // namespace
 
-std::vector<Setting> proposeIni(const LogFacts& facts, const std::vector<std::string>& pose_plugins) {
-  return Proposal(facts).settings(pose_plugins);
+std::vector<Setting> proposeIni(const LogFacts& facts, const PluginLists& plugins) {
+  return Proposal(facts, plugins).settings();
 }
 
 std::string toIni(const std::vector<Setting>& settings) {

@@ -1,5 +1,7 @@
 #include "omnimapper/geometry/PolygonUnion.h"
 
+#include <omnimapper/base/Error.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -15,12 +17,17 @@ using ClipperLib::Path;
 using ClipperLib::Paths;
 using Points = std::vector<Eigen::Vector2d>;
 
-constexpr double kUnit = 1e-6;       // [m]: Clipper reckons in whole numbers, exactly
+constexpr double kUnit = 1e-6;       // [m] Clipper reckons in whole numbers, exactly
+constexpr double kFarthest = 1e6;    // [m]
 constexpr double kStraight = 0.005;  // [m]
 
+// Empty for one that is nowhere.
 Path pathOf(const Points& points) {
   Path path;
-  for (const auto& point : points) path.emplace_back(std::llround(point.x() / kUnit), std::llround(point.y() / kUnit));
+  for (const auto& point : points) {
+    if (!(point.cwiseAbs().maxCoeff() <= kFarthest) || !point.allFinite()) return {};
+    path.emplace_back(std::llround(point.x() / kUnit), std::llround(point.y() / kUnit));
+  }
   return path;
 }
 
@@ -31,22 +38,23 @@ Points pointsOf(const Path& path) {
   return points;
 }
 
-// What the polygon goes around, whichever way; each outline counter-clockwise.
+// Outlines counter-clockwise, holes clockwise.
+Paths combined(ClipperLib::ClipType how, const Paths& subject, const Paths& clip) {
+  ClipperLib::Clipper clipper(ClipperLib::ioStrictlySimple);
+  // False of what has no area; a clipper without any would fail.
+  if (!clipper.AddPaths(subject, ClipperLib::ptSubject, true)) return {};
+  clipper.AddPaths(clip, ClipperLib::ptClip, true);
+  Paths result;
+  if (!clipper.Execute(how, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero))
+    throw base::Error(base::ExitCode::internal, "polygons cannot be united");
+  return result;
+}
+
+// What the polygon goes around, whichever way.
 Paths areasOf(const Points& points) {
   Points corners;
   for (const std::size_t i : keptOfLoop(points, kStraight)) corners.push_back(points[i]);
-  Paths areas;
-  ClipperLib::SimplifyPolygon(pathOf(corners), areas, ClipperLib::pftNonZero);
-  return areas;
-}
-
-Paths combined(ClipperLib::ClipType how, const Paths& subject, const Paths& clip) {
-  ClipperLib::Clipper clipper;
-  clipper.AddPaths(subject, ClipperLib::ptSubject, true);
-  clipper.AddPaths(clip, ClipperLib::ptClip, true);
-  Paths result;
-  clipper.Execute(how, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
-  return result;
+  return combined(ClipperLib::ctUnion, {pathOf(corners)}, {});
 }
 
 // What lay in a hole lies within the outline around it then.

@@ -1,5 +1,4 @@
 #include <omnimapper/mapper/Engine.h>
-#include <omnimapper/mapper/Joining.h>
 
 #include <algorithm>
 #include <exception>

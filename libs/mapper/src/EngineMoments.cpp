@@ -3,6 +3,7 @@
 #include <omnimapper/mapper/Joining.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "OneSensor.h"

@@ -2,6 +2,7 @@
 #include <omnimapper/map/SessionFigures.h>
 #include <omnimapper/mapper/Engine.h>
 #include <omnimapper/mapper/Joining.h>
+#include <omnimapper/mapper/LandmarkShape.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/SensorLabels.h>
 #include <omnimapper/mapper/SessionOptions.h>

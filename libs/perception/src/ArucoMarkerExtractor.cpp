@@ -1,5 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/ArucoMarkerExtractor.h>
 #include <omnimapper/perception/PictureView.h>
 
@@ -72,14 +73,14 @@ CObservationBearingRange::Ptr observe(const mrpt::obs::CObservation& raw, const 
   auto observation = CObservationBearingRange::Create();
   observation->timestamp = raw.timestamp;
   observation->sensorLabel = raw.sensorLabel + kMarkersSuffix;
-  const geometry::Se3 optical_from_sensor = geometry::inverse(sensorFromOptical());
+  const geometry::Se3 optical_from_sensor = geometry::inverse(geometry::sensorFromOptical());
   observation->sensorLocationOnRobot = geometry::toMrpt(geometry::fromMrpt(base_from_optical) * optical_from_sensor);
   observation->validCovariances = true;
   if (picture.isEmpty()) return observation;
   const markers::LensModel lens(camera, raw.sensorLabel);
   observation->fieldOfView_yaw = fieldOfView(static_cast<int>(picture.getWidth()), camera.fx());
   observation->fieldOfView_pitch = fieldOfView(static_cast<int>(picture.getHeight()), camera.fy());
-  const Matrix3d axes = sensorFromOptical().rotation.toRotationMatrix();
+  const Matrix3d axes = geometry::sensorFromOptical().rotation.toRotationMatrix();
   try {
     for (const auto& marker : markers::findMarkers(picture, options)) {
       const auto pose = markers::poseOfMarker(lens, marker.corners, options.side, options.corner_sigma);

@@ -1,3 +1,4 @@
+#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/ObjectExtractor.h>
 
 #include "RangeScan.h"
@@ -15,7 +16,7 @@ namespace {
 
 Eigen::Vector3d upInOptical(const mrpt::poses::CPose3D& base_from_sensor) {
   const Eigen::Matrix3d base_from_optical =
-      base_from_sensor.getRotationMatrix().asEigen() * sensorFromOptical().rotation.toRotationMatrix();
+      base_from_sensor.getRotationMatrix().asEigen() * geometry::sensorFromOptical().rotation.toRotationMatrix();
   return base_from_optical.transpose() * Eigen::Vector3d::UnitZ();
 }
 
@@ -56,7 +57,7 @@ ObjectExtractor::Found ObjectExtractor::extract(const mrpt::obs::CObservation3DR
   found.objects->sensorPose = scan.sensorPose;
   found.objects->sensorLabel = scan.sensorLabel + kObjectsSuffix;
   found.objects->source_label = scan.sensorLabel;
-  const geometry::Se3 sensor_from_optical = sensorFromOptical();
+  const geometry::Se3 sensor_from_optical = geometry::sensorFromOptical();
   const Eigen::Matrix3d turn = sensor_from_optical.rotation.toRotationMatrix();
   const Eigen::Vector3d up = upInOptical(scan.sensorPose);
   found.has_surface = finder_.hasSurface(planes, up);

@@ -1,3 +1,4 @@
+#include <omnimapper/base/Error.h>
 #include <omnimapper/perception/PictureView.h>
 
 #include "RangeScan.h"
@@ -26,8 +27,12 @@ bool isPictureOfDepthView(const mrpt::obs::CObservation3DRangeScan& scan) {
 std::optional<Eigen::Vector2d> pixelOf(const mrpt::img::TCamera& camera, const Eigen::Vector3d& point_in_sensor) {
   constexpr double kNearest = 0.01;  // [m]
   if (!(point_in_sensor.x() > kNearest)) return std::nullopt;
-  const markers::LensModel lens(camera, "camera");
-  return lens.project(geometry::inverse(sensorFromOptical()) * point_in_sensor).place;
+  try {
+    const markers::LensModel lens(camera, "camera");
+    return lens.project(toOptical(point_in_sensor)).place;
+  } catch (const base::Error&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace omnimapper::perception

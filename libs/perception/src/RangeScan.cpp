@@ -1,6 +1,7 @@
 #include "RangeScan.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/PictureView.h>
 
 #include <cmath>
@@ -39,12 +40,6 @@ void refuseMissing(const std::string& label, const std::string& what, const std:
                     label + ": the " + what + " image is in " + file + ", which was not loaded; is it there?");
 }
 
-geometry::Se3 sensorFromOptical() {
-  Eigen::Matrix3d axes;
-  for (int i = 0; i < 3; ++i) axes.col(i) = toSensor<double>(Eigen::Vector3d::Unit(i));
-  return {Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()};
-}
-
 ScanDepth::ScanDepth(const CObservation3DRangeScan& scan) {
   const auto& ranges = scan.rangeImage;
   if (ranges.size() == 0 && scan.hasRangeImage && scan.rangeImage_isExternallyStored())
@@ -75,7 +70,7 @@ ScanColours::ScanColours(const CObservation3DRangeScan& scan)
   const mrpt::poses::CPose3D& depth_from_colour = scan.relativePoseIntensityWRTDepth;  // to MRPT's axes, from optical
   const Eigen::Matrix3d colour_from_sensor = depth_from_colour.getRotationMatrix().asEigen().transpose();
   const Eigen::Vector3d colour_in_sensor(depth_from_colour.x(), depth_from_colour.y(), depth_from_colour.z());
-  colour_from_depth_ = colour_from_sensor * sensorFromOptical().rotation.toRotationMatrix();
+  colour_from_depth_ = colour_from_sensor * geometry::sensorFromOptical().rotation.toRotationMatrix();
   depth_in_colour_ = -(colour_from_sensor * colour_in_sensor);
   same_view_ = isPictureOfDepthView(scan);
 }

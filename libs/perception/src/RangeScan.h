@@ -16,7 +16,7 @@
 namespace omnimapper::perception {
 
 /// From a camera's optical frame (x right, y down, z forward) to MRPT's frame of a range camera (x forward, y left,
-/// z up), which observations are in. No digit is lost.
+/// z up), which observations are in: geometry::sensorFromOptical() without losing a digit.
 template <class Scalar>
 Eigen::Matrix<Scalar, 3, 1> toSensor(const Eigen::Matrix<Scalar, 3, 1>& in_optical) {
   return {in_optical.z(), -in_optical.x(), -in_optical.y()};
@@ -26,9 +26,6 @@ Eigen::Matrix<Scalar, 3, 1> toSensor(const Eigen::Matrix<Scalar, 3, 1>& in_optic
 inline Eigen::Vector3d toOptical(const Eigen::Vector3d& in_sensor) {
   return {-in_sensor.y(), -in_sensor.z(), in_sensor.x()};
 }
-
-/// The same as a turn.
-geometry::Se3 sensorFromOptical();
 
 /// Throws Error(missing_images): an image ("depth", "colour") of that sensor is in a file that was not loaded.
 [[noreturn]] void refuseMissing(const std::string& label, const std::string& what, const std::string& file);

@@ -1,4 +1,5 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/source/RgbdFolder.h>
 
 #include <algorithm>
@@ -81,13 +82,6 @@ Intrinsics intrinsicsOf(const std::string& folder, const std::string& name) {
   return known != knownIntrinsics().end() ? known->second : readIntrinsics(name);
 }
 
-// MRPT's axes of a range camera (x forward, y left, z up) in the optical frame (x right, y down, z forward).
-geometry::Se3 opticalFromSensor() {
-  Eigen::Matrix3d r;
-  r << 0, -1, 0, 0, 0, -1, 1, 0, 0;
-  return {Eigen::Quaterniond(r), Eigen::Vector3d::Zero()};
-}
-
 bool load(mrpt::img::CImage& image, const std::string& path, int how) {
   try {
     return image.loadFromFile(path, how) && !image.isEmpty();
@@ -108,7 +102,7 @@ RgbdFolder::RgbdFolder(const std::string& folder, const RgbdFolderOptions& optio
   pairs_ = std::move(content.pairs);
   unpaired_ = content.unpaired;
   for (const auto& [stamp, world_from_optical] : content.world_from_optical)
-    ground_truth_.emplace_back(stamp, world_from_optical * opticalFromSensor());
+    ground_truth_.emplace_back(stamp, world_from_optical * geometry::inverse(geometry::sensorFromOptical()));
 }
 
 mrpt::obs::CObservation::Ptr RgbdFolder::next() {

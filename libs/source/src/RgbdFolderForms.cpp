@@ -85,11 +85,20 @@ std::vector<RgbdPair> pairImages(const fs::path& folder, const std::vector<Image
   return pairs;
 }
 
-// Whether a word of a folder's path begins so: "icl" begins none of "vehicles".
-bool hasWord(const fs::path& folder, const std::string& beginning) {
+// Whether a folder's path has it as a word, beside letters of neither side, and a number whole: there is no "icl" in
+// "vehicles" or "iclr", and no "fr1" in "fr12".
+bool hasWord(const fs::path& folder, const std::string& word) {
   const std::string name = fs::absolute(folder).lexically_normal().string();
-  for (std::size_t at = name.find(beginning); at != std::string::npos; at = name.find(beginning, at + 1)) {
-    if (at == 0 || !std::isalpha(static_cast<unsigned char>(name[at - 1]))) return true;
+  const auto goesOn = [](char inside, char beside) {
+    const auto of = [](char c, auto is) { return is(static_cast<unsigned char>(c)) != 0; };
+    const auto isDigit = [](int c) { return std::isdigit(c); };
+    const auto isLetter = [](int c) { return std::isalpha(c); };
+    return of(beside, isLetter) || (of(inside, isDigit) && of(beside, isDigit));
+  };
+  for (std::size_t at = name.find(word); at != std::string::npos; at = name.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    const bool begins = at == 0 || !goesOn(word.front(), name[at - 1]);
+    if (begins && (end == name.size() || !goesOn(word.back(), name[end]))) return true;
   }
   return false;
 }
@@ -130,8 +139,12 @@ struct ByNumber {
     };
     const bool a_is_number = isNumber(a), b_is_number = isNumber(b);
     if (a_is_number != b_is_number) return a_is_number;
-    if (!a_is_number || a.size() == b.size()) return a < b;
-    return a.size() < b.size();
+    const auto digits = [](const std::string& name) {
+      return name.substr(std::min(name.find_first_not_of('0'), name.size()));
+    };
+    const std::string a_digits = digits(a), b_digits = digits(b);
+    if (!a_is_number || a_digits == b_digits) return a < b;
+    return a_digits.size() != b_digits.size() ? a_digits.size() < b_digits.size() : a_digits < b_digits;
   }
 };
 

@@ -2,6 +2,7 @@
 // it proposes is one that the program takes.
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/source/RawlogSource.h>
 
 #include <filesystem>
 #include <regex>
@@ -138,11 +139,27 @@ TEST_F(Check, EveryIniThatItNamesMapsTheLog) {
     EXPECT_NE(checked.out.find(inis.front() + " fits as it is."), std::string::npos) << checked.out;
     for (const auto& ini : inis) {
       EXPECT_NE(checked.out.find("\n  " + ini + " "), std::string::npos) << checked.out;
-      EXPECT_TRUE(endedWith(ExitCode::ok,
-                            graphslam({"-i", omnimapper::testing::sourceFile(ini), "-r", log, "-o", scratch_ / "map"})))
-          << ini;
+      const auto mapped = graphslam({"-i", omnimapper::testing::sourceFile(ini), "-r", log, "-o", scratch_ / "map"});
+      EXPECT_TRUE(endedWith(ExitCode::ok, mapped)) << ini;
+      EXPECT_EQ(mapped.err.find("nothing to work on"), std::string::npos) << ini << mapped.err;
     }
   }
+}
+
+TEST_F(Check, ARangeCameraWithoutALaserIsMappedByTheProposal) {
+  omnimapper::source::RawlogSource source(omnimapper::testing::sourceFile("rawlogs/home_30s/home_30s.rawlog"));
+  Observations observations;
+  while (const auto observation = source.next()) {
+    if (observation->sensorLabel != "laser") observations.push_back(observation);
+  }
+  const auto log = save(observations);
+  const auto checked = graphslam({"--check", log, "-o", scratch_ / "checked"});
+  EXPECT_TRUE(endedWith(ExitCode::ok, checked)) << checked.out;
+  EXPECT_NE(checked.out.find("ini/home_planes.ini"), std::string::npos) << checked.out;
+  const auto mapped = graphslam({"-i", omnimapper::testing::sourceFile("ini/home_planes.ini"), "-i",
+                                 scratch_ / "checked/check.ini", "-r", log, "-o", scratch_ / "map"});
+  EXPECT_TRUE(endedWith(ExitCode::ok, mapped)) << mapped.out;
+  EXPECT_EQ(mapped.err.find("nothing to work on"), std::string::npos) << mapped.err;
 }
 
 TEST_F(Check, ADamagedLogIsJudgedByWhatWasReadable) {

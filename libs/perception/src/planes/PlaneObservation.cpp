@@ -1,5 +1,6 @@
 #include "PlaneObservation.h"
 
+#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/perception/PlaneExtractor.h>
 
@@ -40,7 +41,7 @@ std::shared_ptr<obs::CObservationPlanes> observe(const PlaneSegmentation& found,
   derived->sensorPose = scan.sensorPose;
   derived->sensorLabel = scan.sensorLabel + kPlanesSuffix;
   derived->source_label = scan.sensorLabel;
-  const geometry::Se3 sensor_from_optical = sensorFromOptical();
+  const geometry::Se3 sensor_from_optical = geometry::sensorFromOptical();
   const auto sums = coloursOf(found, depth, colours);
   for (std::size_t i = 0; i < found.planes.size(); ++i) {
     const PlaneRegion& region = found.planes[i];

@@ -74,24 +74,13 @@ std::vector<mapper::Pairing> PlaneMoment::pairingsOf(const std::vector<PlaneSigh
   std::vector<mapper::Pairing> pairings;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     const auto points = inMap(sightings[i].outline_in_base);
-    const auto add = [&](const KnownPlanes::Surface& surface) {
-      pairings.push_back({i, surface.id, record(sightings[i], surface.variable, surface.id)});
-    };
-    std::vector<std::pair<double, const KnownPlanes::Surface*>> apart;
-    for (const auto& [id, surface] : known_.all()) {
-      const auto miss = missIfAlike(surface, sightings[i], points);
-      if (!miss) continue;
-      if (*miss <= 0) {
-        add(surface);
-      } else {
-        apart.emplace_back(*miss, &surface);
-      }
-    }
-    // Farther ones where the base may have slid so far since it saw them.
     double range = 0;
     for (const auto& corner : sightings[i].outline_in_base) range = std::max(range, corner.norm());
-    for (const auto& [miss, surface] : apart) {
-      if (miss <= kSigmas * sigmaSince(surface->last_seen_from, range)) add(*surface);
+    for (const auto& [id, surface] : known_.all()) {
+      const auto miss = missIfAlike(surface, sightings[i], points);
+      // Farther ones where the base may have slid so far since it saw them.
+      if (!miss || (*miss > 0 && *miss > kSigmas * sigmaSince(surface.last_seen_from, range))) continue;
+      pairings.push_back({i, surface.id, record(sightings[i], surface.variable, surface.id)});
     }
   }
   return pairings;

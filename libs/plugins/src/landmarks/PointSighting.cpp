@@ -96,6 +96,10 @@ std::optional<PointSighting> sightingInSpace(const PointRay& ray, const Matrix3d
 
 }  // namespace
 
+Vector3d pointInSensor(const CObservationBearingRange::TMeasurement& measured) {
+  return PointRay({measured.range, measured.yaw, measured.pitch}).point;
+}
+
 std::vector<PointMeasurement> pointMeasurements(const CObservationBearingRange& observation, mapper::Motion motion,
                                                 const PointLandmarksOptions& options) {
   const Se3 base_from_sensor = geometry::fromMrpt(observation.sensorLocationOnRobot);

@@ -31,6 +31,9 @@ struct PointMeasurement {
   std::string why_useless;  ///< where there is no sighting
 };
 
+/// Where what was measured is in the frame of its sensor (x forward, y left, z up) [m]; MRPT's pitch is down.
+Eigen::Vector3d pointInSensor(const mrpt::obs::CObservationBearingRange::TMeasurement& measured);
+
 /// All measurements of an observation, in its order.
 std::vector<PointMeasurement> pointMeasurements(const mrpt::obs::CObservationBearingRange& observation,
                                                 mapper::Motion motion, const PointLandmarksOptions& options);

@@ -3,9 +3,10 @@
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/obs/CObservationObjects.h>
 #include <omnimapper/obs/CObservationPlanes.h>
-#include <omnimapper/obs/IndexColour.h>
 #include <omnimapper/perception/EdgeExtractor.h>
 #include <omnimapper/perception/PictureView.h>
 
@@ -17,6 +18,7 @@
 #include <string>
 
 #include "../output/Drawing.h"
+#include "IndexRgb.h"
 #include "Legend.h"
 #include "MarkerDrawing.h"
 
@@ -27,14 +29,8 @@ namespace {
 using mrpt::obs::CObservation3DRangeScan;
 using Walk = std::vector<PixelPoint>;
 
-constexpr double kNearestDrawn = 0.01;                // [m] nothing nearer is drawn
-constexpr double kHalfTurn = 3.14159265358979323846;  // [rad]
+constexpr double kNearestDrawn = 0.01;  // [m] nothing nearer is drawn
 constexpr Rgb kBlack{0, 0, 0};
-
-Rgb colourOf(std::size_t index) {
-  const auto colour = obs::indexColour(index);
-  return {colour.R, colour.G, colour.B};
-}
 
 /// Where points of the sensor's frame (x forward, y left, z up) [m] are in the picture.
 class Projection {
@@ -125,8 +121,8 @@ void drawPlanes(Image& picture, const Projection& project, const obs::CObservati
   for (std::size_t i = 0; i < found.planes.size(); ++i) {
     std::vector<Walk> walks{project(found.planes[i].outline)};
     for (const auto& hole : found.planes[i].holes) walks.push_back(project(hole));
-    fillAreas(picture, walks, {colourOf(i), 0, 0.4});
-    for (const auto& walk : walks) drawClosed(picture, walk, {colourOf(i), 2});
+    fillAreas(picture, walks, {indexRgb(i), 0, 0.4});
+    for (const auto& walk : walks) drawClosed(picture, walk, {indexRgb(i), 2});
   }
   // Over all the areas, so that none hides an arrow.
   for (std::size_t i = 0; i < found.planes.size(); ++i) {
@@ -135,9 +131,9 @@ void drawPlanes(Image& picture, const Projection& project, const obs::CObservati
     const auto from = project(plane.centroid), to = project(plane.centroid + length * plane.plane_in_sensor.normal);
     if (!from || !to) continue;
     drawArrow(picture, *from, *to, {kBlack, 4});
-    drawArrow(picture, *from, *to, {colourOf(i), 2});
+    drawArrow(picture, *from, *to, {indexRgb(i), 2});
     drawDot(picture, *from, {kBlack, 7});
-    drawDot(picture, *from, {colourOf(i), 5});
+    drawDot(picture, *from, {indexRgb(i), 5});
   }
 }
 
@@ -162,9 +158,9 @@ void drawPoints(Image& picture, const Projection& project, const std::vector<Eig
 
 void drawObjects(Image& picture, const Projection& project, const obs::CObservationObjects& found) {
   for (std::size_t i = 0; i < found.objects.size(); ++i) {
-    drawPoints(picture, project, found.objects[i].points, {colourOf(i), 1, 0.8});
+    drawPoints(picture, project, found.objects[i].points, {indexRgb(i), 1, 0.8});
     drawBox(picture, project, found.objects[i], {kBlack, 4});
-    drawBox(picture, project, found.objects[i], {colourOf(i), 2});
+    drawBox(picture, project, found.objects[i], {indexRgb(i), 2});
   }
 }
 
@@ -192,7 +188,7 @@ CloudStyle styleOfCloud(const std::string& label, std::size_t index) {
     if (label.size() > end.size() && label.compare(label.size() - end.size(), end.size(), end) == 0)
       return {colour, std::string("edge: ") + perception::nameOf(kind)};
   }
-  return {colourOf(index), label};
+  return {indexRgb(index), label};
 }
 
 }  // namespace
@@ -209,13 +205,13 @@ Image drawCameraPicture(const CObservation3DRangeScan& scan, const std::vector<m
     if (const auto* planes = dynamic_cast<const obs::CObservationPlanes*>(observation.get())) {
       drawPlanes(picture, project, *planes);
       const std::size_t n = planes->planes.size();
-      tell(n, colourOf(0), std::to_string(n) + " planes, a colour each: outline, holes, normal");
+      tell(n, indexRgb(0), std::to_string(n) + " planes, a colour each: outline, holes, normal");
     } else if (const auto* objects = dynamic_cast<const obs::CObservationObjects*>(observation.get())) {
       drawObjects(picture, project, *objects);
       const std::size_t n = objects->objects.size();
-      tell(n, colourOf(0), std::to_string(n) + " objects, a colour each: points, box");
+      tell(n, indexRgb(0), std::to_string(n) + " objects, a colour each: points, box");
     } else if (const auto* markers = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(observation.get())) {
-      drawMarkers(picture, scan.cameraParams, scan.sensorPose, *markers, legend);
+      drawMarkers(picture, scan.cameraParams, geometry::fromMrpt(scan.sensorPose), *markers, legend);
     } else if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get())) {
       if (!cloud->pointcloud) continue;
       const CloudStyle style = styleOfCloud(cloud->sensorLabel, clouds++);
@@ -231,12 +227,12 @@ std::optional<Image> drawCameraPicture(const mrpt::obs::CObservationImage& obser
                                        const std::vector<mrpt::obs::CObservation::Ptr>& derived) {
   if (!canBeDrawnOver(observation.image)) return std::nullopt;
   Image picture = colourPicture(observation.image);
-  // cameraPose is of the optical frame: x right, y down, z forward.
-  const mrpt::poses::CPose3D optical_from_camera = -mrpt::poses::CPose3D(0, 0, 0, -kHalfTurn / 2, 0, -kHalfTurn / 2);
+  const geometry::Se3 base_from_camera =
+      geometry::fromMrpt(observation.cameraPose) * geometry::inverse(geometry::sensorFromOptical());
   std::vector<LegendRow> legend;
   for (const auto& found : derived) {
     if (const auto* markers = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(found.get()))
-      drawMarkers(picture, observation.cameraParams, observation.cameraPose + optical_from_camera, *markers, legend);
+      drawMarkers(picture, observation.cameraParams, base_from_camera, *markers, legend);
   }
   drawLegend(picture, legend);
   return picture;

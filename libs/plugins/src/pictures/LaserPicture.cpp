@@ -2,12 +2,12 @@
 
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
-#include <omnimapper/obs/IndexColour.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "../output/Drawing.h"
+#include "IndexRgb.h"
 #include "Legend.h"
 
 namespace omnimapper::plugins {
@@ -68,12 +68,10 @@ double drawSquares(Image& picture, const View& view) {
 
 void drawLines(Image& picture, const View& view, const obs::CObservationLaserLines& found,
                std::vector<LegendRow>& legend) {
-  const auto first = obs::indexColour(0);
   if (!found.lines.empty())
-    legend.push_back({{first.R, first.G, first.B}, std::to_string(found.lines.size()) + " lines, a colour each"});
+    legend.push_back({indexRgb(0), std::to_string(found.lines.size()) + " lines, a colour each"});
   for (std::size_t i = 0; i < found.lines.size(); ++i) {
-    const auto colour = obs::indexColour(i);
-    const Pen pen{{colour.R, colour.G, colour.B}, 3};
+    const Pen pen{indexRgb(i), 3};
     const auto& segment = found.lines[i].segment_in_sensor;
     const PixelPoint from = view(segment.from), to = view(segment.to);
     drawLine(picture, from, to, pen);

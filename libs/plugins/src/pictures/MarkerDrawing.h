@@ -2,7 +2,7 @@
 
 #include <mrpt/img/TCamera.h>
 #include <mrpt/obs/CObservationBearingRange.h>
-#include <mrpt/poses/CPose3D.h>
+#include <omnimapper/geometry/Se3.h>
 
 #include <vector>
 
@@ -12,8 +12,9 @@
 namespace omnimapper::plugins {
 
 /// Draws a dot where the camera of the picture sees each marker, and its number beside it; colours are those of the
-/// numbers. `base_from_camera` has x forward, y left, z up. Adds what that means to `legend` if there are any.
-void drawMarkers(Image& picture, const mrpt::img::TCamera& camera, const mrpt::poses::CPose3D& base_from_camera,
+/// numbers. `base_from_camera` has x forward, y left, z up. Draws none, and
+/// says none, for a camera without calibration. Adds what they mean to `legend`.
+void drawMarkers(Image& picture, const mrpt::img::TCamera& camera, const geometry::Se3& base_from_camera,
                  const mrpt::obs::CObservationBearingRange& found, std::vector<LegendRow>& legend);
 
 }  // namespace omnimapper::plugins

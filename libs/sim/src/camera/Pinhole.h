@@ -42,11 +42,4 @@ struct Pinhole {
   }
 };
 
-/// From a sensor's frame, which looks along x with z up, to the optical frame at the same place.
-inline geometry::Se3 sensorFromOptical() {
-  Eigen::Matrix3d axes;
-  axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return {Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()};
-}
-
 }  // namespace omnimapper::sim

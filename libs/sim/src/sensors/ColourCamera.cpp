@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 
 #include <cmath>
 
@@ -61,7 +62,7 @@ geometry::Se3 ColourCamera::baseFromCamera(const Angles& angles) const {
                                             Eigen::AngleAxisd(angles.tilt, Eigen::Vector3d::UnitY()),
                                         Eigen::Vector3d::Zero()};
   const geometry::Se3 turned_from_camera{Eigen::Quaterniond::Identity(), {options_of_camera_.arm, 0, 0}};
-  return baseFromSensor() * mount_from_turned * turned_from_camera * sensorFromOptical();
+  return baseFromSensor() * mount_from_turned * turned_from_camera * geometry::sensorFromOptical();
 }
 
 geometry::Se3 ColourCamera::mapFromCamera(double time) const {

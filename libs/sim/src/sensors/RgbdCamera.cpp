@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 
 #include <cmath>
 #include <optional>
@@ -36,18 +37,19 @@ RgbdCamera::RgbdCamera(const RgbdOptions& options, const SensorOptions& mount, c
       hands_out_colour_view_(options.registered && !settings_.coincide) {}
 
 geometry::Se3 RgbdCamera::mapFromColour(double time) const {
-  return mapFromSensor(time) * sensor_from_colour_ * sensorFromOptical();
+  return mapFromSensor(time) * sensor_from_colour_ * geometry::sensorFromOptical();
 }
 
 RgbdCamera::Pictures RgbdCamera::cast(double time) const {
   const Scenes& scenes = *context().scenes;
   const Scene scene = scenes.at(time);
   const double colour_time = time + options_of_camera_.colour_delay;
-  Pictures pictures{time,
-                    colour_time,
-                    castFrame(scenes, scene, settings_.depth_camera, mapFromSensor(time) * sensorFromOptical()),
-                    {},
-                    {}};
+  Pictures pictures{
+      time,
+      colour_time,
+      castFrame(scenes, scene, settings_.depth_camera, mapFromSensor(time) * geometry::sensorFromOptical()),
+      {},
+      {}};
   const bool at_once = options_of_camera_.colour_delay == 0;
   if (options_of_camera_.colour && !(settings_.coincide && at_once)) {
     pictures.colour = castFrame(scenes, at_once ? scene : scenes.at(colour_time), settings_.colour_camera,

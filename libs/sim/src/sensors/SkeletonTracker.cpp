@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservationSkeleton.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/sim/People.h>
 #include <omnimapper/sim/PointingError.h>
 
@@ -181,7 +182,7 @@ std::string SkeletonTracker::truthOf(const View& view, int person, const Skeleto
 
 Measurement SkeletonTracker::measure(int k) const {
   const double time = timeOf(k);
-  const View view{time, mapFromSensor(time) * sensorFromOptical(), context().scenes->at(time)};
+  const View view{time, mapFromSensor(time) * geometry::sensorFromOptical(), context().scenes->at(time)};
   const int person = nearestPerson(view);
   if (person < 0) return {};
   const Skeleton true_in_map = trueSkeleton(person, time);
@@ -192,7 +193,7 @@ Measurement SkeletonTracker::measure(int k) const {
 
   auto observation = CObservationSkeleton::Create();
   stamp(*observation, k);
-  observation->sensorPose = geometry::toMrpt(baseFromSensor() * sensorFromOptical());
+  observation->sensorPose = geometry::toMrpt(baseFromSensor() * geometry::sensorFromOptical());
   const geometry::Se3 optical_from_map = geometry::inverse(view.map_from_optical);
   for (int i = 0; i < kJointCount; ++i) {
     const Vector3d in_optical = optical_from_map * in_map.places[i];

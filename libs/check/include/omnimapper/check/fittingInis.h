@@ -7,11 +7,16 @@
 
 namespace omnimapper::check {
 
+/// Sections of plugins that an INI names.
+struct PluginLists {
+  std::vector<std::string> pose, extractors, measurement;
+};
+
 /// One of the INIs that come with the project.
 struct FittingIni {
   std::string file;  ///< "ini/laser2d.ini"
   std::string what;  ///< that it maps
-  std::vector<std::string> pose_plugins;
+  PluginLists plugins;
 };
 
 /// The INIs that can map what the log's sensors saw, that which uses most of them first; none if nothing can.

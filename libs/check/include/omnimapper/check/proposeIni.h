@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/check/LogFacts.h>
+#include <omnimapper/check/fittingInis.h>
 
 #include <string>
 #include <vector>
@@ -12,8 +13,8 @@ struct Setting {
   std::string section, key, value, reason;
 };
 
-/// What to change in the first of fittingInis() for this log. `pose_plugins` is the list it has now.
-std::vector<Setting> proposeIni(const LogFacts& facts, const std::vector<std::string>& pose_plugins);
+/// What to change for this log in an INI that names these plugins, such as the first of fittingInis().
+std::vector<Setting> proposeIni(const LogFacts& facts, const PluginLists& plugins);
 
 /// As an INI file, which goes over it; empty if there is nothing to set.
 std::string toIni(const std::vector<Setting>& settings);

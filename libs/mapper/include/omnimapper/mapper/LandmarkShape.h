@@ -8,7 +8,8 @@
 
 namespace omnimapper::mapper {
 
-/// How a landmark looks, as its payload tells of its variables; its kind stands for a label that nobody tells.
+/// How a landmark looks in the map [m], as its payload tells of its variables; its kind stands for a label that nobody
+/// tells.
 map::LandmarkShape shapeOf(const map::Landmark& landmark, const State& state);
 
 /// How many landmarks there are by what a user calls them: by their label, "wall", or by the kind that it begins with,

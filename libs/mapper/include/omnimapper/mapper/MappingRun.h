@@ -4,7 +4,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/map/Map.h>
-#include <omnimapper/mapper/LandmarkShape.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/source/SourceReport.h>
 

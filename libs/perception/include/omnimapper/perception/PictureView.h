@@ -13,8 +13,7 @@ namespace omnimapper::perception {
 bool isPictureOfDepthView(const mrpt::obs::CObservation3DRangeScan& scan);
 
 /// Column and row [px] where a camera shows a point of its frame (x forward, y left, z up) [m], by its lens; the centre
-/// of a pixel has whole numbers. None for what is not before it. Throws Error(unreadable_input) for a camera that
-/// ArucoMarkerExtractor refuses.
+/// of a pixel has whole numbers. None for what is not before it, and of a camera without a calibration to be used.
 std::optional<Eigen::Vector2d> pixelOf(const mrpt::img::TCamera& camera, const Eigen::Vector3d& point_in_sensor);
 
 }  // namespace omnimapper::perception
