@@ -84,6 +84,7 @@ TEST(PolygonUnion, LeavesOutWhatIsNowhere) {
     EXPECT_NEAR(area(one[0]), 1, 1e-12);
     EXPECT_NEAR(areaOutside(rectangle(0, 0, 2, 1), {rectangle(0, 0, 1, 1), rectangle(0, 0, 1, wrong)}), 1, 1e-12);
     EXPECT_EQ(areaOutside(rectangle(0, 0, wrong, 1), {}), 0);
+    EXPECT_TRUE(unionOf({{{0, 0}, {2, 0}, {2, 2}, {1, wrong}, {0, 2}}}).empty()) << "one corner is enough";
   }
 }
 

@@ -42,11 +42,16 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   const auto findings = judge(facts);
   const auto inis = fittingInis(facts);
   const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins};
+  std::string ini;  // that is proposed for
   std::vector<Setting> settings;
-  if (!inis.empty()) settings = proposeIni(facts, given.pose.empty() ? inis.front().plugins : given);
+  if (!inis.empty()) {
+    const bool keeps = canMeasure(facts, given);
+    ini = keeps ? config.file() : inis.front().file;
+    settings = proposeIni(facts, keeps ? given : inis.front().plugins);
+  }
   CheckResult result;
   result.code = codeOf(log->report(), inis, findings);
-  result.text = checkText(joined(logs, " + "), log->report(), facts, findings, inis, settings);
+  result.text = checkText(joined(logs, " + "), log->report(), facts, findings, inis, ini, settings);
   if (output_folder.empty()) return result;
   base::makeWritableFolder(output_folder);
   base::writeFile(output_folder + "/check.txt", [&](std::ostream& out) { out << result.text; });

@@ -97,7 +97,7 @@ std::string iniLines(const std::vector<FittingIni>& inis) {
 }  // namespace
 
 std::string checkText(const std::string& title, const source::SourceReport& report, const LogFacts& facts,
-                      const std::vector<Finding>& findings, const std::vector<FittingIni>& inis,
+                      const std::vector<Finding>& findings, const std::vector<FittingIni>& inis, const std::string& ini,
                       const std::vector<Setting>& settings) {
   base::Stamp first, last;
   for (const auto& [sensor, stamps] : facts.sensors) {
@@ -112,9 +112,8 @@ std::string checkText(const std::string& title, const source::SourceReport& repo
   text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + findingLines(findings);
   if (inis.empty()) return text;
   text += "\nSettings for what it holds:\n" + iniLines(inis);
-  const std::string& best = inis.front().file;
-  if (settings.empty()) return text + best + " fits as it is.\n";
-  return text + "\nTo go over " + best + " (-i " + best + " -i THIS):\n\n" + toIni(settings);
+  if (settings.empty()) return text + ini + " fits as it is.\n";
+  return text + "\nTo go over " + ini + " (-i " + ini + " -i THIS):\n\n" + toIni(settings);
 }
 
 }  // namespace omnimapper::check

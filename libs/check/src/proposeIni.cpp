@@ -43,11 +43,11 @@ class Proposal {
     settings_.push_back({section, key, value, reason});
   }
 
-  // A list without those of `names`, if it has any.
+  // A list without those of `names`, if it has any, and others.
   void proposeWithout(const std::vector<std::string>& names, std::vector<std::string> list, const std::string& section,
                       const std::string& key, const std::string& reason) {
     const auto end = std::remove_if(list.begin(), list.end(), [&](const auto& name) { return has(names, name); });
-    if (end == list.end()) return;
+    if (end == list.end() || end == list.begin()) return;
     list.erase(end, list.end());
     set(section, key, joined(list, ", "), reason);
   }
@@ -174,6 +174,14 @@ class Proposal {
 };
 
 }  // namespace
+
+bool canMeasure(const LogFacts& facts, const PluginLists& plugins) {
+  if (!usableLasers(facts).empty()) return !plugins.measurement.empty();
+  const std::vector<std::string> of_lasers{"loop_closure", "walls", "relations"};
+  return std::any_of(plugins.measurement.begin(), plugins.measurement.end(), [&](const std::string& name) {
+    return std::find(of_lasers.begin(), of_lasers.end(), name) == of_lasers.end();
+  });
+}
 
 std::vector<Setting> proposeIni(const LogFacts& facts, const PluginLists& plugins) {
   return Proposal(facts, plugins).settings();

@@ -21,13 +21,17 @@ constexpr double kUnit = 1e-6;       // [m] Clipper reckons in whole numbers, ex
 constexpr double kFarthest = 1e6;    // [m]
 constexpr double kStraight = 0.005;  // [m]
 
+bool isSomewhere(const Points& points) {
+  return std::all_of(points.begin(), points.end(), [](const Eigen::Vector2d& point) {
+    return point.allFinite() && point.cwiseAbs().maxCoeff() <= kFarthest;
+  });
+}
+
 // Empty for one that is nowhere.
 Path pathOf(const Points& points) {
   Path path;
-  for (const auto& point : points) {
-    if (!(point.cwiseAbs().maxCoeff() <= kFarthest) || !point.allFinite()) return {};
-    path.emplace_back(std::llround(point.x() / kUnit), std::llround(point.y() / kUnit));
-  }
+  if (!isSomewhere(points)) return path;
+  for (const auto& point : points) path.emplace_back(std::llround(point.x() / kUnit), std::llround(point.y() / kUnit));
   return path;
 }
 
@@ -52,6 +56,7 @@ Paths combined(ClipperLib::ClipType how, const Paths& subject, const Paths& clip
 
 // What the polygon goes around, whichever way.
 Paths areasOf(const Points& points) {
+  if (!isSomewhere(points)) return {};
   Points corners;
   for (const std::size_t i : keptOfLoop(points, kStraight)) corners.push_back(points[i]);
   return combined(ClipperLib::ctUnion, {pathOf(corners)}, {});

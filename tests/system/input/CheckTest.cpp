@@ -160,6 +160,16 @@ TEST_F(Check, ARangeCameraWithoutALaserIsMappedByTheProposal) {
                                  scratch_ / "checked/check.ini", "-r", log, "-o", scratch_ / "map"});
   EXPECT_TRUE(endedWith(ExitCode::ok, mapped)) << mapped.out;
   EXPECT_EQ(mapped.err.find("nothing to work on"), std::string::npos) << mapped.err;
+  const std::string of_lasers = omnimapper::testing::sourceFile("ini/laser2d.ini");
+  EXPECT_EQ(graphslam({"-i", of_lasers, "--check", log}).out, checked.out) << "an INI that measures nothing in it";
+}
+
+TEST_F(Check, AnIniThatMeasuresSomethingIsTheOneThatIsJudged) {
+  const std::string own = scratch_ / "own.ini";
+  writeFile(own, readFile(omnimapper::testing::sourceFile("ini/laser_walls.ini")));
+  const auto checked = graphslam({"-i", own, "--check", save(ring())});
+  EXPECT_TRUE(endedWith(ExitCode::ok, checked)) << checked.out;
+  EXPECT_NE(checked.out.find(own + " fits as it is."), std::string::npos) << checked.out;
 }
 
 TEST_F(Check, ADamagedLogIsJudgedByWhatWasReadable) {

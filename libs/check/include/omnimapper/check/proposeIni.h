@@ -13,6 +13,9 @@ struct Setting {
   std::string section, key, value, reason;
 };
 
+/// Whether an INI that names these plugins has anything left to measure with in this log.
+bool canMeasure(const LogFacts& facts, const PluginLists& plugins);
+
 /// What to change for this log in an INI that names these plugins, such as the first of fittingInis().
 std::vector<Setting> proposeIni(const LogFacts& facts, const PluginLists& plugins);
 
