@@ -8,6 +8,8 @@ set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+# A library uses its own copies of inline functions, whatever a program that links it was compiled with.
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
 # Installed programs find the libraries beside them wherever the prefix is moved to.
@@ -18,26 +20,53 @@ if(OMNIMAPPER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${OMNIMAPPER_CCACHE}")
 endif()
 
+# Linking takes a fifth of the time with lld.
+find_program(OMNIMAPPER_LLD ld.lld)
+mark_as_advanced(OMNIMAPPER_LLD)
+if(OMNIMAPPER_LLD)
+  add_link_options(-fuse-ld=lld)
+endif()
+
 # Applied to every target: warnings are errors, files together or one by one, and a sanitizer where one was asked for.
 function(omnimapper_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Werror)
-  # Most of the time goes into reading headers, so the more files share them the better; but every core needs its share
-  # of the work to the end, and a compiler stays below 2 GiB.
-  set_target_properties(${target} PROPERTIES UNITY_BUILD "${OMNIMAPPER_UNITY}" UNITY_BUILD_BATCH_SIZE 16)
+  omnimapper_unity(${target})
   if(OMNIMAPPER_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE} -fno-omit-frame-pointer -g1 -O1)
     target_link_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE})
     # Under a sanitizer Eigen would allocate in another way than in MRPT's libraries, whose instances of its templates are
     # taken for ours where they are loaded first.
-    target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+    target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1 _GLIBCXX_ASSERTIONS)
+    if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+      target_compile_options(${target} PRIVATE
+        "-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/SanitizerIgnoreList.txt")
+    endif()
   endif()
 endfunction()
+
+# Sets how many files of a target are compiled at once with OMNIMAPPER_UNITY: most of the time goes into what they share,
+# so the more the better, but a compiler stays below 2 GiB and every core gets its share of the work to the end.
+function(omnimapper_unity target)
+  get_target_property(sources ${target} SOURCES)
+  list(LENGTH sources count)
+  math(EXPR batches "(${count} + ${omnimapper_largest_batch} - 1) / ${omnimapper_largest_batch}")
+  if(batches LESS 1)
+    set(batches 1)
+  endif()
+  math(EXPR batch "(${count} + ${batches} - 1) / ${batches}")
+  set_target_properties(${target} PROPERTIES UNITY_BUILD "${OMNIMAPPER_UNITY}" UNITY_BUILD_BATCH_SIZE "${batch}")
+endfunction()
+set(omnimapper_largest_batch 24)
 
 # omnimapper_library(NAME PUBLIC <targets...> PRIVATE <targets...>)
 # Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME.
 function(omnimapper_library name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
+  # What registers classes when the library is loaded needs those of the other files to be there.
+  list(FILTER sources EXCLUDE REGEX "/register\\.cpp$")
+  file(GLOB last CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/register.cpp")
+  list(APPEND sources ${last})
   set(target omnimapper-${name})
   add_library(${target} SHARED ${sources})
   add_library(omnimapper::${name} ALIAS ${target})
@@ -66,6 +95,7 @@ function(omnimapper_test name)
   add_executable(test-${name} ${sources})
   target_link_libraries(test-${name} PRIVATE ${ARGN} omnimapper-testing GTest::gtest_main)
   omnimapper_compile_options(test-${name})
+  target_compile_options(test-${name} PRIVATE -O0)
   add_test(NAME ${name} COMMAND test-${name})
 endfunction()
 

@@ -5,7 +5,6 @@
 // (Suenderhauf and Protzel, IROS 2012): random ones, or groups of ten in a row that agree with one another.
 //
 // Example: bench-false_closures_logs -i ini/laser2d.ini -r aces.rawlog --relations aces.relations -o out/false
-#include <mrpt/core/initializer.h>
 #include <mrpt/poses/CPose2D.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>

@@ -1,4 +1,4 @@
-#include <mrpt/core/initializer.h>
+#include <omnimapper/base/AtLoad.h>
 
 #include "BeaconPayload.h"
 #include "BeaconPlugin.h"
@@ -22,9 +22,6 @@ std::unique_ptr<mapper::MeasurementPlugin> BeaconPluginFactory::make(const omnim
   return std::make_unique<BeaconPlugin>(section.read<BeaconOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
-}  // namespace beacons
+const omnimapper::base::AtLoad kRegister([] { mrpt::rtti::registerClass(CLASS_ID(BeaconPluginFactory)); });
 
-// Runs when the library is loaded.
-MRPT_INITIALIZER(registerBeaconPlugin) {
-  mrpt::rtti::registerClass(CLASS_ID(beacons::BeaconPluginFactory));
-}
+}  // namespace beacons

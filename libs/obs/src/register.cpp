@@ -1,4 +1,4 @@
-#include <mrpt/core/initializer.h>
+#include <omnimapper/base/AtLoad.h>
 #include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationObjects.h>
@@ -20,8 +20,7 @@ void registerClasses() {
   for (const auto* id : allClasses()) mrpt::rtti::registerClass(id);
 }
 
-}  // namespace omnimapper::obs
+// The build links this file last: the ids of the classes are made before.
+const base::AtLoad kRegister(registerClasses);
 
-MRPT_INITIALIZER(registerOmnimapperObservations) {
-  omnimapper::obs::registerClasses();
-}
+}  // namespace omnimapper::obs

@@ -1,4 +1,4 @@
-#include <mrpt/core/initializer.h>
+#include <omnimapper/base/AtLoad.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/obs/registerClasses.h>
 #include <omnimapper/plugins/ArucoMarkersPlugin.h>
@@ -69,8 +69,7 @@ void registerPlugins() {
   registerClass(CLASS_ID(TrajectoryOutputFactory));
 }
 
-}  // namespace omnimapper::plugins
+// The build links this file last: the ids of the classes are made before.
+const base::AtLoad kRegister(registerPlugins);
 
-MRPT_INITIALIZER(registerOmnimapperPlugins) {
-  omnimapper::plugins::registerPlugins();
-}
+}  // namespace omnimapper::plugins

@@ -1,6 +1,6 @@
 // An output plugin made outside the project, beside a measurement plugin of somebody else's: compares the landmarks of
 // the map with a file of true positions.
-#include <mrpt/core/initializer.h>
+#include <omnimapper/base/AtLoad.h>
 #include <omnimapper/mapper/PluginFactory.h>
 
 #include <Eigen/Core>
@@ -68,6 +68,6 @@ class LandmarkCheckOutputFactory : public mapper::OutputPluginFactory {
 
 IMPLEMENTS_MRPT_OBJECT(LandmarkCheckOutputFactory, omnimapper::mapper::OutputPluginFactory, foreign)
 
-MRPT_INITIALIZER(registerLandmarkCheckOutput) {
+const omnimapper::base::AtLoad kRegister([] {
   mrpt::rtti::registerClass(CLASS_ID(foreign::LandmarkCheckOutputFactory));
-}
+});

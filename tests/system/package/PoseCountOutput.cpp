@@ -1,5 +1,5 @@
 // A plugin made outside the project: writes how many key frames the map has.
-#include <mrpt/core/initializer.h>
+#include <omnimapper/base/AtLoad.h>
 #include <omnimapper/mapper/PluginFactory.h>
 
 #include <fstream>
@@ -44,6 +44,4 @@ class PoseCountOutputFactory : public mapper::OutputPluginFactory {
 
 IMPLEMENTS_MRPT_OBJECT(PoseCountOutputFactory, omnimapper::mapper::OutputPluginFactory, foreign)
 
-MRPT_INITIALIZER(registerForeignPlugins) {
-  mrpt::rtti::registerClass(CLASS_ID(foreign::PoseCountOutputFactory));
-}
+const omnimapper::base::AtLoad kRegister([] { mrpt::rtti::registerClass(CLASS_ID(foreign::PoseCountOutputFactory)); });

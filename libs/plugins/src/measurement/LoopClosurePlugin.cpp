@@ -190,7 +190,8 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
   const double around = 2 * options_.context + options_.max_window;
   std::vector<std::size_t> chosen;
   std::vector<LoopSearch::Place> places;
-  for (const auto& [distance, i] : near) {
+  for (const auto& candidate : near) {
+    const std::size_t i = candidate.second;
     // Neighbours along the path would only repeat it.
     const bool repeats = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
       return std::abs(history[other].sight.way - history[i].sight.way) < options_.min_way;

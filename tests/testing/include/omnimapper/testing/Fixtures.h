@@ -8,7 +8,13 @@
 namespace omnimapper::testing {
 
 /// Whether this is a sanitizer's build: some ten times slower, processes too, and their memory cannot be limited.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(__has_feature)
+#define OMNIMAPPER_HAS_FEATURE(feature) __has_feature(feature)
+#else
+#define OMNIMAPPER_HAS_FEATURE(feature) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || OMNIMAPPER_HAS_FEATURE(address_sanitizer) || \
+    OMNIMAPPER_HAS_FEATURE(thread_sanitizer)
 inline constexpr bool kIsSanitized = true;
 #else
 inline constexpr bool kIsSanitized = false;
