@@ -15,12 +15,19 @@ build_jobs() {
   echo "${OMNIMAPPER_JOBS:-$((cores < memory ? cores : memory))}"
 }
 
+# What is built beside mapping: nothing, the simulator, or all.
+readonly without_simulator=(-DOMNIMAPPER_BUILD_SIMULATOR=OFF -DOMNIMAPPER_BUILD_TESTS=OFF)
+readonly with_simulator=(-DOMNIMAPPER_BUILD_SIMULATOR=ON -DOMNIMAPPER_BUILD_TESTS=OFF)
+readonly with_tests=(-DOMNIMAPPER_BUILD_SIMULATOR=ON -DOMNIMAPPER_BUILD_TESTS=ON)
+
+is_configured() { [ -e "$project_root/build/$1/CMakeCache.txt" ]; }
+
 # configure FOLDER [CMAKE-ARGUMENT...]: build/FOLDER. One that is new is set up for building all of it in the least time;
 # one that is there stays as it was, so that who changes single files can have it their way.
 configure() {
   local folder=$1 unity=()
   shift
-  [ -e "$project_root/build/$folder/CMakeCache.txt" ] || unity=(-DOMNIMAPPER_UNITY=ON)
+  is_configured "$folder" || unity=(-DOMNIMAPPER_UNITY=ON)
   say "Configuring build/$folder"
   cmake -S "$project_root" -B "$project_root/build/$folder" -G Ninja --log-level=NOTICE "${unity[@]}" "$@"
 }

@@ -1,7 +1,7 @@
 # Counts what ran: test cases of GoogleTest binaries, and each other ctest test as one. Sourced, never run.
 # shellcheck shell=bash
 
-# Lines "state<TAB>case<TAB>message" of GoogleTest's XML files; state is passed, failed or skipped.
+# Lines "state<TAB>case<TAB>message<TAB>seconds" of GoogleTest's XML files; state is passed, failed or skipped.
 list_cases() {
   awk '
     function attribute(name,   rest) {
@@ -11,10 +11,10 @@ list_cases() {
       gsub(/&lt;/, "<", rest); gsub(/&gt;/, ">", rest); gsub(/&amp;/, "\\&", rest)
       return rest
     }
-    function flush_case() { if (state != "") print state "\t" test "\t" message; state = "" }
+    function flush_case() { if (state != "") print state "\t" test "\t" message "\t" seconds; state = "" }
     /<testcase / {
       flush_case()
-      test = attribute("classname") "." attribute("name"); message = ""
+      test = attribute("classname") "." attribute("name"); message = ""; seconds = attribute("time")
       result = attribute("result")
       state = result == "skipped" ? "skipped" : (result == "completed" ? "passed" : "")
     }
@@ -30,7 +30,8 @@ list_ctest_tests() {
     /<testcase / {
       match($0, /name="[^"]*"/); name = substr($0, RSTART + 6, RLENGTH - 7)
       match($0, /status="[^"]*"/); status = substr($0, RSTART + 8, RLENGTH - 9)
-      print (status == "run" ? "passed" : (status == "fail" ? "failed" : "skipped")) "\t" name "\t" status
+      match($0, / time="[^"]*"/); seconds = substr($0, RSTART + 7, RLENGTH - 8)
+      print (status == "run" ? "passed" : (status == "fail" ? "failed" : "skipped")) "\t" name "\t" status "\t" seconds
     }
   ' "$1"
 }
@@ -38,18 +39,22 @@ list_ctest_tests() {
 # collect_results FOLDER: every case of the run whose files are in FOLDER (ctest.xml, test-NAME.xml).
 # A binary that ended badly without a failed case (crash, sanitizer report) adds a failed case of its own.
 collect_results() {
-  local folder=$1 state name cases
-  list_ctest_tests "$folder/ctest.xml" | while IFS=$'\t' read -r state name _; do
+  local folder=$1 state name seconds cases
+  list_ctest_tests "$folder/ctest.xml" | while IFS=$'\t' read -r state name _ seconds; do
     if [ ! -e "$folder/test-$name.xml" ]; then
-      printf '%s\t%s\t%s\n' "$state" "$name" "$([ "$state" = passed ] || echo 'ended without a count of its cases')"
+      printf '%s\t%s\t%s\t%s\n' "$state" "$name" \
+        "$([ "$state" = passed ] || echo 'ended without a count of its cases')" "$seconds"
       continue
     fi
     cases=$(list_cases "$folder/test-$name.xml")
     [ -z "$cases" ] || printf '%s\n' "$cases"
     if [ "$state" = failed ] && ! grep -q '^failed' <<<"$cases"; then
-      printf 'failed\t%s\tended badly after its last case\n' "$name"
+      printf 'failed\t%s\tended badly after its last case\t0\n' "$name"
     fi
   done
 }
 
 count_state() { awk -F '\t' -v state="$1" '$1 == state { ++n } END { print n + 0 }' "$2"; }
+
+# slowest COUNT FILE: lines "seconds build: case" of the slowest cases in lines "build<TAB>state<TAB>case<TAB>message<TAB>seconds".
+slowest() { sort -t $'\t' -k 5,5 -rg "$2" | head -n "$1" | awk -F '\t' '{ printf "%6.1f s  %s: %s\n", $5, $1, $3 }'; }

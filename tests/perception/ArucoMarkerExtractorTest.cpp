@@ -265,7 +265,10 @@ TEST(ArucoMarkerExtractor, CovariancesHold) {
     double sum = 0;
     for (int i = 0; i < 200; ++i) {
       auto corners = seen(camera(), placed.pose());
-      for (auto& corner : corners) corner += Eigen::Vector2d(dice.normal(0.3), dice.normal(0.3));
+      for (auto& corner : corners) {
+        const double down = dice.normal(0.3), right = dice.normal(0.3);
+        corner += Eigen::Vector2d(right, down);
+      }
       testing::MarkerPicture drawn(kWidth, kHeight);
       drawn.draw(placed.id, corners);
       auto observation = picture({});

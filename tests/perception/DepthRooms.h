@@ -105,7 +105,9 @@ inline void addBox(const Eigen::Isometry3d& camera_from_room, const Eigen::Vecto
 inline Scene randomRoom(testing::Dice& dice, int boxes = 3) {
   Scene scene;
   const double length = dice.uniform(3, 5), width = dice.uniform(3, 4.5), height = dice.uniform(2.3, 2.8);
-  const Eigen::Vector3d camera(dice.uniform(0.3, 0.8), dice.uniform(0.3, width - 0.3), dice.uniform(0.9, 1.5));
+  // One number after the other: compilers do not agree on the order in which arguments are worked out.
+  const double z = dice.uniform(0.9, 1.5), y = dice.uniform(0.3, width - 0.3), x = dice.uniform(0.3, 0.8);
+  const Eigen::Vector3d camera(x, y, z);
   const double yaw = std::atan2(0.5 * width - camera.y(), 0.6 * length - camera.x()) + dice.uniform(-0.25, 0.25);
   const double down = dice.uniform(0.1, 0.5), roll = dice.uniform(-0.15, 0.15);
   Eigen::Matrix3d forward_left_up =
@@ -120,9 +122,10 @@ inline Scene randomRoom(testing::Dice& dice, int boxes = 3) {
   const Eigen::Isometry3d camera_from_room = room_from_camera.inverse();
   addBox(camera_from_room, {length / 2, width / 2, height / 2}, {length / 2, width / 2, height / 2}, 0, scene.faces);
   for (int i = 0; i < boxes; ++i) {
-    const Eigen::Vector3d half(dice.uniform(0.15, 0.5), dice.uniform(0.15, 0.5), dice.uniform(0.15, 0.5));
-    addBox(camera_from_room, {dice.uniform(1.7, length - 0.6), dice.uniform(0.6, width - 0.6), half.z()}, half,
-           dice.uniform(-1.5, 1.5), scene.faces);
+    const double high = dice.uniform(0.15, 0.5), wide = dice.uniform(0.15, 0.5), deep = dice.uniform(0.15, 0.5);
+    const double turn = dice.uniform(-1.5, 1.5);
+    const double ahead = dice.uniform(1.7, length - 0.6), aside = dice.uniform(0.6, width - 0.6);
+    addBox(camera_from_room, {ahead, aside, high}, {deep, wide, high}, turn, scene.faces);
   }
   return scene;
 }

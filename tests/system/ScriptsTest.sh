@@ -57,14 +57,14 @@ expect "what failed" "Mixed.falls crashed leaking" \
 # Package lists: one name in a line, and what it is for.
 printf '# heading\n\ncmake   # configures\nzlib1g-dev # .gz\n' >"$scratch/packages.txt"
 expect "names in a package list" "cmake zlib1g-dev" "$(list_packages "$scratch/packages.txt" | xargs)"
-for list in scripts/packages.txt scripts/packages-test.txt scripts/packages-fuzz.txt; do
+for list in scripts/packages*.txt; do
   expect "lines of $list without a reason" "" "$(grep -vE '^#|^[a-z0-9.+-]+ +# .+' "$list" || true)"
 done
 expect "an installed package" yes "$(is_installed bash && echo yes)"
 expect "a package nobody has" no "$(is_installed no-such-package-anywhere || echo no)"
 
 # Every script explains itself and refuses what it does not know.
-for script in scripts/demo scripts/test scripts/format scripts/ini-reference scripts/fuzz .ci/run; do
+for script in scripts/demo scripts/build scripts/test scripts/format scripts/ini-reference scripts/fuzz .ci/run; do
   expect "$script --help" "0 Usage" "$("$script" --help >"$scratch/help" && echo "$? $(grep -o Usage "$scratch/help")")"
   expect "$script --no-such-flag" refused "$("$script" --no-such-flag >/dev/null 2>&1 || echo refused)"
 done

@@ -66,7 +66,10 @@ bool isFlat(const std::vector<ColouredPoint>& points) {
 void colourByHeight(std::vector<ColouredPoint>& points) {
   // The lowest and highest hundredth do not stretch the scale.
   std::vector<float> heights;
-  for (const auto& point : points) heights.push_back(point.in_map.z);
+  for (const auto& point : points) {
+    const float height = point.in_map.z;  // a copy: MRPT's points are packed, and a reference must be aligned
+    heights.push_back(height);
+  }
   const auto rank = [&](std::size_t index) {
     std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(index), heights.end());
     return heights[index];
