@@ -17,6 +17,8 @@ namespace x11 {
 inline void closeWindows(const std::string& title) {
   Display* display = XOpenDisplay(nullptr);
   if (!display) return;
+  // A window that is listed may have gone when it is asked for its name, which would end the program.
+  const auto handler = XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
   const Atom protocols = XInternAtom(display, "WM_PROTOCOLS", False),
              remove = XInternAtom(display, "WM_DELETE_WINDOW", False);
   Window root, parent, *children = nullptr;
@@ -37,6 +39,8 @@ inline void closeWindows(const std::string& title) {
     XFree(name);
   }
   if (children) XFree(children);
+  XSync(display, False);
+  XSetErrorHandler(handler);
   XCloseDisplay(display);
 }
 

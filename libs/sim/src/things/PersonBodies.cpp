@@ -39,7 +39,8 @@ Clothes clothesOf(std::uint64_t seed) {
   clothes.hair = ofColour(colourOf(0.08, 0.5, random.uniform(0.05, 0.6)), 0.2);
   const bool patterned = random.chance(0.5);
   const double shirt_infrared = random.uniform(0.2, 0.8);
-  clothes.shirt = ofColour(patterned ? Colour::Ones().eval() : randomColour(random, 0.1, 0.8, 0.2, 0.9), shirt_infrared);
+  clothes.shirt =
+      ofColour(patterned ? Colour::Ones().eval() : randomColour(random, 0.1, 0.8, 0.2, 0.9), shirt_infrared);
   if (patterned) clothes.shirt.texture = makeTexture(TextureKind::cloth, random.bits(), 128);
   const Colour trousers = randomColour(random, 0.1, 0.5, 0.08, 0.5);
   clothes.trousers = ofColour(trousers, random.uniform(0.08, 0.6));
