@@ -62,10 +62,11 @@ function(omnimapper_unity target)
 endfunction()
 set(omnimapper_largest_batch 28)
 
-# omnimapper_library(NAME PUBLIC <targets...> PRIVATE <targets...>)
-# Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME.
+# omnimapper_library(NAME [KERNELS] PUBLIC <targets...> PRIVATE <targets...>)
+# Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for those
+# in whose loops mapping spends its time: the others gain nothing from -O3 that its longer compiling is worth.
 function(omnimapper_library name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "KERNELS" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
   # What registers classes when the library is loaded needs those of the other files to be there.
   list(FILTER sources EXCLUDE REGEX "/register\\.cpp$")
@@ -79,6 +80,9 @@ function(omnimapper_library name)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
   omnimapper_compile_options(${target})
+  if(NOT ARG_KERNELS)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+  endif()
   install(TARGETS ${target} EXPORT omnimapperTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
@@ -93,16 +97,20 @@ function(omnimapper_app name)
   install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# omnimapper_test(NAME [RENDERS] <targets...>): one test binary for the folder's *Test.cpp files, named test-NAME. What it
-# asserts is the same unoptimised, and compiles in 40 % of the time; but what RENDERS images would run for minutes.
+# omnimapper_test(NAME [OPTIMIZED] [COST SECONDS] <targets...>): one test binary for the folder's *Test.cpp files, named
+# test-NAME. What it asserts is the same unoptimized, and compiles in 40 % of the time; OPTIMIZED is for what renders
+# images or searches texts itself, and would run for minutes. COST, about: what takes long is started first.
 function(omnimapper_test name)
-  cmake_parse_arguments(ARG "RENDERS" "" "" ${ARGN})
+  cmake_parse_arguments(ARG "OPTIMIZED" "COST" "" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*Test.cpp")
   add_executable(test-${name} ${sources})
   target_link_libraries(test-${name} PRIVATE ${ARG_UNPARSED_ARGUMENTS} omnimapper-testing GTest::gtest_main)
   omnimapper_compile_options(test-${name})
-  target_compile_options(test-${name} PRIVATE $<IF:$<BOOL:${ARG_RENDERS}>,-O1,-O0>)
+  target_compile_options(test-${name} PRIVATE $<IF:$<BOOL:${ARG_OPTIMIZED}>,-O1,-O0>)
   add_test(NAME ${name} COMMAND test-${name})
+  if(ARG_COST)
+    set_tests_properties(${name} PROPERTIES COST "${ARG_COST}")
+  endif()
 endfunction()
 
 # omnimapper_bench(NAME <targets...>): benchmark program bench-NAME from NAME.cpp.

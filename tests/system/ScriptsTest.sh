@@ -64,7 +64,7 @@ expect "an installed package" yes "$(is_installed bash && echo yes)"
 expect "a package nobody has" no "$(is_installed no-such-package-anywhere || echo no)"
 
 # Every script explains itself and refuses what it does not know.
-for script in scripts/demo scripts/build scripts/test scripts/format scripts/ini-reference scripts/fuzz .ci/run; do
+for script in scripts/demo scripts/build scripts/bench-build scripts/test scripts/format scripts/ini-reference scripts/fuzz .ci/run; do
   expect "$script --help" "0 Usage" "$("$script" --help >"$scratch/help" && echo "$? $(grep -o Usage "$scratch/help")")"
   expect "$script --no-such-flag" refused "$("$script" --no-such-flag >/dev/null 2>&1 || echo refused)"
 done

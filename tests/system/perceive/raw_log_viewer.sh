@@ -17,30 +17,26 @@ x() { xdotool "$@" 2>/dev/null || true; }
 mains() { x search --onlyvisible --name 'RawlogViewer - Part of the MRPT project'; }
 tips() { x search --onlyvisible --name 'Tip of the Day'; }
 
-# look: takes the picture, and prints a checksum of the 3D view in it.
-look() {
-  import -window root "$picture" 2>/dev/null || true
-  convert "$picture" -crop $view rgb:- 2>/dev/null | cksum
-}
+# look: prints a checksum of what the 3D view shows.
+look() { import -window root -crop $view rgb:- 2>/dev/null | cksum; }
 
-# settle BEFORE: pictures until the view is no longer as BEFORE, or has stayed so for 3 s, and then until two in a row are
-# alike: whatever was asked for has been drawn then, however busy the machine is.
+# settle BEFORE: waits until the view is no longer as BEFORE, or has stayed so for 2 s, and then until it shows the same
+# twice in a row: whatever was asked for has been drawn then, however busy the machine is. Then takes the picture.
 settle() {
-  tries=0
+  end=$(($(date +%s) + 2))
   now=$(look)
-  while [ "$now" = "$1" ] && [ $tries -lt 15 ]; do
-    sleep 0.2
+  while [ "$now" = "$1" ] && [ "$(date +%s)" -le $end ]; do
+    sleep 0.1
     now=$(look)
-    tries=$((tries + 1))
   done
-  tries=0
+  end=$(($(date +%s) + 20))
   last=
-  while [ "$now" != "$last" ] && [ $tries -lt 50 ]; do
-    sleep 0.2
+  while [ "$now" != "$last" ] && [ "$(date +%s)" -le $end ]; do
+    sleep 0.1
     last=$now
     now=$(look)
-    tries=$((tries + 1))
   done
+  import -window root "$picture" 2>/dev/null || true
 }
 
 # drawn: width, height, left and top of what is drawn in the 3D view: neither grey nor white, as ground and axes are.
@@ -50,6 +46,15 @@ drawn() {
     -border 1 -trim -format '%w %h %X %Y' info: 2>/dev/null || true
 }
 
+# Whether the 3D view, which comes with the first row that is selected, is where it is looked for: its ground is grey down
+# to its corner.
+is_laid_out() { convert "$picture" -crop 1x1+1264+792 -depth 8 txt:- 2>/dev/null | grep -q '#666666'; }
+
+# Whether the row is selected: it has a coloured ground then.
+is_selected() {
+  [ "$(convert "$picture" -crop "360x1+30+$((123 + 17 * row))" -format '%[fx:int(255*mean.r)]' info: 2>/dev/null)" -lt 128 ]
+}
+
 # drag X Y: the scene by that many pixels. The viewer follows the second movement, from where the first ended.
 drag() {
   x mousemove 840 670 mousedown 3 sleep 0.1 mousemove 841 670 sleep 0.1 mousemove $((841 + $1)) $((670 + $2)) \
@@ -57,25 +62,36 @@ drag() {
 }
 
 # There is no window manager, nor anything that says when a window is ready: all of it again until it is seen to work.
+shown=no
 for _ in $(seq 60); do
   kill -0 $viewer || { echo "RawLogViewer has ended" >&2; exit 1; }
   main=$(mains | tail -n 1)
   if [ -z "$main" ]; then
-    sleep 0.5
+    sleep 0.3
     continue
   fi
   for tip in $(tips); do x windowfocus "$tip" key Escape; done
-  before=$(look)
-  x windowsize "$main" 1280 960
-  x mousemove 200 $((123 + 17 * row)) click 1
-  settle "$before"
+  if [ $shown = no ]; then
+    before=$(look)
+    x windowsize "$main" 1280 960
+    x mousemove 200 $((123 + 17 * row)) click 1
+    settle "$before"
+    is_laid_out && is_selected || continue
+  fi
   # shellcheck disable=SC2046 # four numbers
   set -- $(drawn)
-  if [ $# -ne 4 ] || [ "$1" -le 10 ]; then continue; fi
-  if [ -z "$(tips)" ] && { [ "$1" -gt 500 ] || [ "$2" -gt 190 ]; }; then exit 0; fi
+  shown=no
+  if [ $# -ne 4 ] || [ "$1" -le 10 ] || [ -n "$(tips)" ]; then continue; fi
+  if [ "$1" -gt 500 ] || [ "$2" -gt 190 ]; then exit 0; fi
+  shown=yes
+  right=$((430 - $3 - $1 / 2)) down=$((125 - $4 - $2 / 2))
   before=$(look)
-  drag $((430 - $3 - $1 / 2)) $((125 - $4 - $2 / 2))
-  x click --repeat 6 4 # turns the wheel
+  if [ ${right#-} -gt 20 ] || [ ${down#-} -gt 20 ]; then
+    drag $((2 * right)) $((2 * down)) # the scene follows half way
+  else # turns the wheel: about 30 clicks make things 2.7 times as large, fewer when they are near
+    x mousemove 840 670 click --repeat "$(awk -v w="$1" -v h="$2" 'BEGIN {
+      times = 510 / w < 194 / h ? 510 / w : 194 / h; clicks = int(14 * log(times)); print clicks < 4 ? 4 : clicks }')" 4
+  fi
   settle "$before"
 done
 echo "drawn in the 3D view (width, height, left, top): $*" >&2

@@ -19,11 +19,14 @@ struct LiveWindowOptions {
   static const base::OptionTable<LiveWindowOptions>& table();
 };
 
+class LiveScene;
+
 /// A 3D window of MRPT that shows the map while it grows: occupancy grid, points, trajectory, closures,
 /// landmarks, the newest pose. Drawn anew after each solve. It may be closed at any time; the run goes on.
 class LiveWindow : public mapper::OutputPlugin {
  public:
-  /// Throws Error(command_line) if there is no display to open a window on.
+  /// Throws Error(command_line) if there is no display to open a window on, Error(plugin_library) if
+  /// libomnimapper-window is not there.
   LiveWindow(const LiveWindowOptions& options, const std::string& title);
   ~LiveWindow() override;
   void update(const mapper::View& view) override;
@@ -33,9 +36,8 @@ class LiveWindow : public mapper::OutputPlugin {
   bool isOpen() const;
 
  private:
-  class Scene;
   LiveWindowOptions options_;
-  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<LiveScene> scene_;
 };
 
 class LiveWindowFactory : public mapper::OutputPluginFactory {
