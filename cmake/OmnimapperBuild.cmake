@@ -60,7 +60,13 @@ function(omnimapper_unity target)
   math(EXPR batch "(${count} + ${batches} - 1) / ${batches}")
   set_target_properties(${target} PROPERTIES UNITY_BUILD "${OMNIMAPPER_UNITY}" UNITY_BUILD_BATCH_SIZE "${batch}")
 endfunction()
-set(omnimapper_largest_batch 28)
+# clang needs half of gcc's memory for the same batch.
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  set(omnimapper_largest_batch 48)
+else()
+  set(omnimapper_largest_batch 28)
+endif()
+
 
 # omnimapper_library(NAME [KERNELS] PUBLIC <targets...> PRIVATE <targets...>)
 # Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for those
@@ -70,7 +76,8 @@ function(omnimapper_library name)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
   # What registers classes when the library is loaded needs those of the other files to be there.
   list(FILTER sources EXCLUDE REGEX "/register\\.cpp$")
-  file(GLOB last CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/register.cpp")
+  file(GLOB last CONFIGURE_DEPENDS
+    "${CMAKE_CURRENT_SOURCE_DIR}/src/register.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/register.cpp")
   list(APPEND sources ${last})
   set(target omnimapper-${name})
   add_library(${target} SHARED ${sources})
@@ -94,6 +101,8 @@ function(omnimapper_app name)
   set_target_properties(app-${name} PROPERTIES OUTPUT_NAME ${name})
   target_link_libraries(app-${name} PRIVATE ${ARGN})
   omnimapper_compile_options(app-${name})
+  # Nothing of an app but the reading of its command line is compiled here.
+  target_compile_options(app-${name} PRIVATE -O1)
   install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 

@@ -20,7 +20,7 @@ readonly without_simulator=(-DOMNIMAPPER_BUILD_SIMULATOR=OFF -DOMNIMAPPER_BUILD_
 readonly with_simulator=(-DOMNIMAPPER_BUILD_SIMULATOR=ON -DOMNIMAPPER_BUILD_TESTS=OFF)
 readonly with_tests=(-DOMNIMAPPER_BUILD_SIMULATOR=ON -DOMNIMAPPER_BUILD_TESTS=ON)
 
-is_configured() { [ -e "$project_root/build/$1/CMakeCache.txt" ]; }
+is_configured() { [ -e "$project_root/build/$1/build.ninja" ]; }
 
 # configure FOLDER [CMAKE-ARGUMENT...]: build/FOLDER. One that is new is set up for building all of it in the least time;
 # one that is there stays as it was, so that who changes single files can have it their way.

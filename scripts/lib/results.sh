@@ -56,5 +56,8 @@ collect_results() {
 
 count_state() { awk -F '\t' -v state="$1" '$1 == state { ++n } END { print n + 0 }' "$2"; }
 
-# slowest COUNT FILE: lines "seconds build: case" of the slowest cases in lines "build<TAB>state<TAB>case<TAB>message<TAB>seconds".
-slowest() { sort -t $'\t' -k 5,5 -rg "$2" | head -n "$1" | awk -F '\t' '{ printf "%6.1f s  %s: %s\n", $5, $1, $3 }'; }
+# slowest COUNT FILE: the slowest cases among lines "build<TAB>state<TAB>case<TAB>message<TAB>seconds".
+slowest() {
+  sort -t $'\t' -k 5,5 -rg "$2" |
+    awk -F '\t' -v count="$1" 'NR <= count { printf "%6.1f s  %s: %s\n", $5, $1, $3 }'
+}

@@ -52,7 +52,8 @@ is_laid_out() { convert "$picture" -crop 1x1+1264+792 -depth 8 txt:- 2>/dev/null
 
 # Whether the row is selected: it has a coloured ground then.
 is_selected() {
-  [ "$(convert "$picture" -crop "360x1+30+$((123 + 17 * row))" -format '%[fx:int(255*mean.r)]' info: 2>/dev/null)" -lt 128 ]
+  red=$(convert "$picture" -crop "360x1+30+$((123 + 17 * row))" -format '%[fx:int(255*mean.r)]' info: 2>/dev/null || true)
+  [ "${red:-255}" -lt 128 ]
 }
 
 # drag X Y: the scene by that many pixels. The viewer follows the second movement, from where the first ended.
@@ -63,7 +64,8 @@ drag() {
 
 # There is no window manager, nor anything that says when a window is ready: all of it again until it is seen to work.
 shown=no
-for _ in $(seq 60); do
+give_up=$(($(date +%s) + 100))
+while [ "$(date +%s)" -le $give_up ]; do
   kill -0 $viewer || { echo "RawLogViewer has ended" >&2; exit 1; }
   main=$(mains | tail -n 1)
   if [ -z "$main" ]; then
@@ -88,7 +90,7 @@ for _ in $(seq 60); do
   before=$(look)
   if [ ${right#-} -gt 20 ] || [ ${down#-} -gt 20 ]; then
     drag $((2 * right)) $((2 * down)) # the scene follows half way
-  else # turns the wheel: about 30 clicks make things 2.7 times as large, fewer when they are near
+  else # turns the wheel: about half of the clicks that are needed, so as not to go too far
     x mousemove 840 670 click --repeat "$(awk -v w="$1" -v h="$2" 'BEGIN {
       times = 510 / w < 194 / h ? 510 / w : 194 / h; clicks = int(14 * log(times)); print clicks < 4 ? 4 : clicks }')" 4
   fi

@@ -2,9 +2,9 @@
 
 namespace omnimapper::base {
 
-/// Calls a function when the library or program is loaded that defines such an object at namespace scope: after what
-/// stands above it in its file. MRPT_INITIALIZER does so too early for classes that clang has compiled: their ids are
-/// made later.
+/// An object of this type at namespace scope calls a function when its library or program is loaded. Objects of one
+/// file are made from top to bottom, so it belongs below IMPLEMENTS_MRPT_OBJECT. MRPT_INITIALIZER is no substitute:
+/// compiled by clang, it runs before the ids of the classes are made.
 struct AtLoad {
   explicit AtLoad(void (*function)()) { function(); }
 };
