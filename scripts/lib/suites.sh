@@ -23,8 +23,8 @@ set_sanitizer_options() {
   export TSAN_OPTIONS=halt_on_error=1:suppressions=$suppressions/thread.txt:print_suppressions=0
 }
 
-# Runs a command with a fixed memory layout where the kernel lets us: the sanitizers of gcc 12 and clang 14 cannot start under the
-# wide random layouts of newer kernels.
+# Runs a command with a fixed memory layout where the kernel lets us: the sanitizers of gcc 12 and clang 14 cannot start
+# under the wide random layouts of newer kernels.
 with_fixed_layout() {
   if setarch -R true 2>/dev/null; then setarch -R "$@"; else "$@"; fi
 }

@@ -4,6 +4,7 @@ set -euo pipefail
 cd "$1"
 source scripts/lib/results.sh
 source scripts/lib/packages.sh
+source scripts/lib/suites.sh
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -53,6 +54,22 @@ expect "why a case was skipped" 'Mixed.lacksItsLog no "aces" here' \
   "$(awk -F '\t' '$1 == "skipped" { print $2, $3 }' "$scratch/cases")"
 expect "what failed" "Mixed.falls crashed leaking" \
   "$(awk -F '\t' '$1 == "failed" { printf "%s%s", s, $2; s = " " }' "$scratch/cases")"
+
+expect "seconds of a ctest test" 0.1 "$(awk -F '\t' '$2 == "package" { print $4 }' "$scratch/cases")"
+seq 5000 | awk '{ print "release\tpassed\tcase" $1 "\t\t" $1 / 10 }' >"$scratch/many"
+expect "the slowest of many cases" " 500.0 s  release: case5000" "$(slowest 1 "$scratch/many")"
+
+# What runs without a sanitizer because it says more there: the cases exist, and each file that makes something smaller
+# under a sanitizer is among them.
+for pattern in $(tr ':' ' ' <<<"${release_cases//\*/}"); do
+  suite=${pattern%%[./]*}
+  expect "tests of $suite, which scripts/lib/suites.sh names" yes \
+    "$(grep -rqE "TEST[_FP]*\($suite,|INSTANTIATE_TEST_SUITE_P\($suite," tests --include='*Test.cpp' && echo yes)"
+done
+for file in $(grep -rl kIsSanitized tests/*/*Test.cpp); do
+  suite=$(basename "$file" Test.cpp)
+  expect "$file is in release_cases of scripts/lib/suites.sh" yes "$(grep -q "$suite" <<<"$release_cases" && echo yes)"
+done
 
 # Package lists: one name in a line, and what it is for.
 printf '# heading\n\ncmake   # configures\nzlib1g-dev # .gz\n' >"$scratch/packages.txt"

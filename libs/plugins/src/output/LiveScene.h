@@ -7,9 +7,8 @@
 
 namespace omnimapper::plugins {
 
-/// An open window on the screen that draws a map. Implemented by libomnimapper-window, which LiveWindow loads: it
-/// brings MRPT's windows and 65 libraries under them, and every program would start 0.13 s later for something rarely
-/// used.
+/// An open window on the screen that draws a map. Implemented by libomnimapper-window, which LiveWindow loads: MRPT's
+/// windows bring 33 libraries, and every program would start later for something rarely used.
 class LiveScene {
  public:
   virtual ~LiveScene() = default;
