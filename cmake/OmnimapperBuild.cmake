@@ -20,7 +20,7 @@ if(OMNIMAPPER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${OMNIMAPPER_CCACHE}")
 endif()
 
-# Linking takes a fifth of the time with lld.
+# Linking takes a tenth of the time with lld: doc/results/build.md.
 find_program(OMNIMAPPER_LLD ld.lld)
 mark_as_advanced(OMNIMAPPER_LLD)
 if(OMNIMAPPER_LLD)
@@ -32,8 +32,8 @@ function(omnimapper_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Werror)
   omnimapper_unity(${target})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # gcc's collector of garbage takes a tenth of the time, and most of what it frees fits into 1 GiB.
-    target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=1048576)
+    # gcc's garbage collector takes a tenth of the time. It starts at 512 MiB: at 1 GiB a compiler would need over 2 GiB.
+    target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=524288)
   endif()
   if(OMNIMAPPER_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE} -fno-omit-frame-pointer -g1 -O1)
@@ -49,7 +49,7 @@ function(omnimapper_compile_options target)
 endfunction()
 
 # Sets how many files of a target are compiled at once with OMNIMAPPER_UNITY: most of the time goes into what they share,
-# so the more the better, but a compiler stays below 2 GiB and every core gets its share of the work to the end.
+# so the more the better, but a compiler stays below 2 GiB, and every core has work to the end.
 function(omnimapper_unity target)
   get_target_property(sources ${target} SOURCES)
   list(LENGTH sources count)
@@ -67,12 +67,13 @@ else()
   set(omnimapper_largest_batch 28)
 endif()
 
-
-# omnimapper_library(NAME [KERNELS] PUBLIC <targets...> PRIVATE <targets...>)
-# Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for those
-# in whose loops mapping spends its time: the others gain nothing from -O3 that its longer compiling is worth.
+# omnimapper_library(NAME [KERNELS | OPTIMIZED] PUBLIC <targets...> PRIVATE <targets...>)
+# Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for the
+# libraries in whose loops mapping spends its time, which get -O3; the others get -O2. Under a sanitizer these others are
+# not optimized, which halves the compiler's time and makes their tests hardly longer, unless they are OPTIMIZED: the
+# tests of what renders images would run for minutes.
 function(omnimapper_library name)
-  cmake_parse_arguments(ARG "KERNELS" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "KERNELS;OPTIMIZED" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
   # What registers classes when the library is loaded needs those of the other files to be there.
   list(FILTER sources EXCLUDE REGEX "/register\\.cpp$")
@@ -87,7 +88,9 @@ function(omnimapper_library name)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
   omnimapper_compile_options(${target})
-  if(NOT ARG_KERNELS)
+  if(OMNIMAPPER_SANITIZE AND NOT ARG_KERNELS AND NOT ARG_OPTIMIZED)
+    target_compile_options(${target} PRIVATE -O0)
+  elseif(NOT ARG_KERNELS)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
   endif()
   install(TARGETS ${target} EXPORT omnimapperTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})

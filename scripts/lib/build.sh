@@ -1,7 +1,7 @@
 # Configures and builds. Sourced, never run.
 # shellcheck shell=bash
 
-# What one checkout has compiled serves the next one too.
+# What a checkout has compiled serves the next one in the same folder: unity files name their sources by absolute path.
 export CCACHE_BASEDIR=$project_root CCACHE_NOHASHDIR=yes
 # What a file includes is what the compiler says it read, so that nothing is preprocessed twice.
 export CCACHE_DEPEND=yes

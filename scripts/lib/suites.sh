@@ -1,7 +1,7 @@
 # Which tests run in which build, and how. Sourced, never run.
 # shellcheck shell=bash
 
-# What tries the programs, the installed package and the scripts: optimised, as users have them.
+# The system tests: programs, installed package and scripts, optimised, as users have them.
 readonly system_tests=(system system-mapping system-input system-robust system-simulate system-perceive package scripts)
 # The unit tests of all libraries, under the address and undefined-behaviour sanitizers.
 readonly unit_tests=(perception sim plugins graph mapper source matching geometry base obs map check eval fuzz)
@@ -11,7 +11,7 @@ readonly address_cases='-StockTools.*:Generators.aRobotComesToEveryRoomAtAllLeve
 # The unit cases that a sanitizer forbids, or that say more without one: more seeds, bytes, logs and places.
 readonly release_tests=(obs source mapper sim)
 readonly release_cases='StockTools.*:DamageTest.*:RawlogSourceTest.aLogWithoutChecksum*:PcdCloudTest.aHeaderThatClaims*:EngineRandom.*:ShuffledArrival.*:Generators.aRobotComesToEveryRoomAtAllLevelsOfClutter:Generators.planesAreExactInEveryPlace:PlacesAndSeeds/*'
-# What shares data between threads, under the thread sanitizer.
+# The unit tests of threads, under the thread sanitizer.
 readonly thread_tests=(source mapper)
 readonly thread_cases='*Queue*:*Pool*:*Engine*:ReadAhead*:MappingRun*'
 
