@@ -1,5 +1,5 @@
-# cmake -D BUILD_FOLDER=... -D FOREIGN_PROJECT=... -D EXAMPLE=... -D BEACON_LOG=... -D SCRATCH=... -D GENERATOR=...
-#   -P PackageTest.cmake
+# cmake -D BUILD_FOLDER=... -D FOREIGN_PROJECT=... -D EXAMPLE=... -D BEACON_LOG=... -D INI=... -D SCRATCH=...
+#   -D GENERATOR=... -P PackageTest.cmake
 # Installs the build, moves the installed tree, and uses it as a stranger would: links against it, starts its programs,
 # and has one of them load plugins built outside: outputs of a foreign project, and the landmarks of
 # doc/examples/beacons.
@@ -38,6 +38,22 @@ foreach(program ${programs})
   run("${program}" --help)
 endforeach()
 
+# The live window is loaded when it is opened. Without a display it says so; without its library, too.
+file(GLOB log "/usr/share/mrpt/datasets/*Telecom*one_loop_only.rawlog")
+function(expect_gui_error text)
+  execute_process(COMMAND "${CMAKE_COMMAND}" -E env --unset=DISPLAY --unset=WAYLAND_DISPLAY
+    "${prefix}/bin/omnimapper-graphslam" -q --gui
+    -i "${INI}" -r "${log}" -o "${SCRATCH}/gui" RESULT_VARIABLE result ERROR_VARIABLE error)
+  if(result EQUAL 0 OR NOT error MATCHES "${text}")
+    message(FATAL_ERROR "--gui ended with ${result} and no word of '${text}':\n${error}")
+  endif()
+endfunction()
+expect_gui_error("no display")
+file(GLOB_RECURSE window "${prefix}/libomnimapper-window.so")
+file(RENAME "${window}" "${SCRATCH}/taken_away.so")
+expect_gui_error("libomnimapper-window.so belongs beside")
+file(RENAME "${SCRATCH}/taken_away.so" "${window}")
+
 # A map of a real log, with the foreign plugin as its only output.
 file(WRITE "${SCRATCH}/foreign.ini" "
 [mapper]
@@ -57,7 +73,6 @@ class = LoopClosurePlugin
 class = PoseCountOutput
 file  = count.txt
 ")
-file(GLOB log "/usr/share/mrpt/datasets/*Telecom*one_loop_only.rawlog")
 run("${prefix}/bin/omnimapper-graphslam" -i "${SCRATCH}/foreign.ini" -r "${log}" -o "${SCRATCH}/out" -q)
 file(READ "${SCRATCH}/out/count.txt" count)
 if(NOT count GREATER 10)

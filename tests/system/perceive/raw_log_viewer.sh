@@ -1,6 +1,7 @@
 #!/bin/sh
 # Opens a rawlog in MRPT's RawLogViewer, selects one of its first rows, brings what the 3D view draws to the middle and
-# nearer until it fills the view, and takes a picture of the screen, which is to be 1280 x 960 pixels.
+# nearer until it nearly fills the view, with nothing of it outside, and takes a picture of the screen, which is to be
+# 1280 x 960 pixels.
 #
 # Usage: xvfb-run -a -s '-screen 0 1280x960x24' raw_log_viewer.sh LIBRARY LOG ROW PICTURE
 set -eu
@@ -21,7 +22,7 @@ tips() { x search --onlyvisible --name 'Tip of the Day'; }
 look() { import -window root -crop $view rgb:- 2>/dev/null | cksum; }
 
 # settle BEFORE: waits until the view is no longer as BEFORE, or has stayed so for 2 s, and then until it shows the same
-# twice in a row: whatever was asked for has been drawn then, however busy the machine is. Then takes the picture.
+# four times in a row, as it does when whatever was asked for has been drawn. Then takes the picture.
 settle() {
   end=$(($(date +%s) + 2))
   now=$(look)
@@ -30,11 +31,12 @@ settle() {
     now=$(look)
   done
   end=$(($(date +%s) + 20))
-  last=
-  while [ "$now" != "$last" ] && [ "$(date +%s)" -le $end ]; do
+  same=0
+  while [ $same -lt 3 ] && [ "$(date +%s)" -le $end ]; do
     sleep 0.1
     last=$now
     now=$(look)
+    if [ "$now" = "$last" ]; then same=$((same + 1)); else same=0; fi
   done
   import -window root "$picture" 2>/dev/null || true
 }
@@ -62,6 +64,9 @@ drag() {
     sleep 0.1 mouseup 3
 }
 
+# whole WIDTH HEIGHT LEFT TOP: whether all that is drawn is within the view, clear of its four sides.
+whole() { [ "${3#+}" -gt 4 ] && [ "${4#+}" -gt 4 ] && [ $((${3#+} + $1)) -lt 858 ] && [ $((${4#+} + $2)) -lt 248 ]; }
+
 # There is no window manager, nor anything that says when a window is ready: all of it again until it is seen to work.
 shown=no
 give_up=$(($(date +%s) + 100))
@@ -84,8 +89,14 @@ while [ "$(date +%s)" -le $give_up ]; do
   set -- $(drawn)
   shown=no
   if [ $# -ne 4 ] || [ "$1" -le 10 ] || [ -n "$(tips)" ]; then continue; fi
-  if [ "$1" -gt 500 ] || [ "$2" -gt 190 ]; then exit 0; fi
   shown=yes
+  if ! whole "$@"; then # a busy viewer turns late, and then too far
+    before=$(look)
+    x mousemove 840 670 click --repeat 2 5
+    settle "$before"
+    continue
+  fi
+  if [ "$1" -gt 500 ] || [ "$2" -gt 190 ]; then exit 0; fi
   right=$((430 - $3 - $1 / 2)) down=$((125 - $4 - $2 / 2))
   before=$(look)
   if [ ${right#-} -gt 20 ] || [ ${down#-} -gt 20 ]; then
