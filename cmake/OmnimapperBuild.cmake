@@ -75,7 +75,7 @@ endif()
 function(omnimapper_library name)
   cmake_parse_arguments(ARG "KERNELS;OPTIMIZED" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
-  # What registers classes when the library is loaded needs those of the other files to be there.
+  # register.cpp is linked last: the ids of the classes that it registers must be initialised before.
   list(FILTER sources EXCLUDE REGEX "/register\\.cpp$")
   file(GLOB last CONFIGURE_DEPENDS
     "${CMAKE_CURRENT_SOURCE_DIR}/src/register.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/register.cpp")
@@ -88,7 +88,7 @@ function(omnimapper_library name)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
   omnimapper_compile_options(${target})
-  if(OMNIMAPPER_SANITIZE AND NOT ARG_KERNELS AND NOT ARG_OPTIMIZED)
+  if(OMNIMAPPER_SANITIZE AND NOT OMNIMAPPER_BUILD_FUZZ AND NOT ARG_KERNELS AND NOT ARG_OPTIMIZED)
     target_compile_options(${target} PRIVATE -O0)
   elseif(NOT ARG_KERNELS)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
@@ -105,20 +105,25 @@ function(omnimapper_app name)
   target_link_libraries(app-${name} PRIVATE ${ARGN})
   omnimapper_compile_options(app-${name})
   # Nothing of an app but the reading of its command line is compiled here.
-  target_compile_options(app-${name} PRIVATE -O1)
+  target_compile_options(app-${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
 # omnimapper_test(NAME [OPTIMIZED] [COST SECONDS] <targets...>): one test binary for the folder's *Test.cpp files, named
-# test-NAME. What it asserts is the same unoptimized, and compiles in 40 % of the time; OPTIMIZED is for what renders
-# images or searches texts itself, and would run for minutes. COST, about: what takes long is started first.
+# test-NAME. Tests are not optimized: they assert the same, and compile in 40 % of the time. OPTIMIZED is for tests that
+# render images or search texts themselves, which would run for minutes. COST is roughly how long the test runs; ctest
+# starts the longest first.
 function(omnimapper_test name)
   cmake_parse_arguments(ARG "OPTIMIZED" "COST" "" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*Test.cpp")
   add_executable(test-${name} ${sources})
   target_link_libraries(test-${name} PRIVATE ${ARG_UNPARSED_ARGUMENTS} omnimapper-testing GTest::gtest_main)
   omnimapper_compile_options(test-${name})
-  target_compile_options(test-${name} PRIVATE $<IF:$<BOOL:${ARG_OPTIMIZED}>,-O1,-O0>)
+  if(ARG_OPTIMIZED)
+    target_compile_options(test-${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  else()
+    target_compile_options(test-${name} PRIVATE -O0)
+  endif()
   add_test(NAME ${name} COMMAND test-${name})
   if(ARG_COST)
     set_tests_properties(${name} PROPERTIES COST "${ARG_COST}")

@@ -15,7 +15,7 @@ build_jobs() {
   echo "${OMNIMAPPER_JOBS:-$((cores < memory ? cores : memory))}"
 }
 
-# What is built beside mapping: nothing, the simulator, or all.
+# What build/release holds beside mapping: nothing, the simulator, or the simulator and the tests.
 readonly without_simulator=(-DOMNIMAPPER_BUILD_SIMULATOR=OFF -DOMNIMAPPER_BUILD_TESTS=OFF)
 readonly with_simulator=(-DOMNIMAPPER_BUILD_SIMULATOR=ON -DOMNIMAPPER_BUILD_TESTS=OFF)
 readonly with_tests=(-DOMNIMAPPER_BUILD_SIMULATOR=ON -DOMNIMAPPER_BUILD_TESTS=ON)
@@ -39,4 +39,21 @@ build() {
   jobs=$(build_jobs)
   say "Building build/$folder with $jobs jobs"
   ninja -C "$project_root/build/$folder" -j "$jobs" "$@"
+}
+
+# has_option FOLDER NAME: whether build/FOLDER is set up with OMNIMAPPER_NAME.
+has_option() { grep -qs "^OMNIMAPPER_$2:BOOL=ON" "$project_root/build/$1/CMakeCache.txt"; }
+
+# choose_release none|simulator: sets release_options and release_packages for a build/release that holds at least that.
+# A folder that is there keeps what it is set up for, with the packages that this needs.
+choose_release() {
+  release_options=("${without_simulator[@]}")
+  release_packages=(scripts/packages.txt)
+  if has_option release BUILD_TESTS; then
+    release_options=("${with_tests[@]}")
+    release_packages+=(scripts/packages-simulator.txt scripts/packages-test.txt)
+  elif [ "$1" = simulator ] || has_option release BUILD_SIMULATOR; then
+    release_options=("${with_simulator[@]}")
+    release_packages+=(scripts/packages-simulator.txt)
+  fi
 }

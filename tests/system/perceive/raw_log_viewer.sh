@@ -21,8 +21,8 @@ tips() { x search --onlyvisible --name 'Tip of the Day'; }
 # look: prints a checksum of what the 3D view shows.
 look() { import -window root -crop $view rgb:- 2>/dev/null | cksum; }
 
-# settle BEFORE: waits until the view is no longer as BEFORE, or has stayed so for 2 s, and then until it shows the same
-# four times in a row, as it does when whatever was asked for has been drawn. Then takes the picture.
+# settle BEFORE: waits for the view to differ from the checksum BEFORE, for at most 2 s, and then until four checksums in
+# a row are the same, as they are when whatever was asked for has been drawn. Then takes the picture.
 settle() {
   end=$(($(date +%s) + 2))
   now=$(look)
@@ -69,7 +69,7 @@ whole() { [ "${3#+}" -gt 4 ] && [ "${4#+}" -gt 4 ] && [ $((${3#+} + $1)) -lt 858
 
 # There is no window manager, nor anything that says when a window is ready: all of it again until it is seen to work.
 shown=no
-give_up=$(($(date +%s) + 100))
+give_up=$(($(date +%s) + 60)) # one more round may take 50 s; the caller waits for 120
 while [ "$(date +%s)" -le $give_up ]; do
   kill -0 $viewer || { echo "RawLogViewer has ended" >&2; exit 1; }
   main=$(mains | tail -n 1)

@@ -8,7 +8,7 @@
 namespace omnimapper::plugins {
 
 /// An open window on the screen that draws a map. Implemented by libomnimapper-window, which LiveWindow loads: MRPT's
-/// windows bring 33 libraries, and every program would start later for something rarely used.
+/// windows bring many libraries, and every program would start later for something rarely used.
 class LiveScene {
  public:
   virtual ~LiveScene() = default;

@@ -3,6 +3,7 @@
 #include <omnimapper/plugins/LiveWindow.h>
 
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 #include "LiveScene.h"
@@ -28,10 +29,17 @@ const base::OptionTable<LiveWindowOptions>& LiveWindowOptions::table() {
 
 namespace {
 
+// Path of a library beside the one that holds this function: no other folder is searched.
+std::string pathBeside(const std::string& file) {
+  Dl_info here;
+  if (::dladdr(reinterpret_cast<const void*>(&pathBeside), &here) == 0) return file;
+  return (std::filesystem::absolute(here.dli_fname).parent_path() / file).string();
+}
+
 // Never unloaded: MRPT's thread may paint until the program ends.
 std::unique_ptr<LiveScene> openScene(const LiveWindowOptions& options, const std::string& title) {
   constexpr const char* kLibrary = "libomnimapper-window.so";
-  void* library = ::dlopen(kLibrary, RTLD_NOW);
+  void* library = ::dlopen(pathBeside(kLibrary).c_str(), RTLD_NOW);
   void* open = library ? ::dlsym(library, "omnimapperOpenLiveScene") : nullptr;
   if (!open) {
     throw base::Error(base::ExitCode::plugin_library,
