@@ -1,5 +1,6 @@
 // False closures among the true ones of public pose graphs: what the consistency test refuses, and what is left of the
-// map. Every edge that is not odometry is a hypothesis. Prints Markdown tables; doc/results/robustness.md shows them.
+// map. Every edge that is not odometry is a hypothesis. Prints Markdown tables; doc/results/false_closures.md shows
+// them.
 //
 //   bench-false_closures --seeds 5
 #include <omnimapper/base/Error.h>

@@ -1,0 +1,351 @@
+// Whether a map survives what nobody tuned for: every 2D laser log at hand, as it is and in eight variants (reversed,
+// thinned, without or with bad wheels, with a narrow laser, from the middle on), mapped with one INI. Prints a Markdown
+// table of absolute trajectory errors and writes a CSV with everything else; --before puts the CSV of an earlier run
+// beside it.
+//
+// A map is wrong if its error (root mean square after the best rigid alignment) is over 1 m. It is judged by the truth
+// of a simulator, by another mapper's corrected poses, or, where there is neither (UAL, office, Malaga), by the map
+// that we made of the unchanged log, which was looked at and is kept in tests/bench/references.
+//
+// Example: bench-robustness -o out/robustness
+#include <omnimapper/base/Stamp.h>
+#include <omnimapper/eval/AbsoluteTrajectoryError.h>
+#include <omnimapper/eval/RelativePoseError.h>
+#include <omnimapper/eval/TumFile.h>
+#include <omnimapper/obs/registerClasses.h>
+#include <omnimapper/source/CarmenLog.h>
+#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/LogVariants.h>
+#include <omnimapper/testing/Program.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+namespace {
+
+using namespace omnimapper;
+namespace tests = omnimapper::testing;
+using tests::LogVariant;
+namespace fs = std::filesystem;
+
+constexpr double kWrong = 1;  // [m] of absolute trajectory error
+
+struct Log {
+  std::string name, path, reference;
+  bool is_thin = false;  // scans 0.5 to 1 m apart already
+  bool is_real = true;
+};
+
+using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
+
+Observations read(const std::string& path) {
+  std::unique_ptr<source::ObservationSource> log;
+  if (path.find(".clf") != std::string::npos) {
+    log = std::make_unique<source::CarmenLog>(path);
+  } else {
+    log = source::openRawlogs({path}, {});
+  }
+  Observations all;
+  while (auto observation = log->next()) {
+    if (base::isValid(observation->timestamp)) all.push_back(std::move(observation));
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
+  return all;
+}
+
+// Made by the simulator once: laser and wheels alone.
+std::optional<Log> simulated(const std::string& name, const std::string& out) {
+  const std::string folder = out + "/simulated/" + name;
+  Log log{"simulated " + name, folder + "/" + name + ".rawlog", folder + "/truth.tum", false, false};
+  if (fs::exists(log.path)) return log;
+  const auto ended = tests::runProgram(
+      {tests::ownProgram("omnimapper-simulate"), "-q", "-i", tests::sourceFile("rawlogs/" + name + ".ini"), "--set",
+       "simulation.sensors=laser, odometry", "-o", folder},
+      {600, 0});
+  if (ended.code == 0) return log;
+  std::fprintf(stderr, "%s was not simulated: %s\n", name.c_str(), tests::toString(ended).c_str());
+  return std::nullopt;
+}
+
+std::vector<Log> logsAtHand(const std::string& out) {
+  std::vector<Log> logs;
+  const auto add = [&](const std::string& name, const std::optional<std::string>& path,
+                       const std::optional<std::string>& reference, bool is_thin, bool is_real) {
+    if (path && reference && fs::exists(*reference)) {
+      logs.push_back({name, *path, *reference, is_thin, is_real});
+    } else {
+      std::fprintf(stderr, "%s is not on this machine\n", name.c_str());
+    }
+  };
+  for (const std::string name : {"aces", "intel", "mit-csail", "fhw", "belgioioso"}) {
+    add(name, tests::sharedData("laser2d/" + name + ".clf.bz2"),
+        tests::sharedData("laser2d/" + name + ".reference.tum"), name == "fhw" || name == "belgioioso", true);
+  }
+  const auto kept = [](const std::string& name) {
+    return tests::sourceFile("tests/bench/references/" + name + ".tum");
+  };
+  for (const std::string name : {"ual", "driving_in_office"})
+    add(name, tests::sharedData("laser2d/" + name + ".rawlog"), kept(name), false, true);
+  add("malaga", tests::mrptDataset("2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog"), kept("malaga"), false,
+      true);
+  for (const std::string name : {"simul", "range_030_bearing_015"}) {
+    const std::string path = "graphslam-engine-demos/action_observations_map/" + name + ".rawlog";
+    add(name, tests::mrptDataset(path), tests::mrptDataset(path + ".GT.txt"), false, false);
+  }
+  for (const std::string name : {"home", "office", "laboratory"}) {
+    if (const auto log = simulated(name, out)) logs.push_back(*log);
+  }
+  return logs;
+}
+
+struct Run {
+  Run(const Log& of, LogVariant as) : log(&of), variant(as) {}
+
+  const Log* log;
+  LogVariant variant;
+  int code = -1;
+  double seconds = 0, ate = NAN, relative_10 = NAN, relative_50 = NAN;  // [m]
+  std::size_t key_frames = 0, closures = 0, refused = 0;
+  std::string verdict;
+
+  // Without a map it is not wrong, but not right either.
+  bool isMapped() const { return std::isfinite(ate); }
+  bool isWrong() const { return isMapped() && ate > kWrong; }
+};
+
+double relativeError(const eval::Trajectory& estimate, const eval::Trajectory& reference,
+                     const eval::PairingOptions& pairing, double way) {
+  try {
+    return eval::relativePoseError(estimate, reference, pairing, {way, eval::DeltaUnit::metres}).translation.rmse;
+  } catch (const base::Error&) {
+    return NAN;  // a log that is shorter
+  }
+}
+
+// The reference is sparse and ours is dense: ours is asked where it was at the reference's stamps.
+void judge(Run& run, const std::string& folder, const eval::Trajectory& reference) {
+  try {
+    eval::PairingOptions pairing;
+    pairing.alignment = eval::Alignment::yaw;
+    pairing.longest_gap = base::durationFromSeconds(10);
+    const auto ours = eval::readTum(folder + "/trajectory.tum");
+    run.ate = eval::absoluteTrajectoryError(reference, ours, pairing).translation.rmse;
+    run.relative_10 = relativeError(reference, ours, pairing, 10);
+    run.relative_50 = relativeError(reference, ours, pairing, 50);
+    const auto summary = nlohmann::json::parse(std::ifstream(folder + "/summary.json"));
+    run.key_frames = summary.at("key_frames");
+    run.closures = summary.at("closures").at("accepted");
+    run.refused = summary.at("closures").at("refused");
+    if (summary.contains("verdict")) run.verdict = summary.at("verdict").at("verdict");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", folder.c_str(), error.what());
+  }
+}
+
+std::string key(const Run& run) {
+  return run.log->name + "," + tests::nameOf(run.variant);
+}
+
+std::string errorOf(const Run& run) {
+  char text[80];
+  if (!run.isMapped()) {
+    std::snprintf(text, sizeof text, "exit %d", run.code);
+  } else {
+    std::snprintf(text, sizeof text, run.isWrong() ? "**%.2f**" : "%.3f", run.ate);
+  }
+  return text;
+}
+
+std::string cell(const Run& run) {
+  return errorOf(run) + (run.verdict.empty() || run.verdict == "consistent" ? "" : " (" + run.verdict + ")");
+}
+
+std::map<std::string, std::string> errorsIn(const std::string& csv) {
+  std::map<std::string, std::string> errors;
+  std::ifstream in(csv);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::stringstream words(line);
+    std::string log, variant, error;
+    if (std::getline(words, log, ',') && std::getline(words, variant, ',') && std::getline(words, error, ','))
+      errors[log + "," + variant] = error;
+  }
+  return errors;
+}
+
+void printTable(const std::vector<Run>& runs, const std::vector<Log>& logs, const std::vector<LogVariant>& variants,
+                const std::map<std::string, std::string>& before) {
+  std::printf("| log |");
+  for (const auto variant : variants) std::printf(" %s |", tests::nameOf(variant).c_str());
+  std::printf("\n|---|%s\n",
+              [&] {
+                std::string rule;
+                for (std::size_t i = 0; i < variants.size(); ++i) rule += "---|";
+                return rule;
+              }()
+                  .c_str());
+  const auto row = [&](const std::string& name, const auto& cell_of) {
+    std::printf("| %s |", name.c_str());
+    for (const auto variant : variants) std::printf(" %s |", cell_of(variant).c_str());
+    std::printf("\n");
+  };
+  for (const auto& log : logs) {
+    row(log.name, [&](LogVariant variant) -> std::string {
+      for (const auto& run : runs) {
+        if (run.log != &log || run.variant != variant) continue;
+        const auto was = before.find(key(run));
+        return cell(run) + (was == before.end() || was->second == errorOf(run) ? "" : ", was " + was->second);
+      }
+      return "";
+    });
+  }
+  const auto over = [&](LogVariant variant, const auto& pick) -> std::string {
+    std::vector<double> errors;
+    for (const auto& run : runs) {
+      if (run.variant == variant && run.isMapped()) errors.push_back(run.ate);
+    }
+    if (errors.empty()) return "";
+    std::sort(errors.begin(), errors.end());
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3f", pick(errors));
+    return text;
+  };
+  row("*median*", [&](LogVariant v) { return over(v, [](const auto& e) { return e[e.size() / 2]; }); });
+  row("*worst*", [&](LogVariant v) { return over(v, [](const auto& e) { return e.back(); }); });
+}
+
+void printCounts(const std::vector<Run>& runs) {
+  std::size_t wrong = 0, unmapped = 0, wrong_unsaid = 0, good_suspicious = 0, good_unsure = 0;
+  double seconds = 0;
+  for (const auto& run : runs) {
+    wrong += run.isWrong();
+    unmapped += !run.isMapped();
+    wrong_unsaid += run.isWrong() && run.verdict != "suspicious" && run.verdict != "cannot tell";
+    good_suspicious += run.isMapped() && !run.isWrong() && run.verdict == "suspicious";
+    good_unsure += run.isMapped() && !run.isWrong() && run.verdict == "cannot tell";
+    seconds += run.seconds;
+  }
+  std::printf(
+      "\n%zu maps: %zu good, of which %zu called suspicious and %zu \"cannot tell\"; %zu wrong (over %.0f m), of which "
+      "%zu "
+      "called consistent; %zu without a map. %.0f s of mapping.\n",
+      runs.size(), runs.size() - wrong - unmapped, good_suspicious, good_unsure, wrong, kWrong, wrong_unsaid, unmapped,
+      seconds);
+}
+
+void writeCsv(const std::string& path, const std::vector<Run>& runs) {
+  std::ofstream csv(path);
+  csv << "log,variant,error,exit,ate_m,relative_10_m,relative_50_m,key_frames,closures,refused,verdict,seconds\n";
+  for (const auto& run : runs) {
+    csv << key(run) << "," << errorOf(run) << "," << run.code << "," << run.ate << "," << run.relative_10 << ","
+        << run.relative_50 << "," << run.key_frames << "," << run.closures << "," << run.refused << "," << run.verdict
+        << "," << run.seconds << "\n";
+  }
+}
+
+template <class Item, class Name>
+void keepNamed(std::vector<Item>& items, const std::vector<std::string>& names, const Name& name_of) {
+  if (names.empty()) return;
+  items.erase(std::remove_if(items.begin(), items.end(),
+                             [&](const Item& item) {
+                               return std::find(names.begin(), names.end(), name_of(item)) == names.end();
+                             }),
+              items.end());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string ini = tests::sourceFile("ini/laser2d.ini"), out, before;
+  std::vector<std::string> names, variant_names, settings;
+  int jobs = 2;
+  CLI::App app("Maps every 2D laser log at hand in nine variants and prints how wrong the maps are.");
+  app.add_option("-i,--ini", ini, "(ini/laser2d.ini)");
+  app.add_option("-o,--output", out, "folder for logs, maps and results.csv; variants that it holds are used again")
+      ->required();
+  app.add_option("--logs", names, "only these")->delimiter(',');
+  app.add_option("--variants", variant_names, "only these")->delimiter(',');
+  app.add_option("--set", settings, "section.key=value");
+  app.add_option("--jobs", jobs, "maps at once")->check(CLI::PositiveNumber);
+  app.add_option("--before", before, "results.csv of an earlier run, to stand beside this one's")
+      ->check(CLI::ExistingFile);
+  CLI11_PARSE(app, argc, argv);
+  obs::registerClasses();
+  const auto errors_before = before.empty() ? std::map<std::string, std::string>{} : errorsIn(before);
+
+  auto logs = logsAtHand(out);
+  keepNamed(logs, names, [](const Log& log) { return log.name; });
+  auto variants = tests::allLogVariants();
+  keepNamed(variants, variant_names, tests::nameOf);
+
+  struct Running {
+    std::size_t run;
+    std::string folder;
+    eval::Trajectory reference;
+    std::unique_ptr<tests::Program> program;
+  };
+  std::vector<Run> runs;
+  std::deque<Running> running;
+  const auto finishOne = [&] {
+    const auto ended = running.front().program->wait();
+    Run& run = runs[running.front().run];
+    run.code = ended.code;
+    run.seconds = ended.seconds;
+    if (ended.code != 0 && ended.code != 17)
+      std::fprintf(stderr, "%s: %s\n", key(run).c_str(), toString(ended).c_str());
+    judge(run, running.front().folder, running.front().reference);
+    running.pop_front();
+  };
+  for (const auto& log : logs) {
+    const auto reference = eval::readTrajectory(log.reference);
+    std::optional<Observations> observations;
+    for (const auto variant : variants) {
+      const bool thins = variant == LogVariant::every_second_scan || variant == LogVariant::every_fourth_scan;
+      if (log.is_thin && thins) continue;
+      const std::string folder = out + "/" + log.name + "/" + tests::nameOf(variant), path = folder + "/log.rawlog";
+      if (!observations) observations = read(log.path);
+      if (!fs::exists(path)) {
+        fs::create_directories(folder);
+        source::writeRawlog(path, [&](source::RawlogWriter& rawlog) {
+          for (const auto& observation : tests::variantOf(*observations, variant)) rawlog.add(*observation);
+        });
+      }
+      auto truth = reference;
+      if (variant == LogVariant::reversed) {
+        for (auto& pose : truth) pose.stamp = tests::reversedStamp(*observations, pose.stamp);
+        std::reverse(truth.begin(), truth.end());
+      }
+      std::vector<std::string> command{tests::ownProgram("omnimapper-graphslam"),
+                                       "-q",
+                                       "-i",
+                                       ini,
+                                       "-r",
+                                       path,
+                                       "-o",
+                                       folder,
+                                       "--threads",
+                                       "1",
+                                       "--set",
+                                       "mapper.output_plugins=trajectory,summary"};
+      for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});
+      if (running.size() == static_cast<std::size_t>(jobs)) finishOne();
+      fs::remove(folder + "/trajectory.tum");
+      runs.emplace_back(log, variant);
+      running.push_back({runs.size() - 1, folder, std::move(truth),
+                         std::make_unique<tests::Program>(command, tests::ProgramOptions{600, 0})});
+    }
+  }
+  while (!running.empty()) finishOne();
+  writeCsv(out + "/results.csv", runs);
+  printTable(runs, logs, variants, errors_before);
+  printCounts(runs);
+}
