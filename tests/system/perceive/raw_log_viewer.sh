@@ -10,6 +10,7 @@ view=860x250+408+545 # the 3D view on the screen: width x height + left + top
 
 RawLogViewer -l "$library" "$log" >/dev/null 2>&1 &
 viewer=$!
+screen=$(pgrep -f "Xvfb $DISPLAY " | head -n 1)
 trap 'kill $viewer 2>/dev/null || true' EXIT
 
 # x WORDS...: what xdotool does with a window that may have gone meanwhile, or may not be there yet.
@@ -21,22 +22,19 @@ tips() { x search --onlyvisible --name 'Tip of the Day'; }
 # look: prints a checksum of what the 3D view shows.
 look() { import -window root -crop $view rgb:- 2>/dev/null | cksum; }
 
-# settle BEFORE: waits for the view to differ from the checksum BEFORE, for at most 2 s, and then until four checksums in
-# a row are the same, as they are when whatever was asked for has been drawn. Then takes the picture.
+# Whether viewer and screen wait for something to do: no thread of theirs runs or waits for a core.
+is_idle() { ! cat /proc/"$viewer"/task/*/stat /proc/"$screen"/task/*/stat 2>/dev/null | sed 's/.*) //' | grep -q '^[RD]'; }
+
+# settle: waits until whatever was asked for has been drawn: for half a second viewer and screen have had nothing to do,
+# and the view is the same as before it. Then takes the picture.
 settle() {
-  end=$(($(date +%s) + 2))
-  now=$(look)
-  while [ "$now" = "$1" ] && [ "$(date +%s)" -le $end ]; do
-    sleep 0.1
-    now=$(look)
-  done
   end=$(($(date +%s) + 20))
-  same=0
-  while [ $same -lt 3 ] && [ "$(date +%s)" -le $end ]; do
+  quiet=0
+  while [ $quiet -lt 5 ] && [ "$(date +%s)" -le $end ]; do
+    [ $quiet -gt 0 ] || last=$(look)
     sleep 0.1
-    last=$now
-    now=$(look)
-    if [ "$now" = "$last" ]; then same=$((same + 1)); else same=0; fi
+    if is_idle; then quiet=$((quiet + 1)); else quiet=0; fi
+    [ $quiet -lt 5 ] || [ "$(look)" = "$last" ] || quiet=0
   done
   import -window root "$picture" 2>/dev/null || true
 }
@@ -79,10 +77,9 @@ while [ "$(date +%s)" -le $give_up ]; do
   fi
   for tip in $(tips); do x windowfocus "$tip" key Escape; done
   if [ $shown = no ]; then
-    before=$(look)
     x windowsize "$main" 1280 960
     x mousemove 200 $((123 + 17 * row)) click 1
-    settle "$before"
+    settle
     is_laid_out && is_selected || continue
   fi
   # shellcheck disable=SC2046 # four numbers
@@ -91,21 +88,19 @@ while [ "$(date +%s)" -le $give_up ]; do
   if [ $# -ne 4 ] || [ "$1" -le 10 ] || [ -n "$(tips)" ]; then continue; fi
   shown=yes
   if ! whole "$@"; then # a busy viewer turns late, and then too far
-    before=$(look)
     x mousemove 840 670 click --repeat 2 5
-    settle "$before"
+    settle
     continue
   fi
   if [ "$1" -gt 500 ] || [ "$2" -gt 190 ]; then exit 0; fi
   right=$((430 - $3 - $1 / 2)) down=$((125 - $4 - $2 / 2))
-  before=$(look)
   if [ ${right#-} -gt 20 ] || [ ${down#-} -gt 20 ]; then
     drag $((2 * right)) $((2 * down)) # the scene follows half way
   else # turns the wheel: about half of the clicks that are needed, so as not to go too far
     x mousemove 840 670 click --repeat "$(awk -v w="$1" -v h="$2" 'BEGIN {
       times = 510 / w < 194 / h ? 510 / w : 194 / h; clicks = int(14 * log(times)); print clicks < 4 ? 4 : clicks }')" 4
   fi
-  settle "$before"
+  settle
 done
 echo "drawn in the 3D view (width, height, left, top): $*" >&2
 exit 1
