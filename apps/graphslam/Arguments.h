@@ -35,6 +35,7 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 256));
   app.add_option("--speed", arguments.run.speed, "replay at so many times the log's pace; 0: as fast as possible")
       ->check(CLI::NonNegativeNumber);
+  app.add_flag("--strict", arguments.run.strict, "end with code 17 if the map contradicts itself");
   app.add_flag("--gui", arguments.gui, "show the map while it grows");
   app.add_flag("--list-plugins", arguments.list_plugins,
                "list the plugin classes, with -i those of its libraries too, and leave");

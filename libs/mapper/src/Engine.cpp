@@ -90,6 +90,7 @@ void Engine::finish() {
     }
   }
   tried([&] { collectSections(); });
+  if (!window_) tried([&] { judgeMap(); });
   if (extraction_errors_.count() > 0) warn(extraction_errors_.sentence());
   times_.add("perception wait", busy_.perception);
   times_.add("job wait", busy_.jobs);

@@ -117,6 +117,22 @@ void Engine::conclude() {
   }
 }
 
+void Engine::judgeMap() {
+  std::vector<Evidence> evidence;
+  const auto collect = [&](const auto& plugins, const auto& evidence_of) {
+    for (const auto& [section, plugin] : plugins) {
+      const StopWatch watch;
+      auto some = evidence_of(*plugin);
+      evidence.insert(evidence.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
+      busy_.plugins += watch.seconds();
+      times_.add("plugin " + section, watch.seconds());
+    }
+  };
+  collect(plugins_.pose, [](const PosePlugin& plugin) { return plugin.evidence(); });
+  collect(plugins_.measurement, [this](const MeasurementPlugin& plugin) { return plugin.evidence(view()); });
+  verdict_ = mapper::conclude(std::move(evidence));
+}
+
 void Engine::solveNow(const graph::SolveOptions& options) {
   const StopWatch watch;
   estimator_.solve(options);

@@ -223,10 +223,15 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   warnOfSession(result.sessions.back(), engine);
   const bool is_lost = context.map_is_held && result.located == 0;
   if (context.map_is_held) warnOfFixes(result, engine);
+  result.verdict = engine.view().verdict;
+  const bool is_suspicious = result.verdict.answer == Verdict::Answer::suspicious;
+  if (is_suspicious) engine.warn(sentenceOf(result.verdict) + " Look at map.png and report.html before you use it");
   result.warnings = engine.view().warnings;
   result.source = report;
   result.code = stopped ? base::ExitCode::interrupted : report.exitCode();
   if (result.code == base::ExitCode::ok) result.code = engine.extractionErrors().code();
+  if (result.code == base::ExitCode::ok && request.strict && is_suspicious)
+    result.code = base::ExitCode::suspicious_map;
   // A map that is continued is there already: better that one than one broken off.
   const bool keep_old = result.new_key_frames == 0 || !request.continue_map.empty();
   if (keep_old && failure) std::rethrow_exception(failure);
@@ -263,7 +268,9 @@ std::string toText(const RunResult& result, const std::string& output_folder) {
                 result.key_frames, result.factors, result.closures, result.refused_closures, result.way,
                 result.log_seconds, result.wall_seconds,
                 result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
-  return sessions + text + landmarkLine(result.landmarks) + "outputs           " + output_folder + "\n";
+  const std::string verdict =
+      result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";
+  return sessions + text + landmarkLine(result.landmarks) + verdict + "outputs           " + output_folder + "\n";
 }
 
 }  // namespace omnimapper::mapper

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "../SharedSection.h"
+#include "MapConsistency.h"
 
 IMPLEMENTS_MRPT_OBJECT(LoopClosurePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -151,6 +152,14 @@ mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, cons
   searches_.clear();
   map_searches_.clear();
   return follow_up;
+}
+
+std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& view) const {
+  std::vector<std::string> labels;
+  for (const auto& [label, history] : histories_) labels.push_back(label);
+  auto all = revisits(view, context_.section, options_.min_way);
+  all.insert(all.begin(), scansThroughWalls(view.map, labels));
+  return all;
 }
 
 std::vector<LoopSearch::Sight> LoopClosurePlugin::sights(const History& history, std::size_t centre, double before,

@@ -65,6 +65,13 @@ std::string drawWarnings(const std::vector<std::string>& warnings) {
   return "<section class=\"card warnings\"><h2>Warnings</h2><ul>" + items + "</ul></section>\n";
 }
 
+// Its figures are in the summary.
+std::string drawVerdict(const mapper::Verdict& verdict) {
+  if (verdict.evidence.empty()) return {};
+  return "<section class=\"card\"><h2>Verdict: " + mapper::toString(verdict.answer) + "</h2><p>" +
+         escapeHtml(sentenceOf(verdict)) + "</p></section>\n";
+}
+
 std::string drawConfig(const std::string& text) {
   if (text.empty()) return {};
   return "<details class=\"card\"><summary>Settings of this run (INI)</summary><pre>" + escapeHtml(text) +
@@ -87,7 +94,8 @@ std::string drawReport(const ReportInput& input) {
   html += kReportStyle;
   html +=
       "</style>\n</head>\n<body>\n<main>\n<header><h1>" + title + "</h1><p>Mapping report of OmniMapper</p></header>\n";
-  html += drawWarnings(view.warnings) + drawFigures(input, figuresOf(view, input.trajectory));
+  html +=
+      drawVerdict(view.verdict) + drawWarnings(view.warnings) + drawFigures(input, figuresOf(view, input.trajectory));
   if (input.picture)
     html += drawReportMap(*input.picture, input.landmarks, input.trajectory, input.closures, kMostRefusedClosures);
   html += drawLandmarkTable(input.landmarks, startOf(view.map)) +

@@ -97,6 +97,13 @@ Json sessionsOf(const map::Map& map) {
   return list;
 }
 
+Json verdictOf(const mapper::Verdict& verdict) {
+  Json evidence = Json::object();
+  for (const auto& one : verdict.evidence) evidence[one.name] = one.value;
+  return {
+      {"verdict", mapper::toString(verdict.answer)}, {"sentence", mapper::sentenceOf(verdict)}, {"evidence", evidence}};
+}
+
 Json summaryOf(const mapper::View& view, const std::string& title) {
   const auto trajectory = trajectoryOf(view);
   const RunFigures figures = figuresOf(view, trajectory);
@@ -116,6 +123,7 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   if (view.map_is_held) summary["localization"] = {{"key_frames", figures.fixes}, {"located", figures.located}};
   summary["landmarks"] = mapper::countLandmarks(view);
   summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
+  summary["verdict"] = verdictOf(view.verdict);
   summary["counts"] = counts;
   summary["graph"] = graphOf(view);
   summary["decisions"] = decisionsOf(view.decisions);

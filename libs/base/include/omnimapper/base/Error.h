@@ -24,6 +24,7 @@ enum class ExitCode : int {
   nothing_to_map = 14,      ///< no observation that any plugin wants
   doubtful_input = 15,      ///< --check: a log that is likely mapped wrong without the remedies it names
   not_located = 16,         ///< --localize: the log was found nowhere in the map
+  suspicious_map = 17,      ///< --strict: the map is written, and contradicts itself
   interrupted = 130,        ///< Ctrl-C: the map so far is written
 };
 

@@ -45,7 +45,8 @@ class Engine {
   void localizeIn(SavedMap saved, const SessionStart& start, int key_frames);
   /// Takes one observation, in order of arrival, and works on whatever that releases. What cannot be used is counted.
   void add(const mrpt::obs::CObservation::Ptr& observation);
-  /// The end of the log: everything still queued is worked off, jobs in order, and the graph is solved to the end.
+  /// The end of the log: everything still queued is worked off, jobs in order, the graph is solved to the end, and the
+  /// map is judged.
   void finish();
   /// Calls every output plugin's finish(). An output that cannot be written does not keep the others from theirs; the
   /// first error is thrown at the end.
@@ -72,7 +73,8 @@ class Engine {
             warnings_,
             sections_,
             window_.has_value(),
-            fixes_};
+            fixes_,
+            verdict_};
   }
 
  private:
@@ -98,6 +100,7 @@ class Engine {
   void conclude();
   void solveNow(const graph::SolveOptions& options);
   void collectSections();
+  void judgeMap();
   void takeUp(SavedMap saved, const SessionStart& start);
   void restorePlugins();
   std::set<std::string> absoluteOwners() const;
@@ -130,6 +133,7 @@ class Engine {
   BusyTimes busy_;
   std::optional<SlidingWindow> window_;  // of a run that localizes
   std::vector<Fix> fixes_;
+  Verdict verdict_;
 
   Perception perception_;
   Committer committer_;

@@ -5,6 +5,7 @@
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/PluginHelp.h>
+#include <omnimapper/mapper/Verdict.h>
 #include <omnimapper/source/SourceReport.h>
 
 #include <algorithm>
@@ -25,13 +26,15 @@ struct RunRequest {
   std::string localize_map;               ///< map file that the logs are only localized in, which stays as it is
   /// Workers for perception and jobs; the map does not depend on their number.
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  double speed = 0;  ///< times the log's own pace; 0: as fast as possible
+  double speed = 0;     ///< times the log's own pace; 0: as fast as possible
+  bool strict = false;  ///< a map that the run itself finds suspicious ends with its own code
 };
 
 /// How a run went.
 struct RunResult {
   base::ExitCode code = base::ExitCode::ok;
   std::vector<std::string> warnings;
+  Verdict verdict;  ///< on the whole map; without evidence in a run that localizes
   source::SourceReport source;
   std::size_t key_frames = 0, factors = 0;  ///< of the whole map
   std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;

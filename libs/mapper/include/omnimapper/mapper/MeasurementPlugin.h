@@ -57,6 +57,8 @@ class MeasurementPlugin {
   /// At the end of the log, after the last solve: what only the whole of it tells. The graph is solved again if this is
   /// any edit.
   virtual Batch atEnd(const View& /*view*/) { return {}; }
+  /// After that: what it can say for or against the finished map.
+  virtual std::vector<Evidence> evidence(const View& /*view*/) const { return {}; }
 
   /// What a map file keeps of it so that a later session can go on; the name of the section is the engine's. None if
   /// frames, landmarks and graph say it all.

@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/mapper/RelativeMotion.h>
+#include <omnimapper/mapper/Verdict.h>
 
 #include <optional>
 #include <string>
@@ -43,6 +44,8 @@ class PosePlugin {
   virtual bool measures() const { return true; }
   /// What a user should know at the end of a run: sentences that name the sensor and the remedy.
   virtual std::vector<std::string> warnings() const { return {}; }
+  /// At the end of a run: what the source knows for or against the map.
+  virtual std::vector<Evidence> evidence() const { return {}; }
   /// Spans before `stamp` will not be asked for any more.
   virtual void forgetBefore(base::Stamp /*stamp*/) {}
 };

@@ -5,6 +5,7 @@
 #include <omnimapper/mapper/Fix.h>
 #include <omnimapper/mapper/StageTimes.h>
 #include <omnimapper/mapper/State.h>
+#include <omnimapper/mapper/Verdict.h>
 
 #include <cstddef>
 #include <map>
@@ -51,6 +52,8 @@ struct View : State {
   bool map_is_held = false;
   /// Of such a run, one for each key frame in the order they came.
   const std::vector<Fix>& fixes;
+  /// What the run thinks of the map, once it is finished.
+  const Verdict& verdict;
 };
 
 }  // namespace omnimapper::mapper

@@ -28,6 +28,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
                         const mapper::View& view) override;
   void retired(const map::KeyFrame& frame) override;
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
+  /// Beams that pass through walls, and places that were come back to without a closure.
+  std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
   /// What earlier sessions saw: places to close loops with.
   void restore(const map::MapSection* saved, const mapper::View& view) override;
 

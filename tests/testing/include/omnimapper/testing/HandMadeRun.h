@@ -21,10 +21,12 @@ struct HandMadeRun {
   std::vector<map::MapSection> sections;
   bool map_is_held = false;
   std::vector<mapper::Fix> fixes;
+  mapper::Verdict verdict;
   mapper::Uncertainty uncertainty;  ///< of nothing, until a test sets it
 
   mapper::View view() const {
-    return {{map, graph, uncertainty}, decisions, times, counts, solves, warnings, sections, map_is_held, fixes};
+    return {
+        {map, graph, uncertainty}, decisions, times, counts, solves, warnings, sections, map_is_held, fixes, verdict};
   }
 
   /// A key frame of the graph's session at that estimate, one second after the one before.
