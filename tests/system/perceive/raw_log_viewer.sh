@@ -56,6 +56,12 @@ is_selected() {
   [ "${red:-255}" -lt 128 ]
 }
 
+# Whether the list begins with its title, which has an icon farther left than any row.
+is_at_top() {
+  white=$(convert "$picture" -crop 14x14+5+98 -format '%[fx:int(255*mean)]' info: 2>/dev/null || true)
+  [ "${white:-255}" -lt 250 ]
+}
+
 # drag X Y: the scene by that many pixels. The viewer follows the second movement, from where the first ended.
 drag() {
   x mousemove 840 670 mousedown 3 sleep 0.1 mousemove 841 670 sleep 0.1 mousemove $((841 + $1)) $((670 + $2)) \
@@ -77,10 +83,12 @@ while [ "$(date +%s)" -le $give_up ]; do
   fi
   for tip in $(tips); do x windowfocus "$tip" key Escape; done
   if [ $shown = no ]; then
+    # While the window is small a click may meet the list's scroll bar: back to the first row before each.
     x windowsize "$main" 1280 960
+    x mousemove 200 400 click --repeat 40 --delay 2 4
     x mousemove 200 $((123 + 17 * row)) click 1
     settle
-    is_laid_out && is_selected || continue
+    is_laid_out && is_at_top && is_selected || continue
   fi
   # shellcheck disable=SC2046 # four numbers
   set -- $(drawn)
