@@ -19,7 +19,7 @@ namespace {
 // The walls of a map: where enough scans saw points of a line, and which way these look.
 class Walls {
  public:
-  Walls(const std::vector<PlacedScan>& scans, const WallCrossingOptions& options);
+  Walls(const std::vector<MapScan>& scans, const WallCrossingOptions& options);
 
   struct Wall {
     Eigen::Vector2d normals = Eigen::Vector2d::Zero();  // their sum, angles doubled
@@ -28,6 +28,10 @@ class Walls {
   };
   bool isSolid(const Wall& wall) const {
     return wall.seen >= options_.min_scans && wall.passed <= options_.max_passed * (wall.seen + wall.passed);
+  }
+  std::size_t solid() const {
+    return static_cast<std::size_t>(
+        std::count_if(walls_.begin(), walls_.end(), [this](const Wall& wall) { return isSolid(wall); }));
   }
   /// Calls use(wall) for the walls that a beam passes through before it ends, until it returns false.
   template <class Use>
@@ -64,7 +68,7 @@ Eigen::Vector2d moved(const TPose2D& pose, const Eigen::Vector2f& point) {
   return {pose.x + c * point.x() - s * point.y(), pose.y + s * point.x() + c * point.y()};
 }
 
-Walls::Walls(const std::vector<PlacedScan>& scans, const WallCrossingOptions& options) : options_(options) {
+Walls::Walls(const std::vector<MapScan>& scans, const WallCrossingOptions& options) : options_(options) {
   Eigen::Vector2d high = Eigen::Vector2d::Constant(-std::numeric_limits<double>::infinity());
   low_ = -high;
   for (const auto& scan : scans) {
@@ -108,8 +112,8 @@ void Walls::add(std::size_t number, const TPose2D& map_from_sensor, const Planar
 
 }  // namespace
 
-std::vector<CrossedWalls> crossedWalls(const std::vector<PlacedScan>& scans, const WallCrossingOptions& options) {
-  std::vector<PlacedScan> finite;
+WallCrossings crossedWalls(const std::vector<MapScan>& scans, const WallCrossingOptions& options) {
+  std::vector<MapScan> finite;
   for (const auto& scan : scans) finite.push_back({scan.map_from_sensor, finitePart(scan.scan)});
   Walls walls(finite, options);
   // Calls use(scan, from, to) for each beam that is long enough.
@@ -129,12 +133,12 @@ std::vector<CrossedWalls> crossedWalls(const std::vector<PlacedScan>& scans, con
       return true;
     });
   });
-  std::vector<CrossedWalls> result(finite.size());
+  WallCrossings result{walls.solid(), std::vector<CrossedWalls>(finite.size())};
   forEachBeam([&](std::size_t scan, const auto& from, const auto& to) {
-    ++result[scan].beams;
+    ++result.scans[scan].beams;
     walls.forEachCrossed(from, to, [&](const Walls::Wall& wall) {
       const bool crossed = walls.isSolid(wall);
-      result[scan].crossed += crossed;
+      result.scans[scan].crossed += crossed;
       return !crossed;
     });
   });

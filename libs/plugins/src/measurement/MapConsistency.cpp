@@ -8,8 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <set>
-#include <unordered_map>
 #include <utility>
 
 #include "../PlanarMotion.h"
@@ -17,6 +15,7 @@
 namespace omnimapper::plugins {
 
 using mapper::Evidence;
+using mrpt::math::TPose2D;
 
 namespace {
 
@@ -35,7 +34,7 @@ Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& 
   constexpr std::size_t kFewBeams = 20;  // say nothing of a scan
   Evidence evidence{"scans_through_walls_percent", 0, Evidence::Says::too_little,
                     "there are no 2D scans to judge it by"};
-  std::vector<matching::PlacedScan> scans;
+  std::vector<matching::MapScan> scans;
   std::vector<base::Stamp> stamps;
   for (const auto& frame : map.key_frames) {
     for (const auto& label : labels) {
@@ -49,7 +48,12 @@ Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& 
   std::size_t bad = 0, worst = 0;
   double worst_share = 0;
   try {
-    const auto sums = matching::crossedWalls(scans);
+    const auto crossings = matching::crossedWalls(scans);
+    if (crossings.walls == 0) {
+      evidence.reason = "no wall was seen from enough places to judge it by";
+      return evidence;
+    }
+    const auto& sums = crossings.scans;
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const double share =
           static_cast<double>(sums[i].crossed) / static_cast<double>(std::max(kFewBeams, sums[i].beams));
@@ -79,118 +83,131 @@ Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& 
 
 namespace {
 
-// One place for each key frame, with the distance travelled until there; sessions follow one another.
+// A key frame, and the distance travelled until there [m].
 struct Stop {
-  base::KeyFrameId id;
-  double x, y, yaw, way;
+  TPose2D pose;
+  double travelled;
+  base::Stamp stamp;
+  bool is_tied = false;  // a closure leads from it to an earlier one, or from one that is near in travel
 };
 
 std::vector<Stop> stopsOf(const map::Map& map, double between_sessions) {
   std::vector<Stop> stops;
-  double way = 0;
+  const map::KeyFrame* before = nullptr;
   for (const auto& frame : map.key_frames) {
-    const auto pose = planar(frame.map_from_base);
-    if (!stops.empty()) {
-      const bool same = stops.back().id.session == frame.id.session;
-      way += same ? std::hypot(pose.x - stops.back().x, pose.y - stops.back().y) : between_sessions;
+    Stop stop{planar(frame.map_from_base), 0, frame.stamp};
+    if (before) {
+      const TPose2D& last = stops.back().pose;
+      const bool same = before->id.session == frame.id.session;
+      stop.travelled =
+          stops.back().travelled + (same ? std::hypot(stop.pose.x - last.x, stop.pose.y - last.y) : between_sessions);
     }
-    stops.push_back({frame.id, pose.x, pose.y, pose.phi, way});
+    stops.push_back(stop);
+    before = &frame;
   }
   return stops;
 }
 
-// Key frames by the square of the floor they are in.
+// Marks the stops within `reach` [m] of travel of the later end of a closure that acts. Those of earlier sessions are
+// in the graph, not among the decisions of this run. Returns how many act.
+std::size_t markTied(const mapper::State& state, const std::string& section, double reach, std::vector<Stop>& stops) {
+  std::map<base::VariableId, std::size_t> stop_of;
+  for (std::size_t i = 0; i < stops.size(); ++i) stop_of[state.map.key_frames[i].pose] = i;
+  std::size_t closures = 0;
+  for (const auto& [id, record] : state.graph.factors()) {
+    if (record.tags.owner != section || record.weight <= 0) continue;
+    std::size_t poses = 0, latest = 0;
+    for (const auto variable : record.variables) {
+      const auto found = stop_of.find(variable);
+      if (found == stop_of.end()) continue;
+      ++poses;
+      latest = std::max(latest, found->second);
+    }
+    if (poses < 2) continue;
+    ++closures;
+    const double there = stops[latest].travelled;
+    for (std::size_t i = latest; i < stops.size() && stops[i].travelled <= there + reach; ++i) stops[i].is_tied = true;
+    for (std::size_t i = latest; i-- > 0 && stops[i].travelled >= there - reach;) stops[i].is_tied = true;
+  }
+  return closures;
+}
+
+// Stops by the square of the floor they are in.
 class Squares {
  public:
   explicit Squares(double side) : side_(side) {}
-  void add(const Stop& stop, std::size_t index) { squares_[keyOf(cell(stop.x), cell(stop.y))].push_back(index); }
-  // Those in the same square and the eight around it.
-  template <class Use>
-  void forEachNear(const Stop& stop, const Use& use) const {
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        const auto found = squares_.find(keyOf(cell(stop.x) + dx, cell(stop.y) + dy));
-        if (found == squares_.end()) continue;
-        for (const std::size_t index : found->second) use(index);
+  void add(const Stop& stop, std::size_t index) { squares_[{cell(stop.pose.x), cell(stop.pose.y)}].push_back(index); }
+  // Whether that holds for one of those in the same square or the eight around it.
+  template <class Condition>
+  bool anyNear(const Stop& stop, const Condition& holds) const {
+    for (const double dx : {-1, 0, 1}) {
+      for (const double dy : {-1, 0, 1}) {
+        const auto found = squares_.find({cell(stop.pose.x) + dx, cell(stop.pose.y) + dy});
+        if (found != squares_.end() && std::any_of(found->second.begin(), found->second.end(), holds)) return true;
       }
     }
+    return false;
   }
 
  private:
-  std::int64_t cell(double x) const { return static_cast<std::int64_t>(std::floor(x / side_)); }
-  static std::int64_t keyOf(std::int64_t x, std::int64_t y) { return x * 0x100000001 + y; }
+  // A whole number; a double, for a pose may be anywhere.
+  double cell(double x) const { return std::floor(x / side_); }
   double side_;
-  std::unordered_map<std::int64_t, std::vector<std::size_t>> squares_;
+  std::map<std::pair<double, double>, std::vector<std::size_t>> squares_;
 };
+
+// Which stops lie where the robot has been, at least `min_travel` [m] before.
+std::vector<bool> revisiting(const std::vector<Stop>& stops, double min_travel) {
+  constexpr double kNear = 2.0, kAngle = 0.8;  // [m] [rad] within which two scans of 180 deg see much the same
+  Squares squares(kNear);
+  std::vector<bool> again(stops.size());
+  std::size_t entered = 0;
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    for (; entered < i && stops[i].travelled - stops[entered].travelled >= min_travel; ++entered)
+      squares.add(stops[entered], entered);
+    again[i] = squares.anyNear(stops[i], [&](std::size_t other) {
+      const TPose2D &here = stops[i].pose, &there = stops[other].pose;
+      return std::hypot(here.x - there.x, here.y - there.y) < kNear &&
+             std::abs(mrpt::math::wrapToPi(here.phi - there.phi)) < kAngle;
+    });
+  }
+  return again;
+}
 
 }  // namespace
 
-std::vector<Evidence> revisits(const mapper::View& view, const std::string& section, double min_way) {
-  constexpr double kNear = 2.0, kAngle = 0.8;  // [m] [rad] within which two scans of 180 deg see much the same
-  constexpr double kTied = 15;                 // [m] of travel from a closure within which a revisit counts as tied
-  const auto stops = stopsOf(view.map, 2 * min_way);
-  std::set<base::KeyFrameId> closed;
-  std::size_t accepted = 0, refused = 0, unlike = 0;
-  for (const auto& decision : view.decisions) {
-    if (decision.plugin != section || !decision.to) continue;
-    ++(decision.accepted ? accepted : refused);
-    unlike += decision.reason == "nothing alike";
-    if (decision.accepted) closed.insert(decision.from);
-  }
-  Squares squares(kNear);
-  std::vector<double> closure_ways;
-  for (const auto& stop : stops) {
-    if (closed.count(stop.id) > 0) closure_ways.push_back(stop.way);
-  }
-  const auto isTied = [&](double way) {
-    const auto next = std::lower_bound(closure_ways.begin(), closure_ways.end(), way - kTied);
-    return next != closure_ways.end() && *next <= way + kTied;
-  };
-  double revisited = 0, untied = 0, longest_untied = 0, stretch = 0, stretch_at = 0;
-  std::size_t entered = 0;
-  for (std::size_t i = 0; i < stops.size(); ++i) {
-    while (entered < i && stops[i].way - stops[entered].way >= min_way) {
-      squares.add(stops[entered], entered);
-      ++entered;
-    }
-    bool again = false;
-    squares.forEachNear(stops[i], [&](std::size_t other) {
-      again = again || (std::hypot(stops[i].x - stops[other].x, stops[i].y - stops[other].y) < kNear &&
-                        std::abs(mrpt::math::wrapToPi(stops[i].yaw - stops[other].yaw)) < kAngle);
-    });
-    const double step = i > 0 ? stops[i].way - stops[i - 1].way : 0;
-    if (!again) {
-      stretch = 0;
-      continue;
-    }
+std::vector<Evidence> revisits(const mapper::State& state, const std::string& section, double min_travel) {
+  constexpr double kTied = 15;  // [m] of travel from a closure within which a revisit counts as recognized
+  constexpr double kLong = 10;  // [m] of a stretch that is not
+  auto stops = stopsOf(state.map, 2 * min_travel);
+  const std::size_t closures = markTied(state, section, kTied, stops);
+  const auto again = revisiting(stops, min_travel);
+  double revisited = 0, untied = 0, stretch = 0, longest = 0;
+  base::Stamp longest_until{};
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    const double step = again[i] ? stops[i].travelled - stops[i - 1].travelled : 0;
     revisited += step;
-    if (isTied(stops[i].way)) {
-      stretch = 0;
-      continue;
-    }
-    untied += step;
-    stretch += step;
-    if (stretch > longest_untied) {
-      longest_untied = stretch;
-      stretch_at =
-          base::secondsBetween(view.map.keyFrame(stops.front().id).stamp, view.map.keyFrame(stops[i].id).stamp);
+    stretch = again[i] && !stops[i].is_tied ? stretch + step : 0;
+    if (stretch > 0) untied += step;
+    if (stretch > longest) {
+      longest = stretch;
+      longest_until = stops[i].stamp;
     }
   }
-  std::vector<Evidence> all;
-  all.push_back({"revisited_m", revisited, revisited > 0 ? Evidence::Says::good : Evidence::Says::too_little,
-                 revisited > 0 ? format("%zu closures tie %.0f m that were driven again", accepted, revisited - untied)
-                               : "the robot never came back to a place that it had seen before"});
-  constexpr double kLong = 10;  // [m]
-  const bool is_open = longest_untied > kLong;
-  all.push_back({"revisited_without_closure_m", untied, is_open ? Evidence::Says::against_it : Evidence::Says::good,
-                 is_open
-                     ? format("for %.0f m, %.0f s after the start, it drives where it has been before and recognizes "
-                              "nothing",
-                              longest_untied, stretch_at)
-                     : ""});
-  all.push_back({"closures_refused", static_cast<double>(refused), Evidence::Says::good, ""});
-  all.push_back({"searches_nothing_alike", static_cast<double>(unlike), Evidence::Says::good, ""});
-  return all;
+  Evidence again_m{"revisited_m", revisited, Evidence::Says::good,
+                   format("%zu closures tie %.0f m that were driven again", closures, revisited - untied)};
+  if (revisited == 0) {
+    again_m.says = Evidence::Says::too_little;
+    again_m.reason = "the robot never came back to a place that it had seen before";
+  }
+  Evidence untied_m{"revisited_without_closure_m", untied, Evidence::Says::good, ""};
+  if (longest > kLong) {
+    untied_m.says = Evidence::Says::against_it;
+    untied_m.reason = format(
+        "for %.0f m, until %.0f s after the start, the robot drives where it has been before and recognizes nothing",
+        longest, base::secondsBetween(stops.front().stamp, longest_until));
+  }
+  return {again_m, untied_m};
 }
 
 }  // namespace omnimapper::plugins

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <omnimapper/mapper/State.h>
 #include <omnimapper/mapper/Verdict.h>
-#include <omnimapper/mapper/View.h>
 
 #include <string>
 #include <vector>
@@ -12,8 +12,8 @@ namespace omnimapper::plugins {
 /// lies where it should not. `labels`: of the clouds that these scans became, as in the key frames.
 mapper::Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& labels);
 
-/// Whether the robot came back to places where it had been, at least `min_way` [m] of travel before, and how much of
-/// that was tied to what it had seen there: by the closures of `section`.
-std::vector<mapper::Evidence> revisits(const mapper::View& view, const std::string& section, double min_way);
+/// How far the robot drove where it had been before, after at least `min_travel` [m], and how much of that no closure
+/// of the plugin `section` ties to what was seen there.
+std::vector<mapper::Evidence> revisits(const mapper::State& state, const std::string& section, double min_travel);
 
 }  // namespace omnimapper::plugins

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <mrpt/math/TPose2D.h>
-#include <omnimapper/matching/BeamScan.h>
+#include <omnimapper/matching/Relocaliser.h>
 
 #include <cstddef>
 #include <vector>
@@ -18,22 +17,20 @@ struct WallCrossingOptions {
   std::size_t max_cells = 64000000;  ///< a larger map is refused; 20 bytes for each cell with a wall, 4 for any other
 };
 
-/// A scan where it lies in a map.
-struct PlacedScan {
-  mrpt::math::TPose2D map_from_sensor;
-  BeamScan scan;
-};
-
 /// What became of the beams of one scan that ended somewhere.
 struct CrossedWalls {
   std::size_t beams = 0;    ///< that are finite and longer than min_distance
   std::size_t crossed = 0;  ///< of them, those that pass through a wall that others saw
 };
 
-/// For each scan how many of its beams pass through walls of the map that all scans together make. Where a map is bent,
-/// or two places lie upon each other, many beams of some scans go where the map has walls; people, glass and doors let
-/// a few beams of many scans through. One for each scan, in their order. Throws Error(out_of_range) for scans spread
-/// over more than max_cells.
-std::vector<CrossedWalls> crossedWalls(const std::vector<PlacedScan>& scans, const WallCrossingOptions& options = {});
+struct WallCrossings {
+  std::size_t walls = 0;            ///< cells with a wall
+  std::vector<CrossedWalls> scans;  ///< one for each, in their order
+};
+
+/// How many beams of each scan pass through walls of the map that all scans together make. Where a map is bent, or two
+/// places lie upon each other, many beams of some scans go where the map has walls; people, glass and doors let a few
+/// beams of many scans through. Throws Error(out_of_range) for scans spread over more than max_cells.
+WallCrossings crossedWalls(const std::vector<MapScan>& scans, const WallCrossingOptions& options = {});
 
 }  // namespace omnimapper::matching

@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+#include <omnimapper/graph/Between.h>
+#include <omnimapper/testing/HandMadeRun.h>
+
+#include "measurement/MapConsistency.h"
+
+namespace omnimapper::plugins::map_consistency_test {
+namespace {
+
+using mapper::Evidence;
+using Says = Evidence::Says;
+
+// 30 m there and, turned round twice as it were, 30 m along the same line again, a key frame each metre.
+testing::HandMadeRun thereAgain() {
+  testing::HandMadeRun run;
+  for (int i = 0; i <= 30; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
+  for (int i = 0; i <= 30; ++i) run.addFrame({1.0 * i, 0.5, 0, 0, 0, 0});
+  return run;
+}
+
+void close(testing::HandMadeRun& run, std::size_t from, std::size_t to, double weight = 1) {
+  graph::FactorRecord record{{run.map.key_frames[from].pose, run.map.key_frames[to].pose},
+                             std::make_shared<graph::BetweenSe2>(geometry::Se2{}),
+                             graph::SquareRootInformation::fromSigmas(Eigen::Vector3d(1, 1, 1))};
+  record.weight = weight;
+  record.tags.owner = "loops";
+  run.graph.addFactor(std::move(record));
+}
+
+TEST(MapConsistency, WithoutAWayBackNothingCanBeTold) {
+  testing::HandMadeRun run;
+  for (int i = 0; i <= 30; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
+  const auto evidence = revisits(run.view(), "loops", 8);
+  EXPECT_EQ(evidence[0].says, Says::too_little);
+  EXPECT_EQ(evidence[1].says, Says::good);
+  EXPECT_TRUE(revisits(testing::HandMadeRun().view(), "loops", 8)[0].says == Says::too_little) << "an empty map";
+}
+
+TEST(MapConsistency, ALongWayAgainWithoutAClosureIsAgainstTheMap) {
+  const auto evidence = revisits(thereAgain().view(), "loops", 8);
+  EXPECT_EQ(evidence[0].says, Says::good);
+  EXPECT_NEAR(evidence[0].value, 60, 1.5) << "30 m again, and the jump back along them";
+  EXPECT_EQ(evidence[1].says, Says::against_it);
+  EXPECT_NE(evidence[1].reason.find("recognizes nothing"), std::string::npos);
+}
+
+// Whatever run they are of: a session that goes on has the closures of those before it in the graph alone.
+TEST(MapConsistency, AClosureOfTheGraphTiesFifteenMetresAroundIt) {
+  auto run = thereAgain();
+  close(run, 45, 14);
+  const auto evidence = revisits(run.view(), "loops", 8);
+  EXPECT_EQ(evidence[1].reason.find("for 29 m"), std::string::npos);
+  EXPECT_LT(evidence[1].value, revisits(thereAgain().view(), "loops", 8)[1].value - 28);
+}
+
+TEST(MapConsistency, AClosureThatWasRefusedOrIsSomebodyElsesTiesNothing) {
+  auto run = thereAgain();
+  const double open = revisits(run.view(), "loops", 8)[1].value;
+  close(run, 45, 14, 0);
+  EXPECT_EQ(revisits(run.view(), "loops", 8)[1].value, open);
+  close(run, 45, 14);
+  EXPECT_EQ(revisits(run.view(), "others", 8)[1].value, open);
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins::map_consistency_test
