@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 
 # The system tests: programs, installed package and scripts, optimised, as users have them.
-readonly system_tests=(system system-mapping system-input system-robust system-simulate system-perceive package scripts)
+readonly system_tests=(system system-mapping system-input system-robust system-simulate system-perceive system-viewer package scripts)
 # The unit tests of all libraries, under the address and undefined-behaviour sanitizers.
 readonly unit_tests=(perception sim plugins graph mapper source matching geometry base obs map check eval fuzz)
 # Left out: stock tools, which cannot load a library built with a sanitizer, and walks over every place, which would take

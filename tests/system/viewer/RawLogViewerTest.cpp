@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "../../obs/FilledObjects.h"
-#include "PerceivedLog.h"
+#include "../perceive/PerceivedLog.h"
 
 namespace {
 
@@ -84,7 +84,7 @@ class RawLogViewer : public PerceivedHome {
   /// What RawLogViewer shows of one of the first 40 rows of a log. With OMNIMAPPER_TEST_KEEP, a folder, the picture is
   /// kept there.
   Screen show(const std::string& log, std::size_t row) {
-    const std::string picture = scratch_ / "screen.png", script = "tests/system/perceive/raw_log_viewer.sh";
+    const std::string picture = scratch_ / "screen.png", script = "tests/system/viewer/raw_log_viewer.sh";
     // With a home of its own: RawLogViewer keeps its settings there. A virtual screen that fails to start is tried
     // again.
     Ended ended;
