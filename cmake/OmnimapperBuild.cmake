@@ -109,25 +109,33 @@ function(omnimapper_app name)
   install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# omnimapper_test(NAME [OPTIMIZED] [COST SECONDS] <targets...>): one test binary for the folder's *Test.cpp files, named
-# test-NAME. Tests are not optimized: they assert the same, and compile in 40 % of the time. OPTIMIZED is for tests that
-# render images or search texts themselves, which would run for minutes. COST is roughly how long the test runs; ctest
-# starts the longest first.
+# omnimapper_test(NAME [OPTIMIZED] [COST SECONDS] <targets...> [RELEASE FILES...]): one test binary for the folder's
+# *Test.cpp files, named test-NAME. Tests are not optimized: they assert the same, and compile in 40 % of the time.
+# OPTIMIZED is for tests that render images or search texts themselves, which would run for minutes. COST is roughly how
+# long the test runs; ctest starts the longest first. The files of RELEASE are once more in test-NAME-release, without
+# the others: what tries more without a sanitizer (release_cases in scripts/lib/suites.sh).
 function(omnimapper_test name)
-  cmake_parse_arguments(ARG "OPTIMIZED" "COST" "" ${ARGN})
+  cmake_parse_arguments(ARG "OPTIMIZED" "COST" "RELEASE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*Test.cpp")
   add_executable(test-${name} ${sources})
-  target_link_libraries(test-${name} PRIVATE ${ARG_UNPARSED_ARGUMENTS} omnimapper-testing GTest::gtest_main)
-  omnimapper_compile_options(test-${name})
-  if(ARG_OPTIMIZED)
-    target_compile_options(test-${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  else()
-    target_compile_options(test-${name} PRIVATE -O0)
+  set(names ${name})
+  if(ARG_RELEASE AND NOT OMNIMAPPER_SANITIZE)
+    add_executable(test-${name}-release ${ARG_RELEASE})
+    list(APPEND names ${name}-release)
   endif()
-  add_test(NAME ${name} COMMAND test-${name})
-  if(ARG_COST)
-    set_tests_properties(${name} PROPERTIES COST "${ARG_COST}")
-  endif()
+  foreach(each ${names})
+    target_link_libraries(test-${each} PRIVATE ${ARG_UNPARSED_ARGUMENTS} omnimapper-testing GTest::gtest_main)
+    omnimapper_compile_options(test-${each})
+    if(ARG_OPTIMIZED)
+      target_compile_options(test-${each} PRIVATE $<$<CONFIG:Release>:-O1>)
+    else()
+      target_compile_options(test-${each} PRIVATE -O0)
+    endif()
+    add_test(NAME ${each} COMMAND test-${each})
+    if(ARG_COST)
+      set_tests_properties(${each} PROPERTIES COST "${ARG_COST}")
+    endif()
+  endforeach()
 endfunction()
 
 # omnimapper_bench(NAME <targets...>): benchmark program bench-NAME from NAME.cpp.

@@ -9,7 +9,7 @@ readonly unit_tests=(perception sim plugins graph mapper source matching geometr
 # minutes; of those one seed is left.
 readonly address_cases='-StockTools.*:Generators.aRobotComesToEveryRoomAtAllLevelsOfClutter:Generators.planesAreExactInEveryPlace:PlacesAndSeeds/*_2'
 # The unit cases that a sanitizer forbids, and those that try more seeds, bytes, logs and places without one.
-readonly release_tests=(obs source mapper sim)
+readonly release_tests=(obs-release source-release mapper-release sim-release)
 readonly release_cases='StockTools.*:DamageTest.*:RawlogSourceTest.aLogWithoutChecksum*:PcdCloudTest.aHeaderThatClaims*:EngineRandom.*:ShuffledArrival.*:Generators.aRobotComesToEveryRoomAtAllLevelsOfClutter:Generators.planesAreExactInEveryPlace:PlacesAndSeeds/*'
 # The unit tests of threads, under the thread sanitizer.
 readonly thread_tests=(source mapper)
