@@ -16,6 +16,12 @@ ScanTracker makeTracker(const ScanTrackerOptions& options = {}) {
   return {options, makeMatcher({})};
 }
 
+const Eigen::Vector2f kOrigin(0, 0);
+
+MotionPrediction predicted(const TPose2D& motion) {
+  return {motion, 0.1, 0.1};
+}
+
 // Along the first straight of the ring and into it, a step every 7 cm and 0.6 degrees.
 TPose2D wayAt(int step) {
   return {-3 + 0.07 * step, 0.002 * step, 0.01 * step - 0.3};
@@ -24,12 +30,12 @@ TPose2D wayAt(int step) {
 TEST(ScanTracker, FollowsAWayWithGuessesThatAreAlwaysTooShort) {
   const auto plan = FloorPlan::ring();
   auto tracker = makeTracker();
-  tracker.restart(scanFrom(plan, wayAt(0), 0.01, 0));
+  tracker.restart(scanFrom(plan, wayAt(0), 0.01, 0), kOrigin);
   TPose2D start_from_last;
   constexpr int kSteps = 80;
   for (int i = 1; i <= kSteps; ++i) {
     const TPose2D motion = wayAt(i) - wayAt(i - 1);
-    const auto match = tracker.track(scanFrom(plan, wayAt(i), 0.01, i), {TPose2D(0.5 * motion.x, 0, 0)});
+    const auto match = tracker.track(scanFrom(plan, wayAt(i), 0.01, i), kOrigin, {predicted({0.5 * motion.x, 0, 0})});
     ASSERT_TRUE(match) << "step " << i;
     start_from_last = start_from_last + match->match.reference_from_scan;
   }
@@ -41,16 +47,52 @@ TEST(ScanTracker, FollowsAWayWithGuessesThatAreAlwaysTooShort) {
 TEST(ScanTracker, TakesTheNextGuessWhereOneLeadsNowhere) {
   const auto plan = FloorPlan::ring();
   auto tracker = makeTracker();
-  tracker.restart(scanFrom(plan, wayAt(0)));
+  tracker.restart(scanFrom(plan, wayAt(0)), kOrigin);
   const auto scan = scanFrom(plan, wayAt(1));
   const TPose2D nonsense(40, 40, 2), truth = wayAt(1) - wayAt(0);
-  EXPECT_FALSE(tracker.track(scan, {nonsense}));
-  EXPECT_FALSE(tracker.track(scan, {}));
-  EXPECT_FALSE(tracker.track({}, {truth})) << "a scan without points";
-  const auto match = tracker.track(scan, {nonsense, truth});
+  EXPECT_FALSE(tracker.track(scan, kOrigin, {predicted(nonsense)}));
+  EXPECT_FALSE(tracker.track(scan, kOrigin, {}));
+  EXPECT_FALSE(tracker.track({}, kOrigin, {predicted(truth)})) << "a scan without points";
+  const auto match = tracker.track(scan, kOrigin, {predicted(nonsense), predicted(truth)});
   ASSERT_TRUE(match) << "what failed before changed nothing";
-  EXPECT_EQ(match->guess, 1U);
+  EXPECT_EQ(match->prediction, 1U);
   EXPECT_LT(std::abs(match->match.reference_from_scan.x - truth.x), 0.01);
+}
+
+// The most trusted prediction is 26 deg and 0.3 m off.
+TEST(ScanTracker, TakesTheMoreProbableOfTwoMatches) {
+  const auto plan = FloorPlan::ring();
+  auto tracker = makeTracker();
+  tracker.restart(scanFrom(plan, wayAt(0)), kOrigin);
+  const TPose2D truth = wayAt(1) - wayAt(0);
+  const auto match = tracker.track(scanFrom(plan, wayAt(1)), kOrigin,
+                                   {{TPose2D(0.1, 0.3, 26 * kDegree), 0.2, 20 * kDegree}, {truth, 0.2, 0.2}});
+  ASSERT_TRUE(match);
+  EXPECT_LT(std::hypot(match->match.reference_from_scan.x - truth.x, match->match.reference_from_scan.y - truth.y),
+            0.01);
+}
+
+// Every prediction is off by more than a match can mend: all headings are searched.
+TEST(ScanTracker, SearchesWhereNoPredictionFits) {
+  const auto plan = FloorPlan::ring();
+  auto tracker = makeTracker();
+  tracker.restart(scanFrom(plan, wayAt(0)), kOrigin);
+  const TPose2D truth(0.2, 0.1, 100 * kDegree), wrong(0, 0, 30 * kDegree);
+  const auto match = tracker.track(scanFrom(plan, wayAt(0) + truth), kOrigin, {{wrong, 0.1, 25 * kDegree}});
+  ASSERT_TRUE(match);
+  EXPECT_NEAR(match->match.reference_from_scan.phi, truth.phi, kDegree);
+  EXPECT_NEAR(match->match.reference_from_scan.x, truth.x, 0.02);
+}
+
+// As far as nothing on wheels gets meanwhile, a match may fit as well as it likes.
+TEST(ScanTracker, WhatIsImpossibleIsNoMatch) {
+  const auto plan = FloorPlan::ring();
+  auto tracker = makeTracker();
+  tracker.restart(scanFrom(plan, wayAt(0)), kOrigin);
+  const auto scan = scanFrom(plan, wayAt(4));
+  EXPECT_TRUE(tracker.track(scan, kOrigin, {{TPose2D(), 0.1, 0.1}})) << "0.28 m";
+  tracker.restart(scanFrom(plan, wayAt(0)), kOrigin);
+  EXPECT_FALSE(tracker.track(scan, kOrigin, {{TPose2D(), 0.01, 0.01, 0.1, 0.2}}));
 }
 
 TEST(ScanTracker, MatchesBeyondItsLimitsAreRefused) {
@@ -58,10 +100,10 @@ TEST(ScanTracker, MatchesBeyondItsLimitsAreRefused) {
   ScanTrackerOptions strict;
   strict.max_correction = 0.05;
   auto tracker = makeTracker(strict);
-  EXPECT_FALSE(tracker.track(scanFrom(plan, wayAt(0)), {TPose2D()})) << "before the first scan";
-  tracker.restart(scanFrom(plan, wayAt(0)));
-  EXPECT_FALSE(tracker.track(scanFrom(plan, wayAt(3)), {TPose2D()})) << "20 cm from the guess";
-  EXPECT_TRUE(tracker.track(scanFrom(plan, wayAt(3)), {wayAt(3) - wayAt(0)}));
+  EXPECT_FALSE(tracker.track(scanFrom(plan, wayAt(0)), kOrigin, {predicted({})})) << "before the first scan";
+  tracker.restart(scanFrom(plan, wayAt(0)), kOrigin);
+  EXPECT_FALSE(tracker.track(scanFrom(plan, wayAt(3)), kOrigin, {predicted({})})) << "20 cm from the guess";
+  EXPECT_TRUE(tracker.track(scanFrom(plan, wayAt(3)), kOrigin, {predicted(wayAt(3) - wayAt(0))}));
 }
 
 // The guess says how far along the corridor, the walls how far across.
@@ -69,11 +111,12 @@ TEST(ScanTracker, AlongABareCorridorTheGuessCounts) {
   FloorPlan corridor;
   corridor.addPolygon({{-90, -1.5}, {90, -1.5}, {90, 1.5}, {-90, 1.5}});
   auto tracker = makeTracker();
-  tracker.restart(scanFrom(corridor, {0, 0, 0}, 0.005, 1, 8));
+  tracker.restart(scanFrom(corridor, {0, 0, 0}, 0.005, 1, 8), kOrigin);
   TPose2D start_from_last;
   for (int i = 1; i <= 30; ++i) {
     const MatchGuess guess{TPose2D(0.1, 0.02, 0), Eigen::Vector3d(1, 1, 1).asDiagonal()};
-    const auto match = tracker.track(scanFrom(corridor, {0.1 * i, 0, 0}, 0.005, i + 1, 8), {guess});
+    const auto match =
+        tracker.track(scanFrom(corridor, {0.1 * i, 0, 0}, 0.005, i + 1, 8), kOrigin, {{guess, 0.1, 0.1}});
     ASSERT_TRUE(match);
     EXPECT_TRUE(match->match.degenerate);
     start_from_last = start_from_last + match->match.reference_from_scan;

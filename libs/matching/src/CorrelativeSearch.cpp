@@ -228,6 +228,7 @@ class Search {
     if (points_.empty() || options_.max_results < 1) return {};
     for (std::size_t i = 0; i < lattices_.size(); ++i) pushAll(static_cast<int>(i));
     Block block;
+    std::size_t divided = 0;
     while (queue_.pop(lowest_, block)) {
       const Lattice& lattice = lattices_[block.area];
       const bool known = std::any_of(results_.begin(), results_.end(), [&](const SearchResult& result) {
@@ -235,6 +236,7 @@ class Search {
       });
       if (known) continue;
       if (block.level > 0) {
+        if (divided++ == options_.max_blocks) break;
         pushParts(block);
         continue;
       }

@@ -1,7 +1,12 @@
+#include <omnimapper/matching/BeamGrid.h>
+#include <omnimapper/matching/CorrelativeSearch.h>
 #include <omnimapper/matching/ScanTracker.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <utility>
 
 namespace omnimapper::matching {
 
@@ -9,8 +14,60 @@ using mrpt::math::TPose2D;
 
 namespace {
 
+// On which logs they were chosen, and what half and double of them do: doc/results/robustness.md.
+constexpr double kSame = 0.1, kSameTurn = 0.035;    // [m] [rad] within which two matches are one
+constexpr double kBasin = 0.25, kBasinTurn = 0.14;  // [m] [rad] from which a prediction leads to a match for sure
+constexpr double kIndependent = 30;                 // beams beside each other see the same: so many count
+constexpr double kIndependentInPoor = 3;            // where the local map is no model of what is seen
+constexpr double kUnpredicted = 0.001;              // [1 / (m2 rad)] density of what nobody predicted
+constexpr double kSomeOverlap = 0.2;                // share of the points that a match needs to stand for anything
+
+constexpr double kSurely = 0.8;  // share of the points with partners from which on a single match is not doubted
+constexpr double kPoor = -0.8;   // mean logarithm of a beam's likelihood below which a better place is searched
+// The same of beams that all end where the map knows nothing.
+const double kNothing = std::log(BeamModel().unknown);
+
+double turnOf(const TPose2D& motion) {
+  return std::abs(mrpt::math::wrapToPi(motion.phi));
+}
+
 bool isBeyond(const TPose2D& motion, double distance, double angle) {
-  return std::hypot(motion.x, motion.y) > distance || std::abs(mrpt::math::wrapToPi(motion.phi)) > angle;
+  return std::hypot(motion.x, motion.y) > distance || turnOf(motion) > angle;
+}
+
+// Of the mixture of all predictions and of what none of them foresees.
+double logPrior(const TPose2D& motion, const std::vector<MotionPrediction>& predictions) {
+  double density = 0;
+  bool is_possible = false;
+  for (const auto& prediction : predictions) {
+    const TPose2D off = motion - prediction.guess.reference_from_scan;
+    is_possible = is_possible || !isBeyond(off, prediction.most_position, prediction.most_angle);
+    const double position = std::hypot(off.x, off.y) / prediction.position_sigma,
+                 turn = turnOf(off) / prediction.angle_sigma;
+    density += std::exp(-0.5 * (position * position + turn * turn)) /
+               (prediction.position_sigma * prediction.position_sigma * prediction.angle_sigma);
+  }
+  return std::log(density + (is_possible ? kUnpredicted : 0));
+}
+
+bool isAmong(const std::vector<ScanTracker::Tracked>& found, const TPose2D& motion, double distance, double angle) {
+  return std::any_of(found.begin(), found.end(), [&](const ScanTracker::Tracked& one) {
+    return !isBeyond(motion - one.match.reference_from_scan, distance, angle);
+  });
+}
+
+// Whether a match needs no look at the beams.
+bool isSure(const ScanTracker::Tracked& one, const std::vector<MotionPrediction>& predictions) {
+  return one.match.overlap >= kSurely &&
+         logPrior(one.match.reference_from_scan, predictions) > std::log(2 * kUnpredicted);
+}
+
+// As its laser saw it.
+BeamScan beamsOf(const PlanarScan& scan, const Eigen::Vector2f& sensor) {
+  BeamScan beams;
+  beams.hits.reserve(scan.size());
+  for (const auto& point : scan.points) beams.hits.push_back(point - sensor);
+  return beams;
 }
 
 }  // namespace
@@ -32,35 +89,187 @@ const base::OptionTable<ScanTrackerOptions>& ScanTrackerOptions::table() {
   return table;
 }
 
-void ScanTracker::restart(const PlanarScan& scan) {
+/// What a scan may be matched as.
+struct ScanTracker::Candidates {
+  struct Weight {
+    double fit;    // mean logarithm of a beam's likelihood
+    double prior;  // logarithm of the density that the predictions give
+  };
+
+  const PlanarScan& scan;
+  BeamScan beams;
+  const Eigen::Vector2f& sensor;
+  const std::vector<MotionPrediction>& predictions;
+  TPose2D local_from_last;
+  std::vector<Tracked> found;
+  std::vector<Weight> weights;  // of each
+
+  double bestFit() const {
+    return std::max_element(weights.begin(), weights.end(),
+                            [](const Weight& a, const Weight& b) { return a.fit < b.fit; })
+        ->fit;
+  }
+  /// Logarithm of the probability of each, beside the others'. Where none fits, how much better one fits than another
+  /// says little: people, glass, grass. What nobody predicted must fit by itself.
+  std::vector<double> logarithms() const {
+    const double beams = bestFit() < kNothing ? kIndependentInPoor : kIndependent;
+    std::vector<double> all;
+    for (const auto& weight : weights) {
+      const bool is_believed = weight.fit >= kPoor || weight.prior > std::log(2 * kUnpredicted);
+      all.push_back(is_believed ? beams * weight.fit + weight.prior : -std::numeric_limits<double>::infinity());
+    }
+    return all;
+  }
+};
+
+ScanTracker::ScanTracker(const ScanTrackerOptions& options, std::shared_ptr<const ScanMatcher> matcher)
+    : options_(options), matcher_(std::move(matcher)) {}
+ScanTracker::~ScanTracker() = default;
+ScanTracker::ScanTracker(ScanTracker&&) noexcept = default;
+ScanTracker& ScanTracker::operator=(ScanTracker&&) noexcept = default;
+
+void ScanTracker::restart(const PlanarScan& scan, const Eigen::Vector2f& sensor) {
   locals_.clear();
   track_from_last_ = {};
-  remember(scan);
+  remember(scan, sensor);
 }
 
-std::optional<ScanTracker::Tracked> ScanTracker::track(const PlanarScan& scan, const std::vector<MatchGuess>& guesses) {
-  if (!reference_ || scan.empty()) return std::nullopt;
+std::optional<ScanTracker::Tracked> ScanTracker::track(const PlanarScan& scan, const Eigen::Vector2f& sensor,
+                                                       const std::vector<MotionPrediction>& predictions) {
+  if (!reference_ || scan.empty() || predictions.empty()) return std::nullopt;
   const TPose2D local_from_last = track_from_last_ - locals_.back().track_from_scan;
-  for (std::size_t i = 0; i < guesses.size(); ++i) {
-    const TPose2D local_from_guess = local_from_last + guesses[i].reference_from_scan;
-    auto match = matcher_->match(*reference_, scan, {local_from_guess, guesses[i].information});
-    if (match.overlap < options_.min_overlap) continue;
-    if (isBeyond(match.reference_from_scan - local_from_guess, options_.max_correction, options_.max_turn_correction))
-      continue;
-    track_from_last_ = locals_.back().track_from_scan + match.reference_from_scan;
-    if (isBeyond(match.reference_from_scan, options_.local_distance, options_.local_angle)) remember(scan);
-    match.reference_from_scan = match.reference_from_scan - local_from_last;
-    return Tracked{match, i};
+  auto found = matchesOf(scan, predictions, local_from_last);
+  if (found.size() > 1 || !isSure(found.front(), predictions)) {
+    Candidates candidates{scan, beamsOf(scan, sensor), sensor, predictions, local_from_last, std::move(found), {}};
+    weigh(candidates);
+    if (candidates.bestFit() < kPoor) search(candidates);
+    addPredictions(candidates);
+    weigh(candidates);
+    found = {mostProbable(candidates)};
   }
-  return std::nullopt;
+  const Tracked& tracked = found.front();
+  if (tracked.match.overlap < options_.min_overlap) return std::nullopt;
+  const TPose2D local_from_scan = local_from_last + tracked.match.reference_from_scan;
+  track_from_last_ = locals_.back().track_from_scan + local_from_scan;
+  if (isBeyond(local_from_scan, options_.local_distance, options_.local_angle)) remember(scan, sensor);
+  return tracked;
 }
 
-void ScanTracker::remember(const PlanarScan& scan) {
-  locals_.push_back({track_from_last_, scan});
+// Matches that differ, each by the first prediction that led to it, and predictions that led nowhere.
+std::vector<ScanTracker::Tracked> ScanTracker::matchesOf(const PlanarScan& scan,
+                                                         const std::vector<MotionPrediction>& predictions,
+                                                         const TPose2D& local_from_last) const {
+  std::vector<Tracked> found;
+  for (std::size_t i = 0; i < predictions.size(); ++i) {
+    const auto& guess = predictions[i].guess;
+    if (isAmong(found, guess.reference_from_scan, kBasin, kBasinTurn)) continue;
+    auto match = matcher_->match(*reference_, scan, {local_from_last + guess.reference_from_scan, guess.information});
+    match.reference_from_scan = match.reference_from_scan - local_from_last;
+    if (match.overlap < kSomeOverlap || isBeyond(match.reference_from_scan - guess.reference_from_scan,
+                                                 options_.max_correction, options_.max_turn_correction)) {
+      match = {};
+      match.reference_from_scan = guess.reference_from_scan;
+    }
+    if (!isAmong(found, match.reference_from_scan, kSame, kSameTurn)) found.push_back({match, i});
+  }
+  return found;
+}
+
+// All headings, and as far as the best prediction may be off: a search that is seldom needed.
+void ScanTracker::search(Candidates& candidates) {
+  constexpr double kSigmas = 3, kLeast = 0.5, kMost = 2;  // [1] [m] [m]
+  constexpr double kSpacing = 0.25;                       // [m] between the points that are searched with
+  constexpr std::size_t kMostBlocks = 20'000;
+  if (!walls_) {
+    LikelihoodOptions grid;
+    grid.cell = 0.1;
+    grid.sigma = 0.1;
+    walls_ = std::make_unique<const LikelihoodPyramid>(localMap().points, grid);
+  }
+  const auto& prediction = candidates.predictions.front();
+  SearchWindow window;
+  window.centre = candidates.local_from_last + prediction.guess.reference_from_scan;
+  window.half_x = window.half_y = std::clamp(kSigmas * prediction.position_sigma, kLeast, kMost);
+  window.half_yaw = M_PI;
+  const auto points = oncePerCell(candidates.scan, kSpacing).points;
+  SearchOptions limits;
+  limits.max_blocks = kMostBlocks;
+  for (const auto& result : matching::search(*walls_, points, window, limits)) {
+    auto match = matcher_->match(*reference_, candidates.scan, {result.map_from_scan});
+    match.reference_from_scan = match.reference_from_scan - candidates.local_from_last;
+    if (match.overlap < kSomeOverlap || isAmong(candidates.found, match.reference_from_scan, kSame, kSameTurn))
+      continue;
+    candidates.found.push_back({match, 0});
+  }
+}
+
+// Each stands for itself where no match is near it.
+void ScanTracker::addPredictions(Candidates& candidates) {
+  for (std::size_t i = 0; i < candidates.predictions.size(); ++i) {
+    Tracked none;
+    none.prediction = i;
+    none.match.reference_from_scan = candidates.predictions[i].guess.reference_from_scan;
+    if (!isAmong(candidates.found, none.match.reference_from_scan, kSame, kSameTurn)) candidates.found.push_back(none);
+  }
+}
+
+void ScanTracker::weigh(Candidates& candidates) {
+  for (std::size_t i = candidates.weights.size(); i < candidates.found.size(); ++i) {
+    const TPose2D& motion = candidates.found[i].match.reference_from_scan;
+    const TPose2D pose = candidates.local_from_last + motion + TPose2D(candidates.sensor.x(), candidates.sensor.y(), 0);
+    const double fit = beams().logLikelihood(candidates.beams, pose);
+    candidates.weights.push_back({fit, logPrior(motion, candidates.predictions)});
+  }
+}
+
+ScanTracker::Tracked ScanTracker::mostProbable(const Candidates& candidates) {
+  const auto logarithms = candidates.logarithms();
+  const auto best =
+      static_cast<std::size_t>(std::max_element(logarithms.begin(), logarithms.end()) - logarithms.begin());
+  if (!std::isfinite(logarithms[best])) return {};  // none is believed
+  const auto relative = [&](std::size_t i) { return std::exp(logarithms[i] - logarithms[best]); };
+  double sum = 0;
+  for (std::size_t i = 0; i < candidates.found.size(); ++i) sum += relative(i);
+  Tracked tracked = candidates.found[best];
+  tracked.probability = 1 / sum;
+  for (std::size_t i = 0; i < candidates.found.size(); ++i) {
+    const TPose2D off = candidates.found[i].match.reference_from_scan - tracked.match.reference_from_scan;
+    const Eigen::Vector3d delta(off.x, off.y, mrpt::math::wrapToPi(off.phi));
+    tracked.doubt += relative(i) / sum * delta * delta.transpose();
+  }
+  return tracked;
+}
+
+const BeamGrid& ScanTracker::beams() {
+  if (!beams_) {
+    BeamModel model;
+    model.cell = 0.1;
+    model.near_wall = 0.1;
+    std::vector<BeamScan> scans;
+    scans.reserve(locals_.size());
+    std::vector<BeamGrid::Placed> placed;
+    for (const auto& local : locals_) {
+      scans.push_back(beamsOf(local.scan, local.sensor));
+      const TPose2D newest_from_scan = local.track_from_scan - locals_.back().track_from_scan;
+      placed.push_back({newest_from_scan + TPose2D(local.sensor.x(), local.sensor.y(), 0), &scans.back()});
+    }
+    beams_ = std::make_unique<const BeamGrid>(placed, model);
+  }
+  return *beams_;
+}
+
+void ScanTracker::remember(const PlanarScan& scan, const Eigen::Vector2f& sensor) {
+  locals_.push_back({track_from_last_, scan, sensor});
   if (locals_.size() > static_cast<std::size_t>(options_.local_scans)) locals_.pop_front();
-  PlanarScan local_map;
-  for (const auto& local : locals_) append(local.scan, local.track_from_scan - track_from_last_, local_map);
-  reference_ = matcher_->prepare(std::move(local_map));
+  reference_ = matcher_->prepare(localMap());
+  beams_.reset();
+  walls_.reset();
+}
+
+PlanarScan ScanTracker::localMap() const {
+  PlanarScan all;
+  for (const auto& local : locals_) append(local.scan, local.track_from_scan - locals_.back().track_from_scan, all);
+  return all;
 }
 
 }  // namespace omnimapper::matching

@@ -20,6 +20,11 @@ using mrpt::math::TPose2D;
 
 namespace {
 
+// Of the laser on the base [m].
+Eigen::Vector2f placeOf(const mrpt::obs::CObservation2DRangeScan& scan) {
+  return {static_cast<float>(scan.sensorPose.x()), static_cast<float>(scan.sensorPose.y())};
+}
+
 // How far a point at arm's length of the laser, some metres away, is moved [m].
 double sizeOf(const TPose2D& motion) {
   constexpr double kLever = 3;  // [m]
@@ -158,7 +163,11 @@ void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation)
 void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
   constexpr double kMemory = 0.9;
   if (!predictor.motion) return;
-  predictor.error = kMemory * predictor.error + (1 - kMemory) * sizeOf(*predictor.motion - motion);
+  const TPose2D off = *predictor.motion - motion;
+  const auto average = [](double& mean, double value) { mean = kMemory * mean + (1 - kMemory) * value; };
+  average(predictor.error, sizeOf(off));
+  average(predictor.position_error, squared(std::hypot(off.x, off.y)));
+  average(predictor.angle_error, squared(mrpt::math::wrapToPi(off.phi)));
   predictor.is_judged = true;
 }
 
@@ -166,19 +175,19 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   if (!last_) return restart(scan);
   const base::Stamp stamp = middleOf(scan);
   const double seconds = base::secondsBetween(*last_, stamp);
-  const auto guesses = this->guesses(stamp);
+  const auto predictions = this->predictions(stamp);
   // Of stamps that nearly coincide the noise would be a speed.
   constexpr double kShortest = 0.02;  // [s]
   const bool is_long = seconds > kShortest;
   const TPose2D velocity =
-      is_long && !guesses.empty() ? perSecond(guesses.front().reference_from_scan, seconds) : velocity_;
-  const auto tracked = tracker_.track(wallsOf(scan, velocity), guesses);
+      is_long && !predictions.empty() ? perSecond(predictions.front().guess.reference_from_scan, seconds) : velocity_;
+  const auto tracked = tracker_.track(wallsOf(scan, velocity), placeOf(scan), predictions);
   if (!tracked) {
     if (seconds > options_.max_gap) restart(scan);
     return;
   }
   const TPose2D& motion = tracked->match.reference_from_scan;
-  const auto told = motionOf(tracked->match, guesses[tracked->guess]);
+  const auto told = motionOf(*tracked, predictions[tracked->prediction].guess);
   if (is_first_ && is_long) {
     // From its stamp on, as the base went on.
     const auto before = mrpt::poses::CPose2D(scaled(motion, 0.5 * options_.sweep / seconds));
@@ -202,14 +211,14 @@ void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan& scan)
   last_.reset();
   const auto walls = wallsOf(scan, {});
   if (walls.size() < kFewPoints) return;
-  tracker_.restart(walls);
+  tracker_.restart(walls, placeOf(scan));
   velocity_ = {};
   last_ = middleOf(scan);
   is_first_ = true;
 }
 
 // That which was nearer to the truth of late first; last that the base stands still.
-std::vector<matching::MatchGuess> ScanOdometryPlugin::guesses(base::Stamp stamp) {
+std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::Stamp stamp) {
   const double seconds = base::secondsBetween(*last_, stamp);
   constexpr double kSlack = 1;                // [m] for stamps that are not exact
   std::vector<const Predictor*> by_odometry;  // the best of late first
@@ -228,34 +237,49 @@ std::vector<matching::MatchGuess> ScanOdometryPlugin::guesses(base::Stamp stamp)
   by_velocity_.motion = scaled(velocity_, seconds);
   // What wheels and inertia tell counts where walls tell little, such as along a corridor. A base that goes on as it
   // did may have braked or turned.
-  constexpr double kAcceleration = 1, kTurnAcceleration = 1;  // [m/s2] [rad/s2]
-  const auto guess = [&](const TPose2D& motion, double change, double turn_change) {
+  constexpr double kAcceleration = 1, kTurnAcceleration = 1;            // [m/s2] [rad/s2]
+  constexpr double kMostAcceleration = 10, kMostTurnAcceleration = 20;  // of wheels that grip, and slip
+  constexpr double kStampError = 0.05;                                  // [s]
+  constexpr double kMostPosition = 0.1, kMostAngle = 0.2;               // [m] [rad] by what a laser or its wheels err
+  const double most_position =
+      kMostPosition + kStampError * std::hypot(velocity_.x, velocity_.y) + 0.5 * kMostAcceleration * squared(seconds);
+  const double most_angle =
+      kMostAngle + kStampError * std::abs(velocity_.phi) + 0.5 * kMostTurnAcceleration * squared(seconds);
+  const auto predicted = [&](const Predictor& predictor, double change, double turn_change) {
+    const TPose2D& motion = *predictor.motion;
     const double position = options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y) + change;
     const double angle = options_.guess_angle_sigma + options_.guess_sigma_per_m * std::abs(motion.phi) + turn_change;
     const Eigen::Vector3d sigmas(position, position, angle);
-    return matching::MatchGuess{
-        motion, Eigen::Matrix3d((options_.point_sigma * sigmas.cwiseInverse()).cwiseAbs2().asDiagonal())};
+    return matching::MotionPrediction{
+        {motion, Eigen::Matrix3d((options_.point_sigma * sigmas.cwiseInverse()).cwiseAbs2().asDiagonal())},
+        std::hypot(position, std::sqrt(predictor.position_error)),
+        std::hypot(angle, std::sqrt(predictor.angle_error)),
+        most_position,
+        most_angle};
   };
   const double change = 0.5 * kAcceleration * squared(seconds),
                turn_change = 0.5 * kTurnAcceleration * squared(seconds);
-  std::vector<matching::MatchGuess> all;
-  for (const auto* predictor : by_odometry) all.push_back(guess(*predictor->motion, 0, 0));
+  std::vector<matching::MotionPrediction> all;
+  for (const auto* predictor : by_odometry) all.push_back(predicted(*predictor, 0, 0));
   // Across a gap neither steady motion nor rest is a prediction: a match that begins with one finds some wall or other.
-  if (seconds > options_.max_gap) {
+  // Nor is rest where the laser has just begun anew and something else tells the motion.
+  const bool is_unknown = is_first_ && !by_odometry.empty();
+  if (seconds > options_.max_gap || is_unknown) {
     by_velocity_.motion.reset();
     return all;
   }
   const bool steady_is_better = by_odometry.empty() || by_velocity_.error < 0.5 * by_odometry.front()->error;
-  all.insert(steady_is_better ? all.begin() : all.end(), guess(*by_velocity_.motion, change, turn_change));
-  all.push_back({});
+  all.insert(steady_is_better ? all.begin() : all.end(), predicted(by_velocity_, change, turn_change));
+  if (all.size() == 1) all.push_back({{}, kAcceleration * seconds, kTurnAcceleration * seconds});
   return all;
 }
 
 // Variances grow with the way and the turn so that spans add up: what a match is uncertain by is taken up once in half
 // the length of the local map, to which the scans in between are all matched alike. What the walls leave open is as
 // good as the guess.
-mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanMatch& match,
+mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker::Tracked& tracked,
                                                     const matching::MatchGuess& guess) const {
+  const auto& match = tracked.match;
   const TPose2D& motion = match.reference_from_scan;
   const double way = std::hypot(motion.x, motion.y), turn = std::abs(mrpt::math::wrapToPi(motion.phi));
   const double share =
@@ -267,6 +291,7 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanMatch& m
       ((share * squared(sigma) * match.unit_covariance).inverse() + guess.information / squared(options_.point_sigma))
           .inverse();
   const double position = squared(options_.position_noise_per_root_m) * way;
+  covariance += tracked.doubt;
   covariance.diagonal() +=
       Eigen::Vector3d(position, position,
                       squared(options_.yaw_noise_per_root_m) * way + squared(options_.yaw_noise_per_root_turn) * turn);

@@ -4,6 +4,7 @@
 #include <omnimapper/matching/LikelihoodPyramid.h>
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 namespace omnimapper::matching {
@@ -22,6 +23,8 @@ struct SearchOptions {
   double min_score = 0.3;          ///< poses below it are not looked for; the higher, the faster
   double min_share_of_best = 0.8;  ///< nor are those below this share of the best one's score
   int max_results = 3;
+  /// Blocks of poses that are divided before the search ends with what it has found; so many take about 10 us each.
+  std::size_t max_blocks = std::numeric_limits<std::size_t>::max();
   /// A result lies further than the distance [m], or is turned by more than the angle [rad], from each better one.
   double min_distance = 0.5;
   double min_angle = 0.35;

@@ -63,7 +63,8 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   /// What tells the motion to the next scan, and how far off it was of late.
   struct Predictor {
     std::optional<mrpt::math::TPose2D> motion;
-    double error = 0;  // [m], a mean over some scans
+    double error = 0;                            // [m], a mean over some scans
+    double position_error = 0, angle_error = 0;  // [m2] [rad2] mean squares over some scans
     bool is_judged = false;
   };
   struct Odometry {
@@ -84,9 +85,10 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   /// In the base; `velocity` [m/s] [rad/s] during the scan.
   matching::PlanarScan wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
                                const mrpt::math::TPose2D& velocity) const;
-  std::vector<matching::MatchGuess> guesses(base::Stamp stamp);
+  std::vector<matching::MotionPrediction> predictions(base::Stamp stamp);
   void restart(const mrpt::obs::CObservation2DRangeScan& scan);
-  mapper::RelativeMotion motionOf(const matching::ScanMatch& match, const matching::MatchGuess& guess) const;
+  mapper::RelativeMotion motionOf(const matching::ScanTracker::Tracked& tracked,
+                                  const matching::MatchGuess& guess) const;
 
   ScanOdometryOptions options_;
   perception::LaserPointsExtractor extractor_;
@@ -97,7 +99,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan> wait_;  // for their time
   std::optional<base::Stamp> reached_;                              // scan that was worked on last
   std::optional<base::Stamp> last_;                                 // middle of the scan that was matched last
-  bool is_first_ = true;                                            // and whether none was before it
+  bool is_first_ = true;                                            // whether none was before it
   mrpt::math::TPose2D velocity_;                                    // [m/s] [rad/s] in the base
   Predictor by_velocity_;
   mapper::PoseTimeline timeline_;
