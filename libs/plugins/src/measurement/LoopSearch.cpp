@@ -12,8 +12,9 @@ namespace omnimapper::plugins {
 using mrpt::math::TPose2D;
 
 namespace {
-constexpr double kSigmas = 3;  // standard deviations that an estimate may be off by
-}
+constexpr double kSigmas = 3;                 // standard deviations that an estimate may be off by
+constexpr std::size_t kMostBlocks = 100'000;  // of a search: a second or so in a window that is large and tells little
+}  // namespace
 
 matching::PlanarScan localMap(const std::vector<LoopSearch::Sight>& sights, base::KeyFrameId centre,
                               const mapper::State& state) {
@@ -83,6 +84,7 @@ std::vector<TPose2D> LoopSearch::starts(const matching::PlanarScan& local, const
   matching::SearchOptions limits;
   limits.min_score = 0.5;
   limits.min_share_of_best = 0.9;
+  limits.max_blocks = kMostBlocks;
   std::vector<TPose2D> found;
   for (const auto& result : matching::search(pyramid, matching::oncePerCell(query, kSpacing).points, window, limits)) {
     found.push_back(result.map_from_scan);

@@ -14,7 +14,7 @@ struct LoopClosureOptions {
   double spacing = 1.5;             ///< [m]
   int candidates = 2;
   double context = 2.0;                                                   ///< [m]
-  double max_window = 10.0;                                               ///< [m]
+  double max_window = 15.0;                                               ///< [m]
   double max_window_angle = 60.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double lost_way = 15.0;                                                 ///< [m]
   double join_way = 15.0;                                                 ///< [m]
