@@ -3,21 +3,11 @@
 // table of absolute trajectory errors and writes a CSV with everything else; --before puts the CSV of an earlier run
 // beside it.
 //
-// A map is wrong if its error (root mean square after the best rigid alignment) is over 1 m. It is judged by the truth
-// of a simulator, by another mapper's corrected poses, or, where there is neither (UAL, office, Malaga), by the map
-// that we made of the unchanged log, which was looked at and is kept in tests/bench/references.
+// A map is wrong if its error is over 1 m (UntunedLogs.h says against what).
 //
 // Example: bench-robustness -o out/robustness
-#include <omnimapper/base/Stamp.h>
-#include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/eval/RelativePoseError.h>
-#include <omnimapper/eval/TumFile.h>
 #include <omnimapper/obs/registerClasses.h>
-#include <omnimapper/source/CarmenLog.h>
-#include <omnimapper/source/RawlogSource.h>
-#include <omnimapper/source/RawlogWriter.h>
-#include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/LogVariants.h>
 #include <omnimapper/testing/Program.h>
 
 #include <CLI/CLI.hpp>
@@ -29,42 +19,20 @@
 #include <optional>
 #include <sstream>
 
+#include "UntunedLogs.h"
+
 namespace {
 
 using namespace omnimapper;
 namespace tests = omnimapper::testing;
 using tests::LogVariant;
+using untuned::Log;
 namespace fs = std::filesystem;
-
-constexpr double kWrong = 1;  // [m] of absolute trajectory error
-
-struct Log {
-  std::string name, path, reference;
-  bool is_thin = false;  // scans 0.5 to 1 m apart already
-  bool is_real = true;
-};
-
-using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
-
-Observations read(const std::string& path) {
-  std::unique_ptr<source::ObservationSource> log;
-  if (path.find(".clf") != std::string::npos) {
-    log = std::make_unique<source::CarmenLog>(path);
-  } else {
-    log = source::openRawlogs({path}, {});
-  }
-  Observations all;
-  while (auto observation = log->next()) {
-    if (base::isValid(observation->timestamp)) all.push_back(std::move(observation));
-  }
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
-  return all;
-}
 
 // Made by the simulator once: laser and wheels alone.
 std::optional<Log> simulated(const std::string& name, const std::string& out) {
   const std::string folder = out + "/simulated/" + name;
-  Log log{"simulated " + name, folder + "/" + name + ".rawlog", folder + "/truth.tum", false, false};
+  Log log{"simulated " + name, folder + "/" + name + ".rawlog", folder + "/truth.tum"};
   if (fs::exists(log.path)) return log;
   const auto ended = tests::runProgram(
       {tests::ownProgram("omnimapper-simulate"), "-q", "-i", tests::sourceFile("rawlogs/" + name + ".ini"), "--set",
@@ -77,28 +45,13 @@ std::optional<Log> simulated(const std::string& name, const std::string& out) {
 
 std::vector<Log> logsAtHand(const std::string& out) {
   std::vector<Log> logs;
-  const auto add = [&](const std::string& name, const std::optional<std::string>& path,
-                       const std::optional<std::string>& reference, bool is_thin, bool is_real) {
-    if (path && reference && fs::exists(*reference)) {
-      logs.push_back({name, *path, *reference, is_thin, is_real});
+  for (const std::string name : {"aces", "intel", "mit-csail", "fhw", "belgioioso", "ual", "driving_in_office",
+                                 "malaga", "simul", "range_030_bearing_015"}) {
+    if (const auto log = untuned::logNamed(name)) {
+      logs.push_back(*log);
     } else {
       std::fprintf(stderr, "%s is not on this machine\n", name.c_str());
     }
-  };
-  for (const std::string name : {"aces", "intel", "mit-csail", "fhw", "belgioioso"}) {
-    add(name, tests::sharedData("laser2d/" + name + ".clf.bz2"),
-        tests::sharedData("laser2d/" + name + ".reference.tum"), name == "fhw" || name == "belgioioso", true);
-  }
-  const auto kept = [](const std::string& name) {
-    return tests::sourceFile("tests/bench/references/" + name + ".tum");
-  };
-  for (const std::string name : {"ual", "driving_in_office"})
-    add(name, tests::sharedData("laser2d/" + name + ".rawlog"), kept(name), false, true);
-  add("malaga", tests::mrptDataset("2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog"), kept("malaga"), false,
-      true);
-  for (const std::string name : {"simul", "range_030_bearing_015"}) {
-    const std::string path = "graphslam-engine-demos/action_observations_map/" + name + ".rawlog";
-    add(name, tests::mrptDataset(path), tests::mrptDataset(path + ".GT.txt"), false, false);
   }
   for (const std::string name : {"home", "office", "laboratory"}) {
     if (const auto log = simulated(name, out)) logs.push_back(*log);
@@ -118,28 +71,24 @@ struct Run {
 
   // Without a map it is not wrong, but not right either.
   bool isMapped() const { return std::isfinite(ate); }
-  bool isWrong() const { return isMapped() && ate > kWrong; }
+  bool isWrong() const { return isMapped() && ate > untuned::kWrong; }
 };
 
-double relativeError(const eval::Trajectory& estimate, const eval::Trajectory& reference,
-                     const eval::PairingOptions& pairing, double way) {
+double relativeError(const eval::Trajectory& estimate, const eval::Trajectory& reference, double way) {
   try {
-    return eval::relativePoseError(estimate, reference, pairing, {way, eval::DeltaUnit::metres}).translation.rmse;
+    return eval::relativePoseError(estimate, reference, untuned::pairing(), {way, eval::DeltaUnit::metres})
+        .translation.rmse;
   } catch (const base::Error&) {
     return NAN;  // a log that is shorter
   }
 }
 
-// The reference is sparse and ours is dense: ours is asked where it was at the reference's stamps.
-void judge(Run& run, const std::string& folder, const eval::Trajectory& reference) {
+void judge(Run& run, const std::string& folder, const eval::Trajectory& truth) {
   try {
-    eval::PairingOptions pairing;
-    pairing.alignment = eval::Alignment::yaw;
-    pairing.longest_gap = base::durationFromSeconds(10);
     const auto ours = eval::readTum(folder + "/trajectory.tum");
-    run.ate = eval::absoluteTrajectoryError(reference, ours, pairing).translation.rmse;
-    run.relative_10 = relativeError(reference, ours, pairing, 10);
-    run.relative_50 = relativeError(reference, ours, pairing, 50);
+    run.ate = untuned::errorOf(ours, truth);
+    run.relative_10 = relativeError(truth, ours, 10);
+    run.relative_50 = relativeError(truth, ours, 50);
     const auto summary = nlohmann::json::parse(std::ifstream(folder + "/summary.json"));
     run.key_frames = summary.at("key_frames");
     run.closures = summary.at("closures").at("accepted");
@@ -238,8 +187,8 @@ void printCounts(const std::vector<Run>& runs) {
       "\n%zu maps: %zu good, of which %zu called suspicious and %zu \"cannot tell\"; %zu wrong (over %.0f m), of which "
       "%zu "
       "called consistent; %zu without a map. %.0f s of mapping.\n",
-      runs.size(), runs.size() - wrong - unmapped, good_suspicious, good_unsure, wrong, kWrong, wrong_unsaid, unmapped,
-      seconds);
+      runs.size(), runs.size() - wrong - unmapped, good_suspicious, good_unsure, wrong, untuned::kWrong, wrong_unsaid,
+      unmapped, seconds);
 }
 
 void writeCsv(const std::string& path, const std::vector<Run>& runs) {
@@ -290,7 +239,7 @@ int main(int argc, char** argv) {
   struct Running {
     std::size_t run;
     std::string folder;
-    eval::Trajectory reference;
+    eval::Trajectory truth;
     std::unique_ptr<tests::Program> program;
   };
   std::vector<Run> runs;
@@ -302,27 +251,19 @@ int main(int argc, char** argv) {
     run.seconds = ended.seconds;
     if (ended.code != 0 && ended.code != 17)
       std::fprintf(stderr, "%s: %s\n", key(run).c_str(), toString(ended).c_str());
-    judge(run, running.front().folder, running.front().reference);
+    judge(run, running.front().folder, running.front().truth);
     running.pop_front();
   };
   for (const auto& log : logs) {
-    const auto reference = eval::readTrajectory(log.reference);
-    std::optional<Observations> observations;
+    std::optional<untuned::Observations> observations;
     for (const auto variant : variants) {
       const bool thins = variant == LogVariant::every_second_scan || variant == LogVariant::every_fourth_scan;
       if (log.is_thin && thins) continue;
       const std::string folder = out + "/" + log.name + "/" + tests::nameOf(variant), path = folder + "/log.rawlog";
-      if (!observations) observations = read(log.path);
+      if (!observations) observations = untuned::read(log);
       if (!fs::exists(path)) {
         fs::create_directories(folder);
-        source::writeRawlog(path, [&](source::RawlogWriter& rawlog) {
-          for (const auto& observation : tests::variantOf(*observations, variant)) rawlog.add(*observation);
-        });
-      }
-      auto truth = reference;
-      if (variant == LogVariant::reversed) {
-        for (auto& pose : truth) pose.stamp = tests::reversedStamp(*observations, pose.stamp);
-        std::reverse(truth.begin(), truth.end());
+        untuned::writeVariant(*observations, variant, path);
       }
       std::vector<std::string> command{tests::ownProgram("omnimapper-graphslam"),
                                        "-q",
@@ -340,7 +281,7 @@ int main(int argc, char** argv) {
       if (running.size() == static_cast<std::size_t>(jobs)) finishOne();
       fs::remove(folder + "/trajectory.tum");
       runs.emplace_back(log, variant);
-      running.push_back({runs.size() - 1, folder, std::move(truth),
+      running.push_back({runs.size() - 1, folder, untuned::truthOf(log, *observations, variant),
                          std::make_unique<tests::Program>(command, tests::ProgramOptions{600, 0})});
     }
   }

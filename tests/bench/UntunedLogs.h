@@ -1,0 +1,104 @@
+#pragma once
+
+// Every 2D laser log at hand in variants that nobody tuned for: what bench-robustness maps, and a few of them the
+// tests.
+#include <omnimapper/base/Stamp.h>
+#include <omnimapper/eval/AbsoluteTrajectoryError.h>
+#include <omnimapper/eval/TumFile.h>
+#include <omnimapper/source/CarmenLog.h>
+#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/LogVariants.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace untuned {
+
+using omnimapper::testing::LogVariant;
+using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
+
+constexpr double kWrong = 1;  ///< [m] of absolute trajectory error, from which on a map is wrong
+
+struct Log {
+  std::string name, path, reference;
+  bool is_thin = false;  ///< scans 0.5 to 1 m apart already
+};
+
+/// That of this name: a recording, or one of MRPT's simulated logs. Judged by the simulator's truth, by another
+/// mapper's corrected poses, or, where there is neither (ual, driving_in_office, malaga), by the map that we made of
+/// the unchanged log, which was looked at and is kept in tests/bench/references. None if it is not on this machine.
+inline std::optional<Log> logNamed(const std::string& name) {
+  namespace tests = omnimapper::testing;
+  const auto is_one_of = [&](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  std::optional<std::string> path, reference = tests::sourceFile("tests/bench/references/" + name + ".tum");
+  if (is_one_of({"simul", "range_030_bearing_015"})) {
+    const std::string demo = "graphslam-engine-demos/action_observations_map/" + name + ".rawlog";
+    path = tests::mrptDataset(demo);
+    reference = tests::mrptDataset(demo + ".GT.txt");
+  } else if (name == "malaga") {
+    path = tests::mrptDataset("2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog");
+  } else if (is_one_of({"ual", "driving_in_office"})) {
+    path = tests::sharedData("laser2d/" + name + ".rawlog");
+  } else {
+    path = tests::sharedData("laser2d/" + name + ".clf.bz2");
+    reference = tests::sharedData("laser2d/" + name + ".reference.tum");
+  }
+  if (!path || !reference || !std::filesystem::exists(*reference)) return std::nullopt;
+  return Log{name, *path, *reference, is_one_of({"fhw", "belgioioso"})};
+}
+
+/// Those with a stamp, in its order.
+inline Observations read(const Log& log) {
+  namespace source = omnimapper::source;
+  std::unique_ptr<source::ObservationSource> in;
+  if (log.path.find(".clf") != std::string::npos) {
+    in = std::make_unique<source::CarmenLog>(log.path);
+  } else {
+    in = source::openRawlogs({log.path}, {});
+  }
+  Observations all;
+  while (auto observation = in->next()) {
+    if (omnimapper::base::isValid(observation->timestamp)) all.push_back(std::move(observation));
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
+  return all;
+}
+
+inline void writeVariant(const Observations& log, LogVariant variant, const std::string& path) {
+  omnimapper::source::writeRawlog(path, [&](omnimapper::source::RawlogWriter& rawlog) {
+    for (const auto& observation : omnimapper::testing::variantOf(log, variant)) rawlog.add(*observation);
+  });
+}
+
+/// Where the robot was in the variant.
+inline omnimapper::eval::Trajectory truthOf(const Log& log, const Observations& observations, LogVariant variant) {
+  auto truth = omnimapper::eval::readTrajectory(log.reference);
+  if (variant == LogVariant::reversed) {
+    for (auto& pose : truth) pose.stamp = omnimapper::testing::reversedStamp(observations, pose.stamp);
+    std::reverse(truth.begin(), truth.end());
+  }
+  return truth;
+}
+
+/// A reference is sparse and ours is dense: ours is asked where it was at the reference's stamps.
+inline omnimapper::eval::PairingOptions pairing() {
+  omnimapper::eval::PairingOptions options;
+  options.alignment = omnimapper::eval::Alignment::yaw;
+  options.longest_gap = omnimapper::base::durationFromSeconds(10);
+  return options;
+}
+
+/// [m], root mean square after the best rigid alignment.
+inline double errorOf(const omnimapper::eval::Trajectory& trajectory, const omnimapper::eval::Trajectory& truth) {
+  return omnimapper::eval::absoluteTrajectoryError(truth, trajectory, pairing()).translation.rmse;
+}
+
+}  // namespace untuned
