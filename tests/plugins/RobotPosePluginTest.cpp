@@ -125,6 +125,36 @@ TEST(RobotPosePlugin, WhatIsNotFiniteIsRefusedWithTheReason) {
   EXPECT_EQ(batch.decisions().front().reason, "not finite");
 }
 
+// One pose is given 0.3 m beside where the map is held: 3 of its standard deviations, or 15.
+TEST(RobotPosePlugin, SaysHowFarTheMapIsFromTheGivenPoses) {
+  for (const double sigma : {0.1, 0.02}) {
+    RobotPoseOptions options;
+    options.position_sigma = sigma;
+    RobotPosePlugin plugin(options, {});
+    testing::HandMadeRun run;
+    EXPECT_TRUE(plugin.evidence(run.view()).empty()) << "nothing was given";
+    plugin.measure(run.addFrame({}), {measured(CPose3D()), nullptr}, run.view());
+    plugin.measure(run.addFrame(CPose3D(1, 0, 0, 0, 0, 0)), {measured(CPose3D(1, 0.3, 0, 0, 0, 0)), nullptr},
+                   run.view());
+    const auto evidence = plugin.evidence(run.view());
+    ASSERT_EQ(evidence.size(), 1U);
+    EXPECT_NEAR(evidence[0].value, 0.3 / sigma, 1e-6);
+    EXPECT_EQ(evidence[0].says == mapper::Evidence::Says::against_it, sigma < 0.05) << evidence[0].reason;
+  }
+}
+
+TEST(RobotPosePlugin, PosesHoldUnlessALossIsAskedFor) {
+  for (const double scale : {0.0, 3.0}) {
+    RobotPoseOptions options;
+    options.loss_scale = scale;
+    RobotPosePlugin plugin(options, {});
+    testing::HandMadeRun run;
+    const auto batch = plugin.measure(run.addFrame({}), {measured(CPose3D()), nullptr}, run.view());
+    EXPECT_EQ(batch.addedFactors().front().loss.kind(),
+              scale == 0 ? graph::Loss::Kind::none : graph::Loss::Kind::cauchy);
+  }
+}
+
 TEST(RobotPosePlugin, WantsItsLabelOnly) {
   RobotPoseOptions options;
   EXPECT_TRUE(RobotPosePlugin(options, {}).wants(measured({})));

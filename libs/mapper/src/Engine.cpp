@@ -104,6 +104,7 @@ bool Engine::tellSources(const mrpt::obs::CObservation& observation) {
   for (auto& [section, plugin] : plugins_.pose) {
     const auto answer = plugin->add(observation);
     counts_.unusable += answer == PosePlugin::Taken::unusable;
+    if (answer == PosePlugin::Taken::taken) fed_.insert(section);
     taken = taken || answer != PosePlugin::Taken::not_mine;
     const auto newest = chain_.newest();
     const auto news = plugin->news();

@@ -96,6 +96,21 @@ std::vector<std::string> Engine::idlePlugins() const {
   return idle;
 }
 
+std::vector<std::string> Engine::idleSources() const {
+  std::vector<std::string> idle;
+  for (const auto& [section, plugin] : plugins_.pose) {
+    if (!plugin->measures()) continue;
+    if (fed_.count(section) > 0) return {};
+    idle.push_back(section);
+  }
+  for (const auto& [section, plugin] : plugins_.measurement) {
+    if (!plugin->givesAbsolutePoses()) continue;
+    if (fed_.count(section) > 0) return {};
+    idle.push_back(section);
+  }
+  return idle;
+}
+
 void Engine::commit(base::KeyFrameId id) {
   estimator_.refine(id);
   committer_.applyJobs(false, busy_.jobs);

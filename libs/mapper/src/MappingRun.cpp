@@ -108,6 +108,18 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
           "; nothing was written.\n" + labels + "What was read:\n" + result.source.text());
 }
 
+// What stands still in the map though it moved is wrong by as much.
+[[noreturn]] void failWithNoMotion(const RunRequest& request, const std::string& ini, const RunResult& result,
+                                   const std::vector<std::string>& idle) {
+  std::string logs;
+  for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
+  throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::nothing_to_map : result.code,
+                    logs + ": nothing to map: it does not tell how the sensors moved: there is nothing in it for " +
+                        base::option_text::format(idle) + " of " + ini +
+                        "; nothing was written. omnimapper-graphslam --check names the INIs that fit this log.\n" +
+                        "What was read:\n" + result.source.text());
+}
+
 // The trajectory is written all the same: in the map's frame only by what [session] start says.
 [[noreturn]] void failWithNoPlace(const RunRequest& request, const RunResult& result) {
   throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code,
@@ -237,6 +249,8 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   if (keep_old && failure) std::rethrow_exception(failure);
   if (keep_old && failure_at_end) std::rethrow_exception(failure_at_end);
   if (result.new_key_frames == 0) failWithNothingToMap(request, config.file(), result, unknown_labels);
+  if (const auto idle = engine.idleSources(); !idle.empty() && !context.map_is_held && result.new_key_frames > 1)
+    failWithNoMotion(request, config.file(), result, idle);
   progress.report(1.0, "writing the outputs");
   engine.writeOutputs();
   if (failure) std::rethrow_exception(failure);

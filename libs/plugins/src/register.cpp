@@ -5,6 +5,7 @@
 #include <omnimapper/plugins/CloudPlanesPlugin.h>
 #include <omnimapper/plugins/EdgesPlugin.h>
 #include <omnimapper/plugins/GeoJsonOutput.h>
+#include <omnimapper/plugins/GivenMotionPlugin.h>
 #include <omnimapper/plugins/GpsPlugin.h>
 #include <omnimapper/plugins/GraphOutput.h>
 #include <omnimapper/plugins/GridOutput.h>
@@ -39,6 +40,7 @@ void registerPlugins() {
   mapper::registerFactoryBases();
   using mrpt::rtti::registerClass;
   registerClass(CLASS_ID(OdometryPluginFactory));
+  registerClass(CLASS_ID(GivenMotionPluginFactory));
   registerClass(CLASS_ID(NoMotionPluginFactory));
   registerClass(CLASS_ID(ScanOdometryPluginFactory));
   registerClass(CLASS_ID(ArucoMarkersPluginFactory));

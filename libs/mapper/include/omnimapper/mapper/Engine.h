@@ -61,6 +61,9 @@ class Engine {
 
   /// Sections of the measurement plugins that no observation came to, though they work on some.
   std::vector<std::string> idlePlugins() const;
+  /// Pose sources that measure, and measurement plugins that give absolute poses, if the log had nothing for any of
+  /// them; none if one had, or there are no such plugins at all.
+  std::vector<std::string> idleSources() const;
   /// What extractors could not take; finish() warns of it.
   const ExtractionErrors& extractionErrors() const { return extraction_errors_; }
 
@@ -129,7 +132,7 @@ class Engine {
   ExtractionErrors extraction_errors_;
   std::vector<map::MapSection> sections_;
   std::string reference_sensor_;
-  std::set<std::string> fed_;  // measurement plugins that an observation came to
+  std::set<std::string> fed_;  // pose sources and measurement plugins that an observation came to
   BusyTimes busy_;
   std::optional<SlidingWindow> window_;  // of a run that localizes
   std::vector<Fix> fixes_;

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace omnimapper::plugins {
 
@@ -13,12 +14,13 @@ struct RobotPoseOptions {
   bool reference_is_map = true;
   double position_sigma = 0.02;                                     ///< [m]
   double angle_sigma = 1.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double loss_scale = 3;                                            ///< [sigma] of the Cauchy loss
+  double loss_scale = 0;                                            ///< [sigma] of the Cauchy loss; 0: none
 
   static const base::OptionTable<RobotPoseOptions>& table();
 };
 
-/// Absolute poses from outside, such as motion capture (thesis 5.2.2.2), as CObservationRobotPose. The pose is that of
+/// Absolute poses from outside, such as motion capture (thesis 5.2.2.2), as CObservationRobotPose. They hold: unless a
+/// loss is asked for, nothing that is seen overrules them beyond what their covariance allows. The pose is that of
 /// the tracked body, whose place on the base is the observation's sensorPose. Its own frame is the map's, or a frame
 /// whose place in the map is a variable.
 class RobotPosePlugin : public mapper::MeasurementPlugin {
@@ -34,11 +36,19 @@ class RobotPosePlugin : public mapper::MeasurementPlugin {
   /// The variable map_from_reference.
   std::optional<map::MapSection> save() const override;
   void restore(const map::MapSection* saved, const mapper::View& view) override;
+  /// How far the map is from the poses that were given.
+  std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
 
  private:
+  struct Given {
+    base::KeyFrameId frame;
+    mrpt::poses::CPose3D reference_from_base;
+    Eigen::Matrix<double, 6, 6> covariance;  // in the tangent at the pose
+  };
   RobotPoseOptions options_;
   mapper::PluginContext context_;
   std::optional<base::VariableId> map_from_reference_;
+  std::vector<Given> given_;  // in this session
 };
 
 class RobotPosePluginFactory : public mapper::MeasurementPluginFactory {
