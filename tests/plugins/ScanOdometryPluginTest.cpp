@@ -238,6 +238,25 @@ TEST(ScanOdometryPlugin, ALongGapIsBridgedByTheWheelsAloneOrNotAtAll) {
   EXPECT_EQ(follow(log, broken(false)).motion, CPose2D());
 }
 
+TEST(ScanOdometryPlugin, AGapThatNothingTellsIsEvidence) {
+  const auto log = halfALap();
+  for (const bool wheels : {true, false}) {
+    ScanOdometryPlugin plugin({}, {}, {});
+    for (const auto& observation : log.observations()) {
+      const double into = base::secondsBetween(log.begin(), observation->timestamp);
+      if ((into > 8 && into < 11) || (observation->sensorLabel == "odometry" && !wheels)) continue;
+      plugin.add(*observation);
+    }
+    plugin.processUntil(*plugin.coveredUntil());
+    const auto evidence = plugin.evidence();
+    ASSERT_EQ(evidence.size(), wheels ? 0U : 1U);
+    if (wheels) continue;
+    EXPECT_EQ(evidence[0].value, 1);
+    EXPECT_EQ(evidence[0].says, mapper::Evidence::Says::too_little);
+    EXPECT_NE(evidence[0].reason.find("11 s"), std::string::npos) << evidence[0].reason;
+  }
+}
+
 // Root mean square of the error over a second of a turning base, [m] [rad].
 struct Errors {
   double position = 0, heading = 0;

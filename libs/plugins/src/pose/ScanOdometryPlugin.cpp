@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <tuple>
 #include <utility>
 
@@ -111,6 +112,15 @@ std::vector<std::string> ScanOdometryPlugin::warnings() const {
   return sentences;
 }
 
+std::vector<mapper::Evidence> ScanOdometryPlugin::evidence() const {
+  if (gaps_.count == 0) return {};
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "nothing told the motion across %zu gaps of the laser, the first %.0f s after its start", gaps_.count,
+                gaps_.first);
+  return {{"laser_gaps_without_motion", static_cast<double>(gaps_.count), mapper::Evidence::Says::too_little, text}};
+}
+
 ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation& observation) {
   const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation);
   if (!scan) addOdometry(observation);
@@ -183,8 +193,9 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
       is_long && !predictions.empty() ? perSecond(predictions.front().guess.reference_from_scan, seconds) : velocity_;
   const auto tracked = tracker_.track(wallsOf(scan, velocity), placeOf(scan), predictions);
   if (!tracked) {
-    if (seconds > options_.max_gap) restart(scan);
-    return;
+    if (seconds <= options_.max_gap) return;
+    if (predictions.empty() && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
+    return restart(scan);
   }
   const TPose2D& motion = tracked->match.reference_from_scan;
   const auto told = motionOf(*tracked, predictions[tracked->prediction].guess);
@@ -214,6 +225,7 @@ void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan& scan)
   tracker_.restart(walls, placeOf(scan));
   velocity_ = {};
   last_ = middleOf(scan);
+  if (!begun_) begun_ = last_;
   is_first_ = true;
 }
 

@@ -57,6 +57,8 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   }
   std::optional<base::Stamp> coveredUntil() const override;
   std::vector<std::string> warnings() const override;
+  /// Gaps across which neither the laser nor an odometry told the motion, if there are any.
+  std::vector<mapper::Evidence> evidence() const override;
   void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }
 
  private:
@@ -76,6 +78,11 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   struct Tilted {
     std::size_t scans = 0;
     double tilt = 0;  // [rad] the largest
+  };
+  /// Times at which the laser began anew and nothing told how it had got there.
+  struct Gaps {
+    std::size_t count = 0;
+    double first = 0;  // [s] after the first scan
   };
   static void judge(Predictor& predictor, const mrpt::math::TPose2D& motion);
   bool isOurs(const mrpt::obs::CObservation2DRangeScan& scan);
@@ -99,8 +106,10 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan> wait_;  // for their time
   std::optional<base::Stamp> reached_;                              // scan that was worked on last
   std::optional<base::Stamp> last_;                                 // middle of the scan that was matched last
-  bool is_first_ = true;                                            // whether none was before it
-  mrpt::math::TPose2D velocity_;                                    // [m/s] [rad/s] in the base
+  std::optional<base::Stamp> begun_;                                // middle of the first scan of all
+  Gaps gaps_;
+  bool is_first_ = true;          // whether none was before it
+  mrpt::math::TPose2D velocity_;  // [m/s] [rad/s] in the base
   Predictor by_velocity_;
   mapper::PoseTimeline timeline_;
 };
