@@ -59,7 +59,7 @@ TEST(FittingInis, OfARangeCameraDependOnWhatTellsItsMotion) {
   alone.push_back(pose);
   EXPECT_EQ(namesFor(alone), (Names{"ini/rgbd_planes.ini"}));
   EXPECT_EQ(Checked(alone).text().find("problem"), std::string::npos) << Checked(alone).text();
-  EXPECT_EQ(fittingInis(Checked(alone).facts).front().plugins.pose, (Names{"no_motion"}));
+  EXPECT_EQ(fittingInis(Checked(alone).facts).front().plugins.pose, (Names{"given_motion", "no_motion"}));
 }
 
 TEST(FittingInis, GoWithoutTheLaserThatIsNotThere) {

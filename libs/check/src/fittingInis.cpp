@@ -39,7 +39,7 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   if (sees_depth && holds<mrpt::obs::CObservationRobotPose>(facts)) {
     inis.push_back({"ini/rgbd_planes.ini",
                     "walls, tables and floors of a range camera on given poses",
-                    {{"no_motion"}, {"planes"}, {"poses", "plane_landmarks"}}});
+                    {{"given_motion", "no_motion"}, {"planes"}, {"poses", "plane_landmarks"}}});
   }
   if (has_odometry && holds<mrpt::obs::CObservationBearingRange>(facts)) {
     inis.push_back({"ini/landmarks.ini",
