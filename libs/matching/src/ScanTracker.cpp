@@ -14,7 +14,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-// On which logs they were chosen, and what half and double of them do: doc/results/robustness.md.
+// On which logs they were chosen, and what was tried instead of some of them: doc/results/robustness.md.
 constexpr double kSame = 0.1, kSameTurn = 0.035;    // [m] [rad] within which two matches are one
 constexpr double kBasin = 0.25, kBasinTurn = 0.14;  // [m] [rad] from which a prediction leads to a match for sure
 constexpr double kIndependent = 30;                 // beams beside each other see the same: so many count
