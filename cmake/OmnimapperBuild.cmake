@@ -26,6 +26,9 @@ mark_as_advanced(OMNIMAPPER_LLD)
 if(OMNIMAPPER_LLD)
   add_link_options(-fuse-ld=lld)
 endif()
+# A library calls its own instances of templates, those that were compiled with its options, whatever else is loaded: the
+# programs of the unit tests, which are not optimized, would otherwise lend it theirs, and Eigen's products with them.
+add_link_options(-Wl,-Bsymbolic-functions)
 
 # Applied to every target: warnings are errors, files together or one by one, and a sanitizer where one was asked for.
 function(omnimapper_compile_options target)
