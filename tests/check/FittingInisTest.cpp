@@ -4,6 +4,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/check/fittingInis.h>
 #include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/plugins/OdometryPlugin.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <memory>
@@ -81,6 +82,9 @@ TEST(FittingInis, HaveThePluginsThatTheyAreSaidToHave) {
     EXPECT_EQ(ini.plugins.pose, options.pose_plugins) << ini.file;
     EXPECT_EQ(ini.plugins.measurement, options.measurement_plugins) << ini.file;
     EXPECT_EQ(ini.plugins.extractors, config.section("perception").read<mapper::PerceptionOptions>().extractors)
+        << ini.file;
+    EXPECT_EQ(ini.plugins.odometry_is_fallback,
+              config.section("odometry").read<plugins::OdometryOptions>({"class"}).fallback)
         << ini.file;
   }
 }

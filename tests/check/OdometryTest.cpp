@@ -108,6 +108,70 @@ TEST(Odometry, OfTwoTheOneNearerToTheScansIsProposed) {
   EXPECT_EQ(checked.proposed("scan_odometry", "odometry_label"), "odometry");
 }
 
+TEST(Odometry, ItsNoiseIsNotProposedWhereItOnlyFillsGaps) {
+  const Checked checked(halfALap({testing::SimulatedLaser()}, [](SimulatedLogOptions& options) {
+    options.laps = 1;
+    options.yaw_noise_per_root_turn = 0.2;
+  }));
+  ASSERT_NE(checked.proposed("odometry", "yaw_noise_per_root_turn"), "");
+  const PluginLists gaps{{"scan_odometry", "odometry", "no_motion"}, {"laser_points"}, {"loop_closure"}, true};
+  EXPECT_EQ(toIni(proposeIni(checked.facts, gaps)), "");
+  const PluginLists alone{{"odometry", "no_motion"}, {"laser_points"}, {"loop_closure"}, true};
+  EXPECT_NE(toIni(proposeIni(checked.facts, alone)), "") << "without the laser's odometry it tells all";
+}
+
+/// A log with a second odometry, the first one's readings after `change`.
+Observations withAnother(const Observations& log,
+                         const std::function<CPose2D(const CPose2D&, double seconds)>& change) {
+  Observations all;
+  const auto start = log.front()->timestamp;
+  for (const auto& observation : log) {
+    all.push_back(observation);
+    if (!dynamic_cast<const CObservationOdometry*>(observation.get())) continue;
+    auto other = std::dynamic_pointer_cast<CObservationOdometry>(observation->duplicateGetSmartPtr());
+    other->sensorLabel = "other";
+    other->odometry = change(other->odometry, base::secondsBetween(start, other->timestamp));
+    all.push_back(other);
+  }
+  return all;
+}
+
+TEST(Odometry, ThatContradictsAnotherIsSaidWithTheTime) {
+  const auto log = halfALap();
+  const auto freezes = [held = CPose2D()](const CPose2D& pose, double seconds) mutable {
+    if (seconds < 10) held = pose;
+    return held;
+  };
+  const Checked frozen(withAnother(log, freezes));
+  EXPECT_TRUE(frozen.says("warning: 'odometry' and 'other': the two odometries contradict each other in"))
+      << frozen.text();
+  // Spans are of a second and a reading.
+  const auto& pair = frozen.facts.odometry_pairs.at(0);
+  EXPECT_NEAR(base::secondsBetween(log.front()->timestamp, pair.first_contrary), 9.5, 1.1);
+  EXPECT_GT(pair.contrary, pair.spans / 4);
+  EXPECT_LT(pair.contrary, pair.spans);
+
+  const Checked elsewhere(withAnother(log, [](const CPose2D& pose, double) { return CPose2D(40, -3, 2) + pose; }));
+  EXPECT_FALSE(elsewhere.says("contradict")) << "the frame of an odometry is its own; " << elsewhere.text();
+  const Checked scaled(withAnother(
+      log, [](const CPose2D& pose, double) { return CPose2D(1.1 * pose.x(), 1.1 * pose.y(), pose.phi()); }));
+  EXPECT_FALSE(scaled.says("contradict")) << scaled.text();
+}
+
+TEST(Odometry, ThatTurnsTooFarIsNotBlamedOnTheLaser) {
+  auto log = halfALap();
+  CPose2D before, summed;
+  each<CObservationOdometry>(log, [&](auto& odometry) {
+    const CPose2D step = odometry.odometry - before;
+    before = odometry.odometry;
+    summed = summed + CPose2D(step.x(), step.y(), 1.5 * step.phi());
+    odometry.odometry = summed;
+  });
+  const Checked checked(log);
+  EXPECT_TRUE(checked.says("warning: 'odometry': turns 1.4")) << checked.text();
+  EXPECT_FALSE(checked.says("declare")) << checked.text();
+}
+
 TEST(Odometry, ThatIsNoNumberIsCounted) {
   auto log = halfALap();
   int n = 0;

@@ -119,6 +119,20 @@ TEST(Scans, OfTwoLasersTheOneThatSeesMoreIsTheReference) {
       << "an INI without laser odometry gets no keys for it";
 }
 
+TEST(Scans, ThatDeclareAWrongApertureGetTheirOwn) {
+  for (const double declared : {kPi / 2, 1.5 * kPi}) {
+    auto log = halfALap({SimulatedLaser()}, [](auto& options) { options.laps = 1; });
+    each<CObservation2DRangeScan>(log, [&](auto& scan) { scan.aperture = static_cast<float>(declared); });
+    const Checked checked(log);
+    EXPECT_TRUE(checked.says("problem: 'laser': its scans declare")) << checked.text();
+    EXPECT_TRUE(checked.says("as scans of 180 deg do")) << checked.text();
+    EXPECT_EQ(checked.proposed("mapper", "sensors"), "place_of_laser");
+    EXPECT_EQ(checked.proposed("place_of_laser", "aperture_deg"), "180.0");
+    EXPECT_EQ(checked.proposed("place_of_laser", "pose_x_m"), "0.20") << "its place stays";
+    EXPECT_FALSE(checked.says("mounted")) << checked.text();
+  }
+}
+
 TEST(SensorPose, ThatIsMissingIsSaidAndMeasuredByTheMotion) {
   const Checked checked(mounted({0.35, 0.1, 0, 0, 0, 0}, {}));
   EXPECT_TRUE(checked.says("warning: 'laser': its sensor pose is missing")) << checked.text();

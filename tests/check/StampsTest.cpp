@@ -57,11 +57,57 @@ TEST(Stamps, OfOneObservationFarAheadDoNotStretchTheLog) {
   }
 }
 
-TEST(Stamps, ThatPauseAreAGap) {
-  auto log = halfALap();
-  for (std::size_t i = log.size() / 2; i < log.size(); ++i) log[i]->timestamp += base::durationFromSeconds(8);
-  const Checked checked(log);
-  EXPECT_TRUE(checked.says("warning: 'laser': 1 gap, the longest of 8.1 s (usually 0.100 s)")) << checked.text();
+// The robot stands for a while, and nothing is recorded meanwhile.
+Observations restingIn(Observations log, double seconds) {
+  const auto from = log[log.size() / 5]->timestamp;  // on a straight
+  for (const auto& observation : log) {
+    if (observation->timestamp > from) observation->timestamp += base::durationFromSeconds(seconds);
+  }
+  return log;
+}
+
+// The laser is silent for a while, the rest goes on.
+Observations blindFor(Observations log, double seconds) {
+  const auto start = log.front()->timestamp;
+  const auto is_missing = [&](const auto& observation) {
+    const double t = base::secondsBetween(start, observation->timestamp);
+    return observation->sensorLabel == "laser" && t > 10 && t < 10 + seconds;
+  };
+  log.erase(std::remove_if(log.begin(), log.end(), is_missing), log.end());
+  return log;
+}
+
+TEST(Stamps, ThatPauseAreAGapUnlessTheRobotRests) {
+  const Checked driving(blindFor(halfALap(), 8));
+  EXPECT_TRUE(driving.says("warning: 'laser': 1 gap, the longest of 8.1 s (usually 0.100 s)")) << driving.text();
+  const Checked resting(restingIn(halfALap(), 8));
+  EXPECT_TRUE(resting.says("note: 'laser': 1 gap in which the robot moved by less than 1.5 m")) << resting.text();
+  EXPECT_FALSE(resting.says("warning")) << resting.text();
+}
+
+TEST(Stamps, OfALogRecordedByTheWayMayPauseForMinutes) {
+  // A scan every 0.2 m, then every 0.6 m.
+  auto log = restingIn(halfALap(), 200);
+  Observations by_way;
+  std::size_t scans = 0, next = 0;
+  for (const auto& observation : log) {
+    if (dynamic_cast<const CObservation2DRangeScan*>(observation.get())) {
+      if (scans++ < next) continue;
+      next = scans + 2 + 6 * (by_way.size() / 20 % 2);
+      by_way.push_back(observation);
+    } else if (!by_way.empty() && by_way.back()->sensorLabel == "laser") {
+      by_way.push_back(observation);
+    }
+  }
+  const Checked checked(by_way);
+  EXPECT_FALSE(checked.says("clock")) << checked.text();
+  EXPECT_TRUE(checked.says("note: 'laser': 1 gap in which the robot moved by less than 1.5 m")) << checked.text();
+}
+
+TEST(Stamps, OfOneSensorThatPausesAreNoJumpOfTheClock) {
+  const Checked checked(blindFor(halfALap({testing::SimulatedLaser()}, [](auto& options) { options.laps = 3; }), 65));
+  EXPECT_FALSE(checked.says("clock")) << checked.text();
+  EXPECT_TRUE(checked.says("warning: 'laser': 1 gap, the longest of 65")) << checked.text();
 }
 
 TEST(Stamps, ThatComeLateWidenTheWindow) {

@@ -47,6 +47,19 @@ TEST(SensorPoses, AStaticPoseHoldsAtAnyTimeForItsLabelOnly) {
   EXPECT_FALSE(poses.find("other", base::stampFromUnix(1e9)));
 }
 
+TEST(SensorPoses, AnApertureIsToldOrLeftAsTheScanHasIt) {
+  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+  scan->sensorLabel = "laser";
+  scan->aperture = 1.5F;
+  const auto apertureWith = [&](const std::string& line) {
+    const auto told = fromIni("[sensor]\nlabel = laser\npose_x_m = 0.2\n" + line).applied(scan);
+    return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(told)->aperture;
+  };
+  EXPECT_FLOAT_EQ(apertureWith("aperture_deg = 180\n"), static_cast<float>(180 * kDegree));
+  EXPECT_FLOAT_EQ(apertureWith(""), 1.5F);
+  EXPECT_EQ(scan->aperture, 1.5F);
+}
+
 TEST(SensorPoses, GivesACopyAndLeavesTheObservationOfTheLogAlone) {
   const auto poses = fromIni("[sensor]\nlabel = laser\npose_x_m = 0.2\n");
   auto scan = mrpt::obs::CObservation2DRangeScan::Create();

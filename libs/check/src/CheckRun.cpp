@@ -5,6 +5,7 @@
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
 #include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/plugins/OdometryPlugin.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include <algorithm>
@@ -41,7 +42,8 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing is said of half a log");
   const auto findings = judge(facts);
   const auto inis = fittingInis(facts);
-  const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins};
+  const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins,
+                          config.section("odometry").read<plugins::OdometryOptions>({"class"}).fallback};
   std::string ini;  // that is proposed for
   std::vector<Setting> settings;
   if (!inis.empty()) {

@@ -101,6 +101,12 @@ std::optional<std::string> usableOdometry(const LogFacts& facts) {
   return best;
 }
 
+std::optional<double> betterAperture(const LogFacts& facts, const std::string& laser) {
+  const auto odometry = usableOdometry(facts);
+  const auto* motion = odometry ? motionOf(facts, laser, *odometry) : nullptr;
+  return motion ? motion->aperture : std::nullopt;
+}
+
 std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, const std::string& laser) {
   using mrpt::poses::CPose3D;
   constexpr double kSureYaw = 3 * base::option_text::kRadiansPerDegree;

@@ -6,6 +6,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace omnimapper::check {
 
@@ -19,6 +21,8 @@ class OdometryTally {
   void add(const mrpt::obs::CObservation& observation);
   const OdometryFacts& facts() const { return facts_; }
   std::optional<mrpt::poses::CPose2D> between(base::Stamp begin, base::Stamp end) const;
+  /// Those of its readings that are valid, in order of arrival.
+  const std::vector<base::Stamp>& stamps() const { return stamps_; }
 
  private:
   void addStep(const mrpt::poses::CPose2D& step, double seconds, base::Stamp stamp);
@@ -26,7 +30,13 @@ class OdometryTally {
   OdometryFacts facts_;
   std::optional<mrpt::poses::CPose2D> previous_;
   base::Stamp previous_stamp_;
+  std::vector<base::Stamp> stamps_;
   std::unique_ptr<plugins::OdometryPlugin> source_;
 };
+
+/// Holds two odometries against one another over spans of a second or more that begin and end with readings of the one
+/// that has fewer; of a long log some hundred.
+OdometryPair compareOdometries(const std::string& a, const OdometryTally& of_a, const std::string& b,
+                               const OdometryTally& of_b);
 
 }  // namespace omnimapper::check

@@ -6,6 +6,7 @@
 #include <omnimapper/plugins/ScanInBase.h>
 
 #include <cmath>
+#include <memory>
 
 namespace omnimapper::check {
 
@@ -53,6 +54,17 @@ void ScanPairs::add(const ScanPtr& scan) {
   begin_ = scan;
 }
 
+std::vector<ScanPair> withAperture(const std::vector<ScanPair>& pairs, double aperture) {
+  const auto changed = [&](const ScanPtr& scan) {
+    auto copy = std::make_shared<mrpt::obs::CObservation2DRangeScan>(*scan);
+    copy->aperture = static_cast<float>(aperture);
+    return copy;
+  };
+  std::vector<ScanPair> copies;
+  for (const auto& pair : pairs) copies.push_back({changed(pair.begin), changed(pair.end)});
+  return copies;
+}
+
 std::vector<MatchedMotion> matchPairs(const std::vector<ScanPair>& pairs, const OdometryBetween& odometry) {
   const matching::PointToLineMatcher matcher(wideOptions());
   std::vector<MatchedMotion> motions;
@@ -66,8 +78,8 @@ std::vector<MatchedMotion> matchPairs(const std::vector<ScanPair>& pairs, const 
       if (isBetter(other, match)) match = other;
     }
     if (!fits(match)) continue;
-    motions.push_back(
-        {pair.begin->timestamp, pair.end->timestamp, mrpt::poses::CPose2D(match.reference_from_scan), by_odometry});
+    motions.push_back({pair.begin->timestamp, pair.end->timestamp, mrpt::poses::CPose2D(match.reference_from_scan),
+                       by_odometry, match.wall_distance});
   }
   return motions;
 }

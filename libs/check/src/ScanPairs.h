@@ -34,10 +34,14 @@ struct MatchedMotion {
   base::Stamp begin, end;
   mrpt::poses::CPose2D by_scans;  ///< base at the end in the base at the begin
   std::optional<mrpt::poses::CPose2D> by_odometry;
+  double wall_distance;  ///< [m] root mean square of the points of one to the walls of the other
   double seconds() const { return base::secondsBetween(begin, end); }
 };
 
 using OdometryBetween = std::function<std::optional<mrpt::poses::CPose2D>(base::Stamp, base::Stamp)>;
+
+/// Copies of the scans with that aperture [rad].
+std::vector<ScanPair> withAperture(const std::vector<ScanPair>& pairs, double aperture);
 
 /// Matches each pair, from rest and from the odometry's motion, and gives those that fit and whose walls fix the pose.
 std::vector<MatchedMotion> matchPairs(const std::vector<ScanPair>& pairs, const OdometryBetween& odometry);

@@ -137,15 +137,35 @@ void countDirections(const MatchedMotion& motion, MotionFacts& facts) {
   }
 }
 
-}  // namespace
+// What the scans' turning says of the odometry's: the median of their ratios.
+std::optional<double> turnScaleOf(const std::vector<MatchedMotion>& motions) {
+  std::vector<double> ratios;
+  for (const auto& motion : motions) {
+    const double by_scans = motion.by_scans.phi(), by_odometry = motion.by_odometry->phi();
+    if (std::abs(by_scans) > kTurned && std::abs(by_odometry) > kTurned) ratios.push_back(by_odometry / by_scans);
+  }
+  if (ratios.size() < kFewestMotions) return std::nullopt;
+  return quantile(ratios, 0.5);
+}
 
-MotionFacts compareMotions(const std::vector<MatchedMotion>& motions) {
+// The aperture of a laser that is sold, where one is near.
+double usualAperture(double aperture) {
+  constexpr double kNear = 0.04;  // share
+  for (const double degrees : {90, 100, 120, 180, 190, 220, 240, 270, 360}) {
+    const double usual = degrees * base::option_text::kRadiansPerDegree;
+    if (std::abs(aperture - usual) < kNear * usual) return usual;
+  }
+  return aperture;
+}
+
+MotionFacts compare(const std::vector<MatchedMotion>& motions) {
   MotionFacts facts;
   facts.matched = motions.size();
-  std::vector<double> speeds;
+  std::vector<double> speeds, wall_distances;
   std::vector<MatchedMotion> told;  // by an odometry that moves when the scans do
   for (const auto& motion : motions) {
     speeds.push_back(motion.by_scans.norm() / motion.seconds());
+    wall_distances.push_back(motion.wall_distance);
     const bool moved = hasMoved(motion.by_scans);
     facts.moved += moved;
     if (!motion.by_odometry) continue;
@@ -157,9 +177,34 @@ MotionFacts compareMotions(const std::vector<MatchedMotion>& motions) {
     if (moved) told.push_back(motion);
   }
   if (!speeds.empty()) facts.speed = quantile(speeds, 0.9);
+  if (!wall_distances.empty()) facts.wall_distance = quantile(wall_distances, 0.5);
+  facts.turn_scale = turnScaleOf(told);
   facts.mounting = mountingOf(told);
   const auto& mounting = facts.mounting;
   measureNoise(told, mounting ? CPose2D(mounting->x, mounting->y, mounting->yaw) : CPose2D(), facts);
+  return facts;
+}
+
+}  // namespace
+
+MotionFacts compareMotions(const std::vector<ScanPair>& pairs, double aperture, const OdometryBetween& odometry) {
+  constexpr double kWrong = 0.15, kRight = 0.07;  // the odometry's turning over the scans', less 1
+  constexpr double kFitsBetter = 0.9;             // of the walls' distance
+  constexpr double kFull = 6.2832;                // [rad]
+  MotionFacts facts = compare(matchPairs(pairs, odometry));
+  // A scan that turns about itself is shifted by as many beams whatever aperture it declares.
+  double scale = facts.turn_scale.value_or(1);
+  if (std::abs(scale - 1) < kWrong || scale <= 0) return facts;
+  double other = aperture;
+  for (int round = 0; round < 3 && scale > 0; ++round) {
+    other = usualAperture(std::min(other * scale, kFull));
+    auto better = compare(matchPairs(withAperture(pairs, other), odometry));
+    scale = better.turn_scale.value_or(0);
+    if (std::abs(scale - 1) > kRight) continue;
+    if (better.matched < facts.matched || better.wall_distance > kFitsBetter * facts.wall_distance) break;
+    better.aperture = other;
+    return better;
+  }
   return facts;
 }
 

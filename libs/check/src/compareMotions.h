@@ -8,8 +8,8 @@
 
 namespace omnimapper::check {
 
-/// What the motions of some pairs say of odometry, its noise and the sensor's place. Labels and `tried` are the
-/// caller's to fill in.
-MotionFacts compareMotions(const std::vector<MatchedMotion>& motions);
+/// What pairs of scans that declare an aperture [rad] say of odometry, its noise and the sensor's place; with another
+/// aperture where the one they declare is wrong. Labels and `tried` are the caller's to fill in.
+MotionFacts compareMotions(const std::vector<ScanPair>& pairs, double aperture, const OdometryBetween& odometry);
 
 }  // namespace omnimapper::check

@@ -28,23 +28,24 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   if (sees_depth && (has_laser || has_odometry)) {
     inis.push_back({"ini/home_planes.ini",
                     std::string("walls, tables and floors of the range camera") + (has_laser ? " and the laser" : ""),
-                    {of_lasers, {"planes", "laser_lines", "laser_points"}, {"plane_landmarks", "loop_closure"}}});
+                    {of_lasers, {"planes", "laser_lines", "laser_points"}, {"plane_landmarks", "loop_closure"}, true}});
   }
   if (has_laser) {
-    inis.push_back({"ini/laser2d.ini", "a grid of the laser's scans", {of_lasers, {"laser_points"}, {"loop_closure"}}});
+    inis.push_back(
+        {"ini/laser2d.ini", "a grid of the laser's scans", {of_lasers, {"laser_points"}, {"loop_closure"}, true}});
     inis.push_back({"ini/laser_walls.ini",
                     "the same, with walls as landmarks",
-                    {of_lasers, {"laser_points", "laser_lines"}, {"walls", "loop_closure", "relations"}}});
+                    {of_lasers, {"laser_points", "laser_lines"}, {"walls", "loop_closure", "relations"}, true}});
   }
   if (sees_depth && holds<mrpt::obs::CObservationRobotPose>(facts)) {
     inis.push_back({"ini/rgbd_planes.ini",
                     "walls, tables and floors of a range camera on given poses",
-                    {{"given_motion", "no_motion"}, {"planes"}, {"poses", "plane_landmarks"}}});
+                    {{"given_motion", "no_motion"}, {"planes"}, {"poses", "plane_landmarks"}, false}});
   }
   if (has_odometry && holds<mrpt::obs::CObservationBearingRange>(facts)) {
     inis.push_back({"ini/landmarks.ini",
                     "points and markers by their ranges and bearings",
-                    {{"odometry", "no_motion"}, {}, {"points"}}});
+                    {{"odometry", "no_motion"}, {}, {"points"}, false}});
   }
   return inis;
 }

@@ -1,8 +1,11 @@
 #include <omnimapper/check/gatherFacts.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "OdometryTally.h"
+#include "PoseTally.h"
 #include "ScanPairs.h"
 #include "ScanTally.h"
 #include "StampTally.h"
@@ -20,9 +23,12 @@ class Gatherer {
   void add(const mrpt::obs::CObservation::Ptr& observation) {
     const auto stamp = observation->timestamp;
     const std::string& label = observation->sensorLabel;
-    stamps_[{label, observation->GetRuntimeClass()->className}].add(stamp, newest_);
-    if (base::isValid(stamp) && (stamp > newest_ || base::secondsBetween(stamp, newest_) > kJumpBack)) newest_ = stamp;
+    clock_.add(stamp);
+    stamps_[{label, observation->GetRuntimeClass()->className}].add(stamp, clock_);
     if (OdometryTally::isOdometry(*observation)) odometry_[label].add(*observation);
+    if (const auto pose = std::dynamic_pointer_cast<const mrpt::obs::CObservationRobotPose>(observation)) {
+      poses_[label].add(*pose);
+    }
     if (const auto scan = std::dynamic_pointer_cast<const CObservation2DRangeScan>(observation)) {
       auto& laser = lasers_[label];
       laser.tally.add(*scan);
@@ -33,8 +39,14 @@ class Gatherer {
 
   LogFacts facts() const {
     LogFacts facts;
-    for (const auto& [sensor, tally] : stamps_) facts.sensors[sensor] = tally.facts();
+    for (const auto& [sensor, tally] : stamps_) facts.sensors[sensor] = stampFacts(tally);
     for (const auto& [label, tally] : odometry_) facts.odometry[label] = tally.facts();
+    for (const auto& [label, tally] : poses_) facts.poses[label] = tally.facts();
+    for (auto a = odometry_.begin(); a != odometry_.end(); ++a) {
+      for (auto b = std::next(a); b != odometry_.end(); ++b) {
+        facts.odometry_pairs.push_back(compareOdometries(a->first, a->second, b->first, b->second));
+      }
+    }
     for (const auto& [label, laser] : lasers_) {
       facts.scans[label] = laser.tally.facts();
       for (const auto& [odometry, tally] : odometry_) {
@@ -53,12 +65,32 @@ class Gatherer {
     std::vector<base::Stamp> stamps;
   };
 
+  StampFacts stampFacts(const StampTally& tally) const {
+    StampFacts facts = tally.facts();
+    for (const auto& [begin, end] : tally.gaps()) {
+      if (isRest(begin, end)) {
+        ++facts.rests;
+      } else {
+        facts.longest_drive = std::max(facts.longest_drive, base::secondsBetween(begin, end));
+      }
+    }
+    return facts;
+  }
+
+  bool isRest(base::Stamp begin, base::Stamp end) const {
+    constexpr double kStayed = 1.5, kFaced = 1;  // [m] [rad]
+    return std::any_of(odometry_.begin(), odometry_.end(), [&](const auto& odometry) {
+      const auto motion = odometry.second.between(begin, end);
+      return motion && motion->norm() < kStayed && std::abs(motion->phi()) < kFaced;
+    });
+  }
+
   static MotionFacts motionOf(const std::string& label, const Laser& laser, const std::string& odometry,
                               const OdometryTally* tally) {
     const auto between = [&](base::Stamp begin, base::Stamp end) {
       return tally ? tally->between(begin, end) : std::nullopt;
     };
-    auto facts = compareMotions(matchPairs(laser.pairs.pairs(), between));
+    auto facts = compareMotions(laser.pairs.pairs(), laser.tally.facts().aperture, between);
     facts.laser = label;
     facts.odometry = odometry;
     facts.tried = laser.pairs.pairs().size();
@@ -74,8 +106,9 @@ class Gatherer {
 
   std::map<std::pair<std::string, std::string>, StampTally> stamps_;
   std::map<std::string, OdometryTally> odometry_;
+  std::map<std::string, PoseTally> poses_;
   std::map<std::string, Laser> lasers_;
-  base::Stamp newest_;
+  StreamClock clock_;
 };
 
 }  // namespace

@@ -22,6 +22,8 @@ class Judge {
     for (const auto& [label, scans] : facts_.scans) judgeScans(label, scans);
     judgeContent();
     judgeOdometry();
+    judgePairs();
+    judgePoses();
     for (const auto& laser : usableLasers(facts_)) judgeSensorPose(laser);
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const Finding& a, const Finding& b) { return a.weight > b.weight; });
@@ -71,11 +73,14 @@ class Judge {
       add(Weight::warning, who + "comes up to " + fixed(stamps.lateness, 1) +
                                " s after later stamps of others, more than [mapper] window_s");
     }
-    if (stamps.gaps > 0) {
+    if (stamps.gaps > stamps.rests) {
       constexpr double kLong = 5;  // [s] a robot may have gone far
-      add(stamps.longest_gap > kLong ? Weight::warning : Weight::note,
-          who + counted(stamps.gaps, "gap") + ", the longest of " + fixed(stamps.longest_gap, 1) + " s (usually " +
-              fixed(stamps.period, 3) + " s)");
+      add(stamps.longest_drive > kLong ? Weight::warning : Weight::note,
+          who + counted(stamps.gaps - stamps.rests, "gap") + ", the longest of " + fixed(stamps.longest_drive, 1) +
+              " s (usually " + fixed(stamps.period, 3) + " s)");
+    }
+    if (stamps.rests > 0) {
+      add(Weight::note, who + counted(stamps.rests, "gap") + " in which the robot moved by less than 1.5 m");
     }
   }
 
@@ -152,6 +157,9 @@ class Judge {
     }
     if (reversed) add(Weight::problem, who + "runs against the scans: reversed" + reversedText(motion));
     if (reversed || isFrozen(motion)) return;
+    if (motion.turn_scale && std::abs(*motion.turn_scale - 1) > 0.1) {
+      add(Weight::warning, who + "turns " + fixed(*motion.turn_scale, 2) + " rad where the scans turn 1 rad");
+    }
     if (motion.mounting && std::abs(motion.mounting->scale - 1) > 0.05) {
       add(Weight::warning, who + "measures " + fixed(motion.mounting->scale, 2) + " m where the scans measure 1 m");
     }
@@ -179,8 +187,36 @@ class Judge {
     }
   }
 
+  void judgePairs() {
+    for (const auto& pair : facts_.odometry_pairs) {
+      constexpr double kShare = 0.05;
+      if (pair.contrary < 3 || static_cast<double>(pair.contrary) < kShare * static_cast<double>(pair.spans)) continue;
+      add(Weight::warning, quoted(pair.a) + " and " + quoted(pair.b) +
+                               ": the two odometries contradict each other in " + std::to_string(pair.contrary) +
+                               " of " + counted(pair.spans, "span") + " with motion, first " +
+                               sinceStart(pair.first_contrary) + ": only the label that [odometry] names is used");
+    }
+  }
+
+  void judgePoses() {
+    constexpr double kOnItsSide = 45 * base::option_text::kRadiansPerDegree;
+    for (const auto& [label, poses] : facts_.poses) {
+      if (poses.tilt < kOnItsSide) continue;
+      add(Weight::problem, quoted(label) + ": the poses are not level: on average the base is tilted by " +
+                               fixed(degrees(poses.tilt), 0) +
+                               " deg against the z axis of their frame, by which floors and walls are told apart; turn "
+                               "the poses so that "
+                               "z points up");
+    }
+  }
+
   void judgeSensorPose(const std::string& laser) {
     const auto& scans = facts_.scans.at(laser);
+    if (const auto aperture = betterAperture(facts_, laser)) {
+      add(Weight::problem, quoted(laser) + ": its scans declare " + fixed(degrees(scans.aperture), 0) +
+                               " deg from the first beam to the last, but turn with the robot as scans of " +
+                               fixed(degrees(*aperture), 0) + " deg do, and fit one another better with it");
+    }
     const auto better = betterSensorPose(facts_, laser);
     const std::string who = quoted(laser) + ": ";
     if (scans.isAtOrigin()) {

@@ -81,11 +81,16 @@ class Proposal {
     std::vector<std::string> sections;
     std::vector<Setting> poses;
     for (const auto& laser : lasers_) {
-      const auto pose = betterSensorPose(facts_, laser);
-      if (!pose || laser.empty()) continue;
+      const auto better_pose = betterSensorPose(facts_, laser);
+      const auto aperture = betterAperture(facts_, laser);
+      if ((!better_pose && !aperture) || laser.empty()) continue;
+      const auto& scans = facts_.scans.at(laser);
+      if (!better_pose && scans.sensor_pose_moves) continue;  // a section would hold it still
+      const auto* pose = better_pose ? &*better_pose : &scans.base_from_sensor;
       const std::string section = sectionName(laser);
       sections.push_back(section);
-      poses.push_back({section, "label", laser, "its place on the base by its motion"});
+      poses.push_back(
+          {section, "label", laser, better_pose ? "its place on the base by its motion" : "its place as in the log"});
       const auto add = [&](const std::string& key, double value, int decimals) {
         if (std::stod(fixed(value, decimals)) != 0) poses.push_back({section, key, fixed(value, decimals), ""});
       };
@@ -95,6 +100,7 @@ class Proposal {
       add("pose_yaw_deg", degrees(pose->yaw()), 0);
       add("pose_pitch_deg", degrees(pose->pitch()), 0);
       add("pose_roll_deg", degrees(pose->roll()), 0);
+      if (aperture) add("aperture_deg", degrees(*aperture), 1);
     }
     if (sections.empty()) return;
     set("mapper", "sensors", joined(sections, ", "), "");
@@ -151,7 +157,8 @@ class Proposal {
       set("odometry", "label", *label, "of several the one nearest to the scans");
       if (laser_odometry_) set(kLaserOdometry, "odometry_label", *label, "the same");
     }
-    if (motions.empty()) return;
+    // The noise of what only fills gaps of the laser's odometry changes next to nothing.
+    if (motions.empty() || (plugins_.odometry_is_fallback && laser_odometry_ && !lasers_.empty())) return;
     const plugins::OdometryOptions defaults;
     const auto propose = [&](const std::string& key, const std::optional<double>& measured, double value, double unit) {
       constexpr double kALot = 2;

@@ -1,3 +1,4 @@
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/mapper/SensorPoses.h>
 
@@ -57,6 +58,8 @@ const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
           .number("pose_yaw_deg", &Options::yaw, {}, "Sensor on the base: turn about z.")
           .number("pose_pitch_deg", &Options::pitch, {}, "Sensor on the base: turn about y.")
           .number("pose_roll_deg", &Options::roll, {}, "Sensor on the base: turn about x; 180 for upside down.")
+          .number("aperture_deg", &Options::aperture, {0, 360},
+                  "Of its 2D scans, from the first beam to the last; 0 leaves what the scans say.")
           .text("pose_file", &Options::file, "TUM file of base_from_sensor for a sensor that moves on the base.");
   return table;
 }
@@ -72,6 +75,7 @@ SensorPoses::SensorPoses(const std::vector<std::string>& sections, const base::C
         options.file.empty() ? Track{{base::Stamp(), mrpt::poses::CPose3D(options.x, options.y, options.z, options.yaw,
                                                                           options.pitch, options.roll)}}
                              : readTrack(options.file);
+    if (options.aperture > 0) apertures_[options.label] = options.aperture;
   }
 }
 
@@ -93,6 +97,9 @@ mrpt::obs::CObservation::Ptr SensorPoses::applied(const mrpt::obs::CObservation:
   if (!pose) return observation;
   auto copy = std::dynamic_pointer_cast<mrpt::obs::CObservation>(observation->duplicateGetSmartPtr());
   copy->setSensorPose(*pose);
+  const auto aperture = apertures_.find(observation->sensorLabel);
+  auto* scan = dynamic_cast<mrpt::obs::CObservation2DRangeScan*>(copy.get());
+  if (scan && aperture != apertures_.end()) scan->aperture = static_cast<float>(aperture->second);
   return copy;
 }
 

@@ -19,10 +19,12 @@ struct StampFacts {
   std::size_t repeated = 0;  ///< the stamp of the one before again
   std::size_t backward = 0;  ///< before the one before, by no more than a clock that is set
   std::size_t gaps = 0;      ///< pauses of a second or more, five times the usual period
-  std::size_t jumps = 0;     ///< of the clock: a minute or more ahead, ten seconds or more back
+  std::size_t rests = 0;     ///< of these, those in which the robot stayed where it was, by odometry within 1.5 m
+  std::size_t jumps = 0;     ///< of the clock: of all sensors a minute or more ahead, ten seconds or more back
   double largest_jump = 0;   ///< [s] signed
   double period = 0;         ///< [s] median of the steps forward; 0: not known
   double longest_gap = 0;    ///< [s] jumps left out
+  double longest_drive = 0;  ///< [s] the longest gap that is no rest
   double lateness = 0;       ///< [s] largest, behind the newest stamp of all sensors
   base::Stamp first, last;   ///< earliest and latest; single ones a minute and more from the rest left out
 };
@@ -62,6 +64,20 @@ struct OdometryFacts {
   double way = 0, turn = 0;  ///< [m] [rad] summed, jumps left out
 };
 
+/// Two odometries held against one another, over spans of a second or more in which one of them moves.
+struct OdometryPair {
+  std::string a, b;  ///< labels
+  std::size_t spans = 0;
+  std::size_t contrary = 0;  ///< of these, those in which they differ by much more than wheels slip
+  base::Stamp first_contrary;
+};
+
+/// Absolute poses of one label.
+struct PoseFacts {
+  std::size_t poses = 0;
+  double tilt = 0;  ///< [rad] between the z axis of their frame and that of the base on average, [0, pi]
+};
+
 /// Odometry held against the motion that scan matching finds between pairs of scans, in the base's plane.
 struct MotionFacts {
   std::string laser, odometry;  ///< labels; no odometry: what scans alone tell
@@ -75,6 +91,12 @@ struct MotionFacts {
   std::size_t turning_reversed = 0;
   double speed = 0;  ///< [m/s] that one in ten pairs exceeds, by the scans
   base::Stamp first_frozen;
+
+  std::optional<double> turn_scale;  ///< turning by odometry over turning by scans; none if too few pairs turn
+  double wall_distance = 0;  ///< [m] median of the pairs that fit: how far points of one are from walls of the other
+  /// [rad] Of the scans, from the first beam to the last: the one with which they turn as the odometry does and fit
+  /// better. If there is one, what they declare is wrong, and all else here holds with this one.
+  std::optional<double> aperture;
 
   /// What would make scans and odometry agree: the sensor's true place on the base, seen from where it is said to be.
   struct Mounting {
@@ -95,6 +117,8 @@ struct LogFacts {
   std::map<std::pair<std::string, std::string>, StampFacts> sensors;  ///< by (label, class)
   std::map<std::string, ScanFacts> scans;                             ///< by label
   std::map<std::string, OdometryFacts> odometry;                      ///< by label
+  std::vector<OdometryPair> odometry_pairs;                           ///< each with each
+  std::map<std::string, PoseFacts> poses;                             ///< CObservationRobotPose by label
   std::vector<MotionFacts> motions;                                   ///< of each laser, with each odometry
   /// Share of a laser's scans that lie in the time of an odometry, by (laser, odometry).
   std::map<std::pair<std::string, std::string>, double> covered;

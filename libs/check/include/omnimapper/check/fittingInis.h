@@ -10,6 +10,7 @@ namespace omnimapper::check {
 /// Sections of plugins that an INI names.
 struct PluginLists {
   std::vector<std::string> pose, extractors, measurement;
+  bool odometry_is_fallback = false;  ///< [odometry] fallback
 };
 
 /// One of the INIs that come with the project.

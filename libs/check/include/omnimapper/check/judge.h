@@ -26,6 +26,8 @@ std::vector<Finding> judge(const LogFacts& facts);
 std::vector<std::string> usableLasers(const LogFacts& facts);
 /// The odometry to use, of several the one nearest to the scans; none if the scans contradict it.
 std::optional<std::string> usableOdometry(const LogFacts& facts);
+/// The aperture [rad] that a laser's scans have by the log's motions where they declare a wrong one.
+std::optional<double> betterAperture(const LogFacts& facts, const std::string& laser);
 /// base_from_sensor that the log's motions speak for where what is said of it is missing or wrong.
 std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, const std::string& laser);
 

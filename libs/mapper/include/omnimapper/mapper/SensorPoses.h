@@ -12,12 +12,14 @@
 
 namespace omnimapper::mapper {
 
-/// One sensor whose place on the base the INI tells, because its observations do not or tell it wrong.
+/// One sensor whose place on the base, or whose aperture, the INI tells, because its observations do not or tell it
+/// wrong.
 struct SensorPoseOptions {
   std::string label;                    ///< of the observations
   double x = 0, y = 0, z = 0;           ///< [m] base_from_sensor
   double yaw = 0, pitch = 0, roll = 0;  ///< [rad] MRPT's order: about z, then y, then x
-  std::string file;  ///< a TUM file of base_from_sensor over time, for a sensor that moves; overrides the rest
+  double aperture = 0;  ///< [rad] of its 2D scans, from the first beam to the last; 0: as the scans have it
+  std::string file;     ///< a TUM file of base_from_sensor over time, for a sensor that moves; overrides the rest
 
   static const base::OptionTable<SensorPoseOptions>& table();
 };
@@ -33,12 +35,13 @@ class SensorPoses {
   /// its ends the nearest holds.
   std::optional<mrpt::poses::CPose3D> find(const std::string& label, base::Stamp stamp) const;
 
-  /// The observation itself where the INI tells nothing, else a copy with that sensor pose.
+  /// The observation itself where the INI tells nothing, else a copy with that sensor pose and aperture.
   mrpt::obs::CObservation::Ptr applied(const mrpt::obs::CObservation::Ptr& observation) const;
 
  private:
   using Track = std::map<base::Stamp, mrpt::poses::CPose3D>;
-  std::map<std::string, Track> tracks_;  // a static pose is a track of one
+  std::map<std::string, Track> tracks_;      // a static pose is a track of one
+  std::map<std::string, double> apertures_;  // [rad] where one is told
 };
 
 }  // namespace omnimapper::mapper

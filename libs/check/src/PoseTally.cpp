@@ -1,0 +1,23 @@
+#include "PoseTally.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace omnimapper::check {
+
+void PoseTally::add(const mrpt::obs::CObservationRobotPose& observation) {
+  const auto reference_from_base = observation.pose.mean + (mrpt::poses::CPose3D() - observation.sensorPose);
+  const double up = reference_from_base.getRotationMatrix()(2, 2);
+  if (!std::isfinite(up)) return;
+  ++poses_;
+  up_ += up;
+}
+
+PoseFacts PoseTally::facts() const {
+  PoseFacts facts;
+  facts.poses = poses_;
+  if (poses_ > 0) facts.tilt = std::acos(std::clamp(up_ / static_cast<double>(poses_), -1.0, 1.0));
+  return facts;
+}
+
+}  // namespace omnimapper::check
