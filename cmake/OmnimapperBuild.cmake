@@ -8,8 +8,11 @@ set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-# A library uses its own copies of inline functions, whatever a program that links it was compiled with.
+# A library calls its own copies of inline member functions (hidden) and of function templates (bound when it is linked),
+# which were compiled with its options, whatever else is loaded. The programs of the unit tests, which are not optimized,
+# would otherwise lend it theirs, and Eigen's products with them.
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+add_link_options(-Wl,-Bsymbolic-functions)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
 # Installed programs find the libraries beside them wherever the prefix is moved to.
@@ -26,10 +29,6 @@ mark_as_advanced(OMNIMAPPER_LLD)
 if(OMNIMAPPER_LLD)
   add_link_options(-fuse-ld=lld)
 endif()
-# A library calls its own instances of templates, those that were compiled with its options, whatever else is loaded: the
-# programs of the unit tests, which are not optimized, would otherwise lend it theirs, and Eigen's products with them.
-add_link_options(-Wl,-Bsymbolic-functions)
-
 # Applied to every target: warnings are errors, files together or one by one, and a sanitizer where one was asked for.
 function(omnimapper_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Werror)
@@ -41,10 +40,9 @@ function(omnimapper_compile_options target)
   if(OMNIMAPPER_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE} -fno-omit-frame-pointer -g1 -O1)
     target_link_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE})
-    # Under a sanitizer Eigen would allocate in another way than in MRPT's libraries, whose instances of its templates are
-    # taken for ours where they are loaded first.
+    # Under a sanitizer Eigen would allocate in another way than in MRPT's libraries, which free what we allocate.
     target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1 _GLIBCXX_ASSERTIONS)
-    if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND NOT OMNIMAPPER_BUILD_FUZZ)
       target_compile_options(${target} PRIVATE
         "-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/SanitizerIgnoreList.txt")
     endif()

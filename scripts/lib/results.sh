@@ -37,17 +37,24 @@ list_ctest_tests() {
 }
 
 # collect_results FOLDER: every case of the run whose files are in FOLDER (ctest.xml, test-NAME.xml).
-# A binary that ended badly without a failed case (crash, sanitizer report) adds a failed case of its own.
+# A binary that ended badly without a failed case (crash, sanitizer report), or in which no case ran, adds a failed case
+# of its own. Only the tests that are no binaries of GoogleTest, package and scripts, count as one case each.
 collect_results() {
   local folder=$1 state name seconds cases
   list_ctest_tests "$folder/ctest.xml" | while IFS=$'\t' read -r state name _ seconds; do
     if [ ! -e "$folder/test-$name.xml" ]; then
-      printf '%s\t%s\t%s\t%s\n' "$state" "$name" \
-        "$([ "$state" = passed ] || echo 'ended without a count of its cases')" "$seconds"
+      case "$state $name" in
+        "passed package" | "passed scripts") printf 'passed\t%s\t\t%s\n' "$name" "$seconds" ;;
+        *) printf 'failed\t%s\tended without a count of its cases\t%s\n' "$name" "$seconds" ;;
+      esac
       continue
     fi
     cases=$(list_cases "$folder/test-$name.xml")
-    [ -z "$cases" ] || printf '%s\n' "$cases"
+    if [ -n "$cases" ]; then
+      printf '%s\n' "$cases"
+    else
+      printf 'failed\t%s\tran no case\t0\n' "$name"
+    fi
     if [ "$state" = failed ] && ! grep -q '^failed' <<<"$cases"; then
       printf 'failed\t%s\tended badly after its last case\t0\n' "$name"
     fi

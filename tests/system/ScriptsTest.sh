@@ -38,21 +38,24 @@ cat >"$scratch/test-leaking.xml" <<'XML'
     <testcase name="holdsOn" status="run" result="completed" time="0" classname="Leaking" />
 </testsuites>
 XML
+echo '<testsuites tests="0" failures="0"></testsuites>' >"$scratch/test-hollow.xml"
 cat >"$scratch/ctest.xml" <<'XML'
 <testsuite name="x">
 	<testcase name="mixed" classname="mixed" time="0.1" status="fail"/>
 	<testcase name="package" classname="package" time="0.1" status="run"/>
 	<testcase name="crashed" classname="crashed" time="0.1" status="fail"/>
 	<testcase name="leaking" classname="leaking" time="0.1" status="fail"/>
+	<testcase name="hollow" classname="hollow" time="0.1" status="run"/>
+	<testcase name="countless" classname="countless" time="0.1" status="run"/>
 </testsuite>
 XML
 collect_results "$scratch" >"$scratch/cases"
 expect "passed cases" 3 "$(count_state passed "$scratch/cases")"
-expect "failed cases" 3 "$(count_state failed "$scratch/cases")"
+expect "failed cases" 5 "$(count_state failed "$scratch/cases")"
 expect "skipped cases" 1 "$(count_state skipped "$scratch/cases")"
 expect "why a case was skipped" 'Mixed.lacksItsLog no "aces" here' \
   "$(awk -F '\t' '$1 == "skipped" { print $2, $3 }' "$scratch/cases")"
-expect "what failed" "Mixed.falls crashed leaking" \
+expect "what failed" "Mixed.falls crashed leaking hollow countless" \
   "$(awk -F '\t' '$1 == "failed" { printf "%s%s", s, $2; s = " " }' "$scratch/cases")"
 
 expect "seconds of a ctest test" 0.1 "$(awk -F '\t' '$2 == "package" { print $4 }' "$scratch/cases")"
@@ -70,6 +73,10 @@ done
 for file in $(grep -rl kIsSanitized tests/*/*Test.cpp); do
   suite=$(basename "$file" Test.cpp)
   expect "$file is in release_cases of scripts/lib/suites.sh" yes "$(grep -q "$suite" <<<"$release_cases" && echo yes)"
+  expect "$file is compiled for release" yes \
+    "$(sed -n '/RELEASE/,$p' "$(dirname "$file")/CMakeLists.txt" | grep -qw "$(basename "$file")" && echo yes)"
+  expect "$(basename "$(dirname "$file")")-release is in release_tests of scripts/lib/suites.sh" yes \
+    "$(grep -qw "$(basename "$(dirname "$file")")-release" <<<"${release_tests[*]}" && echo yes)"
 done
 
 # Package lists: one name in a line, and what it is for.
@@ -82,7 +89,7 @@ expect "an installed package" yes "$(is_installed bash && echo yes)"
 expect "a package nobody has" no "$(is_installed no-such-package-anywhere || echo no)"
 
 # Every script explains itself and refuses what it does not know.
-for script in scripts/demo scripts/build scripts/bench-build scripts/test scripts/format scripts/ini-reference scripts/fuzz .ci/run; do
+for script in $(find scripts .ci -maxdepth 1 -type f -executable | sort); do
   expect "$script --help" "0 Usage" "$("$script" --help >"$scratch/help" && echo "$? $(grep -o Usage "$scratch/help")")"
   expect "$script --no-such-flag" refused "$("$script" --no-such-flag >/dev/null 2>&1 || echo refused)"
 done

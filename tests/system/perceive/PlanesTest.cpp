@@ -122,8 +122,6 @@ TEST_F(Planes, NoLevelSurfaceForThingsIsSaid) {
 }
 
 TEST_F(Planes, AreDescribedAndExportedByRawlogEdit) {
-  if (omnimapper::testing::kIsSanitized)
-    GTEST_SKIP() << "a stock tool cannot load a library that is built with a sanitizer";
   if (!isInstalled("rawlog-edit")) GTEST_SKIP() << "rawlog-edit (Debian package mrpt-apps) is not installed";
   // In the folder itself: --export-txt of 2.5.8 loses the slash between folder and file.
   const auto edit = [&](const std::string& operation) {

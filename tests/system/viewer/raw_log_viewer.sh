@@ -72,7 +72,7 @@ drag() {
 whole() { [ "${3#+}" -gt 4 ] && [ "${4#+}" -gt 4 ] && [ $((${3#+} + $1)) -lt 858 ] && [ $((${4#+} + $2)) -lt 248 ]; }
 
 # There is no window manager, nor anything that says when a window is ready: all of it again until it is seen to work.
-shown=no
+shown=no box=nothing
 give_up=$(($(date +%s) + 60)) # one more round may take 50 s; the caller waits for 120
 while [ "$(date +%s)" -le $give_up ]; do
   kill -0 $viewer || { echo "RawLogViewer has ended" >&2; exit 1; }
@@ -90,8 +90,9 @@ while [ "$(date +%s)" -le $give_up ]; do
     settle
     is_laid_out && is_at_top && is_selected || continue
   fi
-  # shellcheck disable=SC2046 # four numbers
-  set -- $(drawn)
+  box=$(drawn)
+  # shellcheck disable=SC2086 # four numbers
+  set -- $box
   shown=no
   if [ $# -ne 4 ] || [ "$1" -le 10 ] || [ -n "$(tips)" ]; then continue; fi
   shown=yes
@@ -110,5 +111,5 @@ while [ "$(date +%s)" -le $give_up ]; do
   fi
   settle
 done
-echo "drawn in the 3D view (width, height, left, top): $*" >&2
+echo "drawn in the 3D view (width, height, left, top): $box" >&2
 exit 1

@@ -37,6 +37,7 @@ std::string contentOf(int fd) {
 // In the child, which has one thread.
 [[noreturn]] void become(const std::vector<std::string>& argv, const ProgramOptions& options, int out, int err) {
   const int nothing = ::open("/dev/null", O_RDONLY);
+  ::setpgid(0, 0);  // so that what it starts itself ends with it
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
@@ -68,8 +69,7 @@ Program::Program(const std::vector<std::string>& argv, const ProgramOptions& opt
 }
 
 Program::~Program() {
-  send(SIGKILL);
-  reap(true);
+  kill();
   ::close(out_);
   ::close(err_);
 }
@@ -112,12 +112,16 @@ void Program::send(int signal) {
   if (isRunning()) ::kill(child_, signal);
 }
 
+void Program::kill() {
+  if (isRunning() && ::kill(-child_, SIGKILL) != 0) ::kill(child_, SIGKILL);
+  reap(true);
+}
+
 Ended Program::wait() {
   while (isRunning()) {
     if (secondsSinceStart() > time_limit_) {
       ended_.in_time = false;
-      send(SIGKILL);
-      reap(true);
+      kill();
       break;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));

@@ -43,6 +43,7 @@ class Program {
   Ended wait();
 
  private:
+  void kill();  ///< and all that it started
   bool reap(bool block);
   double secondsSinceStart() const;
 
