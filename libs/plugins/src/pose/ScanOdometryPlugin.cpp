@@ -1,3 +1,4 @@
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/plugins/ScanInBase.h>
@@ -38,10 +39,6 @@ TPose2D scaled(const TPose2D& motion, double factor) {
 
 TPose2D perSecond(const TPose2D& motion, double seconds) {
   return {motion.x / seconds, motion.y / seconds, mrpt::math::wrapToPi(motion.phi) / seconds};
-}
-
-double squared(double value) {
-  return value * value;
 }
 
 }  // namespace
@@ -167,7 +164,7 @@ void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation)
   OdometryOptions odometry;
   odometry.label = label;
   OdometryPlugin source(odometry);
-  if (source.add(observation) != Taken::not_mine) odometries_.push_back({label, std::move(source), {}});
+  if (source.add(observation) != Taken::not_mine) odometries_.push_back({label, std::move(source), {}, {}, {}});
 }
 
 void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
@@ -176,8 +173,8 @@ void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
   const TPose2D off = *predictor.motion - motion;
   const auto average = [](double& mean, double value) { mean = kMemory * mean + (1 - kMemory) * value; };
   average(predictor.error, sizeOf(off));
-  average(predictor.position_error, squared(std::hypot(off.x, off.y)));
-  average(predictor.angle_error, squared(mrpt::math::wrapToPi(off.phi)));
+  average(predictor.position_error, mrpt::square(std::hypot(off.x, off.y)));
+  average(predictor.angle_error, mrpt::square(mrpt::math::wrapToPi(off.phi)));
   predictor.is_judged = true;
 }
 
@@ -209,7 +206,10 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   timeline_.insert(*last_, stamp, told);
   // Where a direction is open the match agrees with whatever it began with.
   if (!tracked->match.degenerate) {
-    for (auto& odometry : odometries_) judge(odometry.predictor, motion);
+    for (auto& odometry : odometries_) {
+      judge(odometry.predictor, motion);
+      if (odometry.told) odometry.calibration.learn(*odometry.told, motion);
+    }
     judge(by_velocity_, motion);
   }
   if (is_long) velocity_ = perSecond(motion, seconds);
@@ -232,20 +232,22 @@ void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan& scan)
 // That which was nearer to the truth of late first; last that the base stands still.
 std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::Stamp stamp) {
   const double seconds = base::secondsBetween(*last_, stamp);
-  constexpr double kSlack = 1;                // [m] for stamps that are not exact
-  std::vector<const Predictor*> by_odometry;  // the best of late first
-  for (auto& [label, source, predictor] : odometries_) {
-    predictor.motion.reset();
-    const auto told = source.between(*last_, stamp);
+  constexpr double kSlack = 1;               // [m] for stamps that are not exact
+  std::vector<const Odometry*> by_odometry;  // the best of late first
+  for (auto& odometry : odometries_) {
+    odometry.told.reset();
+    odometry.predictor.motion.reset();
+    const auto told = odometry.source.between(*last_, stamp);
     if (!told) continue;
     const TPose2D motion = planar(told->begin_from_end);
     if (std::hypot(motion.x, motion.y) > kSlack + options_.max_speed * seconds) continue;
-    predictor.motion = motion;
-    by_odometry.push_back(&predictor);
+    odometry.told = motion;
+    odometry.predictor.motion = odometry.calibration.applied(motion);
+    by_odometry.push_back(&odometry);
   }
-  std::stable_sort(by_odometry.begin(), by_odometry.end(), [](const Predictor* a, const Predictor* b) {
-    return std::tuple(!a->is_judged, a->error) < std::tuple(!b->is_judged, b->error);
-  });
+  const auto rank = [](const Odometry* one) { return std::tuple(!one->predictor.is_judged, one->predictor.error); };
+  std::stable_sort(by_odometry.begin(), by_odometry.end(),
+                   [&](const Odometry* a, const Odometry* b) { return rank(a) < rank(b); });
   by_velocity_.motion = scaled(velocity_, seconds);
   // What wheels and inertia tell counts where walls tell little, such as along a corridor. A base that goes on as it
   // did may have braked or turned.
@@ -253,10 +255,10 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
   constexpr double kMostAcceleration = 10, kMostTurnAcceleration = 20;  // of wheels that grip, and slip
   constexpr double kStampError = 0.05;                                  // [s]
   constexpr double kMostPosition = 0.1, kMostAngle = 0.2;               // [m] [rad] by what a laser or its wheels err
-  const double most_position =
-      kMostPosition + kStampError * std::hypot(velocity_.x, velocity_.y) + 0.5 * kMostAcceleration * squared(seconds);
+  const double most_position = kMostPosition + kStampError * std::hypot(velocity_.x, velocity_.y) +
+                               0.5 * kMostAcceleration * mrpt::square(seconds);
   const double most_angle =
-      kMostAngle + kStampError * std::abs(velocity_.phi) + 0.5 * kMostTurnAcceleration * squared(seconds);
+      kMostAngle + kStampError * std::abs(velocity_.phi) + 0.5 * kMostTurnAcceleration * mrpt::square(seconds);
   const auto predicted = [&](const Predictor& predictor, double change, double turn_change) {
     const TPose2D& motion = *predictor.motion;
     const double position = options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y) + change;
@@ -269,10 +271,10 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
         most_position,
         most_angle};
   };
-  const double change = 0.5 * kAcceleration * squared(seconds),
-               turn_change = 0.5 * kTurnAcceleration * squared(seconds);
+  const double change = 0.5 * kAcceleration * mrpt::square(seconds),
+               turn_change = 0.5 * kTurnAcceleration * mrpt::square(seconds);
   std::vector<matching::MotionPrediction> all;
-  for (const auto* predictor : by_odometry) all.push_back(predicted(*predictor, 0, 0));
+  for (const auto* odometry : by_odometry) all.push_back(predicted(odometry->predictor, 0, 0));
   // Across a gap neither steady motion nor rest is a prediction: a match that begins with one finds some wall or other.
   // Nor is rest where the laser has just begun anew and something else tells the motion.
   const bool is_unknown = is_first_ && !by_odometry.empty();
@@ -280,7 +282,7 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
     by_velocity_.motion.reset();
     return all;
   }
-  const bool steady_is_better = by_odometry.empty() || by_velocity_.error < 0.5 * by_odometry.front()->error;
+  const bool steady_is_better = by_odometry.empty() || by_velocity_.error < 0.5 * by_odometry.front()->predictor.error;
   all.insert(steady_is_better ? all.begin() : all.end(), predicted(by_velocity_, change, turn_change));
   if (all.size() == 1) all.push_back({{}, kAcceleration * seconds, kTurnAcceleration * seconds});
   return all;
@@ -299,14 +301,14 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker:
                             (way / options_.tracker.local_distance + turn / options_.tracker.local_angle) +
                         0.001);
   const double sigma = std::max(options_.point_sigma, match.point_sigma);
-  Eigen::Matrix3d covariance =
-      ((share * squared(sigma) * match.unit_covariance).inverse() + guess.information / squared(options_.point_sigma))
-          .inverse();
-  const double position = squared(options_.position_noise_per_root_m) * way;
+  Eigen::Matrix3d covariance = ((share * mrpt::square(sigma) * match.unit_covariance).inverse() +
+                                guess.information / mrpt::square(options_.point_sigma))
+                                   .inverse();
+  const double position = mrpt::square(options_.position_noise_per_root_m) * way;
   covariance += tracked.doubt;
-  covariance.diagonal() +=
-      Eigen::Vector3d(position, position,
-                      squared(options_.yaw_noise_per_root_m) * way + squared(options_.yaw_noise_per_root_turn) * turn);
+  covariance.diagonal() += Eigen::Vector3d(
+      position, position,
+      mrpt::square(options_.yaw_noise_per_root_m) * way + mrpt::square(options_.yaw_noise_per_root_turn) * turn);
   return planarMotion(motion, covariance);
 }
 

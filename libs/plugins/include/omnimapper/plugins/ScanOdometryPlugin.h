@@ -6,6 +6,7 @@
 #include <omnimapper/matching/ScanMatcherOptions.h>
 #include <omnimapper/matching/ScanTracker.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
+#include <omnimapper/plugins/OdometryCalibration.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
 
 #include <cstddef>
@@ -38,7 +39,8 @@ struct ScanOdometryOptions {
 /// is matched against a local map of the scans before it. Scans are worked on in the order of their stamps; one that
 /// comes after its time was worked on is left out. Odometry, of several that which agreed best with the matches of
 /// late, or steady motion where that is better or there is none, says where a match begins, and counts where the walls
-/// leave a direction open: beside this it should be a fallback.
+/// leave a direction open: beside this it should be a fallback. What each odometry errs by systematically is learned
+/// from the matches and taken out of what it predicts.
 ///
 /// Of a laser that takes its time (`sweep`) the same prediction tells how the base moved during a scan. The stamp is
 /// the instant of the first beam; the scan counts for the middle of the sweep, half of it later. Only what is matched
@@ -73,6 +75,8 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     std::string label;
     OdometryPlugin source;
     Predictor predictor;
+    OdometryCalibration calibration;
+    std::optional<mrpt::math::TPose2D> told;  // motion to the next scan, before it is corrected
   };
   /// Scans of a laser that were left out.
   struct Tilted {
