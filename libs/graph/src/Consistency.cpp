@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "Overturn.h"
 #include "Selection.h"
@@ -79,6 +80,7 @@ class Test {
 
   void judge(const std::vector<FactorId>& some) {
     const std::vector<FactorId> contradicting = take(some);
+    bringNear();
     solve(graph_, solve_options_);
     if (!contradicting.empty()) overturnBy(contradicting);
     takeBackWhatNoLongerFits();
@@ -137,6 +139,21 @@ class Test {
     const Innovation innovation(graph_, marginals, candidates, options_.inflation);
     return options_.method == Method::pairwise ? selectPairwise(innovation, log_volumes, gate_)
                                                : selectGraduated(innovation, log_volumes, gate_);
+  }
+
+  /// A robust loss would take the say from what was just believed where that is far from the values, and the solution
+  /// would stay in the valley in which it is: so it is first solved without their losses.
+  void bringNear() {
+    std::vector<std::pair<FactorId, Loss>> far;
+    for (const auto& [id, acted] : acted_) {
+      const FactorRecord& record = graph_.factor(id);
+      if (acted || record.weight == 0) continue;
+      if (record.loss.evaluate(misfit(id)).first_derivative < 0.5) far.emplace_back(id, record.loss);
+    }
+    if (far.empty()) return;
+    for (const auto& [id, loss] : far) graph_.setLoss(id, Loss::none());
+    solve(graph_, solve_options_);
+    for (const auto& [id, loss] : far) graph_.setLoss(id, loss);
   }
 
   void apply(FactorId id, const Choice& choice, const std::vector<FactorId>& candidates) {

@@ -22,6 +22,7 @@ constexpr double kIndependentInPoor = 3;            // where the local map is no
 constexpr double kUnpredicted = 0.001;              // [1 / (m2 rad)] density of what nobody predicted
 constexpr double kSomeOverlap = 0.2;                // share of the points that a match needs to stand for anything
 
+constexpr double kWide = 0.5;    // [m] standard deviation of the best prediction from which on a match is searched
 constexpr double kSurely = 0.8;  // share of the points with partners from which on a single match is not doubted
 constexpr double kPoor = -0.8;   // mean logarithm of a beam's likelihood below which a better place is searched
 // The same of beams that all end where the map knows nothing.
@@ -139,10 +140,11 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(const PlanarScan& scan, c
   if (!reference_ || scan.empty() || predictions.empty()) return std::nullopt;
   const TPose2D local_from_last = track_from_last_ - locals_.back().track_from_scan;
   auto found = matchesOf(scan, predictions, local_from_last);
-  if (found.size() > 1 || !isSure(found.front(), predictions)) {
+  const bool is_wide = predictions.front().position_sigma > kWide;
+  if (found.size() > 1 || is_wide || !isSure(found.front(), predictions)) {
     Candidates candidates{scan, beamsOf(scan, sensor), sensor, predictions, local_from_last, std::move(found), {}};
     weigh(candidates);
-    if (candidates.bestFit() < kPoor) search(candidates);
+    if (is_wide || candidates.bestFit() < kPoor) search(candidates);
     addPredictions(candidates);
     weigh(candidates);
     found = {mostProbable(candidates)};
@@ -177,7 +179,7 @@ std::vector<ScanTracker::Tracked> ScanTracker::matchesOf(const PlanarScan& scan,
 
 // All headings, and as far as the best prediction may be off: a search that is seldom needed.
 void ScanTracker::search(Candidates& candidates) {
-  constexpr double kSigmas = 3, kLeast = 0.5, kMost = 2;  // [1] [m] [m]
+  constexpr double kSigmas = 3, kLeast = 0.5, kMost = 3;  // [1] [m] [m]
   constexpr double kSpacing = 0.25;                       // [m] between the points that are searched with
   constexpr std::size_t kMostBlocks = 20'000;
   if (!walls_) {

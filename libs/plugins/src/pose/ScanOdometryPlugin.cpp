@@ -77,7 +77,10 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
 
 ScanOdometryPlugin::ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
                                        const perception::LaserPointsOptions& points)
-    : options_(options), extractor_(points), tracker_(options.tracker, matching::makeMatcher(matching)) {}
+    : options_(options),
+      extractor_(points),
+      tracker_(options.tracker, matching::makeMatcher(matching)),
+      noise_(options.point_sigma) {}
 
 bool ScanOdometryPlugin::isOurs(const mrpt::obs::CObservation2DRangeScan& scan) {
   if (label_ && scan.sensorLabel != *label_) return false;
@@ -191,7 +194,9 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   const auto tracked = tracker_.track(wallsOf(scan, velocity), placeOf(scan), predictions);
   if (!tracked) {
     if (seconds <= options_.max_gap) return;
-    if (predictions.empty() && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
+    const bool is_told = std::any_of(odometries_.begin(), odometries_.end(),
+                                     [](const Odometry& odometry) { return odometry.told.has_value(); });
+    if (!is_told && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
     return restart(scan);
   }
   const TPose2D& motion = tracked->match.reference_from_scan;
@@ -204,6 +209,8 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   }
   is_first_ = false;
   timeline_.insert(*last_, stamp, told);
+  constexpr double kMemory = 0.95;
+  noise_ = kMemory * noise_ + (1 - kMemory) * std::max(options_.point_sigma, tracked->match.point_sigma);
   // Where a direction is open the match agrees with whatever it began with.
   if (!tracked->match.degenerate) {
     for (auto& odometry : odometries_) {
@@ -261,13 +268,17 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
       kMostAngle + kStampError * std::abs(velocity_.phi) + 0.5 * kMostTurnAcceleration * mrpt::square(seconds);
   const auto predicted = [&](const Predictor& predictor, double change, double turn_change) {
     const TPose2D& motion = *predictor.motion;
-    const double position = options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y) + change;
-    const double angle = options_.guess_angle_sigma + options_.guess_sigma_per_m * std::abs(motion.phi) + turn_change;
+    const double position =
+        std::hypot(options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y) + change,
+                   std::sqrt(predictor.position_error));
+    const double angle =
+        std::hypot(options_.guess_angle_sigma + options_.guess_sigma_per_m * std::abs(motion.phi) + turn_change,
+                   std::sqrt(predictor.angle_error));
     const Eigen::Vector3d sigmas(position, position, angle);
     return matching::MotionPrediction{
-        {motion, Eigen::Matrix3d((options_.point_sigma * sigmas.cwiseInverse()).cwiseAbs2().asDiagonal())},
-        std::hypot(position, std::sqrt(predictor.position_error)),
-        std::hypot(angle, std::sqrt(predictor.angle_error)),
+        {motion, Eigen::Matrix3d((noise_ * sigmas.cwiseInverse()).cwiseAbs2().asDiagonal())},
+        position,
+        angle,
         most_position,
         most_angle};
   };
@@ -275,11 +286,16 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
                turn_change = 0.5 * kTurnAcceleration * mrpt::square(seconds);
   std::vector<matching::MotionPrediction> all;
   for (const auto* odometry : by_odometry) all.push_back(predicted(odometry->predictor, 0, 0));
+  constexpr double kLongestSearch = 10, kUsualSpeed = 0.5, kUsualTurn = 0.5;  // [s] [m/s] [rad/s]
   // Across a gap neither steady motion nor rest is a prediction: a match that begins with one finds some wall or other.
   // Nor is rest where the laser has just begun anew and something else tells the motion.
   const bool is_unknown = is_first_ && !by_odometry.empty();
   if (seconds > options_.max_gap || is_unknown) {
     by_velocity_.motion.reset();
+    if (all.empty() && seconds <= kLongestSearch) {
+      const double reach = kUsualSpeed * seconds, turn = kUsualTurn * seconds;
+      all.push_back({{}, reach, turn, options_.max_speed * seconds, M_PI});
+    }
     return all;
   }
   const bool steady_is_better = by_odometry.empty() || by_velocity_.error < 0.5 * by_odometry.front()->predictor.error;
@@ -301,9 +317,9 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker:
                             (way / options_.tracker.local_distance + turn / options_.tracker.local_angle) +
                         0.001);
   const double sigma = std::max(options_.point_sigma, match.point_sigma);
-  Eigen::Matrix3d covariance = ((share * mrpt::square(sigma) * match.unit_covariance).inverse() +
-                                guess.information / mrpt::square(options_.point_sigma))
-                                   .inverse();
+  Eigen::Matrix3d covariance =
+      ((share * mrpt::square(sigma) * match.unit_covariance).inverse() + guess.information / mrpt::square(noise_))
+          .inverse();
   const double position = mrpt::square(options_.position_noise_per_root_m) * way;
   covariance += tracked.doubt;
   covariance.diagonal() += Eigen::Vector3d(

@@ -115,6 +115,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   bool is_first_ = true;          // whether none was before it
   mrpt::math::TPose2D velocity_;  // [m/s] [rad/s] in the base
   Predictor by_velocity_;
+  double noise_;  // [m] of points from the walls they lie on, by the matches of late
   mapper::PoseTimeline timeline_;
 };
 
