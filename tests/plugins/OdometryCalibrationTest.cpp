@@ -43,7 +43,7 @@ TEST(OdometryCalibration, LeavesAsItIsWhatItKnowsNothingOf) {
   EXPECT_EQ(given.phi, told.phi);
 }
 
-// After 40 m a third of the error is left at most, after half a metre half of it or more.
+// After 40 m, of which 25 count, less than half of the error is left, after half a metre half of it or more.
 TEST(OdometryCalibration, LearnsWayAndTurnWithinSomeMetres) {
   for (const auto& errors : {Errors{0.05, 0, 0}, Errors{0, 2 * kDegree, 0}, Errors{-0.03, -1 * kDegree, 0.05}}) {
     const TPose2D was(10, 0, 1);
@@ -52,7 +52,7 @@ TEST(OdometryCalibration, LearnsWayAndTurnWithinSomeMetres) {
       return std::hypot(given.x - was.x, 5 * (given.phi - was.phi));
     };
     const double untaught = off(OdometryCalibration());
-    EXPECT_LT(off(learnt(errors, 40)), 0.33 * untaught);
+    EXPECT_LT(off(learnt(errors, 40)), 0.45 * untaught);
     EXPECT_GT(off(learnt(errors, 0.5)), 0.5 * untaught) << "half a metre proves little";
   }
 }
@@ -62,7 +62,7 @@ TEST(OdometryCalibration, IsThatOfDrivingBackwardsToo) {
   const auto calibration = learnt(errors, 40);
   const TPose2D given = calibration.applied(errors.told({-10, 0, 0}));
   EXPECT_NEAR(given.x, -10, 0.1);
-  EXPECT_NEAR(given.phi, 0, 8 * kDegree) << "20 deg as told";
+  EXPECT_NEAR(given.phi, 0, 9 * kDegree) << "20 deg as told";
 }
 
 TEST(OdometryCalibration, LearnsNothingOfSlip) {

@@ -20,6 +20,7 @@ constexpr double kBasin = 0.25, kBasinTurn = 0.14;  // [m] [rad] from which a pr
 constexpr double kIndependent = 30;                 // beams beside each other see the same: so many count
 constexpr double kIndependentInPoor = 3;            // where the local map is no model of what is seen
 constexpr double kUnpredicted = 0.001;              // [1 / (m2 rad)] density of what nobody predicted
+constexpr double kPredicted = 2;                    // [1 / (m2 rad)] density of what was predicted well
 constexpr double kSomeOverlap = 0.2;                // share of the points that a match needs to stand for anything
 
 constexpr double kWide = 0.5;    // [m] standard deviation of the best prediction from which on a match is searched
@@ -116,7 +117,7 @@ struct ScanTracker::Candidates {
     const double beams = bestFit() < kNothing ? kIndependentInPoor : kIndependent;
     std::vector<double> all;
     for (const auto& weight : weights) {
-      const bool is_believed = weight.fit >= kPoor || weight.prior > std::log(2 * kUnpredicted);
+      const bool is_believed = weight.fit >= kPoor || weight.prior > std::log(kPredicted);
       all.push_back(is_believed ? beams * weight.fit + weight.prior : -std::numeric_limits<double>::infinity());
     }
     return all;
