@@ -234,7 +234,6 @@ ScanTracker::Tracked ScanTracker::mostProbable(const Candidates& candidates) {
   double sum = 0;
   for (std::size_t i = 0; i < candidates.found.size(); ++i) sum += relative(i);
   Tracked tracked = candidates.found[best];
-  tracked.probability = 1 / sum;
   for (std::size_t i = 0; i < candidates.found.size(); ++i) {
     const TPose2D off = candidates.found[i].match.reference_from_scan - tracked.match.reference_from_scan;
     const Eigen::Vector3d delta(off.x, off.y, mrpt::math::wrapToPi(off.phi));

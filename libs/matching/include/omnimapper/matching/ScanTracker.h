@@ -54,7 +54,6 @@ class ScanTracker {
   struct Tracked {
     ScanMatch match;  ///< of the motion since the last scan; covariance and all are of the scan in the local map
     std::size_t prediction = 0;  ///< that led to it
-    double probability = 1;      ///< among all the matches that were found, [0, 1]
     /// What those others add to the covariance, in the scan's frame: x y yaw [m] [rad].
     Eigen::Matrix3d doubt = Eigen::Matrix3d::Zero();
   };
