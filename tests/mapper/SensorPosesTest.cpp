@@ -51,12 +51,17 @@ TEST(SensorPoses, AnApertureIsToldOrLeftAsTheScanHasIt) {
   auto scan = mrpt::obs::CObservation2DRangeScan::Create();
   scan->sensorLabel = "laser";
   scan->aperture = 1.5F;
-  const auto apertureWith = [&](const std::string& line) {
-    const auto told = fromIni("[sensor]\nlabel = laser\npose_x_m = 0.2\n" + line).applied(scan);
-    return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(told)->aperture;
+  scan->sensorPose = CPose3D(0.3, 0, 0, 0, 0, 0);
+  const auto with = [&](const std::string& lines) {
+    const auto told = fromIni("[sensor]\nlabel = laser\n" + lines).applied(scan);
+    return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(told);
   };
-  EXPECT_FLOAT_EQ(apertureWith("aperture_deg = 180\n"), static_cast<float>(180 * kDegree));
-  EXPECT_FLOAT_EQ(apertureWith(""), 1.5F);
+  const auto half = static_cast<float>(180 * kDegree);
+  EXPECT_FLOAT_EQ(with("pose_x_m = 0.2\naperture_deg = 180\n")->aperture, half);
+  EXPECT_EQ(with("pose_x_m = 0.2\naperture_deg = 180\n")->sensorPose.x(), 0.2);
+  EXPECT_FLOAT_EQ(with("pose_x_m = 0.2\n")->aperture, 1.5F);
+  EXPECT_FLOAT_EQ(with("aperture_deg = 180\n")->aperture, half);
+  EXPECT_EQ(with("aperture_deg = 180\n")->sensorPose.x(), 0.3) << "its place is not told";
   EXPECT_EQ(scan->aperture, 1.5F);
 }
 

@@ -68,6 +68,7 @@ TEST(OdometryCalibration, IsThatOfDrivingBackwardsToo) {
 TEST(OdometryCalibration, LearnsNothingOfSlip) {
   OdometryCalibration calibration;
   for (int i = 0; i < 1000; ++i) calibration.learn({0.3, 0, 1.5}, {0, 0, 0});
+  for (int i = 0; i < 1000; ++i) calibration.learn({0.3, 0, 1.5}, {0.3, 0, 0});
   calibration.learn({std::nan(""), 0, 0}, {0.1, 0, 0});
   EXPECT_EQ(calibration.applied({1, 0, 0.1}).phi, 0.1);
   EXPECT_EQ(calibration.applied({1, 0, 0.1}).x, 1);

@@ -5,7 +5,6 @@
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
 #include <omnimapper/mapper/EngineOptions.h>
-#include <omnimapper/plugins/OdometryPlugin.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include <algorithm>
@@ -42,8 +41,9 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing is said of half a log");
   const auto findings = judge(facts);
   const auto inis = fittingInis(facts);
-  const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins,
-                          config.section("odometry").read<plugins::OdometryOptions>({"class"}).fallback};
+  std::string fallback;
+  config.section("odometry").find("fallback", fallback);
+  const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins, fallback == "true"};
   std::string ini;  // that is proposed for
   std::vector<Setting> settings;
   if (!inis.empty()) {

@@ -151,11 +151,12 @@ std::optional<double> turnScaleOf(const std::vector<MatchedMotion>& motions) {
 // The aperture of a laser that is sold, where one is near.
 double usualAperture(double aperture) {
   constexpr double kNear = 0.04;  // share
+  double nearest = 0;
   for (const double degrees : {90, 100, 120, 180, 190, 220, 240, 270, 360}) {
     const double usual = degrees * base::option_text::kRadiansPerDegree;
-    if (std::abs(aperture - usual) < kNear * usual) return usual;
+    if (std::abs(aperture - usual) < std::abs(aperture - nearest)) nearest = usual;
   }
-  return aperture;
+  return std::abs(aperture - nearest) < kNear * nearest ? nearest : aperture;
 }
 
 MotionFacts compare(const std::vector<MatchedMotion>& motions) {

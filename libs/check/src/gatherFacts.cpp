@@ -79,10 +79,13 @@ class Gatherer {
 
   bool isRest(base::Stamp begin, base::Stamp end) const {
     constexpr double kStayed = 1.5, kFaced = 1;  // [m] [rad]
-    return std::any_of(odometry_.begin(), odometry_.end(), [&](const auto& odometry) {
-      const auto motion = odometry.second.between(begin, end);
-      return motion && motion->norm() < kStayed && std::abs(motion->phi()) < kFaced;
-    });
+    bool is_told = false;
+    for (const auto& [label, odometry] : odometry_) {
+      const auto motion = odometry.between(begin, end);
+      if (motion && (motion->norm() > kStayed || std::abs(motion->phi()) > kFaced)) return false;
+      is_told = is_told || motion;
+    }
+    return is_told;
   }
 
   static MotionFacts motionOf(const std::string& label, const Laser& laser, const std::string& odometry,

@@ -191,10 +191,10 @@ class Judge {
     for (const auto& pair : facts_.odometry_pairs) {
       constexpr double kShare = 0.05;
       if (pair.contrary < 3 || static_cast<double>(pair.contrary) < kShare * static_cast<double>(pair.spans)) continue;
-      add(Weight::warning, quoted(pair.a) + " and " + quoted(pair.b) +
-                               ": the two odometries contradict each other in " + std::to_string(pair.contrary) +
-                               " of " + counted(pair.spans, "span") + " with motion, first " +
-                               sinceStart(pair.first_contrary) + ": only the label that [odometry] names is used");
+      add(Weight::warning,
+          quoted(pair.a) + " and " + quoted(pair.b) + ": the two odometries contradict each other in " +
+              std::to_string(pair.contrary) + " of " + counted(pair.spans, "span") + " with motion, first " +
+              sinceStart(pair.first_contrary) + "; [odometry] label and [scan_odometry] odometry_label choose one");
     }
   }
 
@@ -206,7 +206,7 @@ class Judge {
                                fixed(degrees(poses.tilt), 0) +
                                " deg against the z axis of their frame, by which floors and walls are told apart; turn "
                                "the poses so that "
-                               "z points up");
+                               "z points up, or correct the sensor's pose on the base");
     }
   }
 

@@ -84,22 +84,20 @@ class Proposal {
       const auto better_pose = betterSensorPose(facts_, laser);
       const auto aperture = betterAperture(facts_, laser);
       if ((!better_pose && !aperture) || laser.empty()) continue;
-      const auto& scans = facts_.scans.at(laser);
-      if (!better_pose && scans.sensor_pose_moves) continue;  // a section would hold it still
-      const auto* pose = better_pose ? &*better_pose : &scans.base_from_sensor;
       const std::string section = sectionName(laser);
       sections.push_back(section);
-      poses.push_back(
-          {section, "label", laser, better_pose ? "its place on the base by its motion" : "its place as in the log"});
+      poses.push_back({section, "label", laser, better_pose ? "its place on the base by its motion" : ""});
       const auto add = [&](const std::string& key, double value, int decimals) {
         if (std::stod(fixed(value, decimals)) != 0) poses.push_back({section, key, fixed(value, decimals), ""});
       };
-      add("pose_x_m", pose->x(), 2);
-      add("pose_y_m", pose->y(), 2);
-      add("pose_z_m", pose->z(), 2);
-      add("pose_yaw_deg", degrees(pose->yaw()), 0);
-      add("pose_pitch_deg", degrees(pose->pitch()), 0);
-      add("pose_roll_deg", degrees(pose->roll()), 0);
+      if (better_pose) {
+        add("pose_x_m", better_pose->x(), 2);
+        add("pose_y_m", better_pose->y(), 2);
+        add("pose_z_m", better_pose->z(), 2);
+        add("pose_yaw_deg", degrees(better_pose->yaw()), 0);
+        add("pose_pitch_deg", degrees(better_pose->pitch()), 0);
+        add("pose_roll_deg", degrees(better_pose->roll()), 0);
+      }
       if (aperture) add("aperture_deg", degrees(*aperture), 1);
     }
     if (sections.empty()) return;

@@ -142,8 +142,9 @@ class Test {
                                                : selectGraduated(innovation, log_volumes, gate_);
   }
 
-  /// A robust loss takes the say from what is far from the values, and the solution would stay in the valley in which it
-  /// is: what was believed just now, from so far away that its loss leaves it hardly any pull, is first solved without it.
+  /// A robust loss takes the say from what is far from the values, and the solution would stay in the valley in which
+  /// it is: what was believed just now, from so far away that its loss leaves it hardly any pull, is first solved
+  /// without it.
   void bringNear(const std::vector<FactorId>& acting_before) {
     constexpr double kHardlyAny = 0.02;  // of its pull: 14 standard deviations of a Cauchy loss of scale 2
     std::vector<std::pair<FactorId, Loss>> far;

@@ -2,8 +2,10 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/mapper/SensorPoses.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 namespace omnimapper::mapper {
@@ -45,6 +47,15 @@ Track readTrack(const std::string& path) {
   return track;
 }
 
+// A section that tells an aperture and no part of a pose leaves the pose as the observations have it.
+bool tellsPose(const base::ConfigSection& section) {
+  const std::string keys[] = {"pose_x_m", "pose_y_m", "pose_z_m", "pose_yaw_deg", "pose_pitch_deg", "pose_roll_deg"};
+  return std::any_of(std::begin(keys), std::end(keys), [&](const std::string& key) {
+    std::string text;
+    return section.find(key, text);
+  });
+}
+
 }  // namespace
 
 const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
@@ -71,11 +82,13 @@ SensorPoses::SensorPoses(const std::vector<std::string>& sections, const base::C
       throw base::Error(base::ExitCode::wrong_type,
                         config.file() + ": [" + name + "] needs 'label = ...': whose place on the base is this?");
     }
-    tracks_[options.label] =
-        options.file.empty() ? Track{{base::Stamp(), mrpt::poses::CPose3D(options.x, options.y, options.z, options.yaw,
-                                                                          options.pitch, options.roll)}}
-                             : readTrack(options.file);
     if (options.aperture > 0) apertures_[options.label] = options.aperture;
+    if (!options.file.empty()) {
+      tracks_[options.label] = readTrack(options.file);
+    } else if (options.aperture == 0 || tellsPose(config.section(name))) {
+      tracks_[options.label] = {{base::Stamp(), mrpt::poses::CPose3D(options.x, options.y, options.z, options.yaw,
+                                                                     options.pitch, options.roll)}};
+    }
   }
 }
 
@@ -94,10 +107,10 @@ std::optional<mrpt::poses::CPose3D> SensorPoses::find(const std::string& label, 
 
 mrpt::obs::CObservation::Ptr SensorPoses::applied(const mrpt::obs::CObservation::Ptr& observation) const {
   const auto pose = find(observation->sensorLabel, observation->timestamp);
-  if (!pose) return observation;
-  auto copy = std::dynamic_pointer_cast<mrpt::obs::CObservation>(observation->duplicateGetSmartPtr());
-  copy->setSensorPose(*pose);
   const auto aperture = apertures_.find(observation->sensorLabel);
+  if (!pose && aperture == apertures_.end()) return observation;
+  auto copy = std::dynamic_pointer_cast<mrpt::obs::CObservation>(observation->duplicateGetSmartPtr());
+  if (pose) copy->setSensorPose(*pose);
   auto* scan = dynamic_cast<mrpt::obs::CObservation2DRangeScan*>(copy.get());
   if (scan && aperture != apertures_.end()) scan->aperture = static_cast<float>(aperture->second);
   return copy;

@@ -20,10 +20,8 @@ constexpr double kBasin = 0.25, kBasinTurn = 0.14;  // [m] [rad] from which a pr
 constexpr double kIndependent = 30;                 // beams beside each other see the same: so many count
 constexpr double kIndependentInPoor = 3;            // where the local map is no model of what is seen
 constexpr double kUnpredicted = 0.001;              // [1 / (m2 rad)] density of what nobody predicted
-constexpr double kPredicted = 2;                    // [1 / (m2 rad)] density of what was predicted well
 constexpr double kSomeOverlap = 0.2;                // share of the points that a match needs to stand for anything
 
-constexpr double kWide = 0.5;    // [m] standard deviation of the best prediction from which on a match is searched
 constexpr double kSurely = 0.8;  // share of the points with partners from which on a single match is not doubted
 constexpr double kPoor = -0.8;   // mean logarithm of a beam's likelihood below which a better place is searched
 // The same of beams that all end where the map knows nothing.
@@ -117,7 +115,8 @@ struct ScanTracker::Candidates {
     const double beams = bestFit() < kNothing ? kIndependentInPoor : kIndependent;
     std::vector<double> all;
     for (const auto& weight : weights) {
-      const bool is_believed = weight.fit >= kPoor || weight.prior > std::log(kPredicted);
+      const bool is_believed =
+          weight.fit >= kPoor || (!predictions.front().is_blind && weight.prior > std::log(2 * kUnpredicted));
       all.push_back(is_believed ? beams * weight.fit + weight.prior : -std::numeric_limits<double>::infinity());
     }
     return all;
@@ -141,11 +140,11 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(const PlanarScan& scan, c
   if (!reference_ || scan.empty() || predictions.empty()) return std::nullopt;
   const TPose2D local_from_last = track_from_last_ - locals_.back().track_from_scan;
   auto found = matchesOf(scan, predictions, local_from_last);
-  const bool is_wide = predictions.front().position_sigma > kWide;
-  if (found.size() > 1 || is_wide || !isSure(found.front(), predictions)) {
+  const bool is_blind = predictions.front().is_blind;
+  if (found.size() > 1 || is_blind || !isSure(found.front(), predictions)) {
     Candidates candidates{scan, beamsOf(scan, sensor), sensor, predictions, local_from_last, std::move(found), {}};
     weigh(candidates);
-    if (is_wide || candidates.bestFit() < kPoor) search(candidates);
+    if (is_blind || candidates.bestFit() < kPoor) search(candidates);
     addPredictions(candidates);
     weigh(candidates);
     found = {mostProbable(candidates)};
@@ -180,8 +179,9 @@ std::vector<ScanTracker::Tracked> ScanTracker::matchesOf(const PlanarScan& scan,
 
 // All headings, and as far as the best prediction may be off: a search that is seldom needed.
 void ScanTracker::search(Candidates& candidates) {
-  constexpr double kSigmas = 3, kLeast = 0.5, kMost = 3;  // [1] [m] [m]
-  constexpr double kSpacing = 0.25;                       // [m] between the points that are searched with
+  constexpr double kSigmas = 3, kLeast = 0.5;  // [1] [m]
+  constexpr double kMost = 2, kMostBlind = 3;  // [m]
+  constexpr double kSpacing = 0.25;            // [m] between the points that are searched with
   constexpr std::size_t kMostBlocks = 20'000;
   if (!walls_) {
     LikelihoodOptions grid;
@@ -192,7 +192,8 @@ void ScanTracker::search(Candidates& candidates) {
   const auto& prediction = candidates.predictions.front();
   SearchWindow window;
   window.centre = candidates.local_from_last + prediction.guess.reference_from_scan;
-  window.half_x = window.half_y = std::clamp(kSigmas * prediction.position_sigma, kLeast, kMost);
+  window.half_x = window.half_y =
+      std::clamp(kSigmas * prediction.position_sigma, kLeast, prediction.is_blind ? kMostBlind : kMost);
   window.half_yaw = M_PI;
   const auto points = oncePerCell(candidates.scan, kSpacing).points;
   SearchOptions limits;

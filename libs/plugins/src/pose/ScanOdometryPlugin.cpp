@@ -209,7 +209,7 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   }
   is_first_ = false;
   timeline_.insert(*last_, stamp, told);
-  constexpr double kMemory = 0.95;
+  constexpr double kMemory = 0.98;  // it is a property of the laser and of the place
   noise_ = kMemory * noise_ + (1 - kMemory) * std::max(options_.point_sigma, tracked->match.point_sigma);
   // Where a direction is open the match agrees with whatever it began with.
   if (!tracked->match.degenerate) {
@@ -280,7 +280,8 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
         position,
         angle,
         most_position,
-        most_angle};
+        most_angle,
+        false};
   };
   const double change = 0.5 * kAcceleration * mrpt::square(seconds),
                turn_change = 0.5 * kTurnAcceleration * mrpt::square(seconds);
@@ -294,7 +295,7 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
     by_velocity_.motion.reset();
     if (all.empty() && seconds <= kLongestSearch) {
       const double reach = kUsualSpeed * seconds, turn = kUsualTurn * seconds;
-      all.push_back({{}, reach, turn, options_.max_speed * seconds, M_PI});
+      all.push_back({{}, reach, turn, options_.max_speed * seconds, M_PI, true});
     }
     return all;
   }

@@ -19,7 +19,7 @@ struct SensorPoseOptions {
   double x = 0, y = 0, z = 0;           ///< [m] base_from_sensor
   double yaw = 0, pitch = 0, roll = 0;  ///< [rad] MRPT's order: about z, then y, then x
   double aperture = 0;  ///< [rad] of its 2D scans, from the first beam to the last; 0: as the scans have it
-  std::string file;     ///< a TUM file of base_from_sensor over time, for a sensor that moves; overrides the rest
+  std::string file;     ///< a TUM file of base_from_sensor over time, for a sensor that moves; overrides the pose above
 
   static const base::OptionTable<SensorPoseOptions>& table();
 };

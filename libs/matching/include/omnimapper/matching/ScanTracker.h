@@ -33,6 +33,9 @@ struct MotionPrediction {
   double position_sigma = 1, angle_sigma = 1;
   /// How far off it can be at all [m] [rad]: as much as a base can accelerate meanwhile.
   double most_position = std::numeric_limits<double>::infinity(), most_angle = most_position;
+  /// Whether nothing tells the motion, as across a gap: the scan is searched up to 3 m around, at all headings, and
+  /// must fit by itself.
+  bool is_blind = false;
 };
 
 /// Follows a laser from scan to scan: each is matched against a local map of some before it, so that what one scan errs
