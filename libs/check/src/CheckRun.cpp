@@ -41,9 +41,10 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing is said of half a log");
   const auto findings = judge(facts);
   const auto inis = fittingInis(facts);
-  std::string fallback;
-  config.section("odometry").find("fallback", fallback);
-  const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins, fallback == "true"};
+  std::string text;
+  bool is_fallback = false;  // the section may be of another plugin, whose keys are not known here
+  if (config.section("odometry").find("fallback", text)) base::option_text::parse(text, is_fallback);
+  const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins, is_fallback};
   std::string ini;  // that is proposed for
   std::vector<Setting> settings;
   if (!inis.empty()) {

@@ -1,16 +1,17 @@
 #include "PoseTally.h"
 
+#include <omnimapper/plugins/GivenPose.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace omnimapper::check {
 
 void PoseTally::add(const mrpt::obs::CObservationRobotPose& observation) {
-  const auto reference_from_base = observation.pose.mean + (mrpt::poses::CPose3D() - observation.sensorPose);
-  const double up = reference_from_base.getRotationMatrix()(2, 2);
-  if (!std::isfinite(up)) return;
+  const auto reference_from_base = plugins::referenceFromBase(observation);
+  if (!reference_from_base) return;
   ++poses_;
-  up_ += up;
+  up_ += reference_from_base->getRotationMatrix()(2, 2);
 }
 
 PoseFacts PoseTally::facts() const {

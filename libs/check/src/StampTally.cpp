@@ -11,7 +11,7 @@ namespace {
 constexpr double kJumpAhead = 60;    // [s]
 constexpr double kGapOfPeriods = 5;  // and of a second at least
 // Nine in ten steps of a sensor with a rate are shorter than this many of its period; of fhw and belgioioso, which were
-// recorded by the way, 2.0.
+// recorded by the distance driven, 2.0.
 constexpr double kUnevenSteps = 1.5;
 
 // One stamp gone wrong must not make the log a year long: what is far from nearly all others is left out.
@@ -71,20 +71,21 @@ void StampTally::addStep(double step, const StreamClock& clock) {
   }
 }
 
-double StampTally::period() const {
+// The step that `part` of all are shorter than [s]; 0 without any.
+double StampTally::stepQuantile(double part) const {
   if (steps_.empty()) return 0;
   std::vector<float> seconds;
   for (const auto& step : steps_) seconds.push_back(step.seconds);
-  return quantile(seconds, 0.5);
+  return quantile(seconds, part);
 }
 
-// Of a log that is recorded by the way, not by the time: its steps differ by nature, and a robot that rests leaves
-// none.
+double StampTally::period() const {
+  return stepQuantile(0.5);
+}
+
+// Of a log that is recorded by the distance driven: its steps differ by nature, and a robot that rests leaves none.
 bool StampTally::isByDistance() const {
-  if (steps_.empty()) return false;
-  std::vector<float> seconds;
-  for (const auto& step : steps_) seconds.push_back(step.seconds);
-  return quantile(seconds, 0.9) > kUnevenSteps * quantile(seconds, 0.5);
+  return stepQuantile(0.9) > kUnevenSteps * period();
 }
 
 std::vector<StampTally::Step> StampTally::pauses() const {

@@ -38,6 +38,7 @@ class StampTally {
   void addStep(double step, const StreamClock& clock);
   /// Forward steps; those by which the clock may have been set only where they are taken for pauses.
   std::vector<Step> pauses() const;
+  double stepQuantile(double part) const;
   double period() const;
   bool isByDistance() const;
 

@@ -1,6 +1,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugins/GivenPose.h>
 #include <omnimapper/plugins/RobotPosePlugin.h>
 
 #include <Eigen/Cholesky>
@@ -8,7 +9,6 @@
 #include <cstdio>
 #include <sstream>
 
-#include "../GivenPose.h"
 #include "SavedVariable.h"
 
 IMPLEMENTS_MRPT_OBJECT(RobotPosePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)

@@ -1,8 +1,7 @@
 #include <omnimapper/plugins/GivenMotionPlugin.h>
+#include <omnimapper/plugins/GivenPose.h>
 
 #include <iterator>
-
-#include "../GivenPose.h"
 
 IMPLEMENTS_MRPT_OBJECT(GivenMotionPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
 

@@ -57,7 +57,8 @@ class ScanTracker {
   struct Tracked {
     ScanMatch match;  ///< of the motion since the last scan; covariance and all are of the scan in the local map
     std::size_t prediction = 0;  ///< that led to it
-    /// What those others add to the covariance, in the scan's frame: x y yaw [m] [rad].
+    /// What other matches that were found, less probable ones, add to the covariance, in the scan's frame: x y yaw [m]
+    /// [rad].
     Eigen::Matrix3d doubt = Eigen::Matrix3d::Zero();
   };
   /// Matches a scan and takes it for the last one. `predictions`: that most trusted first. None, and nothing changes,

@@ -9,8 +9,8 @@ namespace omnimapper::plugins {
 /// What wheel odometry errs by in the same way again and again, learned from motion that is known better: it measures
 /// the way too long or too short, turns with the way it drives (wheels of different size), and turns too far or too
 /// little (Borenstein and Feng, "Measurement and correction of systematic odometry errors in mobile robots", 1996).
-/// What was learned fades after some ten metres of way, as loads and floors change; nothing is corrected before some
-/// metres.
+/// What was learned fades after some ten metres, as loads and floors change; in the first metres little is
+/// corrected.
 class OdometryCalibration {
  public:
   /// A motion as the odometry told it, and as it was. Motions that are far from one another, by slip or by a wrong
