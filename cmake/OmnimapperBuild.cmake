@@ -110,19 +110,24 @@ function(omnimapper_app name)
   install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# omnimapper_test(NAME [OPTIMIZED] [COST SECONDS] <targets...> [RELEASE FILES...]): one test binary for the folder's
-# *Test.cpp files, named test-NAME. Tests are not optimized: they assert the same, and compile in 40 % of the time.
-# OPTIMIZED is for tests that render images or search texts themselves, which would run for minutes. COST is roughly how
-# long the test runs; ctest starts the longest first. The files of RELEASE are once more in test-NAME-release, without
-# the others: what tries more without a sanitizer (release_cases in scripts/lib/suites.sh).
+# omnimapper_test(NAME [OPTIMIZED] [COST SECONDS] <targets...> [RELEASE FILES...] [THREADS FILES...]): one test binary for
+# the folder's *Test.cpp files, named test-NAME. Tests are not optimized: they assert the same, and compile in 40 % of the
+# time. OPTIMIZED is for tests that render images or search texts themselves, which would run for minutes. COST is roughly
+# how long the test runs; ctest starts the longest first. Some files are once more in a binary without the others: those
+# of RELEASE in test-NAME-release, what tries more without a sanitizer (release_cases in scripts/lib/suites.sh), and those
+# of THREADS, in a build under the thread sanitizer, in test-NAME-threads (thread_cases there).
 function(omnimapper_test name)
-  cmake_parse_arguments(ARG "OPTIMIZED" "COST" "RELEASE" ${ARGN})
+  cmake_parse_arguments(ARG "OPTIMIZED" "COST" "RELEASE;THREADS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*Test.cpp")
   add_executable(test-${name} ${sources})
   set(names ${name})
   if(ARG_RELEASE AND NOT OMNIMAPPER_SANITIZE)
     add_executable(test-${name}-release ${ARG_RELEASE})
     list(APPEND names ${name}-release)
+  endif()
+  if(ARG_THREADS AND OMNIMAPPER_SANITIZE STREQUAL "thread")
+    add_executable(test-${name}-threads ${ARG_THREADS})
+    list(APPEND names ${name}-threads)
   endif()
   foreach(each ${names})
     target_link_libraries(test-${each} PRIVATE ${ARG_UNPARSED_ARGUMENTS} omnimapper-testing GTest::gtest_main)

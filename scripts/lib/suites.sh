@@ -12,5 +12,5 @@ readonly address_cases='-StockTools.*:Generators.aRobotComesToEveryRoomAtAllLeve
 readonly release_tests=(obs-release source-release mapper-release sim-release)
 readonly release_cases='StockTools.*:DamageTest.*:RawlogSourceTest.aLogWithoutChecksum*:PcdCloudTest.aHeaderThatClaims*:EngineRandom.*:ShuffledArrival.*:Generators.aRobotComesToEveryRoomAtAllLevelsOfClutter:Generators.planesAreExactInEveryPlace:PlacesAndSeeds/*'
 # The unit tests of threads, under the thread sanitizer.
-readonly thread_tests=(source mapper)
+readonly thread_tests=(source-threads mapper-threads)
 readonly thread_cases='*Queue*:*Pool*:*Engine*:ReadAhead*:MappingRun*'

@@ -74,9 +74,19 @@ for file in $(grep -rl kIsSanitized tests/*/*Test.cpp); do
   suite=$(basename "$file" Test.cpp)
   expect "$file is in release_cases of scripts/lib/suites.sh" yes "$(grep -q "$suite" <<<"$release_cases" && echo yes)"
   expect "$file is compiled for release" yes \
-    "$(sed -n '/RELEASE/,$p' "$(dirname "$file")/CMakeLists.txt" | grep -qw "$(basename "$file")" && echo yes)"
+    "$(sed -n '/RELEASE/,/THREADS/ { s/THREADS.*//; p }' "$(dirname "$file")/CMakeLists.txt" | grep -qw "$(basename "$file")" &&
+      echo yes)"
   expect "$(basename "$(dirname "$file")")-release is in release_tests of scripts/lib/suites.sh" yes \
     "$(grep -qw "$(basename "$(dirname "$file")")-release" <<<"${release_tests[*]}" && echo yes)"
+done
+# Each file with a case of threads is compiled for the thread sanitizer.
+for pattern in $(tr ':' ' ' <<<"$thread_cases"); do
+  folders=$(printf 'tests/%s ' "${thread_tests[@]%-threads}")
+  # shellcheck disable=SC2086
+  for file in $(grep -rlE "^TEST[_FP]*\(\w*$(tr -d '*' <<<"$pattern")\w*," $folders --include='*Test.cpp'); do
+    expect "$file is compiled for the thread sanitizer" yes \
+      "$(sed -n '/THREADS/,$p' "$(dirname "$file")/CMakeLists.txt" | grep -qw "$(basename "$file")" && echo yes)"
+  done
 done
 
 # Package lists: one name in a line, and what it is for.
