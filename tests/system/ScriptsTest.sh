@@ -79,6 +79,12 @@ for file in $(grep -rl kIsSanitized tests/*/*Test.cpp); do
   expect "$(basename "$(dirname "$file")")-release is in release_tests of scripts/lib/suites.sh" yes \
     "$(grep -qw "$(basename "$(dirname "$file")")-release" <<<"${release_tests[*]}" && echo yes)"
 done
+# What the address sanitizer leaves out runs without it.
+for pattern in $(tr ':' ' ' <<<"${address_cases#-}"); do
+  expect "$pattern, which address_cases leaves out, is in release_cases" yes \
+    "$(tr ':' '\n' <<<"$release_cases" | grep -qxF -e "$pattern" -e "${pattern%_2}" && echo yes)"
+done
+
 # Each file with a case of threads is compiled for the thread sanitizer.
 for pattern in $(tr ':' ' ' <<<"$thread_cases"); do
   folders=$(printf 'tests/%s ' "${thread_tests[@]%-threads}")
