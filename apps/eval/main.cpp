@@ -26,14 +26,14 @@ CLI::App* addVerb(CLI::App& app, const std::string& name, const std::string& hel
   verb->add_option("-o,--output", arguments.output_folder, "folder for numbers.json and plots, made if missing");
   verb->add_option("--json", arguments.json_file, "file for the numbers");
   verb->add_option("--tolerance", arguments.tolerance, "between stamps that belong together [s], default 0.01")
-      ->check(CLI::NonNegativeNumber);
+      ->check(omnimapper::program::notNegative());
   return verb;
 }
 
 void addPairing(CLI::App* verb, Arguments& arguments) {
   verb->add_option("--align", arguments.alignment, "none, first, yaw, se3 or sim3; default none");
   verb->add_option("--interpolate", arguments.interpolate, "interpolate the reference over gaps up to this [s]")
-      ->check(CLI::PositiveNumber);
+      ->check(omnimapper::program::positive());
 }
 
 template <class Result, class... Reference>

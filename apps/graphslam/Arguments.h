@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "program/Program.h"
+
 /// The command line of omnimapper-graphslam.
 struct Arguments {
   omnimapper::mapper::RunRequest run;
@@ -34,7 +36,7 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the map does not depend on them")
       ->check(CLI::Range(1, 256));
   app.add_option("--speed", arguments.run.speed, "replay at so many times the log's pace; 0: as fast as possible")
-      ->check(CLI::NonNegativeNumber);
+      ->check(omnimapper::program::notNegative());
   app.add_flag("--strict", arguments.run.strict, "end with code 17 if the map contradicts itself");
   app.add_flag("--gui", arguments.gui, "show the map while it grows");
   app.add_flag("--list-plugins", arguments.list_plugins,

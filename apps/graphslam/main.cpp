@@ -1,3 +1,4 @@
+#include <omnimapper/base/Names.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/check/CheckRun.h>
 #include <omnimapper/mapper/MappingRun.h>
@@ -30,7 +31,7 @@ int run(Arguments& arguments) {
   if (!arguments.checked_logs.empty()) {
     const auto checked = check::runCheck(arguments.checked_logs, config, arguments.run.output_folder, *progress, stop);
     progress.reset();  // its line is free for the summary
-    return std::cout << checked.text, static_cast<int>(checked.code);
+    return std::cout << base::printableLines(checked.text), static_cast<int>(checked.code);
   }
   if (arguments.inis.empty() || arguments.run.logs.empty() || arguments.run.output_folder.empty()) {
     throw base::Error(base::ExitCode::command_line, "-i INI, -r LOG and -o FOLDER are needed; see --help");
@@ -41,11 +42,11 @@ int run(Arguments& arguments) {
   }
   const auto result = mapper::runMapping(arguments.run, config, *progress, stop);
   progress.reset();
-  if (arguments.verbose) std::cout << result.source.text();
-  if (!arguments.quiet) std::cout << mapper::toText(result, arguments.run.output_folder);
+  if (arguments.verbose) std::cout << base::printableLines(result.source.text());
+  if (!arguments.quiet) std::cout << base::printableLines(mapper::toText(result, arguments.run.output_folder));
   for (const auto& warning : result.warnings) {
     if (arguments.quiet && result.code == base::ExitCode::ok) break;
-    std::cerr << "omnimapper-graphslam: warning: " << warning << "\n";
+    std::cerr << "omnimapper-graphslam: warning: " << base::printableLines(warning) << "\n";
   }
   const int code = static_cast<int>(result.code);
   if (!arguments.gui) return code;

@@ -45,13 +45,13 @@ CLI::App* addTum(CLI::App& app, Arguments& arguments) {
       "as the folder's name tells");
   tum->add_option("--tolerance", arguments.rgbd.largest_difference, "between stamps of depth and colour [s]")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(omnimapper::program::notNegative());
   tum->add_option("--depth-units", arguments.rgbd.depth_units,
                   "values of a depth image in a metre; 0: 1000 of 7-Scenes and where image/ has the colours, else 5000")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(omnimapper::program::notNegative());
   tum->add_option("--rate", arguments.rgbd.rate, "of images without stamps [1/s]")
-      ->check(CLI::PositiveNumber)
+      ->check(omnimapper::program::positive())
       ->capture_default_str();
   tum->add_option("--label", arguments.rgbd.label, "sensor label")->capture_default_str();
   tum->add_option("--images", arguments.images, "embedded in the rawlog, or external files beside it")
@@ -67,7 +67,7 @@ CLI::App* addPcd(CLI::App& app, Arguments& arguments) {
   pcd->add_option("DIR", arguments.input, "folder")->required();
   pcd->add_option("OUT", arguments.output, "rawlog to write")->required();
   pcd->add_option("--rate", arguments.pcd.rate, "of the clouds, which have no stamps [1/s]")
-      ->check(CLI::PositiveNumber)
+      ->check(omnimapper::program::positive())
       ->capture_default_str();
   pcd->add_option("--label", arguments.pcd.label, "sensor label")->capture_default_str();
   return pcd;

@@ -39,7 +39,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_flag("--with-raw", arguments.run.with_raw, "put the observations that were read into it too");
   app.add_option("--pictures", arguments.pictures, "folder for pictures of what was found, over what the sensor saw");
   app.add_option("--picture-every", arguments.picture_every, "so many observations of a sensor make one (10)")
-      ->check(CLI::PositiveNumber);
+      ->check(omnimapper::program::positive());
   app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
   arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the bytes do not depend on them")

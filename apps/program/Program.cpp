@@ -2,16 +2,31 @@
 
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Memory.h>
+#include <omnimapper/base/Names.h>
+#include <signal.h>
+#include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <iostream>
+#include <new>
 
 namespace omnimapper::program {
 
 namespace {
 volatile std::sig_atomic_t g_interrupted = 0;
+// The first is heard by whoever asks isInterrupted(); the second does not wait for that.
 void onInterrupt(int) {
+  if (g_interrupted != 0) _exit(static_cast<int>(base::ExitCode::interrupted));
   g_interrupted = 1;
+  constexpr char kAnswer[] = "\ninterrupted: ending with what there is; once more ends at once\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, kAnswer, sizeof kAnswer - 1);
+}
+
+void answer(int signal, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  sigaction(signal, &action, nullptr);  // without SA_RESTART: what waits for a file or a pipe ends its wait
 }
 }  // namespace
 
@@ -23,18 +38,43 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);
   } catch (const base::Error& error) {
-    std::cerr << app.get_name() << ": " << error.what() << "\n";
+    std::cerr << app.get_name() << ": " << base::printableLines(error.what()) << "\n";
     return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    std::cerr << app.get_name() << ": out of memory; what was written until now is kept\n";
+    return static_cast<int>(base::ExitCode::out_of_memory);
   } catch (const std::exception& error) {
-    std::cerr << app.get_name() << ": " << error.what() << " (a defect: please report it)\n";
+    std::cerr << app.get_name() << ": " << base::printableLines(error.what()) << " (a defect: please report it)\n";
     return static_cast<int>(base::ExitCode::internal);
   }
 }
 
+namespace {
+
+CLI::Validator number(const std::string& description, const std::function<bool(double)>& fits) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        double value = 0;
+        const bool is_number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+        return is_number && fits(value) ? std::string() : "'" + text + "' is not a number " + description;
+      },
+      description);
+}
+
+}  // namespace
+
+CLI::Validator notNegative() {
+  return number(">= 0", [](double value) { return value >= 0; });
+}
+
+CLI::Validator positive() {
+  return number("> 0", [](double value) { return value > 0; });
+}
+
 void listenForInterrupts() {
-  std::signal(SIGINT, onInterrupt);
-  std::signal(SIGTERM, onInterrupt);
-  std::signal(SIGXFSZ, SIG_IGN);
+  answer(SIGINT, onInterrupt);
+  answer(SIGTERM, onInterrupt);
+  answer(SIGXFSZ, SIG_IGN);
 }
 
 bool isInterrupted() {

@@ -9,7 +9,11 @@ namespace omnimapper::program {
 /// `body`, or that of the error that stopped it, which is then told on standard error (doc/exit_codes.md).
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
 
-/// From now on Ctrl-C and SIGTERM only make isInterrupted() true, and a file at the limit of its size fails as on a
+/// Validators of numbers, which must be finite: CLI11's own let "nan" pass.
+CLI::Validator notNegative();
+CLI::Validator positive();
+
+/// From now on Ctrl-C and SIGTERM only make isInterrupted() true, a second of them ends the program at once, and a file at the limit of its size fails as on a
 /// full disk: a run can end its files properly.
 void listenForInterrupts();
 bool isInterrupted();

@@ -146,6 +146,34 @@ TEST(Config, ADoubledKeyIsRefusedWithItsLine) {
   EXPECT_NO_THROW(parsed("[trigger]\nevery = 1\n[other]\nevery = 2\n"));
 }
 
+TEST(Config, ADoubledKeyIsRefusedInWhateverCase) {
+  expectError([] { parsed("[trigger]\nevery = 1\nEvery = 2\n"); }, ExitCode::unknown_key, {"test.ini:3:", "twice"});
+  Config config = parsed("[trigger]\nevery = 1\n");
+  expectError([&] { config.set("trigger.Every=2"); }, ExitCode::unknown_key, {"--set", "'Every'", "'every'"});
+  const omnimapper::testing::ScratchFolder folder;
+  writeFile(folder / "first.ini", [](std::ostream& out) { out << "[trigger]\nevery = 1\n"; });
+  writeFile(folder / "over.ini", [](std::ostream& out) { out << "[trigger]\nEVERY = 2\n"; });
+  expectError([&] { Config::fromFiles({folder / "first.ini", folder / "over.ini"}); }, ExitCode::unknown_key,
+              {"over.ini:2", "'EVERY'", "'every'"});
+}
+
+TEST(Config, WhatTheUserWroteHimselfIsTrusted) {
+  const omnimapper::testing::ScratchFolder folder;
+  const std::string text = "[mapper]\nlibrary = x\n", first = folder / "first.ini", over = folder / "over.ini",
+                    written = folder / "check.ini";
+  writeFile(first, [&](std::ostream& out) { out << text; });
+  writeFile(over, [&](std::ostream& out) { out << text; });
+  writeFile(written, [&](std::ostream& out) { out << kWrittenFromALog << " by a program.\n" << text; });
+  EXPECT_TRUE(Config::fromFile(first).isTrusted("mapper", "library"));
+  EXPECT_TRUE(Config::fromFile(first).isTrusted("mapper", "nothing"));
+  EXPECT_FALSE(Config::fromFile(written).isTrusted("mapper", "library"));
+  auto config = Config::fromFiles({first, over});
+  EXPECT_FALSE(config.isTrusted("Mapper", "Library"));
+  config.set("mapper.library=y");
+  EXPECT_TRUE(config.isTrusted("mapper", "library"));
+  EXPECT_EQ(config.firstFile(), first);
+}
+
 TEST(Config, ADoubledSectionIsRefusedWithItsLineInWhateverCase) {
   expectError([] { parsed("[trigger]\n[mapper]\n[trigger]\n"); }, ExitCode::unknown_key,
               {"test.ini:3:", "[trigger]", "twice"});

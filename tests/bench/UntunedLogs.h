@@ -10,8 +10,10 @@
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/LogVariants.h>
+#include <omnimapper/testing/Program.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -70,6 +72,37 @@ inline Observations read(const Log& log) {
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
   return all;
+}
+
+/// Made by the simulator in the folder `out` once: laser and wheels alone.
+inline std::optional<Log> simulated(const std::string& name, const std::string& out) {
+  const std::string folder = out + "/simulated/" + name;
+  Log log{"simulated " + name, folder + "/" + name + ".rawlog", folder + "/truth.tum"};
+  if (std::filesystem::exists(log.path)) return log;
+  const auto ended = omnimapper::testing::runProgram(
+      {omnimapper::testing::ownProgram("omnimapper-simulate"), "-q", "-i", omnimapper::testing::sourceFile("rawlogs/" + name + ".ini"), "--set",
+       "simulation.sensors=laser, odometry", "-o", folder},
+      {600, 0});
+  if (ended.code == 0) return log;
+  std::fprintf(stderr, "%s was not simulated: %s\n", name.c_str(), omnimapper::testing::toString(ended).c_str());
+  return std::nullopt;
+}
+
+/// The recordings that are on this machine, and the simulated places, which are kept in `out`.
+inline std::vector<Log> logsAtHand(const std::string& out) {
+  std::vector<Log> logs;
+  for (const std::string name : {"aces", "intel", "mit-csail", "fhw", "belgioioso", "ual", "driving_in_office",
+                                 "malaga", "simul", "range_030_bearing_015"}) {
+    if (const auto log = untuned::logNamed(name)) {
+      logs.push_back(*log);
+    } else {
+      std::fprintf(stderr, "%s is not on this machine\n", name.c_str());
+    }
+  }
+  for (const std::string name : {"home", "office", "laboratory"}) {
+    if (const auto log = simulated(name, out)) logs.push_back(*log);
+  }
+  return logs;
 }
 
 inline void writeVariant(const Observations& log, LogVariant variant, const std::string& path) {

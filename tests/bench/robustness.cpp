@@ -29,36 +29,6 @@ using tests::LogVariant;
 using untuned::Log;
 namespace fs = std::filesystem;
 
-// Made by the simulator once: laser and wheels alone.
-std::optional<Log> simulated(const std::string& name, const std::string& out) {
-  const std::string folder = out + "/simulated/" + name;
-  Log log{"simulated " + name, folder + "/" + name + ".rawlog", folder + "/truth.tum"};
-  if (fs::exists(log.path)) return log;
-  const auto ended = tests::runProgram(
-      {tests::ownProgram("omnimapper-simulate"), "-q", "-i", tests::sourceFile("rawlogs/" + name + ".ini"), "--set",
-       "simulation.sensors=laser, odometry", "-o", folder},
-      {600, 0});
-  if (ended.code == 0) return log;
-  std::fprintf(stderr, "%s was not simulated: %s\n", name.c_str(), tests::toString(ended).c_str());
-  return std::nullopt;
-}
-
-std::vector<Log> logsAtHand(const std::string& out) {
-  std::vector<Log> logs;
-  for (const std::string name : {"aces", "intel", "mit-csail", "fhw", "belgioioso", "ual", "driving_in_office",
-                                 "malaga", "simul", "range_030_bearing_015"}) {
-    if (const auto log = untuned::logNamed(name)) {
-      logs.push_back(*log);
-    } else {
-      std::fprintf(stderr, "%s is not on this machine\n", name.c_str());
-    }
-  }
-  for (const std::string name : {"home", "office", "laboratory"}) {
-    if (const auto log = simulated(name, out)) logs.push_back(*log);
-  }
-  return logs;
-}
-
 struct Run {
   Run(const Log& of, LogVariant as) : log(&of), variant(as) {}
 
@@ -231,7 +201,7 @@ int main(int argc, char** argv) {
   obs::registerClasses();
   const auto errors_before = before.empty() ? std::map<std::string, std::string>{} : errorsIn(before);
 
-  auto logs = logsAtHand(out);
+  auto logs = untuned::logsAtHand(out);
   keepNamed(logs, names, [](const Log& log) { return log.name; });
   auto variants = tests::allLogVariants();
   keepNamed(variants, variant_names, tests::nameOf);

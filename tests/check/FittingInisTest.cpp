@@ -66,6 +66,7 @@ TEST(FittingInis, OfARangeCameraDependOnWhatTellsItsMotion) {
 TEST(FittingInis, GoWithoutTheLaserThatIsNotThere) {
   const Checked checked(without(with<mrpt::obs::CObservation3DRangeScan>(), "laser"));
   EXPECT_EQ(toIni(proposeIni(checked.facts, fittingInis(checked.facts).front().plugins)),
+            "; Written from a log by omnimapper-graphslam --check.\n"
             "[mapper]\npose_plugins = odometry, no_motion  ; there is no laser\n"
             "measurement_plugins = plane_landmarks  ; there is no laser\n\n"
             "[perception]\nextractors = planes  ; there is no laser\n");

@@ -137,6 +137,25 @@ TEST(OdometryPlugin, TimeThatStandsStillOrRunsBackwardsIsRefused) {
   EXPECT_EQ(actions.add(action(2, 1.5, CPose3D())), Taken::unusable) << "backwards";
 }
 
+TEST(OdometryPlugin, AMotionThatNoBaseCanMakeIsNotTold) {
+  OdometryPlugin plugin(roundNoise());
+  plugin.add(reading(0, {0, 0, 0}));
+  plugin.add(reading(1, {1, 0, 0}));
+  plugin.add(reading(2, {1e12, 0, 0}));
+  plugin.add(reading(3, {1e12 + 2, 0, 0}));
+  EXPECT_TRUE(plugin.between(at(0), at(1)));
+  EXPECT_FALSE(plugin.between(at(1), at(2)));
+  const auto after = plugin.between(at(2), at(3));
+  ASSERT_TRUE(after) << "it counts on from there";
+  EXPECT_NEAR(after->begin_from_end.x(), 2, 1e-3);
+  ASSERT_EQ(plugin.warnings().size(), 1U);
+  EXPECT_NE(plugin.warnings().front().find("1e+12"), std::string::npos) << plugin.warnings().front();
+  EXPECT_EQ(plugin.add(action(3, 4, CPose3D(200, 0, 0, 0, 0, 0))), Taken::not_mine) << "of another class";
+  OdometryPlugin by_actions(roundNoise());
+  EXPECT_EQ(by_actions.add(action(0, 1, CPose3D(109, 0, 0, 0, 0, 0))), Taken::taken);
+  EXPECT_EQ(by_actions.add(action(1, 2, CPose3D(111, 0, 0, 0, 0, 0))), Taken::unusable);
+}
+
 TEST(OdometryPlugin, OneStampFromTheFutureIsRefusedAndALeapOfTheLogIsNot) {
   OdometryPlugin plugin(roundNoise());
   plugin.add(reading(0, {0, 0, 0}));

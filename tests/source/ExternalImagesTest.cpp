@@ -38,6 +38,7 @@ class ExternalImagesTest : public ::testing::Test {
     observation->sensorLabel = "depth";
     observation->hasRangeImage = true;
     observation->rangeUnits = 0.001f;
+    observation->cameraParams.setIntrinsicParamsFromValues(500, 500, 1.5, 1);
     observation->rangeImage_setSize(2, 3);
     observation->rangeImage.fill(1234);
     observation->hasPoints3D = true;
@@ -90,6 +91,30 @@ TEST_F(ExternalImagesTest, missingFilesLeaveTheirObservationsOutAndAreCounted) {
   EXPECT_EQ(report.missing_images, 3u);
   EXPECT_EQ(report.first_missing_image, images_ + "/gone.png");
   EXPECT_EQ(report.exitCode(), base::ExitCode::missing_images);
+}
+
+// A header is enough to have gigabytes made room for.
+TEST_F(ExternalImagesTest, aPictureOfAbsurdSizeIsNotDecoded) {
+  const auto big_endian = [](std::uint32_t value, int bytes) {
+    std::string text;
+    for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(value >> (8 * i));
+    return text;
+  };
+  writePlain(images_ + "/bomb.png",
+             "\x89PNG\r\n\x1a\n" + big_endian(13, 4) + "IHDR" + big_endian(100000, 4) + big_endian(90000, 4));
+  writePlain(images_ + "/bomb.jpg", "\xff\xd8\xff\xe0" + big_endian(4, 2) + "ab\xff\xff\xc0" + big_endian(11, 2) +
+                                        "\x08" + big_endian(60000, 2) + big_endian(50000, 2));
+  writeGzip(rawlog_, (Bytes() << camera(1, "bomb.png") << camera(2, "bomb.jpg") << scan(3)).string());
+  RawlogSource source(rawlog_);
+  EXPECT_EQ(readAll(source).size(), 1u);
+  EXPECT_EQ(source.report().missing_images, 2u);
+  EXPECT_NE(source.report().first_missing_image.find("bomb.png (100000 x 90000 pixels"), std::string::npos)
+      << source.report().first_missing_image;
+  writeGzip(rawlog_, (Bytes() << camera(2, "bomb.jpg")).string());
+  RawlogSource of_jpeg(rawlog_);
+  EXPECT_TRUE(readAll(of_jpeg).empty());
+  EXPECT_NE(of_jpeg.report().first_missing_image.find("50000 x 60000 pixels"), std::string::npos)
+      << of_jpeg.report().first_missing_image;
 }
 
 TEST_F(ExternalImagesTest, unwantedObservationsNeedNoFiles) {

@@ -146,6 +146,21 @@ TEST_F(RgbdFolderTest, imagesThatCannotBeReadAreLeftOutAndCounted) {
   EXPECT_EQ(source.report().exitCode(), base::ExitCode::missing_images);
 }
 
+TEST_F(RgbdFolderTest, imagesOfAnotherSizeAreLeftOutAndCounted) {
+  writeTum();
+  for (const char* name : {"b", "d", "e"}) writeColour(std::string("rgb/") + name + ".png", 1);
+  writeText("depth.txt", "10.0 depth/a.png\n10.1 depth/b.png\n10.2 depth/c.png\n10.3 depth/d.png\n");
+  writeText("rgb.txt", "10.0 rgb/a.png\n10.1 rgb/b.png\n10.2 rgb/c.png\n10.3 rgb/d.png\n");
+  writeDepth("depth/c.png", 5000, 40, 30);
+  writeDepth("depth/d.png", 5000);
+  RgbdFolder source(folder_.path(), freiburg1());
+  int taken = 0;
+  while (source.next()) ++taken;
+  EXPECT_EQ(taken, 3);
+  EXPECT_EQ(source.report().unusableCount(), 1U);
+  EXPECT_EQ(source.report().exitCode(), base::ExitCode::damaged_input);
+}
+
 TEST_F(RgbdFolderTest, whatIsWrongIsSaidWithItsPlace) {
   EXPECT_NE(failure().find("is of no form that is known"), std::string::npos);
   writeTum();

@@ -18,11 +18,11 @@ class RgbdImages {
     std::filesystem::create_directories(path.parent_path());
     std::ofstream(path) << text;
   }
-  void writeDepth(const std::string& name, std::uint16_t value) {
+  void writeDepth(const std::string& name, std::uint16_t value, unsigned width = 4, unsigned height = 3) {
     mrpt::img::CImage image;
-    image.resize(4, 3, mrpt::img::CH_GRAY, mrpt::img::PixelDepth::D16U);
-    for (unsigned y = 0; y < 3; ++y)
-      for (unsigned x = 0; x < 4; ++x)
+    image.resize(width, height, mrpt::img::CH_GRAY, mrpt::img::PixelDepth::D16U);
+    for (unsigned y = 0; y < height; ++y)
+      for (unsigned x = 0; x < width; ++x)
         image.ptrLine<std::uint16_t>(y)[x] = static_cast<std::uint16_t>(value + x + 10 * y);
     save(image, name);
   }

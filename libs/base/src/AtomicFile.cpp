@@ -3,6 +3,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Exceptions.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <vector>
 
 namespace omnimapper::base {
@@ -33,6 +35,15 @@ std::string whyUnwritable(const std::string& folder) {
   if (!fs::exists(folder, none)) return "there is no such folder";
   if (!fs::is_directory(folder, none)) return "it is a file";
   return ::access(folder.c_str(), W_OK | X_OK) == 0 ? "" : std::strerror(errno);
+}
+
+struct KeptInputs {
+  std::mutex mutex;
+  std::vector<std::string> paths;
+};
+KeptInputs& keptInputs() {
+  static KeptInputs kept;
+  return kept;
 }
 
 std::string folderOf(const fs::path& target) {
@@ -60,6 +71,29 @@ std::string temporaryPrefix(const fs::path& target) {
 }
 fs::path temporaryOf(const fs::path& target) {
   return target.parent_path() / (temporaryPrefix(target) + std::to_string(::getpid()) + target.extension().string());
+}
+
+// Makes the file, empty and ours: whatever else has its name, a link to somewhere else too, is removed and not written
+// through. Its time is 1970, until something is written.
+void reserve(const std::string& temporary) {
+  constexpr int kTries = 3;
+  for (int i = 0; i < kTries; ++i) {
+    ::unlink(temporary.c_str());
+    const int fd = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (fd >= 0) {
+      const timespec times[2] = {{0, 0}, {0, 0}};
+      ::futimens(fd, times);
+      ::close(fd);
+      return;
+    }
+    if (errno != EEXIST) break;
+  }
+  throw std::runtime_error(std::strerror(errno));
+}
+
+bool isUnwritten(const std::string& temporary) {
+  struct stat status {};
+  return ::stat(temporary.c_str(), &status) != 0 || (status.st_size == 0 && status.st_mtim.tv_sec == 0);
 }
 
 // Removes what processes left behind that were killed while they wrote `target`.
@@ -91,11 +125,16 @@ void makeWritableFolder(const std::string& folder) {
 }
 
 void replaceFile(const std::string& path, const std::function<void(const std::string&)>& save) {
+  {
+    const std::lock_guard<std::mutex> lock(keptInputs().mutex);
+    refuseToReplaceInput(path, keptInputs().paths);
+  }
   const fs::path target(path);
   if (const auto reason = whyUnwritable(folderOf(target)); !reason.empty()) failForFolder(path, "its", reason);
   const std::string temporary = temporaryOf(target).string();
   removeLeftovers(target);
   try {
+    reserve(temporary);
     errno = 0;
     save(temporary);
   } catch (const Error&) {
@@ -105,7 +144,7 @@ void replaceFile(const std::string& path, const std::function<void(const std::st
   } catch (const std::exception& error) {
     failWrite(path, temporary, sentenceOf(error));
   }
-  if (!fs::exists(temporary)) failWrite(path, temporary, "nothing was written");
+  if (isUnwritten(temporary)) failWrite(path, temporary, "nothing was written");
   if (!syncPath(temporary)) failWrite(path, temporary, std::strerror(errno));
   if (std::rename(temporary.c_str(), path.c_str()) != 0) failWrite(path, temporary, std::strerror(errno));
   syncPath(folderOf(target));
@@ -119,6 +158,18 @@ void writeFile(const std::string& path, const std::function<void(std::ostream&)>
     out.close();
     if (!out) throw std::runtime_error(errno ? std::strerror(errno) : "the stream failed");
   });
+}
+
+InputsKept::InputsKept(const std::vector<std::string>& inputs) {
+  const std::lock_guard<std::mutex> lock(keptInputs().mutex);
+  auto& paths = keptInputs().paths;
+  before_ = paths;
+  paths.insert(paths.end(), inputs.begin(), inputs.end());
+}
+
+InputsKept::~InputsKept() {
+  const std::lock_guard<std::mutex> lock(keptInputs().mutex);
+  keptInputs().paths = before_;
 }
 
 void refuseToReplaceInput(const std::string& output, const std::vector<std::string>& inputs) {

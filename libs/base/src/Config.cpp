@@ -68,8 +68,9 @@ std::string checkedText(const std::string& text, const std::string& file, Places
     if (equals == std::string::npos || key.empty() || section.empty()) {
       throw Error(ExitCode::unknown_key, at + "expected 'key = value' inside a [section], found '" + body + "'");
     }
-    if (!seen_keys.insert(key).second) {
-      throw Error(ExitCode::unknown_key, at + "key '" + key + "' stands twice in [" + section + "]; remove one");
+    if (!seen_keys.insert(lowerCase(key)).second) {
+      throw Error(ExitCode::unknown_key, at + "key '" + key + "' stands twice in [" + section +
+                                             "], upper and lower case being one; remove one");
     }
     places[placeKey(section, key)] = place;
     out << key << " = " << trimmed(body.substr(equals + 1)) << "\n";
@@ -120,7 +121,10 @@ Config Config::fromFile(const std::string& path) {
   if (!in.is_open() || in.bad()) {
     throw Error(ExitCode::unreadable_input, path + ": cannot read this INI file; is the path right?");
   }
-  return fromText(text, path);
+  Config config = fromText(text, path);
+  config.first_file_ = path;
+  config.is_written_from_a_log_ = text.compare(0, kWrittenFromALog.size(), kWrittenFromALog) == 0;
+  return config;
 }
 
 Config Config::fromFiles(const std::vector<std::string>& paths) {
@@ -132,10 +136,16 @@ Config Config::fromFiles(const std::vector<std::string>& paths) {
     over.ini_.getAllSections(sections);
     for (const auto& section : sections) {
       over.ini_.getAllKeys(section, keys);
-      for (const auto& key : keys) config.ini_.write(section, key, over.ini_.read_string(section, key, ""));
+      for (const auto& key : keys) {
+        config.refuseOtherSpelling(section, key, over.placeOf(section, key));
+        config.ini_.write(section, key, over.ini_.read_string(section, key, ""));
+      }
     }
     config.file_ += " + " + paths[i];
-    for (const auto& [key, place] : over.places_) config.places_[key] = place;
+    for (const auto& [key, place] : over.places_) {
+      config.places_[key] = place;
+      config.from_later_files_.insert(key);
+    }
   }
   return config;
 }
@@ -162,10 +172,30 @@ void Config::set(const std::string& assignment) {
     throw Error(ExitCode::command_line,
                 "--set " + assignment + ": expected section.key=value, such as --set mapper.window_s=2");
   }
-  ini_.write(section, key, trimmed(assignment.substr(equals + 1)));
   const std::string place = "--set " + section + "." + key;
+  refuseOtherSpelling(section, key, place);
+  ini_.write(section, key, trimmed(assignment.substr(equals + 1)));
   places_.emplace(placeKey(section, ""), place);
   places_[placeKey(section, key)] = place;
+  from_later_files_.erase(placeKey(section, key));
+}
+
+// MRPT's reader, which tells no case apart, would give the value to the key as it was spelt first.
+void Config::refuseOtherSpelling(const std::string& section, const std::string& key, const std::string& place) const {
+  std::vector<std::string> keys;
+  if (has(section)) ini_.getAllKeys(section, keys);
+  for (const auto& known : keys) {
+    if (known == key || lowerCase(known) != lowerCase(key)) continue;
+    throw Error(ExitCode::unknown_key, place + ": [" + section + "] has no key '" + key + "'; did you mean '" + known +
+                                           "'? Upper and lower case count");
+  }
+}
+
+bool Config::isTrusted(const std::string& section, const std::string& key) const {
+  const auto place = places_.find(placeKey(section, key));
+  if (place == places_.end()) return true;
+  if (place->second.compare(0, 6, "--set ") == 0) return true;
+  return !is_written_from_a_log_ && from_later_files_.count(place->first) == 0;
 }
 
 std::string Config::placeOf(const std::string& section, const std::string& key) const {

@@ -125,7 +125,9 @@ LogFacts gatherFacts(source::ObservationSource& log, const mapper::SensorPoses& 
     gatherer.add(sensor_poses.applied(observation));
     if (progress) progress->report(log.progress(), "reading the log");
   }
-  return gatherer.facts();
+  auto facts = gatherer.facts();
+  facts.unusable = log.report().unusable;
+  return facts;
 }
 
 }  // namespace omnimapper::check

@@ -1,3 +1,4 @@
+#include <omnimapper/base/Names.h>
 #include <omnimapper/check/fittingInis.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/mapper/EngineOptions.h>
@@ -5,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "Conclusions.h"
 #include "Words.h"
@@ -20,6 +22,8 @@ class Judge {
   std::vector<Finding> findings() {
     for (const auto& [sensor, stamps] : facts_.sensors) judgeStamps(sensor.first, stamps);
     for (const auto& [label, scans] : facts_.scans) judgeScans(label, scans);
+    judgeUnusable();
+    judgeLabels();
     judgeContent();
     judgeOdometry();
     judgePairs();
@@ -84,11 +88,36 @@ class Judge {
     }
   }
 
+  void judgeLabels() {
+    std::set<std::string> labels;
+    for (const auto& [sensor, stamps] : facts_.sensors) labels.insert(sensor.first);
+    for (const auto& label : labels) {
+      if (base::fitsIni(label)) continue;
+      add(Weight::warning, quoted(label) + ": no INI can name this label, so no setting of it is proposed: it holds a "
+                                           "comma, a '$', a comment or what is not printable; record it with another");
+    }
+  }
+
+  // A sensor of which most cannot be used does not work, whatever the rest is worth.
+  void judgeUnusable() {
+    for (const auto& [key, left_out] : facts_.unusable) {
+      const auto& [label, reason] = key;
+      std::size_t usable = 0;
+      for (const auto& [sensor, stamps] : facts_.sensors) {
+        if (sensor.first == label) usable += stamps.count;
+      }
+      add(left_out.observations > usable ? Weight::problem : Weight::warning,
+          quoted(label) + ": " + counted(left_out.observations, "observation") + " left out: " + reason +
+              ", the first " + sinceStart(left_out.first_stamp));
+    }
+  }
+
   void judgeScans(const std::string& label, const ScanFacts& scans) {
     const std::string who = quoted(label) + ": ";
     const auto part = [&](std::size_t count) { return std::to_string(count) + " of " + counted(scans.scans, "scan"); };
     const auto weigh = [&](std::size_t bad) { return 2 * bad > scans.scans ? Weight::problem : Weight::warning; };
     if (scans.empty > 0) add(weigh(scans.empty), who + part(scans.empty) + " without beams");
+    if (scans.beams == 1) add(Weight::problem, who + "has one beam: it cannot be matched");
     if (scans.blind > 0) {
       std::string how;
       if (scans.all_zero > 0) how += ", " + std::to_string(scans.all_zero) + " all zeros";

@@ -1,3 +1,5 @@
+#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Names.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
 #include <omnimapper/mapper/EngineOptions.h>
@@ -39,6 +41,8 @@ class Proposal {
     return std::find(list.begin(), list.end(), name) != list.end();
   }
 
+  static bool canBeNamed(const std::string& label) { return !label.empty() && base::fitsIni(label); }
+
   void set(const std::string& section, const std::string& key, const std::string& value, const std::string& reason) {
     settings_.push_back({section, key, value, reason});
   }
@@ -72,7 +76,7 @@ class Proposal {
     if (lateness > mapper::EngineOptions().window) {
       set("mapper", "window_s", fixed(std::ceil(11 * lateness) / 10, 1), "observations come so late");
     }
-    if (lasers_.size() > 1 && !lasers_.front().empty()) {
+    if (lasers_.size() > 1 && canBeNamed(lasers_.front())) {
       set("mapper", "reference_sensor", lasers_.front(), "the laser that sees most");
     }
   }
@@ -83,8 +87,9 @@ class Proposal {
     for (const auto& laser : lasers_) {
       const auto better_pose = betterSensorPose(facts_, laser);
       const auto aperture = betterAperture(facts_, laser);
-      if ((!better_pose && !aperture) || laser.empty()) continue;
-      const std::string section = sectionName(laser);
+      if ((!better_pose && !aperture) || !canBeNamed(laser)) continue;
+      std::string section = sectionName(laser);
+      while (has(sections, section)) section += "_";
       sections.push_back(section);
       poses.push_back({section, "label", laser, better_pose ? "its place on the base by its motion" : ""});
       const auto add = [&](const std::string& key, double value, int decimals) {
@@ -113,12 +118,15 @@ class Proposal {
   }
 
   void proposeLasers() {
-    if (!lasers_.empty() && lasers_.size() < facts_.scans.size()) {
+    const bool can_be_named = std::all_of(lasers_.begin(), lasers_.end(), [](const std::string& laser) {
+      return canBeNamed(laser) && laser.find(' ') == std::string::npos;  // the items of a list
+    });
+    if (can_be_named && !lasers_.empty() && lasers_.size() < facts_.scans.size()) {
       std::vector<std::string> labels;
       for (const auto& laser : lasers_) labels.push_back(laser + perception::kPointsSuffix);
       set("loop_closure", "labels", joined(labels, ", "), "the other lasers see nothing that can be matched");
     }
-    if (laser_odometry_ && !lasers_.empty() && facts_.scans.size() > 1 && !lasers_.front().empty()) {
+    if (laser_odometry_ && !lasers_.empty() && facts_.scans.size() > 1 && canBeNamed(lasers_.front())) {
       set(kLaserOdometry, "label", lasers_.front(), "it follows one laser: that which sees most");
     }
     double limit = 0, median = 0;
@@ -151,7 +159,7 @@ class Proposal {
       }
       return;
     }
-    if (facts_.odometry.size() > 1 && !label->empty()) {
+    if (facts_.odometry.size() > 1 && canBeNamed(*label)) {
       set("odometry", "label", *label, "of several the one nearest to the scans");
       if (laser_odometry_) set(kLaserOdometry, "odometry_label", *label, "the same");
     }
@@ -199,9 +207,10 @@ std::string toIni(const std::vector<Setting>& settings) {
       sections.push_back(setting.section);
     }
   }
-  std::string text;
+  if (sections.empty()) return "";
+  std::string text = base::kWrittenFromALog + " by omnimapper-graphslam --check.\n";
   for (const auto& section : sections) {
-    text += (text.empty() ? "[" : "\n[") + section + "]\n";
+    text += (section == sections.front() ? "[" : "\n[") + section + "]\n";
     for (const auto& setting : settings) {
       if (setting.section != section) continue;
       text += setting.key + " = " + setting.value + (setting.reason.empty() ? "" : "  ; " + setting.reason) + "\n";

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -46,6 +47,10 @@ std::uint32_t checksumOf(const std::string& header, std::string_view bytes) {
 }
 
 std::string contentOf(const std::string& path) {
+  // Who opens a pipe that nobody writes to waits for ever.
+  std::error_code none;
+  if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+    refuseFile(path, "is no file but a folder, a pipe or a device. Check the name of the map file.");
   std::ifstream in(path, std::ios::binary);
   if (!in)
     refuseFile(path, std::string("cannot be opened (") + std::strerror(errno) + "). Check the name of the map file.");

@@ -213,6 +213,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
     return stop();
   };
   source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop_opening), stop);
+  const base::InputsKept kept(request.logs);
   base::makeWritableFolder(request.output_folder);
   bool stopped = false;
   const auto failure = tried(engine, [&] { stopped = feed(log, engine, request.speed, progress, stop); });

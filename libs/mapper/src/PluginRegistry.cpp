@@ -70,12 +70,20 @@ void loadPluginLibrary(const std::string& path) {
   if (!mrpt::system::loadPluginModule(path, problem)) {
     throw base::Error(base::ExitCode::plugin_library,
                       "[mapper] plugin_libraries: cannot load '" + path + "' (" + problem +
-                          "); give its full path, or a name that the system's loader finds");
+                          "); give its full path, or one relative to the INI's folder");
   }
 }
 
 void loadPluginLibraries(const base::Config& config) {
-  for (const auto& path : config.section("mapper").read<EngineOptions>().plugin_libraries) loadPluginLibrary(path);
+  const auto paths = config.section("mapper").read<EngineOptions>().plugin_libraries;
+  if (!paths.empty() && !config.isTrusted("mapper", "plugin_libraries")) {
+    throw base::Error(base::ExitCode::plugin_library,
+                      config.placeOf("mapper", "plugin_libraries") +
+                          ": [mapper] plugin_libraries names programs that are run. It counts only in the first INI, "
+                          "and not in one that was written from a log: put it there, or say --set");
+  }
+  const auto folder = std::filesystem::path(config.firstFile()).parent_path();
+  for (const auto& path : paths) loadPluginLibrary(std::filesystem::absolute(folder / path).string());
 }
 
 namespace {

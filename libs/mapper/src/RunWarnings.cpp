@@ -29,6 +29,7 @@ void warnOfDoubt(const map::Session& session, Engine& engine) {
 }  // namespace
 
 void warnOfLog(const source::SourceReport& report, bool stopped, Engine& engine) {
+  engine.setLeftOut(report.unusableCount());
   for (const auto& warning : warningsOf(report)) engine.warn(warning);
   if (stopped) engine.warn("interrupted: this is the map of what was read until then");
 }
@@ -42,7 +43,7 @@ void warnOfCounts(const RunCounts& counts, std::size_t key_frames, Engine& engin
   warn(counts.too_late, "came later than [mapper] horizon_s and were left out");
   warn(counts.hurried,
        "could not wait for [mapper] window_s, more than queue_limit waited: do the stamps stand still?");
-  warn(counts.unusable, "(odometry or sensor poses) are not finite or run backwards in time and were left out");
+  warn(counts.unusable, "(odometry or poses) run backwards in time or leap and were left out");
   warn(counts.unconnected, "have no pose: no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
   if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
 }

@@ -2,6 +2,7 @@
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/Batch.h>
 #include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/source/ObservationGate.h>
 
 #include <algorithm>
 #include <array>
@@ -57,6 +58,10 @@ void expectWhole(const SavedMap& saved) {
                              : std::string_view();
   for (const auto& frame : map.key_frames) {
     known(frame.pose, "key frame " + toString(frame.id));
+    for (const auto& observation : frame.observations) {
+      if (const auto reason = source::whyUnusable(*observation))
+        refuse("key frame " + toString(frame.id) + " has observations that cannot be used: " + *reason + ": damaged");
+    }
     const bool has_session = std::any_of(map.sessions.begin(), map.sessions.end(),
                                          [&](const auto& session) { return session.number == frame.id.session; });
     if (!has_session || graph.variable(frame.pose).kind->kind() != pose_kind) {

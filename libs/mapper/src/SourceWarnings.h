@@ -11,6 +11,7 @@ namespace omnimapper::mapper {
 inline std::vector<std::string> warningsOf(const source::SourceReport& report) {
   std::vector<std::string> warnings;
   if (!report.message.empty()) warnings.push_back(report.message);
+  for (const auto& sentence : report.unusableText()) warnings.push_back(sentence);
   if (report.missing_images > 0) {
     warnings.push_back(std::to_string(report.missing_images) +
                        " observations were left out because an external file of theirs cannot be read, first " +

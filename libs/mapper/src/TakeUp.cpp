@@ -4,7 +4,9 @@
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SavedMap.h>
 
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -22,8 +24,17 @@ void takeUpMap(const RunRequest& request, const SessionOptions& session, const s
                           " is not: go on from it with motion = " + of_map + ", or map its log again");
   }
   const auto start = session.startOn(saved.map);
-  if (request.localize_map.empty()) return engine.continueFrom(std::move(saved), start);
-  engine.localizeIn(std::move(saved), start, session.free_key_frames);
+  try {
+    if (request.localize_map.empty()) return engine.continueFrom(std::move(saved), start);
+    engine.localizeIn(std::move(saved), start, session.free_key_frames);
+  } catch (const base::Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {  // parts that do not belong together, such as a landmark of another kind
+    throw base::Error(base::ExitCode::unreadable_input,
+                      path + ": the map cannot be gone on from (" + error.what() + "): damaged. Take another copy of it.");
+  }
 }
 
 void checkRequest(const RunRequest& request) {

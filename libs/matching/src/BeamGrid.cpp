@@ -94,7 +94,7 @@ double BeamGrid::beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bo
   const double length = way.norm(), checked = length - model_.tolerance / model_.cell;
   double open = 1;
   if (checked > 0) {
-    walk(from, from + way * (checked / length), [&](int x, int y) {
+    walkInside(from, from + way * (checked / length), width_, height_, [&](int x, int y) {
       const Cell* cell = at(x, y);
       if (cell && cell->hits > 0) open *= (cell->passes + 0.5) / (cell->passes + cell->hits + 0.5);
       return open > 0.01;
@@ -102,8 +102,8 @@ double BeamGrid::beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bo
   }
   double end = 1;
   if (hit) {
-    const int x = static_cast<int>(std::floor(to.x())), y = static_cast<int>(std::floor(to.y()));
-    const Cell* cell = at(x, y);
+    const bool is_inside = to.x() >= 0 && to.y() >= 0 && to.x() < width_ && to.y() < height_;
+    const Cell* cell = is_inside ? at(static_cast<int>(to.x()), static_cast<int>(to.y())) : nullptr;
     const double near = cell && walls_ ? walls_->at(origin_ + to * model_.cell) / 255.0 : 0;
     end = std::max(near, cell && cell->passes + cell->hits > 0 ? model_.clutter : model_.unknown);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -27,6 +28,26 @@ void walk(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visit& v
       next_y += per_y;
     }
   }
+}
+
+/// Of a walk that part which lies in a grid of so many cells, however far its ends are: walk() counts in int. Calls
+/// nothing where it passes by or an end is not finite.
+template <class Visit>
+void walkInside(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int width, int height, const Visit& visit) {
+  const Eigen::Vector2d way = to - from, size(width, height);
+  if (!way.allFinite()) return;
+  double begin = 0, end = 1;  // parts of the way (Liang and Barsky 1984)
+  for (int i = 0; i < 2; ++i) {
+    if (way[i] == 0) {
+      if (from[i] < 0 || from[i] > size[i]) return;
+      continue;
+    }
+    const double at_low = -from[i] / way[i], at_high = (size[i] - from[i]) / way[i];
+    begin = std::max(begin, std::min(at_low, at_high));
+    end = std::min(end, std::max(at_low, at_high));
+  }
+  if (begin >= end) return;
+  walk(begin > 0 ? Eigen::Vector2d(from + begin * way) : from, end < 1 ? Eigen::Vector2d(from + end * way) : to, visit);
 }
 
 }  // namespace omnimapper::matching

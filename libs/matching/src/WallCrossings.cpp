@@ -42,7 +42,7 @@ class Walls {
     const Eigen::Vector2d doubled(direction.x() * direction.x() - direction.y() * direction.y(),
                                   2 * direction.x() * direction.y());
     const double least = std::cos(2 * options_.max_incidence);
-    walk(inCells(from), inCells(end), [&](int x, int y) {
+    walkInside(inCells(from), inCells(end), width_, height_, [&](int x, int y) {
       if (x < 0 || y < 0 || x >= width_ || y >= height_) return true;
       const std::uint32_t index = index_[static_cast<std::size_t>(y) * width_ + x];
       if (index == 0) return true;

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "ImageSize.h"
 #include "Payload.h"
 
 namespace omnimapper::source {
@@ -58,8 +59,10 @@ std::optional<std::string> loadExternalFiles(const CObservation& observation, co
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const FolderForProcess folder_for_process(folder);
   const auto files = externalFilesOf(observation);
-  for (const auto& file : files)
+  for (const auto& file : files) {
     if (!fs::is_regular_file(file)) return file;
+    if (const auto reason = whyTooLarge(file)) return file + " (" + *reason + ")";
+  }
   try {
     observation.load();
     for (const auto* image : imagesOf(observation)) image->forceLoad();

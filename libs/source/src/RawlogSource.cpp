@@ -4,8 +4,10 @@
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/obs/registerAllClasses.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/Names.h>
 #include <omnimapper/obs/registerClasses.h>
 #include <omnimapper/source/MergedSource.h>
+#include <omnimapper/source/ObservationGate.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include <algorithm>
@@ -95,6 +97,7 @@ class RawlogSource::Stream {
       if (waiting_.empty()) break;
       const auto observation = waiting_.front();
       waiting_.pop_front();
+      observation->sensorLabel = base::printable(observation->sensorLabel);
       if (!passes(*observation)) continue;
       report_.count(observation->sensorLabel, observation->GetRuntimeClass()->className, observation->timestamp);
       return observation;
@@ -189,6 +192,10 @@ class RawlogSource::Stream {
       if (report_.missing_images++ == 0) report_.first_missing_image = *missing;
       return false;
     }
+    if (const auto reason = gate_.refuses(observation)) {
+      report_.countUnusable(observation.sensorLabel, *reason, observation.timestamp);
+      return false;
+    }
     return true;
   }
 
@@ -199,6 +206,7 @@ class RawlogSource::Stream {
   ActionSpans spans_;
   Selection selection_;
   std::string images_folder_;
+  ObservationGate gate_;
   std::deque<CObservation::Ptr> waiting_;
   SourceReport report_;
   std::uint64_t rawlog_objects_ = 0;

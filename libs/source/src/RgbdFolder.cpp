@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 
+#include "ImageSize.h"
 #include "RgbdFolderForms.h"
 #include "refuse.h"
 
@@ -83,6 +84,7 @@ Intrinsics intrinsicsOf(const std::string& folder, const std::string& name) {
 }
 
 bool load(mrpt::img::CImage& image, const std::string& path, int how) {
+  if (whyTooLarge(path)) return false;
   try {
     return image.loadFromFile(path, how) && !image.isEmpty();
   } catch (const std::exception&) {
@@ -127,6 +129,13 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
     scan->rangeUnits = static_cast<float>(1 / options_.depth_units);
     scan->maxRange = static_cast<float>(65535 / options_.depth_units);
     scan->rangeImage_setSize(height, width);
+    scan->cameraParams = camera_;
+    scan->cameraParams.ncols = width;
+    scan->cameraParams.nrows = height;
+    if (const auto reason = gate_.refuses(*scan)) {
+      report_.countUnusable(options_.label, *reason, pair.stamp);
+      continue;
+    }
     for (int row = 0; row < height; ++row) {
       const auto* values = depth.ptrLine<std::uint16_t>(static_cast<unsigned>(row));  // at() counts columns in bytes
       for (int column = 0; column < width; ++column) {
@@ -134,9 +143,6 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
         ++depth_counts_[values[column]];
       }
     }
-    scan->cameraParams = camera_;
-    scan->cameraParams.ncols = width;
-    scan->cameraParams.nrows = height;
     scan->cameraParamsIntensity = scan->cameraParams;
     scan->cameraParamsIntensity.ncols = scan->intensityImage.getWidth();
     scan->cameraParamsIntensity.nrows = scan->intensityImage.getHeight();

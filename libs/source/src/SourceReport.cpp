@@ -61,7 +61,8 @@ base::ExitCode SourceReport::exitCode() const {
     case Ending::complete:
       break;
   }
-  return missing_images > 0 ? base::ExitCode::missing_images : base::ExitCode::ok;
+  if (missing_images > 0) return base::ExitCode::missing_images;
+  return unusable.empty() ? base::ExitCode::ok : base::ExitCode::damaged_input;
 }
 
 std::string SourceReport::text() const {
@@ -88,11 +89,33 @@ std::string SourceReport::text() const {
   appendCount(text, "observations outside of the wanted labels and times", filtered_out);
   appendCount(text, "actions that span nothing", dropped_actions);
   for (const auto& [name, count] : other_objects) appendCount(text, (name + " (no observation)").c_str(), count);
+  for (const auto& sentence : unusableText()) text += sentence + "\n";
   if (missing_images > 0) {
     text += "observations left out because an external file cannot be read: " + std::to_string(missing_images) +
             ", first " + first_missing_image + "\n";
   }
   return text;
+}
+
+std::uint64_t SourceReport::unusableCount() const {
+  std::uint64_t count = 0;
+  for (const auto& [key, left_out] : unusable) count += left_out.observations;
+  return count;
+}
+
+std::vector<std::string> SourceReport::unusableText() const {
+  std::vector<std::string> sentences;
+  for (const auto& [key, left_out] : unusable) {
+    sentences.push_back(std::to_string(left_out.observations) + " observations of '" + key.first +
+                        "' were left out because " + key.second + ", the first at " + stampText(left_out.first_stamp) +
+                        " s");
+  }
+  return sentences;
+}
+
+void SourceReport::countUnusable(const std::string& label, const std::string& reason, base::Stamp stamp) {
+  auto& left_out = unusable[{label, reason}];
+  if (left_out.observations++ == 0) left_out.first_stamp = stamp;
 }
 
 void SourceReport::count(const std::string& label, const std::string& class_name, base::Stamp stamp) {
@@ -130,6 +153,11 @@ void SourceReport::add(const SourceReport& other) {
   filtered_out += other.filtered_out;
   filtered_labels.insert(other.filtered_labels.begin(), other.filtered_labels.end());
   dropped_actions += other.dropped_actions;
+  for (const auto& [key, left_out] : other.unusable) {
+    auto& mine = unusable[key];
+    if (mine.observations == 0 || left_out.first_stamp < mine.first_stamp) mine.first_stamp = left_out.first_stamp;
+    mine.observations += left_out.observations;
+  }
   missing_images += other.missing_images;
   if (first_missing_image.empty()) first_missing_image = other.first_missing_image;
 }

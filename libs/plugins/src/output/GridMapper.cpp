@@ -31,8 +31,10 @@ void GridMapper::Extent::add(const Extent& other) {
   min_y = std::min(min_y, other.min_y), max_y = std::max(max_y, other.max_y);
 }
 
-double GridMapper::Extent::cells(double resolution) const {
-  return min_x > max_x ? 0 : (max_x - min_x) / resolution * ((max_y - min_y) / resolution);
+double GridMapper::Extent::cells(double resolution, double margin) const {
+  // Of a side: what it reaches, with a cell at each end that it may only touch.
+  const auto along = [&](double length) { return (length + 2 * margin) / resolution + 2; };
+  return min_x > max_x ? 0 : along(max_x - min_x) * along(max_y - min_y);
 }
 
 GridMapper::GridMapper(const ScanGridOptions& options)
@@ -96,14 +98,14 @@ double GridMapper::fittingResolution() {
   for (const auto& [id, entry] : entries_) {
     for (const Placement& placement : entry.placements) most.add(poseOf(placement).translation(), placement.reach);
   }
-  if (most.cells(options_.resolution) <= options_.max_cells) return options_.resolution;
+  if (most.cells(options_.resolution, options_.margin) <= options_.max_cells) return options_.resolution;
   Extent extent;
   for (auto& [id, entry] : entries_) {
     if (!entry.extent) entry.extent = extentOf(entry.placements);
     extent.add(*entry.extent);
   }
   double resolution = options_.resolution;
-  while (extent.cells(resolution) > options_.max_cells) resolution *= 2;
+  while (extent.cells(resolution, options_.margin) > options_.max_cells) resolution *= 2;
   return resolution;
 }
 

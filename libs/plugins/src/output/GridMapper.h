@@ -33,7 +33,7 @@ class GridMapper {
     double min_x = 1e300, max_x = -1e300, min_y = 1e300, max_y = -1e300;
     void add(const Extent& other);
     void add(const mrpt::math::TPoint3D& place, double around);
-    double cells(double resolution) const;
+    double cells(double resolution, double margin) const;
   };
   /// A scan and where it is, rounded.
   struct Placement {

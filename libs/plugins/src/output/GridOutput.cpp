@@ -1,4 +1,8 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/plugins/GridOutput.h>
+
+#include <algorithm>
 
 #include "GridPicture.h"
 #include "MapServer.h"
@@ -30,6 +34,15 @@ void GridOutput::finish(const mapper::View& view) {
   if (!grid) {
     for (const char* extension : {".pgm", ".yaml", ".png"}) removeFile(path_ + extension);
     return;
+  }
+  constexpr double kCoarsest = 1;  // [m] above it no wall is told from another
+  if (grid->resolution > std::max(kCoarsest, options_.resolution)) {
+    throw base::Error(base::ExitCode::out_of_memory,
+                      path_ + ".pgm: not written: the map is " + base::brief(grid->maxX() - grid->min_x) + " m by " +
+                          base::brief(grid->maxY() - grid->min_y) + " m, for which " +
+                          std::to_string(options_.max_megacells) + " million cells would be of " +
+                          base::brief(grid->resolution) +
+                          " m. Does the trajectory leap? If not, raise [grid] max_megacells.");
   }
   writeBytes(path_ + ".pgm", encodePgm(*grid));
   writeBytes(path_ + ".yaml", encodeMapServerYaml(*grid, "grid.pgm", options_.resolution));

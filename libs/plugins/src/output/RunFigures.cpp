@@ -77,7 +77,7 @@ std::vector<std::pair<std::string, std::size_t>> namedCounts(const mapper::RunCo
           {"late", counts.late},
           {"spliced", counts.spliced},
           {"hurried", counts.hurried},
-          {"unusable", counts.unusable},
+          {"unusable", counts.left_out + counts.unusable},
           {"unconnected", counts.unconnected},
           {"solves", counts.solves}};
 }

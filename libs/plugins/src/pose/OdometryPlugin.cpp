@@ -1,5 +1,7 @@
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
 
+#include <algorithm>
 #include <cmath>
 
 IMPLEMENTS_MRPT_OBJECT(OdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
@@ -62,6 +64,7 @@ OdometryPlugin::Taken OdometryPlugin::add(const mrpt::obs::CObservation& observa
 
 OdometryPlugin::Taken OdometryPlugin::addMotion(const obs::CObservationRelativeMotion& motion) {
   const double seconds = base::secondsBetween(motion.begin, motion.timestamp);
+  if (isImpossible(motion.begin_from_end, seconds)) return Taken::unusable;
   const auto covariance =
       options_.use_reported_covariance ? motion.covariance : covarianceOf(motion.begin_from_end, seconds);
   if (!timeline_.insert(motion.begin, motion.timestamp, {motion.begin_from_end, covariance})) return Taken::unusable;
@@ -125,8 +128,26 @@ OdometryPlugin::Taken OdometryPlugin::addLatePose(base::Stamp stamp, const mrpt:
   return Taken::taken;
 }
 
+// Who counts on from another place than before has not gone there: nothing is told of that time.
 void OdometryPlugin::tell(base::Stamp begin, base::Stamp end, const mrpt::poses::CPose3D& motion) {
-  timeline_.insert(begin, end, {motion, covarianceOf(motion, base::secondsBetween(begin, end))});
+  const double seconds = base::secondsBetween(begin, end);
+  if (!isImpossible(motion, seconds)) timeline_.insert(begin, end, {motion, covarianceOf(motion, seconds)});
+}
+
+bool OdometryPlugin::isImpossible(const mrpt::poses::CPose3D& motion, double seconds) {
+  constexpr double kFastest = 100, kSlack = 10;  // [m/s] [m] for stamps that are not exact
+  const double way = motion.norm();
+  if (way <= kSlack + kFastest * seconds) return false;
+  ++impossible_;
+  farthest_ = std::max(farthest_, way);
+  return true;
+}
+
+std::vector<std::string> OdometryPlugin::warnings() const {
+  if (impossible_ == 0) return {};
+  return {std::to_string(impossible_) + " times the odometry leaps, by up to " + base::brief(farthest_) +
+          " m, farther than anything that drives: what it tells there is left out. Cut the log there ([source] " +
+          "start_s, end_s), or have another sensor tell the motion"};
 }
 
 // The reading before `stamp` stays: a late one may follow it.

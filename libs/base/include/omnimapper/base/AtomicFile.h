@@ -23,4 +23,16 @@ void writeFile(const std::string& path, const std::function<void(std::ostream&)>
 /// Throws Error(command_line) if `output` is one of the files that are read, by whatever name, link or path.
 void refuseToReplaceInput(const std::string& output, const std::vector<std::string>& inputs);
 
+/// While it lives, replaceFile() and writeFile() refuse to replace these files as refuseToReplaceInput() does.
+class InputsKept {
+ public:
+  explicit InputsKept(const std::vector<std::string>& inputs);
+  ~InputsKept();
+  InputsKept(const InputsKept&) = delete;
+  InputsKept& operator=(const InputsKept&) = delete;
+
+ private:
+  std::vector<std::string> before_;
+};
+
 }  // namespace omnimapper::base

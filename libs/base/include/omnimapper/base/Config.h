@@ -48,6 +48,9 @@ class ConfigSection {
   std::string name_;
 };
 
+/// First line of an INI that a program of ours wrote by what a log holds.
+inline const std::string kWrittenFromALog = "; Written from a log";
+
 /// An INI file with the settings of the command line on top. Sections are handed out by name; what nobody asked for
 /// is an error at the end, because a misspelt name is otherwise ignored in silence.
 class Config {
@@ -73,17 +76,25 @@ class Config {
   const std::string& file() const { return file_; }
   /// Where a key, or without one a section, was set: "office.ini:12", "--set planes.max_depth_m"; else file().
   std::string placeOf(const std::string& section, const std::string& key = "") const;
+  /// Path of the first file; empty if there is none.
+  const std::string& firstFile() const { return first_file_; }
+  /// Whether the user wrote this key himself: it stands in the first file or was set on the command line. Later files
+  /// may come from anywhere, as may a first one that begins with kWrittenFromALog. True for what is not set at all.
+  bool isTrusted(const std::string& section, const std::string& key) const;
   /// The INI as read, settings of the command line included.
   std::string text() const { return ini_.getContent(); }
 
  private:
   friend class ConfigSection;
   std::vector<std::string> unreadSections() const;
+  void refuseOtherSpelling(const std::string& section, const std::string& key, const std::string& place) const;
 
   mrpt::config::CConfigFileMemory ini_;
-  std::string file_;
-  std::map<std::pair<std::string, std::string>, std::string>
-      places_;  // of section and key in lower case; no key: of it
+  std::string file_, first_file_;
+  bool is_written_from_a_log_ = false;  // the first file
+  using SectionAndKey = std::pair<std::string, std::string>;  // in lower case; no key: the section itself
+  std::map<SectionAndKey, std::string> places_;
+  std::set<SectionAndKey> from_later_files_;
   mutable std::set<std::string> asked_;
 };
 

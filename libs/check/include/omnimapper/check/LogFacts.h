@@ -2,6 +2,7 @@
 
 #include <mrpt/poses/CPose3D.h>
 #include <omnimapper/base/Stamp.h>
+#include <omnimapper/source/SourceReport.h>
 
 #include <cstddef>
 #include <map>
@@ -114,6 +115,8 @@ struct MotionFacts {
 
 /// What a log holds.
 struct LogFacts {
+  /// What the source left out, by (label, reason as source::ObservationGate says it); the rest is of the others.
+  std::map<std::pair<std::string, std::string>, source::LeftOut> unusable;
   std::map<std::pair<std::string, std::string>, StampFacts> sensors;  ///< by (label, class)
   std::map<std::string, ScanFacts> scans;                             ///< by label
   std::map<std::string, OdometryFacts> odometry;                      ///< by label

@@ -56,6 +56,8 @@ class Engine {
   void setStop(std::function<bool()> stop) { estimator_.setStop(std::move(stop)); }
   /// A sentence for the user: shown by the report and the summary.
   void warn(const std::string& sentence) { warnings_.push_back(sentence); }
+  /// For the summary: observations that the source did not hand out because nothing can be made of them.
+  void setLeftOut(std::size_t observations) { counts_.left_out = observations; }
   /// Adds time spent outside the engine, such as reading the log.
   void addTime(const std::string& stage, double seconds) { times_.add(stage, seconds); }
 

@@ -36,6 +36,7 @@ class OdometryPlugin : public mapper::PosePlugin {
   std::optional<base::Stamp> coveredUntil() const override { return timeline_.end(); }
   std::optional<Span> news() const override { return news_; }
   bool isFallback() const override { return options_.fallback; }
+  std::vector<std::string> warnings() const override;
   void forgetBefore(base::Stamp stamp) override;
 
  private:
@@ -44,6 +45,7 @@ class OdometryPlugin : public mapper::PosePlugin {
   Taken addLatePose(base::Stamp stamp, const mrpt::poses::CPose3D& odom_from_base);
   void tell(base::Stamp begin, base::Stamp end, const mrpt::poses::CPose3D& motion);
   bool isUnconfirmedLeap(base::Stamp stamp);
+  bool isImpossible(const mrpt::poses::CPose3D& motion, double seconds);
   bool isOurs(const mrpt::obs::CObservation& observation);
   Eigen::Matrix<double, 6, 6> covarianceOf(const mrpt::poses::CPose3D& motion, double seconds) const;
 
@@ -53,6 +55,8 @@ class OdometryPlugin : public mapper::PosePlugin {
   std::optional<base::Stamp> leap_;                       // of a reading far ahead of all before it
   std::optional<Span> news_;
   bool forgotten_ = false;  // there were readings before the first
+  std::size_t impossible_ = 0;  // motions that no base can make, and that are not told
+  double farthest_ = 0;         // [m] of these
   mapper::PoseTimeline timeline_;
 };
 

@@ -25,6 +25,9 @@ using StopOpening = std::function<bool(double)>;
 /// follow each other without a gap. A frame's stamp is the latest of its observations', or else its action's; an
 /// observation without a stamp in a frame with one gets the frame's. What comes before anything has a stamp is handed
 /// out without one.
+///
+/// A label is handed out as base::printable() writes it, so that no log can forge lines of a terminal or an INI, and
+/// what ObservationGate refuses is left out.
 class RawlogSource : public ObservationSource {
  public:
   /// Throws Error(unreadable_input) if the file cannot be opened or is no rawlog, Error(interrupted) if `stop` says so.

@@ -2,6 +2,7 @@
 
 #include <mrpt/img/TCamera.h>
 #include <omnimapper/geometry/Se3.h>
+#include <omnimapper/source/ObservationGate.h>
 #include <omnimapper/source/ObservationSource.h>
 
 #include <cstddef>
@@ -72,6 +73,7 @@ class RgbdFolder : public ObservationSource {
   std::vector<std::pair<base::Stamp, geometry::Se3>> ground_truth_;
   std::size_t unpaired_ = 0, next_ = 0;
   std::vector<std::uint64_t> depth_counts_;  // pixels by their value
+  ObservationGate gate_;
   SourceReport report_;
 };
 

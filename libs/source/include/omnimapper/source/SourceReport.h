@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace omnimapper::source {
 
@@ -18,6 +19,12 @@ struct SensorCounts {
   std::uint64_t backward_stamps = 0;  ///< stamp before that of the sensor's previous observation
   base::Stamp first_stamp;            ///< of those with one, in order of arrival; "no stamp" if there is none
   base::Stamp last_stamp;
+};
+
+/// Observations that are left out for one reason.
+struct LeftOut {
+  std::uint64_t observations = 0;
+  base::Stamp first_stamp;  ///< of the first of them; it may have none
 };
 
 /// How a stream of observations went so far, and how it ended.
@@ -42,6 +49,8 @@ struct SourceReport {
   std::uint64_t filtered_out = 0;         ///< observations outside of the wanted labels and times
   std::set<std::string> filtered_labels;  ///< of these
   std::uint64_t dropped_actions = 0;      ///< actions that span nothing: before the first or after the last frame
+  /// What nothing can be made of, by (label, reason as ObservationGate says it).
+  std::map<std::pair<std::string, std::string>, LeftOut> unusable;
   std::uint64_t missing_images = 0;       ///< observations left out because an external file cannot be read
   std::string first_missing_image;        ///< the first such file
 
@@ -53,6 +62,10 @@ struct SourceReport {
   base::ExitCode exitCode() const;
   /// A table for people, some lines.
   std::string text() const;
+  std::uint64_t unusableCount() const;
+  /// One sentence for each sensor and reason.
+  std::vector<std::string> unusableText() const;
+  void countUnusable(const std::string& label, const std::string& reason, base::Stamp stamp);
   /// Counts one observation that is handed out.
   void count(const std::string& label, const std::string& class_name, base::Stamp stamp);
   /// Adds another source's counts and message. The ending becomes the worse of both, or open if that is good and one

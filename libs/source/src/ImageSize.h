@@ -1,0 +1,12 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace omnimapper::source {
+
+/// Why a PNG or JPEG file is not to be decoded: by its header it has more pixels than any camera. A few kilobytes can
+/// say so, and a decoder makes the room first. None for what may be, and for files of other kinds.
+std::optional<std::string> whyTooLarge(const std::string& path);
+
+}  // namespace omnimapper::source

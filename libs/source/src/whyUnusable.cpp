@@ -1,0 +1,119 @@
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <omnimapper/obs/CObservationRelativeMotion.h>
+#include <omnimapper/source/ObservationGate.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace omnimapper::source {
+
+using namespace mrpt::obs;
+
+namespace {
+
+using Reason = std::optional<std::string>;
+
+constexpr const char* kNoCovariance =
+    "their covariance is none: it is not finite, not symmetric, or negative in a direction";
+
+// A stored quaternion that is not of length 1 becomes a matrix that turns and stretches.
+bool isPose(const mrpt::poses::CPose3D& pose) {
+  constexpr double kRounding = 1e-3;
+  const Eigen::Matrix3d rotation = pose.getRotationMatrix().asEigen();
+  return pose.m_coords.asEigen().allFinite() &&
+         (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kRounding &&
+         rotation.determinant() > 0;
+}
+
+// Symmetric, and no variance of any direction negative, but for rounding. What is known exactly has a variance of 0.
+bool isCovariance(const Eigen::MatrixXd& matrix) {
+  constexpr double kRounding = 1e-6;  // of the largest entry: some are stored as float
+  if (!matrix.allFinite()) return false;
+  const double most = matrix.cwiseAbs().maxCoeff();
+  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kRounding * most) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
+  return solver.info() == Eigen::Success && solver.eigenvalues().minCoeff() >= -kRounding * most;
+}
+
+Reason whyNot(const mrpt::img::TCamera& camera) {
+  const bool is_finite = std::isfinite(camera.fx()) && std::isfinite(camera.fy()) && std::isfinite(camera.cx()) &&
+                         std::isfinite(camera.cy()) &&
+                         std::all_of(camera.dist.begin(), camera.dist.end(), [](double d) { return std::isfinite(d); });
+  if (!is_finite) return "their camera's calibration is not finite";
+  return std::nullopt;
+}
+
+Reason whyNot(const CObservation2DRangeScan& scan) {
+  constexpr double kWhole = 2 * M_PI + 1e-3;
+  if (!std::isfinite(scan.aperture)) return "their aperture is not finite";
+  if (!(scan.aperture > 0) || scan.aperture > kWhole) return "their aperture is not between 0 and 360 deg";
+  return std::nullopt;
+}
+
+Reason whyNot(const CObservation3DRangeScan& scan) {
+  if (auto reason = whyNot(scan.cameraParams)) return reason;
+  if (!scan.hasRangeImage) return std::nullopt;
+  if (!(scan.cameraParams.fx() > 0) || !(scan.cameraParams.fy() > 0)) return "their focal length is not positive";
+  if (!std::isfinite(scan.rangeUnits) || !(scan.rangeUnits > 0)) return "their unit of depth is not positive";
+  return std::nullopt;
+}
+
+Reason whyNot(const CObservationBearingRange& sighting) {
+  for (const auto& one : sighting.sensedData) {
+    if (!std::isfinite(one.range) || !std::isfinite(one.yaw) || !std::isfinite(one.pitch))
+      return "a bearing or range of theirs is not finite";
+    if (sighting.validCovariances && !isCovariance(one.covariance.asEigen())) return kNoCovariance;
+  }
+  return std::nullopt;
+}
+
+Reason whyNot(const CObservationOdometry& odometry) {
+  const auto& pose = odometry.odometry;
+  if (!std::isfinite(pose.x()) || !std::isfinite(pose.y()) || !std::isfinite(pose.phi())) return "their pose is not finite";
+  return std::nullopt;
+}
+
+Reason whyNot(const CObservationRobotPose& pose) {
+  if (!isPose(pose.pose.mean)) return "their pose is none";
+  if (!isCovariance(pose.pose.cov.asEigen())) return kNoCovariance;
+  return std::nullopt;
+}
+
+Reason whyNot(const obs::CObservationRelativeMotion& motion) {
+  if (!isPose(motion.begin_from_end)) return "their motion is none";
+  if (!isCovariance(motion.covariance)) return kNoCovariance;
+  return std::nullopt;
+}
+
+// Asks it as a `Class` if it is one.
+template <class Class>
+Reason whyNotAs(const CObservation& observation) {
+  const auto* it = dynamic_cast<const Class*>(&observation);
+  return it ? whyNot(*it) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> whyUnusable(const CObservation& observation) {
+  constexpr double kFarthest = 1000;  // [m] of a sensor from the base that carries it
+  mrpt::poses::CPose3D base_from_sensor;
+  observation.getSensorPose(base_from_sensor);
+  if (!isPose(base_from_sensor)) return "their sensor pose is none";
+  if (base_from_sensor.norm() > kFarthest) return "their sensor is more than 1 km from the base";
+  for (const auto& reason : {whyNotAs<CObservation2DRangeScan>(observation), whyNotAs<CObservation3DRangeScan>(observation),
+                             whyNotAs<CObservationBearingRange>(observation), whyNotAs<CObservationOdometry>(observation),
+                             whyNotAs<CObservationRobotPose>(observation),
+                             whyNotAs<obs::CObservationRelativeMotion>(observation)}) {
+    if (reason) return reason;
+  }
+  if (const auto* image = dynamic_cast<const CObservationImage*>(&observation)) return whyNot(image->cameraParams);
+  return std::nullopt;
+}
+
+}  // namespace omnimapper::source
