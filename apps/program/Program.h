@@ -13,8 +13,8 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
 CLI::Validator notNegative();
 CLI::Validator positive();
 
-/// From now on Ctrl-C and SIGTERM only make isInterrupted() true, a second of them ends the program at once, and a file at the limit of its size fails as on a
-/// full disk: a run can end its files properly.
+/// From now on Ctrl-C and SIGTERM only make isInterrupted() true, a second of them ends the program at once, and a file
+/// at the limit of its size fails as on a full disk: a run can end its files properly.
 void listenForInterrupts();
 bool isInterrupted();
 

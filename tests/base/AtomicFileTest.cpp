@@ -156,6 +156,29 @@ TEST(AtomicFile, WhatKilledWritersLeftIsRemovedAndNothingElse) {
   for (const auto& name : kept) EXPECT_TRUE(fs::exists(folder / name)) << name;
 }
 
+TEST(AtomicFile, ALinkOfTheTemporaryNameIsNotWrittenThrough) {
+  ScratchFolder folder;
+  writeText(folder / "precious.txt", "precious");
+  fs::create_symlink(folder / "precious.txt", folder / ("map.tmp" + std::to_string(::getpid()) + ".txt"));
+  writeText(folder / "map.txt", "new");
+  EXPECT_EQ(contentOf(folder / "precious.txt"), "precious");
+  EXPECT_EQ(contentOf(folder / "map.txt"), "new");
+  EXPECT_FALSE(fs::is_symlink(folder / "map.txt"));
+}
+
+TEST(AtomicFile, AnInputIsKeptWhileItIsRead) {
+  ScratchFolder folder;
+  writeText(folder / "log.txt", "log");
+  {
+    const InputsKept kept({folder / "log.txt"});
+    EXPECT_THROW(writeText(folder / "log.txt", "new"), Error);
+    writeText(folder / "other.txt", "new");
+  }
+  EXPECT_EQ(contentOf(folder / "log.txt"), "log");
+  writeText(folder / "log.txt", "new");
+  EXPECT_EQ(contentOf(folder / "log.txt"), "new");
+}
+
 TEST(AtomicFile, AFileThatCannotGrowKeepsItsOldContent) {
   ScratchFolder folder;
   EXPECT_TRUE(holdsInChild([&] {

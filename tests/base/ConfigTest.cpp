@@ -153,8 +153,11 @@ TEST(Config, ADoubledKeyIsRefusedInWhateverCase) {
   const omnimapper::testing::ScratchFolder folder;
   writeFile(folder / "first.ini", [](std::ostream& out) { out << "[trigger]\nevery = 1\n"; });
   writeFile(folder / "over.ini", [](std::ostream& out) { out << "[trigger]\nEVERY = 2\n"; });
-  expectError([&] { Config::fromFiles({folder / "first.ini", folder / "over.ini"}); }, ExitCode::unknown_key,
-              {"over.ini:2", "'EVERY'", "'every'"});
+  expectError(
+      [&] {
+        Config::fromFiles({folder / "first.ini", folder / "over.ini"});
+      },
+      ExitCode::unknown_key, {"over.ini:2", "'EVERY'", "'every'"});
 }
 
 TEST(Config, WhatTheUserWroteHimselfIsTrusted) {

@@ -13,8 +13,14 @@ TEST(Names, WhatMovesTheCursorOrBreaksTheLineIsPrintedAsItsBytes) {
   EXPECT_EQ(printable("Küche 台所"), "Küche 台所");
   EXPECT_EQ(printable("a\nb\tc\r"), "a\\x0ab\\x09c\\x0d");
   EXPECT_EQ(printable("\x1b[31mr\x07"), "\\x1b[31mr\\x07");
-  EXPECT_EQ(printable("\xc2\x9b""31m"), "\\xc2\\x9b31m") << "C1 has escapes of its own";
-  EXPECT_EQ(printable("a\xe2\x80\xae" "b"), "a\\xe2\\x80\\xaeb") << "U+202E turns the direction of writing";
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m"),
+            "\\xc2\\x9b31m")
+      << "C1 has escapes of its own";
+  EXPECT_EQ(printable("a\xe2\x80\xae"
+                      "b"),
+            "a\\xe2\\x80\\xaeb")
+      << "U+202E turns the direction of writing";
   EXPECT_EQ(printable(std::string_view("\0", 1)), "\\x00");
   EXPECT_EQ(printableLines("a\nb\x1b"), "a\nb\\x1b");
 }
@@ -40,8 +46,8 @@ TEST(Names, PrintableTextIsLeftAsItIs) {
 // Whatever fitsIni() lets through comes back as it was, and brings nothing with it.
 TEST(Names, WhatFitsAnIniIsReadBack) {
   EXPECT_TRUE(fitsIni("laser 1"));
-  for (const char* text : {"a\nplugin_libraries = x.so", "a ; b", "#a", "//a", "a // b", " a", "a ", "a,b", "$env{HOME}",
-                           "a\rb", "\x1b"}) {
+  for (const char* text : {"a\nplugin_libraries = x.so", "a ; b", "#a", "//a", "a // b", " a", "a ", "a,b",
+                           "$env{HOME}", "a\rb", "\x1b"}) {
     EXPECT_FALSE(fitsIni(text)) << text;
   }
   const std::string characters = "ab1 ;#/,$@{}[]=\\\"'\n\r\t%<>&*?.\x80\xc3\xa9";

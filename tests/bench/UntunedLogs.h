@@ -79,10 +79,10 @@ inline std::optional<Log> simulated(const std::string& name, const std::string& 
   const std::string folder = out + "/simulated/" + name;
   Log log{"simulated " + name, folder + "/" + name + ".rawlog", folder + "/truth.tum"};
   if (std::filesystem::exists(log.path)) return log;
-  const auto ended = omnimapper::testing::runProgram(
-      {omnimapper::testing::ownProgram("omnimapper-simulate"), "-q", "-i", omnimapper::testing::sourceFile("rawlogs/" + name + ".ini"), "--set",
-       "simulation.sensors=laser, odometry", "-o", folder},
-      {600, 0});
+  const auto ended = omnimapper::testing::runProgram({omnimapper::testing::ownProgram("omnimapper-simulate"), "-q",
+                                                      "-i", omnimapper::testing::sourceFile("rawlogs/" + name + ".ini"),
+                                                      "--set", "simulation.sensors=laser, odometry", "-o", folder},
+                                                     {600, 0});
   if (ended.code == 0) return log;
   std::fprintf(stderr, "%s was not simulated: %s\n", name.c_str(), omnimapper::testing::toString(ended).c_str());
   return std::nullopt;

@@ -1,7 +1,7 @@
 // Whether the covariances of laser odometry hold: over spans of 0.5 to 50 m of way of every 2D laser log at hand, the
 // error of the motion that ScanOdometryPlugin tells with its defaults, over the standard deviation that it gives it,
-// root mean square: forwards, to the left, in heading, and of all three together. 1 is right, more is too sure. Spans of
-// which one of the three is off by more than 5 sigma are counted.
+// root mean square: forwards, to the left, in heading, and of all three together. 1 is right, more is too sure. Spans
+// of which one of the three is off by more than 5 sigma are counted.
 //
 // A recording's reference errs, too. Between neighbours, where our own error is least, its errors are what it differs
 // from us by: the median, so that slips do not count, as of a normal distribution, at either end of the span. They are

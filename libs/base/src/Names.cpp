@@ -81,7 +81,9 @@ bool fitsIni(std::string_view text) {
 
 std::string asFileName(std::string_view text) {
   std::string name(text);
-  const auto is_odd = [](unsigned char c) { return !(std::isalnum(c) || c == '-' || c == '_' || c == '.') || c >= 0x80; };
+  const auto is_odd = [](unsigned char c) {
+    return !(std::isalnum(c) || c == '-' || c == '_' || c == '.') || c >= 0x80;
+  };
   std::replace_if(name.begin(), name.end(), is_odd, '_');
   if (name.empty() || name.front() == '.') name.insert(0, "_");
   return name;

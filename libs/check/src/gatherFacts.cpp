@@ -1,3 +1,4 @@
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/check/gatherFacts.h>
 
 #include <algorithm>
@@ -29,6 +30,13 @@ class Gatherer {
     if (const auto pose = std::dynamic_pointer_cast<const mrpt::obs::CObservationRobotPose>(observation)) {
       poses_[label].add(*pose);
     }
+    if (const auto image = std::dynamic_pointer_cast<const mrpt::obs::CObservation3DRangeScan>(observation)) {
+      const bool is_calibrated = image->cameraParams.fx() > 0 && image->cameraParams.fy() > 0;
+      if (image->hasRangeImage && !is_calibrated) {
+        auto& left_out = uncalibrated_[{label, "their camera is not calibrated: its focal length is not positive"}];
+        if (left_out.observations++ == 0) left_out.first_stamp = stamp;
+      }
+    }
     if (const auto scan = std::dynamic_pointer_cast<const CObservation2DRangeScan>(observation)) {
       auto& laser = lasers_[label];
       laser.tally.add(*scan);
@@ -39,6 +47,7 @@ class Gatherer {
 
   LogFacts facts() const {
     LogFacts facts;
+    facts.unusable = uncalibrated_;
     for (const auto& [sensor, tally] : stamps_) facts.sensors[sensor] = stampFacts(tally);
     for (const auto& [label, tally] : odometry_) facts.odometry[label] = tally.facts();
     for (const auto& [label, tally] : poses_) facts.poses[label] = tally.facts();
@@ -112,6 +121,7 @@ class Gatherer {
   std::map<std::string, PoseTally> poses_;
   std::map<std::string, Laser> lasers_;
   StreamClock clock_;
+  std::map<std::pair<std::string, std::string>, source::LeftOut> uncalibrated_;  // as LogFacts::unusable
 };
 
 }  // namespace
@@ -126,7 +136,7 @@ LogFacts gatherFacts(source::ObservationSource& log, const mapper::SensorPoses& 
     if (progress) progress->report(log.progress(), "reading the log");
   }
   auto facts = gatherer.facts();
-  facts.unusable = log.report().unusable;
+  facts.unusable.merge(log.report().unusable);
   return facts;
 }
 

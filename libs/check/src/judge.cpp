@@ -93,8 +93,9 @@ class Judge {
     for (const auto& [sensor, stamps] : facts_.sensors) labels.insert(sensor.first);
     for (const auto& label : labels) {
       if (base::fitsIni(label)) continue;
-      add(Weight::warning, quoted(label) + ": no INI can name this label, so no setting of it is proposed: it holds a "
-                                           "comma, a '$', a comment or what is not printable; record it with another");
+      add(Weight::warning, quoted(label) +
+                               ": no INI can name this label, so no setting of it is proposed: it holds a "
+                               "comma, a '$', a comment or what is not printable; record it with another");
     }
   }
 
@@ -106,7 +107,7 @@ class Judge {
       for (const auto& [sensor, stamps] : facts_.sensors) {
         if (sensor.first == label) usable += stamps.count;
       }
-      add(left_out.observations > usable ? Weight::problem : Weight::warning,
+      add(2 * left_out.observations > usable ? Weight::problem : Weight::warning,
           quoted(label) + ": " + counted(left_out.observations, "observation") + " left out: " + reason +
               ", the first " + sinceStart(left_out.first_stamp));
     }

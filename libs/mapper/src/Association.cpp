@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -85,6 +86,9 @@ void gate(std::vector<Candidate>& candidates, const Prediction& prediction, cons
     candidate.chi2 = residual.dot(root.solve(residual));
     candidate.limit = chi2Limit(options.confidence, residual.size());
     candidate.cost = candidate.chi2 + 2 * Eigen::MatrixXd(root.matrixL()).diagonal().array().log().sum();
+    // What has no root gates nothing: out of it comes no cost that another could be compared with.
+    if (root.info() != Eigen::Success || !std::isfinite(candidate.cost))
+      candidate.chi2 = candidate.cost = std::numeric_limits<double>::infinity();
   }
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -125,7 +126,10 @@ class Search {
       ++nodes_;
       const auto step = branch_.attempt(pairing);
       const auto rows = branch_.rows() + innovation_.pairings[pairing].size;
-      if (branch_.chi2() + step.chi2 <= chi2Limit(options_.confidence, rows)) children.push_back({pairing, step.cost});
+      // A covariance that is none, by rounding where much is known or by what a log told, has no root.
+      const bool is_told = std::isfinite(step.cost);
+      if (is_told && branch_.chi2() + step.chi2 <= chi2Limit(options_.confidence, rows))
+        children.push_back({pairing, step.cost});
     }
     std::stable_sort(children.begin(), children.end(), [](const Child& a, const Child& b) { return a.cost < b.cost; });
     // A measurement that is of nothing known counts like the best it could be, at its gate.

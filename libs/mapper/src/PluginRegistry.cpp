@@ -68,9 +68,9 @@ std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::str
 void loadPluginLibrary(const std::string& path) {
   std::string problem;
   if (!mrpt::system::loadPluginModule(path, problem)) {
-    throw base::Error(base::ExitCode::plugin_library,
-                      "[mapper] plugin_libraries: cannot load '" + path + "' (" + problem +
-                          "); give its full path, or one relative to the INI's folder");
+    throw base::Error(base::ExitCode::plugin_library, "[mapper] plugin_libraries: cannot load '" + path + "' (" +
+                                                          problem +
+                                                          "); give its full path, or one relative to the INI's folder");
   }
 }
 

@@ -32,8 +32,8 @@ void takeUpMap(const RunRequest& request, const SessionOptions& session, const s
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {  // parts that do not belong together, such as a landmark of another kind
-    throw base::Error(base::ExitCode::unreadable_input,
-                      path + ": the map cannot be gone on from (" + error.what() + "): damaged. Take another copy of it.");
+    throw base::Error(base::ExitCode::unreadable_input, path + ": the map cannot be gone on from (" + error.what() +
+                                                            "): damaged. Take another copy of it.");
   }
 }
 

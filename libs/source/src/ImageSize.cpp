@@ -46,8 +46,7 @@ std::optional<Size> sizeOfJpeg(std::ifstream& in) {
       in.seekg(-3, std::ios::cur);
       continue;
     }
-    const bool begins_frame =
-        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    const bool begins_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
     const std::uint64_t length = numberAt(start, 2, 2);
     if (length < 2) return std::nullopt;
     if (begins_frame) {

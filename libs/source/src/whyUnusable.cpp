@@ -59,7 +59,6 @@ Reason whyNot(const CObservation2DRangeScan& scan) {
 Reason whyNot(const CObservation3DRangeScan& scan) {
   if (auto reason = whyNot(scan.cameraParams)) return reason;
   if (!scan.hasRangeImage) return std::nullopt;
-  if (!(scan.cameraParams.fx() > 0) || !(scan.cameraParams.fy() > 0)) return "their focal length is not positive";
   if (!std::isfinite(scan.rangeUnits) || !(scan.rangeUnits > 0)) return "their unit of depth is not positive";
   return std::nullopt;
 }
@@ -75,7 +74,8 @@ Reason whyNot(const CObservationBearingRange& sighting) {
 
 Reason whyNot(const CObservationOdometry& odometry) {
   const auto& pose = odometry.odometry;
-  if (!std::isfinite(pose.x()) || !std::isfinite(pose.y()) || !std::isfinite(pose.phi())) return "their pose is not finite";
+  if (!std::isfinite(pose.x()) || !std::isfinite(pose.y()) || !std::isfinite(pose.phi()))
+    return "their pose is not finite";
   return std::nullopt;
 }
 
@@ -106,10 +106,10 @@ std::optional<std::string> whyUnusable(const CObservation& observation) {
   observation.getSensorPose(base_from_sensor);
   if (!isPose(base_from_sensor)) return "their sensor pose is none";
   if (base_from_sensor.norm() > kFarthest) return "their sensor is more than 1 km from the base";
-  for (const auto& reason : {whyNotAs<CObservation2DRangeScan>(observation), whyNotAs<CObservation3DRangeScan>(observation),
-                             whyNotAs<CObservationBearingRange>(observation), whyNotAs<CObservationOdometry>(observation),
-                             whyNotAs<CObservationRobotPose>(observation),
-                             whyNotAs<obs::CObservationRelativeMotion>(observation)}) {
+  for (const auto& reason :
+       {whyNotAs<CObservation2DRangeScan>(observation), whyNotAs<CObservation3DRangeScan>(observation),
+        whyNotAs<CObservationBearingRange>(observation), whyNotAs<CObservationOdometry>(observation),
+        whyNotAs<CObservationRobotPose>(observation), whyNotAs<obs::CObservationRelativeMotion>(observation)}) {
     if (reason) return reason;
   }
   if (const auto* image = dynamic_cast<const CObservationImage*>(&observation)) return whyNot(image->cameraParams);

@@ -78,8 +78,8 @@ TEST_F(Hostile, OnlyTheFirstIniNamesLibraries) {
       writeFile(scratch_ / "check.ini", "; Written from a log by omnimapper-graphslam --check.\n" + line);
   EXPECT_TRUE(endedWith(ExitCode::plugin_library, graphslam({"-i", written, "-r", log, "-o", folder_}),
                         {"check.ini:3", "written from a log"}));
-  EXPECT_TRUE(endedWith(ExitCode::plugin_library,
-                        map({log}, folder_, {"--set", "mapper.plugin_libraries=" + library}), {"cannot load"}))
+  EXPECT_TRUE(endedWith(ExitCode::plugin_library, map({log}, folder_, {"--set", "mapper.plugin_libraries=" + library}),
+                        {"cannot load"}))
       << "who says it himself is believed";
 }
 

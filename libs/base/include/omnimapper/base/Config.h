@@ -91,7 +91,7 @@ class Config {
 
   mrpt::config::CConfigFileMemory ini_;
   std::string file_, first_file_;
-  bool is_written_from_a_log_ = false;  // the first file
+  bool is_written_from_a_log_ = false;                        // the first file
   using SectionAndKey = std::pair<std::string, std::string>;  // in lower case; no key: the section itself
   std::map<SectionAndKey, std::string> places_;
   std::set<SectionAndKey> from_later_files_;

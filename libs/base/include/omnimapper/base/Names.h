@@ -16,8 +16,8 @@ std::string printable(std::string_view text);
 /// The same for several lines, which stay several: '\n' and '\t' are left.
 std::string printableLines(std::string_view text);
 
-/// Whether `key = text` in an INI is read back as `text`, and without a blank as the item of a list, too: nothing that ends the
-/// line or carries it on ("\"), begins a comment, parts items, is trimmed or is expanded ("$").
+/// Whether `key = text` in an INI is read back as `text`, and without a blank as the item of a list, too: nothing that
+/// ends the line or carries it on ("\"), begins a comment, parts items, is trimmed or is expanded ("$").
 bool fitsIni(std::string_view text);
 
 /// A file's name made of it, in one folder: letters, digits, '-', '_' and '.' stay, others become '_'; it is neither

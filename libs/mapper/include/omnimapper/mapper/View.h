@@ -25,9 +25,9 @@ struct RunCounts {
   std::size_t late = 0;            ///< came after their window and were put in their place
   std::size_t spliced = 0;         ///< key frames that late observations made between others
   std::size_t hurried = 0;         ///< stamps worked on before their window was over, [mapper] queue_limit
-  std::size_t left_out = 0;  ///< by the source: nothing can be made of them (source::ObservationGate)
-  std::size_t unusable = 0;  ///< refused: odometry that runs backwards in time or leaps
-  std::size_t unconnected = 0;  ///< refused: no pose plugin tells the motion since the key frame before
+  std::size_t left_out = 0;        ///< by the source: nothing can be made of them (source::ObservationGate)
+  std::size_t unusable = 0;        ///< refused: odometry that runs backwards in time or leaps
+  std::size_t unconnected = 0;     ///< refused: no pose plugin tells the motion since the key frame before
   std::size_t solves = 0;
 };
 

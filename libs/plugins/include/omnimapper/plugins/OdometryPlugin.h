@@ -54,7 +54,7 @@ class OdometryPlugin : public mapper::PosePlugin {
   std::map<base::Stamp, mrpt::poses::CPose3D> readings_;  // odom_from_base
   std::optional<base::Stamp> leap_;                       // of a reading far ahead of all before it
   std::optional<Span> news_;
-  bool forgotten_ = false;  // there were readings before the first
+  bool forgotten_ = false;      // there were readings before the first
   std::size_t impossible_ = 0;  // motions that no base can make, and that are not told
   double farthest_ = 0;         // [m] of these
   mapper::PoseTimeline timeline_;

@@ -51,8 +51,8 @@ struct SourceReport {
   std::uint64_t dropped_actions = 0;      ///< actions that span nothing: before the first or after the last frame
   /// What nothing can be made of, by (label, reason as ObservationGate says it).
   std::map<std::pair<std::string, std::string>, LeftOut> unusable;
-  std::uint64_t missing_images = 0;       ///< observations left out because an external file cannot be read
-  std::string first_missing_image;        ///< the first such file
+  std::uint64_t missing_images = 0;  ///< observations left out because an external file cannot be read
+  std::string first_missing_image;   ///< the first such file
 
   /// Observations handed out.
   std::uint64_t observations() const;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -33,6 +34,19 @@ class ScratchFolder {
 
  private:
   std::string path_;
+};
+
+/// While it lives, no file of this process grows beyond so many bytes: a write fails as on a full disk.
+class SmallFiles {
+ public:
+  explicit SmallFiles(std::uint64_t bytes);
+  ~SmallFiles();
+  SmallFiles(const SmallFiles&) = delete;
+  SmallFiles& operator=(const SmallFiles&) = delete;
+
+ private:
+  std::uint64_t before_;
+  void (*handler_)(int);
 };
 
 /// A file of the project's source tree, such as "ini/laser2d.ini".
