@@ -1,6 +1,5 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/base/AtomicFile.h>
-#include <omnimapper/base/Names.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/geometry/Conversions.h>
@@ -70,7 +69,7 @@ base::ExitCode importRgbd(const std::string& folder, const std::string& output,
       if (external_images) {
         base::makeWritableFolder(stem + "_Images");
         source::moveImagesToFiles(*observation, stem + "_Images",
-                                  base::asFileName(options.label) + "_" + base::formatUnix(observation->timestamp, 6));
+                                  options.label + "_" + base::formatUnix(observation->timestamp, 6));
       }
       const auto truth_there = images.truthAt(observation->timestamp, options.largest_difference);
       if (poses && truth_there) {

@@ -170,6 +170,14 @@ TEST_F(ImportTumTest, helpTellsTheDefaults) {
   for (const char* value : {"0.02", "30", "RGBD", "embedded"}) EXPECT_TRUE(says(value)) << value << ": " << output_;
 }
 
+TEST_F(ImportTumTest, aLabelNamesNoFileElsewhere) {
+  ASSERT_EQ(import("--intrinsics freiburg1 --images external --tolerance 0.05 --label ../../x"), ExitCode::ok) << output_;
+  const auto outside = std::filesystem::path(result_.path()).parent_path();
+  for (const auto& entry : std::filesystem::directory_iterator(outside))
+    EXPECT_NE(entry.path().filename().string().rfind("x_", 0), 0U) << entry.path();
+  EXPECT_EQ(imported().size(), 3U);
+}
+
 TEST_F(ImportTumTest, imagesMayStayOutsideTheRawlog) {
   ASSERT_EQ(import("--intrinsics freiburg1 --images external --tolerance 0.05"), ExitCode::ok) << output_;
   const auto all = imported();

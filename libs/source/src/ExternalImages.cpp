@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/Names.h>
 #include <omnimapper/source/ExternalImages.h>
 
 #include <array>
@@ -40,7 +41,8 @@ void moveRanges(mrpt::obs::CObservation3DRangeScan& scan, const std::string& fol
 
 }  // namespace
 
-void moveImagesToFiles(mrpt::obs::CObservation& observation, const std::string& folder, const std::string& stem) {
+void moveImagesToFiles(mrpt::obs::CObservation& observation, const std::string& folder, const std::string& name) {
+  const std::string stem = base::asFileName(name);
   if (auto* image = dynamic_cast<mrpt::obs::CObservationImage*>(&observation)) {
     moveImage(image->image, folder, stem + ".jpg");
   } else if (auto* scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(&observation)) {
