@@ -171,7 +171,8 @@ TEST_F(ImportTumTest, helpTellsTheDefaults) {
 }
 
 TEST_F(ImportTumTest, aLabelNamesNoFileElsewhere) {
-  ASSERT_EQ(import("--intrinsics freiburg1 --images external --tolerance 0.05 --label ../../x"), ExitCode::ok) << output_;
+  ASSERT_EQ(import("--intrinsics freiburg1 --images external --tolerance 0.05 --label ../../x"), ExitCode::ok)
+      << output_;
   const auto outside = std::filesystem::path(result_.path()).parent_path();
   for (const auto& entry : std::filesystem::directory_iterator(outside))
     EXPECT_NE(entry.path().filename().string().rfind("x_", 0), 0U) << entry.path();
