@@ -8,7 +8,7 @@ set -eu
 library=$1 log=$2 row=$3 picture=$4
 view=860x250+408+545 # the 3D view on the screen: width x height + left + top
 
-RawLogViewer -l "$library" "$log" >/dev/null 2>&1 &
+RawLogViewer -l "$library" "$log" >"$picture.log" 2>&1 &
 viewer=$!
 screen=$(pgrep -f "Xvfb $DISPLAY " | head -n 1)
 trap 'kill $viewer 2>/dev/null || true' EXIT
@@ -72,15 +72,20 @@ drag() {
 whole() { [ "${3#+}" -gt 4 ] && [ "${4#+}" -gt 4 ] && [ $((${3#+} + $1)) -lt 858 ] && [ $((${4#+} + $2)) -lt 248 ]; }
 
 # There is no window manager, nor anything that says when a window is ready: all of it again until it is seen to work.
-shown=no box=nothing
+shown=no box=nothing came=no
 give_up=$(($(date +%s) + 60)) # one more round may take 50 s; the caller waits for 120
 while [ "$(date +%s)" -le $give_up ]; do
-  kill -0 $viewer || { echo "RawLogViewer has ended" >&2; exit 1; }
+  if ! kill -0 $viewer 2>/dev/null; then
+    tail -n 5 "$picture.log" >&2
+    [ $came = yes ] && echo "RawLogViewer has ended" >&2 || echo "RawLogViewer has ended before its window came" >&2
+    exit 1
+  fi
   main=$(mains | tail -n 1)
   if [ -z "$main" ]; then
     sleep 0.3
     continue
   fi
+  came=yes
   for tip in $(tips); do x windowfocus "$tip" key Escape; done
   if [ $shown = no ]; then
     # While the window is small a click may meet the list's scroll bar: back to the first row before each.
