@@ -114,7 +114,7 @@ TEST(ScanGrid, aReadingAtTheSensorsLimitIsNoWall) {
 
 TEST(ScanGrid, aTooLargeExtentGetsCoarserCells) {
   plugins::ScanGridOptions options;
-  options.max_cells = 2000;  // 4 x 3 m in cells of 0.05 m are 4800
+  options.max_cells = 2500;  // 4 x 3 m and 0.5 m around in cells of 0.05 m are over 8000, of 0.1 m 2184
   const auto grid = plugins::buildScanGrid(boxRun().map, options);
   ASSERT_TRUE(grid);
   EXPECT_DOUBLE_EQ(grid->resolution, 0.1);

@@ -97,10 +97,10 @@ TEST(Outputs, aFullDiskIsAnErrorAndKeepsTheOldFile) {
     const std::filesystem::path file = folder / output.files[0];
     std::ofstream(file) << "the previous run";
     const auto plugin = make(output, folder.path());
-    const auto view = boxRun().view();
+    const auto run = boxRun();
     const std::string message = failure(base::ExitCode::disk_full, [&] {
       const omnimapper::testing::SmallFiles full(16);
-      plugin->finish(view);
+      plugin->finish(run.view());
     });
     EXPECT_NE(message.find(output.files[0]), std::string::npos) << output.factory->name() << ": " << message;
     EXPECT_EQ(contentOf(file), "the previous run") << output.factory->name();

@@ -13,7 +13,7 @@ struct ScanGridOptions {
   double resolution = 0.05;  ///< [m] side of a cell
   double max_range = 30.0;   ///< [m] of a beam: beyond it nothing is entered
   double margin = 0.5;       ///< [m] of unknown cells around what was seen
-  double max_cells = 40e6;   ///< a larger extent gets coarser cells
+  double max_cells = 40e6;   ///< margin included; a larger extent gets coarser cells
 };
 
 enum class Cell : std::uint8_t { unknown, free, occupied };
