@@ -48,7 +48,7 @@ std::string reasonOf(Observation good, const std::function<void(Observation&)>& 
 
 TEST(ObservationGate, SensorPosesAreFiniteAndOnTheBase) {
   using Scan = CObservation2DRangeScan;
-  EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.sensorPose.y(kNan); }), "their sensor pose is none");
+  EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.sensorPose.y(kNan); }), "their sensor pose is not valid");
   EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.sensorPose.x(1e300); }),
             "their sensor is more than 1 km from the base");
   EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.sensorPose.x(999); }), "");
@@ -57,7 +57,8 @@ TEST(ObservationGate, SensorPosesAreFiniteAndOnTheBase) {
       s.sensorPose.setRotationMatrix(mrpt::math::CMatrixDouble33(factor * Eigen::Matrix3d::Identity()));
     };
   };
-  EXPECT_EQ(reasonOf<Scan>(laser(), stretched(1e200)), "their sensor pose is none") << "of a quaternion of any length";
+  EXPECT_EQ(reasonOf<Scan>(laser(), stretched(1e200)), "their sensor pose is not valid")
+      << "of a quaternion of any length";
   EXPECT_EQ(reasonOf<Scan>(laser(), stretched(1.00001)), "") << "rounded";
 }
 
@@ -65,9 +66,9 @@ TEST(ObservationGate, ScansHaveAnAperture) {
   using Scan = CObservation2DRangeScan;
   EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.aperture = static_cast<float>(kNan); }),
             "their aperture is not finite");
-  for (const double wrong : {0.0, -1.0, 6.4, 1e30}) {
+  for (const double wrong : {0.0, -1.0, 7.0, 1e30}) {
     EXPECT_EQ(reasonOf<Scan>(laser(), [&](Scan& s) { s.aperture = static_cast<float>(wrong); }),
-              "their aperture is not between 0 and 360 deg");
+              "their aperture is not between 0 and 400 deg");
   }
   EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.aperture = static_cast<float>(2 * M_PI); }), "");
   EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.setScanRange(3, static_cast<float>(kNan)); }), "") << "one beam";
@@ -88,18 +89,18 @@ TEST(ObservationGate, MotionsAndTheirCovariancesAreFinite) {
   using Odometry = CObservationOdometry;
   EXPECT_EQ(reasonOf<Odometry>({}, [](Odometry& o) { o.odometry.phi(kInf); }), "their pose is not finite");
   using Motion = obs::CObservationRelativeMotion;
-  EXPECT_EQ(reasonOf<Motion>({}, [](Motion& m) { m.begin_from_end.x(kNan); }), "their motion is none");
+  EXPECT_EQ(reasonOf<Motion>({}, [](Motion& m) { m.begin_from_end.x(kNan); }), "their motion is not valid");
   const auto covariance = [](const std::function<void(Eigen::Matrix<double, 6, 6>&)>& spoil) {
     return reasonOf<Motion>({}, [&](Motion& m) { spoil(m.covariance); });
   };
-  const std::string none = "their covariance is none: it is not finite, not symmetric, or negative in a direction";
+  const std::string none = "their covariance is not valid: it is not finite, not symmetric, or negative in a direction";
   EXPECT_EQ(covariance([](auto& c) { c(0, 0) = kInf; }), none);
   EXPECT_EQ(covariance([](auto& c) { c(0, 1) = 0.1; }), none) << "not symmetric";
   EXPECT_EQ(covariance([](auto& c) { c(5, 5) = -0.1; }), none);
   EXPECT_EQ(covariance([](auto& c) { c(0, 0) = c(1, 1) = 1, c(0, 1) = c(1, 0) = 1.1; }), none) << "correlation 1.1";
   EXPECT_EQ(covariance([](auto& c) { c(0, 0) = 1; }), "") << "what cannot move has no variance";
   using Pose = CObservationRobotPose;
-  EXPECT_EQ(reasonOf<Pose>({}, [](Pose& p) { p.pose.mean.z(kNan); }), "their pose is none");
+  EXPECT_EQ(reasonOf<Pose>({}, [](Pose& p) { p.pose.mean.z(kNan); }), "their pose is not valid");
   EXPECT_EQ(reasonOf<Pose>({}, [&](Pose& p) { p.pose.cov(3, 3) = -1; }), none);
 }
 

@@ -136,7 +136,10 @@ LogFacts gatherFacts(source::ObservationSource& log, const mapper::SensorPoses& 
     if (progress) progress->report(log.progress(), "reading the log");
   }
   auto facts = gatherer.facts();
-  facts.unusable.merge(log.report().unusable);
+  auto report = log.report();
+  facts.unusable.merge(report.unusable);
+  facts.missing_images = report.missing_images;
+  facts.first_missing_image = report.first_missing_image;
   return facts;
 }
 

@@ -101,6 +101,11 @@ class Judge {
 
   // A sensor of which most cannot be used does not work, whatever the rest is worth.
   void judgeUnusable() {
+    if (facts_.missing_images > 0) {
+      add(Weight::warning, counted(facts_.missing_images, "observation") +
+                               " left out: an external file cannot be read, the first " + facts_.first_missing_image +
+                               "; put the files there, or name their folder as [source] images_folder");
+    }
     for (const auto& [key, left_out] : facts_.unusable) {
       const auto& [label, reason] = key;
       std::size_t usable = 0;

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <fstream>
-#include <vector>
 
 namespace omnimapper::source {
 

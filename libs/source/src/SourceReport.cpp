@@ -106,8 +106,9 @@ std::uint64_t SourceReport::unusableCount() const {
 std::vector<std::string> SourceReport::unusableText() const {
   std::vector<std::string> sentences;
   for (const auto& [key, left_out] : unusable) {
-    sentences.push_back(std::to_string(left_out.observations) + " observations of '" + key.first +
-                        "' were left out because " + key.second + ", the first at " + stampText(left_out.first_stamp) +
+    sentences.push_back(std::to_string(left_out.observations) + " observations of " +
+                        (key.first.empty() ? "a sensor without a label" : "'" + key.first + "'") +
+                        " were left out because " + key.second + ", the first at " + stampText(left_out.first_stamp) +
                         " s");
   }
   return sentences;

@@ -20,7 +20,7 @@ namespace {
 using Reason = std::optional<std::string>;
 
 constexpr const char* kNoCovariance =
-    "their covariance is none: it is not finite, not symmetric, or negative in a direction";
+    "their covariance is not valid: it is not finite, not symmetric, or negative in a direction";
 
 // A stored quaternion that is not of length 1 becomes a matrix that turns and stretches.
 bool isPose(const mrpt::poses::CPose3D& pose) {
@@ -50,9 +50,9 @@ Reason whyNot(const mrpt::img::TCamera& camera) {
 }
 
 Reason whyNot(const CObservation2DRangeScan& scan) {
-  constexpr double kWhole = 2 * M_PI + 1e-3;
+  constexpr double kWidest = 400 * M_PI / 180;  // some lasers begin their next turn before they stop
   if (!std::isfinite(scan.aperture)) return "their aperture is not finite";
-  if (!(scan.aperture > 0) || scan.aperture > kWhole) return "their aperture is not between 0 and 360 deg";
+  if (!(scan.aperture > 0) || scan.aperture > kWidest) return "their aperture is not between 0 and 400 deg";
   return std::nullopt;
 }
 
@@ -80,13 +80,13 @@ Reason whyNot(const CObservationOdometry& odometry) {
 }
 
 Reason whyNot(const CObservationRobotPose& pose) {
-  if (!isPose(pose.pose.mean)) return "their pose is none";
+  if (!isPose(pose.pose.mean)) return "their pose is not valid";
   if (!isCovariance(pose.pose.cov.asEigen())) return kNoCovariance;
   return std::nullopt;
 }
 
 Reason whyNot(const obs::CObservationRelativeMotion& motion) {
-  if (!isPose(motion.begin_from_end)) return "their motion is none";
+  if (!isPose(motion.begin_from_end)) return "their motion is not valid";
   if (!isCovariance(motion.covariance)) return kNoCovariance;
   return std::nullopt;
 }
@@ -104,7 +104,7 @@ std::optional<std::string> whyUnusable(const CObservation& observation) {
   constexpr double kFarthest = 1000;  // [m] of a sensor from the base that carries it
   mrpt::poses::CPose3D base_from_sensor;
   observation.getSensorPose(base_from_sensor);
-  if (!isPose(base_from_sensor)) return "their sensor pose is none";
+  if (!isPose(base_from_sensor)) return "their sensor pose is not valid";
   if (base_from_sensor.norm() > kFarthest) return "their sensor is more than 1 km from the base";
   for (const auto& reason :
        {whyNotAs<CObservation2DRangeScan>(observation), whyNotAs<CObservation3DRangeScan>(observation),

@@ -1,10 +1,11 @@
 // Logs, names and folders that were made to do harm: nothing of them is run, nothing is written where they say, and
 // the program neither hangs nor ends with "a defect".
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <signal.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <limits>
@@ -108,10 +109,40 @@ TEST_F(Hostile, ValuesThatAreNoNumbersAreLeftOutAndTold) {
   expectLeftOut(log, "their aperture is not finite");
   log = ring();
   anyScan(log)->aperture = 0;
-  expectLeftOut(log, "their aperture is not between 0 and 360 deg");
+  expectLeftOut(log, "their aperture is not between 0 and 400 deg");
   log = ring();
   anyScan(log)->sensorPose.x(1e300);
   expectLeftOut(log, "their sensor is more than 1 km from the base");
+}
+
+TEST_F(Hostile, WhatIsWrongWithACameraIsToldByCheck) {
+  const auto expectTold = [&](const mrpt::obs::CObservation::Ptr& wrong, const std::string& reason) {
+    auto observations = ring();
+    wrong->timestamp = observations.back()->timestamp;
+    wrong->sensorLabel = "camera";
+    observations.push_back(wrong);
+    const auto checked = graphslam({"--check", save(observations)});
+    EXPECT_NE(checked.out.find(reason), std::string::npos) << checked.out;
+    EXPECT_EQ(checked.out.find("Nothing is wrong"), std::string::npos) << checked.out;
+  };
+  const auto depth = [](double focal_length, float units) {
+    auto scan = mrpt::obs::CObservation3DRangeScan::Create();
+    scan->hasRangeImage = true;
+    scan->rangeImage_setSize(3, 4);
+    scan->cameraParams.setIntrinsicParamsFromValues(focal_length, focal_length, 2, 1.5);
+    scan->rangeUnits = units;
+    return scan;
+  };
+  expectTold(depth(std::numeric_limits<double>::quiet_NaN(), 0.001F), "calibration is not finite");
+  expectTold(depth(0, 0.001F), "focal length is not positive");
+  expectTold(depth(500, -0.001F), "unit of depth is not positive");
+  auto image = mrpt::obs::CObservationImage::Create();
+  image->image.setExternalStorage("gone.png");
+  expectTold(image, "gone.png");
+}
+
+TEST_F(Hostile, ASpeedThatIsNoNumberIsRefused) {
+  EXPECT_TRUE(endedWith(ExitCode::command_line, map({save(ring())}, folder_, {"--speed", "nan"}), {"not a number"}));
 }
 
 TEST_F(Hostile, RecordingsThatEndedAsADefectAreMappedWithoutWhatIsWrongInThem) {

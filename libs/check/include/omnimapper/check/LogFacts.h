@@ -117,6 +117,8 @@ struct MotionFacts {
 struct LogFacts {
   /// What the source left out, by (label, reason as source::ObservationGate says it); the rest is of the others.
   std::map<std::pair<std::string, std::string>, source::LeftOut> unusable;
+  std::size_t missing_images = 0;   ///< observations left out because an external file cannot be read
+  std::string first_missing_image;  ///< the first such file
   std::map<std::pair<std::string, std::string>, StampFacts> sensors;  ///< by (label, class)
   std::map<std::string, ScanFacts> scans;                             ///< by label
   std::map<std::string, OdometryFacts> odometry;                      ///< by label
