@@ -121,20 +121,12 @@ TEST_F(RawlogSourceTest, severalGzipMembersAreOneLog) {
   EXPECT_EQ(source.report().ending, Ending::complete);
 }
 
-TEST_F(RawlogSourceTest, openingTellsHowFarItIsAndCanBeStopped) {
-  Bytes bytes;
-  for (int i = 1; i <= 3000; ++i) bytes << scan(i);
-  writeGzip(path_, bytes.string());
-  const std::string other = writeGzip(folder_ / "y.rawlog", bytes.string());
-  std::vector<double> parts;
-  openRawlogs({path_, other}, {}, [&](double part) { return parts.push_back(part), false; });
-  EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
-  EXPECT_GT(parts.size(), 4U);
-  EXPECT_GT(parts.back(), 0.5);
-  EXPECT_LE(parts.back(), 1);
-  for (std::size_t asked_before : {std::size_t{0}, parts.size() / 2}) {
+TEST_F(RawlogSourceTest, openingCanBeStopped) {
+  writeGzip(path_, (Bytes() << scan(1)).string());
+  const std::string other = writeGzip(folder_ / "y.rawlog", (Bytes() << scan(2)).string());
+  for (int asked_before : {0, 1}) {
     try {
-      openRawlogs({path_, other}, {}, [&](double) { return asked_before-- == 0; });
+      openRawlogs({path_, other}, {}, [&] { return asked_before-- == 0; });
       ADD_FAILURE() << "it was not stopped";
     } catch (const base::Error& error) {
       EXPECT_EQ(error.code(), base::ExitCode::interrupted);
@@ -143,7 +135,7 @@ TEST_F(RawlogSourceTest, openingTellsHowFarItIsAndCanBeStopped) {
 }
 
 // More objects than a child process can tell of without somebody who listens.
-TEST_F(RawlogSourceTest, aLogWithoutChecksumIsReadWhileItIsTriedAndCanBeLeftAtAnyMoment) {
+TEST_F(RawlogSourceTest, aLogIsReadWhileItIsTriedAndCanBeLeftAtAnyMoment) {
   const std::string one = (Bytes() << scan(1)).string();
   std::string all;
   for (int i = 0; i < (testing::kIsSanitized ? 5000 : 100000); ++i) all += one;

@@ -33,10 +33,7 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   const auto options = config.section("mapper").read<mapper::EngineOptions>();
   const auto extractors = config.section("perception").read<mapper::PerceptionOptions>().extractors;
   const mapper::SensorPoses sensor_poses(options.sensors, config);
-  const auto log = source::openRawlogs(logs, config.section("source").read<source::SourceOptions>(), [&](double part) {
-    progress.report(part, "checking the log");
-    return stop();
-  });
+  const auto log = source::openRawlogs(logs, config.section("source").read<source::SourceOptions>(), stop);
   const auto facts = gatherFacts(*log, sensor_poses, stop, &progress);
   if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing is said of half a log");
   const auto findings = judge(facts);

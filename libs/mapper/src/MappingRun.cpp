@@ -208,11 +208,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
                 base::option_text::format(off) + ": they are switched off");
   }
   takeUpMap(request, session, config.file(), options.motion, engine);
-  const auto stop_opening = [&](double part) {
-    progress.report(part, "checking the log");
-    return stop();
-  };
-  source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop_opening), stop);
+  source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop), stop);
   const base::InputsKept kept(request.logs);
   base::makeWritableFolder(request.output_folder);
   bool stopped = false;

@@ -122,11 +122,7 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
   config.refuseUnreadSections();
   PerceptionResult result;
   for (const auto& [section, extractor] : plugins.extractors) result.extractors.push_back({section});
-  const auto stop_opening = [&](double part) {
-    progress.report(part, "checking the log");
-    return stop();
-  };
-  source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop_opening), stop);
+  source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop), stop);
   source::writeRawlog(request.output, [&](source::RawlogWriter& rawlog) {
     Line line(plugins.extractors, std::max(1, request.threads));
     PerceivedLog output(request, rawlog, result);

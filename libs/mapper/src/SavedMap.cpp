@@ -1,3 +1,4 @@
+#include <omnimapper/base/ChildTrial.h>
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/Batch.h>
@@ -42,6 +43,42 @@ graph::Graph graphOf(const map::MapSection& section, const Kinds& kinds) {
   }
 }
 
+// MRPT's readers follow corrupt counts wherever they lead: a child process goes first. What observations hold is in the
+// section as it is, so they do not take many times its size.
+map::Map framesOf(const map::MapSection& section) {
+  const std::uint64_t memory = (std::uint64_t{256} << 20) + 4 * section.bytes.size();
+  switch (base::tryInChild([&] { map::framesFromSection(section); }, memory)) {
+    case base::TrialEnd::finished:
+      break;
+    case base::TrialEnd::out_of_memory:
+      refuse("section \"frames\" has an observation that asks for far more memory than its bytes could fill: damaged");
+    case base::TrialEnd::crashed:
+      refuse("section \"frames\" has an observation that MRPT cannot read: damaged");
+  }
+  return map::framesFromSection(section);
+}
+
+void expectWhole(const map::Landmark& landmark, const SavedMap& saved) {
+  const std::string what = "landmark " + toString(landmark.id);
+  if (landmark.state == map::Landmark::State::merged) {
+    if (!saved.map.landmarks.find(landmark.merged_into))
+      refuse(what + " is merged into one that is not there: damaged");
+    return;
+  }
+  std::vector<std::string_view> kinds;
+  for (const auto variable : landmark.variables) {
+    if (!saved.graph.contains(variable))
+      refuse(what + " speaks of variable " + toString(variable) + ", which the graph has not: damaged");
+    kinds.push_back(saved.graph.variable(variable).kind->kind());
+  }
+  if (!landmark.payload) return;
+  if (!landmark.payload->fits(kinds)) refuse(what + " has variables that are not of its kind: damaged");
+  for (const auto frame : landmark.payload->keyFrames()) {
+    if (!saved.map.key_frames.find(frame))
+      refuse(what + " was seen from key frame " + toString(frame) + ", which the map has not: damaged");
+  }
+}
+
 // What stands in one section about another.
 void expectWhole(const SavedMap& saved) {
   const auto& [map, graph, sections] = saved;
@@ -69,16 +106,12 @@ void expectWhole(const SavedMap& saved) {
     }
   }
   for (const auto& session : map.sessions) known(session.anchor, "session " + std::to_string(session.number));
-  for (const auto& [id, landmark] : map.landmarks) {
-    for (const auto variable : landmark.variables) {
-      if (landmark.state != map::Landmark::State::merged) known(variable, "landmark " + toString(id));
-    }
-  }
+  for (const auto& [id, landmark] : map.landmarks) expectWhole(landmark, saved);
 }
 
 SavedMap parse(const map::MapFile& file, const Kinds& kinds) {
   SavedMap saved;
-  saved.map = map::framesFromSection(needed(file, "frames"));
+  saved.map = framesOf(needed(file, "frames"));
   saved.graph = graphOf(needed(file, "graph"), kinds);
   if (const auto* landmarks = file.find("landmarks")) {
     saved.map.landmarks = map::landmarksFromSection(*landmarks, kinds.payloads);

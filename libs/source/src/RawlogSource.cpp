@@ -15,7 +15,6 @@
 #include <deque>
 
 #include "ActionSpans.h"
-#include "Checksum.h"
 #include "ExternalFiles.h"
 #include "ForeignFile.h"
 #include "ObjectReader.h"
@@ -74,12 +73,15 @@ class RawlogSource::Stream {
  public:
   Stream(const std::string& path, const SourceOptions& options, const StopOpening& stop)
       : reader_(registeringClasses(path)),
+        trial_(path, useOnce),
         spans_(options.action_span, options.action_label),
         selection_(options),
         images_folder_(options.images_folder.empty() ? externalFolderOf(path) : options.images_folder) {
     bool stopped = false;
-    const auto ask = [&](double part) { return stopped = stopped || (stop && stop(part)); };
-    if (!isVerified(path, ask) && !stopped) tryFirst(path, [&] { return ask(1.0); });
+    stop_waiting_ = [&] { return stopped = stopped || (stop && stop()); };
+    if (!stop_waiting_()) {
+      reader_.ask([this](std::uint64_t objects) { return trial_.mayReadAfter(objects, stop_waiting_); });
+    }
     while (!stopped && waiting_.empty() && readObject()) {
     }
     if (stopped) throw base::Error(base::ExitCode::interrupted, path + ": interrupted while the log was being opened.");
@@ -130,13 +132,6 @@ class RawlogSource::Stream {
   void interrupt() { interrupted_ = true; }
 
  private:
-  // From now on nothing is read that a child process has not read before.
-  void tryFirst(const std::string& path, const std::function<bool()>& stop) {
-    stop_waiting_ = stop;
-    trial_.emplace(path, useOnce);
-    reader_.ask([this](std::uint64_t objects) { return trial_->mayReadAfter(objects, stop_waiting_); });
-  }
-
   [[noreturn]] void refuse(const std::string& reason) const {
     throw base::Error(base::ExitCode::unreadable_input, reader_.file().path() + ": " + reason);
   }
@@ -200,7 +195,7 @@ class RawlogSource::Stream {
   }
 
   ObjectReader reader_;
-  std::optional<Trial> trial_;          // of a file without a good checksum
+  Trial trial_;
   std::function<bool()> stop_waiting_;  // for the trial
   std::atomic<bool> interrupted_{false};
   ActionSpans spans_;
@@ -242,11 +237,8 @@ std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& p
   if (paths.empty()) throw base::Error(base::ExitCode::command_line, "no rawlog is named; give one with -r.");
   std::vector<std::unique_ptr<RawlogSource>> logs;
   std::optional<base::Stamp> start;
-  const auto ask = [&](double part) {
-    return stop && stop((static_cast<double>(logs.size()) + part) / static_cast<double>(paths.size()));
-  };
   for (const auto& path : paths) {
-    logs.push_back(std::make_unique<RawlogSource>(path, options, ask));
+    logs.push_back(std::make_unique<RawlogSource>(path, options, stop));
     const auto first = logs.back()->firstStamp();
     if (first && (!start || *first < *start)) start = first;
   }

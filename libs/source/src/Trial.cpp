@@ -1,16 +1,15 @@
 #include "Trial.h"
 
 #include <fcntl.h>
+#include <omnimapper/base/ChildTrial.h>
 #include <omnimapper/base/Error.h>
 #include <poll.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 
 #include "ObjectReader.h"
 
@@ -27,23 +26,10 @@ constexpr char kGoodOrder = 'e';  // the reading came to an end of a kind that t
                     path + ": cannot be tried in a process of its own (" + std::strerror(errno) + ").");
 }
 
-void limitMemory() {
-  std::ifstream statm("/proc/self/statm");
-  rlim_t pages = 0;
-  statm >> pages;
-  const rlim_t bytes = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + (rlim_t{1} << 30);
-  const rlimit limit{bytes, bytes};
-  ::setrlimit(RLIMIT_AS, &limit);
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
-}
-
 [[noreturn]] void readInChild(const std::string& path,
                               const std::function<void(mrpt::serialization::CSerializable&)>& use, int to_parent) {
-  limitMemory();
-  const int nowhere = ::open("/dev/null", O_WRONLY);
-  ::dup2(nowhere, STDOUT_FILENO);
-  ::dup2(nowhere, STDERR_FILENO);
+  constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
+  base::becomeTrial(kMemory);
   const auto tell = [&](char what) {
     if (::write(to_parent, &what, 1) != 1) ::_exit(1);
   };

@@ -9,8 +9,9 @@
 
 namespace omnimapper::source {
 
-/// Reads a file that no checksum vouches for, in a child process with 1 GiB of memory: MRPT's readers follow corrupt
-/// counts and pointers wherever they lead, a crash included. The child runs ahead of the one who reads on its word.
+/// Reads a log in a child process with 1 GiB of memory: MRPT's readers follow corrupt counts and pointers wherever they
+/// lead, a crash included, and a checksum only says that nobody damaged the file by accident. The child runs ahead of
+/// the one who reads on its word.
 class Trial {
  public:
   enum class Answer { yes, no, not_known };

@@ -4,6 +4,8 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
 #include <omnimapper/source/ObservationGate.h>
 
@@ -31,14 +33,27 @@ bool isPose(const mrpt::poses::CPose3D& pose) {
          rotation.determinant() > 0;
 }
 
-// Symmetric, and no variance of any direction negative, but for rounding. What is known exactly has a variance of 0.
+// Symmetric, and no variance of any direction negative, but for rounding: some are stored as float. Each entry is
+// judged in units of its row's and column's deviations, so that a large variance of one thing hides nothing of
+// another's. What is known exactly has a variance of 0.
 bool isCovariance(const Eigen::MatrixXd& matrix) {
-  constexpr double kRounding = 1e-6;  // of the largest entry: some are stored as float
-  if (!matrix.allFinite()) return false;
-  const double most = matrix.cwiseAbs().maxCoeff();
-  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kRounding * most) return false;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
-  return solver.info() == Eigen::Success && solver.eigenvalues().minCoeff() >= -kRounding * most;
+  constexpr double kRounding = 1e-6;
+  if (!matrix.allFinite() || (matrix.diagonal().array() < 0).any()) return false;
+  const Eigen::VectorXd deviations = matrix.diagonal().cwiseSqrt();
+  Eigen::MatrixXd correlations = matrix;
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+      const double unit = deviations[row] * deviations[column];
+      if (unit > 0)
+        correlations(row, column) /= unit;
+      else if (matrix(row, column) != 0)
+        return false;
+    }
+  }
+  if (!correlations.allFinite()) return false;
+  if ((correlations - correlations.transpose()).cwiseAbs().maxCoeff() > kRounding) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlations, Eigen::EigenvaluesOnly);
+  return solver.info() == Eigen::Success && solver.eigenvalues().minCoeff() >= -kRounding;
 }
 
 Reason whyNot(const mrpt::img::TCamera& camera) {
@@ -91,6 +106,34 @@ Reason whyNot(const obs::CObservationRelativeMotion& motion) {
   return std::nullopt;
 }
 
+bool isFinite(const geometry::Polygon3& polygon) {
+  return std::all_of(polygon.vertices.begin(), polygon.vertices.end(), [](const auto& v) { return v.allFinite(); });
+}
+
+Reason whyNot(const obs::CObservationPlanes& found) {
+  constexpr double kRounding = 1e-3;
+  for (const auto& plane : found.planes) {
+    const auto& [normal, distance] = plane.plane_in_sensor;
+    if (!(std::abs(normal.norm() - 1) < kRounding) || !std::isfinite(distance))
+      return "a plane of theirs has no direction or no finite distance";
+    if (!plane.centroid.allFinite() || !isFinite(plane.outline) ||
+        !std::all_of(plane.holes.begin(), plane.holes.end(), isFinite))
+      return "an outline of theirs is not finite";
+    if (!isCovariance(plane.covariance)) return kNoCovariance;
+  }
+  return std::nullopt;
+}
+
+Reason whyNot(const obs::CObservationLaserLines& found) {
+  for (const auto& line : found.lines) {
+    const auto& [from, to] = line.segment_in_sensor;
+    if (!from.allFinite() || !to.allFinite() || !std::isfinite(line.angle) || !std::isfinite(line.distance))
+      return "a line of theirs is not finite";
+    if (!isCovariance(line.covariance)) return kNoCovariance;
+  }
+  return std::nullopt;
+}
+
 // Asks it as a `Class` if it is one.
 template <class Class>
 Reason whyNotAs(const CObservation& observation) {
@@ -109,7 +152,8 @@ std::optional<std::string> whyUnusable(const CObservation& observation) {
   for (const auto& reason :
        {whyNotAs<CObservation2DRangeScan>(observation), whyNotAs<CObservation3DRangeScan>(observation),
         whyNotAs<CObservationBearingRange>(observation), whyNotAs<CObservationOdometry>(observation),
-        whyNotAs<CObservationRobotPose>(observation), whyNotAs<obs::CObservationRelativeMotion>(observation)}) {
+        whyNotAs<CObservationRobotPose>(observation), whyNotAs<obs::CObservationRelativeMotion>(observation),
+        whyNotAs<obs::CObservationPlanes>(observation), whyNotAs<obs::CObservationLaserLines>(observation)}) {
     if (reason) return reason;
   }
   if (const auto* image = dynamic_cast<const CObservationImage*>(&observation)) return whyNot(image->cameraParams);

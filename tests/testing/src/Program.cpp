@@ -82,11 +82,13 @@ bool Program::reap(bool block) {
   if (has_ended_) return true;
   int status = 0;
   pid_t reaped = 0;
-  do reaped = ::waitpid(child_, &status, block ? 0 : WNOHANG);
+  rusage used{};
+  do reaped = ::wait4(child_, &status, block ? 0 : WNOHANG, &used);
   while (reaped < 0 && errno == EINTR);
   if (reaped != child_) return false;
   has_ended_ = true;
   ended_.seconds = secondsSinceStart();
+  ended_.peak_mib = static_cast<double>(used.ru_maxrss) / 1024;
   if (WIFEXITED(status)) ended_.code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) ended_.signal = WTERMSIG(status);
   ended_.out = contentOf(out_);

@@ -49,6 +49,12 @@ map::LandmarkShape MovedThingPayload::shape(const std::vector<Eigen::VectorXd>&,
   return shape;
 }
 
+std::vector<base::KeyFrameId> MovedThingPayload::keyFrames() const {
+  std::vector<base::KeyFrameId> frames;
+  for (const ObservedPlace& place : places) frames.push_back(place.seen_from);
+  return frames;
+}
+
 void MovedThingPayload::write(std::ostream& out) const {
   graph::writeUint(out, kMovedThingVersion, 1);
   writeAnyId(out, landmark);

@@ -26,6 +26,7 @@ struct MovedThingPayload : map::LandmarkPayload {
 
   std::string_view kind() const override { return "moved thing"; }
   void write(std::ostream& out) const override;
+  std::vector<base::KeyFrameId> keyFrames() const override;
   /// The places as points with the times it was last seen there.
   map::LandmarkShape shape(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames& key_frames) const override;
   static void addTo(map::PayloadRegistry& registry);

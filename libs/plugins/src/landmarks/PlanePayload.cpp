@@ -108,6 +108,16 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
   return shape;
 }
 
+bool PlanePayload::fits(const std::vector<std::string_view>& kinds) const {
+  return kinds == std::vector<std::string_view>{SurfaceForm::of(form).variable()->kind()};
+}
+
+std::vector<base::KeyFrameId> PlanePayload::keyFrames() const {
+  std::vector<base::KeyFrameId> frames{last_seen_from};
+  for (const auto& patch : patches) frames.push_back(patch.frame);
+  return frames;
+}
+
 void PlanePayload::write(std::ostream& out) const {
   graph::writeUint(out, kVersion, 1);
   graph::writeUint(out, static_cast<std::uint64_t>(form), 1);

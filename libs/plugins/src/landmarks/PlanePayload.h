@@ -42,6 +42,8 @@ struct PlanePayload : map::LandmarkPayload {
 
   std::string_view kind() const override { return "plane"; }
   void write(std::ostream& out) const override;
+  bool fits(const std::vector<std::string_view>& kinds) const override;
+  std::vector<base::KeyFrameId> keyFrames() const override;
   map::LandmarkShape shape(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames& key_frames) const override;
   static void addTo(map::PayloadRegistry& registry);
 

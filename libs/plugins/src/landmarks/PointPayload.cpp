@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/Error.h>
 #include <omnimapper/graph/ByteIo.h>
+#include <omnimapper/graph/VariableKinds.h>
 
 namespace omnimapper::plugins {
 
@@ -24,6 +25,10 @@ std::shared_ptr<const PointPayload> PointPayload::with(const PointPayload& other
   for (const auto& [label, sightings] : other.seen_by) both->seen_by[label] += sightings;
   both->height += (other.height - height) * other.sightings() / both->sightings();
   return both;
+}
+
+bool PointPayload::fits(const std::vector<std::string_view>& kinds) const {
+  return kinds.size() == 1 && (kinds[0] == graph::point2()->kind() || kinds[0] == graph::point3()->kind());
 }
 
 std::uint32_t PointPayload::sightings() const {

@@ -15,6 +15,7 @@ namespace {
 constexpr double kSettled = 0.01;  // change of weights that is none
 constexpr double kRelaxation = 2;  // lambda of one round over the next
 constexpr int kMostRounds = 20;
+constexpr double kLargestScale = 1 << kMostRounds;  // at which a cost that is no number would not end
 
 // Twice lambda: at a tenth of it, where 99 of 100 static landmarks lie below, the weight is 0.9.
 double twiceLambda(const WeighedLandmark& landmark) {
@@ -38,7 +39,7 @@ class WeightEm {
     double largest = 1;
     measure();
     for (const auto& landmark : result_.landmarks) largest = std::max(largest, landmark.chi2 / twiceLambda(landmark));
-    for (double scale = 2 * largest; scale > 1; scale /= kRelaxation) {
+    for (double scale = std::min(2 * largest, kLargestScale); scale > 1; scale /= kRelaxation) {
       reweigh(scale);
       solve();
     }

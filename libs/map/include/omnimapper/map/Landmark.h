@@ -38,6 +38,10 @@ class LandmarkPayload {
   /// Name in files, unique among payloads: its reader is registered under it.
   virtual std::string_view kind() const = 0;
   virtual void write(std::ostream& out) const = 0;
+  /// Whether a landmark with this payload may have variables of these kinds, in this order.
+  virtual bool fits(const std::vector<std::string_view>& /*kinds*/) const { return true; }
+  /// The key frames that it refers to. A map that lacks one of them, or whose variables do not fit, is damaged.
+  virtual std::vector<base::KeyFrameId> keyFrames() const { return {}; }
   /// `values`: those of the landmark's variables, in their order; none if it has none or they are gone.
   virtual LandmarkShape shape(const std::vector<Eigen::VectorXd>& /*values*/, const KeyFrames& /*key_frames*/) const {
     return {};

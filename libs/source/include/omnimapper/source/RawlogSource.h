@@ -10,15 +10,14 @@
 
 namespace omnimapper::source {
 
-/// Asked while a log is opened, with the part of the checking that is done, in [0, 1]; true stops it.
-using StopOpening = std::function<bool(double)>;
+/// Asked before a log is opened, and ten times a second while its first object is waited for; true stops it.
+using StopOpening = std::function<bool()>;
 
 /// Streams one rawlog, plain, gzip or bzip2, in either of MRPT's formats or a mixture of both: observations one by one,
 /// or pairs of actions and sensory frames. Memory does not grow with the file.
 ///
-/// The constructor reads a compressed file once for its checksum. A file that has none or a wrong one is read by a
-/// child process, because MRPT's readers can crash on corrupt data; this source follows it, object by object, and ends
-/// before the object that does.
+/// MRPT's readers can crash on corrupt data. So a child process reads the log a little ahead; this source follows it,
+/// object by object, and ends before the one that ended the child.
 ///
 /// An action becomes a CObservationRelativeMotion; SourceOptions say which span of time it is taken for. It is handed
 /// out as soon as the end of the span is known: with its action, or right before the frame that ends it. The spans
@@ -50,7 +49,7 @@ class RawlogSource : public ObservationSource {
 };
 
 /// One rawlog or several merged by stamp, with start_s and end_s counted from the earliest first stamp of all.
-/// Throws as RawlogSource; Error(command_line) if there is no path. `stop` is given the part of all logs.
+/// Throws as RawlogSource; Error(command_line) if there is no path.
 std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options,
                                                const StopOpening& stop = {});
 

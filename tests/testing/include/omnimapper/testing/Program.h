@@ -15,6 +15,7 @@ struct Ended {
   bool in_time = true;   ///< false if it was killed because its time was over
   std::string out, err;  ///< standard output and error, whole
   double seconds = 0;    ///< from its start to its end
+  double peak_mib = 0;   ///< most memory that it held at a time [MiB]
 };
 
 /// One word or two on how it ended, then what it printed: for messages of tests.
