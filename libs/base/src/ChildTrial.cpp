@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <new>
 
@@ -15,7 +16,8 @@ namespace omnimapper::base {
 
 namespace {
 
-constexpr int kFinished = 0, kOutOfMemory = 1;
+// Exit codes of the child.
+constexpr int kFinished = 0, kOutOfMemory = 1, kThrew = 2;
 
 // Of address space, by this process.
 rlim_t held() {
@@ -30,15 +32,29 @@ bool mayHave(rlim_t bytes) {
   return ::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY || memory.rlim_cur >= bytes;
 }
 
-[[noreturn]] void doInChild(const std::function<void()>& work, std::uint64_t bytes) {
+[[noreturn]] void doInChild(const std::function<void()>& work, std::uint64_t bytes, int to_parent) {
   becomeTrial(bytes);
   try {
     work();
   } catch (const std::bad_alloc&) {
     ::_exit(kOutOfMemory);
-  } catch (...) {
+  } catch (const std::exception& error) {
+    [[maybe_unused]] const auto written = ::write(to_parent, error.what(), std::strlen(error.what()));
+    ::_exit(kThrew);
   }
   ::_exit(kFinished);
+}
+
+// To its end.
+std::string readAll(int file) {
+  std::string all;
+  char part[4096];
+  for (;;) {
+    const ssize_t count = ::read(file, part, sizeof part);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return all;
+    all.append(part, static_cast<std::size_t>(count));
+  }
 }
 
 }  // namespace
@@ -54,20 +70,39 @@ void becomeTrial(std::uint64_t bytes) {
 }
 
 TrialEnd tryInChild(const std::function<void()>& work, std::uint64_t bytes) {
-  const pid_t child = ::fork();
+  int channel[2];
+  const bool has_channel = ::pipe2(channel, O_CLOEXEC) == 0;
+  const pid_t child = has_channel ? ::fork() : -1;
   if (child < 0) {
+    if (has_channel) ::close(channel[0]), ::close(channel[1]);
     throw Error(ExitCode::internal, std::string("no child process can be started (") + std::strerror(errno) + ")");
   }
-  if (child == 0) doInChild(work, bytes);
+  if (child == 0) doInChild(work, bytes, channel[1]);
+  ::close(channel[1]);
+  TrialEnd end;
+  end.message = readAll(channel[0]);
+  ::close(channel[0]);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   // The machine ends with SIGKILL what takes the last of its memory.
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) throw std::bad_alloc();
-  if (!WIFEXITED(status)) return TrialEnd::crashed;
-  if (WEXITSTATUS(status) != kOutOfMemory) return TrialEnd::finished;
-  if (!mayHave(held() + bytes)) throw std::bad_alloc();
-  return TrialEnd::out_of_memory;
+  if (!WIFEXITED(status)) return end;
+  switch (WEXITSTATUS(status)) {
+    case kFinished:
+      end.how = TrialEnd::How::finished;
+      break;
+    case kThrew:
+      end.how = TrialEnd::How::threw;
+      break;
+    case kOutOfMemory:
+      if (!mayHave(held() + bytes)) throw std::bad_alloc();
+      end.how = TrialEnd::How::out_of_memory;
+      break;
+    default:
+      break;
+  }
+  return end;
 }
 
 }  // namespace omnimapper::base

@@ -47,12 +47,15 @@ graph::Graph graphOf(const map::MapSection& section, const Kinds& kinds) {
 // section as it is, so they do not take many times its size.
 map::Map framesOf(const map::MapSection& section) {
   const std::uint64_t memory = (std::uint64_t{256} << 20) + 4 * section.bytes.size();
-  switch (base::tryInChild([&] { map::framesFromSection(section); }, memory)) {
-    case base::TrialEnd::finished:
+  const auto end = base::tryInChild([&] { map::framesFromSection(section); }, memory);
+  switch (end.how) {
+    case base::TrialEnd::How::finished:
       break;
-    case base::TrialEnd::out_of_memory:
-      refuse("section \"frames\" has an observation that asks for far more memory than its bytes could fill: damaged");
-    case base::TrialEnd::crashed:
+    case base::TrialEnd::How::threw:
+      refuse(end.message);
+    case base::TrialEnd::How::out_of_memory:
+      refuse("section \"frames\" asks for far more memory than its bytes could fill: damaged");
+    case base::TrialEnd::How::crashed:
       refuse("section \"frames\" has an observation that MRPT cannot read: damaged");
   }
   return map::framesFromSection(section);

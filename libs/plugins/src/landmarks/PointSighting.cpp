@@ -74,7 +74,9 @@ std::optional<PointSighting> sightingOverFloor(const PointRay& ray, const Matrix
   if (rho < 1e-3 * from_sensor.norm()) return std::nullopt;
   Eigen::Matrix2d polar;
   polar << v.transpose() / rho, -v.y() / (rho * rho), v.x() / (rho * rho);
-  const Eigen::Matrix2d of_polar = polar * by_measured * covariance * by_measured.transpose() * polar.transpose();
+  const Eigen::Matrix<double, 2, 3> polar_by_measured = polar * by_measured;
+  const Eigen::Matrix2d rounded = polar_by_measured * covariance * polar_by_measured.transpose();
+  const Eigen::Matrix2d of_polar = (rounded + rounded.transpose()) / 2;  // rounding alone can part the two halves
   if (!isUsableCovariance(of_polar)) return std::nullopt;
   return PointSighting{
       base_from_sensor * ray.point, std::max(std::sqrt(of_polar(0, 0)), rho * std::sqrt(of_polar(1, 1))),

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 namespace omnimapper::base {
 
@@ -10,10 +11,15 @@ namespace omnimapper::base {
 void becomeTrial(std::uint64_t bytes);
 
 /// How work ended that was tried in a child process.
-enum class TrialEnd {
-  finished,       ///< or threw an exception, which it will throw again
-  out_of_memory,  ///< it asked for more than it was given
-  crashed,
+struct TrialEnd {
+  enum class How {
+    finished,
+    threw,          ///< an exception that is no std::bad_alloc
+    out_of_memory,  ///< it asked for more than it was given
+    crashed,
+  };
+  How how = How::crashed;
+  std::string message;  ///< of the exception
 };
 
 /// Does the work in a child process that has `bytes` of memory beside what this one has, and waits for its end. What
