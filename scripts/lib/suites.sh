@@ -2,9 +2,9 @@
 # shellcheck shell=bash
 
 # The system tests: programs, installed package and scripts, optimised, as users have them.
-readonly system_tests=(system system-mapping system-input system-robust system-simulate system-perceive system-viewer package scripts)
+readonly system_tests=(system system-mapping system-input system-robust system-simulate system-perceive system-viewer fuzz-runs-share package scripts)
 # The unit tests of all libraries, under the address and undefined-behaviour sanitizers.
-readonly unit_tests=(perception sim plugins graph mapper source matching geometry base obs map check eval fuzz fuzz-runs-share)
+readonly unit_tests=(perception sim plugins graph mapper source matching geometry base obs map check eval fuzz)
 # Left out: stock tools, which cannot load a library built with a sanitizer; walks over every place, which would take
 # minutes, of which one seed is left; and false closures in Manhattan, which take half a minute, of which Intel's and those
 # of a simulated town are left.

@@ -184,7 +184,8 @@ TEST(HouseRules, testFoldersMirrorTheLibraries) {
     const std::string name = file.stem();
     if (projectPath(file).rfind("tests/bench/", 0) == 0 || projectPath(file).rfind("tests/testing/", 0) == 0 ||
         projectPath(file).rfind("tests/system/package/", 0) == 0 ||
-        projectPath(file).rfind("tests/fuzz/targets/", 0) == 0 || name == "LibFuzzer") {
+        projectPath(file).rfind("tests/fuzz/targets/", 0) == 0 || projectPath(file).rfind("tests/fuzz/runs/", 0) == 0 ||
+        name == "LibFuzzer") {
       continue;
     }
     EXPECT_TRUE(name.size() > 4 && name.compare(name.size() - 4, 4, "Test") == 0)
