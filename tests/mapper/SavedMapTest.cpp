@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/testing/Fixtures.h>
@@ -149,6 +150,14 @@ TEST_F(SavedMapFile, PartsThatDoNotFitEachOtherAreRefused) {
   EXPECT_NE(refusal(file()).find("landmark 0:0"), std::string::npos);
   run_ = whole;
   EXPECT_EQ(refusal(file()), "");
+}
+
+TEST_F(SavedMapFile, AGraphThatLeavesThePlaceOfAPoseOpenIsRefused) {
+  const auto loose = run_.graph.addVariable(graph::se2(), Eigen::Vector3d(5, 5, 0));
+  run_.graph.addFactor(betweenPoses(Motion::planar, loose,
+                                    run_.graph.addVariable(graph::se2(), Eigen::Vector3d(6, 5, 0)),
+                                    {CPose3D(1, 0, 0, 0, 0, 0), Eigen::Matrix<double, 6, 6>::Identity()}, "odometry"));
+  EXPECT_NE(refusal(file()).find("does not determine the map"), std::string::npos);
 }
 
 TEST_F(SavedMapFile, ANewSessionStartsWhereTheOptionsSay) {

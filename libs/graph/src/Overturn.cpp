@@ -1,7 +1,5 @@
 #include "Overturn.h"
 
-#include <omnimapper/base/Error.h>
-
 #include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
@@ -199,14 +197,8 @@ std::vector<std::vector<FactorId>> suspects(const Graph& graph, const Marginals&
 std::optional<Overturned> overturn(Graph& graph, const std::vector<FactorId>& refused,
                                    const std::vector<FactorId>& waiting, const Gate& gate, double inflation,
                                    const SolveOptions& solve_options) {
-  // A map that was taken up from a file may leave a direction open: then nothing can be weighed against it.
-  std::optional<Marginals> marginals;
-  try {
-    marginals.emplace(graph);
-  } catch (const base::Error&) {
-    return std::nullopt;
-  }
-  const std::vector<FactorId> group = Group(graph, *marginals, gate, inflation).largest(refused, waiting);
+  const Marginals marginals(graph);
+  const std::vector<FactorId> group = Group(graph, marginals, gate, inflation).largest(refused, waiting);
   if (group.empty()) return std::nullopt;
   OverturnTrial beside(graph, gate, inflation, solve_options);
   if (beside.fitsBeside(group)) {
@@ -215,7 +207,7 @@ std::optional<Overturned> overturn(Graph& graph, const std::vector<FactorId>& re
   }
   std::vector<FactorId> pool = waiting;
   pool.insert(pool.end(), refused.begin(), refused.end());
-  for (const std::vector<FactorId>& acting : suspects(graph, *marginals, group)) {
+  for (const std::vector<FactorId>& acting : suspects(graph, marginals, group)) {
     OverturnTrial trial(graph, gate, inflation, solve_options);
     if (!trial.succeeds(group, pool, acting)) continue;
     std::swap(graph, trial.graph());

@@ -1,5 +1,6 @@
-#include <omnimapper/base/ChildTrial.h>
+#include <omnimapper/base/ChildProcess.h>
 #include <omnimapper/graph/GraphArchive.h>
+#include <omnimapper/graph/Marginals.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/Batch.h>
 #include <omnimapper/mapper/SavedMap.h>
@@ -61,6 +62,15 @@ map::Map framesOf(const map::MapSection& section) {
   return map::framesFromSection(section);
 }
 
+// Whatever is weighed against a map needs to know how well each of its variables is determined.
+void expectDetermined(const graph::Graph& graph) {
+  try {
+    const graph::Marginals marginals(graph);
+  } catch (const base::Error& error) {
+    refuse("section \"graph\" does not determine the map: damaged (" + std::string(error.what()) + ")");
+  }
+}
+
 void expectWhole(const map::Landmark& landmark, const SavedMap& saved) {
   const std::string what = "landmark " + toString(landmark.id);
   if (landmark.state == map::Landmark::State::merged) {
@@ -110,6 +120,7 @@ void expectWhole(const SavedMap& saved) {
   }
   for (const auto& session : map.sessions) known(session.anchor, "session " + std::to_string(session.number));
   for (const auto& [id, landmark] : map.landmarks) expectWhole(landmark, saved);
+  expectDetermined(graph);
 }
 
 SavedMap parse(const map::MapFile& file, const Kinds& kinds) {

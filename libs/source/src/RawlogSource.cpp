@@ -17,9 +17,9 @@
 #include "ActionSpans.h"
 #include "ExternalFiles.h"
 #include "ForeignFile.h"
+#include "LogTrial.h"
 #include "ObjectReader.h"
 #include "Selection.h"
-#include "Trial.h"
 
 namespace omnimapper::source {
 
@@ -195,7 +195,7 @@ class RawlogSource::Stream {
   }
 
   ObjectReader reader_;
-  Trial trial_;
+  LogTrial trial_;
   std::function<bool()> stop_waiting_;  // for the trial
   std::atomic<bool> interrupted_{false};
   ActionSpans spans_;

@@ -1,103 +1,36 @@
-// Seeded random damage to a rawlog and to an INI file: whatever is in them, a run ends by itself, in time, with an exit
-// code that doc/exit_codes.md explains and that is not "a defect of ours".
-#include <fcntl.h>
+// Seeded random damage to a rawlog and to an INI file, in many small runs without the time that a program takes to
+// start: whatever is in them, a run ends by itself, in time, with an exit code that doc/exit_codes.md explains and that
+// is not "a defect of ours".
+#include <omnimapper/base/ChildProcess.h>
 #include <omnimapper/mapper/MappingRun.h>
-#include <signal.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <cmath>
 #include <cstring>
-#include <thread>
 
+#include "../../fuzz/runs/FileMutation.h"
 #include "../MapFolder.h"
 #include "../Rawlogs.h"
 
 namespace {
 
 using namespace runs;
+using omnimapper::fuzz::below;
+using omnimapper::fuzz::onceIn;
 using omnimapper::testing::Dice;
 using omnimapper::testing::ScratchFolder;
 using omnimapper::testing::SimulatedLogOptions;
 
-constexpr double kTimeLimit = 30;                 // [s] for a run of a fraction of a second
-constexpr rlim_t kMemoryLimit = rlim_t{3} << 30;  // bytes beyond what the test itself has
+constexpr int kTimeLimit = 30'000;                              // [ms] for a run of a fraction of a second
+constexpr std::uint64_t kMemoryLimit = std::uint64_t{3} << 30;  // bytes beyond what the test itself has
 constexpr const char* kIni = "ini/laser2d.ini";
 
-std::size_t below(Dice& dice, std::size_t end) {
-  return static_cast<std::size_t>(dice.uniform(0, static_cast<double>(end)));
-}
-
-/// Other values in the same places: bits, bytes and numbers changed.
-void changeValue(std::string& bytes, Dice& dice) {
-  const std::size_t at = below(dice, bytes.size());
-  const double odd[] = {0, -1, 1e9, -1e30, 1e300, 1e-300, NAN, INFINITY};
-  const double number = odd[below(dice, 8)];
-  const auto number32 = static_cast<float>(number);
-  switch (below(dice, 4)) {
-    case 0:
-      bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(dice, 8)));
-      break;
-    case 1:
-      bytes[at] = static_cast<char>(below(dice, 256));
-      break;
-    case 2:
-      if (at + sizeof number <= bytes.size()) std::memcpy(&bytes[at], &number, sizeof number);
-      break;
-    case 3:
-      if (at + sizeof number32 <= bytes.size()) std::memcpy(&bytes[at], &number32, sizeof number32);
-      break;
-  }
-}
-
-/// Parts cut out, doubled, or the end cut off.
-void changeStructure(std::string& bytes, Dice& dice) {
-  const std::size_t at = below(dice, bytes.size()), length = 1 + below(dice, 200);
-  switch (below(dice, 3)) {
-    case 0:
-      bytes.erase(at, length);
-      break;
-    case 1:
-      bytes.insert(at, bytes.substr(below(dice, bytes.size()), length));
-      break;
-    case 2:
-      bytes.resize(at);
-      break;
-  }
-}
-
 std::string damaged(std::string bytes, Dice& dice) {
-  const bool in_place = dice.uniform(0, 1) < 0.7;
-  for (std::size_t edits = 1 + below(dice, 4); edits > 0 && !bytes.empty(); --edits) {
-    in_place ? changeValue(bytes, dice) : changeStructure(bytes, dice);
+  for (std::size_t edits = 1 + below(dice, 4); edits > 0; --edits) {
+    onceIn(dice, 2) ? omnimapper::fuzz::changeNumber(bytes, dice) : omnimapper::fuzz::damageBytes(bytes, dice);
   }
+  if (onceIn(dice, 10)) bytes.resize(below(dice, bytes.size() + 1));
   return bytes;
-}
-
-/// Changes words of an INI: a character, a number, a line doubled or gone.
-std::string damagedIni(std::string text, Dice& dice) {
-  static const std::string characters = "0123456789.-+e=[];#, \n\tabcxyz_$\"\\\xc3";
-  for (std::size_t edits = 1 + below(dice, 4); edits > 0 && !text.empty(); --edits) {
-    const std::size_t at = below(dice, text.size());
-    const auto line = text.rfind('\n', at) + 1, end = std::min(text.find('\n', at) + 1, text.size());
-    switch (below(dice, 4)) {
-      case 0:
-        text[at] = characters[below(dice, characters.size())];
-        break;
-      case 1:
-        text.insert(at, 1, characters[below(dice, characters.size())]);
-        break;
-      case 2:
-        if (end > line) text.erase(line, end - line);
-        break;
-      case 3:
-        if (end > line) text.insert(line, text.substr(line, end - line));
-        break;
-    }
-  }
-  return text;
 }
 
 class Fuzz : public ::testing::Test {
@@ -113,19 +46,14 @@ class Fuzz : public ::testing::Test {
     log_ = rawlogs::bytesOf(SimulatedLog(options).observations()).text;
   }
 
-  /// The exit code of a run, or the reason why it has none; in a process of its own.
+  /// The exit code of a run in a process of its own, or the reason why it has none.
   std::string outcome() {
-    const pid_t child = ::fork();
-    if (child == 0) run();
-    const auto start = std::chrono::steady_clock::now();
-    int status = 0;
-    while (::waitpid(child, &status, WNOHANG) == 0) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      if (std::chrono::steady_clock::now() - start < std::chrono::duration<double>(kTimeLimit)) continue;
-      ::kill(child, SIGKILL);
-      ::waitpid(child, &status, 0);
-      return "does not end";
+    said_.clear();
+    omnimapper::base::ChildProcess child([this](int to_parent) { return run(to_parent); }, kMemoryLimit);
+    while (!child.isOver()) {
+      if (!child.hear(said_, kTimeLimit)) return "does not end";
     }
+    const int status = child.status();
     if (WIFSIGNALED(status)) return std::string("dies of ") + ::strsignal(WTERMSIG(status));
     return std::to_string(WEXITSTATUS(status));
   }
@@ -133,19 +61,21 @@ class Fuzz : public ::testing::Test {
   void expectKnownOutcome() {
     static const std::set<std::string> known{"0", "3", "4", "5", "6", "7", "8", "9", "10", "11", "14"};
     const std::string found = outcome();
-    EXPECT_EQ(known.count(found), 1U) << "it " << found << "; " << readFile(message_path_);
+    EXPECT_EQ(known.count(found), 1U) << "it " << found << "; " << said_;
     ++outcomes_[found];
   }
 
   ScratchFolder scratch_;
   std::string log_, log_path_ = scratch_ / "x.rawlog", ini_path_ = scratch_ / "x.ini";
-  std::string message_path_ = scratch_ / "message.txt";
+  std::string said_;  // by the run, of why it failed
   std::map<std::string, int> outcomes_;
 
  private:
   // What main() of omnimapper-graphslam does, without the time it takes to start.
-  [[noreturn]] void run() {
-    limitResources();
+  int run(int to_parent) {
+    const auto say = [&](const std::exception& error) {
+      [[maybe_unused]] const auto written = ::write(to_parent, error.what(), std::strlen(error.what()));
+    };
     auto code = ExitCode::internal;
     try {
       const auto config = omnimapper::base::Config::fromFile(ini_path_);
@@ -155,24 +85,12 @@ class Fuzz : public ::testing::Test {
       omnimapper::base::Progress silent;
       code = omnimapper::mapper::runMapping(request, config, silent, [] { return false; }).code;
     } catch (const omnimapper::base::Error& error) {
-      writeFile(message_path_, error.what());
+      say(error);
       code = error.code();
     } catch (const std::exception& error) {
-      writeFile(message_path_, error.what());
+      say(error);
     }
-    ::_exit(number(code));
-  }
-  static void limitResources() {
-    std::ifstream statm("/proc/self/statm");
-    rlim_t pages = 0;
-    statm >> pages;
-    const rlim_t bytes = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + kMemoryLimit;
-    const rlimit memory{bytes, bytes}, no_core{0, 0};
-    ::setrlimit(RLIMIT_AS, &memory);
-    ::setrlimit(RLIMIT_CORE, &no_core);
-    const int nowhere = ::open("/dev/null", O_WRONLY);
-    ::dup2(nowhere, STDOUT_FILENO);
-    ::dup2(nowhere, STDERR_FILENO);
+    return number(code);
   }
 };
 
@@ -201,7 +119,7 @@ TEST_F(Fuzz, DamagedInisNeverCrashARun) {
   for (unsigned seed = 0; seed < 80; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Dice dice(1000 + seed);
-    writeFile(ini_path_, damagedIni(ini, dice));
+    writeFile(ini_path_, omnimapper::fuzz::mutatedText(ini, dice));
     SCOPED_TRACE(readFile(ini_path_));
     expectKnownOutcome();
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/serialization/CSerializable.h>
-#include <sys/types.h>
+#include <omnimapper/base/ChildProcess.h>
 
 #include <cstdint>
 #include <functional>
@@ -12,29 +12,23 @@ namespace omnimapper::source {
 /// Reads a log in a child process with 1 GiB of memory: MRPT's readers follow corrupt counts and pointers wherever they
 /// lead, a crash included, and a checksum only says that nobody damaged the file by accident. The child runs ahead of
 /// the one who reads on its word.
-class Trial {
+class LogTrial {
  public:
   enum class Answer { yes, no, not_known };
 
   /// Starts the child. `use` is what will be done with each object.
-  Trial(const std::string& path, const std::function<void(mrpt::serialization::CSerializable&)>& use);
-  /// Ends the child, wherever it is.
-  ~Trial();
-  Trial(const Trial&) = delete;
-  Trial& operator=(const Trial&) = delete;
+  LogTrial(const std::string& path, const std::function<void(mrpt::serialization::CSerializable&)>& use);
 
   /// Whether what follows the first `objects` objects can be read without harm. Waits until the child has come that
   /// far; `stop` is asked meanwhile, ten times a second, and if it is true the answer is not known.
   Answer mayReadAfter(std::uint64_t objects, const std::function<bool()>& stop);
 
  private:
-  bool isToldWithin(int milliseconds);
+  void count(const std::string& told);
 
-  pid_t child_ = -1;
-  int from_child_ = -1;
+  base::ChildProcess child_;
   std::uint64_t objects_ = 0;     // that the child has read
   bool has_good_ending_ = false;  // what follows them ends the reading in a way that the reader can meet itself
-  bool is_over_ = false;
 };
 
 }  // namespace omnimapper::source

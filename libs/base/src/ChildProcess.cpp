@@ -1,6 +1,7 @@
 #include <fcntl.h>
-#include <omnimapper/base/ChildTrial.h>
+#include <omnimapper/base/ChildProcess.h>
 #include <omnimapper/base/Error.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -32,34 +33,8 @@ bool mayHave(rlim_t bytes) {
   return ::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY || memory.rlim_cur >= bytes;
 }
 
-[[noreturn]] void doInChild(const std::function<void()>& work, std::uint64_t bytes, int to_parent) {
-  becomeTrial(bytes);
-  try {
-    work();
-  } catch (const std::bad_alloc&) {
-    ::_exit(kOutOfMemory);
-  } catch (const std::exception& error) {
-    [[maybe_unused]] const auto written = ::write(to_parent, error.what(), std::strlen(error.what()));
-    ::_exit(kThrew);
-  }
-  ::_exit(kFinished);
-}
-
-// To its end.
-std::string readAll(int file) {
-  std::string all;
-  char part[4096];
-  for (;;) {
-    const ssize_t count = ::read(file, part, sizeof part);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return all;
-    all.append(part, static_cast<std::size_t>(count));
-  }
-}
-
-}  // namespace
-
-void becomeTrial(std::uint64_t bytes) {
+// In the child, once.
+void limit(std::uint64_t bytes) {
   const rlim_t most = held() + bytes;
   const rlimit memory{most, most}, no_core{0, 0};
   ::setrlimit(RLIMIT_AS, &memory);
@@ -69,22 +44,66 @@ void becomeTrial(std::uint64_t bytes) {
   ::dup2(nowhere, STDERR_FILENO);
 }
 
-TrialEnd tryInChild(const std::function<void()>& work, std::uint64_t bytes) {
+int exitCodeOf(const std::function<void()>& work, int to_parent) {
+  try {
+    work();
+  } catch (const std::bad_alloc&) {
+    return kOutOfMemory;
+  } catch (const std::exception& error) {
+    [[maybe_unused]] const auto written = ::write(to_parent, error.what(), std::strlen(error.what()));
+    return kThrew;
+  }
+  return kFinished;
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::function<int(int to_parent)>& work, std::uint64_t bytes) {
   int channel[2];
   const bool has_channel = ::pipe2(channel, O_CLOEXEC) == 0;
-  const pid_t child = has_channel ? ::fork() : -1;
-  if (child < 0) {
+  if (has_channel) process_ = ::fork();
+  if (process_ < 0) {
     if (has_channel) ::close(channel[0]), ::close(channel[1]);
     throw Error(ExitCode::internal, std::string("no child process can be started (") + std::strerror(errno) + ")");
   }
-  if (child == 0) doInChild(work, bytes, channel[1]);
-  ::close(channel[1]);
-  TrialEnd end;
-  end.message = readAll(channel[0]);
-  ::close(channel[0]);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  if (process_ == 0) {
+    ::close(channel[0]);
+    limit(bytes);
+    ::_exit(work(channel[1]));
   }
+  ::close(channel[1]);
+  from_child_ = channel[0];
+}
+
+ChildProcess::~ChildProcess() {
+  if (process_ > 0) ::kill(process_, SIGKILL);
+  ::close(from_child_);
+  status();
+}
+
+bool ChildProcess::hear(std::string& said, int milliseconds) {
+  pollfd ready{from_child_, POLLIN, 0};
+  if (::poll(&ready, 1, milliseconds) <= 0) return false;
+  char part[4096];
+  const ssize_t count = ::read(from_child_, part, sizeof part);
+  if (count > 0) said.append(part, static_cast<std::size_t>(count));
+  is_over_ = count == 0 || (count < 0 && errno != EINTR);
+  return true;
+}
+
+int ChildProcess::status() {
+  if (process_ < 0) return status_;
+  while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  return status_;
+}
+
+TrialEnd tryInChild(const std::function<void()>& work, std::uint64_t bytes) {
+  ChildProcess child([&work](int to_parent) { return exitCodeOf(work, to_parent); }, bytes);
+  TrialEnd end;
+  while (!child.isOver()) child.hear(end.message, -1);
+  const int status = child.status();
   // The machine ends with SIGKILL what takes the last of its memory.
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) throw std::bad_alloc();
   if (!WIFEXITED(status)) return end;
