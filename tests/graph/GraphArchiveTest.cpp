@@ -144,19 +144,6 @@ TEST(GraphArchive, FlippedBytesNeverDoWorseThanAnError) {
   }
 }
 
-TEST(GraphArchive, AFactorThatClaimsToKnowBetterThanANanometreIsDamage) {
-  const auto codeOfDeviation = [](double deviation) {
-    Graph graph;
-    const VariableId point = graph.addVariable(point2(), Eigen::Vector2d(1, 2));
-    graph.addFactor({{graph.addVariable(se2(), Eigen::Vector3d(0, 0, 0)), point},
-                     std::make_shared<PointFactor2>(Eigen::Vector2d(1, 2)),
-                     SquareRootInformation::fromSigmas(Eigen::Vector2d(0.1, deviation))});
-    return codeOf(bytesOf(graph));
-  };
-  EXPECT_EQ(codeOfDeviation(1e-8), ExitCode::ok);
-  EXPECT_EQ(codeOfDeviation(1e-10), ExitCode::damaged_input);
-}
-
 TEST(GraphArchive, AnUnknownKindIsNamed) {
   FactorRegistry registry;
   registry.add(se3());

@@ -160,6 +160,21 @@ TEST_F(SavedMapFile, AGraphThatLeavesThePlaceOfAPoseOpenIsRefused) {
   EXPECT_NE(refusal(file()).find("does not determine the map"), std::string::npos);
 }
 
+TEST_F(SavedMapFile, AFactorThatLeavesNoDigitsToTheOthersIsRefused) {
+  const auto refusalOfDeviation = [this](double deviation) {
+    auto record = betweenPoses(Motion::planar, run_.map.key_frames[0].pose, run_.map.key_frames[1].pose,
+                               {CPose3D(1, 0.1, 0, 0.3, 0, 0), Eigen::Matrix<double, 6, 6>::Identity()}, "odometry");
+    record.noise = graph::SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(deviation));
+    const auto more = run_.graph.addFactor(record);
+    const auto reason = refusal(file());
+    run_.graph.removeFactor(more);
+    return reason;
+  };
+  EXPECT_EQ(refusalOfDeviation(1e-6), "");
+  const auto reason = refusalOfDeviation(1e-9);
+  EXPECT_NE(reason.find("no digits are left"), std::string::npos) << reason;
+}
+
 TEST_F(SavedMapFile, ANewSessionStartsWhereTheOptionsSay) {
   run_.map.key_frames.edit({0, 3}).hanging.push_back(
       {run_.map.key_frames[3].stamp + base::Duration(1), CPose3D(0.2, 0, 0, 0, 0, 0)});

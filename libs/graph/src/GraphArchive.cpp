@@ -2,7 +2,6 @@
 
 #include <omnimapper/base/Error.h>
 
-#include <cmath>
 #include <sstream>
 
 #include "omnimapper/graph/ByteIo.h"
@@ -18,10 +17,6 @@ constexpr std::uint64_t kVersion = 1;
 // Holes of removed ids take memory: beyond this many, and this many for each thing that is there, the number is
 // damaged.
 constexpr std::uint64_t kMaxHoles = 1'000'000, kMaxHolesPerEntry = 1000;
-
-// In the factors' units, metres and radians mostly. Nothing is measured so well, and what claims it leaves no digits of
-// a sum to the other factors.
-constexpr double kFinestDeviation = 1e-9;
 
 template <class IdType>
 void writeId(std::ostream& out, IdType id) {
@@ -106,8 +101,6 @@ FactorRecord readFactor(std::istream& in, const FactorRegistry& registry) {
   FactorRecord record{std::move(variables),   std::move(factor), SquareRootInformation::fromMatrix(noise),
                       Loss(loss_kind, scale), readDouble(in),    {}};
   record.tags = readTags(in);
-  if (noise.cwiseAbs().maxCoeff() * std::sqrt(record.weight) > 1 / kFinestDeviation)
-    failDamaged("a factor of kind " + kind + " claims to know what it measured better than a nanometre");
   return record;
 }
 

@@ -88,9 +88,9 @@ void Engine::finish() {
       tried([&] { solveNow(settings_.solver.final()); });
       tried([&] { conclude(); });
     }
+    tried([&] { collectSections(); });
+    if (!window_) tried([&] { judgeMap(); });
   }
-  tried([&] { collectSections(); });
-  if (!window_) tried([&] { judgeMap(); });
   if (extraction_errors_.count() > 0) warn(extraction_errors_.sentence());
   times_.add("perception wait", busy_.perception);
   times_.add("job wait", busy_.jobs);

@@ -1,5 +1,6 @@
 #include <omnimapper/base/ChildProcess.h>
 #include <omnimapper/graph/GraphArchive.h>
+#include <omnimapper/graph/Linearised.h>
 #include <omnimapper/graph/Marginals.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/Batch.h>
@@ -10,7 +11,9 @@
 #include <array>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <sstream>
+#include <unordered_map>
 
 namespace omnimapper::mapper {
 
@@ -62,12 +65,37 @@ map::Map framesOf(const map::MapSection& section) {
   return map::framesFromSection(section);
 }
 
-// Whatever is weighed against a map needs to know how well each of its variables is determined.
+// Of the directions of all variables, the best known against the worst: the diagonal of the information matrix.
+double spreadOfInformation(const graph::Graph& graph) {
+  std::unordered_map<base::VariableId, Eigen::VectorXd> information;
+  for (const auto& [id, record] : graph.factors()) {
+    if (record.weight == 0) continue;
+    const graph::Linearised factor(graph, id);
+    for (std::size_t i = 0; i < record.variables.size(); ++i) {
+      if (graph.variable(record.variables[i]).fixed) continue;
+      const Eigen::VectorXd more = record.weight * factor.jacobians[i].colwise().squaredNorm().transpose();
+      auto& known = information.try_emplace(record.variables[i], Eigen::VectorXd::Zero(more.size())).first->second;
+      known += more;
+    }
+  }
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (const auto& [id, known] : information) {
+    least = std::min(least, known.minCoeff());
+    most = std::max(most, known.maxCoeff());
+  }
+  return information.empty() ? 1 : most / least;
+}
+
+// Whatever is weighed against a map needs to know how well each of its variables is determined, and goes on to when
+// more is added. Beyond the digits of a number, what one direction has leaves nothing of another's.
 void expectDetermined(const graph::Graph& graph) {
+  const std::string what = "section \"graph\" does not determine the map: damaged";
+  if (!(spreadOfInformation(graph) < 1 / std::numeric_limits<double>::epsilon()))
+    refuse(what + " (of two directions in it one is known so well that no digits are left for the other)");
   try {
     const graph::Marginals marginals(graph);
   } catch (const base::Error& error) {
-    refuse("section \"graph\" does not determine the map: damaged (" + std::string(error.what()) + ")");
+    refuse(what + " (" + error.what() + ")");
   }
 }
 
