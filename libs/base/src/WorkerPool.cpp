@@ -4,10 +4,6 @@
 
 namespace omnimapper::base {
 
-WorkerPool::WorkerPool(int threads) {
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
-}
-
 WorkerPool::~WorkerPool() {
   {
     const std::lock_guard lock(mutex_);
@@ -22,6 +18,7 @@ void WorkerPool::push(std::function<void()> task) {
   {
     const std::lock_guard lock(mutex_);
     tasks_.push_back(std::move(task));
+    while (threads_.size() < count_) threads_.emplace_back([this] { work(); });
   }
   wake_.notify_one();
 }

@@ -9,7 +9,8 @@
 namespace omnimapper::base {
 
 /// A forked copy of this process in which something is tried that may crash or ask for memory without end. What happens
-/// there, this process does not see. It has `bytes` of memory beside what this one has now, leaves no core dump and
+/// there, this process does not see. To be made before this process has other threads: a lock that one of them holds
+/// stays locked in the child. It has `bytes` of memory beside what this one has now, leaves no core dump and
 /// prints nothing. Its end is the destructor's, wherever it is.
 class ChildProcess {
  public:

@@ -12,11 +12,12 @@
 namespace omnimapper::base {
 
 /// Threads that run tasks in the order they were submitted. What a task gives is fetched by its future, so results do
-/// not depend on the number of threads.
+/// not depend on the number of threads. They start with the first task: until then the process can be forked without a
+/// lock that one of them might hold.
 class WorkerPool {
  public:
   /// threads >= 1.
-  explicit WorkerPool(int threads);
+  explicit WorkerPool(int threads) : count_(static_cast<std::size_t>(threads)) {}
   /// Leaves out what has not begun; its futures throw std::future_error.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
@@ -39,6 +40,7 @@ class WorkerPool {
   std::condition_variable wake_;
   std::deque<std::function<void()>> tasks_;
   bool closing_ = false;
+  std::size_t count_;
   std::vector<std::thread> threads_;
 };
 
