@@ -99,7 +99,7 @@ inline std::vector<Log> logsAtHand(const std::string& out) {
       std::fprintf(stderr, "%s is not on this machine\n", name.c_str());
     }
   }
-  for (const std::string name : {"home", "office", "laboratory"}) {
+  for (const std::string name : {"home", "office", "laboratory", "loop_200", "loop_400"}) {
     if (const auto log = simulated(name, out)) logs.push_back(*log);
   }
   return logs;
