@@ -12,7 +12,9 @@ namespace omnimapper::plugins {
 using mrpt::math::TPose2D;
 
 namespace {
-constexpr double kSigmas = 3;                 // standard deviations that an estimate may be off by
+constexpr double kSigmas = 3;    // standard deviations that an estimate may be off by
+constexpr double kAlike = 0.05;  // of overlap: two matches that differ by less are as good as one another
+constexpr double kSame = 0.3, kSameTurn = 0.1;  // [m] [rad] within which two matches are one
 constexpr std::size_t kMostBlocks = 100'000;  // of a search: a second or so in a window that is large and tells little
 }  // namespace
 
@@ -27,13 +29,57 @@ matching::PlanarScan localMap(const std::vector<LoopSearch::Sight>& sights, base
 }
 
 mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
-  mapper::Batch batch;
-  int tried = 0;
+  std::vector<Attempt> attempts;
   for (const auto& place : places_) {
-    tried += tryPlace(place, state, batch);
-    if (tried == options_.candidates) break;
+    if (static_cast<int>(attempts.size()) == options_.candidates) break;
+    if (auto attempt = attemptAt(place, state)) attempts.push_back(std::move(*attempt));
+  }
+  mapper::Batch batch;
+  for (auto& attempt : attempts) {
+    auto& decision = attempt.decision;
+    judgeClosure(options_, attempt.matches, attempt.guess, decision);
+    if (decision.accepted) {
+      if (const auto elsewhere = overlapElsewhere(attempts, attempt, state)) {
+        decision.accepted = false;
+        decision.reason = "ambiguous: it fits as well or better at another place";
+        decision.numbers.emplace_back("overlap elsewhere", *elsewhere);
+      }
+    }
+    if (!decision.accepted) {
+      batch.log(std::move(decision));
+      continue;
+    }
+    auto closure = scanFactor(options_, context_, state.map.keyFrame(attempt.place->centre.frame).pose,
+                              state.map.keyFrame(newest_.back().frame).pose, attempt.matches.front());
+    closure.loss = graph::Loss::cauchy(options_.loss_scale);
+    batch.addHypothesis(std::move(closure), std::move(decision));
   }
   return batch;
+}
+
+// The same was sought at each of these places: of a match at another that is as good and not the same spot, its
+// overlap. How the places lie to one another is as sure as the map.
+std::optional<double> LoopSearch::overlapElsewhere(const std::vector<Attempt>& attempts, const Attempt& attempt,
+                                                   const mapper::State& state) {
+  const auto& best = attempt.matches.front();
+  const auto here = attempt.place->centre.frame;
+  for (const auto& other : attempts) {
+    const auto there = other.place->centre.frame;
+    if (&other == &attempt || other.matches.empty() || other.matches.front().overlap < best.overlap - kAlike) continue;
+    const auto covariance = state.covarianceBetween(here, there);
+    if (!covariance) continue;
+    const double metres = kSame + kSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));
+    const double radians = kSameTurn + kSigmas * std::sqrt((*covariance)(5, 5));
+    const auto here_from_there =
+        planar(state.map.keyFrame(there).map_from_base - state.map.keyFrame(here).map_from_base);
+    for (const auto& match : other.matches) {
+      if (match.overlap < best.overlap - kAlike) break;
+      const auto apart = (here_from_there + match.reference_from_scan) - best.reference_from_scan;
+      if (std::hypot(apart.x, apart.y) > metres || std::abs(mrpt::math::wrapToPi(apart.phi)) > radians)
+        return match.overlap;
+    }
+  }
+  return std::nullopt;
 }
 
 LoopSearch::Doubt LoopSearch::doubtAt(const Place& place, const mapper::State& state) const {
@@ -100,21 +146,22 @@ bool isApart(base::KeyFrameId place, base::KeyFrameId newest, const map::Map& ma
 }
 }  // namespace
 
-bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper::Batch& batch) const {
+std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, const mapper::State& state) const {
   const auto& frame = state.map.keyFrame(newest_.back().frame);
   const auto& centre = state.map.keyFrame(place.centre.frame);
   const auto guess = planar(frame.map_from_base - centre.map_from_base);
   const Doubt doubt = doubtAt(place, state);
   const double apart = std::hypot(guess.x, guess.y);
-  if (apart > options_.radius + doubt.position) return false;
+  if (apart > options_.radius + doubt.position) return std::nullopt;
   // In a window smaller than the doubt a wrong place would fit as well: that is for MapSearch.
-  if (isApart(centre.id, frame.id, state.map) && doubt.position > options_.max_window) return false;
+  if (isApart(centre.id, frame.id, state.map) && doubt.position > options_.max_window) return std::nullopt;
   // A closure that tells what the map knows as well only makes every solve dearer.
   const bool is_known =
       doubt.position < kSigmas * options_.known_sigma && doubt.yaw < kSigmas * options_.known_angle_sigma;
-  if (is_known && !context_.map_is_held) return false;
+  if (is_known && !context_.map_is_held) return std::nullopt;
 
-  mapper::Decision decision;
+  Attempt attempt{&place, guess, {}, {}};
+  auto& decision = attempt.decision;
   decision.stamp = frame.stamp;
   decision.plugin = context_.section;
   decision.kind = "loop closure";
@@ -126,25 +173,16 @@ bool LoopSearch::tryPlace(const Place& place, const mapper::State& state, mapper
   const auto local = matching::oncePerCell(localMapOf(place, doubt, state), kSpacing / 2),
              query = matching::oncePerCell(this->query(doubt, state), kSpacing);
   const auto reference = matcher_->prepare(local);
-  std::vector<matching::ScanMatch> matches;
+  auto& matches = attempt.matches;
   for (const auto& start : starts(local, query, guess, doubt))
     matches.push_back(matcher_->match(*reference, query, start));
   std::sort(matches.begin(), matches.end(), [](const auto& a, const auto& b) { return a.overlap > b.overlap; });
-  judgeClosure(options_, matches, guess, decision);
-  if (!decision.accepted) {
-    batch.log(std::move(decision));
-    return true;
-  }
-  auto closure = scanFactor(options_, context_, centre.pose, frame.pose, matches.front());
-  closure.loss = graph::Loss::cauchy(options_.loss_scale);
-  batch.addHypothesis(std::move(closure), std::move(decision));
-  return true;
+  return attempt;
 }
 
 // The best of them, unless another is elsewhere and as good: alike corridors, rooms with a symmetry.
 void judgeClosure(const LoopClosureOptions& options, const std::vector<matching::ScanMatch>& matches,
                   const TPose2D& guess, mapper::Decision& decision) {
-  constexpr double kAlike = 0.05;  // of overlap
   if (matches.empty()) {
     decision.reason = "nothing alike";
     return;
@@ -162,7 +200,7 @@ void judgeClosure(const LoopClosureOptions& options, const std::vector<matching:
   }
   for (std::size_t i = 1; i < matches.size() && matches[i].overlap > best.overlap - kAlike; ++i) {
     const auto apart = matches[i].reference_from_scan - best.reference_from_scan;
-    if (std::hypot(apart.x, apart.y) < 0.3 && std::abs(mrpt::math::wrapToPi(apart.phi)) < 0.1) continue;
+    if (std::hypot(apart.x, apart.y) < kSame && std::abs(mrpt::math::wrapToPi(apart.phi)) < kSameTurn) continue;
     decision.reason = "ambiguous: it fits as well elsewhere";
     decision.numbers.emplace_back("overlap elsewhere", matches[i].overlap);
     return;

@@ -6,6 +6,7 @@
 #include <omnimapper/plugins/LoopClosureOptions.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -48,8 +49,17 @@ class LoopSearch {
   matching::PlanarScan localMapOf(const Place& place, const Doubt& doubt, const mapper::State& state) const;
   matching::PlanarScan query(const Doubt& doubt, const mapper::State& state) const;
   double queryWay(const Doubt& doubt) const;  // [m] back from the newest key frame
-  /// Whether the place was tried, rather than passed over for what the estimate says.
-  bool tryPlace(const Place& place, const mapper::State& state, mapper::Batch& batch) const;
+  /// What was found at a place.
+  struct Attempt {
+    const Place* place;
+    mrpt::math::TPose2D guess;  // place_from_base by the estimate
+    mapper::Decision decision;
+    std::vector<matching::ScanMatch> matches;  // best first
+  };
+  /// None for a place that is passed over for what the estimate says.
+  std::optional<Attempt> attemptAt(const Place& place, const mapper::State& state) const;
+  static std::optional<double> overlapElsewhere(const std::vector<Attempt>& attempts, const Attempt& attempt,
+                                                const mapper::State& state);
   std::vector<mrpt::math::TPose2D> starts(const matching::PlanarScan& local, const matching::PlanarScan& query,
                                           const mrpt::math::TPose2D& guess, const Doubt& doubt) const;
 
