@@ -121,6 +121,37 @@ TEST_F(LoopSearchVerdict, AmbiguousInASquareRoomWhereTheHeadingMayBeAny) {
   EXPECT_EQ(search(room(5, 5), room(5, 5), Known::not_at_all).reason, "ambiguous: it fits as well elsewhere");
 }
 
+// A room, and 12 m farther one that is like it but for a wall: the robot is in the first.
+TEST_F(LoopSearchVerdict, ARoomThatIsLikeAnotherIsNoClosureWhereTheOtherFitsBetter) {
+  auto whole = room(6, 4);
+  whole.push_back({{1, 2}, {1, 0.8}});
+  const World lacking{whole[0], whole[2], whole[3]};
+  const auto first = run_.addFrame({}).id, second = run_.addFrame({12, 0, 0, 0, 0, 0}).id;
+  const auto newest = run_.addFrame({7, 0.5, 0, 0.2, 0, 0}).id;
+  const auto bind = [&](base::KeyFrameId to, const geometry::Se2& where, const Eigen::Vector3d& sigmas) {
+    run_.graph.addFactor({{run_.map.keyFrame(first).pose, run_.map.keyFrame(to).pose},
+                          std::make_shared<graph::BetweenSe2>(where),
+                          graph::SquareRootInformation::fromSigmas(sigmas)});
+  };
+  bind(second, {12, 0, 0}, {0.05, 0.05, 0.01});
+  bind(newest, {7, 0.5, 0.2}, {4, 4, 0.2});
+  run_.uncertainty = mapper::Uncertainty(run_.graph);
+  const LoopSearch::Sight in_first{first, seenFrom({}, whole, 12), 0}, in_second{second, seenFrom({}, lacking, 12), 12};
+  const LoopSearch::Sight seen{newest, seenFrom({1, 0.2, 0, 0.1, 0, 0}, whole, 8), 40};
+  mapper::PluginContext context;
+  context.section = "loop_closure";
+  const std::shared_ptr<const matching::ScanMatcher> matcher = matching::makeMatcher({});
+  const auto alone = LoopSearch(options_, context, matcher, {seen}, {{in_second, {in_second}}})(run_.view());
+  ASSERT_EQ(alone.decisions().size(), 1U);
+  EXPECT_TRUE(alone.decisions()[0].accepted) << alone.decisions()[0].reason;
+  const auto both =
+      LoopSearch(options_, context, matcher, {seen}, {{in_second, {in_second}}, {in_first, {in_first}}})(run_.view());
+  ASSERT_EQ(both.decisions().size(), 2U);
+  EXPECT_EQ(both.decisions()[0].reason, "ambiguous: it fits as well or better at another place");
+  EXPECT_TRUE(both.decisions()[1].accepted) << both.decisions()[1].reason;
+  EXPECT_EQ(both.addedFactors().size(), 1U);
+}
+
 TEST_F(LoopSearchVerdict, OpenAlongABareCorridor) {
   EXPECT_EQ(search(corridor(), corridor(), Known::nearly).reason, "the walls leave a direction open");
 }

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/graph/Between.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
@@ -30,36 +32,64 @@ void close(testing::HandMadeRun& run, std::size_t from, std::size_t to, double w
 TEST(MapConsistency, WithoutAWayBackNothingCanBeTold) {
   testing::HandMadeRun run;
   for (int i = 0; i <= 30; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
-  const auto evidence = revisits(run.view(), "loops", 8);
+  const auto evidence = revisits(run.view(), "loops", {}, 8);
   EXPECT_EQ(evidence[0].says, Says::too_little);
   EXPECT_EQ(evidence[1].says, Says::good);
-  EXPECT_TRUE(revisits(testing::HandMadeRun().view(), "loops", 8)[0].says == Says::too_little) << "an empty map";
+  EXPECT_TRUE(revisits(testing::HandMadeRun().view(), "loops", {}, 8)[0].says == Says::too_little) << "an empty map";
 }
 
 TEST(MapConsistency, ALongWayAgainWithoutAClosureIsAgainstTheMap) {
-  const auto evidence = revisits(thereAgain().view(), "loops", 8);
+  const auto evidence = revisits(thereAgain().view(), "loops", {}, 8);
   EXPECT_EQ(evidence[0].says, Says::good);
   EXPECT_NEAR(evidence[0].value, 60, 1.5) << "30 m again, and the jump back along them";
   EXPECT_EQ(evidence[1].says, Says::against_it);
-  EXPECT_NE(evidence[1].reason.find("recognizes nothing"), std::string::npos);
+  EXPECT_NE(evidence[1].reason.find("sees something else"), std::string::npos);
+}
+
+// Two walls along the way, as a laser in the base sees them, the second time `off` to the side [m].
+testing::HandMadeRun thereAgainBetweenWalls(double off) {
+  auto run = thereAgain();
+  for (std::uint32_t i = 0; i < run.map.key_frames.size(); ++i) {
+    auto& frame = run.map.key_frames.edit({0, i});
+    const double base_y = frame.map_from_base.y() + (i > 30 ? off : 0);
+    auto points = mrpt::maps::CSimplePointsMap::Create();
+    for (int k = -100; k <= 100; ++k) {
+      for (const double y : {-1.5, 1.5})
+        points->insertPoint(static_cast<float>(0.05 * k), static_cast<float>(y - base_y), 0);
+    }
+    auto cloud = mrpt::obs::CObservationPointCloud::Create();
+    cloud->sensorLabel = "laser_points";
+    cloud->pointcloud = points;
+    frame.observations.push_back(cloud);
+  }
+  return run;
+}
+
+TEST(MapConsistency, AWayAgainOnWhichTheScansFitIsNotAgainstTheMap) {
+  const auto fits = revisits(thereAgainBetweenWalls(0).view(), "loops", {"laser_points"}, 8);
+  EXPECT_EQ(fits[1].says, Says::good);
+  EXPECT_EQ(fits[1].value, 0);
+  EXPECT_NE(fits[0].reason.find("60 m more"), std::string::npos) << fits[0].reason;
+  const auto doubled = revisits(thereAgainBetweenWalls(0.5).view(), "loops", {"laser_points"}, 8);
+  EXPECT_EQ(doubled[1].says, Says::against_it);
 }
 
 // Whatever run they are of: a session that goes on has the closures of those before it in the graph alone.
 TEST(MapConsistency, AClosureOfTheGraphTiesFifteenMetresAroundIt) {
   auto run = thereAgain();
   close(run, 45, 14);
-  const auto evidence = revisits(run.view(), "loops", 8);
+  const auto evidence = revisits(run.view(), "loops", {}, 8);
   EXPECT_EQ(evidence[1].reason.find("for 29 m"), std::string::npos);
-  EXPECT_LT(evidence[1].value, revisits(thereAgain().view(), "loops", 8)[1].value - 28);
+  EXPECT_LT(evidence[1].value, revisits(thereAgain().view(), "loops", {}, 8)[1].value - 28);
 }
 
 TEST(MapConsistency, AClosureThatWasRefusedOrIsSomebodyElsesTiesNothing) {
   auto run = thereAgain();
-  const double open = revisits(run.view(), "loops", 8)[1].value;
+  const double open = revisits(run.view(), "loops", {}, 8)[1].value;
   close(run, 45, 14, 0);
-  EXPECT_EQ(revisits(run.view(), "loops", 8)[1].value, open);
+  EXPECT_EQ(revisits(run.view(), "loops", {}, 8)[1].value, open);
   close(run, 45, 14);
-  EXPECT_EQ(revisits(run.view(), "others", 8)[1].value, open);
+  EXPECT_EQ(revisits(run.view(), "others", {}, 8)[1].value, open);
 }
 
 }  // namespace

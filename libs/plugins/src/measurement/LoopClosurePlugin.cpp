@@ -157,7 +157,7 @@ mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, cons
 std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& view) const {
   std::vector<std::string> labels;
   for (const auto& [label, history] : histories_) labels.push_back(label);
-  auto all = revisits(view, context_.section, options_.min_way);
+  auto all = revisits(view, context_.section, labels, options_.min_way);
   all.insert(all.begin(), scansThroughWalls(view.map, labels));
   return all;
 }

@@ -1,6 +1,7 @@
 #include "MapConsistency.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/matching/LikelihoodPyramid.h>
 #include <omnimapper/matching/WallCrossings.h>
 #include <omnimapper/plugins/KnownPlaces.h>
 
@@ -156,6 +157,41 @@ class Squares {
   std::map<std::pair<double, double>, std::vector<std::size_t>> squares_;
 };
 
+// How much of what was seen at a stop lies on what was seen near there at least `min_travel` [m] before, [0, 1]: where
+// the map is right, what stands there.
+double shareSeenBefore(const map::Map& map, const std::vector<std::string>& labels, const std::vector<Stop>& stops,
+                       std::size_t at, double min_travel) {
+  constexpr double kNear = 6;  // [m] from where most of it was in sight
+  constexpr std::size_t kMost = 12;
+  std::vector<Eigen::Vector2f> before, seen;
+  const auto add = [&](std::size_t i, std::vector<Eigen::Vector2f>& points) {
+    const TPose2D here_from_base = stops[i].pose - stops[at].pose;
+    for (const auto& label : labels) {
+      const auto beams = beamsInBase(*std::next(map.key_frames.begin(), static_cast<std::ptrdiff_t>(i)), label);
+      const TPose2D here_from_sensor = here_from_base + beams.local_from_sensor;
+      for (const auto& hit : beams.scan.hits) {
+        const auto point = here_from_sensor.composePoint({hit.x(), hit.y()});
+        points.emplace_back(static_cast<float>(point.x), static_cast<float>(point.y));
+      }
+    }
+  };
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t i = 0; i < at && stops[at].travelled - stops[i].travelled >= min_travel; ++i) {
+    const double apart = std::hypot(stops[i].pose.x - stops[at].pose.x, stops[i].pose.y - stops[at].pose.y);
+    if (apart < kNear) near.emplace_back(apart, i);
+  }
+  std::sort(near.begin(), near.end());
+  near.resize(std::min(near.size(), kMost));
+  for (const auto& [apart, i] : near) add(i, before);
+  add(at, seen);
+  if (before.empty() || seen.empty()) return 0;
+  matching::LikelihoodOptions grid;
+  grid.cell = 0.1;
+  grid.sigma = 0.15;
+  grid.levels = 1;
+  return matching::LikelihoodPyramid(before, grid).score(seen, TPose2D());
+}
+
 // Which stops lie where the robot has been, at least `min_travel` [m] before.
 std::vector<bool> revisiting(const std::vector<Stop>& stops, double min_travel) {
   constexpr double kNear = 2.0, kAngle = 0.8;  // [m] [rad] within which two scans of 180 deg see much the same
@@ -176,26 +212,33 @@ std::vector<bool> revisiting(const std::vector<Stop>& stops, double min_travel) 
 
 }  // namespace
 
-std::vector<Evidence> revisits(const mapper::State& state, const std::string& section, double min_travel) {
-  constexpr double kTied = 15;  // [m] of travel from a closure within which a revisit counts as recognized
-  constexpr double kLong = 10;  // [m] of a stretch that is not
+std::vector<Evidence> revisits(const mapper::State& state, const std::string& section,
+                               const std::vector<std::string>& labels, double min_travel) {
+  constexpr double kTied = 15;   // [m] of travel from a closure within which a revisit counts as recognized
+  constexpr double kLong = 10;   // [m] of a stretch that is not
+  constexpr double kFits = 0.5;  // of shareSeenBefore()
   auto stops = stopsOf(state.map, 2 * min_travel);
   const std::size_t closures = markTied(state, section, kTied, stops);
   const auto again = revisiting(stops, min_travel);
-  double revisited = 0, untied = 0, stretch = 0, longest = 0;
+  double revisited = 0, untied = 0, fitting = 0, stretch = 0, longest = 0;
   base::Stamp longest_until{};
   for (std::size_t i = 1; i < stops.size(); ++i) {
     const double step = again[i] ? stops[i].travelled - stops[i - 1].travelled : 0;
     revisited += step;
-    stretch = again[i] && !stops[i].is_tied ? stretch + step : 0;
+    const bool is_known =
+        !again[i] || stops[i].is_tied || shareSeenBefore(state.map, labels, stops, i, min_travel) > kFits;
+    stretch = is_known ? 0 : stretch + step;
     if (stretch > 0) untied += step;
+    if (is_known && !stops[i].is_tied) fitting += step;
     if (stretch > longest) {
       longest = stretch;
       longest_until = stops[i].stamp;
     }
   }
   Evidence again_m{"revisited_m", revisited, Evidence::Says::good,
-                   format("%zu closures tie %.0f m that were driven again", closures, revisited - untied)};
+                   format("%zu closures tie %.0f m that were driven again", closures, revisited - untied - fitting)};
+  if (fitting > kLong)
+    again_m.reason += format(", and on %.0f m more the scans fit what was seen there before", fitting);
   if (revisited == 0) {
     again_m.says = Evidence::Says::too_little;
     again_m.reason = "the robot never came back to a place that it had seen before";
@@ -204,7 +247,7 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
   if (longest > kLong) {
     untied_m.says = Evidence::Says::against_it;
     untied_m.reason = format(
-        "for %.0f m, until %.0f s after the start, the robot drives where it has been before and recognizes nothing",
+        "for %.0f m, until %.0f s after the start, the robot drives where it has been before and sees something else",
         longest, base::secondsBetween(stops.front().stamp, longest_until));
   }
   return {again_m, untied_m};

@@ -13,7 +13,9 @@ namespace omnimapper::plugins {
 mapper::Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& labels);
 
 /// How far the robot drove where it had been before, after at least `min_travel` [m], and how much of that no closure
-/// of the plugin `section` ties to what was seen there.
-std::vector<mapper::Evidence> revisits(const mapper::State& state, const std::string& section, double min_travel);
+/// of the plugin `section` ties to what was seen there and where the scans do not fit what was seen there either.
+/// `labels` as above.
+std::vector<mapper::Evidence> revisits(const mapper::State& state, const std::string& section,
+                                       const std::vector<std::string>& labels, double min_travel);
 
 }  // namespace omnimapper::plugins
