@@ -259,6 +259,56 @@ TEST(ScanOdometryPlugin, AGapThatNothingTellsIsEvidence) {
 }
 
 // Root mean square of the error over a second of a turning base, [m] [rad].
+// Of the two walls of a corridor, 2.4 m apart and without an end in sight.
+CObservation::Ptr scanOfACorridor(double seconds) {
+  constexpr int kBeams = 181;
+  constexpr float kReach = 8;
+  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+  scan->sensorLabel = "laser";
+  scan->timestamp = base::stampFromUnix(1e9 + seconds);
+  scan->aperture = static_cast<float>(M_PI);
+  scan->maxRange = kReach;
+  scan->resizeScan(kBeams);
+  for (int i = 0; i < kBeams; ++i) {
+    const double across = std::abs(std::sin(-M_PI / 2 + i * M_PI / (kBeams - 1)));
+    const auto range = static_cast<float>(1.2 / std::max(across, 1e-3));
+    scan->setScanRange(i, range);
+    scan->setScanRangeValidity(i, range < kReach);
+  }
+  return scan;
+}
+
+TEST(ScanOdometryPlugin, AlongABareCorridorItKnowsThatItDoesNotKnow) {
+  for (const bool wheels : {true, false}) {
+    ScanOdometryPlugin plugin({}, {}, {});
+    for (int i = 0; i <= 100; ++i) {
+      if (wheels) {
+        auto odometry = mrpt::obs::CObservationOdometry::Create();
+        odometry->sensorLabel = "odometry";
+        odometry->timestamp = base::stampFromUnix(1e9 + 0.1 * i);
+        odometry->odometry = CPose2D(0.05 * i, 0, 0);
+        plugin.add(*odometry);
+      }
+      plugin.add(*scanOfACorridor(0.1 * i));
+    }
+    plugin.processUntil(*plugin.coveredUntil());
+    const auto told = plugin.between(base::stampFromUnix(1e9), base::stampFromUnix(1e9 + 10));
+    ASSERT_TRUE(told);
+    const double along = std::sqrt(told->covariance(0, 0)), across = std::sqrt(told->covariance(1, 1));
+    EXPECT_LT(across, 0.2);
+    if (wheels) {
+      EXPECT_NEAR(told->begin_from_end.x(), 5, 0.3);
+      EXPECT_LT(along, 0.5);
+      EXPECT_TRUE(plugin.evidence().empty());
+    } else {
+      EXPECT_GT(along, 3) << "in 10 s it may have gone 5 m or none";
+      ASSERT_EQ(plugin.evidence().size(), 1U);
+      EXPECT_GT(plugin.evidence()[0].value, 95);
+      EXPECT_EQ(plugin.evidence()[0].says, mapper::Evidence::Says::too_little);
+    }
+  }
+}
+
 struct Errors {
   double position = 0, heading = 0;
 };

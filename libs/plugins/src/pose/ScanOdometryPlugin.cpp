@@ -113,12 +113,25 @@ std::vector<std::string> ScanOdometryPlugin::warnings() const {
 }
 
 std::vector<mapper::Evidence> ScanOdometryPlugin::evidence() const {
-  if (gaps_.count == 0) return {};
-  char text[120];
-  std::snprintf(text, sizeof text,
-                "nothing told the motion across %zu gaps of the laser, the first %.0f s after its start", gaps_.count,
-                gaps_.first);
-  return {{"laser_gaps_without_motion", static_cast<double>(gaps_.count), mapper::Evidence::Says::too_little, text}};
+  constexpr double kMostBlind = 10;  // [%]
+  const auto too_little = mapper::Evidence::Says::too_little;
+  std::vector<mapper::Evidence> all;
+  char text[200];
+  if (gaps_.count > 0) {
+    std::snprintf(text, sizeof text,
+                  "nothing told the motion across %zu gaps of the laser, the first %.0f s after its start", gaps_.count,
+                  gaps_.first);
+    all.push_back({"laser_gaps_without_motion", static_cast<double>(gaps_.count), too_little, text});
+  }
+  const double percent = 100 * blind_seconds_ / std::max(blind_seconds_ + seeing_seconds_, 1e-9);
+  if (percent > kMostBlind) {
+    std::snprintf(text, sizeof text,
+                  "for %.0f %% of the time the laser saw nothing that tells motion along a corridor, and no odometry "
+                  "told it",
+                  percent);
+    all.push_back({"blind_along_percent", percent, too_little, text});
+  }
+  return all;
 }
 
 ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation& observation) {
@@ -181,6 +194,22 @@ void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
   predictor.is_judged = true;
 }
 
+namespace {
+// Of a motion along walls that nothing tells: however the base drove last, it may have braked or gone on. That it does
+// so for a while, and not anew at each scan, makes the spans' errors alike: they add up as those of such a while do.
+double blindVariance(double seconds) {
+  constexpr double kUsualSpeed = 0.5, kWhile = 10;  // [m/s] [s]
+  return mrpt::square(kUsualSpeed) * kWhile * seconds;
+}
+
+}  // namespace
+
+// Whether wheels or inertia told the motion that is sought now.
+bool ScanOdometryPlugin::isTold() const {
+  return std::any_of(odometries_.begin(), odometries_.end(),
+                     [](const Odometry& odometry) { return odometry.told.has_value(); });
+}
+
 void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) {
   if (!last_) return restart(scan);
   const base::Stamp stamp = middleOf(scan);
@@ -194,13 +223,17 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   const auto tracked = tracker_.track(wallsOf(scan, velocity), placeOf(scan), predictions);
   if (!tracked) {
     if (seconds <= options_.max_gap) return;
-    const bool is_told = std::any_of(odometries_.begin(), odometries_.end(),
-                                     [](const Odometry& odometry) { return odometry.told.has_value(); });
-    if (!is_told && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
+    if (!isTold() && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
     return restart(scan);
   }
   const TPose2D& motion = tracked->match.reference_from_scan;
-  const auto told = motionOf(*tracked, predictions[tracked->prediction].guess);
+  const bool is_blind = tracked->match.degenerate && !isTold();
+  auto guess = predictions[tracked->prediction].guess;
+  if (is_blind)
+    guess.information.topLeftCorner<2, 2>() =
+        mrpt::square(noise_) / blindVariance(seconds) * Eigen::Matrix2d::Identity();
+  (is_blind ? blind_seconds_ : seeing_seconds_) += seconds;
+  const auto told = motionOf(*tracked, guess);
   if (is_first_ && is_long) {
     // From its stamp on, as the base went on.
     const auto before = mrpt::poses::CPose2D(scaled(motion, 0.5 * options_.sweep / seconds));

@@ -97,6 +97,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   matching::PlanarScan wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
                                const mrpt::math::TPose2D& velocity) const;
   std::vector<matching::MotionPrediction> predictions(base::Stamp stamp);
+  bool isTold() const;
   void restart(const mrpt::obs::CObservation2DRangeScan& scan);
   mapper::RelativeMotion motionOf(const matching::ScanTracker::Tracked& tracked,
                                   const matching::MatchGuess& guess) const;
@@ -112,6 +113,8 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   std::optional<base::Stamp> last_;                                 // middle of the scan that was matched last
   std::optional<base::Stamp> begun_;                                // middle of the first scan of all
   Gaps gaps_;
+  double blind_seconds_ = 0;      // in which the walls left a direction open, and no odometry told the motion
+  double seeing_seconds_ = 0;     // all others that it followed the base
   bool is_first_ = true;          // whether none was before it
   mrpt::math::TPose2D velocity_;  // [m/s] [rad/s] in the base
   Predictor by_velocity_;
