@@ -25,6 +25,7 @@ TEST(ChildProcess, TellsHowTheWorkEnded) {
   EXPECT_EQ(thrown.message, "a reason");
   EXPECT_EQ(tryInChild([] { throw std::bad_alloc(); }, kMemory).how, TrialEnd::How::out_of_memory);
   EXPECT_EQ(tryInChild([] { ::raise(SIGSEGV); }, kMemory).how, TrialEnd::How::crashed);
+  EXPECT_EQ(tryInChild([] { ::_exit(1); }, kMemory).how, TrialEnd::How::crashed) << "as a sanitizer ends a crash";
   EXPECT_EQ(tryInChild([] { ::_exit(77); }, kMemory).how, TrialEnd::How::crashed);
 }
 

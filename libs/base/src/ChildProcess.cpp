@@ -17,8 +17,8 @@ namespace omnimapper::base {
 
 namespace {
 
-// Exit codes of the child.
-constexpr int kFinished = 0, kOutOfMemory = 1, kThrew = 2;
+// Exit codes of the child. Sanitizers end with 1 what crashes, and the shell has 126 and above.
+constexpr int kFinished = 0, kOutOfMemory = 101, kThrew = 102;
 
 // Of address space, by this process.
 rlim_t held() {
