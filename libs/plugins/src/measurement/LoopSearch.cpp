@@ -12,8 +12,8 @@ namespace omnimapper::plugins {
 using mrpt::math::TPose2D;
 
 namespace {
-constexpr double kSigmas = 3;    // standard deviations that an estimate may be off by
-constexpr double kAlike = 0.05;  // of overlap: two matches that differ by less are as good as one another
+constexpr double kReachSigmas = 3;  // standard deviations that an estimate may be off by
+constexpr double kAlike = 0.05;     // of overlap: two matches that differ by less are as good as one another
 constexpr double kSame = 0.3, kSameTurn = 0.1;  // [m] [rad] within which two matches are one
 constexpr std::size_t kMostBlocks = 100'000;  // of a search: a second or so in a window that is large and tells little
 }  // namespace
@@ -68,8 +68,8 @@ std::optional<double> LoopSearch::overlapElsewhere(const std::vector<Attempt>& a
     if (&other == &attempt || other.matches.empty() || other.matches.front().overlap < best.overlap - kAlike) continue;
     const auto covariance = state.covarianceBetween(here, there);
     if (!covariance) continue;
-    const double metres = kSame + kSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));
-    const double radians = kSameTurn + kSigmas * std::sqrt((*covariance)(5, 5));
+    const double metres = kSame + kReachSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));
+    const double radians = kSameTurn + kReachSigmas * std::sqrt((*covariance)(5, 5));
     const auto here_from_there =
         planar(state.map.keyFrame(there).map_from_base - state.map.keyFrame(here).map_from_base);
     for (const auto& match : other.matches) {
@@ -86,8 +86,8 @@ LoopSearch::Doubt LoopSearch::doubtAt(const Place& place, const mapper::State& s
   const auto covariance = state.covarianceBetween(place.centre.frame, newest_.back().frame);
   if (!covariance) return {options_.max_window, options_.max_window_angle};
   const Eigen::Matrix2d position = covariance->topLeftCorner<2, 2>();
-  return {kSigmas * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]),
-          kSigmas * std::sqrt((*covariance)(5, 5))};
+  return {kReachSigmas * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]),
+          kReachSigmas * std::sqrt((*covariance)(5, 5))};
 }
 
 double LoopSearch::queryWay(const Doubt& doubt) const {
@@ -157,7 +157,7 @@ std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, con
   if (isApart(centre.id, frame.id, state.map) && doubt.position > options_.max_window) return std::nullopt;
   // A closure that tells what the map knows as well only makes every solve dearer.
   const bool is_known =
-      doubt.position < kSigmas * options_.known_sigma && doubt.yaw < kSigmas * options_.known_angle_sigma;
+      doubt.position < kReachSigmas * options_.known_sigma && doubt.yaw < kReachSigmas * options_.known_angle_sigma;
   if (is_known && !context_.map_is_held) return std::nullopt;
 
   Attempt attempt{&place, guess, {}, {}};
