@@ -1,8 +1,8 @@
 #include <omnimapper/base/Config.h>
+#include <omnimapper/base/InputFile.h>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <sstream>
 
 namespace omnimapper::base {
@@ -115,12 +115,7 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
 }
 
 Config Config::fromFile(const std::string& path) {
-  std::ifstream in(path);
-  std::string text, line;
-  while (std::getline(in, line)) text += line + "\n";
-  if (!in.is_open() || in.bad()) {
-    throw Error(ExitCode::unreadable_input, path + ": cannot read this INI file; is the path right?");
-  }
+  const std::string text = readInput(path);
   Config config = fromText(text, path);
   config.first_file_ = path;
   config.is_written_from_a_log_ = text.compare(0, kWrittenFromALog.size(), kWrittenFromALog) == 0;

@@ -1,10 +1,10 @@
 #include "TextColumns.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/InputFile.h>
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 namespace omnimapper::eval {
@@ -65,7 +65,7 @@ base::Stamp TextColumns::stamp(std::size_t column) const {
 }
 
 void forEachLine(const std::string& path, const std::function<bool(const TextColumns&)>& use) {
-  std::ifstream in(path);
+  auto in = base::openInput(path);
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     std::istringstream words(line.substr(0, line.find('#')));
@@ -73,9 +73,7 @@ void forEachLine(const std::string& path, const std::function<bool(const TextCol
     for (std::string word; words >> word;) columns.texts.push_back(word);
     if (!columns.texts.empty() && !use(columns)) return;
   }
-  if (!in.is_open() || in.bad()) {
-    throw Error(ExitCode::unreadable_input, path + ": cannot read this file; is the path right?");
-  }
+  if (in.bad()) throw Error(ExitCode::damaged_input, path + ": cannot be read to its end; is the disk whole?");
 }
 
 }  // namespace omnimapper::eval

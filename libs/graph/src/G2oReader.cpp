@@ -1,7 +1,7 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/InputFile.h>
 #include <omnimapper/geometry/Conversions.h>
 
-#include <fstream>
 #include <istream>
 
 #include "G2oTokens.h"
@@ -237,8 +237,7 @@ G2oContent readG2o(std::istream& in, const std::string& name) {
 }
 
 G2oContent readG2o(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) throw base::Error(base::ExitCode::unreadable_input, path + ": cannot be opened: check that the file exists");
+  auto in = base::openInput(path);
   return readG2o(in, path);
 }
 

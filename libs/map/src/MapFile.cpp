@@ -1,15 +1,11 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/InputFile.h>
 #include <omnimapper/map/MapFile.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "Bytes.h"
 
@@ -46,20 +42,6 @@ std::uint32_t checksumOf(const std::string& header, std::string_view bytes) {
   return static_cast<std::uint32_t>(crc);
 }
 
-std::string contentOf(const std::string& path) {
-  // Who opens a pipe that nobody writes to waits for ever.
-  std::error_code none;
-  if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
-    refuseFile(path, "is no file but a folder, a pipe or a device. Check the name of the map file.");
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    refuseFile(path, std::string("cannot be opened (") + std::strerror(errno) + "). Check the name of the map file.");
-  std::ostringstream content;
-  content << in.rdbuf();
-  if (in.bad()) refuseFile(path, "cannot be read to its end. Check the disk.");
-  return std::move(content).str();
-}
-
 MapSection readSection(ByteReader& in, const std::string& path, std::uint32_t number) {
   in.setWhat(path + ", section number " + std::to_string(number));
   const auto checksum = static_cast<std::uint32_t>(in.uint(4));
@@ -78,7 +60,7 @@ MapSection readSection(ByteReader& in, const std::string& path, std::uint32_t nu
 }  // namespace
 
 MapFile MapFile::read(const std::string& path) {
-  const std::string content = contentOf(path);
+  const std::string content = base::readInput(path);
   if (content.compare(0, kMagic.size(), kMagic) != 0) {
     refuseFile(path, "is no map file of OmniMapper: it does not begin with \"OMNIMAP\".");
   }

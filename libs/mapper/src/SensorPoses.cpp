@@ -1,10 +1,10 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <omnimapper/base/InputFile.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/mapper/SensorPoses.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 
@@ -33,8 +33,7 @@ std::string addLine(const std::string& line, Track& track) {
 
 // base_from_sensor over time.
 Track readTrack(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) throw base::Error(base::ExitCode::unreadable_input, path + ": cannot read this file of sensor poses");
+  auto in = base::openInput(path);
   Track track;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {

@@ -1,9 +1,9 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/InputFile.h>
 #include <omnimapper/source/PcdCloud.h>
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <type_traits>
@@ -209,8 +209,7 @@ const Field* fieldNamed(const Header& header, std::initializer_list<const char*>
 }  // namespace
 
 PcdCloud readPcd(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw base::Error(base::ExitCode::unreadable_input, path + ": cannot be opened");
+  auto in = base::openInput(path);
   const Header header = readHeader(in, path);
   const Field *x = fieldNamed(header, {"x"}), *y = fieldNamed(header, {"y"}), *z = fieldNamed(header, {"z"});
   if (x == nullptr || y == nullptr || z == nullptr) refusePcd(path, "it lacks x, y or z");

@@ -1,4 +1,5 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/base/InputFile.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/source/RgbdFolder.h>
 
@@ -6,7 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <filesystem>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -55,14 +56,12 @@ std::optional<double> numberNamed(const std::string& name, const std::string& te
 }
 
 Intrinsics readIntrinsics(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) {
+  if (!std::filesystem::exists(path)) {
     refuse(path,
            "is neither the name of a known camera (freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni) nor a "
-           "file that can be read");
+           "file");
   }
-  std::stringstream text;
-  text << in.rdbuf();
+  std::istringstream text(base::readInput(path));
   const auto fx = numberNamed("fx", text.str()), fy = numberNamed("fy", text.str()), cx = numberNamed("cx", text.str()),
              cy = numberNamed("cy", text.str());
   if (fx && fy && cx && cy) return {*fx, *fy, *cx, *cy};
@@ -84,7 +83,7 @@ Intrinsics intrinsicsOf(const std::string& folder, const std::string& name) {
 }
 
 bool load(mrpt::img::CImage& image, const std::string& path, int how) {
-  if (whyTooLarge(path)) return false;
+  if (!std::filesystem::is_regular_file(path) || whyTooLarge(path)) return false;
   try {
     return image.loadFromFile(path, how) && !image.isEmpty();
   } catch (const std::exception&) {

@@ -1,8 +1,9 @@
 #include "RgbdFolderForms.h"
 
+#include <omnimapper/base/InputFile.h>
+
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -16,8 +17,7 @@ namespace {
 
 /// A list of "stamp ..." lines; '#' begins a comment.
 std::vector<std::pair<base::Stamp, std::string>> readList(const fs::path& path) {
-  std::ifstream in(path);
-  if (!in) refuse(path, "cannot be read");
+  auto in = base::openInput(path);
   std::vector<std::pair<base::Stamp, std::string>> list;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -186,7 +186,7 @@ RgbdFolderContent readEqualNames(const fs::path& folder, const RgbdFolderOptions
 }
 
 geometry::Se3 readMatrix(const fs::path& path) {
-  std::ifstream in(path);
+  auto in = base::openInput(path);
   Eigen::Matrix4d m;
   for (int i = 0; i < 16; ++i) {
     if (!(in >> m(i / 4, i % 4))) refuse(path, "is no 4 x 4 matrix");

@@ -21,6 +21,7 @@ using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationOdometry;
 using omnimapper::testing::ownProgram;
 using omnimapper::testing::Program;
+using omnimapper::testing::runProgram;
 using omnimapper::testing::ScratchFolder;
 using omnimapper::testing::sharedData;
 using omnimapper::testing::SimulatedLogOptions;
@@ -183,6 +184,37 @@ TEST_F(Hostile, APipeIsNoLog) {
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, graphslam({"--check", pipe}), {"pipe"}));
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, map({pipe}, folder_), {"pipe"}));
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, map({save(ring())}, folder_, {"--continue", pipe}), {"pipe"}));
+}
+
+// Who opens a pipe that nobody writes to waits for ever.
+TEST_F(Hostile, APipeIsNoFileOfAnyOtherKind) {
+  const std::string pipe = scratch_ / "pipe", log = save(ring());
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const auto refuses = [&](const Words& command) {
+    return endedWith(ExitCode::unreadable_input, runProgram(command), {pipe + ": is a pipe or a device"});
+  };
+  const std::string mapper = ownProgram("omnimapper-graphslam"), eval = ownProgram("omnimapper-eval");
+  EXPECT_TRUE(refuses({mapper, "-i", pipe, "-r", log, "-o", folder_}));
+  const std::string head =
+      writeFile(scratch_ / "head.ini", "[mapper]\nsensors = head\n[head]\nlabel = laser\npose_file = " + pipe);
+  EXPECT_TRUE(refuses({mapper, "-i", sourceFile("ini/laser2d.ini"), "-i", head, "-r", log, "-o", folder_}));
+  EXPECT_TRUE(refuses({eval, "ate", pipe, pipe}));
+  EXPECT_TRUE(refuses({eval, "relations", writeFile(scratch_ / "one.tum", "0 0 0 0 0 0 0 1\n"), pipe}));
+
+  const std::string camera = scratch_ / "camera", import = ownProgram("omnimapper-import");
+  fs::create_directories(camera + "/depth");
+  writeFile(camera + "/depth.txt", "1.0 depth/1.png\n");
+  fs::create_symlink(pipe, camera + "/rgb.txt");
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input,
+                        runProgram({import, "tum", camera, scratch_ / "out.rawlog", "--intrinsics", "freiburg1"}),
+                        {"rgb.txt: is a pipe or a device"}));
+  fs::remove(camera + "/rgb.txt");
+  writeFile(camera + "/rgb.txt", "1.0 rgb/1.png\n");
+  EXPECT_TRUE(refuses({import, "tum", camera, scratch_ / "out.rawlog", "--intrinsics", pipe}));
+  fs::create_symlink(pipe, camera + "/depth/1.png");
+  const auto imported = runProgram({import, "tum", camera, scratch_ / "out.rawlog", "--intrinsics", "freiburg1"});
+  EXPECT_NE(imported.code, 0) << toString(imported);
+  EXPECT_FALSE(imported.signal) << toString(imported);
 }
 
 TEST_F(Hostile, ASecondInterruptEndsAtOnce) {
