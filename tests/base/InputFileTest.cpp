@@ -42,10 +42,10 @@ TEST(InputFile, WhatIsNoneIsRefusedByNameAndReason) {
   const ScratchFolder folder;
   const std::string pipe = folder / "pipe", absent = folder / "absent";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(refusal(pipe), pipe + ": is a pipe or a device; copy what it gives into a file");
-  EXPECT_EQ(refusal("/dev/zero"), "/dev/zero: is a pipe or a device; copy what it gives into a file");
-  EXPECT_EQ(refusal(folder / "."), std::string(folder / ".") + ": is a folder; name a file in it");
-  EXPECT_EQ(refusal(absent), absent + ": cannot be opened: No such file or directory; is the path right?");
+  EXPECT_EQ(refusal(pipe), pipe + ": is a pipe or a device and no file");
+  EXPECT_EQ(refusal("/dev/zero"), "/dev/zero: is a pipe or a device and no file");
+  EXPECT_EQ(refusal(folder / "."), std::string(folder / ".") + ": is a folder and no file");
+  EXPECT_EQ(refusal(absent), absent + ": this file cannot be opened: No such file or directory; is the path right?");
 }
 
 }  // namespace

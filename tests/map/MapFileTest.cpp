@@ -154,7 +154,8 @@ TEST(MapFile, anyFlippedBitIsNoticed) {
 
 TEST(MapFile, whatIsNoMapOrNotThereIsRefusedByName) {
   omnimapper::testing::ScratchFolder folder;
-  EXPECT_NE(refusal(folder / "absent.omnimap").find("absent.omnimap: cannot be opened"), std::string::npos);
+  EXPECT_NE(refusal(folder / "absent.omnimap").find("absent.omnimap: this map file cannot be opened"),
+            std::string::npos);
   overwrite(folder / "text.omnimap", "VERTEX_SE2 0 0 0 0\n");
   EXPECT_NE(refusal(folder / "text.omnimap").find("is no map file"), std::string::npos);
 }

@@ -115,7 +115,7 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
 }
 
 Config Config::fromFile(const std::string& path) {
-  const std::string text = readInput(path);
+  const std::string text = readInput(path, "INI file");
   Config config = fromText(text, path);
   config.first_file_ = path;
   config.is_written_from_a_log_ = text.compare(0, kWrittenFromALog.size(), kWrittenFromALog) == 0;

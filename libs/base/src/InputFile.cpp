@@ -8,28 +8,29 @@
 
 namespace omnimapper::base {
 
-std::ifstream openInput(const std::string& path) {
+std::ifstream openInput(const std::string& path, const std::string& kind) {
   std::error_code none;
   const auto status = std::filesystem::status(path, none);
   if (std::filesystem::is_directory(status)) {
-    throw Error(ExitCode::unreadable_input, path + ": is a folder; name a file in it");
+    throw Error(ExitCode::unreadable_input, path + ": is a folder and no " + kind);
   }
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw Error(ExitCode::unreadable_input, path + ": is a pipe or a device; copy what it gives into a file");
+    throw Error(ExitCode::unreadable_input, path + ": is a pipe or a device and no " + kind);
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) {
     throw Error(ExitCode::unreadable_input,
-                path + ": cannot be opened: " + std::strerror(errno) + "; is the path right?");
+                path + ": this " + kind + " cannot be opened: " + std::strerror(errno) + "; is the path right?");
   }
   return in;
 }
 
-std::string readInput(const std::string& path) {
-  auto in = openInput(path);
+std::string readInput(const std::string& path, const std::string& kind) {
+  auto in = openInput(path, kind);
   std::ostringstream content;
   content << in.rdbuf();
-  if (in.bad()) throw Error(ExitCode::damaged_input, path + ": cannot be read to its end; is the disk whole?");
+  if (in.bad())
+    throw Error(ExitCode::damaged_input, path + ": this " + kind + " cannot be read to its end; is the disk whole?");
   return std::move(content).str();
 }
 

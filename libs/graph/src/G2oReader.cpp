@@ -237,7 +237,7 @@ G2oContent readG2o(std::istream& in, const std::string& name) {
 }
 
 G2oContent readG2o(const std::string& path) {
-  auto in = base::openInput(path);
+  auto in = base::openInput(path, "g2o file");
   return readG2o(in, path);
 }
 

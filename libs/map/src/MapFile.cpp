@@ -60,7 +60,7 @@ MapSection readSection(ByteReader& in, const std::string& path, std::uint32_t nu
 }  // namespace
 
 MapFile MapFile::read(const std::string& path) {
-  const std::string content = base::readInput(path);
+  const std::string content = base::readInput(path, "map file");
   if (content.compare(0, kMagic.size(), kMagic) != 0) {
     refuseFile(path, "is no map file of OmniMapper: it does not begin with \"OMNIMAP\".");
   }

@@ -33,7 +33,7 @@ std::string addLine(const std::string& line, Track& track) {
 
 // base_from_sensor over time.
 Track readTrack(const std::string& path) {
-  auto in = base::openInput(path);
+  auto in = base::openInput(path, "file of sensor poses");
   Track track;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {

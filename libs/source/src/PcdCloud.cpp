@@ -209,7 +209,7 @@ const Field* fieldNamed(const Header& header, std::initializer_list<const char*>
 }  // namespace
 
 PcdCloud readPcd(const std::string& path) {
-  auto in = base::openInput(path);
+  auto in = base::openInput(path, "PCD file");
   const Header header = readHeader(in, path);
   const Field *x = fieldNamed(header, {"x"}), *y = fieldNamed(header, {"y"}), *z = fieldNamed(header, {"z"});
   if (x == nullptr || y == nullptr || z == nullptr) refusePcd(path, "it lacks x, y or z");
