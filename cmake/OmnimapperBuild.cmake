@@ -118,14 +118,15 @@ function(omnimapper_app name)
   install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# omnimapper_test(NAME [OPTIMIZED] [COST SECONDS] <targets...> [RELEASE FILES...] [THREADS FILES...]): one test binary for
+# omnimapper_test(NAME [OPTIMIZED] [HALVES] [COST SECONDS] <targets...> [RELEASE FILES...] [THREADS FILES...]): one test binary for
 # the folder's *Test.cpp files, named test-NAME. Tests are not optimized: they assert the same, and compile in 40 % of the
 # time. OPTIMIZED is for tests that render images or search texts themselves, which would run for minutes. COST is roughly
 # how long the test runs; ctest starts the longest first. Some files are once more in a binary without the others: those
 # of RELEASE in test-NAME-release, what tries more without a sanitizer (release_cases in scripts/lib/suites.sh), and those
-# of THREADS, in a build under the thread sanitizer, in test-NAME-threads (thread_cases there).
+# of THREADS, in a build under the thread sanitizer, in test-NAME-threads (thread_cases there). With HALVES the cases run
+# in two tests of ctest side by side, NAME and NAME-2; whoever runs the program itself runs them all.
 function(omnimapper_test name)
-  cmake_parse_arguments(ARG "OPTIMIZED" "COST" "RELEASE;THREADS" ${ARGN})
+  cmake_parse_arguments(ARG "OPTIMIZED;HALVES" "COST" "RELEASE;THREADS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*Test.cpp")
   add_executable(test-${name} ${sources})
   set(names ${name})
@@ -146,8 +147,19 @@ function(omnimapper_test name)
       target_compile_options(test-${each} PRIVATE -O0)
     endif()
     add_test(NAME ${each} COMMAND test-${each})
+    set(tests ${each})
+    if(ARG_HALVES)
+      # GoogleTest names the list of what ran after the program.
+      set(half "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/test-${each}-2")
+      add_custom_command(TARGET test-${each} POST_BUILD
+        COMMAND "${CMAKE_COMMAND}" -E create_symlink test-${each} "${half}")
+      add_test(NAME ${each}-2 COMMAND "${half}")
+      set_tests_properties(${each} PROPERTIES ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=0")
+      set_tests_properties(${each}-2 PROPERTIES ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=1")
+      list(APPEND tests ${each}-2)
+    endif()
     if(ARG_COST)
-      set_tests_properties(${each} PROPERTIES COST "${ARG_COST}")
+      set_tests_properties(${tests} PROPERTIES COST "${ARG_COST}")
     endif()
   endforeach()
 endfunction()
