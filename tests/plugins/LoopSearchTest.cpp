@@ -7,47 +7,14 @@
 #include <omnimapper/plugins/LoopSearch.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
-#include <cmath>
+#include "SeenWalls.h"
 
 namespace omnimapper::plugins::loop_search_test {
 namespace {
 
 using mrpt::poses::CPose3D;
 using testing::HandMadeRun;
-
-struct Wall {
-  Eigen::Vector2d from, to;
-};
-using World = std::vector<Wall>;
-
-World room(double width, double height) {
-  const double x = width / 2, y = height / 2;
-  return {{{-x, -y}, {x, -y}}, {{x, -y}, {x, y}}, {{x, y}, {-x, y}}, {{-x, y}, {-x, -y}}};
-}
-
-World corridor() {
-  return {{{-30, -1.2}, {30, -1.2}}, {{-30, 1.2}, {30, 1.2}}};
-}
-
-/// What is seen from there of walls that hide nothing: their points within `reach` [m], in the base.
-std::shared_ptr<const matching::PlanarScan> seenFrom(const CPose3D& map_from_base, const World& world, double reach) {
-  constexpr double kSpacing = 0.05;  // [m]
-  auto scan = std::make_shared<matching::PlanarScan>();
-  const CPose3D base_from_map = CPose3D() - map_from_base;
-  const Eigen::Rotation2Dd turn(base_from_map.yaw());
-  for (const auto& wall : world) {
-    const Eigen::Vector2d along = (wall.to - wall.from).normalized();
-    const double length = (wall.to - wall.from).norm();
-    for (double way = 0; way <= length; way += kSpacing) {
-      const Eigen::Vector2d p = wall.from + way * along;
-      const auto in_base = base_from_map.composePoint({p.x(), p.y(), 0});
-      if (in_base.norm() > reach) continue;
-      scan->points.emplace_back(in_base.x, in_base.y);
-      scan->normals.push_back((turn * Eigen::Vector2d(-along.y(), along.x())).cast<float>());
-    }
-  }
-  return scan;
-}
+using namespace seen_walls;
 
 class LoopSearchVerdict : public ::testing::Test {
  protected:

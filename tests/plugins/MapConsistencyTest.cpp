@@ -2,6 +2,7 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/graph/Between.h>
+#include <omnimapper/plugins/SlipSearch.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
 #include "measurement/MapConsistency.h"
@@ -90,6 +91,40 @@ TEST(MapConsistency, AClosureThatWasRefusedOrIsSomebodyElsesTiesNothing) {
   EXPECT_EQ(revisits(run.view(), "loops", {}, 8)[1].value, open);
   close(run, 45, 14);
   EXPECT_EQ(revisits(run.view(), "others", {}, 8)[1].value, open);
+}
+
+mapper::Decision decisionAt(const testing::HandMadeRun& run, const std::string& kind, std::size_t frame,
+                            bool accepted) {
+  mapper::Decision decision;
+  decision.plugin = "loops";
+  decision.kind = kind;
+  decision.stamp = run.map.key_frames[frame].stamp;
+  decision.accepted = accepted;
+  return decision;
+}
+
+TEST(MapConsistency, ASlipThatWasUndoneIsToldWithItsPlaceAndSize) {
+  auto run = thereAgain();
+  EXPECT_TRUE(slips(run.view(), "loops", run.decisions).empty());
+  auto decision = decisionAt(run, kSlip, 20, true);
+  decision.numbers = {{kSlippedBy, 1.25}, {kSlippedByAngle, 14}};
+  run.decisions.push_back(decision);
+  const auto evidence = slips(run.view(), "loops", run.decisions);
+  ASSERT_EQ(evidence.size(), 1U);
+  EXPECT_EQ(evidence[0].says, Says::good);
+  EXPECT_EQ(evidence[0].reason, "a slip of 1.2 m and 14 deg, 20 s after the start, was undone");
+  EXPECT_TRUE(slips(run.view(), "others", run.decisions).empty());
+}
+
+TEST(MapConsistency, ClosuresThatAgreeAndContradictItAreAgainstTheMapUntilALaterOneActs) {
+  auto run = thereAgain();
+  run.decisions = {decisionAt(run, "loop closure", 10, true), decisionAt(run, kSlip, 20, false)};
+  auto evidence = slips(run.view(), "loops", run.decisions);
+  ASSERT_EQ(evidence.size(), 1U);
+  EXPECT_EQ(evidence[0].says, Says::against_it);
+  EXPECT_NE(evidence[0].reason.find("from 20 s after the start on"), std::string::npos) << evidence[0].reason;
+  run.decisions.push_back(decisionAt(run, "loop closure", 30, true));
+  EXPECT_TRUE(slips(run.view(), "loops", run.decisions).empty());
 }
 
 }  // namespace

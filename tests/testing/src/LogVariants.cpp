@@ -21,7 +21,7 @@ using obs::CObservationRelativeMotion;
 namespace {
 
 using Log = std::vector<CObservation::Ptr>;
-using Wheels = std::function<CPose2D(const CPose2D& motion)>;
+using Wheels = std::function<CPose2D(const CPose2D& motion, base::Stamp begin, base::Stamp end)>;
 
 template <class Class>
 std::shared_ptr<Class> copyOf(const CObservation::Ptr& observation) {
@@ -71,18 +71,23 @@ Log thinned(const Log& log, std::size_t every) {
 Log withWheels(const Log& log, const Wheels& measured) {
   struct Pose {
     CPose2D last, changed;
+    base::Stamp stamp;
   };
   std::map<std::string, Pose> poses;
   Log changed;
   for (const auto& observation : log) {
     if (auto odometry = copyOf<CObservationOdometry>(observation)) {
-      auto [pose, is_first] = poses.try_emplace(odometry->sensorLabel, Pose{odometry->odometry, odometry->odometry});
-      if (!is_first) pose->second.changed = pose->second.changed + measured(odometry->odometry - pose->second.last);
-      pose->second.last = odometry->odometry;
-      odometry->odometry = pose->second.changed;
+      auto [pose, is_first] =
+          poses.try_emplace(odometry->sensorLabel, Pose{odometry->odometry, odometry->odometry, odometry->timestamp});
+      auto& [last, moved, stamp] = pose->second;
+      if (!is_first) moved = moved + measured(odometry->odometry - last, stamp, odometry->timestamp);
+      last = odometry->odometry;
+      stamp = odometry->timestamp;
+      odometry->odometry = moved;
       changed.push_back(std::move(odometry));
     } else if (auto motion = copyOf<CObservationRelativeMotion>(observation)) {
-      motion->begin_from_end = mrpt::poses::CPose3D(measured(CPose2D(motion->begin_from_end)));
+      motion->begin_from_end =
+          mrpt::poses::CPose3D(measured(CPose2D(motion->begin_from_end), motion->begin, motion->timestamp));
       changed.push_back(std::move(motion));
     } else {
       changed.push_back(observation);
@@ -113,13 +118,67 @@ Log fromTheMiddle(const Log& log) {
   return rest;
 }
 
+// Travel by the first odometry of the log, at its readings [m].
+std::vector<std::pair<base::Stamp, double>> travelOf(const Log& log) {
+  std::vector<std::pair<base::Stamp, double>> travel;
+  std::string label;
+  CPose2D last;
+  for (const auto& observation : log) {
+    if (!isOfWheels(*observation) || (!label.empty() && observation->sensorLabel != label)) continue;
+    CPose2D step;
+    if (const auto* motion = dynamic_cast<const CObservationRelativeMotion*>(observation.get())) {
+      step = CPose2D(motion->begin_from_end);
+    } else {
+      const CPose2D& pose = dynamic_cast<const CObservationOdometry&>(*observation).odometry;
+      if (!travel.empty()) step = pose - last;
+      last = pose;
+    }
+    label = observation->sensorLabel;
+    travel.emplace_back(observation->timestamp, step.norm() + (travel.empty() ? 0 : travel.back().second));
+  }
+  return travel;
+}
+
+Log withSlip(const Log& log) {
+  constexpr double kTurn = 40 * geometry::kPi / 180;
+  const auto lasting = base::durationFromSeconds(5);
+  const auto third = (log.back()->timestamp - log.front()->timestamp) / 3;
+  const auto travel = travelOf(log);
+  base::Stamp begin = log.front()->timestamp + third;
+  double farthest = -1;
+  for (std::size_t i = 0, end = 0; i < travel.size(); ++i) {
+    while (end + 1 < travel.size() && travel[end + 1].first <= travel[i].first + lasting) ++end;
+    const bool is_within =
+        travel[i].first >= log.front()->timestamp + third && travel[i].first + lasting <= log.back()->timestamp - third;
+    const double distance = travel[end].second - travel[i].second;
+    if (!is_within || distance <= farthest) continue;
+    farthest = distance;
+    begin = travel[i].first;
+  }
+  const auto shareOf = [&](base::Stamp from, base::Stamp to) {
+    return std::max(0.0, base::secondsBetween(std::max(from, begin), std::min(to, begin + lasting))) /
+           base::secondsBetween(begin, begin + lasting);
+  };
+  Log slipping = withWheels(log, [&](const CPose2D& motion, base::Stamp from, base::Stamp to) {
+    return CPose2D(motion.x(), motion.y(), motion.phi() + kTurn * shareOf(from, to));
+  });
+  slipping.erase(std::remove_if(slipping.begin(), slipping.end(),
+                                [&](const auto& observation) {
+                                  return dynamic_cast<const CObservation2DRangeScan*>(observation.get()) &&
+                                         observation->timestamp > begin && observation->timestamp < begin + lasting;
+                                }),
+                 slipping.end());
+  return slipping;
+}
+
 }  // namespace
 
 const std::vector<LogVariant>& allLogVariants() {
-  static const std::vector<LogVariant> all{
-      LogVariant::as_it_is,          LogVariant::reversed,       LogVariant::every_second_scan,
-      LogVariant::every_fourth_scan, LogVariant::without_wheels, LogVariant::long_wheels,
-      LogVariant::turning_wheels,    LogVariant::narrow_laser,   LogVariant::from_the_middle};
+  static const std::vector<LogVariant> all{LogVariant::as_it_is,          LogVariant::reversed,
+                                           LogVariant::every_second_scan, LogVariant::every_fourth_scan,
+                                           LogVariant::without_wheels,    LogVariant::long_wheels,
+                                           LogVariant::turning_wheels,    LogVariant::narrow_laser,
+                                           LogVariant::from_the_middle,   LogVariant::unseen_slip};
   return all;
 }
 
@@ -143,6 +202,8 @@ std::string nameOf(LogVariant variant) {
       return "without outer beams";
     case LogVariant::from_the_middle:
       return "second half";
+    case LogVariant::unseen_slip:
+      return "slip that no scan sees";
   }
   throw base::Error(base::ExitCode::internal, "no such variant of a log");
 }
@@ -168,10 +229,11 @@ std::vector<CObservation::Ptr> variantOf(const std::vector<CObservation::Ptr>& l
                    [](const auto& observation) { return !isOfWheels(*observation); });
       return changed;
     case LogVariant::long_wheels:
-      return withWheels(
-          log, [](const CPose2D& motion) { return CPose2D(1.05 * motion.x(), 1.05 * motion.y(), motion.phi()); });
+      return withWheels(log, [](const CPose2D& motion, base::Stamp, base::Stamp) {
+        return CPose2D(1.05 * motion.x(), 1.05 * motion.y(), motion.phi());
+      });
     case LogVariant::turning_wheels:
-      return withWheels(log, [](const CPose2D& motion) {
+      return withWheels(log, [](const CPose2D& motion, base::Stamp, base::Stamp) {
         return CPose2D(motion.x(), motion.y(), motion.phi() + kTurnPerMetre * std::hypot(motion.x(), motion.y()));
       });
     case LogVariant::narrow_laser:
@@ -179,6 +241,8 @@ std::vector<CObservation::Ptr> variantOf(const std::vector<CObservation::Ptr>& l
       return changed;
     case LogVariant::from_the_middle:
       return fromTheMiddle(log);
+    case LogVariant::unseen_slip:
+      return withSlip(log);
   }
   throw base::Error(base::ExitCode::internal, "no such variant of a log");
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -20,6 +21,7 @@ namespace omnimapper::plugins {
 namespace {
 
 constexpr std::size_t kPlacesAsked = 3;
+constexpr std::size_t kNotSeen = std::numeric_limits<std::size_t>::max();
 
 struct PreparedScan : mapper::Prepared {
   std::shared_ptr<const matching::PlanarScan> scan;  // in the base
@@ -55,6 +57,8 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   const std::size_t index = remember(frame, scan, view, history);
   if (scan->empty()) return {};
   seekInMap(observed.observation.sensorLabel, history, index, view);
+  seekGlobally(observed.observation.sensorLabel, history, index, view);
+  seekSlip(history, index, view);
   const double way = history[index].sight.way;
   const auto [last, is_first] = searched_.emplace(observed.observation.sensorLabel, way);
   // In a map that is held every one is sought: where the base is counts now, and costs the same always.
@@ -70,7 +74,7 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
 }
 
 std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state,
-                                        History& history) const {
+                                        History& history) {
   const auto after = std::upper_bound(
       history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
       [](const auto& wanted, const Seen& seen) { return wanted < std::tuple(seen.sight.frame.session, seen.stamp); });
@@ -83,8 +87,112 @@ std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& 
     way = before.sight.way +
           (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_way);
   }
+  travel_of_[frame.pose] = way;
   const auto place = history.insert(after, {{frame.id, scan, way}, frame.stamp});
   return static_cast<std::size_t>(place - history.begin());
+}
+
+void LoopClosurePlugin::applied(const mapper::AppliedBatch& ids) {
+  for (const auto id : ids.factors) measured_.push_back({id, kNotSeen});
+}
+
+double LoopClosurePlugin::travelOfClosures(const graph::Graph& graph, const std::string& note) const {
+  double travel = 0;
+  for (const auto& measured : measured_) {
+    if (!graph.contains(measured.id)) continue;
+    const auto& record = graph.factor(measured.id);
+    if (!record.tags.hypothesis || (note.empty() ? record.weight == 0 : record.tags.note != note)) continue;
+    travel = std::max(travel, travelOf(record));
+  }
+  return travel;
+}
+
+// Of the later end of a factor between two key frames [m].
+double LoopClosurePlugin::travelOf(const graph::FactorRecord& record) const {
+  double travel = 0;
+  for (const auto variable : record.variables) {
+    const auto found = travel_of_.find(variable);
+    if (found != travel_of_.end()) travel = std::max(travel, found->second);
+  }
+  return travel;
+}
+
+std::vector<base::FactorId> LoopClosurePlugin::refusedLately(const mapper::View& view) {
+  const double recognized = travelOfClosures(view.graph);
+  std::vector<base::FactorId> refused;
+  for (auto& measured : measured_) {
+    if (measured.solves == kNotSeen) measured.solves = view.solves.size();
+    if (measured.solves == view.solves.size() || !view.graph.contains(measured.id)) continue;
+    const auto& record = view.graph.factor(measured.id);
+    if (record.tags.hypothesis && record.weight == 0 && travelOf(record) > recognized) refused.push_back(measured.id);
+  }
+  return refused;
+}
+
+// Each time that one more was refused.
+void LoopClosurePlugin::seekSlip(const History& history, std::size_t index, const mapper::View& view) {
+  if (context_.map_is_held) return;
+  auto refused = refusedLately(view);
+  const bool has_more = refused.size() > refused_before_ && refused.size() > 1;
+  refused_before_ = refused.size();
+  if (!has_more) return;
+  std::vector<LoopSearch::Sight> drive;
+  for (std::size_t i = 0; i <= index; ++i) drive.push_back(history[i].sight);
+  slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(drive));
+}
+
+mapper::Batch LoopClosurePlugin::proposedAgain(const mapper::View& view) {
+  mapper::Batch batch;
+  const auto refused = refusedLately(view);
+  bool is_mended = false;
+  for (auto& measured : measured_) {
+    if (measured.is_settled || measured.solves == view.solves.size() || !view.graph.contains(measured.id)) continue;
+    if (view.graph.factor(measured.id).tags.note != kSlip) continue;
+    measured.is_settled = is_mended = true;
+  }
+  if (!is_mended) return batch;
+  for (const auto id : refused) {
+    auto record = view.graph.factor(id);
+    const auto newest = std::find_if(view.map.key_frames.begin(), view.map.key_frames.end(),
+                                     [&](const auto& frame) { return frame.pose == record.variables.back(); });
+    const auto place = std::find_if(view.map.key_frames.begin(), view.map.key_frames.end(),
+                                    [&](const auto& frame) { return frame.pose == record.variables.front(); });
+    if (newest == view.map.key_frames.end() || place == view.map.key_frames.end()) continue;
+    mapper::Decision decision;
+    decision.stamp = newest->stamp;
+    decision.plugin = context_.section;
+    decision.kind = "loop closure";
+    decision.from = newest->id;
+    decision.to = place->id;
+    decision.reason = "proposed again, without the slip";
+    record.weight = 1;
+    batch.removeFactor(id);
+    batch.addHypothesis(std::move(record), std::move(decision));
+  }
+  return batch;
+}
+
+// Ever more rarely where nothing is found, for on new ground there is nothing to find, and more rarely in a large map,
+// which costs more to search.
+void LoopClosurePlugin::seekGlobally(const std::string& label, const History& history, std::size_t index,
+                                     const mapper::State& state) {
+  constexpr double kSpacing = 3;                            // [m]
+  constexpr double kShareOfLost = 0.1, kShareOfAll = 0.01;  // of the travel since the last closure, and of all
+  if (context_.map_is_held || !state.map.sessions.back().joined) return;
+  const double travel = history[index].sight.way;
+  const double recognized = travelOfClosures(state.graph);
+  if (travel - recognized < options_.lost_way) return;
+  const double answered = std::max(recognized, travelOfClosures(state.graph, kGlobalClosure));
+  const double spacing = std::max({kSpacing, kShareOfLost * (travel - answered), kShareOfAll * travel});
+  const auto last = sought_globally_.find(label);
+  if (last != sought_globally_.end() && std::abs(travel - last->second) < spacing) return;
+  sought_globally_[label] = travel;
+  std::vector<LoopSearch::Sight> earlier;
+  for (std::size_t i = 0; i < index && travel - history[i].sight.way >= options_.min_way; ++i)
+    earlier.push_back(history[i].sight);
+  if (earlier.empty()) return;
+  global_searches_.emplace_back(options_, context_, matcher_, label, sights(history, index, options_.join_way, 0),
+                                std::move(earlier));
 }
 
 // Ever more rarely, for a session of another place is never joined; often again once it was moved to where it was
@@ -144,12 +252,19 @@ void LoopClosurePlugin::retired(const map::KeyFrame& frame) {
   }
 }
 
-mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, const mapper::View&) {
+mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, const mapper::View& view) {
   mapper::FollowUp follow_up;
+  follow_up.batch = proposedAgain(view);
   for (auto& search : searches_) follow_up.jobs.push_back({"loop closure of " + toString(frame.id), std::move(search)});
+  for (auto& search : global_searches_)
+    follow_up.jobs.push_back({"global loop search of " + toString(frame.id), std::move(search)});
+  for (auto& search : slip_searches_)
+    follow_up.jobs.push_back({"slip search of " + toString(frame.id), std::move(search)});
   for (auto& search : map_searches_)
     follow_up.jobs.push_back({"relocalisation of " + toString(frame.id), std::move(search)});
   searches_.clear();
+  global_searches_.clear();
+  slip_searches_.clear();
   map_searches_.clear();
   return follow_up;
 }
@@ -159,6 +274,7 @@ std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& vi
   for (const auto& [label, history] : histories_) labels.push_back(label);
   auto all = revisits(view, context_.section, labels, options_.min_way);
   all.insert(all.begin(), scansThroughWalls(view.map, labels));
+  for (auto& one : slips(view, context_.section, view.decisions)) all.push_back(std::move(one));
   return all;
 }
 

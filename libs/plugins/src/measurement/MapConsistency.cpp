@@ -4,11 +4,13 @@
 #include <omnimapper/matching/LikelihoodPyramid.h>
 #include <omnimapper/matching/WallCrossings.h>
 #include <omnimapper/plugins/KnownPlaces.h>
+#include <omnimapper/plugins/SlipSearch.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "../PlanarMotion.h"
@@ -251,6 +253,38 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
         longest, base::secondsBetween(stops.front().stamp, longest_until));
   }
   return {again_m, untied_m};
+}
+
+std::vector<Evidence> slips(const mapper::State& state, const std::string& section,
+                            const mapper::DecisionLog& decisions) {
+  std::vector<Evidence> all;
+  if (state.map.key_frames.empty()) return all;
+  const auto start = state.map.key_frames.begin()->stamp;
+  std::optional<base::Stamp> contradicted;
+  for (const auto& decision : decisions) {
+    if (decision.plugin != section || decision.kind != kSlip) continue;
+    if (!decision.accepted) {
+      contradicted = decision.stamp;
+      continue;
+    }
+    double metres = 0, degrees = 0;
+    for (const auto& [name, value] : decision.numbers) {
+      if (name == kSlippedBy) metres = value;
+      if (name == kSlippedByAngle) degrees = value;
+    }
+    all.push_back({"slip_undone_m", metres, Evidence::Says::good,
+                   format("a slip of %.1f m and %.0f deg, %.0f s after the start, was undone", metres, degrees,
+                          base::secondsBetween(start, decision.stamp))});
+  }
+  if (!contradicted) return all;
+  for (const auto& decision : decisions) {
+    const bool acts = decision.plugin == section && decision.kind == "loop closure" && decision.accepted;
+    if (acts && decision.stamp >= *contradicted) return all;
+  }
+  all.push_back({"contradicted_after_s", base::secondsBetween(start, *contradicted), Evidence::Says::against_it,
+                 format("closures that agree with one another, from %.0f s after the start on, contradict the map",
+                        base::secondsBetween(start, *contradicted))});
+  return all;
 }
 
 }  // namespace omnimapper::plugins

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/mapper/DecisionLog.h>
 #include <omnimapper/mapper/State.h>
 #include <omnimapper/mapper/Verdict.h>
 
@@ -17,5 +18,10 @@ mapper::Evidence scansThroughWalls(const map::Map& map, const std::vector<std::s
 /// `labels` as above.
 std::vector<mapper::Evidence> revisits(const mapper::State& state, const std::string& section,
                                        const std::vector<std::string>& labels, double min_travel);
+
+/// Where spans of the trajectory slipped and were measured anew, and whether closures that agree with one another,
+/// newer than all that act, contradict the map: what SlipSearch decided. `decisions`: of this run.
+std::vector<mapper::Evidence> slips(const mapper::State& state, const std::string& section,
+                                    const mapper::DecisionLog& decisions);
 
 }  // namespace omnimapper::plugins

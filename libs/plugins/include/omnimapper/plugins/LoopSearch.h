@@ -70,6 +70,9 @@ class LoopSearch {
   std::vector<Place> places_;
 };
 
+/// Note of the factors of closures that were found by a search of the whole map.
+inline constexpr char kGlobalClosure[] = "global loop closure";
+
 /// The scans of some key frames together, in the frame of `centre`, by the estimate in `state`.
 matching::PlanarScan localMap(const std::vector<LoopSearch::Sight>& sights, base::KeyFrameId centre,
                               const mapper::State& state);

@@ -23,13 +23,6 @@ class MapSearch {
 
  private:
   bool isLost(const mapper::State& state, mapper::Decision& decision) const;
-  std::vector<matching::LocalScan> beams(const mapper::State& state) const;
-  bool fitsAllTheWay(const mrpt::math::TPose2D& map_from_newest, const mapper::State& state,
-                     mapper::Decision& decision) const;
-  matching::Location locate(const mapper::State& state, mapper::Decision& decision) const;
-  matching::ScanMatch verified(const std::vector<KnownPlaces::Place>& around,
-                               const mrpt::math::TPose2D& place_from_base, const mapper::State& state,
-                               mapper::Decision& decision) const;
 
   LoopClosureOptions options_;
   mapper::PluginContext context_;
