@@ -66,11 +66,15 @@ class GlobalLoopSearchTest : public ::testing::Test {
     run_.uncertainty = mapper::Uncertainty(run_.graph);
     mapper::PluginContext context;
     context.section = "loop_closure";
-    return GlobalLoopSearch({}, context, matching::makeMatcher({}), kLabel, std::move(newest), earlier_)(run_.view());
+    const std::shared_ptr<const matching::ScanMatcher> matcher = matching::makeMatcher({});
+    const auto places = placesToLoopTo(run_.map, kLabel, earlier_, matcher);
+    return GlobalLoopSearch({}, context, matcher, places, kLabel, std::move(newest), earlier_,
+                            on_new_ground_)(run_.view());
   }
 
   testing::HandMadeRun run_;
   double travel_ = 0;
+  bool on_new_ground_ = false;
   std::vector<LoopSearch::Sight> earlier_;
 };
 
@@ -99,9 +103,12 @@ TEST_F(GlobalLoopSearchTest, NothingIsSoughtWhereWhatIsSeenFitsTheMap) {
   EXPECT_TRUE(search({see(truly, {}, 0.02)}).empty());
 }
 
-TEST_F(GlobalLoopSearchTest, NothingIsSoughtOnNewGround) {
+TEST_F(GlobalLoopSearchTest, WhoIsSureToBeOnNewGroundIsSoughtWhereItIsAskedFor) {
   const CPose3D truly(kApart + 0.3, 0.8, 0, 2, 0, 0);
-  EXPECT_TRUE(search({see(truly, CPose3D(0, 30, 0, 0, 0, 0), 0.02)}).empty());
+  const auto seen = see(truly, CPose3D(0, 30, 0, 0, 0, 0), 0.02);
+  EXPECT_TRUE(search({seen}).empty());
+  on_new_ground_ = true;
+  EXPECT_EQ(search({seen}).addedFactors().size(), 1U);
 }
 
 TEST_F(GlobalLoopSearchTest, ARoomThatWasNeverSeenIsNowhere) {

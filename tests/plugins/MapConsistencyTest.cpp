@@ -93,12 +93,14 @@ TEST(MapConsistency, AClosureThatWasRefusedOrIsSomebodyElsesTiesNothing) {
   EXPECT_EQ(revisits(run.view(), "others", {}, 8)[1].value, open);
 }
 
-mapper::Decision decisionAt(const testing::HandMadeRun& run, const std::string& kind, std::size_t frame,
-                            bool accepted) {
+mapper::Decision decisionAbout(const testing::HandMadeRun& run, const std::string& kind, std::size_t from,
+                               std::size_t to, bool accepted) {
   mapper::Decision decision;
   decision.plugin = "loops";
   decision.kind = kind;
-  decision.stamp = run.map.key_frames[frame].stamp;
+  decision.from = run.map.key_frames[from].id;
+  decision.to = run.map.key_frames[to].id;
+  decision.stamp = run.map.key_frames[from].stamp;
   decision.accepted = accepted;
   return decision;
 }
@@ -106,7 +108,7 @@ mapper::Decision decisionAt(const testing::HandMadeRun& run, const std::string& 
 TEST(MapConsistency, ASlipThatWasUndoneIsToldWithItsPlaceAndSize) {
   auto run = thereAgain();
   EXPECT_TRUE(slips(run.view(), "loops", run.decisions).empty());
-  auto decision = decisionAt(run, kSlip, 20, true);
+  auto decision = decisionAbout(run, kSlip, 20, 19, true);
   decision.numbers = {{kSlippedBy, 1.25}, {kSlippedByAngle, 14}};
   run.decisions.push_back(decision);
   const auto evidence = slips(run.view(), "loops", run.decisions);
@@ -116,14 +118,15 @@ TEST(MapConsistency, ASlipThatWasUndoneIsToldWithItsPlaceAndSize) {
   EXPECT_TRUE(slips(run.view(), "others", run.decisions).empty());
 }
 
-TEST(MapConsistency, ClosuresThatAgreeAndContradictItAreAgainstTheMapUntilALaterOneActs) {
+TEST(MapConsistency, ClosuresThatAgreeAndContradictItAreAgainstTheMapUntilOneActsAcross) {
   auto run = thereAgain();
-  run.decisions = {decisionAt(run, "loop closure", 10, true), decisionAt(run, kSlip, 20, false)};
-  auto evidence = slips(run.view(), "loops", run.decisions);
+  run.decisions = {decisionAbout(run, "loop closure", 30, 5, true), decisionAbout(run, kSlip, 40, 10, false),
+                   decisionAbout(run, "loop closure", 50, 35, true)};
+  const auto evidence = slips(run.view(), "loops", run.decisions);
   ASSERT_EQ(evidence.size(), 1U);
   EXPECT_EQ(evidence[0].says, Says::against_it);
-  EXPECT_NE(evidence[0].reason.find("from 20 s after the start on"), std::string::npos) << evidence[0].reason;
-  run.decisions.push_back(decisionAt(run, "loop closure", 30, true));
+  EXPECT_NE(evidence[0].reason.find("from 40 s after the start on"), std::string::npos) << evidence[0].reason;
+  run.decisions.push_back(decisionAbout(run, "loop closure", 55, 8, true));
   EXPECT_TRUE(slips(run.view(), "loops", run.decisions).empty());
 }
 

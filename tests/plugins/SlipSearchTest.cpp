@@ -27,8 +27,7 @@ World hall() {
 }
 
 // On a circle of 3 m, forwards.
-Se2 trueMapFromBase(std::size_t i) {
-  const double angle = static_cast<double>(i) / 3;
+Se2 onCircle(double angle) {
   return {3 * std::sin(angle), -3 * std::cos(angle), geometry::wrapToPi(angle)};
 }
 
@@ -36,7 +35,11 @@ class SlipSearchTest : public ::testing::Test {
  protected:
   static constexpr std::size_t kFrames = 24, kSlipped = 11;  // the motion from that to the next one is wrong
 
-  void drive(const Se2& slip, double reach_after = 8) {
+  Se2 trueMapFromBase(std::size_t i) const {
+    return onCircle(static_cast<double>(i) / 3 + (i > kSlipped ? unseen_ : 0));
+  }
+
+  void drive(const Se2& slip) {
     Se2 map_from_base = trueMapFromBase(0);
     for (std::size_t i = 0; i < kFrames; ++i) {
       if (i > 0) {
@@ -53,7 +56,7 @@ class SlipSearchTest : public ::testing::Test {
       }
       if (i == kSlipped + 1) slipped_ = step_;
       const auto truth = CPose3D(mrpt::poses::CPose2D(geometry::toMrpt(trueMapFromBase(i))));
-      drive_.push_back({frame.id, seenFrom(truth, hall(), i > kSlipped ? reach_after : 8), static_cast<double>(i)});
+      drive_.push_back({frame.id, seenFrom(truth, world_, reach_), static_cast<double>(i)});
     }
     run_.uncertainty = mapper::Uncertainty(run_.graph);
   }
@@ -74,6 +77,9 @@ class SlipSearchTest : public ::testing::Test {
     return SlipSearch({}, context, matching::makeMatcher({}), refused_, drive_)(run_.view());
   }
 
+  World world_ = hall();
+  double reach_ = 8;   // [m] of the laser
+  double unseen_ = 0;  // [rad] of the circle that the robot drives farther where it slips
   testing::HandMadeRun run_;
   std::vector<Se2> poses_;
   std::vector<LoopSearch::Sight> drive_;
@@ -99,6 +105,29 @@ TEST_F(SlipSearchTest, TheSpanThatSlippedGivesWayToTheMotionThatTheScansFit) {
   const auto& measured = dynamic_cast<const graph::BetweenSe2&>(*added.factor).measured();
   const Se2 truth = geometry::inverse(trueMapFromBase(kSlipped)) * trueMapFromBase(kSlipped + 1);
   EXPECT_LT(minus(measured, truth).norm(), 0.02);
+}
+
+// The robot drives a third of the circle unseen, and its wheels slip.
+TEST_F(SlipSearchTest, TheOnlySpanThatNoScansBearOutGivesWayToWhatTheClosuresSay) {
+  world_ = room(9.6, 9.6);
+  world_.push_back({{-4.8, 1}, {-3.8, 1}});
+  world_.push_back({{1, 4.8}, {1.5, 4}});
+  world_.push_back({{4.8, -1}, {4, -0.5}});
+  reach_ = 2.9;
+  unseen_ = 2.2;
+  drive({-2.5, 1.5, 1});
+  refuse(1, 20);
+  refuse(3, 23);
+  const auto batch = search();
+  ASSERT_EQ(batch.decisions().size(), 1U);
+  ASSERT_TRUE(batch.decisions()[0].accepted) << batch.decisions()[0].reason;
+  EXPECT_EQ(batch.decisions()[0].reason, "closures that agree contradict the motion here, which no scans bear out");
+  EXPECT_EQ(*batch.decisions()[0].to, run_.map.key_frames[kSlipped].id);
+  ASSERT_EQ(batch.addedFactors().size(), 1U);
+  const auto& measured = dynamic_cast<const graph::BetweenSe2&>(*batch.addedFactors()[0].factor).measured();
+  const Se2 truth = geometry::inverse(trueMapFromBase(kSlipped)) * trueMapFromBase(kSlipped + 1);
+  EXPECT_LT(minus(measured, truth).norm(), 1e-6);
+  EXPECT_GT(1 / batch.addedFactors()[0].noise.information()(0, 0), 0.5) << "as vague as the map between them";
 }
 
 TEST_F(SlipSearchTest, OneClosureAloneChangesNothing) {

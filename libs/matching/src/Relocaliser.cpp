@@ -120,6 +120,7 @@ std::vector<LocationCandidate> Relocaliser::candidates(const Query& query, const
   search_options.min_score = options_.min_score;
   search_options.min_share_of_best = min_share;
   search_options.max_results = most;
+  search_options.max_blocks = options_.max_blocks;
   std::vector<LocationCandidate> result;
   for (const auto& place : search(*pyramid_, query.sought, window, search_options)) {
     result.push_back(refined(place, query));

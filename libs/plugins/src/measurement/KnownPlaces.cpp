@@ -17,8 +17,10 @@ namespace omnimapper::plugins {
 using mrpt::math::TPose2D;
 
 KnownPlaces::KnownPlaces(map::Map map, const std::map<std::string, std::vector<LoopSearch::Sight>>& sights,
-                         std::shared_ptr<const matching::ScanMatcher> matcher)
-    : map_(std::move(map)), matcher_(std::move(matcher)), anywhere_(mapper::startAnywhere(map_)) {
+                         std::shared_ptr<const matching::ScanMatcher> matcher,
+                         const matching::RelocaliserOptions& options)
+    : map_(std::move(map)), matcher_(std::move(matcher)), options_(options), anywhere_(mapper::startAnywhere(map_)) {
+  options_.poor = -std::numeric_limits<double>::infinity();  // no second, wider search: there will be better scans
   const auto isJoined = [&](const LoopSearch::Sight& sight) {
     return std::any_of(map_.sessions.begin(), map_.sessions.end(), [&](const map::Session& session) {
       return session.number == sight.frame.session && session.joined;
@@ -54,10 +56,8 @@ const matching::Relocaliser& KnownPlaces::relocaliser() const {
       auto seen = beamsInBase(map_.keyFrame(places_[i].sight.frame), labels_[i]);
       scans.push_back({places_[i].map_from_base + seen.local_from_sensor, std::move(seen.scan)});
     }
-    matching::RelocaliserOptions options;
-    options.poor = -std::numeric_limits<double>::infinity();  // no second, wider search: there will be better scans
     try {
-      relocaliser_ = std::make_unique<const matching::Relocaliser>(std::move(scans), matcher_, options);
+      relocaliser_ = std::make_unique<const matching::Relocaliser>(std::move(scans), matcher_, options_);
     } catch (const base::Error& error) {
       too_large_ = error.what();  // what is thrown from here would be tried again by all who ask
     }

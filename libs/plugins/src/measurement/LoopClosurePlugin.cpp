@@ -117,14 +117,13 @@ double LoopClosurePlugin::travelOf(const graph::FactorRecord& record) const {
   return travel;
 }
 
-std::vector<base::FactorId> LoopClosurePlugin::refusedLately(const mapper::View& view) {
-  const double recognized = travelOfClosures(view.graph);
+std::vector<base::FactorId> LoopClosurePlugin::refusedGlobally(const mapper::View& view) {
   std::vector<base::FactorId> refused;
   for (auto& measured : measured_) {
     if (measured.solves == kNotSeen) measured.solves = view.solves.size();
     if (measured.solves == view.solves.size() || !view.graph.contains(measured.id)) continue;
     const auto& record = view.graph.factor(measured.id);
-    if (record.tags.hypothesis && record.weight == 0 && travelOf(record) > recognized) refused.push_back(measured.id);
+    if (record.weight == 0 && record.tags.note == kGlobalClosure) refused.push_back(measured.id);
   }
   return refused;
 }
@@ -132,7 +131,7 @@ std::vector<base::FactorId> LoopClosurePlugin::refusedLately(const mapper::View&
 // Each time that one more was refused.
 void LoopClosurePlugin::seekSlip(const History& history, std::size_t index, const mapper::View& view) {
   if (context_.map_is_held) return;
-  auto refused = refusedLately(view);
+  auto refused = refusedGlobally(view);
   const bool has_more = refused.size() > refused_before_ && refused.size() > 1;
   refused_before_ = refused.size();
   if (!has_more) return;
@@ -143,7 +142,7 @@ void LoopClosurePlugin::seekSlip(const History& history, std::size_t index, cons
 
 mapper::Batch LoopClosurePlugin::proposedAgain(const mapper::View& view) {
   mapper::Batch batch;
-  const auto refused = refusedLately(view);
+  const auto refused = refusedGlobally(view);
   bool is_mended = false;
   for (auto& measured : measured_) {
     if (measured.is_settled || measured.solves == view.solves.size() || !view.graph.contains(measured.id)) continue;
@@ -151,6 +150,7 @@ mapper::Batch LoopClosurePlugin::proposedAgain(const mapper::View& view) {
     measured.is_settled = is_mended = true;
   }
   if (!is_mended) return batch;
+  ++repairs_;
   for (const auto id : refused) {
     auto record = view.graph.factor(id);
     const auto newest = std::find_if(view.map.key_frames.begin(), view.map.key_frames.end(),
@@ -176,23 +176,34 @@ mapper::Batch LoopClosurePlugin::proposedAgain(const mapper::View& view) {
 // which costs more to search.
 void LoopClosurePlugin::seekGlobally(const std::string& label, const History& history, std::size_t index,
                                      const mapper::State& state) {
-  constexpr double kSpacing = 3;                            // [m]
-  constexpr double kShareOfLost = 0.1, kShareOfAll = 0.01;  // of the travel since the last closure, and of all
+  constexpr double kSpacing = 3;                                 // [m]
+  constexpr double kShareOfLost = 0.1, kShareOnNewGround = 0.5;  // of the travel since the last closure
+  constexpr double kShareOfAll = 0.01;                           // of all travel
+  constexpr double kGrown = 1.2;                                 // a map that is prepared for searches serves till then
   if (context_.map_is_held || !state.map.sessions.back().joined) return;
   const double travel = history[index].sight.way;
   const double recognized = travelOfClosures(state.graph);
   if (travel - recognized < options_.lost_way) return;
   const double answered = std::max(recognized, travelOfClosures(state.graph, kGlobalClosure));
   const double spacing = std::max({kSpacing, kShareOfLost * (travel - answered), kShareOfAll * travel});
-  const auto last = sought_globally_.find(label);
-  if (last != sought_globally_.end() && std::abs(travel - last->second) < spacing) return;
-  sought_globally_[label] = travel;
+  SoughtGlobally& last = sought_globally_[label];
+  if (last.travel > 0 && std::abs(travel - last.travel) < spacing) return;
+  last.travel = travel;
+  const double rarely = std::max(kSpacing, kShareOnNewGround * (travel - answered));
+  const bool on_new_ground = std::abs(travel - last.on_new_ground) >= rarely;
+  if (on_new_ground) last.on_new_ground = travel;
   std::vector<LoopSearch::Sight> earlier;
   for (std::size_t i = 0; i < index && travel - history[i].sight.way >= options_.min_way; ++i)
     earlier.push_back(history[i].sight);
   if (earlier.empty()) return;
-  global_searches_.emplace_back(options_, context_, matcher_, label, sights(history, index, options_.join_way, 0),
-                                std::move(earlier));
+  if (!last.places || static_cast<double>(earlier.size()) > kGrown * static_cast<double>(last.size) ||
+      last.repairs != repairs_) {
+    last.places = placesToLoopTo(state.map, label, earlier, matcher_);
+    last.size = earlier.size();
+    last.repairs = repairs_;
+  }
+  global_searches_.emplace_back(options_, context_, matcher_, last.places, label,
+                                sights(history, index, options_.join_way, 0), std::move(earlier), on_new_ground);
 }
 
 // Ever more rarely, for a session of another place is never joined; often again once it was moved to where it was

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "../PlanarMotion.h"
@@ -258,15 +257,12 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
 std::vector<Evidence> slips(const mapper::State& state, const std::string& section,
                             const mapper::DecisionLog& decisions) {
   std::vector<Evidence> all;
-  if (state.map.key_frames.empty()) return all;
-  const auto start = state.map.key_frames.begin()->stamp;
-  std::optional<base::Stamp> contradicted;
+  const auto stampOf = [&](base::KeyFrameId id) { return state.map.keyFrame(id).stamp; };
+  const mapper::Decision* contradiction = nullptr;
   for (const auto& decision : decisions) {
     if (decision.plugin != section || decision.kind != kSlip) continue;
-    if (!decision.accepted) {
-      contradicted = decision.stamp;
-      continue;
-    }
+    contradiction = decision.accepted ? nullptr : &decision;
+    if (!decision.accepted) continue;
     double metres = 0, degrees = 0;
     for (const auto& [name, value] : decision.numbers) {
       if (name == kSlippedBy) metres = value;
@@ -274,16 +270,19 @@ std::vector<Evidence> slips(const mapper::State& state, const std::string& secti
     }
     all.push_back({"slip_undone_m", metres, Evidence::Says::good,
                    format("a slip of %.1f m and %.0f deg, %.0f s after the start, was undone", metres, degrees,
-                          base::secondsBetween(start, decision.stamp))});
+                          base::secondsBetween(state.map.key_frames.begin()->stamp, decision.stamp))});
   }
-  if (!contradicted) return all;
-  for (const auto& decision : decisions) {
-    const bool acts = decision.plugin == section && decision.kind == "loop closure" && decision.accepted;
-    if (acts && decision.stamp >= *contradicted) return all;
-  }
-  all.push_back({"contradicted_after_s", base::secondsBetween(start, *contradicted), Evidence::Says::against_it,
-                 format("closures that agree with one another, from %.0f s after the start on, contradict the map",
-                        base::secondsBetween(start, *contradicted))});
+  if (!contradiction) return all;
+  // One that ties what came after it to what was there before.
+  const bool is_resolved = std::any_of(decisions.begin(), decisions.end(), [&](const mapper::Decision& decision) {
+    return decision.plugin == section && decision.kind == "loop closure" && decision.accepted && decision.to &&
+           stampOf(decision.from) >= contradiction->stamp && stampOf(*decision.to) <= stampOf(*contradiction->to);
+  });
+  if (is_resolved) return all;
+  const double seconds = base::secondsBetween(state.map.key_frames.begin()->stamp, contradiction->stamp);
+  all.push_back(
+      {"contradicted_after_s", seconds, Evidence::Says::against_it,
+       format("closures that agree with one another, from %.0f s after the start on, contradict the map", seconds)});
   return all;
 }
 

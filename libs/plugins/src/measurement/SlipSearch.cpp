@@ -1,5 +1,6 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
+#include <omnimapper/mapper/PoseFactors.h>
 #include <omnimapper/matching/CorrelativeSearch.h>
 #include <omnimapper/plugins/SlipSearch.h>
 
@@ -21,6 +22,7 @@ namespace {
 constexpr double kCycleSigmas = 3;
 constexpr double kSameSlip = 0.3, kSameSlipTurn = 0.1;  // [m] [rad] within which two motions are one
 constexpr double kSlipDegree = base::option_text::kRadiansPerDegree;
+constexpr double kMapErrs = 0.8, kMapErrsBy = 8 * kSlipDegree;  // [m] [rad] from a closure to a span
 
 // What a factor between two poses measured, in the plane.
 std::optional<TPose2D> measuredBy(const graph::Factor& factor) {
@@ -39,10 +41,17 @@ TPose2D inverseOf(const TPose2D& pose) {
 // From key frame drive_[before] to the next.
 struct SlipSearch::Span {
   std::size_t before = 0;
-  TPose2D estimated, required;  // the motion as the map has it, and as the closures ask for
-  double score = 0;             // of the scans, moved as required, over that as the map has it
-  matching::ScanMatch match;    // near what is required
-  double overlap = 0;           // as the map has it
+  TPose2D estimated, required;            // the motion as the map has it, and as the closures ask for
+  double as_estimated = 0, as_found = 0;  // share of the scans after it that fit those before it, so moved
+  TPose2D found;                          // where they fit best, near what is required
+};
+
+// What takes the place of a measured motion.
+struct SlipSearch::Mended {
+  Span span;
+  TPose2D motion;
+  graph::FactorRecord factor;
+  std::string reason;
 };
 
 SlipSearch::SlipSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
@@ -58,7 +67,8 @@ mapper::Batch SlipSearch::operator()(const mapper::State& state) const {
   mapper::Batch batch;
   const auto agreeing = this->agreeing(state);
   if (agreeing.size() < 2) return batch;
-  const auto candidates = spans(agreeing, state);
+  auto candidates = spans(agreeing, state);
+  compare(candidates, state);
   mapper::Decision decision;
   decision.plugin = context_.section;
   decision.kind = kSlip;
@@ -67,33 +77,33 @@ mapper::Batch SlipSearch::operator()(const mapper::State& state) const {
   decision.stamp = state.map.keyFrame(decision.from).stamp;
   decision.numbers = {{"closures that agree", static_cast<double>(agreeing.size())},
                       {"spans that may have slipped", static_cast<double>(candidates.size())}};
-  const auto slipped = thatSlipped(candidates, state);
-  if (!slipped) {
+  auto mended = bornOutByScans(candidates, state);
+  if (!mended) mended = bornOutByNothing(candidates, state);
+  if (!mended) {
     decision.reason = "closures that agree with one another contradict the map, and no single span explains it";
     batch.log(std::move(decision));
     return batch;
   }
-  const auto& before = state.map.keyFrame(drive_[slipped->before].frame);
-  const auto& after = state.map.keyFrame(drive_[slipped->before + 1].frame);
-  const auto& motion = slipped->match.reference_from_scan;
-  const auto apart = distanceBetween(motion, slipped->estimated);
+  const Span& span = mended->span;
+  const auto& before = state.map.keyFrame(drive_[span.before].frame);
+  const auto& after = state.map.keyFrame(drive_[span.before + 1].frame);
+  const auto apart = distanceBetween(mended->motion, span.estimated);
   decision.from = after.id;
   decision.to = before.id;
   decision.stamp = after.stamp;
   decision.numbers.insert(decision.numbers.end(), {{kSlippedBy, apart.metres},
                                                    {kSlippedByAngle, apart.radians / kSlipDegree},
-                                                   {"overlap", slipped->match.overlap},
-                                                   {"overlap as it was", slipped->overlap}});
+                                                   {"share of the scans that fit [1]", span.as_found},
+                                                   {"share that fitted before [1]", span.as_estimated}});
   decision.accepted = true;
-  decision.reason = "closures that agree contradict the motion here, and the scans fit better as they say";
+  decision.reason = mended->reason;
   for (const auto id : state.graph.factorsOf(after.pose)) {
     const auto& record = state.graph.factor(id);
     if (record.variables == std::vector<base::VariableId>{before.pose, after.pose} && !record.tags.hypothesis)
       batch.setWeight(id, 0);
   }
-  auto measured = scanFactor(options_, context_, before.pose, after.pose, slipped->match);
-  measured.tags.note = kSlip;
-  batch.addFactor(std::move(measured));
+  mended->factor.tags.note = kSlip;
+  batch.addFactor(std::move(mended->factor));
   batch.log(std::move(decision));
   return batch;
 }
@@ -190,44 +200,80 @@ matching::PlanarScan SlipSearch::seenAfter(const Span& span, const mapper::State
   return localMap(sights, drive_[span.before + 1].frame, state);
 }
 
-// All of them by a search around what is required, for the map between errs, too; then the fine matcher on the best.
-std::optional<SlipSearch::Span> SlipSearch::thatSlipped(std::vector<Span> spans, const mapper::State& state) const {
-  constexpr double kWindow = 0.8, kWindowTurn = 8 * kSlipDegree;  // [m] [rad]
-  constexpr double kSpacing = 0.25, kFine = 0.08;                 // [m] between the points that are matched
-  constexpr double kLeastScore = 0.4, kLeastOverlap = 0.6;
-  constexpr double kBetter = 0.1;  // of the overlap, than as the map has it
-  constexpr std::size_t kMost = 5;
+// How the scans before and after each span fit: as the map has it, and best near what is required, for the map between
+// the closures errs, too.
+void SlipSearch::compare(std::vector<Span>& spans, const mapper::State& state) const {
+  constexpr double kSpacing = 0.25;  // [m] between the points
   matching::LikelihoodOptions grid;
   grid.cell = 0.1;
   grid.sigma = 0.1;
   matching::SearchOptions limits;
-  limits.min_score = kLeastScore;
+  limits.min_score = 0.3;
   limits.max_results = 1;
   limits.max_blocks = 2000;
   for (auto& span : spans) {
     const matching::LikelihoodPyramid pyramid(seenBefore(span, state).points, grid);
     const auto query = matching::oncePerCell(seenAfter(span, state), kSpacing).points;
-    const auto found = matching::search(pyramid, query, {span.required, kWindow, kWindow, kWindowTurn}, limits);
-    span.score = found.empty() ? -1 : found.front().score - pyramid.score(query, span.estimated);
-    if (!found.empty()) span.required = found.front().map_from_scan;
+    span.as_estimated = pyramid.score(query, span.estimated);
+    const auto found = matching::search(pyramid, query, {span.required, kMapErrs, kMapErrs, kMapErrsBy}, limits);
+    if (found.empty()) continue;
+    span.found = found.front().map_from_scan;
+    span.as_found = found.front().score;
   }
-  std::stable_sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.score > b.score; });
-  std::optional<Span> best;
-  for (std::size_t i = 0; i < std::min(kMost, spans.size()) && spans[i].score > 0; ++i) {
-    Span& span = spans[i];
+}
+
+// The span whose scans fit better as the closures ask for than as the map has them, by a fine match.
+std::optional<SlipSearch::Mended> SlipSearch::bornOutByScans(std::vector<Span> spans,
+                                                             const mapper::State& state) const {
+  constexpr double kFine = 0.08;         // [m] between the points
+  constexpr double kLeastOverlap = 0.4;  // as laser odometry asks for
+  constexpr double kBetter = 0.1;        // of the overlap, than as the map has it
+  constexpr std::size_t kMost = 5;
+  const auto gain = [](const Span& span) { return span.as_found - span.as_estimated; };
+  std::stable_sort(spans.begin(), spans.end(), [&](const Span& a, const Span& b) { return gain(a) > gain(b); });
+  std::optional<Mended> best;
+  double best_gain = kBetter;
+  for (std::size_t i = 0; i < std::min(kMost, spans.size()) && gain(spans[i]) > 0; ++i) {
+    const Span& span = spans[i];
     const auto reference = matcher_->prepare(matching::oncePerCell(seenBefore(span, state), kFine / 2));
     const auto query = matching::oncePerCell(seenAfter(span, state), kFine);
-    span.match = matcher_->match(*reference, query, span.required);
+    const auto match = matcher_->match(*reference, query, span.found);
+    if (match.degenerate || match.overlap < kLeastOverlap) continue;
+    if (distanceBetween(match.reference_from_scan, span.estimated).within(kSameSlip, kSameSlipTurn)) continue;
     // What the matcher leads away from the motion that the map has does not speak for it.
     const auto as_it_is = matcher_->match(*reference, query, span.estimated);
     const bool stays = distanceBetween(as_it_is.reference_from_scan, span.estimated).within(kSameSlip, kSameSlipTurn);
-    span.overlap = stays ? as_it_is.overlap : 0;
-    if (span.match.degenerate || span.match.overlap < kLeastOverlap || span.match.overlap < span.overlap + kBetter)
-      continue;
-    if (distanceBetween(span.match.reference_from_scan, span.estimated).within(kSameSlip, kSameSlipTurn)) continue;
-    if (!best || span.match.overlap - span.overlap > best->match.overlap - best->overlap) best = span;
+    const double better = match.overlap - (stays ? as_it_is.overlap : 0);
+    if (better <= best_gain) continue;
+    best_gain = better;
+    best = Mended{span, match.reference_from_scan,
+                  scanFactor(options_, context_, poseOf(span.before, state), poseOf(span.before + 1, state), match),
+                  "closures that agree contradict the motion here, and the scans fit better as they say"};
   }
   return best;
+}
+
+// The only span whose scans do not bear out its motion, such as one that wheels alone tell. The closures say how it
+// was, as well as the map between them is known.
+std::optional<SlipSearch::Mended> SlipSearch::bornOutByNothing(std::vector<Span> spans,
+                                                               const mapper::State& state) const {
+  constexpr double kMost = 0.2;  // of the scans that fit by chance
+  if (spans.empty()) return std::nullopt;
+  std::stable_sort(spans.begin(), spans.end(),
+                   [](const Span& a, const Span& b) { return a.as_estimated < b.as_estimated; });
+  const Span& worst = spans[0];
+  if (worst.as_estimated > kMost || (spans.size() > 1 && spans[1].as_estimated < worst.as_estimated + kMost / 2))
+    return std::nullopt;
+  const Eigen::Vector3d sigmas(kMapErrs, kMapErrs, kMapErrsBy);
+  const auto motion = planarMotion(worst.required, sigmas.cwiseAbs2().asDiagonal());
+  return Mended{worst, worst.required,
+                mapper::betweenPoses(context_.motion, poseOf(worst.before, state), poseOf(worst.before + 1, state),
+                                     motion, context_.section),
+                "closures that agree contradict the motion here, which no scans bear out"};
+}
+
+base::VariableId SlipSearch::poseOf(std::size_t i, const mapper::State& state) const {
+  return state.map.keyFrame(drive_[i].frame).pose;
 }
 
 }  // namespace omnimapper::plugins

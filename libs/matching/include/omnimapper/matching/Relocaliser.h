@@ -5,6 +5,7 @@
 #include <omnimapper/matching/CorrelativeSearch.h>
 #include <omnimapper/matching/ScanMatcher.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,6 +19,7 @@ struct RelocaliserOptions {
   double min_score = 0.4;           ///< of a candidate: mean likelihood of its points
   double min_share_of_best = 0.85;  ///< of a candidate's score
   int max_candidates = 16;
+  std::size_t max_blocks = std::numeric_limits<std::size_t>::max();  ///< of the search, as in SearchOptions
   /// Mean logarithm of the beams' likelihoods below which the best candidate explains the scan poorly: something
   /// stands in the way. The search then goes on down to the second share, for twice as many.
   double poor = -0.4;

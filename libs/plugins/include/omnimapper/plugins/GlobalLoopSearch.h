@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/plugins/LoopSearch.h>
+#include <omnimapper/plugins/KnownPlaces.h>
 
 #include <memory>
 #include <string>
@@ -13,10 +13,13 @@ namespace omnimapper::plugins {
 /// found is a hypothesis like any other.
 class GlobalLoopSearch {
  public:
-  /// `newest`: the last metres, the newest last; `earlier`: all of the map in which they are sought; clouds of `label`.
+  /// `newest`: the last metres, the newest last; `earlier`: all of the map that is old enough for a loop; `places`:
+  /// placesToLoopTo() as it was then or somewhat before; clouds of `label`.
+  /// `on_new_ground`: search even where the estimate is sure to be where nothing was seen before.
   GlobalLoopSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
-                   std::shared_ptr<const matching::ScanMatcher> matcher, std::string label,
-                   std::vector<LoopSearch::Sight> newest, std::vector<LoopSearch::Sight> earlier);
+                   std::shared_ptr<const matching::ScanMatcher> matcher, std::shared_ptr<const KnownPlaces> places,
+                   std::string label, std::vector<LoopSearch::Sight> newest, std::vector<LoopSearch::Sight> earlier,
+                   bool on_new_ground);
 
   /// Empty if the robot is where the estimate has it; else a decision, and a hypothesis if a single place fits.
   mapper::Batch operator()(const mapper::State& state) const;
@@ -28,8 +31,15 @@ class GlobalLoopSearch {
   LoopClosureOptions options_;
   mapper::PluginContext context_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
+  std::shared_ptr<const KnownPlaces> places_;
   std::string label_;
   std::vector<LoopSearch::Sight> newest_, earlier_;
+  bool on_new_ground_;
 };
+
+/// What such searches look in: `earlier` as it lies in `map`, which has key frames.
+std::shared_ptr<const KnownPlaces> placesToLoopTo(map::Map map, const std::string& label,
+                                                  const std::vector<LoopSearch::Sight>& earlier,
+                                                  std::shared_ptr<const matching::ScanMatcher> matcher);
 
 }  // namespace omnimapper::plugins

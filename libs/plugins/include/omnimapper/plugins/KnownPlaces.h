@@ -25,7 +25,7 @@ class KnownPlaces {
 
   /// Of `sights`, by the label of their clouds, those of sessions that are joined. `map` has at least one key frame.
   KnownPlaces(map::Map map, const std::map<std::string, std::vector<LoopSearch::Sight>>& sights,
-              std::shared_ptr<const matching::ScanMatcher> matcher);
+              std::shared_ptr<const matching::ScanMatcher> matcher, const matching::RelocaliserOptions& options = {});
 
   bool empty() const { return places_.empty(); }
   /// Those where the sensor saw the most alike, by distance and heading: the nearest first.
@@ -40,6 +40,7 @@ class KnownPlaces {
   std::vector<std::string> labels_;  // of the cloud, for each place
   std::vector<Place> places_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
+  matching::RelocaliserOptions options_;
   mapper::SessionStart anywhere_;
   mutable std::once_flag once_;
   mutable std::unique_ptr<const matching::Relocaliser> relocaliser_;

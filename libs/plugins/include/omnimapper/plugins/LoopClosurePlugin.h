@@ -49,6 +49,12 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
     double way, answered;           // [m] of the session, then and when an answer last moved it
     mrpt::math::TPoint3D begun_at;  // where the session began, as it was then
   };
+  /// The last global searches of a session for its own loops, and what they look in.
+  struct SoughtGlobally {
+    double travel = 0, on_new_ground = 0;  // [m]
+    std::shared_ptr<const KnownPlaces> places;
+    std::size_t size = 0, repairs = 0;  // of the places, and how many slips were undone before they were gathered
+  };
   using History = std::vector<Seen>;  // in order of session, then stamp
   using Scan = std::shared_ptr<const matching::PlanarScan>;
 
@@ -61,8 +67,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
     std::size_t solves;       // there were when it was first seen
     bool is_settled = false;  // what a slip was contradicted by has been proposed again
   };
-  /// Closures that were judged, do not act, and are newer than all that act.
-  std::vector<base::FactorId> refusedLately(const mapper::View& view);
+  /// Closures of global searches that were judged and do not act.
+  std::vector<base::FactorId> refusedGlobally(const mapper::View& view);
   void seekSlip(const History& history, std::size_t index, const mapper::View& view);
   /// The closures that a slip was found by, once the map is solved without it.
   mapper::Batch proposedAgain(const mapper::View& view);
@@ -83,10 +89,11 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   std::map<std::string, double> searched_;    // [m] way of the last search, by label
   std::vector<LoopSearch> searches_;          // of the key frame being measured
   std::vector<Measured> measured_;
+  std::size_t repairs_ = 0;                                 // slips that were undone
   std::size_t refused_before_ = 0;                          // when a slip was last sought
   std::vector<SlipSearch> slip_searches_;                   // of the key frame being measured
   std::unordered_map<base::VariableId, double> travel_of_;  // [m] of each pose
-  std::map<std::string, double> sought_globally_;           // [m] travel of the last such search, by label
+  std::map<std::string, SoughtGlobally> sought_globally_;   // by label
   std::vector<GlobalLoopSearch> global_searches_;           // of the key frame being measured
   std::shared_ptr<const KnownPlaces> places_;               // of a map that is continued
   std::map<std::string, Sought> sought_in_map_;             // by label

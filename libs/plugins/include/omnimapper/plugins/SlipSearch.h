@@ -29,12 +29,16 @@ class SlipSearch {
     mrpt::math::TPose2D place_from_newest;
   };
   struct Span;
+  struct Mended;
   std::vector<Closure> agreeing(const mapper::State& state) const;
   std::vector<Closure> closures(const mapper::State& state) const;
   std::vector<Span> spans(const std::vector<Closure>& agreeing, const mapper::State& state) const;
-  std::optional<Span> thatSlipped(std::vector<Span> spans, const mapper::State& state) const;
+  void compare(std::vector<Span>& spans, const mapper::State& state) const;
+  std::optional<Mended> bornOutByScans(std::vector<Span> spans, const mapper::State& state) const;
+  std::optional<Mended> bornOutByNothing(std::vector<Span> spans, const mapper::State& state) const;
   matching::PlanarScan seenBefore(const Span& span, const mapper::State& state) const;
   matching::PlanarScan seenAfter(const Span& span, const mapper::State& state) const;
+  base::VariableId poseOf(std::size_t i, const mapper::State& state) const;
   mrpt::math::TPose2D motion(std::size_t from, std::size_t to, const mapper::State& state) const;
 
   LoopClosureOptions options_;
