@@ -4,7 +4,9 @@
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
+#include <omnimapper/mapper/Verdict.h>
 #include <omnimapper/plugins/LoopClosurePlugin.h>
+#include <omnimapper/testing/LogVariants.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <algorithm>
@@ -84,6 +86,49 @@ TEST(LoopClosurePlugin, OnTheSecondLapClosuresLieOnTheTruth) {
   }
   EXPECT_EQ(hypotheses, accepted);
   EXPECT_EQ(wrong, 0U) << "a wrong closure that acts";
+}
+
+// The wheels, which alone measure the motion, turn by 40 deg too far while the laser is silent for 5 s, and nothing but
+// the places seen before says so.
+class UnseenSlip : public ::testing::Test {
+ protected:
+  UnseenSlip() {
+    testing::SimulatedLogOptions options;
+    options.laps = 2;
+    options.way_scale = 1;
+    options.yaw_drift_per_m = 0;
+    options.position_noise_per_root_m = options.yaw_noise_per_root_turn = 0.005;
+    log_ = std::make_unique<testing::SimulatedLog>(options);
+    slipping_ = testing::variantOf(log_->observations(), testing::LogVariant::unseen_slip);
+  }
+  std::unique_ptr<mapper::Engine> mapped(int threads) const {
+    auto engine =
+        testing::makeEngine(testing::kLaserIni,
+                            {"mapper.pose_plugins=odometry, no_motion", "odometry.position_noise_per_root_m=0.02",
+                             "odometry.yaw_noise_per_root_m_deg=0.3", "odometry.yaw_noise_per_root_turn=0.01"},
+                            threads);
+    testing::run(*engine, slipping_);
+    return engine;
+  }
+  std::unique_ptr<testing::SimulatedLog> log_;
+  std::vector<mrpt::obs::CObservation::Ptr> slipping_;
+};
+
+TEST_F(UnseenSlip, IsUndoneWhenTheRobotComesWhereItWasBefore) {
+  const auto engine = mapped(1);
+  const auto view = engine->view();
+  const auto slips = std::count_if(view.decisions.begin(), view.decisions.end(),
+                                   [](const auto& decision) { return decision.kind == kSlip && decision.accepted; });
+  EXPECT_EQ(slips, 1);
+  EXPECT_EQ(view.verdict.answer, mapper::Verdict::Answer::consistent) << sentenceOf(view.verdict);
+  EXPECT_NE(sentenceOf(view.verdict).find("was undone"), std::string::npos) << sentenceOf(view.verdict);
+  for (const auto& frame : view.map.key_frames)
+    EXPECT_LT((mrpt::poses::CPose2D(frame.map_from_base) - log_->truthAt(frame.stamp)).norm(), 0.3)
+        << toString(frame.id);
+}
+
+TEST_F(UnseenSlip, IsUndoneAlikeWithAnyNumberOfThreads) {
+  EXPECT_EQ(testing::bitsOf(mapped(1)->view()), testing::bitsOf(mapped(4)->view()));
 }
 
 }  // namespace

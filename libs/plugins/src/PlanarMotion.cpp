@@ -1,5 +1,6 @@
 #include "PlanarMotion.h"
 
+#include <mrpt/math/wrap2pi.h>
 #include <mrpt/poses/CPose2D.h>
 
 #include <array>
@@ -13,6 +14,10 @@ TPose2D planar(const mrpt::poses::CPose3D& pose) {
   // Not yaw(): it is worked out when first asked for, and threads share poses.
   const auto& rotation = pose.getRotationMatrix();
   return {pose.x(), pose.y(), std::atan2(rotation(1, 0), rotation(0, 0))};
+}
+
+PoseDistance distanceBetween(const TPose2D& a, const TPose2D& b) {
+  return {std::hypot(a.x - b.x, a.y - b.y), std::abs(mrpt::math::wrapToPi(a.phi - b.phi))};
 }
 
 mapper::RelativeMotion planarMotion(const TPose2D& begin_from_end, const Eigen::Matrix3d& covariance) {

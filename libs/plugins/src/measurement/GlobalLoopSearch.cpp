@@ -1,4 +1,3 @@
-#include <omnimapper/matching/LikelihoodPyramid.h>
 #include <omnimapper/plugins/GlobalLoopSearch.h>
 
 #include <Eigen/Eigenvalues>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "GlobalMatcher.h"
+#include "MapConsistency.h"
 #include "ScanFactor.h"
 
 namespace omnimapper::plugins {
@@ -36,7 +36,8 @@ mapper::Batch GlobalLoopSearch::operator()(const mapper::State& state) const {
   decision.plugin = context_.section;
   decision.kind = "global loop search";
   decision.from = frame.id;
-  if (!isLost(state, decision)) return batch;
+  const auto estimate = judged(state, decision);
+  if (!estimate || !estimate->is_lost) return batch;
   const GlobalMatcher matcher(options_, *matcher_, *places_, label_, newest_);
   const auto found = matcher.find(state, decision);
   if (!found || (!found->is_distinct && !matcher.fitsAllTheWay(*found, state, decision))) {
@@ -49,6 +50,13 @@ mapper::Batch GlobalLoopSearch::operator()(const mapper::State& state) const {
       distanceBetween(found->match.reference_from_scan, planar(frame.map_from_base - place.map_from_base));
   decision.numbers.emplace_back("from the estimate [m]", apart.metres);
   decision.numbers.emplace_back("from the estimate [deg]", apart.radians / base::option_text::kRadiansPerDegree);
+  constexpr double kNear = 0.3, kNearTurn = 0.2;  // [m] [rad] beside what the estimate may be off by
+  if (estimate->uncertainty <= options_.max_window && apart.within(estimate->uncertainty + kNear, kNearTurn)) {
+    decision.accepted = false;
+    decision.reason = "it is where the estimate has it: left to the search there";
+    batch.log(std::move(decision));
+    return batch;
+  }
   decision.kind = "loop closure";
   auto closure = scanFactor(options_, context_, place.pose, frame.pose, found->match);
   closure.loss = graph::Loss::cauchy(options_.loss_scale);
@@ -57,51 +65,40 @@ mapper::Batch GlobalLoopSearch::operator()(const mapper::State& state) const {
   return batch;
 }
 
-// Either it may be anywhere, or it is sure to be on ground that was seen before, and what it sees is not there.
-bool GlobalLoopSearch::isLost(const mapper::State& state, mapper::Decision& decision) const {
+std::optional<GlobalLoopSearch::Estimate> GlobalLoopSearch::judged(const mapper::State& state,
+                                                                   mapper::Decision& decision) const {
   constexpr double kSigmas = 3;
   constexpr std::size_t kAround = 12;
-  constexpr double kFits = 0.5;  // of what is seen
+  constexpr double kFits = 0.3;  // of what is seen
   const TPose2D map_from_base = planar(state.map.keyFrame(newest_.back().frame).map_from_base);
-  // One that looks another way has seen little of what is seen here.
-  constexpr double kMetresPerRadian = 2;
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t i = 0; i < earlier_.size(); ++i) {
-    const auto apart = distanceBetween(planar(state.map.keyFrame(earlier_[i].frame).map_from_base), map_from_base);
-    near.emplace_back(apart.metres + kMetresPerRadian * apart.radians, i);
+    const TPose2D place = planar(state.map.keyFrame(earlier_[i].frame).map_from_base);
+    near.emplace_back(distanceBetween(place, map_from_base).ofViews(), i);
   }
-  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(std::min(kAround, near.size())),
-                    near.end());
-  near.resize(std::min(kAround, near.size()));
-  if (near.empty()) return false;
-  const auto covariance = state.covarianceBetween(earlier_[near.front().second].frame, newest_.back().frame);
-  if (!covariance) return false;
+  const std::size_t around = std::min(kAround, near.size());
+  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(around), near.end());
+  near.resize(around);
+  if (near.empty()) return std::nullopt;
+  const auto& nearest = earlier_[near.front().second];
+  const auto covariance = state.covarianceBetween(nearest.frame, newest_.back().frame);
+  if (!covariance) return std::nullopt;
   const Eigen::Matrix2d position = covariance->topLeftCorner<2, 2>();
-  const double doubt =
-      kSigmas * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]);  // [m]
-  decision.numbers.emplace_back("may be off by [m]", doubt);
-  if (doubt > options_.max_window) return true;
-  if (near.front().first > options_.radius + doubt) return on_new_ground_;
+  const double uncertainty =
+      kSigmas * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]);
+  decision.numbers.emplace_back("may be off by [m]", uncertainty);
+  if (uncertainty > options_.max_window) return Estimate{uncertainty, true};
+  const TPose2D place = planar(state.map.keyFrame(nearest.frame).map_from_base);
+  if (distanceBetween(place, map_from_base).metres > options_.radius + uncertainty)
+    return Estimate{uncertainty, on_new_ground_};
   std::vector<LoopSearch::Sight> sights;
   for (const auto& one : near) sights.push_back(earlier_[one.second]);
-  const double fits = shareThatFits(sights, state);
+  const double fits = shareOnWalls(localMap(sights, newest_.back().frame, state).points, newest_.back().scan->points);
   decision.numbers.emplace_back("share that fits the map there [1]", fits);
-  return fits < kFits;
+  return Estimate{uncertainty, fits < kFits};
 }
 
-// Of the newest scan.
-double GlobalLoopSearch::shareThatFits(const std::vector<LoopSearch::Sight>& near, const mapper::State& state) const {
-  const auto local = localMap(near, newest_.back().frame, state);
-  const auto& seen = *newest_.back().scan;
-  if (local.points.empty() || seen.points.empty()) return 0;
-  matching::LikelihoodOptions grid;
-  grid.cell = 0.1;
-  grid.sigma = 0.15;
-  grid.levels = 1;
-  return matching::LikelihoodPyramid(local.points, grid).score(seen.points, TPose2D());
-}
-
-std::shared_ptr<const KnownPlaces> placesToLoopTo(map::Map map, const std::string& label,
+std::shared_ptr<const KnownPlaces> placesToLoopTo(const map::Map& map, const std::string& label,
                                                   const std::vector<LoopSearch::Sight>& earlier,
                                                   std::shared_ptr<const matching::ScanMatcher> matcher) {
   // Coarse, for the fine matcher follows, and bounded, for on new ground nothing fits and there is no end to the
@@ -112,7 +109,7 @@ std::shared_ptr<const KnownPlaces> placesToLoopTo(map::Map map, const std::strin
   options.spacing = 0.3;
   options.max_blocks = 20'000;
   const std::map<std::string, std::vector<LoopSearch::Sight>> sights{{label, earlier}};
-  return std::make_shared<const KnownPlaces>(std::move(map), sights, std::move(matcher), options);
+  return std::make_shared<const KnownPlaces>(map, sights, std::move(matcher), options);
 }
 
 }  // namespace omnimapper::plugins

@@ -17,10 +17,6 @@ constexpr double kDegree = base::option_text::kRadiansPerDegree;
 constexpr double kSoughtTravel = 4;  // [m] of travel whose scans are sought together
 }  // namespace
 
-PoseDistance distanceBetween(const TPose2D& a, const TPose2D& b) {
-  return {std::hypot(a.x - b.x, a.y - b.y), std::abs(mrpt::math::wrapToPi(a.phi - b.phi))};
-}
-
 std::optional<GlobalMatcher::Found> GlobalMatcher::find(const mapper::State& state, mapper::Decision& decision) const {
   constexpr std::size_t kAround = 30;                 // key frames of the map that a place is matched with
   constexpr double kAstray = 0.5, kAstrayTurn = 0.2;  // [m] [rad] that the matcher may lead away from the answer
@@ -116,7 +112,7 @@ bool GlobalMatcher::fitsAllTheWay(const Found& found, const mapper::State& state
     const double likelihood = located.candidates.empty() ? kNothing : located.candidates.front().log_likelihood;
     worst = std::min(worst, likelihood);
   }
-  decision.numbers.emplace_back("way looked back on [m]", travel);
+  decision.numbers.emplace_back("distance looked back on [m]", travel);
   decision.numbers.emplace_back("logarithm of a beam's likelihood where it fits worst", worst);
   if (worst < kLeast) {
     decision.reason = "what was seen on the way there does not fit";

@@ -39,13 +39,4 @@ class GlobalMatcher {
   const std::vector<LoopSearch::Sight>& newest_;
 };
 
-/// How far two poses are apart, [m] and [rad].
-struct PoseDistance {
-  double metres, radians;
-  bool within(double most_metres, double most_radians) const {
-    return metres <= most_metres && radians <= most_radians;
-  }
-};
-PoseDistance distanceBetween(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
-
 }  // namespace omnimapper::plugins

@@ -16,13 +16,13 @@ namespace omnimapper::plugins {
 
 using mrpt::math::TPose2D;
 
-KnownPlaces::KnownPlaces(map::Map map, const std::map<std::string, std::vector<LoopSearch::Sight>>& sights,
+KnownPlaces::KnownPlaces(const map::Map& map, const std::map<std::string, std::vector<LoopSearch::Sight>>& sights,
                          std::shared_ptr<const matching::ScanMatcher> matcher,
                          const matching::RelocaliserOptions& options)
-    : map_(std::move(map)), matcher_(std::move(matcher)), options_(options), anywhere_(mapper::startAnywhere(map_)) {
+    : matcher_(std::move(matcher)), options_(options), anywhere_(mapper::startAnywhere(map)) {
   options_.poor = -std::numeric_limits<double>::infinity();  // no second, wider search: there will be better scans
   const auto isJoined = [&](const LoopSearch::Sight& sight) {
-    return std::any_of(map_.sessions.begin(), map_.sessions.end(), [&](const map::Session& session) {
+    return std::any_of(map.sessions.begin(), map.sessions.end(), [&](const map::Session& session) {
       return session.number == sight.frame.session && session.joined;
     });
   };
@@ -30,17 +30,16 @@ KnownPlaces::KnownPlaces(map::Map map, const std::map<std::string, std::vector<L
     for (const auto& sight : all) {
       if (sight.scan->empty() || !isJoined(sight)) continue;
       labels_.push_back(label);
-      places_.push_back({sight, planar(map_.keyFrame(sight.frame).map_from_base)});
+      frames_.push_back(map.keyFrame(sight.frame));
+      places_.push_back({sight, planar(frames_.back().map_from_base)});
     }
   }
 }
 
 std::vector<KnownPlaces::Place> KnownPlaces::nearest(const TPose2D& map_from_base, std::size_t count) const {
-  constexpr double kMetresPerRadian = 2;  // how far away a scan counts that looks another way
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const TPose2D apart = places_[i].map_from_base - map_from_base;
-    near.emplace_back(std::hypot(apart.x, apart.y) + kMetresPerRadian * std::abs(mrpt::math::wrapToPi(apart.phi)), i);
+    near.emplace_back(distanceBetween(places_[i].map_from_base, map_from_base).ofViews(), i);
   }
   count = std::min(count, near.size());
   std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
@@ -53,7 +52,7 @@ const matching::Relocaliser& KnownPlaces::relocaliser() const {
   std::call_once(once_, [this] {
     std::vector<matching::MapScan> scans;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      auto seen = beamsInBase(map_.keyFrame(places_[i].sight.frame), labels_[i]);
+      auto seen = beamsInBase(frames_[i], labels_[i]);
       scans.push_back({places_[i].map_from_base + seen.local_from_sensor, std::move(seen.scan)});
     }
     try {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -21,7 +20,6 @@ namespace omnimapper::plugins {
 namespace {
 
 constexpr std::size_t kPlacesAsked = 3;
-constexpr std::size_t kNotSeen = std::numeric_limits<std::size_t>::max();
 
 struct PreparedScan : mapper::Prepared {
   std::shared_ptr<const matching::PlanarScan> scan;  // in the base
@@ -57,8 +55,9 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   const std::size_t index = remember(frame, scan, view, history);
   if (scan->empty()) return {};
   seekInMap(observed.observation.sensorLabel, history, index, view);
+  closures_.noteSolves(view.solves.size());
   seekGlobally(observed.observation.sensorLabel, history, index, view);
-  seekSlip(history, index, view);
+  seekSlip(history, view);
   const double way = history[index].sight.way;
   const auto [last, is_first] = searched_.emplace(observed.observation.sensorLabel, way);
   // In a map that is held every one is sought: where the base is counts now, and costs the same always.
@@ -87,89 +86,36 @@ std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& 
     way = before.sight.way +
           (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_way);
   }
-  travel_of_[frame.pose] = way;
+  closures_.add(frame);
   const auto place = history.insert(after, {{frame.id, scan, way}, frame.stamp});
   return static_cast<std::size_t>(place - history.begin());
 }
 
-void LoopClosurePlugin::applied(const mapper::AppliedBatch& ids) {
-  for (const auto id : ids.factors) measured_.push_back({id, kNotSeen});
-}
-
-double LoopClosurePlugin::travelOfClosures(const graph::Graph& graph, const std::string& note) const {
-  double travel = 0;
-  for (const auto& measured : measured_) {
-    if (!graph.contains(measured.id)) continue;
-    const auto& record = graph.factor(measured.id);
-    if (!record.tags.hypothesis || (note.empty() ? record.weight == 0 : record.tags.note != note)) continue;
-    travel = std::max(travel, travelOf(record));
-  }
-  return travel;
-}
-
-// Of the later end of a factor between two key frames [m].
-double LoopClosurePlugin::travelOf(const graph::FactorRecord& record) const {
-  double travel = 0;
-  for (const auto variable : record.variables) {
-    const auto found = travel_of_.find(variable);
-    if (found != travel_of_.end()) travel = std::max(travel, found->second);
-  }
-  return travel;
-}
-
-std::vector<base::FactorId> LoopClosurePlugin::refusedGlobally(const mapper::View& view) {
-  std::vector<base::FactorId> refused;
-  for (auto& measured : measured_) {
-    if (measured.solves == kNotSeen) measured.solves = view.solves.size();
-    if (measured.solves == view.solves.size() || !view.graph.contains(measured.id)) continue;
-    const auto& record = view.graph.factor(measured.id);
-    if (record.weight == 0 && record.tags.note == kGlobalClosure) refused.push_back(measured.id);
-  }
-  return refused;
-}
-
-// Each time that one more was refused.
-void LoopClosurePlugin::seekSlip(const History& history, std::size_t index, const mapper::View& view) {
+// Each time that one more closure was refused. Key frames at which another sensor saw something are spans, too.
+void LoopClosurePlugin::seekSlip(const History& history, const mapper::View& view) {
   if (context_.map_is_held) return;
-  auto refused = refusedGlobally(view);
+  auto refused = closures_.refusedGlobally(view.graph);
   const bool has_more = refused.size() > refused_before_ && refused.size() > 1;
   refused_before_ = refused.size();
   if (!has_more) return;
-  std::vector<LoopSearch::Sight> drive;
-  for (std::size_t i = 0; i <= index; ++i) drive.push_back(history[i].sight);
-  slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(drive));
+  static const auto kNothingSeen = std::make_shared<const matching::PlanarScan>();
+  std::vector<LoopSearch::Sight> trajectory;
+  auto seen = history.begin();
+  for (const auto& frame : view.map.key_frames) {
+    const bool has_scan = seen != history.end() && seen->sight.frame == frame.id;
+    const double travel = trajectory.empty() ? 0 : trajectory.back().way;
+    trajectory.push_back(has_scan ? seen++->sight : LoopSearch::Sight{frame.id, kNothingSeen, travel});
+  }
+  slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(trajectory));
 }
 
-mapper::Batch LoopClosurePlugin::proposedAgain(const mapper::View& view) {
-  mapper::Batch batch;
-  const auto refused = refusedGlobally(view);
-  bool is_mended = false;
-  for (auto& measured : measured_) {
-    if (measured.is_settled || measured.solves == view.solves.size() || !view.graph.contains(measured.id)) continue;
-    if (view.graph.factor(measured.id).tags.note != kSlip) continue;
-    measured.is_settled = is_mended = true;
-  }
-  if (!is_mended) return batch;
-  ++repairs_;
-  for (const auto id : refused) {
-    auto record = view.graph.factor(id);
-    const auto newest = std::find_if(view.map.key_frames.begin(), view.map.key_frames.end(),
-                                     [&](const auto& frame) { return frame.pose == record.variables.back(); });
-    const auto place = std::find_if(view.map.key_frames.begin(), view.map.key_frames.end(),
-                                    [&](const auto& frame) { return frame.pose == record.variables.front(); });
-    if (newest == view.map.key_frames.end() || place == view.map.key_frames.end()) continue;
-    mapper::Decision decision;
-    decision.stamp = newest->stamp;
-    decision.plugin = context_.section;
-    decision.kind = "loop closure";
-    decision.from = newest->id;
-    decision.to = place->id;
-    decision.reason = "proposed again, without the slip";
-    record.weight = 1;
-    batch.removeFactor(id);
-    batch.addHypothesis(std::move(record), std::move(decision));
-  }
-  return batch;
+// Since the newest key frame that is not after `stamp`, or since the session began [m].
+double LoopClosurePlugin::travelSince(std::optional<base::Stamp> stamp, const History& history, std::size_t index) {
+  const auto& newest = history[index].sight;
+  std::size_t i = index;
+  while (i > 0 && history[i - 1].sight.frame.session == newest.frame.session && (!stamp || history[i].stamp > *stamp))
+    --i;
+  return newest.way - history[i].sight.way;
 }
 
 // Ever more rarely where nothing is found, for on new ground there is nothing to find, and more rarely in a large map,
@@ -182,28 +128,32 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   constexpr double kGrown = 1.2;                                 // a map that is prepared for searches serves till then
   if (context_.map_is_held || !state.map.sessions.back().joined) return;
   const double travel = history[index].sight.way;
-  const double recognized = travelOfClosures(state.graph);
-  if (travel - recognized < options_.lost_way) return;
-  const double answered = std::max(recognized, travelOfClosures(state.graph, kGlobalClosure));
-  const double spacing = std::max({kSpacing, kShareOfLost * (travel - answered), kShareOfAll * travel});
+  const auto tied = closures_.newestTied(state.graph);
+  if (travelSince(tied, history, index) < options_.lost_way) return;
+  const auto answered = std::max(tied, closures_.newestWithNote(state.graph, kGlobalClosure));
+  const double since_answer = travelSince(answered, history, index);
+  const double spacing = std::max({kSpacing, kShareOfLost * since_answer, kShareOfAll * travel});
   SoughtGlobally& last = sought_globally_[label];
   if (last.travel > 0 && std::abs(travel - last.travel) < spacing) return;
   last.travel = travel;
-  const double rarely = std::max(kSpacing, kShareOnNewGround * (travel - answered));
+  const double rarely = std::max(kSpacing, kShareOnNewGround * since_answer);
   const bool on_new_ground = std::abs(travel - last.on_new_ground) >= rarely;
   if (on_new_ground) last.on_new_ground = travel;
   std::vector<LoopSearch::Sight> earlier;
   for (std::size_t i = 0; i < index && travel - history[i].sight.way >= options_.min_way; ++i)
     earlier.push_back(history[i].sight);
   if (earlier.empty()) return;
-  if (!last.places || static_cast<double>(earlier.size()) > kGrown * static_cast<double>(last.size) ||
-      last.repairs != repairs_) {
+  const bool has_grown = static_cast<double>(earlier.size()) > kGrown * static_cast<double>(last.size);
+  const bool is_moved = tied != last.tied || closures_.corrections() != last.corrections;
+  if (!last.places || has_grown || is_moved) {
     last.places = placesToLoopTo(state.map, label, earlier, matcher_);
     last.size = earlier.size();
-    last.repairs = repairs_;
+    last.tied = tied;
+    last.corrections = closures_.corrections();
   }
   global_searches_.emplace_back(options_, context_, matcher_, last.places, label,
-                                sights(history, index, options_.join_way, 0), std::move(earlier), on_new_ground);
+                                sights(history, index, options_.join_way + kSpacing, 0), std::move(earlier),
+                                on_new_ground);
 }
 
 // Ever more rarely, for a session of another place is never joined; often again once it was moved to where it was
@@ -265,7 +215,7 @@ void LoopClosurePlugin::retired(const map::KeyFrame& frame) {
 
 mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, const mapper::View& view) {
   mapper::FollowUp follow_up;
-  follow_up.batch = proposedAgain(view);
+  follow_up.batch = closures_.proposedAgain(view, context_.section);
   for (auto& search : searches_) follow_up.jobs.push_back({"loop closure of " + toString(frame.id), std::move(search)});
   for (auto& search : global_searches_)
     follow_up.jobs.push_back({"global loop search of " + toString(frame.id), std::move(search)});
@@ -278,6 +228,12 @@ mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, cons
   slip_searches_.clear();
   map_searches_.clear();
   return follow_up;
+}
+
+// The last solve has tested all.
+mapper::Batch LoopClosurePlugin::atEnd(const mapper::View& view) {
+  closures_.noteSolves(view.solves.size() + 1);
+  return closures_.proposedAgain(view, context_.section);
 }
 
 std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& view) const {

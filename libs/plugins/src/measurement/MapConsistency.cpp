@@ -30,6 +30,15 @@ std::string format(const char* pattern, Numbers... numbers) {
 
 }  // namespace
 
+double shareOnWalls(const std::vector<Eigen::Vector2f>& map, const std::vector<Eigen::Vector2f>& seen) {
+  if (map.empty() || seen.empty()) return 0;
+  matching::LikelihoodOptions grid;
+  grid.cell = 0.1;
+  grid.sigma = 0.15;
+  grid.levels = 1;
+  return matching::LikelihoodPyramid(map, grid).score(seen, TPose2D());
+}
+
 Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& labels) {
   constexpr double kCrossed = 0.2;       // share of a scan's beams that no people, glass or doors explain
   constexpr double kMostPercent = 0.5;   // of scans
@@ -117,7 +126,7 @@ std::size_t markTied(const mapper::State& state, const std::string& section, dou
   for (std::size_t i = 0; i < stops.size(); ++i) stop_of[state.map.key_frames[i].pose] = i;
   std::size_t closures = 0;
   for (const auto& [id, record] : state.graph.factors()) {
-    if (record.tags.owner != section || record.weight <= 0) continue;
+    if (record.tags.owner != section || record.tags.note == kSlip || record.weight <= 0) continue;
     std::size_t poses = 0, latest = 0;
     for (const auto variable : record.variables) {
       const auto found = stop_of.find(variable);
@@ -185,12 +194,7 @@ double shareSeenBefore(const map::Map& map, const std::vector<std::string>& labe
   near.resize(std::min(near.size(), kMost));
   for (const auto& [apart, i] : near) add(i, before);
   add(at, seen);
-  if (before.empty() || seen.empty()) return 0;
-  matching::LikelihoodOptions grid;
-  grid.cell = 0.1;
-  grid.sigma = 0.15;
-  grid.levels = 1;
-  return matching::LikelihoodPyramid(before, grid).score(seen, TPose2D());
+  return shareOnWalls(before, seen);
 }
 
 // Which stops lie where the robot has been, at least `min_travel` [m] before.
@@ -258,20 +262,28 @@ std::vector<Evidence> slips(const mapper::State& state, const std::string& secti
                             const mapper::DecisionLog& decisions) {
   std::vector<Evidence> all;
   const auto stampOf = [&](base::KeyFrameId id) { return state.map.keyFrame(id).stamp; };
+  const auto secondsOf = [&](base::Stamp stamp) {
+    return base::secondsBetween(state.map.key_frames.begin()->stamp, stamp);
+  };
   const mapper::Decision* contradiction = nullptr;
+  Evidence undone{"slips_undone", 0, Evidence::Says::good, ""};
   for (const auto& decision : decisions) {
     if (decision.plugin != section || decision.kind != kSlip) continue;
-    contradiction = decision.accepted ? nullptr : &decision;
-    if (!decision.accepted) continue;
+    if (!decision.accepted) {
+      contradiction = &decision;
+      continue;
+    }
     double metres = 0, degrees = 0;
     for (const auto& [name, value] : decision.numbers) {
       if (name == kSlippedBy) metres = value;
       if (name == kSlippedByAngle) degrees = value;
     }
-    all.push_back({"slip_undone_m", metres, Evidence::Says::good,
-                   format("a slip of %.1f m and %.0f deg, %.0f s after the start, was undone", metres, degrees,
-                          base::secondsBetween(state.map.key_frames.begin()->stamp, decision.stamp))});
+    ++undone.value;
+    undone.reason += (undone.reason.empty() ? "" : "; ") +
+                     format("a slip of %.1f m and %.0f deg, %.0f s after the start, was undone", metres, degrees,
+                            secondsOf(decision.stamp));
   }
+  if (undone.value > 0) all.push_back(undone);
   if (!contradiction) return all;
   // One that ties what came after it to what was there before.
   const bool is_resolved = std::any_of(decisions.begin(), decisions.end(), [&](const mapper::Decision& decision) {
@@ -279,7 +291,7 @@ std::vector<Evidence> slips(const mapper::State& state, const std::string& secti
            stampOf(decision.from) >= contradiction->stamp && stampOf(*decision.to) <= stampOf(*contradiction->to);
   });
   if (is_resolved) return all;
-  const double seconds = base::secondsBetween(state.map.key_frames.begin()->stamp, contradiction->stamp);
+  const double seconds = secondsOf(contradiction->stamp);
   all.push_back(
       {"contradicted_after_s", seconds, Evidence::Says::against_it,
        format("closures that agree with one another, from %.0f s after the start on, contradict the map", seconds)});

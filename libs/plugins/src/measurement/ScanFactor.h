@@ -13,4 +13,7 @@ namespace omnimapper::plugins {
 graph::FactorRecord scanFactor(const LoopClosureOptions& options, const mapper::PluginContext& context,
                                base::VariableId reference, base::VariableId scan, const matching::ScanMatch& match);
 
+/// That motion, of `scan` from `reference`. Height and tilt are open.
+mapper::RelativeMotion scanMotion(const LoopClosureOptions& options, const matching::ScanMatch& match);
+
 }  // namespace omnimapper::plugins

@@ -36,9 +36,21 @@ TPose2D inverseOf(const TPose2D& pose) {
   return TPose2D() - pose;
 }
 
+// The factors of the odometry between two key frames.
+std::vector<base::FactorId> linksBetween(const map::KeyFrame& before, const map::KeyFrame& after,
+                                         const graph::Graph& graph) {
+  std::vector<base::FactorId> links;
+  for (const auto id : graph.factorsOf(after.pose)) {
+    const auto& record = graph.factor(id);
+    const bool is_link = record.variables == std::vector<base::VariableId>{before.pose, after.pose};
+    if (is_link && record.weight > 0 && !record.tags.hypothesis) links.push_back(id);
+  }
+  return links;
+}
+
 }  // namespace
 
-// From key frame drive_[before] to the next.
+// From key frame trajectory_[before] to the next.
 struct SlipSearch::Span {
   std::size_t before = 0;
   TPose2D estimated, required;            // the motion as the map has it, and as the closures ask for
@@ -47,21 +59,21 @@ struct SlipSearch::Span {
 };
 
 // What takes the place of a measured motion.
-struct SlipSearch::Mended {
+struct SlipSearch::SpanCorrection {
   Span span;
-  TPose2D motion;
-  graph::FactorRecord factor;
+  mapper::RelativeMotion motion;  // in the plane; height and tilt are open
   std::string reason;
+  std::vector<std::pair<std::string, double>> numbers;
 };
 
 SlipSearch::SlipSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
                        std::shared_ptr<const matching::ScanMatcher> matcher, std::vector<base::FactorId> refused,
-                       std::vector<LoopSearch::Sight> drive)
+                       std::vector<LoopSearch::Sight> trajectory)
     : options_(options),
       context_(context),
       matcher_(std::move(matcher)),
       refused_(std::move(refused)),
-      drive_(std::move(drive)) {}
+      trajectory_(std::move(trajectory)) {}
 
 mapper::Batch SlipSearch::operator()(const mapper::State& state) const {
   mapper::Batch batch;
@@ -72,50 +84,60 @@ mapper::Batch SlipSearch::operator()(const mapper::State& state) const {
   mapper::Decision decision;
   decision.plugin = context_.section;
   decision.kind = kSlip;
-  decision.from = drive_[agreeing.front().newest].frame;
-  decision.to = drive_[agreeing.front().place].frame;
+  decision.from = trajectory_[agreeing.front().newest].frame;
+  decision.to = trajectory_[agreeing.front().place].frame;
   decision.stamp = state.map.keyFrame(decision.from).stamp;
   decision.numbers = {{"closures that agree", static_cast<double>(agreeing.size())},
                       {"spans that may have slipped", static_cast<double>(candidates.size())}};
-  auto mended = bornOutByScans(candidates, state);
-  if (!mended) mended = bornOutByNothing(candidates, state);
-  if (!mended) {
+  auto correction = correctedByScans(candidates, state);
+  if (!correction) correction = correctedByClosures(candidates);
+  if (!correction) {
     decision.reason = "closures that agree with one another contradict the map, and no single span explains it";
     batch.log(std::move(decision));
     return batch;
   }
-  const Span& span = mended->span;
-  const auto& before = state.map.keyFrame(drive_[span.before].frame);
-  const auto& after = state.map.keyFrame(drive_[span.before + 1].frame);
-  const auto apart = distanceBetween(mended->motion, span.estimated);
+  const Span& span = correction->span;
+  const auto& before = state.map.keyFrame(trajectory_[span.before].frame);
+  const auto& after = state.map.keyFrame(trajectory_[span.before + 1].frame);
+  const auto apart = distanceBetween(planar(correction->motion.begin_from_end), span.estimated);
   decision.from = after.id;
   decision.to = before.id;
   decision.stamp = after.stamp;
-  decision.numbers.insert(decision.numbers.end(), {{kSlippedBy, apart.metres},
-                                                   {kSlippedByAngle, apart.radians / kSlipDegree},
-                                                   {"share of the scans that fit [1]", span.as_found},
-                                                   {"share that fitted before [1]", span.as_estimated}});
+  decision.numbers.emplace_back(kSlippedBy, apart.metres);
+  decision.numbers.emplace_back(kSlippedByAngle, apart.radians / kSlipDegree);
+  decision.numbers.insert(decision.numbers.end(), correction->numbers.begin(), correction->numbers.end());
   decision.accepted = true;
-  decision.reason = mended->reason;
-  for (const auto id : state.graph.factorsOf(after.pose)) {
-    const auto& record = state.graph.factor(id);
-    if (record.variables == std::vector<base::VariableId>{before.pose, after.pose} && !record.tags.hypothesis)
-      batch.setWeight(id, 0);
-  }
-  mended->factor.tags.note = kSlip;
-  batch.addFactor(std::move(mended->factor));
+  decision.reason = correction->reason;
+  for (const auto id : linksBetween(before, after, state.graph)) batch.setWeight(id, 0);
+  auto factor = mapper::betweenPoses(context_.motion, before.pose, after.pose,
+                                     withTheRest(correction->motion, before, after, state), context_.section);
+  factor.tags.note = kSlip;
+  batch.addFactor(std::move(factor));
   batch.log(std::move(decision));
   return batch;
 }
 
+// What was not contradicted: height and tilt stay as they are in a spatial map.
+mapper::RelativeMotion SlipSearch::withTheRest(mapper::RelativeMotion motion, const map::KeyFrame& before,
+                                               const map::KeyFrame& after, const mapper::State& state) {
+  const auto known = state.covarianceBetween(before.id, after.id);
+  if (!known) return motion;
+  const auto estimated = after.map_from_base - before.map_from_base;
+  const auto& corrected = motion.begin_from_end;
+  motion.begin_from_end = mrpt::poses::CPose3D(corrected.x(), corrected.y(), estimated.z(), planar(corrected).phi,
+                                               estimated.pitch(), estimated.roll());
+  for (const int i : {2, 3, 4}) motion.covariance(i, i) = (*known)(i, i);
+  return motion;
+}
+
 TPose2D SlipSearch::motion(std::size_t from, std::size_t to, const mapper::State& state) const {
-  return planar(state.map.keyFrame(drive_[to].frame).map_from_base -
-                state.map.keyFrame(drive_[from].frame).map_from_base);
+  return planar(state.map.keyFrame(trajectory_[to].frame).map_from_base -
+                state.map.keyFrame(trajectory_[from].frame).map_from_base);
 }
 
 std::vector<SlipSearch::Closure> SlipSearch::closures(const mapper::State& state) const {
   std::unordered_map<base::VariableId, std::size_t> index;
-  for (std::size_t i = 0; i < drive_.size(); ++i) index[state.map.keyFrame(drive_[i].frame).pose] = i;
+  for (std::size_t i = 0; i < trajectory_.size(); ++i) index[state.map.keyFrame(trajectory_[i].frame).pose] = i;
   std::vector<Closure> all;
   for (const auto id : refused_) {
     if (!state.graph.contains(id) || state.graph.factor(id).weight > 0) continue;
@@ -138,12 +160,13 @@ std::vector<SlipSearch::Closure> SlipSearch::agreeing(const mapper::State& state
       *std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.newest < b.newest; });
   const auto between = [&](std::size_t a, std::size_t b) {
     return a == b ? std::optional(Eigen::Matrix<double, 6, 6>(Eigen::Matrix<double, 6, 6>::Zero()))
-                  : state.covarianceBetween(drive_[std::min(a, b)].frame, drive_[std::max(a, b)].frame);
+                  : state.covarianceBetween(trajectory_[std::min(a, b)].frame, trajectory_[std::max(a, b)].frame);
   };
   const auto disagrees = [&](const Closure& one) {
-    if (one.newest == newest.newest) return one.place != newest.place;
+    const bool is_newest = one.newest == newest.newest && one.place == newest.place;
     const auto places = between(one.place, newest.place), ends = between(one.newest, newest.newest);
     if (!places || !ends) return true;
+    if (one.newest == newest.newest && !is_newest) return true;  // two of one key frame are one witness
     const TPose2D predicted =
         motion(newest.place, one.place, state) + one.place_from_newest + motion(one.newest, newest.newest, state);
     const double reach =
@@ -168,7 +191,9 @@ std::vector<SlipSearch::Span> SlipSearch::spans(const std::vector<Closure>& agre
   for (const auto& closure : agreeing) begin = std::max(begin, closure.place);
   std::vector<Span> all;
   for (std::size_t i = begin; i < first.newest; ++i) {
-    if (drive_[i].frame.session != drive_[i + 1].frame.session) continue;
+    const auto& before = state.map.keyFrame(trajectory_[i].frame);
+    const auto& after = state.map.keyFrame(trajectory_[i + 1].frame);
+    if (linksBetween(before, after, state.graph).empty()) continue;
     Span span;
     span.before = i;
     span.estimated = motion(i, i + 1, state);
@@ -185,19 +210,19 @@ std::vector<SlipSearch::Span> SlipSearch::spans(const std::vector<Closure>& agre
 matching::PlanarScan SlipSearch::seenBefore(const Span& span, const mapper::State& state) const {
   std::vector<LoopSearch::Sight> sights;
   for (std::size_t i = span.before + 1; i-- > 0;) {
-    if (drive_[span.before].way - drive_[i].way > 2 * options_.context) break;
-    sights.push_back(drive_[i]);
+    if (trajectory_[span.before].way - trajectory_[i].way > 2 * options_.context) break;
+    sights.push_back(trajectory_[i]);
   }
-  return localMap(sights, drive_[span.before].frame, state);
+  return localMap(sights, trajectory_[span.before].frame, state);
 }
 
 matching::PlanarScan SlipSearch::seenAfter(const Span& span, const mapper::State& state) const {
   std::vector<LoopSearch::Sight> sights;
-  for (std::size_t i = span.before + 1; i < drive_.size(); ++i) {
-    if (drive_[i].way - drive_[span.before + 1].way > options_.context) break;
-    sights.push_back(drive_[i]);
+  for (std::size_t i = span.before + 1; i < trajectory_.size(); ++i) {
+    if (trajectory_[i].way - trajectory_[span.before + 1].way > options_.context) break;
+    sights.push_back(trajectory_[i]);
   }
-  return localMap(sights, drive_[span.before + 1].frame, state);
+  return localMap(sights, trajectory_[span.before + 1].frame, state);
 }
 
 // How the scans before and after each span fit: as the map has it, and best near what is required, for the map between
@@ -222,16 +247,16 @@ void SlipSearch::compare(std::vector<Span>& spans, const mapper::State& state) c
   }
 }
 
-// The span whose scans fit better as the closures ask for than as the map has them, by a fine match.
-std::optional<SlipSearch::Mended> SlipSearch::bornOutByScans(std::vector<Span> spans,
-                                                             const mapper::State& state) const {
+// The span whose scans gain most overlap by the motion that the closures require, by a fine match.
+std::optional<SlipSearch::SpanCorrection> SlipSearch::correctedByScans(std::vector<Span> spans,
+                                                                       const mapper::State& state) const {
   constexpr double kFine = 0.08;         // [m] between the points
   constexpr double kLeastOverlap = 0.4;  // as laser odometry asks for
   constexpr double kBetter = 0.1;        // of the overlap, than as the map has it
   constexpr std::size_t kMost = 5;
   const auto gain = [](const Span& span) { return span.as_found - span.as_estimated; };
   std::stable_sort(spans.begin(), spans.end(), [&](const Span& a, const Span& b) { return gain(a) > gain(b); });
-  std::optional<Mended> best;
+  std::optional<SpanCorrection> best;
   double best_gain = kBetter;
   for (std::size_t i = 0; i < std::min(kMost, spans.size()) && gain(spans[i]) > 0; ++i) {
     const Span& span = spans[i];
@@ -246,17 +271,17 @@ std::optional<SlipSearch::Mended> SlipSearch::bornOutByScans(std::vector<Span> s
     const double better = match.overlap - (stays ? as_it_is.overlap : 0);
     if (better <= best_gain) continue;
     best_gain = better;
-    best = Mended{span, match.reference_from_scan,
-                  scanFactor(options_, context_, poseOf(span.before, state), poseOf(span.before + 1, state), match),
-                  "closures that agree contradict the motion here, and the scans fit better as they say"};
+    best = SpanCorrection{span,
+                          scanMotion(options_, match),
+                          "closures that agree contradict the motion here, and the scans fit better as they say",
+                          {{"overlap", match.overlap}, {"overlap gained", better}}};
   }
   return best;
 }
 
-// The only span whose scans do not bear out its motion, such as one that wheels alone tell. The closures say how it
-// was, as well as the map between them is known.
-std::optional<SlipSearch::Mended> SlipSearch::bornOutByNothing(std::vector<Span> spans,
-                                                               const mapper::State& state) const {
+// The only span whose scans do not bear out its motion, such as one that only the wheels measured. The closures say how
+// it was, as well as the map between them is known.
+std::optional<SlipSearch::SpanCorrection> SlipSearch::correctedByClosures(std::vector<Span> spans) {
   constexpr double kMost = 0.2;  // of the scans that fit by chance
   if (spans.empty()) return std::nullopt;
   std::stable_sort(spans.begin(), spans.end(),
@@ -265,15 +290,10 @@ std::optional<SlipSearch::Mended> SlipSearch::bornOutByNothing(std::vector<Span>
   if (worst.as_estimated > kMost || (spans.size() > 1 && spans[1].as_estimated < worst.as_estimated + kMost / 2))
     return std::nullopt;
   const Eigen::Vector3d sigmas(kMapErrs, kMapErrs, kMapErrsBy);
-  const auto motion = planarMotion(worst.required, sigmas.cwiseAbs2().asDiagonal());
-  return Mended{worst, worst.required,
-                mapper::betweenPoses(context_.motion, poseOf(worst.before, state), poseOf(worst.before + 1, state),
-                                     motion, context_.section),
-                "closures that agree contradict the motion here, which no scans bear out"};
-}
-
-base::VariableId SlipSearch::poseOf(std::size_t i, const mapper::State& state) const {
-  return state.map.keyFrame(drive_[i].frame).pose;
+  return SpanCorrection{worst,
+                        planarMotion(worst.required, sigmas.cwiseAbs2().asDiagonal()),
+                        "closures that agree contradict the motion here, which no scans bear out",
+                        {{"share of the scans that fitted [1]", worst.as_estimated}}};
 }
 
 }  // namespace omnimapper::plugins

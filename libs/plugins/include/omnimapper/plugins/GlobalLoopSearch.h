@@ -3,6 +3,7 @@
 #include <omnimapper/plugins/KnownPlaces.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,8 @@ namespace omnimapper::plugins {
 
 /// One search for a loop that the windows of LoopSearch miss, as a job: where the estimate may be off by more than they
 /// reach, or is sure of a place that looks otherwise, the newest scans are sought in all that was seen before. What is
-/// found is a hypothesis like any other.
+/// found there is a hypothesis like any other; what is found within those windows is left to LoopSearch, which knows
+/// single passes of the robot and is more exact.
 class GlobalLoopSearch {
  public:
   /// `newest`: the last metres, the newest last; `earlier`: all of the map that is old enough for a loop; `places`:
@@ -25,8 +27,12 @@ class GlobalLoopSearch {
   mapper::Batch operator()(const mapper::State& state) const;
 
  private:
-  bool isLost(const mapper::State& state, mapper::Decision& decision) const;
-  double shareThatFits(const std::vector<LoopSearch::Sight>& near, const mapper::State& state) const;
+  /// Where the estimate has the robot, as far as that is known.
+  struct Estimate {
+    double uncertainty;  // [m] three standard deviations
+    bool is_lost;        // it may be anywhere, or it is sure of ground that was seen before and looks otherwise
+  };
+  std::optional<Estimate> judged(const mapper::State& state, mapper::Decision& decision) const;
 
   LoopClosureOptions options_;
   mapper::PluginContext context_;
@@ -38,7 +44,7 @@ class GlobalLoopSearch {
 };
 
 /// What such searches look in: `earlier` as it lies in `map`, which has key frames.
-std::shared_ptr<const KnownPlaces> placesToLoopTo(map::Map map, const std::string& label,
+std::shared_ptr<const KnownPlaces> placesToLoopTo(const map::Map& map, const std::string& label,
                                                   const std::vector<LoopSearch::Sight>& earlier,
                                                   std::shared_ptr<const matching::ScanMatcher> matcher);
 

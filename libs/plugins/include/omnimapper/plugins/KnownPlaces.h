@@ -14,8 +14,8 @@
 
 namespace omnimapper::plugins {
 
-/// What the sessions of a saved map saw, as it lay when it was loaded, and the relocaliser over all of it, which is
-/// made by whichever thread asks first. Never changes else, so threads may share it.
+/// What key frames of a map saw, where they lay when this was made, and the relocaliser over all of it, which is made
+/// by whichever thread asks first. Never changes else, so threads may share it.
 class KnownPlaces {
  public:
   struct Place {
@@ -24,7 +24,7 @@ class KnownPlaces {
   };
 
   /// Of `sights`, by the label of their clouds, those of sessions that are joined. `map` has at least one key frame.
-  KnownPlaces(map::Map map, const std::map<std::string, std::vector<LoopSearch::Sight>>& sights,
+  KnownPlaces(const map::Map& map, const std::map<std::string, std::vector<LoopSearch::Sight>>& sights,
               std::shared_ptr<const matching::ScanMatcher> matcher, const matching::RelocaliserOptions& options = {});
 
   bool empty() const { return places_.empty(); }
@@ -36,9 +36,9 @@ class KnownPlaces {
   const matching::Relocaliser& relocaliser() const;
 
  private:
-  map::Map map_;
-  std::vector<std::string> labels_;  // of the cloud, for each place
   std::vector<Place> places_;
+  std::vector<map::KeyFrame> frames_;  // of each place; a copy of the map would be the engine's to destroy
+  std::vector<std::string> labels_;    // of the cloud, for each place
   std::shared_ptr<const matching::ScanMatcher> matcher_;
   matching::RelocaliserOptions options_;
   mapper::SessionStart anywhere_;

@@ -7,11 +7,12 @@
 #include <omnimapper/plugins/LoopSearch.h>
 #include <omnimapper/plugins/MapSearch.h>
 #include <omnimapper/plugins/SlipSearch.h>
+#include <omnimapper/plugins/TestedClosures.h>
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace omnimapper::plugins {
@@ -29,10 +30,10 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   std::unique_ptr<const mapper::Prepared> prepare(const mrpt::obs::CObservation& observation) const override;
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
-  void applied(const mapper::AppliedBatch& ids) override;
+  void applied(const mapper::AppliedBatch& ids) override { closures_.add(ids.factors); }
   void retired(const map::KeyFrame& frame) override;
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
-  mapper::Batch atEnd(const mapper::View& view) override { return proposedAgain(view); }
+  mapper::Batch atEnd(const mapper::View& view) override;
   /// Beams that pass through walls, and places that were come back to without a closure.
   std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
   /// What earlier sessions saw: places to close loops with.
@@ -53,7 +54,9 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   struct SoughtGlobally {
     double travel = 0, on_new_ground = 0;  // [m]
     std::shared_ptr<const KnownPlaces> places;
-    std::size_t size = 0, repairs = 0;  // of the places, and how many slips were undone before they were gathered
+    std::size_t size = 0;             // of the places
+    std::optional<base::Stamp> tied;  // of TestedClosures, and its corrections, when they were gathered
+    std::size_t corrections = 0;
   };
   using History = std::vector<Seen>;  // in order of session, then stamp
   using Scan = std::shared_ptr<const matching::PlanarScan>;
@@ -61,20 +64,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   /// Puts it in its place and gives the index.
   std::size_t remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state, History& history);
 
-  /// A factor of this run between two key frames that scans measured.
-  struct Measured {
-    base::FactorId id;
-    std::size_t solves;       // there were when it was first seen
-    bool is_settled = false;  // what a slip was contradicted by has been proposed again
-  };
-  /// Closures of global searches that were judged and do not act.
-  std::vector<base::FactorId> refusedGlobally(const mapper::View& view);
-  void seekSlip(const History& history, std::size_t index, const mapper::View& view);
-  /// The closures that a slip was found by, once the map is solved without it.
-  mapper::Batch proposedAgain(const mapper::View& view);
-  /// Of the newest key frame by which an acting closure ties the map [m]; by `note` if one is given, acting or not.
-  double travelOfClosures(const graph::Graph& graph, const std::string& note = {}) const;
-  double travelOf(const graph::FactorRecord& record) const;
+  static double travelSince(std::optional<base::Stamp> stamp, const History& history, std::size_t index);
+  void seekSlip(const History& history, const mapper::View& view);
   void seekGlobally(const std::string& label, const History& history, std::size_t index, const mapper::State& state);
   void seekInMap(const std::string& label, const History& history, std::size_t index, const mapper::State& state);
   std::vector<LoopSearch::Place> loopPlaces(const map::KeyFrame& frame, const History& history, std::size_t index,
@@ -88,16 +79,14 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   std::map<std::string, History> histories_;  // by label
   std::map<std::string, double> searched_;    // [m] way of the last search, by label
   std::vector<LoopSearch> searches_;          // of the key frame being measured
-  std::vector<Measured> measured_;
-  std::size_t repairs_ = 0;                                 // slips that were undone
-  std::size_t refused_before_ = 0;                          // when a slip was last sought
-  std::vector<SlipSearch> slip_searches_;                   // of the key frame being measured
-  std::unordered_map<base::VariableId, double> travel_of_;  // [m] of each pose
-  std::map<std::string, SoughtGlobally> sought_globally_;   // by label
-  std::vector<GlobalLoopSearch> global_searches_;           // of the key frame being measured
-  std::shared_ptr<const KnownPlaces> places_;               // of a map that is continued
-  std::map<std::string, Sought> sought_in_map_;             // by label
-  std::vector<MapSearch> map_searches_;                     // of the key frame being measured
+  TestedClosures closures_;
+  std::size_t refused_before_ = 0;                         // global closures, when a slip was last sought
+  std::vector<SlipSearch> slip_searches_;                  // of the key frame being measured
+  std::map<std::string, SoughtGlobally> sought_globally_;  // by label
+  std::vector<GlobalLoopSearch> global_searches_;          // of the key frame being measured
+  std::shared_ptr<const KnownPlaces> places_;              // of a map that is continued
+  std::map<std::string, Sought> sought_in_map_;            // by label
+  std::vector<MapSearch> map_searches_;                    // of the key frame being measured
 };
 
 class LoopClosurePluginFactory : public mapper::MeasurementPluginFactory {
