@@ -118,33 +118,44 @@ function(omnimapper_app name)
   install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# omnimapper_test(NAME [OPTIMIZED] [HALVES] [COST SECONDS] <targets...> [RELEASE FILES...] [THREADS FILES...]): one test binary for
-# the folder's *Test.cpp files, named test-NAME. Tests are not optimized: they assert the same, and compile in 40 % of the
-# time. OPTIMIZED is for tests that render images or search texts themselves, which would run for minutes. COST is roughly
-# how long the test runs; ctest starts the longest first. Some files are once more in a binary without the others: those
-# of RELEASE in test-NAME-release, what tries more without a sanitizer (release_cases in scripts/lib/suites.sh), and those
-# of THREADS, in a build under the thread sanitizer, in test-NAME-threads (thread_cases there). With HALVES the cases run
-# in two tests of ctest side by side, NAME and NAME-2; whoever runs the program itself runs them all.
+# omnimapper_test(NAME [HALVES] [COST SECONDS] <targets...> [OPTIMIZED FILES...] [RELEASE FILES...] [THREADS FILES...]): one
+# test binary for the folder's *Test.cpp files, named test-NAME. Tests are not optimized: they assert the same, and compile
+# in 40 % of the time. OPTIMIZED names the files that render images or search texts themselves, which would run for
+# minutes. COST is roughly how long the test runs; ctest starts the longest first. Some files are once more in a binary
+# without the others: those of RELEASE in test-NAME-release, what tries more without a sanitizer (release_cases in
+# scripts/lib/suites.sh), and those of THREADS, in a build under the thread sanitizer, in test-NAME-threads (thread_cases
+# there). With HALVES the cases run in two tests of ctest side by side, NAME and NAME-2; whoever runs the program itself
+# runs them all.
 function(omnimapper_test name)
-  cmake_parse_arguments(ARG "OPTIMIZED;HALVES" "COST" "RELEASE;THREADS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*Test.cpp")
-  add_executable(test-${name} ${sources})
+  cmake_parse_arguments(ARG "HALVES" "COST" "OPTIMIZED;RELEASE;THREADS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" "*Test.cpp")
   set(names ${name})
+  set(sources_of_${name} ${sources})
   if(ARG_RELEASE AND NOT OMNIMAPPER_SANITIZE)
-    add_executable(test-${name}-release ${ARG_RELEASE})
     list(APPEND names ${name}-release)
+    set(sources_of_${name}-release ${ARG_RELEASE})
   endif()
   if(ARG_THREADS AND OMNIMAPPER_SANITIZE STREQUAL "thread")
-    add_executable(test-${name}-threads ${ARG_THREADS})
     list(APPEND names ${name}-threads)
+    set(sources_of_${name}-threads ${ARG_THREADS})
   endif()
   foreach(each ${names})
+    set(plain ${sources_of_${each}})
+    set(optimized ${plain})
+    list(REMOVE_ITEM plain ${ARG_OPTIMIZED} "")
+    list(REMOVE_ITEM optimized ${plain} "")
+    add_executable(test-${each} ${plain})
     target_link_libraries(test-${each} PRIVATE ${ARG_UNPARSED_ARGUMENTS} omnimapper-testing GTest::gtest_main)
     omnimapper_compile_options(test-${each})
-    if(ARG_OPTIMIZED)
-      target_compile_options(test-${each} PRIVATE $<$<CONFIG:Release>:-O1>)
-    else()
-      target_compile_options(test-${each} PRIVATE -O0)
+    target_compile_options(test-${each} PRIVATE -O0)
+    if(optimized)
+      # The files are a target of their own, for only whole targets are compiled in batches with options of their own.
+      add_library(test-${each}-optimized OBJECT ${optimized})
+      target_link_libraries(test-${each}-optimized PRIVATE ${ARG_UNPARSED_ARGUMENTS} omnimapper-testing GTest::gtest_main)
+      target_include_directories(test-${each}-optimized PRIVATE $<TARGET_PROPERTY:test-${each},INCLUDE_DIRECTORIES>)
+      omnimapper_compile_options(test-${each}-optimized)
+      target_compile_options(test-${each}-optimized PRIVATE $<$<CONFIG:Release>:-O1>)
+      target_sources(test-${each} PRIVATE $<TARGET_OBJECTS:test-${each}-optimized>)
     endif()
     add_test(NAME ${each} COMMAND test-${each})
     set(tests ${each})
