@@ -168,5 +168,19 @@ TEST_F(SlipSearchTest, ClosuresThatAgreeOnAPlaceWhereTheRobotWasNotMoveNothing) 
   EXPECT_FALSE(batch.changesGraph());
 }
 
+// The place is 20 m from where the robot is: no span of a metre is wrong by that.
+TEST_F(SlipSearchTest, ClosuresThatNoSlipLeadsToAreOfPlacesThatLookAlike) {
+  drive({});
+  refuse(1, 20, {20, 0, 0});
+  refuse(3, 22,
+         geometry::inverse(geometry::inverse(trueMapFromBase(20)) * trueMapFromBase(22)) * Se2{20, 0, 0} *
+             (geometry::inverse(trueMapFromBase(20)) * trueMapFromBase(22)));
+  const auto batch = search();
+  ASSERT_EQ(batch.decisions().size(), 1U);
+  EXPECT_NE(batch.decisions()[0].kind, kSlip);
+  EXPECT_FALSE(batch.decisions()[0].accepted);
+  EXPECT_FALSE(batch.changesGraph());
+}
+
 }  // namespace
 }  // namespace omnimapper::plugins::slip_search_test

@@ -89,6 +89,12 @@ mapper::Batch SlipSearch::operator()(const mapper::State& state) const {
   decision.stamp = state.map.keyFrame(decision.from).stamp;
   decision.numbers = {{"closures that agree", static_cast<double>(agreeing.size())},
                       {"spans that may have slipped", static_cast<double>(candidates.size())}};
+  if (candidates.empty()) {
+    decision.kind = "global loop search";
+    decision.reason = "places that look alike: no slip of the robot leads from one to the other";
+    batch.log(std::move(decision));
+    return batch;
+  }
   auto correction = correctedByScans(candidates, state);
   if (!correction) correction = correctedByClosures(candidates);
   if (!correction) {

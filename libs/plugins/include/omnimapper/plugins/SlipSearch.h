@@ -21,7 +21,8 @@ class SlipSearch {
              std::shared_ptr<const matching::ScanMatcher> matcher, std::vector<base::FactorId> refused,
              std::vector<LoopSearch::Sight> trajectory);
 
-  /// Empty if no two of them agree; else a decision of the kind kSlip, with the new motion if it is accepted.
+  /// Empty if no two of them agree; else a decision of the kind kSlip, with the new motion if it is accepted. It is of
+  /// another kind if no slip can explain them.
   mapper::Batch operator()(const mapper::State& state) const;
 
  private:
