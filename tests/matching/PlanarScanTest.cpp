@@ -19,6 +19,17 @@ std::vector<Vector2f> wall(int count, double sigma) {
   return points;
 }
 
+// As of a scan whose beams all go the same way.
+TEST(PlanarScan, PointsThatAreAllOneStayFinite) {
+  for (const Vector2f& point : {Vector2f(0, 0), Vector2f(2, 0), Vector2f(2, 1)}) {
+    const auto scan = fitLines(std::vector<Vector2f>(60, point));
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      EXPECT_TRUE(scan.normals[i].allFinite());
+      EXPECT_NEAR((scan.points[i] - point).norm(), 0, 1e-5);
+    }
+  }
+}
+
 TEST(PlanarScan, PointsOfAWallGetItsNormal) {
   const auto scan = fitLines(wall(60, 0));
   ASSERT_EQ(scan.size(), 60U);

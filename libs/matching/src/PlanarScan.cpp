@@ -135,7 +135,8 @@ std::optional<WindowLine> lineAround(const std::vector<Eigen::Vector2f>& points,
     if (count < kFewest) continue;
     const WindowLine line(sums.between(first, last + 1), count);
     const double allowed = kAngleVariance * line.along;
-    const bool fits = line.across <= kThinness * line.along && line.across <= (count - 2) * allowed &&
+    // Points that are all one have no direction.
+    const bool fits = line.root > 0 && line.across <= kThinness * line.along && line.across <= (count - 2) * allowed &&
                       static_cast<double>(noise) * noise <= allowed;
     if (fits) return line;
   }
