@@ -132,6 +132,24 @@ TEST(GraphArchive, EveryCutIsNoticed) {
     EXPECT_EQ(codeOf(bytes.substr(0, length)), ExitCode::damaged_input) << length;
 }
 
+// Ids that are gone take memory: all sessions together, and whatever number of entries is said to follow.
+TEST(GraphArchive, SessionsThatSayTheyGaveTooManyIdsAreRefused) {
+  const auto graph = [](std::uint64_t sessions, std::uint64_t ids, std::uint64_t entries) {
+    std::stringstream out;
+    writeText(out, "omnimapper.graph");
+    writeUint(out, 1, 4);
+    writeUint(out, 0, 2);
+    writeUint(out, sessions, 4);
+    for (std::uint64_t session = 0; session < sessions; ++session) writeUint(out, session, 2), writeUint(out, ids, 4);
+    writeUint(out, entries, 4);
+    writeUint(out, 0, 2);
+    writeUint(out, ids - 1, 4);
+    return out.str();
+  };
+  EXPECT_EQ(codeOf(graph(65'535, 1'000'000, 0)), ExitCode::damaged_input);
+  EXPECT_EQ(codeOf(graph(1, 4'000'000'000, 5'000'000)), ExitCode::damaged_input);
+}
+
 TEST(GraphArchive, FlippedBytesNeverDoWorseThanAnError) {
   const std::string bytes = bytesOf(richGraph());
   for (std::size_t place = 0; place < bytes.size(); place += 5) {

@@ -112,6 +112,25 @@ TEST(LandmarksSection, CutsLaterVersionsAndOtherSectionsAreRefused) {
   EXPECT_THROW(landmarksFromSection({"sessions", 1, section.bytes}, {}), base::Error);
 }
 
+// A million ids that are gone, said of each of all sessions, would take 16 GB and half an hour.
+TEST(LandmarksSection, SessionsThatSayTheyGaveTooManyIdsTogetherAreRefused) {
+  const auto sessions = [](int count, std::uint32_t ids) {
+    std::string bytes;
+    const auto add = [&](std::uint32_t value, int size) {
+      for (int i = 0; i < size; ++i) bytes.push_back(static_cast<char>(value >> (8 * i)));
+    };
+    add(static_cast<std::uint32_t>(count), 4);
+    for (int session = 0; session < count; ++session) {
+      add(static_cast<std::uint32_t>(session), 2);
+      add(ids, 4);
+    }
+    add(0, 4);  // landmarks
+    return MapSection{"landmarks", 1, bytes};
+  };
+  EXPECT_EQ(landmarksFromSection(sessions(2, 400'000), {}).nextId(1).index, 400'000U);
+  EXPECT_THROW(landmarksFromSection(sessions(65'535, 1'000'000), {}), base::Error);
+}
+
 TEST(SessionsSection, KeepsEveryField) {
   Map map;
   map.sessions.push_back({0, "monday", {0, 0}, true});

@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/Error.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "omnimapper/graph/ByteIo.h"
@@ -14,9 +15,9 @@ namespace {
 // sessions, (session, next index) each, number of entries, entries in the order of ids, each headed by its id.
 constexpr char kMagic[] = "omnimapper.graph";
 constexpr std::uint64_t kVersion = 1;
-// Holes of removed ids take memory: beyond this many, and this many for each thing that is there, the number is
-// damaged.
-constexpr std::uint64_t kMaxHoles = 1'000'000, kMaxHolesPerEntry = 1000;
+// Holes of removed ids take memory: beyond this many in all sessions, and this many for each thing that is there, the
+// number is damaged.
+constexpr std::uint64_t kMaxHoles = 1'000'000, kMaxHolesPerEntry = 1000, kBytesOfId = 6;
 
 template <class IdType>
 void writeId(std::ostream& out, IdType id) {
@@ -34,6 +35,14 @@ IdType readId(std::istream& in) {
 
 [[noreturn]] void failDamaged(const std::string& what) {
   throw base::Error(base::ExitCode::damaged_input, "graph: " + what + ": the file is damaged; use an intact copy");
+}
+
+std::uint64_t bytesLeft(std::istream& in) {
+  const auto here = in.tellg();
+  const auto end = in.seekg(0, std::ios::end).tellg();
+  in.seekg(here);
+  if (here < 0 || end < here) failDamaged("its size is not known");
+  return static_cast<std::uint64_t>(end - here);
 }
 
 void writeEntry(std::ostream& out, const VariableRecord& record) {
@@ -149,10 +158,12 @@ class GraphArchiveReader {
   template <class IdType, class Table, class Add>
   void readTable(Table& table, const Add& add) {
     const std::map<std::uint16_t, std::uint32_t> end = readNextIndices(in_);
-    std::uint64_t left = readUint(in_, 4);
-    for (const auto& [session, limit] : end)
-      if (limit > kMaxHoles + kMaxHolesPerEntry * left)
-        failDamaged("session " + std::to_string(session) + " says it gave " + std::to_string(limit) + " ids");
+    std::uint64_t left = readUint(in_, 4), given = 0;
+    // Each entry begins with its id: there are no more of them than that many bytes hold.
+    const std::uint64_t entries = std::min(left, bytesLeft(in_) / kBytesOfId);
+    for (const auto& [session, limit] : end) given += limit;
+    if (given > kMaxHoles + kMaxHolesPerEntry * entries)
+      failDamaged("its sessions say they gave " + std::to_string(given) + " ids");
     std::map<std::uint16_t, std::uint32_t> next;
     for (; left > 0; --left) {
       const IdType id = readId<IdType>(in_);

@@ -1,5 +1,6 @@
 #include <omnimapper/map/MapFile.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -11,8 +12,9 @@ namespace {
 
 const std::string kLandmarksName = "landmarks";
 constexpr std::uint32_t kLandmarksVersion = 1;
-// Indices that were given and are gone take memory: a number beyond this is damaged.
-constexpr std::uint64_t kMaxHoles = 1'000'000;
+// Indices that were given and are gone take memory: beyond this many in all sessions, and this many for each landmark
+// that is there, the number is damaged.
+constexpr std::uint64_t kMaxHoles = 1'000'000, kMaxHolesPerLandmark = 1000, kBytesOfId = 6;
 
 void writePayload(ByteWriter& out, const LandmarkPayload* payload) {
   out.uint(payload != nullptr, 1);
@@ -86,16 +88,22 @@ base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection&
     const auto id = readId<base::LandmarkTag>(in);
     next[id.session] = id.index;
   }
+  std::uint64_t left = in.uint(4), given = 0;
+  for (const auto& [session, index] : next) given += index;
+  // Each landmark begins with its id: there are no more of them than that many bytes hold.
+  if (given > kMaxHoles + kMaxHolesPerLandmark * std::min(left, section.bytes.size() / kBytesOfId)) {
+    refuse(kLandmarksName, "its sessions say they gave " + std::to_string(given) + " ids: the file is damaged");
+  }
   base::IdTable<base::LandmarkId, Landmark> table;
   const auto skipTo = [&](base::LandmarkId id) {
     const std::uint32_t at = table.nextId(id.session).index;
     const auto end = next.find(id.session);
-    if (end == next.end() || id.index > end->second || id.index < at || id.index - at > kMaxHoles) {
+    if (end == next.end() || id.index > end->second || id.index < at) {
       refuse(kLandmarksName, "id " + toString(id) + " is out of order: the file is damaged");
     }
     while (table.nextId(id.session).index < id.index) table.skip(id.session);
   };
-  for (std::uint64_t left = in.uint(4); left > 0; --left) {
+  for (; left > 0; --left) {
     const auto id = readId<base::LandmarkTag>(in);
     skipTo(id);
     table.add(id.session, readLandmark(in, id, payloads));
