@@ -276,6 +276,10 @@ TEST(Config, NearestNameIsByEditDistanceOrNone) {
   EXPECT_EQ(nearestName("NoMotion", names), "no_motion");
   EXPECT_EQ(nearestName("gps", names), "");
   EXPECT_EQ(nearestName("anything", {}), "");
+  // Letter by letter, these would take hours.
+  const std::string x(1'000'000, 'x'), y(1'000'000, 'y');
+  EXPECT_EQ(nearestName(x, {y, "odometry"}), "");
+  EXPECT_EQ(nearestName("odometri", {y, "odometry"}), "odometry");
 }
 
 }  // namespace

@@ -102,9 +102,13 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
 }  // namespace
 
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates) {
+  // Nobody mistypes a name of a megabyte, and comparing two of them would take hours.
+  constexpr std::size_t kLongest = 200;
+  if (name.size() > kLongest) return "";
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 2) + 1;
   for (const auto& candidate : candidates) {
+    if (candidate.size() >= name.size() + best_distance) continue;  // so many letters are missing at least
     const std::size_t distance = editDistance(lowerCase(name), lowerCase(candidate));
     if (distance < best_distance) {
       best_distance = distance;
