@@ -2,6 +2,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Stamp.h>
 
+#include <limits>
 #include <random>
 
 namespace omnimapper::base::stamp_test {
@@ -75,6 +76,7 @@ TEST(Stamp, NoStampAndMomentsBefore1970AreNotValid) {
   EXPECT_FALSE(isValid(parseUnix("0")));
   EXPECT_TRUE(isValid(parseUnix("0.0000001")));
   EXPECT_TRUE(isValid(parseUnix("70.179699")));  // CARMEN logs count from the start of the program
+  EXPECT_FALSE(isValid(Stamp(Duration(std::numeric_limits<std::int64_t>::max()))));
 }
 
 TEST(Stamp, StampsOfDamagedFilesDoNotOverflow) {

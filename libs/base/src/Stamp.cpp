@@ -28,7 +28,8 @@ Stamp fromTicks(std::int64_t ticks) {
 }  // namespace
 
 bool isValid(Stamp stamp) {
-  return stamp != Stamp() && ticksSinceUnixEpoch(stamp) > 0;
+  // Those that count as the farthest have no time between them.
+  return stamp != Stamp() && ticksSinceUnixEpoch(stamp) > 0 && ticksOf(stamp) < kFarthest;
 }
 
 Stamp stampFromUnix(double seconds) {
