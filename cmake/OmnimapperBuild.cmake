@@ -84,11 +84,13 @@ endif()
 function(omnimapper_library name)
   cmake_parse_arguments(ARG "KERNELS;OPTIMIZED" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
-  # register.cpp is linked last: the ids of the classes that it registers must be initialised before.
+  # register.cpp is linked last: the ids of the classes that it registers must be initialised before. CMake links unity
+  # files from the last to the first, and before what is in none of them.
   list(FILTER sources EXCLUDE REGEX "/register\\.cpp$")
   file(GLOB last CONFIGURE_DEPENDS
     "${CMAKE_CURRENT_SOURCE_DIR}/src/register.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/register.cpp")
   list(APPEND sources ${last})
+  set_source_files_properties(${last} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   set(target omnimapper-${name})
   add_library(${target} SHARED ${sources})
   add_library(omnimapper::${name} ALIAS ${target})
