@@ -3,15 +3,20 @@
 
 # The system tests: programs, installed package and scripts, optimised, as users have them.
 readonly system_tests=(system system-mapping system-mapping-2 system-input system-robust system-simulate system-perceive system-viewer fuzz-runs-share package scripts)
-# The unit tests of all libraries, under the address and undefined-behaviour sanitizers.
-readonly unit_tests=(perception sim plugins graph mapper mapper-2 source matching geometry base obs map check eval fuzz)
+# Unit tests that run in the optimized build alone, unless scripts/test is asked to be --thorough: the simulator reads
+# nothing that a stranger made, and takes an eighth of the sanitizers' build.
+readonly trusted_tests=(sim)
+# The unit tests of all other libraries, under the address and undefined-behaviour sanitizers.
+readonly unit_tests=(perception plugins graph mapper mapper-2 source matching geometry base obs map check eval fuzz)
 # Left out: stock tools, which cannot load a library built with a sanitizer; walks over every place, which would take
 # minutes, of which one seed is left; and false closures in Manhattan, which take half a minute, of which Intel's and those
 # of a simulated town are left.
 readonly address_cases='-StockTools.*:FalseClosuresInManhattanTest.*:Generators.aRobotComesToEveryRoomAtAllLevelsOfClutter:Generators.planesAreExactInEveryPlace:PlacesAndSeeds/*_2'
+# What scripts/test --thorough runs under these sanitizers, too: that, and the system tests of input that does harm.
+readonly thorough_tests=("${trusted_tests[@]}" system-input system-robust fuzz-runs-share)
 # The unit cases that a sanitizer forbids, and those that try more seeds, bytes, logs and places without one.
-readonly release_tests=(obs-release source-release graph-release mapper-release mapper-release-2 sim-release)
-readonly release_cases='StockTools.*:DamageTest.*:RawlogSourceTest.aLogIsReadWhileItIsTried*:PcdCloudTest.aHeaderThatClaims*:FalseClosuresInManhattanTest.*:EngineRandom.*:ShuffledArrival.*:Generators.aRobotComesToEveryRoomAtAllLevelsOfClutter:Generators.planesAreExactInEveryPlace:PlacesAndSeeds/*'
+readonly release_tests=(obs-release source-release graph-release mapper-release mapper-release-2)
+readonly release_cases='StockTools.*:DamageTest.*:RawlogSourceTest.aLogIsReadWhileItIsTried*:PcdCloudTest.aHeaderThatClaims*:FalseClosuresInManhattanTest.*:EngineRandom.*:ShuffledArrival.*'
 # The unit tests of threads, under the thread sanitizer.
 readonly thread_tests=(source-threads mapper-threads mapper-threads-2)
 readonly thread_cases='*Queue*:*Pool*:*Engine*:ReadAhead*:MappingRun*'

@@ -70,6 +70,19 @@ TEST(Names, WhatFitsAnIniIsReadBack) {
   EXPECT_GT(tried, 1000);
 }
 
+TEST(Names, TheNameOfASensorIsShortAndStaysItsOwn) {
+  EXPECT_EQ(sensorName("laser\n1"), "laser\\x0a1");
+  const std::string at_most(200, 'a'), longer(20'000, 'a'), other = longer.substr(1) + "b";
+  EXPECT_EQ(sensorName(at_most), at_most);
+  EXPECT_LE(sensorName(longer).size(), 200U);
+  EXPECT_NE(sensorName(longer), sensorName(other)) << "they begin alike";
+  EXPECT_NE(sensorName(longer).find("(20000 bytes, "), std::string::npos) << sensorName(longer);
+  EXPECT_EQ(sensorName(sensorName(longer)), sensorName(longer));
+  std::string letters;
+  for (int i = 0; i < 100; ++i) letters += "\u00fc\u53f0";
+  EXPECT_EQ(printable(sensorName(letters)), sensorName(letters)) << "cut between letters";
+}
+
 TEST(Names, AFileNameStaysInItsFolder) {
   EXPECT_EQ(asFileName("kinect-1_a.b"), "kinect-1_a.b");
   EXPECT_EQ(asFileName("../../x"), "_.._.._x");

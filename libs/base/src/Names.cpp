@@ -64,6 +64,20 @@ std::string printable(std::string_view text) {
   return shown(text, "");
 }
 
+std::string sensorName(std::string_view label) {
+  constexpr std::size_t kLongest = 200, kBeginning = 120;
+  std::string name = printable(label);
+  if (name.size() <= kLongest) return name;
+  // FNV-1a: the same on every machine.
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : label) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  std::size_t end = kBeginning;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
+  char rest[80];
+  std::snprintf(rest, sizeof rest, "... (%zu bytes, %016llx)", label.size(), static_cast<unsigned long long>(hash));
+  return name.substr(0, end) + rest;
+}
+
 std::string printableLines(std::string_view text) {
   return shown(text, "\n\t");
 }

@@ -18,6 +18,12 @@ namespace {
 
 using mrpt::obs::CObservation2DRangeScan;
 
+// The end of the first so many elements.
+template <class Map>
+typename Map::const_iterator beginningOf(const Map& map, std::size_t count) {
+  return std::next(map.begin(), static_cast<std::ptrdiff_t>(std::min(count, map.size())));
+}
+
 // Everything that is counted while the log goes by.
 class Gatherer {
  public:
@@ -51,16 +57,20 @@ class Gatherer {
     for (const auto& [sensor, tally] : stamps_) facts.sensors[sensor] = stampFacts(tally);
     for (const auto& [label, tally] : odometry_) facts.odometry[label] = tally.facts();
     for (const auto& [label, tally] : poses_) facts.poses[label] = tally.facts();
-    for (auto a = odometry_.begin(); a != odometry_.end(); ++a) {
-      for (auto b = std::next(a); b != odometry_.end(); ++b) {
+    // No robot has more of them; a log that says so would be compared for minutes.
+    constexpr std::size_t kMost = 10;
+    const auto compared = beginningOf(odometry_, kMost);
+    for (auto a = odometry_.begin(); a != compared; ++a) {
+      for (auto b = std::next(a); b != compared; ++b) {
         facts.odometry_pairs.push_back(compareOdometries(a->first, a->second, b->first, b->second));
       }
     }
     for (const auto& [label, laser] : lasers_) {
       facts.scans[label] = laser.tally.facts();
-      for (const auto& [odometry, tally] : odometry_) {
-        facts.motions.push_back(motionOf(label, laser, odometry, &tally));
-        facts.covered[{label, odometry}] = coveredShare(laser, tally);
+      if (facts.scans.size() > kMost) continue;
+      for (auto odometry = odometry_.begin(); odometry != compared; ++odometry) {
+        facts.motions.push_back(motionOf(label, laser, odometry->first, &odometry->second));
+        facts.covered[{label, odometry->first}] = coveredShare(laser, odometry->second);
       }
       if (odometry_.empty()) facts.motions.push_back(motionOf(label, laser, "", nullptr));
     }

@@ -99,7 +99,7 @@ class RawlogSource::Stream {
       if (waiting_.empty()) break;
       const auto observation = waiting_.front();
       waiting_.pop_front();
-      observation->sensorLabel = base::printable(observation->sensorLabel);
+      observation->sensorLabel = base::sensorName(observation->sensorLabel);
       if (!passes(*observation)) continue;
       report_.count(observation->sensorLabel, observation->GetRuntimeClass()->className, observation->timestamp);
       return observation;

@@ -7,8 +7,10 @@
 #include <signal.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
+#include <string>
 #include <thread>
 
 #include "../MapFolder.h"
@@ -232,6 +234,27 @@ TEST_F(Hostile, AnInputIsNotReplacedByAnOutputOfItsName) {
   const std::string log = writeFile(folder_ + "/trajectory.tum", bytes);
   EXPECT_TRUE(endedWith(ExitCode::command_line, map({log}, folder_), {"trajectory.tum", "would be read and replaced"}));
   EXPECT_EQ(readFile(log), bytes);
+}
+
+// Each of them was compared with each other, and all were printed in full.
+TEST_F(Hostile, ManyLongLabelsAreCheckedInShort) {
+  auto observations = ring();
+  const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(
+      *std::find_if(observations.begin(), observations.end(),
+                    [](const auto& one) { return dynamic_cast<const CObservationOdometry*>(one.get()); }));
+  ASSERT_TRUE(odometry);
+  for (int i = 0; i < 60; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      auto copy = CObservationOdometry::Create(*odometry);
+      copy->timestamp = observations.back()->timestamp;
+      copy->sensorLabel = std::to_string(i) + std::string(20'000, 'x');
+      observations.push_back(copy);
+    }
+  }
+  const auto checked = graphslam({"--check", save(observations)});
+  EXPECT_FALSE(checked.signal) << toString(checked);
+  EXPECT_LT(checked.out.size(), 200'000U);
+  EXPECT_NE(checked.out.find("(20002 bytes, "), std::string::npos) << checked.out.substr(0, 3000);
 }
 
 TEST_F(Hostile, LabelsNeverReachTheTerminalAsTheyAre) {

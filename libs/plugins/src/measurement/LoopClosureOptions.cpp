@@ -23,11 +23,13 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
                   "However uncertain the estimate is, a place is sought no farther from it.")
           .number("max_window_deg", &Options::max_window_angle, base::Range{0, 180},
                   "However uncertain the estimate is, a heading is sought no farther from it.")
-          .number("lost_way_m", &Options::lost_way, base::Range::notNegative(),
-                  "A session that continues a map and was not joined on this way is sought in the whole map; at once "
-                  "if its start is vaguer than the windows.")
+          .number(
+              "lost_way_m", &Options::lost_way, base::Range::notNegative(),
+              "Without a closure on this way the last metres are sought in all that was seen before, as far as what "
+              "is seen does not fit the map there; a session that continues a map and was not joined, in all of "
+              "that, at once if its start is vaguer than the windows.")
           .number("join_way_m", &Options::join_way, base::Range::notNegative(),
-                  "Where much of the map is alike, what such a session saw on this way must fit before it is joined.")
+                  "Where much of the map is alike, what was seen on this way must fit where such a search finds it.")
           .number("known_sigma_m", &Options::known_sigma, base::Range::notNegative(),
                   "Where the estimate is as good as this and the next, no closure is sought: it would tell little.")
           .number("known_sigma_deg", &Options::known_angle_sigma, base::Range::notNegative(),

@@ -13,7 +13,11 @@ namespace omnimapper::base {
 /// as it is.
 std::string printable(std::string_view text);
 
-/// The same for several lines, which stay several: '\n' and '\t' are left.
+/// The name of a sensor as a log gives it, printable; of one with more than 200 bytes the beginning, its length and a
+/// number that tells it from others that begin alike.
+std::string sensorName(std::string_view label);
+
+/// printable() for several lines, which stay several: '\n' and '\t' are left.
 std::string printableLines(std::string_view text);
 
 /// Whether `key = text` in an INI is read back as `text`, and without a blank as the item of a list, too: nothing that
