@@ -90,7 +90,7 @@ done
 
 # Each file with a case of threads is compiled for the thread sanitizer.
 for pattern in $(tr ':' ' ' <<<"$thread_cases"); do
-  folders=$(printf 'tests/%s ' "${thread_tests[@]%-threads}")
+  folders=$(printf 'tests/%s ' "${thread_tests[@]%-threads*}")
   # shellcheck disable=SC2086
   for file in $(grep -rlE "^TEST[_FP]*\(\w*$(tr -d '*' <<<"$pattern")\w*," $folders --include='*Test.cpp'); do
     expect "$file is compiled for the thread sanitizer" yes \
