@@ -14,7 +14,8 @@ struct Closure {
   mrpt::math::TPoint3D from, to;     ///< [m] in the map
 };
 
-/// Every decision between two key frames that do not follow one another, in the order of the log.
+/// Every loop closure that was considered between two key frames that do not follow one another, in the order of the
+/// log.
 std::vector<Closure> closuresOf(const map::Map& map, const mapper::DecisionLog& decisions);
 
 }  // namespace omnimapper::plugins
