@@ -188,7 +188,7 @@ std::vector<SlipSearch::Closure> SlipSearch::agreeing(const mapper::State& state
   return all;
 }
 
-// Those between all the places and all the ends, which no base could not have driven as the closures ask for.
+// Those between all the places and all the ends that a base could have driven as the closures ask for.
 std::vector<SlipSearch::Span> SlipSearch::spans(const std::vector<Closure>& agreeing,
                                                 const mapper::State& state) const {
   constexpr double kMostMotion = 3;  // [m] from one key frame to the next, beside what was measured
