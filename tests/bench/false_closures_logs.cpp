@@ -16,7 +16,7 @@
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugins/registerPlugins.h>
 #include <omnimapper/testing/SimulatedLog.h>
 

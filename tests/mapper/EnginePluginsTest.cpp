@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationComment.h>
-#include <omnimapper/mapper/Engine.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
 
 #include <functional>
 
+#include "Engine.h"
 #include "SteadyMotion.h"
 
 // What the engine promises to plugins, with plugins made for it: a robot that moves 1 m a second along x and a log of
@@ -231,7 +231,7 @@ TEST_F(EnginePlugins, AnInvalidBatchIsAnErrorThatLeavesTheGraphWhole) {
 }
 
 TEST_F(EnginePlugins, AnExtractorThatFailsIsHeardOfAndEndsNothing) {
-  class Failing : public Extractor {
+  class Failing : public perception::Extractor {
    public:
     bool wants(const CObservation&) const override { return true; }
     std::vector<CObservation::Ptr> extract(const CObservation& raw) const override {

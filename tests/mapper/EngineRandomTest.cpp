@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationComment.h>
-#include <omnimapper/mapper/Engine.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/MapperRun.h>
 
-#include "GraphInvariants.h"
+#include "../plugin/GraphInvariants.h"
+#include "Engine.h"
 #include "SteadyMotion.h"
 
 // The engine with a plugin that does everything a plugin may do, at random, on observations that come late at random.

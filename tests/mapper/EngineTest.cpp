@@ -201,18 +201,19 @@ TEST(EngineSensors, WhatALogBringsPerceivedIsNotPerceivedTwice) {
 }
 
 // An extractor of laser points that counts how often it was at work.
-class Counting : public Extractor {
+class Counting : public perception::Extractor {
  public:
-  Counting(std::unique_ptr<Extractor> inner, std::atomic<int>& count) : inner_(std::move(inner)), count_(count) {}
+  Counting(std::unique_ptr<perception::Extractor> inner, std::atomic<int>& count)
+      : inner_(std::move(inner)), count_(count) {}
   bool wants(const CObservation& raw) const override { return inner_->wants(raw); }
   std::vector<CObservation::Ptr> extract(const CObservation& raw) const override {
     ++count_;
     return inner_->extract(raw);
   }
-  std::vector<DerivedName> namesOf(const CObservation& raw) const override { return inner_->namesOf(raw); }
+  std::vector<perception::DerivedName> namesOf(const CObservation& raw) const override { return inner_->namesOf(raw); }
 
  private:
-  std::unique_ptr<Extractor> inner_;
+  std::unique_ptr<perception::Extractor> inner_;
   std::atomic<int>& count_;
 };
 

@@ -1,10 +1,11 @@
 #include <gtest/gtest.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/mapper/JobQueue.h>
 
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+
+#include "back_end/JobQueue.h"
 
 namespace omnimapper::mapper::job_queue_test {
 namespace {

@@ -2,7 +2,7 @@
 #include <omnimapper/graph/PointFactor.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/Joining.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
 
 namespace omnimapper::mapper::joining_test {
 namespace {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <omnimapper/mapper/Perception.h>
 
 #include <chrono>
 #include <memory>
@@ -9,6 +8,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "front_end/Perception.h"
 
 namespace omnimapper::mapper::perception_test {
 namespace {
@@ -23,7 +24,7 @@ CObservationComment::Ptr comment(const std::string& text) {
 }
 
 // Gives the text of a comment with a suffix, after a while that differs from one to the next. Throws on "bad".
-class Suffix : public Extractor {
+class Suffix : public perception::Extractor {
  public:
   explicit Suffix(std::string suffix) : suffix_(std::move(suffix)) {}
   bool wants(const CObservation& raw) const override {
@@ -99,7 +100,7 @@ TEST_P(Pool, WhatTheLogBringsIsNotMadeAnew) {
   class Named : public Suffix {
    public:
     using Suffix::Suffix;
-    std::vector<DerivedName> namesOf(const CObservation& raw) const override {
+    std::vector<perception::DerivedName> namesOf(const CObservation& raw) const override {
       return {{CLASS_ID(CObservationComment), raw.sensorLabel + ".x"},
               {CLASS_ID(CObservationComment), raw.sensorLabel + ".y"}};
     }

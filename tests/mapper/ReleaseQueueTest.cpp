@@ -1,12 +1,13 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <omnimapper/mapper/ReleaseQueue.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <algorithm>
 #include <string>
 #include <vector>
+
+#include "front_end/ReleaseQueue.h"
 
 namespace omnimapper::mapper::release_queue_test {
 namespace {

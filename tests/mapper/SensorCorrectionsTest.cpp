@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/mapper/SensorCorrections.h>
+#include <omnimapper/plugin/SensorCorrections.h>
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "GraphInvariants.h"
+#include "../plugin/GraphInvariants.h"
 
 // The same log with every observation on its way for a time of its own, up to several windows, odometry included.
 namespace omnimapper::mapper::shuffled_arrival_test {

@@ -2,11 +2,12 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Marginals.h>
 #include <omnimapper/graph/Solver.h>
-#include <omnimapper/mapper/PoseFactors.h>
-#include <omnimapper/mapper/SlidingWindow.h>
+#include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <cmath>
+
+#include "back_end/SlidingWindow.h"
 
 // A session in a map that is held: what its retired key frames told must neither get lost nor count twice.
 namespace omnimapper::mapper::sliding_window_test {

@@ -2,13 +2,13 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
-#include <omnimapper/mapper/Engine.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <set>
 
-#include "GraphInvariants.h"
+#include "../plugin/GraphInvariants.h"
+#include "Engine.h"
 #include "SteadyMotion.h"
 
 // Thesis 5.2.3.3: an observation that comes late gets its place in the trajectory, and nothing else changes. A robot

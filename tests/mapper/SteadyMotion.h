@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/mapper/PosePlugin.h>
+#include <omnimapper/plugin/PosePlugin.h>
 
 // A robot that goes 1 m a second along x, told by nobody's odometry.
 namespace omnimapper::testing {

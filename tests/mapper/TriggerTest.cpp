@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <omnimapper/mapper/PoseTimeline.h>
 #include <omnimapper/mapper/Trigger.h>
+#include <omnimapper/plugin/PoseTimeline.h>
 
 #include <vector>
 

@@ -5,8 +5,8 @@
 #include <omnimapper/graph/Graph.h>
 #include <omnimapper/graph/Prior.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/mapper/PluginFactory.h>
-#include <omnimapper/mapper/View.h>
+#include <omnimapper/plugin/PluginFactory.h>
+#include <omnimapper/plugin/View.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
 #include <algorithm>

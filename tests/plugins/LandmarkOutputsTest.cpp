@@ -4,7 +4,7 @@
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/opengl/CText.h>
-#include <omnimapper/mapper/LandmarkShape.h>
+#include <omnimapper/plugin/LandmarkShape.h>
 #include <omnimapper/plugins/PointsOutput.h>
 #include <omnimapper/plugins/ReportOutput.h>
 #include <omnimapper/plugins/SceneOutput.h>

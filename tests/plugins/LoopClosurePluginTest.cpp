@@ -4,7 +4,7 @@
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
-#include <omnimapper/mapper/Verdict.h>
+#include <omnimapper/plugin/Verdict.h>
 #include <omnimapper/plugins/LoopClosurePlugin.h>
 #include <omnimapper/testing/LogVariants.h>
 #include <omnimapper/testing/MapperRun.h>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <omnimapper/mapper/PoseTimeline.h>
+#include <omnimapper/plugin/PoseTimeline.h>
 #include <omnimapper/plugins/NoMotionPlugin.h>
 
 namespace omnimapper::plugins::no_motion_plugin_test {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/mapper/SensorCorrections.h>
+#include <omnimapper/plugin/SensorCorrections.h>
 
 #include <string>
 

@@ -3,7 +3,7 @@
 #include <mrpt/math/distributions.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <mrpt/obs/CObservationBearingRange.h>
-#include <omnimapper/mapper/MeasurementPlugin.h>
-#include <omnimapper/mapper/PluginFactory.h>
-#include <omnimapper/mapper/SensorCorrections.h>
+#include <omnimapper/plugin/MeasurementPlugin.h>
+#include <omnimapper/plugin/PluginFactory.h>
+#include <omnimapper/plugin/SensorCorrections.h>
 
 #include <Eigen/Core>
 #include <map>

@@ -1,4 +1,4 @@
-#include <omnimapper/mapper/Engine.h>
+#include "Engine.h"
 
 #include <algorithm>
 #include <exception>

@@ -1,12 +1,12 @@
 // What the engine does with a moment: its key frame, what plugins measure there, what is concluded and solved.
-#include <omnimapper/mapper/Engine.h>
 #include <omnimapper/mapper/Joining.h>
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
-#include "OneSensor.h"
+#include "Engine.h"
+#include "run/OneSensor.h"
 
 namespace omnimapper::mapper {
 

@@ -1,9 +1,9 @@
 // What the engine does with a map that was there before: taking it up, localizing in it, leaving it to the next
 // session.
-#include <omnimapper/mapper/Engine.h>
-
 #include <algorithm>
 #include <utility>
+
+#include "Engine.h"
 
 namespace omnimapper::mapper {
 

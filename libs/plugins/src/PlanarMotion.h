@@ -2,7 +2,7 @@
 
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/poses/CPose3D.h>
-#include <omnimapper/mapper/RelativeMotion.h>
+#include <omnimapper/plugin/RelativeMotion.h>
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 // An output plugin made outside the project, beside a measurement plugin of somebody else's: compares the landmarks of
 // the map with a file of true positions.
 #include <omnimapper/base/AtLoad.h>
-#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // A plugin made outside the project: writes how many key frames the map has.
 #include <omnimapper/base/AtLoad.h>
-#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 #include <fstream>
 

@@ -27,7 +27,7 @@ std::vector<mrpt::obs::CObservation::Ptr> ArucoMarkersPlugin::extract(const mrpt
                           : extractor_.extract(dynamic_cast<const CObservationImage&>(raw))};
 }
 
-std::vector<mapper::DerivedName> ArucoMarkersPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+std::vector<perception::DerivedName> ArucoMarkersPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
   return {{CLASS_ID(mrpt::obs::CObservationBearingRange), raw.sensorLabel + perception::kMarkersSuffix}};
 }
 
@@ -35,8 +35,8 @@ const std::vector<base::OptionSpec>& ArucoMarkersPluginFactory::options() const 
   return perception::ArucoMarkerOptions::table().specs();
 }
 
-std::unique_ptr<mapper::Extractor> ArucoMarkersPluginFactory::make(const base::ConfigSection& section,
-                                                                   const mapper::PluginContext&) const {
+std::unique_ptr<perception::Extractor> ArucoMarkersPluginFactory::make(const base::ConfigSection& section,
+                                                                       const mapper::PluginContext&) const {
   return std::make_unique<ArucoMarkersPlugin>(
       section.read<perception::ArucoMarkerOptions>(mapper::sectionKeysOfEngine()));
 }

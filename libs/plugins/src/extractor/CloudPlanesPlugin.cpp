@@ -1,13 +1,12 @@
 #include <omnimapper/perception/PlaneExtractor.h>
+#include <omnimapper/plugin/SharedSection.h>
 #include <omnimapper/plugins/CloudPlanesPlugin.h>
-
-#include "../SharedSection.h"
 
 IMPLEMENTS_MRPT_OBJECT(CloudPlanesPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
 
-using CloudPlanesSection = SharedSection<perception::CloudPlaneOptions, perception::CloudSensorOptions>;
+using CloudPlanesSection = mapper::SharedSection<perception::CloudPlaneOptions, perception::CloudSensorOptions>;
 
 bool CloudPlanesPlugin::wants(const mrpt::obs::CObservation& raw) const {
   return extractor_.wants(raw);
@@ -17,7 +16,7 @@ std::vector<mrpt::obs::CObservation::Ptr> CloudPlanesPlugin::extract(const mrpt:
   return {extractor_.extract(raw)};
 }
 
-std::vector<mapper::DerivedName> CloudPlanesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+std::vector<perception::DerivedName> CloudPlanesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
   return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + perception::kPlanesSuffix}};
 }
 
@@ -25,8 +24,8 @@ const std::vector<base::OptionSpec>& CloudPlanesPluginFactory::options() const {
   return CloudPlanesSection::options();
 }
 
-std::unique_ptr<mapper::Extractor> CloudPlanesPluginFactory::make(const base::ConfigSection& section,
-                                                                  const mapper::PluginContext&) const {
+std::unique_ptr<perception::Extractor> CloudPlanesPluginFactory::make(const base::ConfigSection& section,
+                                                                      const mapper::PluginContext&) const {
   return std::make_unique<CloudPlanesPlugin>(CloudPlanesSection::read<perception::CloudPlaneOptions>(section),
                                              CloudPlanesSection::read<perception::CloudSensorOptions>(section));
 }

@@ -15,8 +15,8 @@ std::vector<mrpt::obs::CObservation::Ptr> EdgesPlugin::extract(const mrpt::obs::
   return {clouds.begin(), clouds.end()};
 }
 
-std::vector<mapper::DerivedName> EdgesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
-  std::vector<mapper::DerivedName> names;
+std::vector<perception::DerivedName> EdgesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+  std::vector<perception::DerivedName> names;
   for (auto& label : extractor_.labelsOf(*depthScanOf(raw)))
     names.push_back({CLASS_ID(mrpt::obs::CObservationPointCloud), std::move(label)});
   return names;
@@ -26,8 +26,8 @@ const std::vector<base::OptionSpec>& EdgesPluginFactory::options() const {
   return perception::EdgeOptions::table().specs();
 }
 
-std::unique_ptr<mapper::Extractor> EdgesPluginFactory::make(const base::ConfigSection& section,
-                                                            const mapper::PluginContext&) const {
+std::unique_ptr<perception::Extractor> EdgesPluginFactory::make(const base::ConfigSection& section,
+                                                                const mapper::PluginContext&) const {
   return std::make_unique<EdgesPlugin>(section.read<perception::EdgeOptions>(mapper::sectionKeysOfEngine()));
 }
 

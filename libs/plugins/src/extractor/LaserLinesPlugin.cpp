@@ -12,7 +12,7 @@ std::vector<mrpt::obs::CObservation::Ptr> LaserLinesPlugin::extract(const mrpt::
   return {extractor_.extract(dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(raw))};
 }
 
-std::vector<mapper::DerivedName> LaserLinesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+std::vector<perception::DerivedName> LaserLinesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
   return {{CLASS_ID(obs::CObservationLaserLines), raw.sensorLabel + perception::kLinesSuffix}};
 }
 
@@ -20,8 +20,8 @@ const std::vector<base::OptionSpec>& LaserLinesPluginFactory::options() const {
   return perception::LaserLineOptions::table().specs();
 }
 
-std::unique_ptr<mapper::Extractor> LaserLinesPluginFactory::make(const base::ConfigSection& section,
-                                                                 const mapper::PluginContext&) const {
+std::unique_ptr<perception::Extractor> LaserLinesPluginFactory::make(const base::ConfigSection& section,
+                                                                     const mapper::PluginContext&) const {
   return std::make_unique<LaserLinesPlugin>(section.read<perception::LaserLineOptions>(mapper::sectionKeysOfEngine()));
 }
 

@@ -13,7 +13,7 @@ std::vector<mrpt::obs::CObservation::Ptr> LaserPointsPlugin::extract(const mrpt:
   return {extractor_.extract(dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(raw))};
 }
 
-std::vector<mapper::DerivedName> LaserPointsPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+std::vector<perception::DerivedName> LaserPointsPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
   return {{CLASS_ID(mrpt::obs::CObservationPointCloud), raw.sensorLabel + perception::kPointsSuffix}};
 }
 
@@ -21,8 +21,8 @@ const std::vector<base::OptionSpec>& LaserPointsPluginFactory::options() const {
   return perception::LaserPointsOptions::table().specs();
 }
 
-std::unique_ptr<mapper::Extractor> LaserPointsPluginFactory::make(const base::ConfigSection& section,
-                                                                  const mapper::PluginContext&) const {
+std::unique_ptr<perception::Extractor> LaserPointsPluginFactory::make(const base::ConfigSection& section,
+                                                                      const mapper::PluginContext&) const {
   return std::make_unique<LaserPointsPlugin>(
       section.read<perception::LaserPointsOptions>(mapper::sectionKeysOfEngine()));
 }

@@ -1,6 +1,6 @@
+#include <omnimapper/plugin/SharedSection.h>
 #include <omnimapper/plugins/ObjectsPlugin.h>
 
-#include "../SharedSection.h"
 #include "DepthScan.h"
 
 IMPLEMENTS_MRPT_OBJECT(ObjectsPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
@@ -8,7 +8,7 @@ IMPLEMENTS_MRPT_OBJECT(ObjectsPluginFactory, omnimapper::mapper::ExtractorFactor
 namespace omnimapper::plugins {
 
 using namespace perception;
-using ObjectsSection = SharedSection<PlaneOptions, OutlineOptions, ObjectOptions, ObjectPointOptions>;
+using ObjectsSection = mapper::SharedSection<PlaneOptions, OutlineOptions, ObjectOptions, ObjectPointOptions>;
 
 bool ObjectsPlugin::wants(const mrpt::obs::CObservation& raw) const {
   return depthScanOf(raw) != nullptr;
@@ -28,7 +28,7 @@ std::vector<std::string> ObjectsPlugin::warnings() const {
           "what is level? For a camera in the hand set max_tilt_deg = 75"};
 }
 
-std::vector<mapper::DerivedName> ObjectsPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+std::vector<perception::DerivedName> ObjectsPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
   return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + kPlanesSuffix},
           {CLASS_ID(obs::CObservationObjects), raw.sensorLabel + kObjectsSuffix}};
 }
@@ -37,8 +37,8 @@ const std::vector<base::OptionSpec>& ObjectsPluginFactory::options() const {
   return ObjectsSection::options();
 }
 
-std::unique_ptr<mapper::Extractor> ObjectsPluginFactory::make(const base::ConfigSection& section,
-                                                              const mapper::PluginContext&) const {
+std::unique_ptr<perception::Extractor> ObjectsPluginFactory::make(const base::ConfigSection& section,
+                                                                  const mapper::PluginContext&) const {
   return std::make_unique<ObjectsPlugin>(ObjectExtractor::Options{
       ObjectsSection::read<PlaneOptions>(section), ObjectsSection::read<OutlineOptions>(section),
       ObjectsSection::read<ObjectOptions>(section), ObjectsSection::read<ObjectPointOptions>(section)});

@@ -1,6 +1,6 @@
+#include <omnimapper/plugin/SharedSection.h>
 #include <omnimapper/plugins/PlanesPlugin.h>
 
-#include "../SharedSection.h"
 #include "DepthScan.h"
 
 IMPLEMENTS_MRPT_OBJECT(PlanesPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
@@ -8,7 +8,7 @@ IMPLEMENTS_MRPT_OBJECT(PlanesPluginFactory, omnimapper::mapper::ExtractorFactory
 namespace omnimapper::plugins {
 
 using PlanesSection =
-    SharedSection<perception::PlaneComparisonOptions, perception::PlaneOptions, perception::OutlineOptions>;
+    mapper::SharedSection<perception::PlaneComparisonOptions, perception::PlaneOptions, perception::OutlineOptions>;
 
 bool PlanesPlugin::wants(const mrpt::obs::CObservation& raw) const {
   return depthScanOf(raw) != nullptr;
@@ -18,7 +18,7 @@ std::vector<mrpt::obs::CObservation::Ptr> PlanesPlugin::extract(const mrpt::obs:
   return {extractor_.extract(*depthScanOf(raw))};
 }
 
-std::vector<mapper::DerivedName> PlanesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+std::vector<perception::DerivedName> PlanesPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
   return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + perception::kPlanesSuffix}};
 }
 
@@ -26,8 +26,8 @@ const std::vector<base::OptionSpec>& PlanesPluginFactory::options() const {
   return PlanesSection::options();
 }
 
-std::unique_ptr<mapper::Extractor> PlanesPluginFactory::make(const base::ConfigSection& section,
-                                                             const mapper::PluginContext&) const {
+std::unique_ptr<perception::Extractor> PlanesPluginFactory::make(const base::ConfigSection& section,
+                                                                 const mapper::PluginContext&) const {
   return std::make_unique<PlanesPlugin>(PlanesSection::read<perception::PlaneOptions>(section),
                                         PlanesSection::read<perception::OutlineOptions>(section),
                                         PlanesSection::read<perception::PlaneComparisonOptions>(section));

@@ -1,13 +1,14 @@
+#include <omnimapper/plugin/SharedSection.h>
 #include <omnimapper/plugins/RoadPlugin.h>
 
-#include "../SharedSection.h"
 #include "DepthScan.h"
 
 IMPLEMENTS_MRPT_OBJECT(RoadPluginFactory, omnimapper::mapper::ExtractorFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
 
-using RoadSection = SharedSection<perception::RoadOptions, perception::OutlineOptions, perception::RoadPoseOptions>;
+using RoadSection =
+    mapper::SharedSection<perception::RoadOptions, perception::OutlineOptions, perception::RoadPoseOptions>;
 
 bool RoadPlugin::wants(const mrpt::obs::CObservation& raw) const {
   return depthScanOf(raw) != nullptr;
@@ -17,7 +18,7 @@ std::vector<mrpt::obs::CObservation::Ptr> RoadPlugin::extract(const mrpt::obs::C
   return {extractor_.extract(*depthScanOf(raw))};
 }
 
-std::vector<mapper::DerivedName> RoadPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
+std::vector<perception::DerivedName> RoadPlugin::namesOf(const mrpt::obs::CObservation& raw) const {
   return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + perception::kRoadSuffix}};
 }
 
@@ -25,8 +26,8 @@ const std::vector<base::OptionSpec>& RoadPluginFactory::options() const {
   return RoadSection::options();
 }
 
-std::unique_ptr<mapper::Extractor> RoadPluginFactory::make(const base::ConfigSection& section,
-                                                           const mapper::PluginContext&) const {
+std::unique_ptr<perception::Extractor> RoadPluginFactory::make(const base::ConfigSection& section,
+                                                               const mapper::PluginContext&) const {
   return std::make_unique<RoadPlugin>(RoadSection::read<perception::RoadOptions>(section),
                                       RoadSection::read<perception::OutlineOptions>(section),
                                       RoadSection::read<perception::RoadPoseOptions>(section));

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <omnimapper/mapper/Association.h>
-#include <omnimapper/mapper/Batch.h>
-#include <omnimapper/mapper/View.h>
+#include <omnimapper/plugin/Association.h>
+#include <omnimapper/plugin/Batch.h>
+#include <omnimapper/plugin/View.h>
 
 namespace omnimapper::plugins {
 

@@ -2,7 +2,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/graph/Solver.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugins/MoveableThingsPlugin.h>
 
 #include <algorithm>

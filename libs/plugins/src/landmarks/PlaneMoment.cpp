@@ -3,7 +3,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
 #include <omnimapper/geometry/PolygonUnion.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
 
 #include <algorithm>
 #include <cmath>

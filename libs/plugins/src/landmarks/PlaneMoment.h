@@ -2,7 +2,7 @@
 
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/geometry/Se3.h>
-#include <omnimapper/mapper/Batch.h>
+#include <omnimapper/plugin/Batch.h>
 #include <omnimapper/plugins/PlaneLandmarksPlugin.h>
 
 #include <Eigen/Core>

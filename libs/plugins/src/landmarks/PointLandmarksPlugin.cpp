@@ -1,6 +1,6 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugins/PointLandmarksPlugin.h>
 
 #include <algorithm>

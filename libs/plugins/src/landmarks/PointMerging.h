@@ -1,7 +1,7 @@
 #pragma once
 
-#include <omnimapper/mapper/Batch.h>
-#include <omnimapper/mapper/View.h>
+#include <omnimapper/plugin/Batch.h>
+#include <omnimapper/plugin/View.h>
 #include <omnimapper/plugins/PointLandmarksPlugin.h>
 
 #include <string>

@@ -3,7 +3,7 @@
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <omnimapper/graph/Factor.h>
 #include <omnimapper/graph/Noise.h>
-#include <omnimapper/mapper/Motion.h>
+#include <omnimapper/plugin/Motion.h>
 #include <omnimapper/plugins/PointLandmarksPlugin.h>
 
 #include <Eigen/Core>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <omnimapper/graph/FactorRecord.h>
-#include <omnimapper/mapper/DecisionLog.h>
-#include <omnimapper/mapper/State.h>
+#include <omnimapper/plugin/DecisionLog.h>
+#include <omnimapper/plugin/State.h>
 #include <omnimapper/plugins/RelationsPlugin.h>
 
 #include <map>

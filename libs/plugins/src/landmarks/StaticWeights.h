@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/mapper/State.h>
+#include <omnimapper/plugin/State.h>
 
 #include <string>
 #include <vector>

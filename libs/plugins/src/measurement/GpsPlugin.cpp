@@ -1,13 +1,12 @@
 #include <mrpt/topography/conversions.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PlaceOnEarth.h>
+#include <omnimapper/plugin/PoseFactors.h>
+#include <omnimapper/plugin/SavedVariable.h>
 #include <omnimapper/plugins/AntennaFactor.h>
 #include <omnimapper/plugins/GpsPlugin.h>
 
 #include <cmath>
 #include <sstream>
-
-#include "../PlaceOnEarth.h"
-#include "SavedVariable.h"
 
 IMPLEMENTS_MRPT_OBJECT(GpsPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -111,15 +110,15 @@ void GpsPlugin::applied(const mapper::AppliedBatch& ids) {
 
 std::optional<map::MapSection> GpsPlugin::save() const {
   if (!map_from_enu_) return std::nullopt;
-  const Geodetic origin{origin_->latitude, origin_->longitude, origin_->altitude};
-  return map::MapSection{{}, kSavedGpsVersion, writePlace({*map_from_enu_, origin})};
+  const mapper::Geodetic origin{origin_->latitude, origin_->longitude, origin_->altitude};
+  return map::MapSection{{}, kSavedGpsVersion, mapper::writePlace({*map_from_enu_, origin})};
 }
 
 void GpsPlugin::restore(const map::MapSection* saved, const mapper::View& view) {
   if (!saved) return;
-  expectVersion(*saved, kSavedGpsVersion);
+  mapper::expectVersion(*saved, kSavedGpsVersion);
   std::istringstream in(saved->bytes);
-  const auto id = readVariableId(in, view, saved->name);
+  const auto id = mapper::readVariableId(in, view, saved->name);
   const double latitude = graph::readDouble(in), longitude = graph::readDouble(in), altitude = graph::readDouble(in);
   const bool same_origin = !options_.map_is_enu || (origin_->latitude == latitude && origin_->longitude == longitude &&
                                                     origin_->altitude == altitude);

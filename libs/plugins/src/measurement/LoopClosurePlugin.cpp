@@ -1,6 +1,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <omnimapper/mapper/PoseFactors.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
+#include <omnimapper/plugin/PoseFactors.h>
+#include <omnimapper/plugin/SharedSection.h>
 #include <omnimapper/plugins/LoopClosurePlugin.h>
 #include <omnimapper/plugins/ScanInBase.h>
 
@@ -10,7 +11,6 @@
 #include <tuple>
 #include <utility>
 
-#include "../SharedSection.h"
 #include "MapConsistency.h"
 
 IMPLEMENTS_MRPT_OBJECT(LoopClosurePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
@@ -296,7 +296,7 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
   return places;
 }
 
-using LoopClosureSection = SharedSection<LoopClosureOptions, matching::ScanMatcherOptions>;
+using LoopClosureSection = mapper::SharedSection<LoopClosureOptions, matching::ScanMatcherOptions>;
 
 const std::vector<base::OptionSpec>& LoopClosurePluginFactory::options() const {
   return LoopClosureSection::options();

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <omnimapper/mapper/DecisionLog.h>
-#include <omnimapper/mapper/State.h>
-#include <omnimapper/mapper/Verdict.h>
+#include <omnimapper/plugin/DecisionLog.h>
+#include <omnimapper/plugin/State.h>
+#include <omnimapper/plugin/Verdict.h>
 
 #include <Eigen/Core>
 #include <string>

@@ -1,6 +1,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
+#include <omnimapper/plugin/SavedVariable.h>
 #include <omnimapper/plugins/GivenPose.h>
 #include <omnimapper/plugins/RobotPosePlugin.h>
 
@@ -8,8 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <sstream>
-
-#include "SavedVariable.h"
 
 IMPLEMENTS_MRPT_OBJECT(RobotPosePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -98,13 +97,13 @@ void RobotPosePlugin::applied(const mapper::AppliedBatch& ids) {
 std::optional<map::MapSection> RobotPosePlugin::save() const {
   if (!map_from_reference_) return std::nullopt;
   std::ostringstream out;
-  writeVariableId(out, *map_from_reference_);
+  mapper::writeVariableId(out, *map_from_reference_);
   return map::MapSection{{}, kSavedPosesVersion, out.str()};
 }
 
 void RobotPosePlugin::restore(const map::MapSection* saved, const mapper::View& view) {
   if (!saved) return;
-  expectVersion(*saved, kSavedPosesVersion);
+  mapper::expectVersion(*saved, kSavedPosesVersion);
   if (options_.reference_is_map) {
     throw base::Error(base::ExitCode::unreadable_input,
                       "[" + context_.section +
@@ -112,7 +111,7 @@ void RobotPosePlugin::restore(const map::MapSection* saved, const mapper::View& 
                           "false: give that, or map its log again");
   }
   std::istringstream in(saved->bytes);
-  map_from_reference_ = readVariableId(in, view, saved->name);
+  map_from_reference_ = mapper::readVariableId(in, view, saved->name);
 }
 
 std::vector<mapper::Evidence> RobotPosePlugin::evidence(const mapper::View& view) const {

@@ -1,6 +1,6 @@
 #include "ScanFactor.h"
 
-#include <omnimapper/mapper/PoseFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <omnimapper/graph/FactorRecord.h>
-#include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/matching/ScanMatcher.h>
+#include <omnimapper/plugin/PluginFactory.h>
 #include <omnimapper/plugins/LoopClosureOptions.h>
 
 #include "../PlanarMotion.h"

@@ -1,7 +1,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
-#include <omnimapper/mapper/PoseFactors.h>
 #include <omnimapper/matching/CorrelativeSearch.h>
+#include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugins/SlipSearch.h>
 
 #include <Eigen/Eigenvalues>

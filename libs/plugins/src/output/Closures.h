@@ -2,7 +2,7 @@
 
 #include <mrpt/math/TPoint3D.h>
 #include <omnimapper/map/Map.h>
-#include <omnimapper/mapper/DecisionLog.h>
+#include <omnimapper/plugin/DecisionLog.h>
 
 #include <vector>
 

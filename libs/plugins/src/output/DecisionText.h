@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/mapper/DecisionLog.h>
+#include <omnimapper/plugin/DecisionLog.h>
 
 #include <string>
 

@@ -1,6 +1,7 @@
 #include "GeoJson.h"
 
 #include <mrpt/system/datetime.h>
+#include <omnimapper/plugin/PlaceOnEarth.h>
 
 #include <charconv>
 #include <cmath>
@@ -9,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "../PlaceOnEarth.h"
 #include "FloorPlan.h"
 
 namespace omnimapper::plugins {
@@ -21,11 +21,11 @@ using Json = nlohmann::ordered_json;
 /// Positions as they stand in the file.
 class Positions {
  public:
-  explicit Positions(std::optional<EarthFrame> earth) : earth_(std::move(earth)) {}
+  explicit Positions(std::optional<mapper::EarthFrame> earth) : earth_(std::move(earth)) {}
 
   Json operator()(const PlanPoint& point) const {
     if (!earth_) return {rounded(point.x(), kMillimetres), rounded(point.y(), kMillimetres)};
-    const Geodetic place = (*earth_)({point.x(), point.y(), 0});
+    const mapper::Geodetic place = (*earth_)({point.x(), point.y(), 0});
     return {rounded(place.longitude, kMillimetresInDegrees), rounded(place.latitude, kMillimetresInDegrees)};
   }
 
@@ -33,7 +33,7 @@ class Positions {
   static constexpr double kMillimetres = 1e3, kMillimetresInDegrees = 1e8;
   static double rounded(double value, double parts) { return std::round(value * parts) / parts + 0.0; }
 
-  std::optional<EarthFrame> earth_;
+  std::optional<mapper::EarthFrame> earth_;
 };
 
 std::string isoTime(base::Stamp stamp) {
@@ -160,8 +160,8 @@ Json wayOf(const map::Map& map, const map::Session& session, const Positions& at
 }  // namespace
 
 std::string encodeGeoJson(const GeoJsonInput& input) {
-  const auto place = input.metres ? std::nullopt : placeOnEarth(input.view);
-  const Positions at(place ? std::optional(EarthFrame(*place, input.view)) : std::nullopt);
+  const auto place = input.metres ? std::nullopt : mapper::placeOnEarth(input.view);
+  const Positions at(place ? std::optional(mapper::EarthFrame(*place, input.view)) : std::nullopt);
   Json features = Json::array();
   for (const auto& shaped : shapesOf(input.view)) {
     Json geometry = geometryOf(shaped.shape, at);

@@ -1,6 +1,6 @@
 #include "LandmarkShapes.h"
 
-#include <omnimapper/mapper/LandmarkShape.h>
+#include <omnimapper/plugin/LandmarkShape.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/geometry/Plane3.h>
-#include <omnimapper/mapper/State.h>
+#include <omnimapper/plugin/State.h>
 
 #include <Eigen/Geometry>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/mapper/View.h>
+#include <omnimapper/plugin/View.h>
 #include <omnimapper/plugins/LiveWindow.h>
 
 #include <string>

@@ -2,7 +2,7 @@
 
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 #include <filesystem>
 #include <ostream>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <omnimapper/map/Trajectory.h>
-#include <omnimapper/mapper/PluginFactory.h>
-#include <omnimapper/mapper/View.h>
+#include <omnimapper/plugin/PluginFactory.h>
+#include <omnimapper/plugin/View.h>
 
 #include <string>
 #include <vector>

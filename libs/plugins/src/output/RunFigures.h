@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/map/Trajectory.h>
-#include <omnimapper/mapper/View.h>
+#include <omnimapper/plugin/View.h>
 
 #include <map>
 #include <string>

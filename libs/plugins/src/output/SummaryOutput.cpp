@@ -1,6 +1,6 @@
 #include <omnimapper/map/SessionFigures.h>
 #include <omnimapper/map/Trajectory.h>
-#include <omnimapper/mapper/LandmarkShape.h>
+#include <omnimapper/plugin/LandmarkShape.h>
 #include <omnimapper/plugins/SummaryOutput.h>
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 #include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/geometry/Covariance.h>
+#include <omnimapper/plugin/SharedSection.h>
 #include <omnimapper/plugins/ScanInBase.h>
 #include <omnimapper/plugins/ScanOdometryPlugin.h>
 
@@ -12,7 +13,6 @@
 #include <utility>
 
 #include "../PlanarMotion.h"
-#include "../SharedSection.h"
 
 IMPLEMENTS_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
 
@@ -362,8 +362,8 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker:
   return planarMotion(motion, covariance);
 }
 
-using ScanOdometrySection = SharedSection<ScanOdometryOptions, matching::ScanTrackerOptions,
-                                          matching::ScanMatcherOptions, perception::LaserPointsOptions>;
+using ScanOdometrySection = mapper::SharedSection<ScanOdometryOptions, matching::ScanTrackerOptions,
+                                                  matching::ScanMatcherOptions, perception::LaserPointsOptions>;
 
 const std::vector<base::OptionSpec>& ScanOdometryPluginFactory::options() const {
   return ScanOdometrySection::options();

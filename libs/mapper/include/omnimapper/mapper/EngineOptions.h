@@ -4,8 +4,8 @@
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/graph/Consistency.h>
 #include <omnimapper/graph/Solver.h>
-#include <omnimapper/mapper/Motion.h>
 #include <omnimapper/mapper/Trigger.h>
+#include <omnimapper/plugin/Motion.h>
 
 #include <string>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/PluginHelp.h>
-#include <omnimapper/mapper/Verdict.h>
+#include <omnimapper/plugin/Verdict.h>
 #include <omnimapper/source/SourceReport.h>
 
 #include <algorithm>

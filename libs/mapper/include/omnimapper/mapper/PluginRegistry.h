@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 #include <memory>
 #include <string>
@@ -35,7 +35,7 @@ struct Named {
 /// The plugins of one run, in the order the INI lists them.
 struct PluginSet {
   std::vector<Named<PosePlugin>> pose;
-  std::vector<Named<Extractor>> extractors;
+  std::vector<Named<perception::Extractor>> extractors;
   std::vector<Named<MeasurementPlugin>> measurement;
   std::vector<Named<OutputPlugin>> output;
 };

@@ -3,8 +3,8 @@
 #include <omnimapper/graph/Graph.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/map/MapFile.h>
-#include <omnimapper/mapper/Motion.h>
-#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/plugin/Motion.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/map/Map.h>
-#include <omnimapper/mapper/SessionStart.h>
+#include <omnimapper/plugin/SessionStart.h>
 
 namespace omnimapper::mapper {
 

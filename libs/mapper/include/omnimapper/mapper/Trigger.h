@@ -2,7 +2,7 @@
 
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/base/Stamp.h>
-#include <omnimapper/mapper/RelativeMotion.h>
+#include <omnimapper/plugin/RelativeMotion.h>
 
 #include <functional>
 #include <map>

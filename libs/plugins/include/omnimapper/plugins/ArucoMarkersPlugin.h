@@ -1,18 +1,18 @@
 #pragma once
 
-#include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/perception/ArucoMarkerExtractor.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 namespace omnimapper::plugins {
 
 /// perception::ArucoMarkerExtractor for the worker pool: of pictures, and of range cameras that have one.
-class ArucoMarkersPlugin : public mapper::Extractor {
+class ArucoMarkersPlugin : public perception::Extractor {
  public:
   explicit ArucoMarkersPlugin(const perception::ArucoMarkerOptions& options) : extractor_(options) {}
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
-  std::vector<mapper::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
+  std::vector<perception::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   perception::ArucoMarkerExtractor extractor_;
@@ -24,8 +24,8 @@ class ArucoMarkersPluginFactory : public mapper::ExtractorFactory {
   std::string name() const override { return "ArucoMarkerExtractor"; }
   std::string summary() const override { return "Square markers with numbers, from pictures, by range and bearing."; }
   const std::vector<base::OptionSpec>& options() const override;
-  std::unique_ptr<mapper::Extractor> make(const base::ConfigSection& section,
-                                          const mapper::PluginContext& context) const override;
+  std::unique_ptr<perception::Extractor> make(const base::ConfigSection& section,
+                                              const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

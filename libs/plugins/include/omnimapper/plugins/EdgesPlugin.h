@@ -1,18 +1,18 @@
 #pragma once
 
-#include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/perception/EdgeExtractor.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 namespace omnimapper::plugins {
 
 /// perception::EdgeExtractor for the worker pool.
-class EdgesPlugin : public mapper::Extractor {
+class EdgesPlugin : public perception::Extractor {
  public:
   explicit EdgesPlugin(const perception::EdgeOptions& options) : extractor_(options) {}
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
-  std::vector<mapper::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
+  std::vector<perception::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   perception::EdgeExtractor extractor_;
@@ -26,8 +26,8 @@ class EdgesPluginFactory : public mapper::ExtractorFactory {
     return "3D edges of depth images and their pictures, a cloud of points for each kind.";
   }
   const std::vector<base::OptionSpec>& options() const override;
-  std::unique_ptr<mapper::Extractor> make(const base::ConfigSection& section,
-                                          const mapper::PluginContext& context) const override;
+  std::unique_ptr<perception::Extractor> make(const base::ConfigSection& section,
+                                              const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

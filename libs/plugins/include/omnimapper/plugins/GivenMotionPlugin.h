@@ -2,8 +2,8 @@
 
 #include <mrpt/poses/CPose3D.h>
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/mapper/PluginFactory.h>
-#include <omnimapper/mapper/PoseTimeline.h>
+#include <omnimapper/plugin/PluginFactory.h>
+#include <omnimapper/plugin/PoseTimeline.h>
 
 #include <map>
 #include <optional>

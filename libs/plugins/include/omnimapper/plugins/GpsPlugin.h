@@ -2,7 +2,7 @@
 
 #include <mrpt/obs/CObservationGPS.h>
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 #include <Eigen/Core>
 #include <optional>

@@ -2,8 +2,8 @@
 
 #include <mrpt/math/TPose2D.h>
 #include <omnimapper/map/Map.h>
-#include <omnimapper/mapper/SessionStart.h>
 #include <omnimapper/matching/Relocaliser.h>
+#include <omnimapper/plugin/SessionStart.h>
 #include <omnimapper/plugins/LoopSearch.h>
 
 #include <map>

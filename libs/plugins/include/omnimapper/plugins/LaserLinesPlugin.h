@@ -1,18 +1,18 @@
 #pragma once
 
-#include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/perception/LaserLineExtractor.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 namespace omnimapper::plugins {
 
 /// perception::LaserLineExtractor for the worker pool.
-class LaserLinesPlugin : public mapper::Extractor {
+class LaserLinesPlugin : public perception::Extractor {
  public:
   explicit LaserLinesPlugin(const perception::LaserLineOptions& options) : extractor_(options) {}
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
-  std::vector<mapper::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
+  std::vector<perception::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   perception::LaserLineExtractor extractor_;
@@ -24,8 +24,8 @@ class LaserLinesPluginFactory : public mapper::ExtractorFactory {
   std::string name() const override { return "LaserLineExtractor"; }
   std::string summary() const override { return "Straight walls of 2D scans as lines with ends and covariance."; }
   const std::vector<base::OptionSpec>& options() const override;
-  std::unique_ptr<mapper::Extractor> make(const base::ConfigSection& section,
-                                          const mapper::PluginContext& context) const override;
+  std::unique_ptr<perception::Extractor> make(const base::ConfigSection& section,
+                                              const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 #include <memory>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/matching/ScanMatcherOptions.h>
+#include <omnimapper/plugin/PluginFactory.h>
 #include <omnimapper/plugins/GlobalLoopSearch.h>
 #include <omnimapper/plugins/LoopClosureOptions.h>
 #include <omnimapper/plugins/LoopSearch.h>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <omnimapper/mapper/Job.h>
-#include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/matching/ScanMatcher.h>
+#include <omnimapper/plugin/Job.h>
+#include <omnimapper/plugin/PluginFactory.h>
 #include <omnimapper/plugins/LoopClosureOptions.h>
 
 #include <memory>

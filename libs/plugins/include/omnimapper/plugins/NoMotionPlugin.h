@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 namespace omnimapper::plugins {
 

@@ -1,21 +1,21 @@
 #pragma once
 
-#include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/perception/ObjectExtractor.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 #include <atomic>
 
 namespace omnimapper::plugins {
 
 /// perception::ObjectExtractor for the worker pool.
-class ObjectsPlugin : public mapper::Extractor {
+class ObjectsPlugin : public perception::Extractor {
  public:
   explicit ObjectsPlugin(const perception::ObjectExtractor::Options& options)
       : extractor_(options), on_surfaces_only_(options.objects.on_surfaces_only) {}
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
-  std::vector<mapper::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
+  std::vector<perception::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
   /// If no scan showed a level surface.
   std::vector<std::string> warnings() const override;
 
@@ -33,8 +33,8 @@ class ObjectsPluginFactory : public mapper::ExtractorFactory {
     return "Planes of depth images as PlaneExtractor has them, and the things that stand on them.";
   }
   const std::vector<base::OptionSpec>& options() const override;
-  std::unique_ptr<mapper::Extractor> make(const base::ConfigSection& section,
-                                          const mapper::PluginContext& context) const override;
+  std::unique_ptr<perception::Extractor> make(const base::ConfigSection& section,
+                                              const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

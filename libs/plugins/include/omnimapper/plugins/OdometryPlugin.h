@@ -2,9 +2,9 @@
 
 #include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/mapper/PluginFactory.h>
-#include <omnimapper/mapper/PoseTimeline.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
+#include <omnimapper/plugin/PluginFactory.h>
+#include <omnimapper/plugin/PoseTimeline.h>
 
 #include <map>
 #include <optional>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <omnimapper/geometry/Plane3.h>
-#include <omnimapper/mapper/Association.h>
-#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/plugin/Association.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 #include <cstdint>
 #include <memory>

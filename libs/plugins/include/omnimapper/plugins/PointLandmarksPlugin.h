@@ -1,7 +1,7 @@
 #pragma once
 
-#include <omnimapper/mapper/Association.h>
-#include <omnimapper/mapper/PluginFactory.h>
+#include <omnimapper/plugin/Association.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 #include <memory>
 #include <string>

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <omnimapper/mapper/PluginFactory.h>
 #include <omnimapper/perception/RoadExtractor.h>
+#include <omnimapper/plugin/PluginFactory.h>
 
 namespace omnimapper::plugins {
 
 /// perception::RoadExtractor for the worker pool.
-class RoadPlugin : public mapper::Extractor {
+class RoadPlugin : public perception::Extractor {
  public:
   RoadPlugin(const perception::RoadOptions& road, const perception::OutlineOptions& outlines,
              const perception::RoadPoseOptions& pose)
@@ -14,7 +14,7 @@ class RoadPlugin : public mapper::Extractor {
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
-  std::vector<mapper::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
+  std::vector<perception::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   perception::RoadExtractor extractor_;
@@ -28,8 +28,8 @@ class RoadPluginFactory : public mapper::ExtractorFactory {
     return "The ground of depth images, sloped too, near the one expected from the camera's pose.";
   }
   const std::vector<base::OptionSpec>& options() const override;
-  std::unique_ptr<mapper::Extractor> make(const base::ConfigSection& section,
-                                          const mapper::PluginContext& context) const override;
+  std::unique_ptr<perception::Extractor> make(const base::ConfigSection& section,
+                                              const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
-#include <omnimapper/mapper/PluginFactory.h>
-#include <omnimapper/mapper/PoseTimeline.h>
 #include <omnimapper/matching/ScanMatcherOptions.h>
 #include <omnimapper/matching/ScanTracker.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
+#include <omnimapper/plugin/PluginFactory.h>
+#include <omnimapper/plugin/PoseTimeline.h>
 #include <omnimapper/plugins/OdometryCalibration.h>
 #include <omnimapper/plugins/OdometryPlugin.h>
 

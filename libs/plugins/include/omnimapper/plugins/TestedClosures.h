@@ -1,8 +1,8 @@
 #pragma once
 
 #include <omnimapper/map/Map.h>
-#include <omnimapper/mapper/Batch.h>
-#include <omnimapper/mapper/View.h>
+#include <omnimapper/plugin/Batch.h>
+#include <omnimapper/plugin/View.h>
 
 #include <cstddef>
 #include <optional>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/mapper/PoseFactors.h>
-#include <omnimapper/mapper/View.h>
+#include <omnimapper/plugin/PoseFactors.h>
+#include <omnimapper/plugin/View.h>
 
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/map/Trajectory.h>
-#include <omnimapper/mapper/Engine.h>
 #include <omnimapper/plugins/registerPlugins.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
@@ -13,6 +12,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "Engine.h"
 
 // For test binaries that link omnimapper::plugins: an engine to feed by hand, and what came out of it.
 namespace omnimapper::testing {

@@ -1,7 +1,0 @@
-#include <omnimapper/mapper/PluginFactory.h>
-
-IMPLEMENTS_VIRTUAL_MRPT_OBJECT(PluginFactory, mrpt::rtti::CObject, omnimapper::mapper)
-IMPLEMENTS_VIRTUAL_MRPT_OBJECT(PosePluginFactory, PluginFactory, omnimapper::mapper)
-IMPLEMENTS_VIRTUAL_MRPT_OBJECT(MeasurementPluginFactory, PluginFactory, omnimapper::mapper)
-IMPLEMENTS_VIRTUAL_MRPT_OBJECT(OutputPluginFactory, PluginFactory, omnimapper::mapper)
-IMPLEMENTS_VIRTUAL_MRPT_OBJECT(ExtractorFactory, PluginFactory, omnimapper::mapper)

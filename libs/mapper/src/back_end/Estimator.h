@@ -1,0 +1,66 @@
+#pragma once
+
+#include <omnimapper/graph/Graph.h>
+#include <omnimapper/map/Map.h>
+#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/plugin/Uncertainty.h>
+#include <omnimapper/plugin/View.h>
+
+#include <functional>
+#include <vector>
+
+#include "back_end/Hypotheses.h"
+
+namespace omnimapper::mapper {
+
+/// When the graph is solved, and what is kept of it: key frames at their new estimates, the uncertainty for gates, a
+/// record for the curves. Between solves the newest pose alone is refined.
+class Estimator {
+ public:
+  /// `map`, `graph` and `decisions` stay the caller's.
+  Estimator(const EngineSettings& settings, map::Map& map, graph::Graph& graph, DecisionLog& decisions)
+      : settings_(settings),
+        map_(map),
+        graph_(graph),
+        decisions_(decisions),
+        hypotheses_(settings.hypotheses.consistency()) {}
+
+  /// The first key frame of a session is there: gates start from it.
+  void begin() { uncertainty_ = Uncertainty(graph_); }
+  /// A map with a past is there, solved as it is.
+  void takeUp() {
+    begin();
+    key_frames_at_solve_ = map_.key_frames.size();
+  }
+  /// The first so many key frames of the map are held, in a graph that binds them no more (SlidingWindow).
+  void hold(std::size_t key_frames) { held_ = key_frames; }
+  /// Takes note of a batch that was just applied; its decisions are the last of the log.
+  void applied(const Batch& batch, const AppliedBatch& ids);
+  /// Moves one key frame to where all factors that bind it want it, all others held.
+  void refine(base::KeyFrameId id);
+  /// Whether it is time to solve: after so many key frames, sooner where hypotheses wait for their verdict, soonest
+  /// where one contradicts the estimate; in a large map later, so that the cost of a key frame does not grow.
+  bool isDue() const;
+  /// Solves with what is found consistent.
+  void solve(graph::SolveOptions options);
+
+  /// Asked while a solve runs; true ends it with the best so far.
+  void setStop(std::function<bool()> stop) { stop_ = std::move(stop); }
+  const Uncertainty& uncertainty() const { return uncertainty_; }
+  const std::vector<SolveRecord>& solves() const { return solves_; }
+
+ private:
+  const EngineSettings& settings_;
+  map::Map& map_;
+  graph::Graph& graph_;
+  DecisionLog& decisions_;
+  Hypotheses hypotheses_;
+  Uncertainty uncertainty_;
+  std::vector<SolveRecord> solves_;
+  std::function<bool()> stop_;
+  std::size_t key_frames_at_solve_ = 0;
+  std::size_t held_ = 0;       // key frames
+  bool contradicted_ = false;  // by a hypothesis since the last solve
+};
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,113 @@
+#include "back_end/SlidingWindow.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/Covariance.h>
+#include <omnimapper/graph/Marginals.h>
+#include <omnimapper/graph/Solver.h>
+#include <omnimapper/plugin/PoseFactors.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+struct Belief {
+  mrpt::poses::CPose3D map_from_base;
+  geometry::Matrix6d covariance;  // in the tangent there
+};
+
+// What the factors of `gone`, and they alone, say of `heir`. Those that bind a third free variable are left out. None
+// if they leave a direction of it open.
+std::optional<Belief> marginalOf(base::VariableId heir, base::VariableId gone, const graph::Graph& graph) {
+  graph::Graph part;
+  std::vector<std::pair<base::VariableId, base::VariableId>> copies;  // in the graph, in the part
+  const auto copyOf = [&](base::VariableId id) {
+    const auto known = std::find_if(copies.begin(), copies.end(), [&](const auto& pair) { return pair.first == id; });
+    if (known != copies.end()) return known->second;
+    const auto& variable = graph.variable(id);
+    copies.emplace_back(id, part.addVariable(variable.kind, variable.value, variable.fixed));
+    return copies.back().second;
+  };
+  const auto heir_copy = copyOf(heir);
+  for (const auto id : graph.factorsOf(gone)) {
+    auto record = graph.factor(id);
+    const bool speaks_of_others = std::any_of(record.variables.begin(), record.variables.end(), [&](auto other) {
+      return other != gone && other != heir && !graph.variable(other).fixed;
+    });
+    if (record.weight == 0 || speaks_of_others) continue;
+    for (auto& variable : record.variables) variable = copyOf(variable);
+    part.addFactor(std::move(record));
+  }
+  try {
+    graph::solve(part);
+    const Eigen::MatrixXd covariance = graph::Marginals(part).covariance(heir_copy);
+    return Belief{poseOf(part, heir_copy), covariance.rows() == 3 ? geometry::embedPlanar(Eigen::Matrix3d(covariance))
+                                                                  : geometry::Matrix6d(covariance)};
+  } catch (const base::Error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+void SlidingWindow::holdMap() {
+  std::vector<base::FactorId> factors;
+  for (const auto& [id, record] : graph_.factors()) factors.push_back(id);
+  for (const auto id : factors) graph_.removeFactor(id);
+  std::vector<base::VariableId> variables;
+  for (const auto& [id, record] : graph_.variables()) variables.push_back(id);
+  for (const auto id : variables) graph_.setFixed(id, true);
+  held_ = of_map_ = map_.key_frames.size();
+}
+
+bool SlidingWindow::mayRetire() const {
+  constexpr std::size_t kStanding = 10;  // key frames since that which joined the session
+  const auto& session = map_.sessions.back();
+  if (hasRetired()) return true;
+  if (!session.joined) return false;
+  if (!session.joined_at || !map_.key_frames.find(*session.joined_at)) return true;
+  return map_.key_frames.position(*session.joined_at) + kStanding < map_.key_frames.size();
+}
+
+std::vector<base::KeyFrameId> SlidingWindow::retire(base::Stamp stamp) {
+  std::vector<base::KeyFrameId> retired;
+  if (!mayRetire()) return retired;
+  while (map_.key_frames.size() > held_ + size_ && map_.key_frames[held_ + 1].stamp < stamp) {
+    if (!hasRetired()) retireAnchor();
+    const auto id = map_.key_frames[held_].id;
+    retire(map_.keyFrame(id).pose, map_.key_frames[held_ + 1].pose);
+    map_.key_frames.edit(id).observations.clear();
+    retired.push_back(id);
+    ++held_;
+  }
+  return retired;
+}
+
+// The first pose that came hangs on where the session began.
+void SlidingWindow::retireAnchor() {
+  const auto anchor = map_.sessions.back().anchor;
+  const auto factors = graph_.factorsOf(anchor);
+  for (const auto id : factors) {
+    const auto variables = graph_.factor(id).variables;
+    for (const auto heir : variables) {
+      if (heir != anchor && !graph_.variable(heir).fixed) return retire(anchor, heir);
+    }
+  }
+}
+
+void SlidingWindow::retire(base::VariableId gone, base::VariableId heir) {
+  constexpr char kOwner[] = "engine";
+  // Where they leave a direction of it open: anywhere.
+  constexpr double kAnywhere = 1e3;
+  const auto belief =
+      marginalOf(heir, gone, graph_)
+          .value_or(Belief{poseOf(graph_, heir), kAnywhere * kAnywhere * geometry::Matrix6d::Identity()});
+  const std::vector<base::FactorId> factors = graph_.factorsOf(gone);
+  for (const auto id : factors) graph_.removeFactor(id);
+  graph_.setFixed(gone, true);
+  graph_.addFactor(posePrior(motion_, heir, belief.map_from_base, belief.covariance, kOwner));
+}
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+#include <omnimapper/base/WorkerPool.h>
+#include <omnimapper/perception/Extractor.h>
+#include <omnimapper/plugin/MeasurementPlugin.h>
+
+#include <future>
+#include <memory>
+#include <vector>
+
+#include "front_end/ExtractionErrors.h"
+
+namespace omnimapper::mapper {
+
+/// An observation with what each measurement plugin prepared of it, by the plugins' order; null where that is nothing.
+struct Perceived {
+  mrpt::obs::CObservation::ConstPtr observation;
+  std::vector<std::unique_ptr<const Prepared>> prepared;
+};
+
+/// All that the pool made of one observation.
+struct PerceivedParts {
+  std::vector<Perceived> parts;  ///< the observation itself, then what the extractors made of it, in their order
+  ExtractionErrors errors;       ///< of extractors that could not take it
+};
+
+/// What happens to an observation in the worker pool, ahead of the engine: extractors derive observations from it, and
+/// measurement plugins prepare what they want of it and of those. Depends on the observation, and on those given with
+/// it, alone.
+class Perception {
+ public:
+  /// All of them stay the caller's and must outlive this, and this the tasks in the pool.
+  Perception(std::vector<const perception::Extractor*> extractors, std::vector<const MeasurementPlugin*> plugins,
+             base::WorkerPool& pool)
+      : extractors_(std::move(extractors)), plugins_(std::move(plugins)), pool_(pool) {}
+
+  /// Whether an extractor or a plugin takes it.
+  bool wants(const mrpt::obs::CObservation& raw) const;
+  /// Extractors all of whose results are among `brought`, observations of the same stamp that came with the log, are
+  /// spared. What they throw as base::Error is in the result; other exceptions come out of the future.
+  std::future<PerceivedParts> submit(mrpt::obs::CObservation::ConstPtr raw,
+                                     std::vector<mrpt::obs::CObservation::ConstPtr> brought = {}) const;
+
+ private:
+  Perceived prepared(mrpt::obs::CObservation::ConstPtr observation) const;
+
+  std::vector<const perception::Extractor*> extractors_;
+  std::vector<const MeasurementPlugin*> plugins_;
+  base::WorkerPool& pool_;
+};
+
+}  // namespace omnimapper::mapper

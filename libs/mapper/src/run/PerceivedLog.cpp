@@ -1,0 +1,95 @@
+#include "run/PerceivedLog.h"
+
+#include <omnimapper/source/ExternalImages.h>
+
+#include <algorithm>
+
+#include "run/OneSensor.h"
+
+namespace omnimapper::mapper {
+
+namespace {
+
+using mrpt::obs::CObservation;
+
+// Of one stamp; no robot has more sensors, and a log whose clock stands still must not be kept in memory.
+constexpr std::size_t kMostTogether = 64;
+
+bool isRepeatOf(const CObservation& a, const CObservation& b) {
+  return a.timestamp == b.timestamp && isOfOneSensor(a, b);
+}
+
+}  // namespace
+
+void PerceivedLog::add(const CObservation::Ptr& raw, std::vector<Outcome> outcomes) {
+  if (!moment_.empty() && (moment_.front().raw->timestamp != raw->timestamp || moment_.size() == kMostTogether))
+    writeMoment();
+  moment_.push_back({raw, std::move(outcomes)});
+}
+
+void PerceivedLog::finish() {
+  writeMoment();
+  if (errors_.first() && !has_succeeded_) throw *errors_.first();
+  warn();
+}
+
+void PerceivedLog::writeMoment() {
+  for (auto& [raw, outcomes] : moment_) {
+    if (request_.with_raw) rawlog_.add(*source::withImagesInside(raw));
+    std::vector<CObservation::Ptr> all;
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      if (!outcomes[i].wanted) continue;
+      write(outcomes[i], *raw, result_.extractors[i]);
+      all.insert(all.end(), outcomes[i].derived.begin(), outcomes[i].derived.end());
+    }
+    if (request_.show) request_.show(*raw, all);
+  }
+  moment_.clear();
+  written_.clear();
+}
+
+void PerceivedLog::write(Outcome& outcome, const CObservation& raw, PerceptionResult::Count& count) {
+  if (outcome.error) {
+    ++count.failed;
+    return errors_.add(*outcome.error, raw);
+  }
+  has_succeeded_ = true;
+  count.taken += !outcome.derived.empty();
+  for (const auto& derived : outcome.derived) {
+    if (bringsAlready(*derived)) {
+      ++in_log_;
+    } else if (isWritten(*derived)) {
+      if (repeated_++ == 0) first_repeated_ = "'" + derived->sensorLabel + "' of [" + count.section + "]";
+    } else {
+      rawlog_.add(*derived);
+      written_.push_back(derived);
+      ++count.derived;
+    }
+  }
+}
+
+// With the observations that were read, those that an earlier run derived are written too.
+bool PerceivedLog::bringsAlready(const CObservation& derived) const {
+  return request_.with_raw && std::any_of(moment_.begin(), moment_.end(),
+                                          [&](const Entry& entry) { return isRepeatOf(*entry.raw, derived); });
+}
+
+bool PerceivedLog::isWritten(const CObservation& derived) const {
+  return std::any_of(written_.begin(), written_.end(), [&](const auto& other) { return isRepeatOf(*other, derived); });
+}
+
+void PerceivedLog::warn() {
+  auto& warnings = result_.warnings;
+  if (errors_.count() > 0) warnings.push_back(errors_.sentence());
+  if (in_log_ > 0)
+    warnings.push_back(std::to_string(in_log_) +
+                       " derived observations are in the log already and were not written a second time; without " +
+                       "--with-raw they are made anew");
+  if (repeated_ > 0)
+    warnings.push_back(std::to_string(repeated_) +
+                       " derived observations have the label and stamp of another one and were left out, first " +
+                       first_repeated_ + "; name one extractor of them in [perception] extractors");
+  if (result_.code == base::ExitCode::ok) result_.code = errors_.code();
+}
+
+}  // namespace omnimapper::mapper

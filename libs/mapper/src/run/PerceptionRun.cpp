@@ -1,0 +1,156 @@
+#include <omnimapper/base/WorkerPool.h>
+#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/mapper/PerceptionRun.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/mapper/SensorPoses.h>
+#include <omnimapper/mapper/SessionOptions.h>
+#include <omnimapper/plugin/StageTimes.h>
+#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/source/ReadAhead.h>
+
+#include <deque>
+#include <future>
+#include <sstream>
+
+#include "run/PerceivedLog.h"
+#include "run/SourceWarnings.h"
+
+namespace omnimapper::mapper {
+
+namespace {
+
+using mrpt::obs::CObservation;
+
+Outcome outcomeOf(const perception::Extractor& extractor, const CObservation& raw) {
+  Outcome outcome;
+  outcome.wanted = extractor.wants(raw);
+  if (!outcome.wanted) return outcome;
+  try {
+    outcome.derived = extractor.extract(raw);
+  } catch (const base::Error& error) {
+    outcome.error = error;
+  }
+  return outcome;
+}
+
+/// The extractors at work on one observation after another, some at once, handed back in their order.
+class Line {
+ public:
+  struct Item {
+    CObservation::Ptr raw;
+    std::future<std::vector<Outcome>> outcomes;  ///< by extractor
+  };
+
+  Line(const std::vector<Named<perception::Extractor>>& extractors, int threads)
+      : extractors_(extractors), depth_(4 * static_cast<std::size_t>(threads)), pool_(threads) {}
+
+  bool isFull() const { return items_.size() >= depth_; }
+  bool isEmpty() const { return items_.empty(); }
+
+  void add(const CObservation::Ptr& raw) {
+    items_.push_back({raw, pool_.submit<std::vector<Outcome>>([this, raw] {
+                        std::vector<Outcome> all;
+                        for (const auto& [section, extractor] : extractors_) all.push_back(outcomeOf(*extractor, *raw));
+                        return all;
+                      })});
+  }
+
+  Item take() {
+    Item item = std::move(items_.front());
+    items_.pop_front();
+    return item;
+  }
+
+ private:
+  const std::vector<Named<perception::Extractor>>& extractors_;
+  const std::size_t depth_;
+  std::deque<Item> items_;
+  base::WorkerPool pool_;
+};
+
+void write(Line::Item item, PerceivedLog& output) {
+  output.add(item.raw, item.outcomes.get());
+}
+
+// True if it was stopped.
+bool work(source::ObservationSource& log, const SensorPoses& sensor_poses, Line& line, PerceivedLog& output,
+          base::Progress& progress, const std::function<bool()>& stop) {
+  bool stopped = false;
+  while (!(stopped = stop())) {
+    const auto observation = log.next();
+    if (!observation) break;
+    if (line.isFull()) write(line.take(), output);
+    line.add(sensor_poses.applied(observation));
+    progress.report(log.progress(), "perceiving");
+  }
+  while (!line.isEmpty()) write(line.take(), output);
+  return stopped || (log.report().ending == source::SourceReport::Ending::open && stop());
+}
+
+// What an earlier run left is not replaced by an empty file.
+void refuseNothing(const PerceptionRequest& request, const std::string& ini, const PerceptionResult& result) {
+  for (const auto& extractor : result.extractors) {
+    if (extractor.taken > 0) return;
+  }
+  std::string logs;
+  for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
+  throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::nothing_to_map : result.code,
+                    logs + ": no observation that an extractor of " + ini +
+                        " makes something of; nothing was written.\nWhat was read:\n" + result.source.text());
+}
+
+}  // namespace
+
+PerceptionResult runPerception(const PerceptionRequest& request, const base::Config& config, base::Progress& progress,
+                               const std::function<bool()>& stop) {
+  const StopWatch watch;
+  const auto options = config.section("perception").read<PerceptionOptions>();
+  const auto settings = EngineSettings::read(config);
+  config.section("session").read<SessionOptions>();
+  const auto source_options = config.section("source").read<source::SourceOptions>();
+  if (options.extractors.empty()) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      config.placeOf("perception", "extractors") +
+                          ": [perception] extractors is empty: name the sections of the extractors");
+  }
+  loadPluginLibraries(config);
+  PluginContext context;
+  context.config_text = config.text();
+  const auto plugins = makePlugins({{}, options.extractors, {}, {}}, config, context);
+  const SensorPoses sensor_poses(settings.engine.sensors, config);
+  config.refuseUnreadSections();
+  PerceptionResult result;
+  for (const auto& [section, extractor] : plugins.extractors) result.extractors.push_back({section});
+  source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop), stop);
+  source::writeRawlog(request.output, [&](source::RawlogWriter& rawlog) {
+    Line line(plugins.extractors, std::max(1, request.threads));
+    PerceivedLog output(request, rawlog, result);
+    const bool stopped = work(log, sensor_poses, line, output, progress, stop);
+    result.source = log.report();
+    result.code = stopped ? base::ExitCode::interrupted : result.source.exitCode();
+    output.finish();
+    refuseNothing(request, config.file(), result);
+  });
+  for (auto& warning : warningsOf(result.source)) result.warnings.push_back(std::move(warning));
+  for (const auto& [section, extractor] : plugins.extractors) {
+    for (const auto& warning : extractor->warnings()) result.warnings.push_back("[" + section + "] " + warning);
+  }
+  if (result.code == base::ExitCode::interrupted)
+    result.warnings.push_back("interrupted: this is what was made of the log until then");
+  result.wall_seconds = watch.seconds();
+  return result;
+}
+
+std::string toText(const PerceptionResult& result, const std::string& output) {
+  std::ostringstream out;
+  for (const auto& extractor : result.extractors) {
+    out << "  " << extractor.section << ": " << extractor.derived << " observations of " << extractor.taken;
+    if (extractor.failed > 0) out << ", " << extractor.failed << " left out";
+    out << "\n";
+  }
+  out << "wall time " << result.wall_seconds << " s\nin " << output << "\n";
+  return out.str();
+}
+
+}  // namespace omnimapper::mapper

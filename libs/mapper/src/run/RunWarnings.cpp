@@ -1,0 +1,81 @@
+#include "run/RunWarnings.h"
+
+#include <omnimapper/mapper/Joining.h>
+
+#include "run/SourceWarnings.h"
+
+namespace omnimapper::mapper {
+
+namespace {
+
+// A map without a single measurement is what the fallbacks say, and nobody should take it for more.
+bool isMeasured(const View& view, const std::set<std::string>& measuring) {
+  const auto session = view.map.sessions.back().number;
+  for (const auto& [id, record] : view.graph.factors()) {
+    if (id.session == session && measuring.count(record.tags.owner) > 0) return true;
+  }
+  return false;
+}
+
+// A wrong start may look right where rooms are alike.
+void warnOfDoubt(const map::Session& session, Engine& engine) {
+  const TestedTies ties = testedTies(engine.view().graph, session.number);
+  if (!ties.areInDoubt()) return;
+  engine.warn(joinedText(session) + ", but of what ties it to the map " + std::to_string(ties.refused) + " of " +
+              std::to_string(ties.refused + ties.accepted) + " contradict the rest: it may lie in a wrong place " +
+              "that looks alike. See map.png, and give a better start (origin, pose, or anywhere)");
+}
+
+}  // namespace
+
+void warnOfLog(const source::SourceReport& report, bool stopped, Engine& engine) {
+  engine.setLeftOut(report.unusableCount());
+  for (const auto& warning : warningsOf(report)) engine.warn(warning);
+  if (stopped) engine.warn("interrupted: this is the map of what was read until then");
+}
+
+void warnOfCounts(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
+  const auto warn = [&](std::size_t count, const std::string& what) {
+    if (count > 0) engine.warn(std::to_string(count) + " observations " + what);
+  };
+  warn(counts.no_stamp, "have no stamp and were left out");
+  warn(counts.repeated_stamp, "repeat the stamp of the one before and were left out");
+  warn(counts.too_late, "came later than [mapper] horizon_s and were left out");
+  warn(counts.hurried,
+       "could not wait for [mapper] window_s, more than queue_limit waited: do the stamps stand still?");
+  warn(counts.unusable, "(odometry or poses) run backwards in time or leap and were left out");
+  warn(counts.unconnected, "have no pose: no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
+  if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
+}
+
+void warnOfNothingMeasured(const std::set<std::string>& measuring, Engine& engine) {
+  const View view = engine.view();
+  for (const auto& section : engine.idlePlugins()) {
+    engine.warn("[" + section + "] had nothing to work on: no observation of its kind came to a key frame. Is it in " +
+                "the log (omnimapper-graphslam --check LOG), are labels and extractors right?");
+  }
+  if (view.map_is_held || view.map.key_frames.size() < 3 || isMeasured(view, measuring)) return;
+  engine.warn("nothing was measured: no plugin but the fallbacks made anything of any observation, the map is what " +
+              std::string("they say; are the sensors blind? omnimapper-graphslam --check LOG tells"));
+}
+
+void warnOfSession(const map::Session& session, Engine& engine) {
+  if (session.joined) return warnOfDoubt(session, engine);
+  if (engine.view().map_is_held) return;
+  engine.warn(
+      joinedText(session) + " to the map: it lies where [session] start or a single " +
+      "relocalisation says, which may be wrong; see the refused closures and relocalisations in the report. Is it of " +
+      "another place? If not, drive on where the map was made, or give a better start (origin, pose, or anywhere)");
+}
+
+void warnOfFixes(const RunResult& result, Engine& engine) {
+  const std::string of_all = std::to_string(result.located) + " of " + std::to_string(result.fixes) + " key frames";
+  if (result.located == 0) {
+    engine.warn("the log was located nowhere in the map: its trajectory lies where [session] start says");
+  } else if (2 * result.located < result.fixes) {
+    engine.warn("only " + of_all + " were located: was much of the way outside the map, or is [session] start wrong? " +
+                "start = anywhere seeks the whole map");
+  }
+}
+
+}  // namespace omnimapper::mapper

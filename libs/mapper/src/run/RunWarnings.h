@@ -1,0 +1,24 @@
+#pragma once
+
+#include <omnimapper/mapper/MappingRun.h>
+
+#include <set>
+#include <string>
+
+#include "Engine.h"
+
+namespace omnimapper::mapper {
+
+/// Each tells the engine what whoever reads the map should know of the run, in sentences that name a remedy: the report
+/// and the summary show them.
+void warnOfLog(const source::SourceReport& report, bool stopped, Engine& engine);
+/// What was left out of what came; `key_frames` are those of this run.
+void warnOfCounts(const RunCounts& counts, std::size_t key_frames, Engine& engine);
+/// Plugins that nothing came to; and if `measuring`, the sections that measure, made nothing of anything at all.
+void warnOfNothingMeasured(const std::set<std::string>& measuring, Engine& engine);
+/// The place of a session in a map that was there before: known by nothing, or in doubt.
+void warnOfSession(const map::Session& session, Engine& engine);
+/// How much of a run that localizes was located.
+void warnOfFixes(const RunResult& result, Engine& engine);
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <mrpt/rtti/CObject.h>
+#include <omnimapper/base/Config.h>
+#include <omnimapper/graph/FactorRegistry.h>
+#include <omnimapper/map/PayloadRegistry.h>
+#include <omnimapper/perception/Extractor.h>
+#include <omnimapper/plugin/MeasurementPlugin.h>
+#include <omnimapper/plugin/Motion.h>
+#include <omnimapper/plugin/OutputPlugin.h>
+#include <omnimapper/plugin/PosePlugin.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// What every plugin may know of the run when it is made.
+struct PluginContext {
+  std::string section;  ///< its section of the INI; owner of its factors and decisions
+  Motion motion = Motion::planar;
+  bool map_is_held = false;   ///< the run localizes in a map that stands
+  std::string output_folder;  ///< exists; empty in a run without outputs
+  std::string title;          ///< of the run, for reports: the log's name
+  std::string config_text;    ///< the INI of the run
+};
+
+/// What a map file may hold.
+struct Kinds {
+  graph::FactorRegistry factors = graph::FactorRegistry::withBuiltIns();
+  map::PayloadRegistry payloads;
+};
+
+enum class PluginKind { pose, measurement, output, extractor };
+
+/// An MRPT run-time class that stands for a plugin class and makes it: it has no state and exists without options.
+/// Derive from one of the four below; a plugin library registers its factories when it is loaded.
+class PluginFactory : public mrpt::rtti::CObject {
+  DEFINE_VIRTUAL_MRPT_OBJECT(PluginFactory)
+ public:
+  virtual PluginKind kind() const = 0;
+  /// What an INI writes after "class =".
+  virtual std::string name() const = 0;
+  /// One sentence for --list-plugins.
+  virtual std::string summary() const = 0;
+  virtual const std::vector<base::OptionSpec>& options() const = 0;
+  /// Makes known the variables, factors and payloads that its plugin puts into a map, so that a map file can be read.
+  virtual void registerKinds(Kinds& /*kinds*/) const {}
+};
+
+/// make() reads the options from `section` and throws base::Error if they do not fit.
+class PosePluginFactory : public PluginFactory {
+  DEFINE_VIRTUAL_MRPT_OBJECT(PosePluginFactory)
+ public:
+  PluginKind kind() const final { return PluginKind::pose; }
+  virtual std::unique_ptr<PosePlugin> make(const base::ConfigSection& section, const PluginContext& context) const = 0;
+};
+
+class MeasurementPluginFactory : public PluginFactory {
+  DEFINE_VIRTUAL_MRPT_OBJECT(MeasurementPluginFactory)
+ public:
+  PluginKind kind() const final { return PluginKind::measurement; }
+  virtual std::unique_ptr<MeasurementPlugin> make(const base::ConfigSection& section,
+                                                  const PluginContext& context) const = 0;
+};
+
+class OutputPluginFactory : public PluginFactory {
+  DEFINE_VIRTUAL_MRPT_OBJECT(OutputPluginFactory)
+ public:
+  PluginKind kind() const final { return PluginKind::output; }
+  virtual std::unique_ptr<OutputPlugin> make(const base::ConfigSection& section,
+                                             const PluginContext& context) const = 0;
+};
+
+class ExtractorFactory : public PluginFactory {
+  DEFINE_VIRTUAL_MRPT_OBJECT(ExtractorFactory)
+ public:
+  PluginKind kind() const final { return PluginKind::extractor; }
+  virtual std::unique_ptr<perception::Extractor> make(const base::ConfigSection& section,
+                                                      const PluginContext& context) const = 0;
+};
+
+/// Keys of a plugin's section that the engine reads itself.
+inline const std::vector<std::string>& sectionKeysOfEngine() {
+  static const std::vector<std::string> keys{"class"};
+  return keys;
+}
+
+}  // namespace omnimapper::mapper
