@@ -13,6 +13,11 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 # would otherwise lend it theirs, and Eigen's products with them.
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 add_link_options(-Wl,-Bsymbolic-functions)
+# What a library lacks is told when it is linked; sanitizers' functions come with the program.
+if(NOT OMNIMAPPER_SANITIZE)
+  string(APPEND CMAKE_SHARED_LINKER_FLAGS " -Wl,--no-undefined")
+  string(APPEND CMAKE_MODULE_LINKER_FLAGS " -Wl,--no-undefined")
+endif()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
 # Programs, installed or not, find the libraries beside them wherever the folder is moved to, and look nowhere else: an
@@ -76,21 +81,44 @@ else()
   set(omnimapper_largest_batch 28)
 endif()
 
-# omnimapper_library(NAME [KERNELS | OPTIMIZED] PUBLIC <targets...> PRIVATE <targets...>)
+# omnimapper_sources(VARIABLE <patterns...>): the files of these patterns, register.cpp last and compiled on its own: the
+# ids of the classes that it registers must be initialised before. CMake links unity files from the last to the first, and
+# before what is in none of them.
+function(omnimapper_sources variable)
+  file(GLOB sources CONFIGURE_DEPENDS ${ARGN})
+  set(last ${sources})
+  list(FILTER last INCLUDE REGEX "/register\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "/register\\.cpp$")
+  set_source_files_properties(${last} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  set(${variable} ${sources} ${last} PARENT_SCOPE)
+endfunction()
+
+# omnimapper_optimize(TARGET KERNELS | LIGHT | ON | OFF): -O3 for KERNELS, -O1 for LIGHT, else -O2. Under a sanitizer KERNELS
+# and ON have -O1, the others nothing.
+function(omnimapper_optimize target how)
+  if(how STREQUAL "KERNELS")
+    return()
+  elseif(OMNIMAPPER_SANITIZE AND NOT OMNIMAPPER_BUILD_FUZZ AND (how STREQUAL "LIGHT" OR NOT how))
+    target_compile_options(${target} PRIVATE -O0)
+  elseif(how STREQUAL "LIGHT")
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  else()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+  endif()
+endfunction()
+
+# omnimapper_library(NAME [KERNELS | OPTIMIZED | LIGHT] [WITHOUT <files...>] PUBLIC <targets...> PRIVATE <targets...>)
 # Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for the
-# libraries in whose loops mapping spends its time, which get -O3; the others get -O2. Under a sanitizer these others are
+# libraries in whose loops mapping spends its time, which get -O3; the others get -O2, and LIGHT ones, which
+# compute little, -O1. Under a sanitizer these others are
 # not optimized, which halves the compiler's time and makes their tests hardly longer, unless they are OPTIMIZED: the
 # tests of what renders images would run for minutes.
 function(omnimapper_library name)
-  cmake_parse_arguments(ARG "KERNELS;OPTIMIZED" "" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
-  # register.cpp is linked last: the ids of the classes that it registers must be initialised before. CMake links unity
-  # files from the last to the first, and before what is in none of them.
-  list(FILTER sources EXCLUDE REGEX "/register\\.cpp$")
-  file(GLOB last CONFIGURE_DEPENDS
-    "${CMAKE_CURRENT_SOURCE_DIR}/src/register.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/register.cpp")
-  list(APPEND sources ${last})
-  set_source_files_properties(${last} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  cmake_parse_arguments(ARG "KERNELS;OPTIMIZED;LIGHT" "" "WITHOUT;PUBLIC;PRIVATE" ${ARGN})
+  omnimapper_sources(sources "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
+  foreach(each ${ARG_WITHOUT})
+    list(FILTER sources EXCLUDE REGEX "/${each}\\.cpp$")
+  endforeach()
   set(target omnimapper-${name})
   add_library(${target} SHARED ${sources})
   add_library(omnimapper::${name} ALIAS ${target})
@@ -100,13 +128,54 @@ function(omnimapper_library name)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
   omnimapper_compile_options(${target})
-  if(OMNIMAPPER_SANITIZE AND NOT OMNIMAPPER_BUILD_FUZZ AND NOT ARG_KERNELS AND NOT ARG_OPTIMIZED)
-    target_compile_options(${target} PRIVATE -O0)
-  elseif(NOT ARG_KERNELS)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
+  if(ARG_KERNELS)
+    omnimapper_optimize(${target} KERNELS)
+  elseif(ARG_LIGHT)
+    omnimapper_optimize(${target} LIGHT)
+  else()
+    omnimapper_optimize(${target} "${ARG_OPTIMIZED}")
   endif()
   install(TARGETS ${target} EXPORT omnimapperTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# omnimapper_feature(NAME PLUGINS <classes...> [NEEDS <target> <text>] LINKS <targets...>)
+# A feature: the shared library omnimapper-NAME from the folder's sources, in the folder omnimapper/ beside the other
+# libraries, where programs find it when they start. PLUGINS are the classes that it registers, as an INI writes them.
+# Without the target that it NEEDS, and with -DOMNIMAPPER_FEATURE_NAME=OFF, it is left out, and whoever names one of its
+# plugins is told why.
+function(omnimapper_feature name)
+  cmake_parse_arguments(ARG "" "" "PLUGINS;NEEDS;LINKS" ${ARGN})
+  option(OMNIMAPPER_FEATURE_${name} "Build the feature ${name}: ${ARG_PLUGINS}" ON)
+  set(left_out "")
+  if(NOT OMNIMAPPER_FEATURE_${name})
+    set(left_out "it was configured with -DOMNIMAPPER_FEATURE_${name}=OFF; configure it with ON")
+  elseif(ARG_NEEDS)
+    list(GET ARG_NEEDS 0 needed)
+    list(GET ARG_NEEDS 1 text)
+    if(NOT TARGET ${needed})
+      set(left_out "it had no ${text}; install that, and configure and build again")
+    endif()
+  endif()
+  foreach(class ${ARG_PLUGINS})
+    set_property(GLOBAL APPEND_STRING PROPERTY omnimapper_feature_index
+      "    {\"${class}\", \"${name}\", \"${left_out}\"},\n")
+  endforeach()
+  if(left_out)
+    message(STATUS "Feature ${name} is left out: ${left_out}")
+    return()
+  endif()
+  set_property(GLOBAL APPEND PROPERTY omnimapper_features ${name})
+  set(target omnimapper-${name})
+  omnimapper_sources(sources "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  add_library(${target} SHARED ${sources})
+  target_include_directories(${target} INTERFACE "${PROJECT_SOURCE_DIR}/libs/plugins")
+  target_link_libraries(${target} PUBLIC ${ARG_LINKS})
+  set_target_properties(${target} PROPERTIES
+    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/omnimapper" INSTALL_RPATH "$ORIGIN/..")
+  omnimapper_compile_options(${target})
+  omnimapper_optimize(${target} OFF)
+  install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/omnimapper")
 endfunction()
 
 # omnimapper_app(NAME <targets...>): program NAME from the folder's sources, target app-NAME (a library may be called NAME too).
@@ -121,8 +190,8 @@ function(omnimapper_app name)
   install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# omnimapper_test(NAME [HALVES] [COST SECONDS] <targets...> [OPTIMIZED FILES...] [RELEASE FILES...] [THREADS FILES...]): one
-# test binary for the folder's *Test.cpp files, named test-NAME. Tests are not optimized: they assert the same, and compile
+# omnimapper_test(NAME [HALVES] [COST SECONDS] <targets...> [FILES FILES...] [OPTIMIZED FILES...] [RELEASE FILES...]
+# [THREADS FILES...]): one test binary for the folder's *Test.cpp files and those of FILES, named test-NAME. Tests are not optimized: they assert the same, and compile
 # in 40 % of the time. OPTIMIZED names the files that render images or search texts themselves, which would run for
 # minutes. COST is roughly how long the test runs; ctest starts the longest first. Some files are once more in a binary
 # without the others: those of RELEASE in test-NAME-release, what tries more without a sanitizer (release_cases in
@@ -130,8 +199,9 @@ endfunction()
 # there). With HALVES the cases run in two tests of ctest side by side, NAME and NAME-2; whoever runs the program itself
 # runs them all.
 function(omnimapper_test name)
-  cmake_parse_arguments(ARG "HALVES" "COST" "OPTIMIZED;RELEASE;THREADS" ${ARGN})
+  cmake_parse_arguments(ARG "HALVES" "COST" "FILES;OPTIMIZED;RELEASE;THREADS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" "*Test.cpp")
+  list(APPEND sources ${ARG_FILES})
   set(names ${name})
   set(sources_of_${name} ${sources})
   if(ARG_RELEASE AND NOT OMNIMAPPER_SANITIZE)

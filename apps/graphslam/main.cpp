@@ -1,9 +1,10 @@
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/check/CheckRun.h>
+#include <omnimapper/export/registerOutputs.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/plugins/registerPlugins.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -18,7 +19,8 @@ namespace {
 using namespace omnimapper;
 
 int run(Arguments& arguments) {
-  plugins::registerPlugins();
+  exports::registerOutputs();
+  mapper::loadFeatures();
   auto config = base::Config::fromFiles(arguments.inis);
   for (const auto& setting : arguments.settings) config.set(setting);
   if (arguments.list_plugins || !arguments.print_ini.empty()) mapper::loadPluginLibraries(config);

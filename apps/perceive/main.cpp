@@ -1,12 +1,13 @@
 // omnimapper-perceive: rawlog in, rawlog out with what the extractors of an INI derive.
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Progress.h>
+#include <omnimapper/export/Findings.h>
+#include <omnimapper/export/PerceptionPictures.h>
+#include <omnimapper/export/registerOutputs.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PerceptionRun.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/plugins/Findings.h>
-#include <omnimapper/plugins/PerceptionPictures.h>
-#include <omnimapper/plugins/registerPlugins.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -55,7 +56,8 @@ void addOptions(CLI::App& app, Arguments& arguments) {
 }
 
 int run(Arguments& arguments) {
-  plugins::registerPlugins();
+  exports::registerOutputs();
+  mapper::loadFeatures();
   auto config = base::Config::fromFiles(arguments.inis);
   for (const auto& setting : arguments.settings) config.set(setting);
   if (arguments.list_plugins || !arguments.print_ini.empty()) mapper::loadPluginLibraries(config);
@@ -67,8 +69,8 @@ int run(Arguments& arguments) {
     base::refuseToReplaceInput(arguments.run.output, inputs);
   }
   program::listenForInterrupts();
-  std::optional<plugins::PerceptionPictures> pictures;
-  plugins::Findings findings;
+  std::optional<exports::PerceptionPictures> pictures;
+  exports::Findings findings;
   if (!arguments.pictures.empty()) pictures.emplace(arguments.pictures, arguments.picture_every);
   arguments.run.show = [&](const auto& raw, const auto& derived) {
     findings.add(derived);

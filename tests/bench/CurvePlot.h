@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Svg.h>
+#include <omnimapper/draw/Svg.h>
 
 #include <fstream>
 #include <string>
@@ -23,9 +23,9 @@ inline void plotCurves(const std::string& path, const std::string& title, const 
     for (const auto& [x, y] : curve.points) high = high.cwiseMax(Eigen::Vector2d(x, y));
   }
   std::ofstream out(path);
-  eval::Svg svg(out, 760, 370);
-  svg.text({110, 18}, title, eval::Svg::Anchor::start, 14);
-  const eval::Axes axes({110, 47}, {380, 270}, {0, 0}, 1.05 * high);
+  draw::Svg svg(out, 760, 370);
+  svg.text({110, 18}, title, draw::Svg::Anchor::start, 14);
+  const draw::Axes axes({110, 47}, {380, 270}, {0, 0}, 1.05 * high);
   axes.draw(svg, x_name, y_name);
   double y = 62;
   for (const PlottedCurve& curve : curves) {
@@ -34,7 +34,7 @@ inline void plotCurves(const std::string& path, const std::string& title, const 
     svg.polyline(line, curve.colour, 1.5);
     for (const auto& point : line) svg.dot(point, 2.5, curve.colour);
     svg.line({505, y - 4}, {525, y - 4}, curve.colour, 3);
-    svg.text({530, y}, curve.name, eval::Svg::Anchor::start);
+    svg.text({530, y}, curve.name, draw::Svg::Anchor::start);
     y += 18;
   }
 }

@@ -50,13 +50,13 @@ void row(const std::string& name, const std::vector<matching::MapScan>& scans, c
     const double most = 0.7 * setting.half, most_turn = 0.7 * setting.half_yaw * kDegree;
     const TPose2D guess(truth.x + dice.uniform(-most, most), truth.y + dice.uniform(-most, most),
                         truth.phi + dice.uniform(-most_turn, most_turn));
-    matching::LikelihoodOptions grid;
+    grid::LikelihoodOptions grid;
     grid.cell = setting.cell;
     grid.sigma = 1.6 * setting.cell;
     matching::SearchOptions options;
     options.max_results = setting.results;
     const auto begin = std::chrono::steady_clock::now();
-    const matching::LikelihoodPyramid pyramid(map.points, grid);
+    const grid::LikelihoodPyramid pyramid(map.points, grid);
     build.push_back(millisecondsSince(begin));
     const auto searched = std::chrono::steady_clock::now();
     const auto results = matching::search(pyramid, matching::thinned(scans[i].scan.hits, 0.1),

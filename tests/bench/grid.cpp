@@ -6,11 +6,10 @@
 // Example: bench-grid -m out/aces/map.omnimap -m out/intel/map.omnimap
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <omnimapper/grid/ScanBeams.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SavedMap.h>
-#include <omnimapper/plugins/registerPlugins.h>
-#include <output/GridMapper.h>
-#include <output/ScanBeams.h>
 #include <time.h>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +21,9 @@
 #include <iostream>
 #include <string>
 #include <vector>
+
+#include "grid/GridMapper.h"
+#include "grid/forEachScan.h"
 
 namespace {
 
@@ -60,7 +62,7 @@ map::Map closed(const map::Map& before) {
 }
 
 /// MRPT's grid as it would be used: the area of the scans, every scan inserted.
-std::size_t buildWithMrpt(const map::Map& map, const plugins::ScanGrid& area, double max_range) {
+std::size_t buildWithMrpt(const map::Map& map, const exports::ScanGrid& area, double max_range) {
   mrpt::maps::COccupancyGridMap2D grid(static_cast<float>(area.min_x), static_cast<float>(area.maxX()),
                                        static_cast<float>(area.min_y), static_cast<float>(area.maxY()),
                                        static_cast<float>(area.resolution));
@@ -68,7 +70,7 @@ std::size_t buildWithMrpt(const map::Map& map, const plugins::ScanGrid& area, do
   grid.insertionOptions.maxFreenessUpdateCertainty = 0.62f;
   grid.insertionOptions.considerInvalidRangesAsFreeSpace = false;
   for (const map::KeyFrame& frame : map.key_frames) {
-    plugins::forEachScan(frame, [&](const auto& scan) {
+    exports::forEachScan(frame, [&](const auto& scan) {
       grid.insertionOptions.maxDistanceInsertion = std::min(static_cast<float>(max_range), 0.9999f * scan->maxRange);
       grid.insertObservation(*scan, frame.map_from_base);
     });
@@ -101,11 +103,11 @@ struct Row {
   std::size_t key_frames = 0;
 };
 
-Row measure(const map::Map& map, const plugins::ScanGridOptions& options) {
+Row measure(const map::Map& map, const exports::ScanGridOptions& options) {
   const map::Map after = closed(map);
   Row row;
   row.key_frames = map.key_frames.size();
-  const auto area = plugins::buildScanGrid(map, options);
+  const auto area = exports::buildScanGrid(map, options);
   row.mrpt = fastest([&] {
     const ThreadWatch watch;
     buildWithMrpt(map, *area, options.max_range);
@@ -113,11 +115,11 @@ Row measure(const map::Map& map, const plugins::ScanGridOptions& options) {
   });
   row.scratch = fastest([&] {
     const ThreadWatch watch;
-    plugins::GridMapper grid(options);
+    exports::GridMapper grid(options);
     grid.update(map);
     return watch.seconds();
   });
-  plugins::GridMapper grid(options);
+  exports::GridMapper grid(options);
   grid.update(map);
   row.picture = fastest([&] {
     const ThreadWatch watch;
@@ -139,14 +141,14 @@ Row measure(const map::Map& map, const plugins::ScanGridOptions& options) {
 int main(int argc, char** argv) {
   CLI::App app("Times the occupancy grid of saved maps against MRPT's.");
   std::vector<std::string> maps;
-  plugins::ScanGridOptions options;
+  exports::ScanGridOptions options;
   app.add_option("-m,--map", maps, "map.omnimap of a run")->required()->check(CLI::ExistingFile);
   app.add_option("--resolution_m", options.resolution, "Side of a cell");
   app.add_option("--max_range_m", options.max_range, "Beams are entered up to this length");
   CLI11_PARSE(app, argc, argv);
   options.max_cells = 1e9;
   try {
-    plugins::registerPlugins();
+    mapper::loadFeatures();
     std::printf(
         "| map | times | key frames | MRPT rebuild [ms] | ours, from scratch [ms] | ratio | ours, a fifth moved "
         "[ms] | ratio | cells out [ms] |\n|---|---|---|---|---|---|---|---|---|\n");

@@ -7,10 +7,10 @@
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/map/Trajectory.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SavedMap.h>
-#include <omnimapper/plugins/registerPlugins.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", setup.threads);
   app.add_option("--set", setup.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
-  plugins::registerPlugins();
+  mapper::loadFeatures();
   std::filesystem::create_directories(setup.out);
   run(setup, setup.log, setup.out + "/whole", "");
   const auto mapIn = [](const std::string& folder) { return mapper::readMap(folder, mapper::registeredKinds()).map; };

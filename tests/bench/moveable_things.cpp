@@ -22,8 +22,8 @@
 #include <random>
 #include <set>
 
-#include "landmarks/MovedThingPayload.h"
-#include "landmarks/PointPayload.h"
+#include "dynamic/MovedThingPayload.h"
+#include "points/PointPayload.h"
 
 namespace {
 

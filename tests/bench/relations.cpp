@@ -3,7 +3,7 @@
 // doc/results/relations.md shows both.
 //
 //   bench-relations --seeds 100 --svg doc/results/relations.svg
-#include <Svg.h>
+#include <omnimapper/draw/Svg.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -24,12 +24,12 @@ struct Row {
   bool tested;
 };
 
-void drawPanel(eval::Svg& svg, double left, const std::string& title, const RelationBox::Layout& layout,
+void drawPanel(draw::Svg& svg, double left, const std::string& title, const RelationBox::Layout& layout,
                const RelationBox::Layout& truth) {
   constexpr double kSide = 310;
-  const auto axes = eval::Axes::withEqualScale({left, 50}, {kSide, kSide}, {-3.5, -4}, {3.5, 4});
+  const auto axes = draw::Axes::withEqualScale({left, 50}, {kSide, kSide}, {-3.5, -4}, {3.5, 4});
   axes.draw(svg, "x [m]", "y [m]");
-  svg.text({left + kSide / 2, 22}, title, eval::Svg::Anchor::middle, 14);
+  svg.text({left + kSide / 2, 22}, title, draw::Svg::Anchor::middle, 14);
   const auto drawWalls = [&](const std::vector<geometry::Segment2>& walls, const std::string& colour, double width) {
     for (const auto& wall : walls) svg.line(axes.pixel(wall.from), axes.pixel(wall.to), colour, width);
   };
@@ -48,11 +48,11 @@ void draw(const std::string& path, unsigned seed) {
   const auto without = RelationBox(seed).run(RelationBox::With::no_relations, 0, true),
              with = RelationBox(seed).run(RelationBox::With::found, 0, true);
   std::ofstream out(path);
-  eval::Svg svg(out, 1100, 430);
+  draw::Svg svg(out, 1100, 430);
   drawPanel(svg, 50, "initial belief", box.initialBelief(), box.truth());
   drawPanel(svg, 415, "optimised, without relations", without.found, box.truth());
   drawPanel(svg, 780, "optimised, with relations found", with.found, box.truth());
-  svg.text({550, 418}, "poses red, points green, walls blue; true walls thin grey", eval::Svg::Anchor::middle);
+  svg.text({550, 418}, "poses red, points green, walls blue; true walls thin grey", draw::Svg::Anchor::middle);
 }
 
 }  // namespace

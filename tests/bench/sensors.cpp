@@ -3,11 +3,10 @@
 // landmarks by the sensors that saw them as Markdown, and draws figures 64 and 65; doc/results/planes.md shows both.
 //
 //   bench-sensors --simulated out/home out/office out/laboratory -o out/sensors --svg doc/results/sensors.svg
-#include <Svg.h>
-#include <landmarks/PlanePayload.h>
+#include <omnimapper/draw/Svg.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
-#include <omnimapper/plugins/registerPlugins.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +15,7 @@
 #include <map>
 
 #include "SimulatedRun.h"
+#include "planes/PlanePayload.h"
 
 namespace {
 
@@ -109,13 +109,13 @@ Figures printRow(const Setup& setup, const bench::SimulatedPlace& place) {
 constexpr double kLeft = 50, kColumn = 340, kSide = 270, kHeight = 190;
 const std::string kLaser = "#2471a3", kCamera = "#c0392b", kBoth = "#7d3c98";
 
-void drawMatched(eval::Svg& svg, double left, const Figures& figures) {
+void drawMatched(draw::Svg& svg, double left, const Figures& figures) {
   double most = 1;
   for (const auto* curve : {&figures.lines, &figures.planes})
     for (const auto& point : *curve) most = std::max(most, point.y());
-  const eval::Axes axes({left, 50}, {kSide, kHeight}, {0, 0}, {static_cast<double>(figures.key_frames), most});
+  const draw::Axes axes({left, 50}, {kSide, kHeight}, {0, 0}, {static_cast<double>(figures.key_frames), most});
   axes.draw(svg, "key frame", "per key frame");
-  svg.text({left + kSide / 2, 30}, figures.name, eval::Svg::Anchor::middle, 14);
+  svg.text({left + kSide / 2, 30}, figures.name, draw::Svg::Anchor::middle, 14);
   const auto drawCurve = [&](const std::vector<Eigen::Vector2d>& curve, const std::string& colour) {
     std::vector<Eigen::Vector2d> pixels;
     for (const auto& point : curve) pixels.push_back(axes.pixel(point));
@@ -125,7 +125,7 @@ void drawMatched(eval::Svg& svg, double left, const Figures& figures) {
   drawCurve(figures.planes, kCamera);
 }
 
-void drawLandmarks(eval::Svg& svg, double left, const Counts& counts) {
+void drawLandmarks(draw::Svg& svg, double left, const Counts& counts) {
   const std::vector<std::tuple<std::string, std::size_t, std::string>> bars = {
       {"laser", counts.laser, kLaser}, {"camera", counts.camera, kCamera}, {"both", counts.both, kBoth}};
   const double most = static_cast<double>(std::max({counts.laser, counts.camera, counts.both, std::size_t{1}}));
@@ -134,15 +134,15 @@ void drawLandmarks(eval::Svg& svg, double left, const Counts& counts) {
   for (const auto& [name, count, colour] : bars) {
     const double height = kTallest * static_cast<double>(count) / most;
     svg.box({x, kBottom - height}, {kWidth, height}, colour);
-    svg.text({x + kWidth / 2, kBottom - height - 5}, std::to_string(count), eval::Svg::Anchor::middle);
-    svg.text({x + kWidth / 2, kBottom + 16}, name, eval::Svg::Anchor::middle);
+    svg.text({x + kWidth / 2, kBottom - height - 5}, std::to_string(count), draw::Svg::Anchor::middle);
+    svg.text({x + kWidth / 2, kBottom + 16}, name, draw::Svg::Anchor::middle);
     x += kWidth + 20;
   }
 }
 
 void draw(const std::string& path, const std::vector<Figures>& all) {
   std::ofstream out(path);
-  eval::Svg svg(out, kLeft + kColumn * static_cast<double>(all.size()), 560);
+  draw::Svg svg(out, kLeft + kColumn * static_cast<double>(all.size()), 560);
   double left = kLeft;
   for (const Figures& figures : all) {
     drawMatched(svg, left, figures);
@@ -152,7 +152,7 @@ void draw(const std::string& path, const std::vector<Figures>& all) {
   svg.text({kLeft, 545},
            "above: lines of the laser (blue) and planes of the camera (red) that were matched in a key frame, means of "
            "ten; below: landmarks by who saw them",
-           eval::Svg::Anchor::start);
+           draw::Svg::Anchor::start);
 }
 
 }  // namespace
@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
   app.add_option("--scans", setup.scans_ini, "INI of scan matching alone")->capture_default_str();
   app.add_option("--threads", setup.threads);
   CLI11_PARSE(app, argc, argv);
-  plugins::registerPlugins();
+  mapper::loadFeatures();
   std::printf(
       "| place | scan matching alone | laser lines | camera planes | both | landmarks: laser, camera, both |\n"
       "|---|---|---|---|---|---|\n");

@@ -11,12 +11,12 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/obs/registerClasses.h>
-#include <omnimapper/plugins/ScanOdometryPlugin.h>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/LU>
 
 #include "UntunedLogs.h"
+#include "laser2d/ScanOdometryPlugin.h"
 
 namespace {
 

@@ -4,12 +4,12 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/check/fittingInis.h>
 #include <omnimapper/mapper/EngineOptions.h>
-#include <omnimapper/plugins/OdometryPlugin.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <memory>
 
 #include "CheckedLog.h"
+#include "wheel_odometry/OdometryPlugin.h"
 
 namespace omnimapper::check::fitting_inis_test {
 namespace {

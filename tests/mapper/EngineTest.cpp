@@ -4,12 +4,13 @@
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/graph/Between.h>
 #include <omnimapper/map/Trajectory.h>
-#include <omnimapper/plugins/OdometryPlugin.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <algorithm>
 #include <atomic>
 #include <set>
+
+#include "wheel_odometry/OdometryPlugin.h"
 
 namespace omnimapper::mapper::engine_test {
 namespace {
@@ -222,7 +223,7 @@ TEST(EngineSensors, AnExtractorDoesNotWorkOnWhatALogBringsPerceived) {
   options.place = SimulatedLogOptions::Place::box;
   options.laps = 0.3;
   const SimulatedLog log(options);
-  plugins::registerPlugins();
+  mapper::loadFeatures();
   const auto config = base::Config::fromText(kLaserIni, "test.ini");
   const auto settings = EngineSettings::read(config);
   const auto& names = settings.engine;

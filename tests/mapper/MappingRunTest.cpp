@@ -24,7 +24,7 @@ SimulatedLogOptions boxLap() {
 class MappingRun : public ::testing::Test {
  protected:
   MappingRun() {
-    plugins::registerPlugins();
+    mapper::loadFeatures();
     log_.writeRawlog(path_);
   }
 

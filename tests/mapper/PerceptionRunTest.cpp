@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PerceptionRun.h>
-#include <omnimapper/plugins/registerPlugins.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/testing/Fixtures.h>
@@ -46,7 +46,7 @@ CObservation3DRangeScan::Ptr withoutFocalLength(CObservation3DRangeScan::Ptr sca
 
 class PerceptionRunTest : public ::testing::Test {
  protected:
-  PerceptionRunTest() { plugins::registerPlugins(); }
+  PerceptionRunTest() { mapper::loadFeatures(); }
 
   void writeRaw(const std::vector<CObservation::Ptr>& observations) {
     source::writeRawlog(raw_, [&](source::RawlogWriter& rawlog) {

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 #include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/plugins/registerPlugins.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <fstream>
@@ -29,7 +29,7 @@ base::Error errorOf(const std::function<void()>& work) {
 
 class PluginRegistry : public ::testing::Test {
  protected:
-  void SetUp() override { plugins::registerPlugins(); }
+  void SetUp() override { mapper::loadFeatures(); }
 };
 
 TEST_F(PluginRegistry, FindsAClassOfItsKindOnly) {

@@ -29,7 +29,7 @@ class Foreign : public map::LandmarkPayload {
 class SavedMapFile : public ::testing::Test {
  protected:
   SavedMapFile() {
-    plugins::registerPlugins();
+    mapper::loadFeatures();
     for (int i = 0; i < 4; ++i) run_.addFrame(CPose3D(i, 0.1 * i, 0, 0.3 * i, 0, 0));
     for (std::uint32_t i = 0; i + 1 < 4; ++i) {
       run_.graph.addFactor(betweenPoses(Motion::planar, run_.map.key_frames[i].pose, run_.map.key_frames[i + 1].pose,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
-#include <omnimapper/matching/BeamScan.h>
+#include <omnimapper/grid/BeamScan.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <cmath>
@@ -10,10 +10,10 @@ namespace omnimapper::matching {
 
 /// What a laser with a beam for each degree of its aperture [deg] sees of a floor plan from a pose; beams longer than
 /// max_range are misses.
-inline BeamScan beamsFrom(const testing::FloorPlan& plan, const mrpt::math::TPose2D& pose, double aperture = 180,
-                          double max_range = 8, double sigma = 0, std::uint64_t seed = 1) {
+inline grid::BeamScan beamsFrom(const testing::FloorPlan& plan, const mrpt::math::TPose2D& pose, double aperture = 180,
+                                double max_range = 8, double sigma = 0, std::uint64_t seed = 1) {
   testing::Dice dice(seed);
-  BeamScan scan;
+  grid::BeamScan scan;
   for (double beam = -aperture / 2; beam < aperture / 2; beam += 1) {
     const double angle = beam * 3.14159265358979323846 / 180;
     const double range =

@@ -33,17 +33,17 @@ Points moved(const Points& points, const TPose2D& pose) {
   return result;
 }
 
-LikelihoodPyramid mapSeenFrom(const FloorPlan& plan, const std::vector<TPose2D>& poses) {
+grid::LikelihoodPyramid mapSeenFrom(const FloorPlan& plan, const std::vector<TPose2D>& poses) {
   Points map;
   for (const auto& pose : poses) {
     const auto scan = moved(seen(plan, pose), pose);
     map.insert(map.end(), scan.begin(), scan.end());
   }
-  return LikelihoodPyramid(map);
+  return grid::LikelihoodPyramid(map);
 }
 
 // The best pose by trying all of the lattice.
-SearchResult bruteForce(const LikelihoodPyramid& map, const Points& scan, const SearchWindow& window) {
+SearchResult bruteForce(const grid::LikelihoodPyramid& map, const Points& scan, const SearchWindow& window) {
   const double step = yawStep(scan, map.cell());
   const int nx = static_cast<int>(window.half_x / map.cell() + 1e-9),
             ny = static_cast<int>(window.half_y / map.cell() + 1e-9),
@@ -75,7 +75,7 @@ TEST(CorrelativeSearch, FindsWhatTryingEveryPoseFinds) {
     // Half of the scan comes from the world, half from nowhere.
     for (int i = 0; i < 12; ++i) scan.push_back(world[i]);
     for (int i = 0; i < 12; ++i) scan.emplace_back(dice.uniform(-4, 4), dice.uniform(-4, 4));
-    const LikelihoodPyramid map(world);
+    const grid::LikelihoodPyramid map(world);
     const SearchWindow window{{dice.uniform(-0.3, 0.3), dice.uniform(-0.3, 0.3), dice.uniform(-0.3, 0.3)},
                               dice.uniform(0.3, 1),
                               dice.uniform(0.3, 1),
@@ -95,7 +95,7 @@ TEST(CorrelativeSearch, TheNextResultsAreTheBestOfThoseDistinctFromTheOnesBefore
   Points world;
   for (int i = 0; i < 60; ++i) world.emplace_back(dice.uniform(-2, 2), dice.uniform(-2, 2));
   const Points scan(world.begin(), world.begin() + 10);
-  const LikelihoodPyramid map(world);
+  const grid::LikelihoodPyramid map(world);
   const SearchWindow window{{0.1, 0.2, 0}, 0.8, 0.8, 0};
   SearchOptions options;
   options.min_score = options.min_share_of_best = 0;
@@ -205,7 +205,7 @@ TEST(CorrelativeSearch, WithoutPointsInScanOrMapThereIsNoAnswer) {
   const SearchWindow window{{0, 0, 0}, 2, 2, 1};
   EXPECT_TRUE(search(map, {}, window).empty());
   EXPECT_TRUE(search(map, {{NAN, 1}, {1, INFINITY}}, window).empty());
-  EXPECT_TRUE(search(LikelihoodPyramid(Points()), seen(plan, {0, 0, 0}), window).empty());
+  EXPECT_TRUE(search(grid::LikelihoodPyramid(Points()), seen(plan, {0, 0, 0}), window).empty());
   EXPECT_TRUE(search(std::vector<SearchArea>(), seen(plan, {0, 0, 0})).empty());
   SearchOptions none;
   none.max_results = 0;
@@ -214,7 +214,7 @@ TEST(CorrelativeSearch, WithoutPointsInScanOrMapThereIsNoAnswer) {
 }
 
 TEST(CorrelativeSearch, OnePointFitsWhereverTheMapHasOne) {
-  const LikelihoodPyramid map({{1, 0}});
+  const grid::LikelihoodPyramid map({{1, 0}});
   SearchOptions options;
   options.max_results = 1;
   const auto results = search(map, {{2, 0}}, {{-0.8, 0.3, 0}, 1, 1, 0}, options);
@@ -228,14 +228,14 @@ TEST(CorrelativeSearch, PointsFarBeyondAllOthersDoNotBreakTheBounds) {
   Points scan{{1, 0}, {0, 1}, {-1, 0.5}}, world = scan;
   world.emplace_back(60, 3);
   scan = moved(world, {-0.4, 0.2, 0.1});
-  const LikelihoodPyramid map(world);
+  const grid::LikelihoodPyramid map(world);
   const auto results = search(map, scan, {{0, 0, 0}, 1, 1, 3.2});
   ASSERT_FALSE(results.empty());
   EXPECT_GT(results[0].score, 0.7);
 }
 
 TEST(CorrelativeSearch, RefusesAWindowThatIsNone) {
-  const LikelihoodPyramid map({{1, 0}});
+  const grid::LikelihoodPyramid map({{1, 0}});
   const Points scan{{1, 0}};
   EXPECT_THROW(search(map, scan, {{NAN, 0, 0}, 1, 1, 1}), base::Error);
   EXPECT_THROW(search(map, scan, {{0, 0, 0}, -1, 1, 1}), base::Error);

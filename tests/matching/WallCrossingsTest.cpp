@@ -98,7 +98,7 @@ TEST(WallCrossings, WhatIsNotFiniteOrEmptyIsLeftOut) {
 }
 
 TEST(WallCrossings, AMapTooLargeForTheGridIsRefused) {
-  const BeamScan scan{{{1, 0}, {1, 0.1F}}, {}};
+  const grid::BeamScan scan{{{1, 0}, {1, 0.1F}}, {}};
   EXPECT_THROW(crossedWalls({{{0, 0, 0}, scan}, {{1e6, 1e6, 0}, scan}}), base::Error);
   EXPECT_THROW(crossedWalls({{{0, 0, 0}, scan}, {{1e300, 1e300, 0}, scan}}), base::Error);
 }

@@ -19,10 +19,21 @@ using source_tree::fs::path;
 
 const std::vector<std::string> cpp_extensions{".h", ".cpp"};
 
-/// Libraries bottom to top, as libs/CMakeLists.txt lists them.
-std::vector<std::string> libraryOrder() {
-  const auto list = matches(read(omnimapper::testing::sourceFile("libs/CMakeLists.txt")), R"(foreach\(lib ([^)]*)\))");
+/// The words of `foreach(variable ...)` in a CMakeLists.txt.
+std::vector<std::string> listed(const std::string& cmake_lists, const std::string& variable) {
+  const auto list =
+      matches(read(omnimapper::testing::sourceFile(cmake_lists)), R"(foreach\()" + variable + R"( ([^)]*)\))");
   return list.empty() ? std::vector<std::string>{} : matches(list.front(), R"((\w+))");
+}
+
+/// Libraries bottom to top.
+std::vector<std::string> libraryOrder() {
+  return listed("libs/CMakeLists.txt", "lib");
+}
+
+std::set<std::string> includedLibraries(const path& file) {
+  const auto includes = matches(read(file), R"(#include\s*[<"]omnimapper/(\w+)/)");
+  return {includes.begin(), includes.end()};
 }
 
 /// Reports each line of code (comments and strings blanked) below a folder that contains the pattern.
@@ -77,8 +88,7 @@ TEST(HouseRules, librariesIncludeOnlyWhatStandsAboveThemAndTheirCMakeListsNames)
     const auto named =
         matches(read(omnimapper::testing::sourceFile("libs/" + lib + "/CMakeLists.txt")), R"(omnimapper::(\w+))");
     for (const path& file : files("libs/" + lib, cpp_extensions)) {
-      const auto includes = matches(read(file), R"(#include\s*[<"]omnimapper/(\w+)/)");
-      for (const std::string& used : std::set<std::string>(includes.begin(), includes.end())) {
+      for (const std::string& used : includedLibraries(file)) {
         if (used == lib) continue;
         EXPECT_LT(rank(used), rank(lib)) << projectPath(file) << " includes omnimapper/" << used << ", but " << lib
                                          << " stands below it in libs/CMakeLists.txt";
@@ -91,10 +101,40 @@ TEST(HouseRules, librariesIncludeOnlyWhatStandsAboveThemAndTheirCMakeListsNames)
 }
 
 TEST(HouseRules, everyLibraryFolderIsListed) {
-  const auto order = libraryOrder();
+  auto order = libraryOrder();
+  order.emplace_back("plugins");
   for (const std::string& folder : folders("libs")) {
     EXPECT_TRUE(std::count(order.begin(), order.end(), folder) > 0)
         << "libs/" << folder << " is missing from the list in libs/CMakeLists.txt";
+  }
+}
+
+TEST(HouseRules, aFeatureStandsOnTheInterfaceOfPluginsAndOnNoOtherFeature) {
+  const auto order = libraryOrder();
+  const auto floor = std::find(order.begin(), order.end(), "mapper");
+  ASSERT_NE(floor, order.end());
+  const auto features = listed("libs/plugins/CMakeLists.txt", "feature");
+  for (const std::string& feature : folders("libs/plugins")) {
+    const std::string folder = "libs/plugins/" + feature;
+    EXPECT_TRUE(std::count(features.begin(), features.end(), feature) > 0)
+        << folder << " is missing from the list in libs/plugins/CMakeLists.txt";
+    const auto named =
+        matches(read(omnimapper::testing::sourceFile(folder + "/CMakeLists.txt")), R"(omnimapper::(\w+))");
+    for (const path& file : files(folder, cpp_extensions)) {
+      for (const std::string& used : includedLibraries(file)) {
+        EXPECT_NE(std::find(order.begin(), floor, used), floor)
+            << projectPath(file) << " includes omnimapper/" << used
+            << ": features stand on the libraries up to landmarks, not on the engine and what is above it";
+        EXPECT_TRUE(std::count(named.begin(), named.end(), used) > 0)
+            << projectPath(file) << " includes omnimapper/" << used << ", but " << folder
+            << "/CMakeLists.txt does not name omnimapper::" << used;
+      }
+      for (const std::string& other : matches(read(file), R"(#include\s*"([^"]*)/)")) {
+        ADD_FAILURE() << projectPath(file) << " includes from " << other
+                      << ": what two features share goes down to a library";
+      }
+    }
+    EXPECT_FALSE(files("tests/plugins/" + feature, {".cpp"}).empty()) << folder << " has no test in tests/plugins";
   }
 }
 

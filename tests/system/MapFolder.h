@@ -5,9 +5,9 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
 #include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SavedMap.h>
-#include <omnimapper/plugins/registerPlugins.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <map>
@@ -28,7 +28,7 @@ using LoadedMap = omnimapper::mapper::SavedMap;
 
 /// map.omnimap. Throws base::Error if any part of it is not whole.
 inline LoadedMap loadMap(const std::string& folder) {
-  omnimapper::plugins::registerPlugins();  // the classes of the observations in it
+  omnimapper::mapper::loadFeatures();  // the classes of the observations in it
   return omnimapper::mapper::readMap(folder + "/map.omnimap", omnimapper::mapper::registeredKinds());
 }
 

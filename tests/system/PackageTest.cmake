@@ -1,7 +1,7 @@
-# cmake -D BUILD_FOLDER=... -D FOREIGN_PROJECT=... -D EXAMPLE=... -D BEACON_LOG=... -D INI=... -D SCRATCH=...
+# cmake -D BUILD_FOLDER=... -D FOREIGN_PROJECT=... -D EXAMPLE=... -D BEACON_LOG=... -D INI=... -D WALLS_INI=... -D SCRATCH=...
 #   -D GENERATOR=... -P PackageTest.cmake
 # Installs the build, moves the installed tree, and uses it as a stranger would: links against it, starts its programs,
-# and has one of them load plugins built outside: outputs of a foreign project, and the landmarks of
+# has it miss a feature, and has one of them load plugins built outside: outputs of a foreign project, and the landmarks of
 # doc/examples/beacons.
 cmake_minimum_required(VERSION 3.22)
 set(stage "${SCRATCH}/stage")
@@ -53,6 +53,27 @@ file(GLOB_RECURSE window "${prefix}/libomnimapper-window.so")
 file(RENAME "${window}" "${SCRATCH}/taken_away.so")
 expect_gui_error("libomnimapper-window.so belongs beside")
 file(RENAME "${SCRATCH}/taken_away.so" "${window}")
+
+# Features are found beside the program alone. One that is taken away is missed by whoever names its plugin, and by nobody
+# else; a library of that name in the current folder, or where the environment has the loader look, is no feature.
+file(GLOB_RECURSE planes "${prefix}/libomnimapper-planes.so")
+file(MAKE_DIRECTORY "${SCRATCH}/elsewhere/omnimapper")
+file(RENAME "${planes}" "${SCRATCH}/elsewhere/omnimapper/libomnimapper-planes.so")
+execute_process(COMMAND "${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${SCRATCH}/elsewhere/omnimapper:${SCRATCH}/elsewhere"
+  "${prefix}/bin/omnimapper-graphslam" -i "${WALLS_INI}" -r "${log}" -o "${SCRATCH}/walls"
+  WORKING_DIRECTORY "${SCRATCH}/elsewhere" RESULT_VARIABLE result ERROR_VARIABLE error)
+if(NOT result EQUAL 6 OR NOT error MATCHES "LaserLineExtractor.*feature 'planes'.*libomnimapper-planes.so is not in.*build or install it")
+  message(FATAL_ERROR "without the feature planes the INI of walls ended with ${result}:\n${error}")
+endif()
+run("${prefix}/bin/omnimapper-graphslam" -i "${INI}" -r "${log}" -o "${SCRATCH}/without_planes" -q)
+file(WRITE "${planes}" "no library")
+execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -i "${WALLS_INI}" -r "${log}" -o "${SCRATCH}/walls"
+  RESULT_VARIABLE result ERROR_VARIABLE error)
+if(NOT result EQUAL 6 OR NOT error MATCHES "feature 'planes', whose library cannot be loaded")
+  message(FATAL_ERROR "with a feature that is no library the INI of walls ended with ${result}:\n${error}")
+endif()
+file(RENAME "${SCRATCH}/elsewhere/omnimapper/libomnimapper-planes.so" "${planes}")
+run("${prefix}/bin/omnimapper-graphslam" --print-ini PlaneLandmarksPlugin)
 
 # A map of a real log, with the foreign plugin as its only output.
 file(WRITE "${SCRATCH}/foreign.ini" "

@@ -2,7 +2,7 @@
 #include "Conclusions.h"
 
 #include <omnimapper/check/judge.h>
-#include <omnimapper/plugins/ScanInBase.h>
+#include <omnimapper/matching/ScanInBase.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ const MotionFacts* motionOf(const LogFacts& facts, const std::string& laser, con
 }  // namespace
 
 bool isTilted(const ScanFacts& scans) {
-  return scans.tilt() > plugins::kLargestTilt;
+  return scans.tilt() > matching::kLargestTilt;
 }
 
 bool saturates(const ScanFacts& scans) {

@@ -34,7 +34,7 @@ bool OdometryTally::isOdometry(const mrpt::obs::CObservation& observation) {
 
 void OdometryTally::add(const mrpt::obs::CObservation& observation) {
   ++facts_.readings;
-  source_->add(observation);
+  source_.add(observation);
   const auto stamp = observation.timestamp;
   if (base::isValid(stamp)) stamps_.push_back(stamp);
   if (const auto* motion = dynamic_cast<const obs::CObservationRelativeMotion*>(&observation)) {
@@ -71,7 +71,7 @@ void OdometryTally::addStep(const mrpt::poses::CPose2D& step, double seconds, ba
 }
 
 std::optional<mrpt::poses::CPose2D> OdometryTally::between(base::Stamp begin, base::Stamp end) const {
-  const auto motion = source_->between(begin, end);
+  const auto motion = source_.between(begin, end);
   if (!motion) return std::nullopt;
   return mrpt::poses::CPose2D(motion->begin_from_end);
 }

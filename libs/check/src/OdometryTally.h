@@ -2,9 +2,8 @@
 
 #include <mrpt/poses/CPose2D.h>
 #include <omnimapper/check/LogFacts.h>
-#include <omnimapper/plugins/OdometryPlugin.h>
+#include <omnimapper/matching/WheelOdometry.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +13,6 @@ namespace omnimapper::check {
 /// Counts the odometry of one label, and answers for the motion as the mapper would have it.
 class OdometryTally {
  public:
-  OdometryTally() : source_(std::make_unique<plugins::OdometryPlugin>(plugins::OdometryOptions())) {}
-
   /// Whether it is odometry at all.
   static bool isOdometry(const mrpt::obs::CObservation& observation);
   void add(const mrpt::obs::CObservation& observation);
@@ -31,7 +28,7 @@ class OdometryTally {
   std::optional<mrpt::poses::CPose2D> previous_;
   base::Stamp previous_stamp_;
   std::vector<base::Stamp> stamps_;
-  std::unique_ptr<plugins::OdometryPlugin> source_;
+  matching::WheelOdometry source_{matching::WheelOdometryOptions()};
 };
 
 /// Holds two odometries against one another over spans of a second or more that begin and end with readings of the one

@@ -1,6 +1,6 @@
 #include "PoseTally.h"
 
-#include <omnimapper/plugins/GivenPose.h>
+#include <omnimapper/obs/GivenPose.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace omnimapper::check {
 
 void PoseTally::add(const mrpt::obs::CObservationRobotPose& observation) {
-  const auto reference_from_base = plugins::referenceFromBase(observation);
+  const auto reference_from_base = obs::referenceFromBase(observation);
   if (!reference_from_base) return;
   ++poses_;
   up_ += reference_from_base->getRotationMatrix()(2, 2);

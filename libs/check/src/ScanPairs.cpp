@@ -2,8 +2,8 @@
 
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/matching/PointToLineMatcher.h>
+#include <omnimapper/matching/ScanInBase.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
-#include <omnimapper/plugins/ScanInBase.h>
 
 #include <cmath>
 #include <memory>
@@ -19,7 +19,7 @@ constexpr double kWallDistance = 0.1;  // [m]
 
 matching::PlanarScan wallsOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   static const perception::LaserPointsExtractor extractor{perception::LaserPointsOptions()};
-  return plugins::scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*extractor.extract(scan)));
+  return matching::scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*extractor.extract(scan)));
 }
 
 bool fits(const matching::ScanMatch& match) {

@@ -1,7 +1,7 @@
 #include "ScanTally.h"
 
+#include <omnimapper/matching/ScanInBase.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
-#include <omnimapper/plugins/ScanInBase.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ bool ScanFacts::isUpsideDown() const {
 }
 
 double ScanFacts::tilt() const {
-  return plugins::tiltOf(base_from_sensor);
+  return matching::tiltOf(base_from_sensor);
 }
 
 void ScanTally::add(const mrpt::obs::CObservation2DRangeScan& scan) {

@@ -3,8 +3,8 @@
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
 #include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/matching/WheelOdometry.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
-#include <omnimapper/plugins/OdometryPlugin.h>
 
 #include <algorithm>
 #include <cctype>
@@ -165,7 +165,7 @@ class Proposal {
     }
     // The noise of what only fills gaps of the laser's odometry changes next to nothing.
     if (motions.empty() || (plugins_.odometry_is_fallback && laser_odometry_ && !lasers_.empty())) return;
-    const plugins::OdometryOptions defaults;
+    const matching::WheelOdometryOptions defaults;
     const auto propose = [&](const std::string& key, const std::optional<double>& measured, double value, double unit) {
       constexpr double kALot = 2;
       if (measured && *measured > kALot * value) {

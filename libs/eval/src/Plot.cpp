@@ -1,10 +1,9 @@
+#include <omnimapper/draw/Svg.h>
 #include <omnimapper/eval/Plot.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-
-#include "Svg.h"
 
 namespace omnimapper::eval {
 
@@ -24,7 +23,7 @@ std::string withUnit(double value, const char* unit) {
   return text;
 }
 
-Axes axesAround(const std::vector<PosePair>& pairs, const Trajectory& reference) {
+draw::Axes axesAround(const std::vector<PosePair>& pairs, const Trajectory& reference) {
   Eigen::Vector2d low = seenFromAbove(pairs.front().estimate), high = low;
   const auto include = [&](const Eigen::Vector2d& p) {
     low = low.cwiseMin(p);
@@ -32,23 +31,23 @@ Axes axesAround(const std::vector<PosePair>& pairs, const Trajectory& reference)
   };
   for (const auto& pair : pairs) include(seenFromAbove(pair.estimate));
   for (const auto& pose : reference) include(seenFromAbove(pose.world_from_body));
-  return Axes::withEqualScale({70, 70}, {700, 600}, low, high);
+  return draw::Axes::withEqualScale({70, 70}, {700, 600}, low, high);
 }
 
-void drawColourBar(Svg& svg, double max_error) {
-  const Axes bar({815, 110}, {18, 480}, {0, 0}, {1, max_error});
+void drawColourBar(draw::Svg& svg, double max_error) {
+  const draw::Axes bar({815, 110}, {18, 480}, {0, 0}, {1, max_error});
   constexpr int kSteps = 60;
   for (int i = 0; i < kSteps; ++i) {
-    svg.box({815, 110 + 480.0 * i / kSteps}, {18, 480.0 / kSteps + 0.5}, heatColour(1 - (i + 0.5) / kSteps));
+    svg.box({815, 110 + 480.0 * i / kSteps}, {18, 480.0 / kSteps + 0.5}, draw::heatColour(1 - (i + 0.5) / kSteps));
   }
-  for (const auto& [value, text] : roundValues(0, bar.high().y(), 6)) {
-    svg.text({839, bar.pixel({0, value}).y() + 4}, text, Svg::Anchor::start);
+  for (const auto& [value, text] : draw::roundValues(0, bar.high().y(), 6)) {
+    svg.text({839, bar.pixel({0, value}).y() + 4}, text, draw::Svg::Anchor::start);
   }
-  svg.text({824, 98}, "error [m]", Svg::Anchor::middle);
+  svg.text({824, 98}, "error [m]", draw::Svg::Anchor::middle);
 }
 
-void drawCurve(Svg& svg, const Axes& axes, const std::vector<base::Stamp>& stamps, const std::vector<double>& errors,
-               double unit, const char* unit_name, const char* colour) {
+void drawCurve(draw::Svg& svg, const draw::Axes& axes, const std::vector<base::Stamp>& stamps,
+               const std::vector<double>& errors, double unit, const char* unit_name, const char* colour) {
   std::vector<Eigen::Vector2d> points;
   double sum = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -59,7 +58,7 @@ void drawCurve(Svg& svg, const Axes& axes, const std::vector<base::Stamp>& stamp
   svg.line(axes.pixel({axes.low().x(), mean}), axes.pixel({axes.high().x(), mean}), "#bbbbbb", 1.5);
   svg.polyline(points, colour, 1.5);
   const Eigen::Vector2d corner = axes.pixel(axes.high());
-  svg.text({corner.x(), corner.y() - 9}, "mean " + withUnit(mean, unit_name), Svg::Anchor::end);
+  svg.text({corner.x(), corner.y() - 9}, "mean " + withUnit(mean, unit_name), draw::Svg::Anchor::end);
 }
 
 }  // namespace
@@ -68,41 +67,41 @@ void plotTrajectory(std::ostream& out, const AbsoluteTrajectoryError& error, con
                     const std::string& title) {
   const auto& pairs = error.paired.pairs;
   const double max_error = error.translation.max > 0 ? error.translation.max : 1;
-  Svg svg(out, 900, 730);
-  const Axes axes = axesAround(pairs, reference);
+  draw::Svg svg(out, 900, 730);
+  const draw::Axes axes = axesAround(pairs, reference);
   axes.draw(svg, "x [m]", "y [m]");
   std::vector<Eigen::Vector2d> reference_line;
   for (const auto& pose : reference) reference_line.push_back(axes.pixel(seenFromAbove(pose.world_from_body)));
   svg.polyline(reference_line, kReferenceColour, 4);
   Eigen::Vector2d last = axes.pixel(seenFromAbove(pairs.front().estimate));
-  svg.dot(last, 4, heatColour(error.translation_errors.front() / max_error));
+  svg.dot(last, 4, draw::heatColour(error.translation_errors.front() / max_error));
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     const Eigen::Vector2d here = axes.pixel(seenFromAbove(pairs[i].estimate));
     if ((here - last).norm() < 0.5 && i + 1 < pairs.size()) continue;
-    svg.line(last, here, heatColour(error.translation_errors[i] / max_error), 1.8);
+    svg.line(last, here, draw::heatColour(error.translation_errors[i] / max_error), 1.8);
     last = here;
   }
   drawColourBar(svg, max_error);
-  svg.text({70, 32}, title, Svg::Anchor::start, 16);
+  svg.text({70, 32}, title, draw::Svg::Anchor::start, 16);
   svg.line({500, 50}, {530, 50}, kReferenceColour, 4);
-  svg.text({537, 54}, "reference", Svg::Anchor::start);
-  svg.line({620, 50}, {650, 50}, heatColour(0.25), 1.8);
-  svg.text({657, 54}, "estimate (dot: start)", Svg::Anchor::start);
+  svg.text({537, 54}, "reference", draw::Svg::Anchor::start);
+  svg.line({620, 50}, {650, 50}, draw::heatColour(0.25), 1.8);
+  svg.text({657, 54}, "estimate (dot: start)", draw::Svg::Anchor::start);
 }
 
 void plotErrors(std::ostream& out, const std::vector<base::Stamp>& stamps,
                 const std::vector<double>& translation_errors, const std::vector<double>& rotation_errors,
                 const std::string& title) {
   constexpr double kDegrees = 180 / geometry::kPi;
-  Svg svg(out, 900, 560);
-  svg.text({70, 32}, title, Svg::Anchor::start, 16);
+  draw::Svg svg(out, 900, 560);
+  svg.text({70, 32}, title, draw::Svg::Anchor::start, 16);
   if (stamps.empty()) return;
   const double seconds = base::secondsBetween(stamps.front(), stamps.back());
   const auto highest = [](const std::vector<double>& errors) {
     return *std::max_element(errors.begin(), errors.end());
   };
-  const Axes upper({70, 75}, {790, 180}, {0, 0}, {seconds, 1.05 * highest(translation_errors)});
-  const Axes lower({70, 325}, {790, 180}, {0, 0}, {seconds, 1.05 * kDegrees * highest(rotation_errors)});
+  const draw::Axes upper({70, 75}, {790, 180}, {0, 0}, {seconds, 1.05 * highest(translation_errors)});
+  const draw::Axes lower({70, 325}, {790, 180}, {0, 0}, {seconds, 1.05 * kDegrees * highest(rotation_errors)});
   upper.draw(svg, "", "[m]");
   lower.draw(svg, "time [s]", "[deg]");
   drawCurve(svg, upper, stamps, translation_errors, 1, "m", kTranslationColour);

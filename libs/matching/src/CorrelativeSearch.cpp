@@ -182,8 +182,8 @@ class Lattice {
                    sweep_y = std::abs(y) * versine + std::abs(x) * sine + slack;
       Sweep sweep{cellOf(x + offset_x - sweep_x), cellOf(y + offset_y - sweep_y), level};
       const int width = std::max(cellOf(x + offset_x + sweep_x) - sweep.x, cellOf(y + offset_y + sweep_y) - sweep.y);
-      while (sweep.level < LikelihoodPyramid::kLevels && (1 << sweep.level) < side + width) ++sweep.level;
-      if (sweep.level < LikelihoodPyramid::kLevels) {
+      while (sweep.level < grid::LikelihoodPyramid::kLevels && (1 << sweep.level) < side + width) ++sweep.level;
+      if (sweep.level < grid::LikelihoodPyramid::kLevels) {
         row.sweeps.push_back(sweep);
       } else {
         ++row.unbounded;
@@ -192,7 +192,7 @@ class Lattice {
     return row;
   }
 
-  const LikelihoodPyramid& map_;
+  const grid::LikelihoodPyramid& map_;
   const std::vector<Eigen::Vector2f>& points_;
   TPose2D centre_;
   double yaw_step_;  // [rad]
@@ -291,7 +291,7 @@ class Search {
 
 }  // namespace
 
-SearchWindow SearchWindow::everywhere(const LikelihoodPyramid& map, double margin) {
+SearchWindow SearchWindow::everywhere(const grid::LikelihoodPyramid& map, double margin) {
   const Eigen::Vector2d middle = 0.5 * (map.low() + map.high()), half = 0.5 * (map.high() - map.low());
   return {{middle.x(), middle.y(), 0}, half.x() + margin, half.y() + margin, kPi};
 }
@@ -301,7 +301,7 @@ std::vector<SearchResult> search(const std::vector<SearchArea>& areas, const std
   return Search(areas, scan_points, options).run();
 }
 
-std::vector<SearchResult> search(const LikelihoodPyramid& map, const std::vector<Eigen::Vector2f>& scan_points,
+std::vector<SearchResult> search(const grid::LikelihoodPyramid& map, const std::vector<Eigen::Vector2f>& scan_points,
                                  const SearchWindow& window, const SearchOptions& options) {
   return search({SearchArea{&map, window}}, scan_points, options);
 }

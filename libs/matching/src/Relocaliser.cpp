@@ -58,22 +58,22 @@ Relocaliser::Relocaliser(std::vector<MapScan> map, std::shared_ptr<const ScanMat
                          const RelocaliserOptions& options)
     : options_(options), matcher_(std::move(matcher)) {
   PlanarScan all;
-  std::vector<BeamGrid::Placed> placed;
+  std::vector<grid::BeamGrid::Placed> placed;
   for (MapScan& scan : map) {
-    scan.scan = finitePart(std::move(scan.scan));
+    scan.scan = grid::finitePart(std::move(scan.scan));
     placed.push_back({scan.map_from_sensor, &scan.scan});
     map_.push_back({scan.map_from_sensor, fitLines(scan.scan.hits)});
     append(map_.back().lines, scan.map_from_sensor, all);
   }
-  LikelihoodOptions grid;
+  grid::LikelihoodOptions grid;
   grid.cell = options.cell;
   grid.sigma = options.sigma;
   grid.max_cells = options.beams.max_cells;
-  pyramid_ = std::make_unique<const LikelihoodPyramid>(all.points, grid);
-  beams_ = std::make_unique<const BeamGrid>(placed, options.beams);
+  pyramid_ = std::make_unique<const grid::LikelihoodPyramid>(all.points, grid);
+  beams_ = std::make_unique<const grid::BeamGrid>(placed, options.beams);
 }
 
-Location Relocaliser::locate(const BeamScan& scan, const std::optional<SearchWindow>& window) const {
+Location Relocaliser::locate(const grid::BeamScan& scan, const std::optional<SearchWindow>& window) const {
   return locateTogether({{{}, scan}}, window);
 }
 
@@ -93,7 +93,7 @@ Relocaliser::Query Relocaliser::queryOf(std::vector<LocalScan> scans) const {
   Query query;
   PlanarScan sought;
   for (LocalScan& scan : scans) {
-    scan.scan = finitePart(std::move(scan.scan));
+    scan.scan = grid::finitePart(std::move(scan.scan));
     const PlanarScan lines = fitLines(scan.scan.hits);
     append(lines, scan.local_from_sensor, query.lines);
     const auto points = thinned(lines.points, options_.spacing);

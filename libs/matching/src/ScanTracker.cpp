@@ -1,4 +1,4 @@
-#include <omnimapper/matching/BeamGrid.h>
+#include <omnimapper/grid/BeamGrid.h>
 #include <omnimapper/matching/CorrelativeSearch.h>
 #include <omnimapper/matching/ScanTracker.h>
 
@@ -25,7 +25,7 @@ constexpr double kSomeOverlap = 0.2;                // share of the points that 
 constexpr double kSurely = 0.8;  // share of the points with partners from which on a single match is not doubted
 constexpr double kPoor = -0.8;   // mean logarithm of a beam's likelihood below which a better place is searched
 // The same of beams that all end where the map knows nothing.
-const double kNothing = std::log(BeamModel().unknown);
+const double kNothing = std::log(grid::BeamModel().unknown);
 
 double turnOf(const TPose2D& motion) {
   return std::abs(mrpt::math::wrapToPi(motion.phi));
@@ -63,8 +63,8 @@ bool isSure(const ScanTracker::Tracked& one, const std::vector<MotionPrediction>
 }
 
 // As its laser saw it.
-BeamScan beamsOf(const PlanarScan& scan, const Eigen::Vector2f& sensor) {
-  BeamScan beams;
+grid::BeamScan beamsOf(const PlanarScan& scan, const Eigen::Vector2f& sensor) {
+  grid::BeamScan beams;
   beams.hits.reserve(scan.size());
   for (const auto& point : scan.points) beams.hits.push_back(point - sensor);
   return beams;
@@ -97,7 +97,7 @@ struct ScanTracker::Candidates {
   };
 
   const PlanarScan& scan;
-  BeamScan beams;
+  grid::BeamScan beams;
   const Eigen::Vector2f& sensor;
   const std::vector<MotionPrediction>& predictions;
   TPose2D local_from_last;
@@ -184,10 +184,10 @@ void ScanTracker::search(Candidates& candidates) {
   constexpr double kSpacing = 0.25;            // [m] between the points that are searched with
   constexpr std::size_t kMostBlocks = 20'000;
   if (!walls_) {
-    LikelihoodOptions grid;
+    grid::LikelihoodOptions grid;
     grid.cell = 0.1;
     grid.sigma = 0.1;
-    walls_ = std::make_unique<const LikelihoodPyramid>(localMap().points, grid);
+    walls_ = std::make_unique<const grid::LikelihoodPyramid>(localMap().points, grid);
   }
   const auto& prediction = candidates.predictions.front();
   SearchWindow window;
@@ -243,20 +243,20 @@ ScanTracker::Tracked ScanTracker::mostProbable(const Candidates& candidates) {
   return tracked;
 }
 
-const BeamGrid& ScanTracker::beams() {
+const grid::BeamGrid& ScanTracker::beams() {
   if (!beams_) {
-    BeamModel model;
+    grid::BeamModel model;
     model.cell = 0.1;
     model.near_wall = 0.1;
-    std::vector<BeamScan> scans;
+    std::vector<grid::BeamScan> scans;
     scans.reserve(locals_.size());
-    std::vector<BeamGrid::Placed> placed;
+    std::vector<grid::BeamGrid::Placed> placed;
     for (const auto& local : locals_) {
       scans.push_back(beamsOf(local.scan, local.sensor));
       const TPose2D newest_from_scan = local.track_from_scan - locals_.back().track_from_scan;
       placed.push_back({newest_from_scan + TPose2D(local.sensor.x(), local.sensor.y(), 0), &scans.back()});
     }
-    beams_ = std::make_unique<const BeamGrid>(placed, model);
+    beams_ = std::make_unique<const grid::BeamGrid>(placed, model);
   }
   return *beams_;
 }

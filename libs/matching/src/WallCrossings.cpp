@@ -1,4 +1,5 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/grid/GridWalk.h>
 #include <omnimapper/matching/PlanarScan.h>
 #include <omnimapper/matching/WallCrossings.h>
 
@@ -7,8 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-
-#include "GridWalk.h"
 
 namespace omnimapper::matching {
 
@@ -42,7 +41,7 @@ class Walls {
     const Eigen::Vector2d doubled(direction.x() * direction.x() - direction.y() * direction.y(),
                                   2 * direction.x() * direction.y());
     const double least = std::cos(2 * options_.max_incidence);
-    walkInside(inCells(from), inCells(end), width_, height_, [&](int x, int y) {
+    grid::walkInside(inCells(from), inCells(end), width_, height_, [&](int x, int y) {
       if (x < 0 || y < 0 || x >= width_ || y >= height_) return true;
       const std::uint32_t index = index_[static_cast<std::size_t>(y) * width_ + x];
       if (index == 0) return true;
@@ -114,7 +113,7 @@ void Walls::add(std::size_t number, const TPose2D& map_from_sensor, const Planar
 
 WallCrossings crossedWalls(const std::vector<MapScan>& scans, const WallCrossingOptions& options) {
   std::vector<MapScan> finite;
-  for (const auto& scan : scans) finite.push_back({scan.map_from_sensor, finitePart(scan.scan)});
+  for (const auto& scan : scans) finite.push_back({scan.map_from_sensor, grid::finitePart(scan.scan)});
   Walls walls(finite, options);
   // Calls use(scan, from, to) for each beam that is long enough.
   const auto forEachBeam = [&](const auto& use) {

@@ -5,3 +5,15 @@ IMPLEMENTS_VIRTUAL_MRPT_OBJECT(PosePluginFactory, PluginFactory, omnimapper::map
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(MeasurementPluginFactory, PluginFactory, omnimapper::mapper)
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(OutputPluginFactory, PluginFactory, omnimapper::mapper)
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(ExtractorFactory, PluginFactory, omnimapper::mapper)
+
+namespace omnimapper::mapper {
+
+void registerFactoryBases() {
+  mrpt::rtti::registerClass(CLASS_ID(PluginFactory));
+  mrpt::rtti::registerClass(CLASS_ID(PosePluginFactory));
+  mrpt::rtti::registerClass(CLASS_ID(MeasurementPluginFactory));
+  mrpt::rtti::registerClass(CLASS_ID(OutputPluginFactory));
+  mrpt::rtti::registerClass(CLASS_ID(ExtractorFactory));
+}
+
+}  // namespace omnimapper::mapper

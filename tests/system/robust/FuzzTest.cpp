@@ -36,7 +36,7 @@ std::string damaged(std::string bytes, Dice& dice) {
 class Fuzz : public ::testing::Test {
  protected:
   Fuzz() {
-    omnimapper::plugins::registerPlugins();
+    omnimapper::mapper::loadFeatures();
     SimulatedLogOptions options;
     options.place = SimulatedLogOptions::Place::box;
     options.laps = 0.15;

@@ -1,6 +1,7 @@
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/system/os.h>
 #include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 
 #include <algorithm>
@@ -9,14 +10,6 @@
 #include <tuple>
 
 namespace omnimapper::mapper {
-
-void registerFactoryBases() {
-  mrpt::rtti::registerClass(CLASS_ID(PluginFactory));
-  mrpt::rtti::registerClass(CLASS_ID(PosePluginFactory));
-  mrpt::rtti::registerClass(CLASS_ID(MeasurementPluginFactory));
-  mrpt::rtti::registerClass(CLASS_ID(OutputPluginFactory));
-  mrpt::rtti::registerClass(CLASS_ID(ExtractorFactory));
-}
 
 std::string toString(PluginKind kind) {
   switch (kind) {
@@ -58,6 +51,8 @@ std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::str
     if (factory->name() == name) return factory;
     known.push_back(factory->name());
   }
+  if (const auto why = whyUnavailable(name); !why.empty())
+    throw base::Error(base::ExitCode::unknown_plugin, place + ": no '" + name + "' here: " + why);
   const std::string near = base::nearestName(name, known);
   throw base::Error(base::ExitCode::unknown_plugin, place + ": no " + toString(kind) + " is called '" + name + "'" +
                                                         (near.empty() ? "" : "; did you mean '" + near + "'?") +

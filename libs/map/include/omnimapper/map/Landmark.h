@@ -9,6 +9,7 @@
 #include <iosfwd>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,6 +43,10 @@ class LandmarkPayload {
   virtual bool fits(const std::vector<std::string_view>& /*kinds*/) const { return true; }
   /// The key frames that it refers to. A map that lacks one of them, or whose variables do not fit, is damaged.
   virtual std::vector<base::KeyFrameId> keyFrames() const { return {}; }
+  /// The same landmark as only these key frames saw it; null where that makes no difference or nothing is left of it.
+  virtual std::shared_ptr<const LandmarkPayload> seenFrom(const std::set<base::KeyFrameId>& /*frames*/) const {
+    return nullptr;
+  }
   /// `values`: those of the landmark's variables, in their order; none if it has none or they are gone.
   virtual LandmarkShape shape(const std::vector<Eigen::VectorXd>& /*values*/, const KeyFrames& /*key_frames*/) const {
     return {};

@@ -8,9 +8,6 @@
 
 namespace omnimapper::mapper {
 
-/// Registers the four abstract factories with MRPT's run-time classes; call before registering any factory.
-void registerFactoryBases();
-
 /// Every factory that is registered with MRPT by now, by kind, then name.
 std::vector<std::shared_ptr<const PluginFactory>> registeredFactories();
 

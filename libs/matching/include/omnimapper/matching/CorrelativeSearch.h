@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
-#include <omnimapper/matching/LikelihoodPyramid.h>
+#include <omnimapper/grid/LikelihoodPyramid.h>
 
 #include <Eigen/Core>
 #include <limits>
@@ -16,7 +16,7 @@ struct SearchWindow {
   double half_yaw = 0;            ///< [rad]; pi or more: every heading
 
   /// Every pose at which the sensor stands within `margin` [m] of the map's box.
-  static SearchWindow everywhere(const LikelihoodPyramid& map, double margin);
+  static SearchWindow everywhere(const grid::LikelihoodPyramid& map, double margin);
 };
 
 struct SearchOptions {
@@ -38,7 +38,7 @@ struct SearchResult {
 
 /// One map of a search in several.
 struct SearchArea {
-  const LikelihoodPyramid* map;
+  const grid::LikelihoodPyramid* map;
   SearchWindow window;
 };
 
@@ -50,7 +50,7 @@ struct SearchArea {
 /// negative or not finite.
 std::vector<SearchResult> search(const std::vector<SearchArea>& areas, const std::vector<Eigen::Vector2f>& scan_points,
                                  const SearchOptions& options = {});
-std::vector<SearchResult> search(const LikelihoodPyramid& map, const std::vector<Eigen::Vector2f>& scan_points,
+std::vector<SearchResult> search(const grid::LikelihoodPyramid& map, const std::vector<Eigen::Vector2f>& scan_points,
                                  const SearchWindow& window, const SearchOptions& options = {});
 
 /// Yaw between neighbours in the lattice [rad], for these points and this cell [m].

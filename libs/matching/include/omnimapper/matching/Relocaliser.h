@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
-#include <omnimapper/matching/BeamGrid.h>
+#include <omnimapper/grid/BeamGrid.h>
 #include <omnimapper/matching/CorrelativeSearch.h>
 #include <omnimapper/matching/ScanMatcher.h>
 
@@ -29,7 +29,7 @@ struct RelocaliserOptions {
   double same_angle = 0.1;      ///< [rad] within which two refined candidates are one
   double place_distance = 0.5;  ///< [m] and
   double place_angle = 0.2;     ///< [rad] within which candidates do not speak against each other
-  BeamModel beams;
+  grid::BeamModel beams;
   int most_beams = 180;          ///< that count as independent of each other
   double doubt = 0.25;           ///< standard errors by which a lead over another candidate counts less
   double nowhere = -0.9;         ///< mean logarithm of the beams' likelihoods of a place that is not in the map
@@ -39,13 +39,13 @@ struct RelocaliserOptions {
 /// A scan of the map, where its sensor stood.
 struct MapScan {
   mrpt::math::TPose2D map_from_sensor;
-  BeamScan scan;
+  grid::BeamScan scan;
 };
 
 /// What was seen from several places close to each other, in a frame of its own: one of the sensor poses, say.
 struct LocalScan {
   mrpt::math::TPose2D local_from_sensor;
-  BeamScan scan;
+  grid::BeamScan scan;
 };
 
 struct LocationCandidate {
@@ -79,7 +79,7 @@ class Relocaliser {
               const RelocaliserOptions& options = {});
 
   /// In the whole map, or in the window if it is given. Points that are not finite are left out.
-  Location locate(const BeamScan& scan, const std::optional<SearchWindow>& window = std::nullopt) const;
+  Location locate(const grid::BeamScan& scan, const std::optional<SearchWindow>& window = std::nullopt) const;
   /// The same for several scans: what looks alike from one spot seldom does along a way.
   Location locateTogether(std::vector<LocalScan> scans, const std::optional<SearchWindow>& window = std::nullopt) const;
 
@@ -106,8 +106,8 @@ class Relocaliser {
   RelocaliserOptions options_;
   std::shared_ptr<const ScanMatcher> matcher_;
   std::vector<Placed> map_;
-  std::unique_ptr<const LikelihoodPyramid> pyramid_;
-  std::unique_ptr<const BeamGrid> beams_;
+  std::unique_ptr<const grid::LikelihoodPyramid> pyramid_;
+  std::unique_ptr<const grid::BeamGrid> beams_;
 };
 
 }  // namespace omnimapper::matching

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/matching/BeamScan.h>
+#include <omnimapper/grid/BeamScan.h>
 #include <omnimapper/matching/ScanMatcher.h>
 
 #include <deque>
@@ -10,10 +10,12 @@
 #include <optional>
 #include <vector>
 
-namespace omnimapper::matching {
-
+namespace omnimapper::grid {
 class BeamGrid;
 class LikelihoodPyramid;
+}  // namespace omnimapper::grid
+
+namespace omnimapper::matching {
 
 struct ScanTrackerOptions {
   int local_scans = 40;                                              ///< that make the local map
@@ -81,14 +83,14 @@ class ScanTracker {
   static Tracked mostProbable(const Candidates& candidates);
   void remember(const PlanarScan& scan, const Eigen::Vector2f& sensor);
   PlanarScan localMap() const;
-  const BeamGrid& beams();
+  const grid::BeamGrid& beams();
 
   ScanTrackerOptions options_;
   std::shared_ptr<const ScanMatcher> matcher_;
   std::deque<Local> locals_;
-  std::shared_ptr<const MatchReference> reference_;  // of locals_, in the frame of the newest of them
-  std::unique_ptr<const BeamGrid> beams_;            // the same, once somebody has asked for it
-  std::unique_ptr<const LikelihoodPyramid> walls_;   // and again
+  std::shared_ptr<const MatchReference> reference_;       // of locals_, in the frame of the newest of them
+  std::unique_ptr<const grid::BeamGrid> beams_;           // the same, once somebody has asked for it
+  std::unique_ptr<const grid::LikelihoodPyramid> walls_;  // and again
   mrpt::math::TPose2D track_from_last_;
 };
 

@@ -81,6 +81,9 @@ class ExtractorFactory : public PluginFactory {
                                                       const PluginContext& context) const = 0;
 };
 
+/// Registers the four abstract factories with MRPT's run-time classes; call before registering any factory.
+void registerFactoryBases();
+
 /// Keys of a plugin's section that the engine reads itself.
 inline const std::vector<std::string>& sectionKeysOfEngine() {
   static const std::vector<std::string> keys{"class"};

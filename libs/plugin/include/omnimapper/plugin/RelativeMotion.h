@@ -1,15 +1,9 @@
 #pragma once
 
-#include <mrpt/poses/CPose3D.h>
-
-#include <Eigen/Core>
+#include <omnimapper/matching/RelativeMotion.h>
 
 namespace omnimapper::mapper {
 
-/// Motion of the base over a span of time.
-struct RelativeMotion {
-  mrpt::poses::CPose3D begin_from_end;     ///< the base at the end of the span, in the base at its beginning
-  Eigen::Matrix<double, 6, 6> covariance;  ///< tangent at the end: x y z [m], rotation vector [rad]
-};
+using matching::RelativeMotion;
 
 }  // namespace omnimapper::mapper

@@ -4,7 +4,7 @@
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/map/Trajectory.h>
-#include <omnimapper/plugins/registerPlugins.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ class = LoopClosurePlugin
 /// An engine made from the text of an INI as runMapping() makes it; `settings` are "section.key=value".
 inline std::unique_ptr<mapper::Engine> makeEngine(const std::string& ini, const std::vector<std::string>& settings = {},
                                                   int threads = 1, bool map_is_held = false) {
-  plugins::registerPlugins();
+  mapper::loadFeatures();
   auto config = base::Config::fromText(ini, "test.ini");
   for (const auto& setting : settings) config.set(setting);
   const auto options_of_engine = mapper::EngineSettings::read(config);

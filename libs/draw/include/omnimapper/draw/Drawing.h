@@ -1,0 +1,29 @@
+#pragma once
+
+#include <omnimapper/draw/Image.h>
+
+#include <vector>
+
+namespace omnimapper::draw {
+
+/// A place in a picture [pixels], right and down from its upper left corner; (0.5, 0.5) is the middle of a pixel.
+struct PixelPoint {
+  double x = 0, y = 0;
+};
+
+/// How ink lies on a picture.
+struct Pen {
+  Rgb colour;
+  double width = 1;    ///< [pixels]
+  double opacity = 1;  ///< 0 to 1
+};
+
+/// Draws with smooth edges; what lies outside is cut off. A path is inked once where it crosses itself.
+void drawPath(Image& image, const std::vector<PixelPoint>& path, const Pen& pen);
+/// The pixels whose middle lies in an odd number of closed walks; the pen's width is of no matter.
+void fillAreas(Image& image, const std::vector<std::vector<PixelPoint>>& walks, const Pen& pen);
+void drawLine(Image& image, PixelPoint from, PixelPoint to, const Pen& pen);
+/// A disc of the pen's width around `centre`.
+void drawDot(Image& image, PixelPoint centre, const Pen& pen);
+
+}  // namespace omnimapper::draw

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace omnimapper::draw {
+
+struct Rgb {
+  std::uint8_t r = 0, g = 0, b = 0;
+};
+
+/// Pixels of full colour, row by row from the top.
+struct Image {
+  Image(int width_pixels, int height_pixels, Rgb colour)
+      : width(width_pixels), height(height_pixels), pixels(static_cast<std::size_t>(width) * height, colour) {}
+  Rgb& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
+  const Rgb& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }
+
+  int width, height;
+  std::vector<Rgb> pixels;
+};
+
+/// Pixels as numbers into a palette of at most 256 colours, row by row from the top.
+struct PaletteImage {
+  int width = 0, height = 0;
+  std::vector<Rgb> palette;
+  std::vector<std::uint8_t> pixels;
+};
+
+/// The bytes of a PNG file. The same picture gives the same bytes.
+std::string encodePng(const Image& image);
+std::string encodePng(const PaletteImage& image);
+
+}  // namespace omnimapper::draw

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace omnimapper::draw {
+
+/// A drawing in pixels, x to the right and y down, written as it is made; the element is closed at the end.
+class Svg {
+ public:
+  Svg(std::ostream& out, double width, double height);
+  ~Svg();
+  Svg(const Svg&) = delete;
+  Svg& operator=(const Svg&) = delete;
+
+  void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const std::string& colour, double width);
+  /// Points nearer than a third of a pixel to the one before are left out.
+  void polyline(const std::vector<Eigen::Vector2d>& points, const std::string& colour, double width);
+  void box(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const std::string& fill);
+  void dot(const Eigen::Vector2d& centre, double radius, const std::string& fill);
+  enum class Anchor { start, middle, end };
+  void text(const Eigen::Vector2d& at, const std::string& text, Anchor anchor, double size = 12);
+
+ private:
+  std::ostream& out_;
+};
+
+/// "#rrggbb" of a share in [0, 1]: from dark blue over green to yellow, and red at the end.
+std::string heatColour(double share);
+
+/// The rectangle of a drawing in which values are shown, with its axes.
+class Axes {
+ public:
+  /// `corner` and `size` in pixels; values from `low` (left, bottom) to `high` (right, top).
+  Axes(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Eigen::Vector2d& low,
+       const Eigen::Vector2d& high);
+  /// The same with one scale for both axes, the values in the middle.
+  static Axes withEqualScale(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Eigen::Vector2d& low,
+                             const Eigen::Vector2d& high);
+
+  Eigen::Vector2d pixel(const Eigen::Vector2d& value) const;
+  /// Grid, numbers at round values, names of the axes.
+  void draw(Svg& svg, const std::string& x_name, const std::string& y_name) const;
+  const Eigen::Vector2d& low() const { return low_; }
+  const Eigen::Vector2d& high() const { return high_; }
+
+ private:
+  Eigen::Vector2d corner_, size_, low_, high_;
+};
+
+/// Round values (1, 2 or 5 times a power of ten apart) in [low, high], about `count` of them, with their texts.
+std::vector<std::pair<double, std::string>> roundValues(double low, double high, int count);
+
+}  // namespace omnimapper::draw

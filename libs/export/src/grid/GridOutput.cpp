@@ -1,0 +1,58 @@
+#include "grid/GridOutput.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Numbers.h>
+
+#include <algorithm>
+
+#include "grid/GridPicture.h"
+#include "grid/MapServer.h"
+#include "grid/ScanGrid.h"
+#include "run/OutputFile.h"
+
+IMPLEMENTS_MRPT_OBJECT(GridOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
+
+namespace omnimapper::exports {
+
+const base::OptionTable<GridOptions>& GridOptions::table() {
+  using Options = GridOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("resolution_m", &Options::resolution, {0.005, 10}, "Side of a cell.")
+          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Beams are entered up to this length.")
+          .number("margin_m", &Options::margin, {0, 1000}, "Unknown cells around what was seen.")
+          .integer("max_megacells", &Options::max_megacells, {1, 2000},
+                   "Bound of memory in millions of cells: a larger map gets coarser cells, as grid.yaml then says.");
+  return table;
+}
+
+GridOutput::GridOutput(const GridOptions& options, const mapper::PluginContext& context)
+    : options_(options), path_(outputPath(context, "grid")) {}
+
+void GridOutput::finish(const mapper::View& view) {
+  const auto grid =
+      buildScanGrid(view.map, {options_.resolution, options_.max_range, options_.margin, 1e6 * options_.max_megacells});
+  if (!grid) {
+    for (const char* extension : {".pgm", ".yaml", ".png"}) removeFile(path_ + extension);
+    return;
+  }
+  constexpr double kCoarsest = 1;  // [m] above it no wall is told from another
+  if (grid->resolution > std::max(kCoarsest, options_.resolution)) {
+    throw base::Error(base::ExitCode::out_of_memory,
+                      path_ + ".pgm: not written: the map is " + base::brief(grid->maxX() - grid->min_x) + " m by " +
+                          base::brief(grid->maxY() - grid->min_y) + " m, for which " +
+                          std::to_string(options_.max_megacells) + " million cells would be of " +
+                          base::brief(grid->resolution) +
+                          " m. Does the trajectory leap? If not, raise [grid] max_megacells.");
+  }
+  writeBytes(path_ + ".pgm", encodePgm(*grid));
+  writeBytes(path_ + ".yaml", encodeMapServerYaml(*grid, "grid.pgm", options_.resolution));
+  writeBytes(path_ + ".png", draw::encodePng(drawGrid(*grid).image));
+}
+
+std::unique_ptr<mapper::OutputPlugin> GridOutputFactory::make(const base::ConfigSection& section,
+                                                              const mapper::PluginContext& context) const {
+  return std::make_unique<GridOutput>(section.read<GridOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::exports

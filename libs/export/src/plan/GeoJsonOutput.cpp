@@ -1,0 +1,31 @@
+#include "plan/GeoJsonOutput.h"
+
+#include "plan/GeoJson.h"
+#include "run/OutputFile.h"
+
+IMPLEMENTS_MRPT_OBJECT(GeoJsonOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
+
+namespace omnimapper::exports {
+
+const base::OptionTable<GeoJsonOptions>& GeoJsonOptions::table() {
+  using Options = GeoJsonOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .flag("metres", &Options::metres, "Give x and y of the map even where GPS tells longitude and latitude.")
+          .flag("trajectory", &Options::trajectory, "Give the way of each session, too.");
+  return table;
+}
+
+GeoJsonOutput::GeoJsonOutput(const GeoJsonOptions& options, const mapper::PluginContext& context)
+    : options_(options), title_(context.title), path_(outputPath(context, "floorplan.geojson")) {}
+
+void GeoJsonOutput::finish(const mapper::View& view) {
+  writeBytes(path_, encodeGeoJson({view, title_, options_.metres, options_.trajectory}));
+}
+
+std::unique_ptr<mapper::OutputPlugin> GeoJsonOutputFactory::make(const base::ConfigSection& section,
+                                                                 const mapper::PluginContext& context) const {
+  return std::make_unique<GeoJsonOutput>(section.read<GeoJsonOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::exports

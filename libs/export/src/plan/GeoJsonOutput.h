@@ -1,0 +1,43 @@
+#pragma once
+
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include <memory>
+#include <string>
+
+namespace omnimapper::exports {
+
+struct GeoJsonOptions {
+  bool metres = false;
+  bool trajectory = true;
+
+  static const base::OptionTable<GeoJsonOptions>& table();
+};
+
+/// Writes floorplan.geojson (RFC 7946), which any GIS or web map opens: upright surfaces and laser lines as
+/// LineStrings, all other surfaces as Polygons, points as Points, what has moved as the places it was in with their
+/// times, and the way of each session. In longitude and latitude (WGS84) where GPS has told the map its place on the
+/// earth, else in metres of the map: a GIS must then be told to take no coordinate reference system, or a local one in
+/// metres.
+class GeoJsonOutput : public mapper::OutputPlugin {
+ public:
+  GeoJsonOutput(const GeoJsonOptions& options, const mapper::PluginContext& context);
+  bool isOfMap() const override { return true; }
+  void finish(const mapper::View& view) override;
+
+ private:
+  GeoJsonOptions options_;
+  std::string title_, path_;
+};
+
+class GeoJsonOutputFactory : public mapper::OutputPluginFactory {
+  DEFINE_MRPT_OBJECT(GeoJsonOutputFactory, omnimapper::exports)
+ public:
+  std::string name() const override { return "GeoJsonOutput"; }
+  std::string summary() const override { return "Writes floorplan.geojson: walls, tables and points for any GIS."; }
+  const std::vector<base::OptionSpec>& options() const override { return GeoJsonOptions::table().specs(); }
+  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
+                                             const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::exports

@@ -1,0 +1,27 @@
+#include "plan/LandmarkColours.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+
+namespace omnimapper::exports {
+
+draw::Rgb colourOfLabel(const std::string& label) {
+  static const std::map<std::string, draw::Rgb> known{{"wall", {180, 83, 9}},
+                                                      {"table", {147, 51, 234}},
+                                                      {"floor", {100, 116, 139}},
+                                                      {"ceiling", {125, 200, 240}},
+                                                      {"slope", {219, 39, 119}}};
+  if (const auto found = known.find(label); found != known.end()) return found->second;
+  constexpr std::array<draw::Rgb, 4> kOthers{draw::Rgb{13, 148, 136}, draw::Rgb{202, 138, 4}, draw::Rgb{225, 29, 72},
+                                             draw::Rgb{79, 70, 229}};
+  std::uint32_t sum = 0;
+  for (const char letter : label) sum = 31 * sum + static_cast<unsigned char>(letter);
+  return kOthers[sum % kOthers.size()];
+}
+
+bool coversThePlan(const std::string& label) {
+  return label == "floor" || label == "ceiling";
+}
+
+}  // namespace omnimapper::exports

@@ -1,0 +1,37 @@
+#include <omnimapper/base/AtLoad.h>
+#include <omnimapper/export/registerOutputs.h>
+
+#include "grid/GridOutput.h"
+#include "plan/GeoJsonOutput.h"
+#include "report/ReportOutput.h"
+#include "run/GraphOutput.h"
+#include "run/LocalizationOutput.h"
+#include "run/MapOutput.h"
+#include "run/SummaryOutput.h"
+#include "run/TrajectoryOutput.h"
+#include "scene/LiveWindow.h"
+#include "scene/PointsOutput.h"
+#include "scene/SceneOutput.h"
+
+namespace omnimapper::exports {
+
+void registerOutputs() {
+  using mrpt::rtti::registerClass;
+  mapper::registerFactoryBases();
+  registerClass(CLASS_ID(GeoJsonOutputFactory));
+  registerClass(CLASS_ID(GraphOutputFactory));
+  registerClass(CLASS_ID(GridOutputFactory));
+  registerClass(CLASS_ID(LiveWindowFactory));
+  registerClass(CLASS_ID(LocalizationOutputFactory));
+  registerClass(CLASS_ID(MapOutputFactory));
+  registerClass(CLASS_ID(PointsOutputFactory));
+  registerClass(CLASS_ID(ReportOutputFactory));
+  registerClass(CLASS_ID(SceneOutputFactory));
+  registerClass(CLASS_ID(SummaryOutputFactory));
+  registerClass(CLASS_ID(TrajectoryOutputFactory));
+}
+
+// The build links this file last: the ids of the classes are made before.
+const base::AtLoad kRegister(registerOutputs);
+
+}  // namespace omnimapper::exports

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::exports {
+
+/// One curve, or cloud of dots, of a chart.
+struct ChartSeries {
+  enum class Form { line, dots };
+  std::string name;
+  int colour = 1;  ///< 1 to 4: the colours of the style sheet
+  Form form = Form::line;
+  std::vector<double> x, y;
+};
+
+struct Chart {
+  std::string title, x_label, y_label;
+  bool logarithmic = false;  ///< of y; values <= 0 are left out
+  std::vector<ChartSeries> series;
+};
+
+/// A figure with an inline SVG, axes, legend. Long curves are thinned to what the eye can see, peaks kept. Empty if
+/// there is nothing finite to draw.
+std::string drawChart(const Chart& chart);
+
+/// Round numbers that cover [low, high], about `count` of them.
+std::vector<double> niceTicks(double low, double high, int count);
+
+struct Bar {
+  std::string name;
+  double value = 0;
+  std::string text;  ///< beside the bar
+};
+/// Horizontal bars, the longest first.
+std::string drawBars(const std::string& title, std::vector<Bar> bars);
+
+}  // namespace omnimapper::exports

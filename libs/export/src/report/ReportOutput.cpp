@@ -1,0 +1,73 @@
+#include "report/ReportOutput.h"
+
+#include "grid/ScanGrid.h"
+#include "plan/MapPicture.h"
+#include "report/ReportPage.h"
+#include "run/OutputFile.h"
+#include "run/RunFigures.h"
+
+IMPLEMENTS_MRPT_OBJECT(ReportOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
+
+namespace omnimapper::exports {
+
+const base::OptionTable<ReportOptions>& ReportOptions::table() {
+  using Options = ReportOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("resolution_m", &Options::resolution, {0.005, 10}, "Side of a cell of the grid behind the map.")
+          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Beams are entered up to this length.")
+          .integer("picture_side_pixels", &Options::picture_side, {200, 8000}, "Longer side of the pictures, about.")
+          .integer("max_rows", &Options::max_rows, {0, 1000000}, "Rows of the decision log that the report lists.");
+  return table;
+}
+
+ReportOutput::ReportOutput(const ReportOptions& options, const mapper::PluginContext& context)
+    : options_(options), context_(context) {
+  outputPath(context_, "report.html");
+}
+
+namespace {
+// Without what a run saw that only localizes in it.
+map::Map mapOnly(const mapper::View& view) {
+  map::Map map = view.map;
+  if (!view.map_is_held) return map;
+  for (const auto& frame : view.map.key_frames) {
+    if (frame.id.session == map.sessions.back().number) map.key_frames.edit(frame.id).observations.clear();
+  }
+  return map;
+}
+}  // namespace
+
+void ReportOutput::finish(const mapper::View& view) {
+  auto trajectory = trajectoryOf(view);
+  // What was located nowhere is not drawn into the map.
+  if (view.map_is_held && figuresOf(view, trajectory).located == 0) trajectory.clear();
+  const auto closures = closuresOf(view.map, view.decisions);
+  const auto landmarks = shapesOf(view);
+  ScanGridOptions grid_options;
+  grid_options.resolution = options_.resolution;
+  grid_options.max_range = options_.max_range;
+  grid_options.margin = 0.5;  // walls lie on the border of what scans have seen
+  const auto grid = buildScanGrid(mapOnly(view), grid_options);
+  const auto picture =
+      grid ? std::optional(drawGridToSize(focused(*grid, placesOf(trajectory, landmarks)), options_.picture_side))
+           : emptyPicture(trajectory, landmarks, 1.0, options_.picture_side);
+  const std::string map_file = outputPath(context_, "map.png");
+  picture ? writeBytes(map_file, draw::encodePng(drawMap(*picture, landmarks, trajectory, closures)))
+          : removeFile(map_file);
+  const ReportInput input{view,
+                          context_,
+                          picture ? &*picture : nullptr,
+                          trajectory,
+                          closures,
+                          landmarks,
+                          static_cast<std::size_t>(options_.max_rows)};
+  writeBytes(outputPath(context_, "report.html"), drawReport(input));
+}
+
+std::unique_ptr<mapper::OutputPlugin> ReportOutputFactory::make(const base::ConfigSection& section,
+                                                                const mapper::PluginContext& context) const {
+  return std::make_unique<ReportOutput>(section.read<ReportOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::exports

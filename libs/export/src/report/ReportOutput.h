@@ -1,0 +1,41 @@
+#pragma once
+
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include <memory>
+#include <string>
+
+namespace omnimapper::exports {
+
+struct ReportOptions {
+  double resolution = 0.05;  ///< [m] of the grid behind the map
+  double max_range = 30.0;   ///< [m]
+  int picture_side = 1600;   ///< [pixels] about
+  int max_rows = 2000;       ///< of the decision log that are listed
+
+  static const base::OptionTable<ReportOptions>& table();
+};
+
+/// Writes report.html, a page for people that needs nothing beside it: the map from above with trajectory and closures,
+/// curves of error and time, and the decision log with reasons; and map.png, the picture of the map alone.
+class ReportOutput : public mapper::OutputPlugin {
+ public:
+  ReportOutput(const ReportOptions& options, const mapper::PluginContext& context);
+  void finish(const mapper::View& view) override;
+
+ private:
+  ReportOptions options_;
+  mapper::PluginContext context_;
+};
+
+class ReportOutputFactory : public mapper::OutputPluginFactory {
+  DEFINE_MRPT_OBJECT(ReportOutputFactory, omnimapper::exports)
+ public:
+  std::string name() const override { return "ReportOutput"; }
+  std::string summary() const override { return "Writes report.html, the run explained, and map.png, its picture."; }
+  const std::vector<base::OptionSpec>& options() const override { return ReportOptions::table().specs(); }
+  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
+                                             const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::exports

@@ -1,0 +1,53 @@
+#include "run/LocalizationOutput.h"
+
+#include <omnimapper/base/Numbers.h>
+
+#include <cmath>
+
+#include "run/OutputFile.h"
+
+IMPLEMENTS_MRPT_OBJECT(LocalizationOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
+
+namespace omnimapper::exports {
+
+namespace {
+
+std::string lineOf(const mapper::Fix& fix) {
+  constexpr double kDegrees = 1 / base::option_text::kRadiansPerDegree;
+  const auto& pose = fix.map_from_base;
+  std::string line = base::formatUnix(fix.stamp);
+  for (const double metres : {pose.x(), pose.y(), pose.z()}) line += "," + base::fixed(metres, 4);
+  for (const double angle : {pose.yaw(), pose.pitch(), pose.roll()}) line += "," + base::fixed(angle * kDegrees, 3);
+  if (const auto position = fix.positionCovariance()) {
+    line += "," + base::fixed(std::sqrt((*position)(0, 0)), 4) + "," + base::fixed(std::sqrt((*position)(1, 1)), 4) +
+            "," + base::fixed(std::sqrt((*fix.covariance)(5, 5)) * kDegrees, 3);
+  } else {
+    line += ",,,";
+  }
+  return line + (fix.located() ? ",1\n" : ",0\n");
+}
+
+}  // namespace
+
+const base::OptionTable<LocalizationOptions>& LocalizationOptions::table() {
+  static const base::OptionTable<LocalizationOptions> table;
+  return table;
+}
+
+LocalizationOutput::LocalizationOutput(const LocalizationOptions&, const mapper::PluginContext& context)
+    : path_(outputPath(context, "localization.csv")) {}
+
+void LocalizationOutput::finish(const mapper::View& view) {
+  if (!view.map_is_held) return removeFile(path_);
+  std::string text = "stamp,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg,sigma_x_m,sigma_y_m,sigma_yaw_deg,located\n";
+  for (const auto& fix : view.fixes) text += lineOf(fix);
+  writeBytes(path_, text);
+}
+
+std::unique_ptr<mapper::OutputPlugin> LocalizationOutputFactory::make(const base::ConfigSection& section,
+                                                                      const mapper::PluginContext& context) const {
+  return std::make_unique<LocalizationOutput>(section.read<LocalizationOptions>(mapper::sectionKeysOfEngine()),
+                                              context);
+}
+
+}  // namespace omnimapper::exports

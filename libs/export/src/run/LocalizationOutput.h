@@ -1,0 +1,38 @@
+#pragma once
+
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include <memory>
+#include <string>
+
+namespace omnimapper::exports {
+
+struct LocalizationOptions {
+  static const base::OptionTable<LocalizationOptions>& table();
+};
+
+/// Writes localization.csv: where the base was known to be when each key frame came, from nothing that came later; one
+/// line each, "stamp,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg,sigma_x_m,sigma_y_m,sigma_yaw_deg,located" with Unix time
+/// [s]. Sigmas are along the map's axes, empty where a direction is open; located is 0 or 1 (mapper::Fix).
+class LocalizationOutput : public mapper::OutputPlugin {
+ public:
+  LocalizationOutput(const LocalizationOptions& options, const mapper::PluginContext& context);
+  void finish(const mapper::View& view) override;
+
+ private:
+  std::string path_;
+};
+
+class LocalizationOutputFactory : public mapper::OutputPluginFactory {
+  DEFINE_MRPT_OBJECT(LocalizationOutputFactory, omnimapper::exports)
+ public:
+  std::string name() const override { return "LocalizationOutput"; }
+  std::string summary() const override {
+    return "Writes localization.csv: with --localize, pose and accuracy as each key frame came.";
+  }
+  const std::vector<base::OptionSpec>& options() const override { return LocalizationOptions::table().specs(); }
+  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
+                                             const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::exports

@@ -1,0 +1,158 @@
+#include "run/SummaryOutput.h"
+
+#include <omnimapper/map/SessionFigures.h>
+#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/plugin/LandmarkShape.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run/OutputFile.h"
+#include "run/RunFigures.h"
+
+IMPLEMENTS_MRPT_OBJECT(SummaryOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
+
+namespace omnimapper::exports {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json graphOf(const mapper::View& view) {
+  const GraphFigures figures = figuresOf(view.graph);
+  return {{"variables", view.graph.variables().size()},
+          {"variables_by_kind", figures.variables_by_kind},
+          {"factors", view.graph.factors().size()},
+          {"factors_by_kind", figures.factors_by_kind},
+          {"factors_by_owner", figures.factors_by_owner},
+          {"chi2", view.graph.chi2()},
+          {"final_cost", view.graph.cost()}};
+}
+
+Json decisionsOf(const mapper::DecisionLog& decisions) {
+  Json list = Json::array();
+  for (const ReasonCount& count : countReasons(decisions)) {
+    list.push_back({{"plugin", count.plugin},
+                    {"kind", count.kind},
+                    {"accepted", count.accepted},
+                    {"reason", count.reason},
+                    {"count", count.count}});
+  }
+  return list;
+}
+
+Json solvesOf(const std::vector<mapper::SolveRecord>& solves) {
+  Json list = Json::array();
+  for (const mapper::SolveRecord& solve : solves) {
+    list.push_back({{"key_frames", solve.key_frames},
+                    {"factors", solve.factors},
+                    {"initial_cost", solve.initial_cost},
+                    {"final_cost", solve.final_cost},
+                    {"seconds", solve.seconds}});
+  }
+  return list;
+}
+
+Json timesOf(const mapper::StageTimes& times) {
+  Json stages = Json::object();
+  for (const auto& [stage, total] : times.totals())
+    stages[stage] = {{"seconds", total.seconds}, {"calls", total.calls}};
+  return stages;
+}
+
+// Mean milliseconds of a key frame in each tenth of the run: whether the cost grows with the length of the log.
+Json costsOf(const std::vector<mapper::StageTimes::PerKeyFrame>& costs) {
+  constexpr std::size_t kParts = 10;
+  Json list = Json::array();
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const std::size_t begin = part * costs.size() / kParts, end = (part + 1) * costs.size() / kParts;
+    if (begin == end) continue;
+    mapper::StageTimes::PerKeyFrame sum{0, 0, 0};
+    for (std::size_t i = begin; i < end; ++i) {
+      sum.matching_ms += costs[i].matching_ms;
+      sum.solve_ms += costs[i].solve_ms;
+      sum.engine_ms += costs[i].engine_ms;
+    }
+    const auto count = static_cast<double>(end - begin);
+    list.push_back({{"until_key_frame", end},
+                    {"plugins_ms", sum.matching_ms / count},
+                    {"solve_ms", sum.solve_ms / count},
+                    {"engine_ms", sum.engine_ms / count}});
+  }
+  return list;
+}
+
+Json sessionsOf(const map::Map& map) {
+  Json list = Json::array();
+  const auto all = map::sessionFigures(map);
+  for (const map::Session& session : map.sessions) {
+    Json entry = {{"number", session.number}, {"title", session.title}, {"joined", session.joined}};
+    if (session.joined_at) entry["joined_at"] = toString(*session.joined_at);
+    for (const auto& figures : all) {
+      if (figures.number != session.number) continue;
+      entry["key_frames"] = figures.key_frames;
+      entry["way_m"] = figures.way;
+      entry["log_s"] = figures.seconds;
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json verdictOf(const mapper::Verdict& verdict) {
+  Json evidence = Json::object();
+  for (const auto& one : verdict.evidence) evidence[one.name] = one.value;
+  return {
+      {"verdict", mapper::toString(verdict.answer)}, {"sentence", mapper::sentenceOf(verdict)}, {"evidence", evidence}};
+}
+
+Json summaryOf(const mapper::View& view, const std::string& title) {
+  const auto trajectory = trajectoryOf(view);
+  const RunFigures figures = figuresOf(view, trajectory);
+  Json counts = Json::object();
+  for (const auto& [name, count] : namedCounts(view.counts)) counts[name] = count;
+  Json summary = {
+      {"title", title}, {"key_frames", view.map.key_frames.size()}, {"trajectory_poses", figures.trajectory_poses}};
+  if (!trajectory.empty()) {
+    summary["first_stamp"] = base::formatUnix(trajectory.front().stamp);
+    summary["last_stamp"] = base::formatUnix(trajectory.back().stamp);
+  }
+  summary["log_s"] = figures.log_seconds;
+  summary["way_m"] = figures.way;
+  summary["extent_m"] = {{"min", {figures.min_x, figures.min_y, figures.min_z}},
+                         {"max", {figures.max_x, figures.max_y, figures.max_z}}};
+  summary["sessions"] = sessionsOf(view.map);
+  if (view.map_is_held) summary["localization"] = {{"key_frames", figures.fixes}, {"located", figures.located}};
+  summary["landmarks"] = mapper::countLandmarks(view);
+  summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
+  summary["verdict"] = verdictOf(view.verdict);
+  summary["counts"] = counts;
+  summary["graph"] = graphOf(view);
+  summary["decisions"] = decisionsOf(view.decisions);
+  summary["solves"] = solvesOf(view.solves);
+  summary["cost_per_key_frame"] = costsOf(view.times.keyFrames());
+  summary["stage_times"] = timesOf(view.times);
+  summary["warnings"] = view.warnings;
+  return summary;
+}
+
+}  // namespace
+
+const base::OptionTable<SummaryOptions>& SummaryOptions::table() {
+  static const base::OptionTable<SummaryOptions> table;
+  return table;
+}
+
+SummaryOutput::SummaryOutput(const SummaryOptions&, const mapper::PluginContext& context)
+    : path_(outputPath(context, "summary.json")), title_(context.title) {}
+
+void SummaryOutput::finish(const mapper::View& view) {
+  // Names from a log may be no UTF-8: those bytes are replaced.
+  writeBytes(path_, summaryOf(view, title_).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+std::unique_ptr<mapper::OutputPlugin> SummaryOutputFactory::make(const base::ConfigSection& section,
+                                                                 const mapper::PluginContext& context) const {
+  return std::make_unique<SummaryOutput>(section.read<SummaryOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::exports

@@ -1,0 +1,78 @@
+#include "scene/LiveWindow.h"
+
+#include <dlfcn.h>
+#include <omnimapper/base/Error.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "scene/LiveScene.h"
+
+IMPLEMENTS_MRPT_OBJECT(LiveWindowFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
+
+namespace omnimapper::exports {
+
+const base::OptionTable<LiveWindowOptions>& LiveWindowOptions::table() {
+  using Options = LiveWindowOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .integer("width_pixels", &Options::width, {200, 8000}, "Width of the window.")
+          .integer("height_pixels", &Options::height, {200, 8000}, "Height of the window.")
+          .integer("points_per_key_frame", &Options::points_per_key_frame, {1, 1000000}, "Points drawn of a key frame.")
+          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Points further from their sensor are not drawn.")
+          .flag("grid", &Options::grid, "Draw the occupancy grid of the 2D scans on the floor.")
+          .number("grid_resolution_m", &Options::grid_resolution, {0.005, 10}, "Side of its cells.")
+          .flag("follow", &Options::follow, "Keep the whole map in view; false leaves the camera to the mouse.")
+          .flag("keep_open", &Options::keep_open, "At the end wait until the window is closed.");
+  return table;
+}
+
+namespace {
+
+// Path of a library beside the one that holds this function: no other folder is searched.
+std::string pathBeside(const std::string& file) {
+  Dl_info here;
+  if (::dladdr(reinterpret_cast<const void*>(&pathBeside), &here) == 0) return file;
+  return (std::filesystem::absolute(here.dli_fname).parent_path() / file).string();
+}
+
+// Never unloaded: MRPT's thread may paint until the program ends.
+std::unique_ptr<LiveScene> openScene(const LiveWindowOptions& options, const std::string& title) {
+  constexpr const char* kLibrary = "libomnimapper-window.so";
+  void* library = ::dlopen(pathBeside(kLibrary).c_str(), RTLD_NOW);
+  void* open = library ? ::dlsym(library, "omnimapperOpenLiveScene") : nullptr;
+  if (!open) {
+    throw base::Error(base::ExitCode::plugin_library,
+                      std::string("the live window cannot be opened: ") + ::dlerror() + ". " + kLibrary +
+                          " belongs beside the other libraries of OmniMapper. Install it, or leave out --gui.");
+  }
+  return std::unique_ptr<LiveScene>(reinterpret_cast<decltype(&omnimapperOpenLiveScene)>(open)(options, title));
+}
+
+}  // namespace
+
+LiveWindow::LiveWindow(const LiveWindowOptions& options, const std::string& title)
+    : options_(options), scene_(openScene(options, title)) {}
+
+LiveWindow::~LiveWindow() = default;
+
+bool LiveWindow::isOpen() const {
+  return scene_->isOpen();
+}
+
+void LiveWindow::update(const mapper::View& view) {
+  if (isOpen()) scene_->show(view);
+}
+
+void LiveWindow::finish(const mapper::View& view) {
+  update(view);
+  while (options_.keep_open && isOpen()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
+std::unique_ptr<mapper::OutputPlugin> LiveWindowFactory::make(const base::ConfigSection& section,
+                                                              const mapper::PluginContext& context) const {
+  return std::make_unique<LiveWindow>(section.read<LiveWindowOptions>(mapper::sectionKeysOfEngine()), context.title);
+}
+
+}  // namespace omnimapper::exports

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include <memory>
+#include <string>
+
+namespace omnimapper::exports {
+
+struct LiveWindowOptions {
+  int width = 1200, height = 900;  ///< [pixels]
+  int points_per_key_frame = 400;
+  double max_range = 30.0;  ///< [m]
+  bool grid = true;
+  double grid_resolution = 0.1;  ///< [m]
+  bool follow = true;
+  bool keep_open = false;
+
+  static const base::OptionTable<LiveWindowOptions>& table();
+};
+
+class LiveScene;
+
+/// A 3D window of MRPT that shows the map while it grows: occupancy grid, points, trajectory, closures,
+/// landmarks, the newest pose. Drawn anew after each solve. It may be closed at any time; the run goes on.
+class LiveWindow : public mapper::OutputPlugin {
+ public:
+  /// Throws Error(command_line) if there is no display to open a window on, Error(plugin_library) if
+  /// libomnimapper-window is not there.
+  LiveWindow(const LiveWindowOptions& options, const std::string& title);
+  ~LiveWindow() override;
+  void update(const mapper::View& view) override;
+  /// Shows the final map; waits until the window is closed if `keep_open` says so.
+  void finish(const mapper::View& view) override;
+
+  bool isOpen() const;
+
+ private:
+  LiveWindowOptions options_;
+  std::unique_ptr<LiveScene> scene_;
+};
+
+class LiveWindowFactory : public mapper::OutputPluginFactory {
+  DEFINE_MRPT_OBJECT(LiveWindowFactory, omnimapper::exports)
+ public:
+  std::string name() const override { return "LiveWindow"; }
+  std::string summary() const override { return "Shows the map in a 3D window while it grows (--gui)."; }
+  const std::vector<base::OptionSpec>& options() const override { return LiveWindowOptions::table().specs(); }
+  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
+                                             const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::exports

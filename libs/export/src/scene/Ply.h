@@ -1,0 +1,17 @@
+#pragma once
+
+#include <mrpt/opengl/TTriangle.h>
+
+#include <string>
+#include <vector>
+
+#include "scene/MapPoints.h"
+
+namespace omnimapper::exports {
+
+/// The bytes of a PLY file: binary, little-endian, float x y z [m], uchar red green blue.
+std::string encodePly(const std::vector<ColouredPoint>& points);
+/// The same with a face for each triangle, in the colour of its first corner.
+std::string encodePly(const std::vector<mrpt::opengl::TTriangle>& triangles);
+
+}  // namespace omnimapper::exports

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include <memory>
+#include <string>
+
+namespace omnimapper::exports {
+
+/// By what points are coloured; automatic: by height if they differ in height, else by time.
+enum class PointColour { automatic, height, time };
+
+struct PointsOptions {
+  double voxel = 0.05;      ///< [m] one point is kept of each cube of this side; 0: all
+  double max_range = 30.0;  ///< [m] from the sensor
+  PointColour colour = PointColour::automatic;
+
+  static const base::OptionTable<PointsOptions>& table();
+};
+
+/// Writes points.ply (binary, little-endian; x y z [m] in the map, red green blue): the point clouds of the key frames
+/// if there are any, else the ends of the beams of their 2D scans; and landmarks.ply, the landmarks as a coloured mesh,
+/// apart from the points because viewers show either points or faces of a file. Landmarks that have moved are not in
+/// it. A map without points or landmarks gives no such file.
+class PointsOutput : public mapper::OutputPlugin {
+ public:
+  PointsOutput(const PointsOptions& options, const mapper::PluginContext& context);
+  bool isOfMap() const override { return true; }
+  void finish(const mapper::View& view) override;
+
+ private:
+  PointsOptions options_;
+  std::string path_, landmarks_path_;
+};
+
+class PointsOutputFactory : public mapper::OutputPluginFactory {
+  DEFINE_MRPT_OBJECT(PointsOutputFactory, omnimapper::exports)
+ public:
+  std::string name() const override { return "PointsOutput"; }
+  std::string summary() const override {
+    return "Writes points.ply, the coloured points of all key frames, and landmarks.ply.";
+  }
+  const std::vector<base::OptionSpec>& options() const override { return PointsOptions::table().specs(); }
+  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
+                                             const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::exports

@@ -1,0 +1,59 @@
+#include "scene/SceneOutput.h"
+
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/serialization/CArchive.h>
+#include <omnimapper/map/Trajectory.h>
+
+#include "run/OutputFile.h"
+#include "scene/SceneLandmarks.h"
+#include "scene/SceneParts.h"
+
+IMPLEMENTS_MRPT_OBJECT(SceneOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
+
+namespace omnimapper::exports {
+
+const base::OptionTable<SceneOptions>& SceneOptions::table() {
+  using Options = SceneOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("voxel_m", &Options::voxel, {0, 100}, "One point is kept of each cube of this side; 0 keeps all.")
+          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Points further from their sensor are left out.")
+          .number("corner_spacing_m", &Options::corner_spacing, base::Range::notNegative(),
+                  "Way between two key frames whose axes are drawn.")
+          .flag("refused_closures", &Options::refused_closures, "Draw the closures that were refused, too.")
+          .flag("names", &Options::names, "Write the names of landmarks beside them.");
+  return table;
+}
+
+SceneOutput::SceneOutput(const SceneOptions& options, const mapper::PluginContext& context)
+    : options_(options), path_(outputPath(context, "scene.3Dscene")) {}
+
+void SceneOutput::finish(const mapper::View& view) {
+  mrpt::opengl::COpenGLScene scene;
+  // Colours mean something: they hardly depend on where a surface looks.
+  auto& light = scene.getViewport()->lightParameters();
+  light.ambient = {0.8f, 0.8f, 0.8f, 1.0f};
+  light.diffuse = {0.25f, 0.25f, 0.25f, 1.0f};
+  light.specular = {0, 0, 0, 1.0f};
+  scene.insert(groundOf(view.map));
+  scene.insert(cloudOf(pointsOf(view.map, {options_.voxel, options_.max_range, PointColour::automatic})));
+  scene.insert(trajectoryLines(map::denseTrajectory(view.map)));
+  scene.insert(keyFrameCorners(view.map, options_.corner_spacing));
+  const auto closures = closuresOf(view.map, view.decisions);
+  scene.insert(closureLines(closures, true));
+  if (options_.refused_closures) scene.insert(closureLines(closures, false));
+  // Last, so that what is behind a translucent surface is there when it is drawn.
+  scene.insert(landmarkObjects(shapesOf(view), options_.names));
+  // Through memory: MRPT's own compressed file does not notice a full disk.
+  mrpt::io::CMemoryStream memory;
+  mrpt::serialization::archiveFrom(memory) << scene;
+  writeBytes(path_, {static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()});
+}
+
+std::unique_ptr<mapper::OutputPlugin> SceneOutputFactory::make(const base::ConfigSection& section,
+                                                               const mapper::PluginContext& context) const {
+  return std::make_unique<SceneOutput>(section.read<SceneOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::exports

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <mrpt/opengl/CGridPlaneXY.h>
+#include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <omnimapper/map/Trajectory.h>
+
+#include <vector>
+
+#include "run/Closures.h"
+#include "scene/MapPoints.h"
+
+namespace omnimapper::exports {
+
+/// What a 3D scene of a map is made of, for the file and for the live window.
+
+/// Lines on the ground under the trajectory and 5 m around it, a round distance apart.
+mrpt::opengl::CGridPlaneXY::Ptr groundOf(const map::Map& map);
+mrpt::opengl::CSetOfLines::Ptr trajectoryLines(const std::vector<map::StampedPose>& trajectory);
+/// Axes of key frames that are at least `spacing` [m] of way apart, and of the newest.
+mrpt::opengl::CSetOfObjects::Ptr keyFrameCorners(const map::Map& map, double spacing);
+/// Of the closures that were accepted, or of those that were not.
+mrpt::opengl::CSetOfLines::Ptr closureLines(const std::vector<Closure>& closures, bool accepted);
+mrpt::opengl::CPointCloudColoured::Ptr cloudOf(const std::vector<ColouredPoint>& points);
+
+}  // namespace omnimapper::exports

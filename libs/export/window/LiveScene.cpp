@@ -1,0 +1,179 @@
+#include "scene/LiveScene.h"
+
+#include <mrpt/gui/CDisplayWindow3D.h>
+#include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/stock_objects.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/map/Trajectory.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <unordered_map>
+
+#include "grid/GridFloor.h"
+#include "grid/GridMapper.h"
+#include "scene/SceneLandmarks.h"
+#include "scene/SceneParts.h"
+
+namespace omnimapper::exports {
+
+namespace {
+
+bool isSet(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value;
+}
+
+/// What is nearer than this is not drawn, and this far apart things must be that are drawn over one another; both as
+/// parts of the camera's distance. Depths have 16 bits, which are spread from the nearest on.
+constexpr double kNearest = 1.0 / 30, kDepthStep = 4 / kNearest / (1 << 16);
+
+ScanGridOptions gridOptions(const LiveWindowOptions& options) {
+  constexpr double kMostCells = 4e6;  // what a window can show; a larger map gets coarser cells
+  return {options.grid_resolution, options.max_range, 0, kMostCells};
+}
+
+[[noreturn]] void failWithoutDisplay() {
+  const char* display = std::getenv("DISPLAY");
+  throw base::Error(
+      base::ExitCode::command_line,
+      "the live window cannot be opened: there is no display (DISPLAY is " +
+          (display && *display ? "\"" + std::string(display) + "\", which does not answer" : std::string("not set")) +
+          "). Leave out --gui, or run the program under xvfb-run.");
+}
+
+std::unique_ptr<mrpt::gui::CDisplayWindow3D> openWindow(const std::string& title, const LiveWindowOptions& options) {
+  if (!isSet("DISPLAY") && !isSet("WAYLAND_DISPLAY")) failWithoutDisplay();
+  auto window = std::make_unique<mrpt::gui::CDisplayWindow3D>(title, static_cast<unsigned>(options.width),
+                                                              static_cast<unsigned>(options.height));
+  if (!window->isOpen()) failWithoutDisplay();
+  return window;
+}
+
+/// The window, and what is in it. Points hang on their key frames, so that a solve moves frames, not points.
+class MrptScene : public LiveScene {
+ public:
+  MrptScene(const LiveWindowOptions& options, const std::string& title)
+      : options_(options), grid_mapper_(gridOptions(options)), window_(openWindow("OmniMapper: " + title, options)) {
+    mrpt::opengl::COpenGLScene::Ptr scene;
+    mrpt::gui::CDisplayWindow3DLocker lock(*window_, scene);
+    scene->getViewport()->setCustomBackgroundColor({0.96f, 0.97f, 0.98f});
+    for (const auto& object : {grid_, ground_, points_, trajectory_, refused_, accepted_, pose_, landmarks_})
+      scene->insert(object);
+    pose_->insert(mrpt::opengl::stock_objects::CornerXYZSimple(1.0f, 4.0f));
+    window_->setCameraElevationDeg(70);
+    window_->setCameraAzimuthDeg(-90);
+  }
+
+  bool isOpen() const override { return window_->isOpen(); }
+
+  void show(const mapper::View& view) override {
+    if (view.map.key_frames.empty()) return;
+    const Sight sight = sightOf(view.map);
+    {
+      mrpt::opengl::COpenGLScene::Ptr scene;
+      mrpt::gui::CDisplayWindow3DLocker lock(*window_, scene);
+      placePoints(view.map);
+      const auto ground = groundOf(view.map);
+      if (options_.grid) placeGrid(view.map, ground->getPlaneZcoord() - kDepthStep * sight.distance);
+      scene->getViewport()->setViewportClipDistances(static_cast<float>(kNearest * sight.distance), 10000);
+      replace(*ground_, ground);
+      replace(*trajectory_, trajectoryLines(keyFramePoses(view.map)));
+      const auto closures = closuresOf(view.map, view.decisions);
+      replace(*accepted_, closureLines(closures, true));
+      replace(*refused_, closureLines(closures, false));
+      replace(*landmarks_, landmarkObjects(shapesOf(view), false));
+      pose_->setPose(view.map.key_frames.back().map_from_base);
+      const auto count =
+          std::count_if(closures.begin(), closures.end(), [](const Closure& c) { return c.decision->accepted; });
+      mrpt::opengl::TFontParams font;
+      font.color = mrpt::img::TColorf(0.1f, 0.13f, 0.18f);
+      window_->addTextMessage(10, -25,
+                              std::to_string(view.map.key_frames.size()) + " key frames, " + std::to_string(count) +
+                                  " closures accepted, " + std::to_string(closures.size() - count) + " refused",
+                              0, font);
+    }
+    if (options_.follow) lookFrom(sight);
+    window_->forceRepaint();
+  }
+
+ private:
+  using Group = mrpt::opengl::CSetOfObjects;
+
+  static void replace(Group& group, const mrpt::opengl::CRenderizable::Ptr& content) {
+    group.clear();
+    group.insert(content);
+  }
+
+  static std::vector<map::StampedPose> keyFramePoses(const map::Map& map) {
+    std::vector<map::StampedPose> poses;
+    for (const map::KeyFrame& frame : map.key_frames)
+      poses.push_back({frame.stamp, frame.map_from_base, frame.id.session});
+    return poses;
+  }
+
+  void placePoints(const map::Map& map) {
+    for (const map::KeyFrame& frame : map.key_frames) {
+      auto& cloud = clouds_[frame.id];
+      if (!cloud) {
+        cloud = cloudInBase(frame);
+        points_->insert(cloud);
+      }
+      cloud->setPose(frame.map_from_base);
+    }
+  }
+
+  void placeGrid(const map::Map& map, double z) {
+    if (!grid_mapper_.update(map)) return;
+    grid_->clear();
+    if (const auto grid = grid_mapper_.scanGrid()) grid_->insert(gridFloor(*grid, z));
+  }
+
+  mrpt::opengl::CPointCloud::Ptr cloudInBase(const map::KeyFrame& frame) const {
+    const auto points = pointsInBase(frame, hasClouds(frame), options_.max_range);
+    const std::size_t stride = 1 + points.size() / static_cast<std::size_t>(options_.points_per_key_frame);
+    auto cloud = mrpt::opengl::CPointCloud::Create();
+    cloud->setColor_u8(mrpt::img::TColor(24, 33, 47));
+    cloud->setPointSize(2);
+    for (std::size_t i = 0; i < points.size(); i += stride) cloud->insertPoint(points[i].x, points[i].y, points[i].z);
+    return cloud;
+  }
+
+  /// From where all key frames are seen.
+  struct Sight {
+    mrpt::math::TPoint3D target;
+    double distance;  // [m] of the camera from it
+  };
+  static Sight sightOf(const map::Map& map) {
+    mrpt::math::TPoint3D low = map.key_frames.front().map_from_base.translation(), high = low;
+    for (const map::KeyFrame& frame : map.key_frames) {
+      const auto p = frame.map_from_base.translation();
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return {0.5 * (low + high), 12 + 1.6 * (high - low).norm()};
+  }
+
+  void lookFrom(const Sight& sight) {
+    window_->setCameraPointingToPoint(static_cast<float>(sight.target.x), static_cast<float>(sight.target.y),
+                                      static_cast<float>(sight.target.z));
+    window_->setCameraZoom(static_cast<float>(sight.distance));
+  }
+
+  LiveWindowOptions options_;
+  GridMapper grid_mapper_;
+  Group::Ptr grid_ = Group::Create(), ground_ = Group::Create(), points_ = Group::Create(),
+             trajectory_ = Group::Create(), refused_ = Group::Create(), accepted_ = Group::Create(),
+             pose_ = Group::Create(), landmarks_ = Group::Create();
+  std::unordered_map<base::KeyFrameId, mrpt::opengl::CPointCloud::Ptr> clouds_;
+  std::unique_ptr<mrpt::gui::CDisplayWindow3D> window_;
+};
+
+}  // namespace
+}  // namespace omnimapper::exports
+
+omnimapper::exports::LiveScene* omnimapperOpenLiveScene(const omnimapper::exports::LiveWindowOptions& options,
+                                                        const std::string& title) {
+  return new omnimapper::exports::MrptScene(options, title);
+}

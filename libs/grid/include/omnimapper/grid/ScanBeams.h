@@ -1,0 +1,60 @@
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace omnimapper::grid {
+
+/// Where the beams of a scan end, in the map [m].
+class BeamEnds {
+ public:
+  /// What pose is given: that of the base, or the sensor's own.
+  enum class Pose { of_base, of_sensor };
+
+  BeamEnds(const mrpt::obs::CObservation2DRangeScan& scan, const mrpt::poses::CPose3D& pose, Pose which)
+      : scan_(scan),
+        ranges_(scan.getScanSize() > 0 ? &scan.getScanRange(0) : nullptr),
+        directions_(scan.getScanSize()) {
+    const auto map_from_sensor = which == Pose::of_base ? pose + scan.sensorPose : pose;
+    origin_ = map_from_sensor.translation();
+    const auto& rotation = map_from_sensor.getRotationMatrix();
+    const double sign = scan.rightToLeft ? 1 : -1;
+    const double first = size() > 1 ? -0.5 * sign * scan.aperture : 0;
+    const double step = size() > 1 ? sign * scan.aperture / static_cast<double>(size() - 1) : 0;
+    // Each beam is the one before, turned: cosines and sines of all would cost more than the rest of a grid.
+    double c = std::cos(first), s = std::sin(first);
+    const double turn_c = std::cos(step), turn_s = std::sin(step);
+    for (auto& direction : directions_) {
+      direction = {rotation(0, 0) * c + rotation(0, 1) * s, rotation(1, 0) * c + rotation(1, 1) * s,
+                   rotation(2, 0) * c + rotation(2, 1) * s};
+      const double next_c = c * turn_c - s * turn_s;
+      s = s * turn_c + c * turn_s;
+      c = next_c;
+    }
+  }
+
+  std::size_t size() const { return directions_.size(); }
+  mrpt::math::TPoint3D origin() const { return origin_; }
+  float range(std::size_t beam) const { return ranges_[beam]; }  ///< [m]
+  bool valid(std::size_t beam) const {
+    return std::isfinite(ranges_[beam]) && ranges_[beam] > 0 && scan_.getScanRangeValidity(beam);
+  }
+  /// Whether something was there: many sensors tell their own limit when nothing came back.
+  bool hits(std::size_t beam) const { return valid(beam) && range(beam) < scan_.maxRange; }
+  /// End of the beam, cut at `max_range` [m].
+  mrpt::math::TPoint3D at(std::size_t beam, double max_range) const {
+    return origin_ + directions_[beam] * std::min<double>(range(beam), max_range);
+  }
+
+ private:
+  const mrpt::obs::CObservation2DRangeScan& scan_;
+  const float* ranges_;  // [m] of the scan, one for each beam
+  mrpt::math::TPoint3D origin_;
+  std::vector<mrpt::math::TPoint3D> directions_;  // in the map
+};
+
+}  // namespace omnimapper::grid

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/poses/CPose3D.h>
+#include <omnimapper/grid/VoteWindow.h>
+
+#include <vector>
+
+namespace omnimapper::grid {
+
+/// Log-odds of a vote in steps of 0.122: one hit outweighs two beams that pass, so that thin walls stay; what must be
+/// between two hits weighs as much as one that passes.
+constexpr int kHitVote = 9, kSurfaceVote = 4, kPassVote = -4;
+/// A cell is occupied above a probability of 0.6 and free below 0.4, so one vote decides a cell.
+constexpr int kOccupiedAbove = 3, kFreeBelow = -3;
+
+/// Finds what a scan says of the cells of the map's z = 0 plane.
+///
+/// A beam passes the cells on its way from the sensor and hits the one where it ends; one that ends at the limit of the
+/// sensor or of the option only passes, an invalid one says nothing. A scan votes once for a cell however many beams
+/// meet it, and a hit is stronger. No beam clears a cell on the line between the ends of two neighbours that meet the
+/// same surface: beams that graze a wall would clear it between their hits. Where the two face it and are near each
+/// other, the cells between them are of the wall too, so that it is no row of dots.
+class ScanTracer {
+ public:
+  /// Beams are entered up to `max_range` [m].
+  explicit ScanTracer(double max_range) : max_range_(max_range) {}
+
+  /// Votes for cells with sides of `resolution` [m]. They must be taken out of the window before the next call.
+  VoteWindow& trace(const mrpt::obs::CObservation2DRangeScan& scan, const mrpt::poses::CPose3D& map_from_sensor,
+                    double resolution);
+
+ private:
+  struct Beam {
+    double x = 0, y = 0;  // [cells] where it ends
+    bool is_valid = false, hits = false;
+  };
+  void place(const mrpt::obs::CObservation2DRangeScan& scan, const mrpt::poses::CPose3D& map_from_sensor,
+             double resolution);
+  void voteSurfaces(double resolution);
+
+  double max_range_;
+  Beam origin_;
+  std::vector<Beam> beams_;
+  VoteWindow votes_;
+};
+
+}  // namespace omnimapper::grid

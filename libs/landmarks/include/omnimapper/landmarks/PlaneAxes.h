@@ -1,0 +1,21 @@
+#pragma once
+
+#include <omnimapper/geometry/Plane3.h>
+
+#include <Eigen/Core>
+
+namespace omnimapper::landmarks {
+
+/// Two axes on a plane. Of one that leans from level by more than 26 degrees the first is level and the second leads
+/// up; of others the first goes along the x of the map.
+struct PlaneAxes {
+  explicit PlaneAxes(const geometry::Plane3& plane);
+
+  Eigen::Vector2d onto(const Eigen::Vector3d& point) const { return {u.dot(point - foot), v.dot(point - foot)}; }
+  Eigen::Vector3d inSpace(const Eigen::Vector2d& point) const { return foot + u * point.x() + v * point.y(); }
+
+  Eigen::Vector3d foot;  ///< the plane's point nearest to the origin [m]
+  Eigen::Vector3d u, v;  ///< unit, u x v = normal
+};
+
+}  // namespace omnimapper::landmarks

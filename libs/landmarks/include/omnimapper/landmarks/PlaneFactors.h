@@ -1,0 +1,66 @@
+#pragma once
+
+#include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/graph/Factor.h>
+#include <omnimapper/graph/FactorRegistry.h>
+
+#include <Eigen/Core>
+
+namespace omnimapper::landmarks {
+
+/// What sensors say of a plane of the map. Derivations: doc/derivations/plane.md and line_on_plane.md.
+
+/// A plane seen as a plane (thesis 4.2.2.3, whose four rows are one too many). Variables: map_from_base, plane in map.
+/// Residual: minus(plane predicted in the base, plane measured in the base), geometry/PlaneTangent.h: two turns of the
+/// normal [rad], then the distance [m].
+class PlaneFactor : public graph::Factor {
+ public:
+  explicit PlaneFactor(const geometry::Plane3& plane_in_base) : measured_(plane_in_base) {}
+
+  std::string_view kind() const override { return "plane_from_se3"; }
+  int residualSize() const override { return 3; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+  static void addTo(graph::FactorRegistry& registry);
+
+ private:
+  geometry::Plane3 measured_;
+};
+
+/// A straight line of a laser scan that lies on a plane (thesis 4.2.3): it leaves the turn about itself open.
+/// Variables: map_from_base, plane in map. Residual: n . b, the sine of the angle between line and plane [rad]; then
+/// the distance of the line's middle from the plane [m], positive on the side of the normal n.
+class LineOnPlaneFactor : public graph::Factor {
+ public:
+  /// `direction_in_base` is unit.
+  LineOnPlaneFactor(const Eigen::Vector3d& direction_in_base, const Eigen::Vector3d& middle_in_base)
+      : direction_(direction_in_base), middle_(middle_in_base) {}
+
+  std::string_view kind() const override { return "line_on_plane"; }
+  int residualSize() const override { return 2; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+  static void addTo(graph::FactorRegistry& registry);
+
+ private:
+  Eigen::Vector3d direction_, middle_;
+};
+
+/// That a plane is upright, for one that only lines of one height have shown. Variable: plane in map. Residual: the
+/// tangent of its lean, at most 100. A sine is at most 1: a few wrong lines could turn the plane level, where every
+/// line of a level laser fits it.
+class UprightFactor : public graph::Factor {
+ public:
+  static constexpr std::string_view kKind = "upright_plane";
+
+  std::string_view kind() const override { return kKind; }
+  int residualSize() const override { return 1; }
+  const std::vector<std::string_view>& variableKinds() const override;
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+  static void addTo(graph::FactorRegistry& registry);
+};
+
+}  // namespace omnimapper::landmarks

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/graph/Variable.h>
+
+#include <Eigen/Core>
+#include <memory>
+
+namespace omnimapper::landmarks {
+
+/// Kind "plane": unit normal x y z, then distance [m], of the points p of the map with normal . p + distance = 0.
+/// Tangent: geometry/PlaneTangent.h, three degrees of freedom. Derivation: doc/derivations/plane.md.
+const std::shared_ptr<const graph::Variable>& planeVariable();
+
+Eigen::Vector4d toValue(const geometry::Plane3& plane);
+/// The pointer is to a whole ambient value.
+inline geometry::Plane3 planeFromValue(const double* value) {
+  return {{value[0], value[1], value[2]}, value[3]};
+}
+
+}  // namespace omnimapper::landmarks

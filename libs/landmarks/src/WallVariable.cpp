@@ -1,0 +1,45 @@
+#include <omnimapper/geometry/Angle.h>
+#include <omnimapper/landmarks/WallVariable.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace omnimapper::landmarks {
+
+namespace {
+
+class WallVariable : public graph::Variable {
+ public:
+  std::string_view kind() const override { return "wall"; }
+  int ambientSize() const override { return 4; }
+  int tangentSize() const override { return 2; }
+  void plus(const double* x, const double* delta, double* y) const override {
+    const geometry::Segment2 wall = wallFromValue(x);
+    const Eigen::Vector2d shifted = middle(wall) + delta[1] * normalOf(wall);
+    const Eigen::Vector2d half = Eigen::Rotation2Dd(delta[0]) * (0.5 * (wall.to - wall.from));
+    Eigen::Map<Eigen::Vector4d>{y} = toValue(geometry::Segment2{shifted - half, shifted + half});
+  }
+  void minus(const double* y, const double* x, double* delta) const override {
+    Eigen::Map<Eigen::Vector2d>{delta} = wallChange(wallFromValue(x), wallFromValue(y));
+  }
+};
+
+}  // namespace
+
+const std::shared_ptr<const graph::Variable>& wallVariable() {
+  static const std::shared_ptr<const graph::Variable> kind = std::make_shared<WallVariable>();
+  return kind;
+}
+
+Eigen::Vector2d wallChange(const geometry::Segment2& from, const geometry::Segment2& to) {
+  const Eigen::Vector2d a = direction(from), b = direction(to);
+  return {std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)), normalOf(from).dot(middle(to) - middle(from))};
+}
+
+Eigen::Vector4d toValue(const geometry::Segment2& wall) {
+  Eigen::Vector4d value;
+  value << wall.from, wall.to;
+  return value;
+}
+
+}  // namespace omnimapper::landmarks

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <omnimapper/base/Stamp.h>
+#include <omnimapper/matching/RelativeMotion.h>
+
+#include <deque>
+#include <optional>
+
+namespace omnimapper::matching {
+
+/// The motion of the base as one continuous source told it: spans of time that follow one another.
+/// Any span inside can be asked for, and spans add up: the motion and covariance of a..c are those of a..b and b..c
+/// composed, wherever b lies (thesis 5.2.3.1: nothing is counted twice, nothing is lost).
+class PoseTimeline {
+ public:
+  /// Adds the span from `begin` to `end`. False, and nothing changes, if it is empty or reversed, overlaps another one,
+  /// or its motion is not finite. A gap is allowed: nothing across it can be asked for.
+  bool insert(base::Stamp begin, base::Stamp end, const RelativeMotion& motion);
+  /// Takes the span from `begin` to `end` away. False, and nothing changes, if that is not a span as it was added.
+  bool remove(base::Stamp begin, base::Stamp end);
+
+  /// Motion from `begin` to `end`, begin <= end; none if a part of the span was never told.
+  /// Inside a span the motion is taken as even in time.
+  std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const;
+
+  std::optional<base::Stamp> end() const;
+  /// Drops spans that end at or before `stamp`.
+  void forgetBefore(base::Stamp stamp);
+
+ private:
+  struct Span {
+    base::Stamp begin, end;
+    RelativeMotion motion;
+  };
+  std::deque<Span>::const_iterator firstEndingAfter(base::Stamp stamp) const;
+
+  std::deque<Span> spans_;  // in order of time
+};
+
+/// Motion over a, then over b; the covariance of a is transported to the end of b.
+RelativeMotion compose(const RelativeMotion& a, const RelativeMotion& b);
+/// No motion, known exactly.
+RelativeMotion identityMotion();
+
+}  // namespace omnimapper::matching

@@ -1,0 +1,79 @@
+#include "GivenMotionPlugin.h"
+
+#include <omnimapper/obs/GivenPose.h>
+
+#include <iterator>
+
+IMPLEMENTS_MRPT_OBJECT(GivenMotionPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<GivenMotionOptions>& GivenMotionOptions::table() {
+  using Options = GivenMotionOptions;
+  static const auto table = base::OptionTable<Options>()
+                                .text("label", &Options::label, "Sensor label; empty for the first that comes.")
+                                .number("max_gap_s", &Options::max_gap, base::Range::positive(),
+                                        "Between poses farther apart in time the motion is not known.")
+                                .number("position_sigma_m", &Options::position_sigma, base::Range::positive(),
+                                        "Standard deviation of each coordinate after 1 s; grows with the root of time.")
+                                .number("angle_sigma_deg", &Options::angle_sigma, base::Range::positive(),
+                                        "Standard deviation of each angle after 1 s; grows with the root of time.");
+  return table;
+}
+
+// Between the poses before and after it, whichever came first.
+GivenMotionPlugin::Taken GivenMotionPlugin::add(const mrpt::obs::CObservation& observation) {
+  news_.reset();
+  const auto* given = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation);
+  if (!given || (!options_.label.empty() && given->sensorLabel != options_.label)) return Taken::not_mine;
+  if (!label_) label_ = given->sensorLabel;
+  if (given->sensorLabel != *label_) return Taken::not_mine;
+  const auto pose = obs::referenceFromBase(*given);
+  if (!pose) return Taken::unusable;
+  const auto after = poses_.lower_bound(given->timestamp);
+  if (after != poses_.end() && after->first == given->timestamp) return Taken::unusable;
+  if (after == poses_.begin() && forgotten_) return Taken::unusable;
+  const auto added = poses_.emplace_hint(after, given->timestamp, *pose);
+  news_ = Span{added->first, added->first};
+  if (added != poses_.begin()) {
+    const auto before = std::prev(added);
+    if (after != poses_.end()) timeline_.remove(before->first, after->first);
+    tell(*before, *added);
+    news_->begin = before->first;
+  }
+  if (after != poses_.end()) {
+    tell(*added, *after);
+    news_->end = after->first;
+  }
+  return Taken::taken;
+}
+
+void GivenMotionPlugin::tell(const Poses::value_type& begin, const Poses::value_type& end) {
+  const double seconds = base::secondsBetween(begin.first, end.first);
+  if (seconds > options_.max_gap) return;
+  mapper::RelativeMotion motion{end.second - begin.second, Eigen::Matrix<double, 6, 6>::Zero()};
+  motion.covariance.diagonal().head<3>().setConstant(options_.position_sigma * options_.position_sigma * seconds);
+  motion.covariance.diagonal().tail<3>().setConstant(options_.angle_sigma * options_.angle_sigma * seconds);
+  timeline_.insert(begin.first, end.first, motion);
+}
+
+std::optional<base::Stamp> GivenMotionPlugin::coveredUntil() const {
+  if (poses_.empty()) return std::nullopt;
+  return poses_.rbegin()->first;
+}
+
+// The pose before `stamp` stays: a late one may follow it.
+void GivenMotionPlugin::forgetBefore(base::Stamp stamp) {
+  timeline_.forgetBefore(stamp);
+  while (poses_.size() > 1 && std::next(poses_.begin())->first <= stamp) {
+    poses_.erase(poses_.begin());
+    forgotten_ = true;
+  }
+}
+
+std::unique_ptr<mapper::PosePlugin> GivenMotionPluginFactory::make(const base::ConfigSection& section,
+                                                                   const mapper::PluginContext&) const {
+  return std::make_unique<GivenMotionPlugin>(section.read<GivenMotionOptions>(mapper::sectionKeysOfEngine()));
+}
+
+}  // namespace omnimapper::plugins

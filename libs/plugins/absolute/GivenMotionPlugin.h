@@ -1,0 +1,60 @@
+#pragma once
+
+#include <mrpt/poses/CPose3D.h>
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/matching/PoseTimeline.h>
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace omnimapper::plugins {
+
+struct GivenMotionOptions {
+  std::string label;                                                ///< empty: the first that comes
+  double max_gap = 1;                                               ///< [s] between poses
+  double position_sigma = 0.05;                                     ///< [m] after 1 s; grows with its root
+  double angle_sigma = 2.0 * base::option_text::kRadiansPerDegree;  ///< [rad] after 1 s; grows with its root
+
+  static const base::OptionTable<GivenMotionOptions>& table();
+};
+
+/// Poses from outside, such as motion capture (CObservationRobotPose), as a continuous pose source (thesis 5.2.2.1):
+/// the motion from one to the next. Beside a RobotPosePlugin, which says where in the map they are, it places what was
+/// seen between two key frames. Its noise is wide, because these same poses count there already.
+class GivenMotionPlugin : public mapper::PosePlugin {
+ public:
+  explicit GivenMotionPlugin(const GivenMotionOptions& options) : options_(options) {}
+
+  Taken add(const mrpt::obs::CObservation& observation) override;
+  std::optional<Span> news() const override { return news_; }
+  std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
+    return timeline_.between(begin, end);
+  }
+  std::optional<base::Stamp> coveredUntil() const override;
+  void forgetBefore(base::Stamp stamp) override;
+
+ private:
+  using Poses = std::map<base::Stamp, mrpt::poses::CPose3D>;
+  void tell(const Poses::value_type& begin, const Poses::value_type& end);
+
+  GivenMotionOptions options_;
+  std::optional<std::string> label_;  // of the first that came
+  Poses poses_;                       // reference_from_base
+  bool forgotten_ = false;            // there were poses before the first
+  std::optional<Span> news_;
+  matching::PoseTimeline timeline_;
+};
+
+class GivenMotionPluginFactory : public mapper::PosePluginFactory {
+  DEFINE_MRPT_OBJECT(GivenMotionPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "GivenMotionPlugin"; }
+  std::string summary() const override { return "The motion between poses from outside (CObservationRobotPose)."; }
+  const std::vector<base::OptionSpec>& options() const override { return GivenMotionOptions::table().specs(); }
+  std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
+                                           const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins

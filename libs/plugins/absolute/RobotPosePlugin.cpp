@@ -1,0 +1,157 @@
+#include "RobotPosePlugin.h"
+
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/Covariance.h>
+#include <omnimapper/obs/GivenPose.h>
+#include <omnimapper/plugin/PoseFactors.h>
+#include <omnimapper/plugin/SavedVariable.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+IMPLEMENTS_MRPT_OBJECT(RobotPosePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+namespace {
+constexpr std::uint32_t kSavedPosesVersion = 1;
+
+// How unlikely an error is: its length in standard deviations, in the directions that such a map has.
+double sigmasOf(const geometry::Vector6d& error, const geometry::Matrix6d& covariance, mapper::Motion motion) {
+  if (motion == mapper::Motion::spatial) return std::sqrt(error.dot(covariance.ldlt().solve(error)));
+  const Eigen::Vector3d planar(error[0], error[1], error[5]);
+  return std::sqrt(planar.dot(geometry::planarPart(covariance).ldlt().solve(planar)));
+}
+}  // namespace
+
+const base::OptionTable<RobotPoseOptions>& RobotPoseOptions::table() {
+  using Options = RobotPoseOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("label", &Options::label, "Sensor label; empty for every such observation.")
+          .flag("reference_is_map", &Options::reference_is_map,
+                "The poses are in the map's frame; else the place of their frame in the map is estimated.")
+          .number("position_sigma_m", &Options::position_sigma, base::Range::positive(),
+                  "Standard deviation where an observation tells no covariance.")
+          .number("angle_sigma_deg", &Options::angle_sigma, base::Range::positive(),
+                  "Standard deviation where an observation tells no covariance.")
+          .number("loss_scale", &Options::loss_scale, base::Range::notNegative(),
+                  "Scale of a Cauchy loss, in standard deviations, for poses of which some are wrong: what is seen may "
+                  "then overrule them. 0: none, the poses hold.");
+  return table;
+}
+
+bool RobotPosePlugin::wants(const mrpt::obs::CObservation& observation) const {
+  return dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation) &&
+         (options_.label.empty() || observation.sensorLabel == options_.label);
+}
+
+mapper::Batch RobotPosePlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                                       const mapper::View&) {
+  const auto& measured = dynamic_cast<const mrpt::obs::CObservationRobotPose&>(observed.observation);
+  mapper::Batch batch;
+  mapper::Decision decision;
+  decision.stamp = frame.stamp;
+  decision.plugin = context_.section;
+  decision.kind = "absolute pose";
+  decision.from = frame.id;
+
+  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
+  const auto& reported = measured.pose.cov.asEigen();
+  if (reported.allFinite() && reported.trace() > 0) {
+    const auto body_from_base = geometry::inverse(geometry::fromMrpt(measured.sensorPose));
+    covariance = geometry::composeCovariance(geometry::covarianceFromMrpt(measured.pose.mean, reported), body_from_base,
+                                             geometry::Matrix6d::Zero());
+  } else {
+    covariance.diagonal().head<3>().setConstant(options_.position_sigma * options_.position_sigma);
+    covariance.diagonal().tail<3>().setConstant(options_.angle_sigma * options_.angle_sigma);
+  }
+  const auto pose = obs::referenceFromBase(measured);
+  if (!pose) {
+    decision.reason = "not finite";
+    batch.log(decision);
+    return batch;
+  }
+  decision.accepted = true;
+  decision.reason = "taken";
+  given_.push_back({frame.id, *pose, covariance});
+  if (!options_.reference_is_map && !map_from_reference_) {
+    map_from_reference_ = batch.addVariable(mapper::poseVariable(context_.motion),
+                                            mapper::poseValue(context_.motion, frame.map_from_base + (-*pose)));
+  }
+  auto record = options_.reference_is_map
+                    ? mapper::posePrior(context_.motion, frame.pose, *pose, covariance, context_.section)
+                    : mapper::betweenPoses(context_.motion, *map_from_reference_, frame.pose, {*pose, covariance},
+                                           context_.section);
+  if (options_.loss_scale > 0) record.loss = graph::Loss::cauchy(options_.loss_scale);
+  batch.addFactor(std::move(record));
+  batch.log(std::move(decision));
+  return batch;
+}
+
+void RobotPosePlugin::applied(const mapper::AppliedBatch& ids) {
+  if (!ids.variables.empty()) map_from_reference_ = ids.variables.front();
+}
+
+std::optional<map::MapSection> RobotPosePlugin::save() const {
+  if (!map_from_reference_) return std::nullopt;
+  std::ostringstream out;
+  mapper::writeVariableId(out, *map_from_reference_);
+  return map::MapSection{{}, kSavedPosesVersion, out.str()};
+}
+
+void RobotPosePlugin::restore(const map::MapSection* saved, const mapper::View& view) {
+  if (!saved) return;
+  mapper::expectVersion(*saved, kSavedPosesVersion);
+  if (options_.reference_is_map) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "[" + context_.section +
+                          "] reference_is_map = true, but the map that is continued was made with "
+                          "false: give that, or map its log again");
+  }
+  std::istringstream in(saved->bytes);
+  map_from_reference_ = mapper::readVariableId(in, view, saved->name);
+}
+
+std::vector<mapper::Evidence> RobotPosePlugin::evidence(const mapper::View& view) const {
+  using mapper::Evidence;
+  constexpr double kLargest = 5;  // [sigma] that a thousand poses with honest covariances reach once in years
+  if (given_.empty()) return {};
+  mrpt::poses::CPose3D map_from_reference;
+  if (map_from_reference_) map_from_reference = mapper::poseOf(view.graph, *map_from_reference_);
+  double sigmas = 0, metres = 0, degrees = 0, seconds = 0;
+  for (const auto& given : given_) {
+    const auto& frame = view.map.keyFrame(given.frame);
+    auto expected = geometry::fromMrpt(map_from_reference + given.reference_from_base);
+    if (context_.motion == mapper::Motion::planar) expected = geometry::lift(geometry::project(expected));
+    const auto off = geometry::minus(geometry::fromMrpt(frame.map_from_base), expected);
+    const double now = sigmasOf(off, given.covariance, context_.motion);
+    if (!(now >= sigmas)) continue;
+    sigmas = now;
+    metres = off.head<3>().norm();
+    degrees = off.tail<3>().norm() / base::option_text::kRadiansPerDegree;
+    seconds = base::secondsBetween(view.map.key_frames.begin()->stamp, frame.stamp);
+  }
+  char text[160];
+  std::snprintf(text, sizeof text, "the map is at most %.3g m and %.2g deg from the poses that were given", metres,
+                degrees);
+  Evidence evidence{"from_given_poses_sigmas", sigmas, Evidence::Says::good, text};
+  if (sigmas > kLargest) {
+    std::snprintf(text, sizeof text,
+                  "%.0f s after the start it is %.3g m and %.2g deg from the pose that was given, %.0f times what its "
+                  "covariance allows",
+                  seconds, metres, degrees, sigmas);
+    evidence.says = Evidence::Says::against_it;
+    evidence.reason = text;
+  }
+  return {evidence};
+}
+
+std::unique_ptr<mapper::MeasurementPlugin> RobotPosePluginFactory::make(const base::ConfigSection& section,
+                                                                        const mapper::PluginContext& context) const {
+  return std::make_unique<RobotPosePlugin>(section.read<RobotPoseOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,128 @@
+#include "GlobalMatcher.h"
+
+#include <omnimapper/base/Error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "PlanarMotion.h"
+
+namespace omnimapper::plugins {
+
+using mrpt::math::TPose2D;
+
+namespace {
+constexpr double kDegree = base::option_text::kRadiansPerDegree;
+constexpr double kSoughtTravel = 4;  // [m] of travel whose scans are sought together
+}  // namespace
+
+std::optional<GlobalMatcher::Found> GlobalMatcher::find(const mapper::State& state, mapper::Decision& decision) const {
+  constexpr std::size_t kAround = 30;                 // key frames of the map that a place is matched with
+  constexpr double kAstray = 0.5, kAstrayTurn = 0.2;  // [m] [rad] that the matcher may lead away from the answer
+  constexpr double kSpacing = 0.08;                   // [m] between the points of a match
+  // What the map has many times, more or less, there is more of where it was not made: such a place is not believed
+  // soon.
+  constexpr std::size_t kDistinct = 3;
+  const auto location = locate(state, decision);
+  if (location.answer != matching::Location::Answer::found) return std::nullopt;
+  const TPose2D map_from_base = location.candidates.front().map_from_sensor;
+  const auto around = places_.nearest(map_from_base, kAround);
+  decision.to = around.front().sight.frame;
+  const TPose2D place_from_base = map_from_base - around.front().map_from_base;
+  std::vector<LoopSearch::Sight> sights, sought;
+  for (const auto& place : around) sights.push_back(place.sight);
+  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sought),
+               [&](const LoopSearch::Sight& sight) { return newest_.back().way - sight.way <= kSoughtTravel; });
+  const auto local = matching::oncePerCell(localMap(sights, sights.front().frame, state), kSpacing / 2),
+             query = matching::oncePerCell(localMap(sought, newest_.back().frame, state), kSpacing);
+  const auto match = matcher_.match(*matcher_.prepare(local), query, place_from_base);
+  judgeClosure(options_, {match}, place_from_base, decision);
+  if (decision.accepted && !distanceBetween(match.reference_from_scan, place_from_base).within(kAstray, kAstrayTurn)) {
+    decision.accepted = false;
+    decision.reason = "matched elsewhere than it was found";
+  }
+  if (!decision.accepted) return std::nullopt;
+  return Found{around.front(), match, location.candidates.size() <= kDistinct};
+}
+
+// Neighbours that see the same from the same place would only cost time.
+std::vector<matching::LocalScan> GlobalMatcher::beams(const mapper::State& state) const {
+  constexpr double kSpacing = 0.8, kTurn = 1;  // [m] [rad] from one to the next
+  const auto& map_from_newest = state.map.keyFrame(newest_.back().frame).map_from_base;
+  constexpr std::size_t kMost = 6;
+  std::vector<matching::LocalScan> all;
+  const LoopSearch::Sight* last = nullptr;
+  TPose2D last_pose;
+  for (auto sight = newest_.rbegin(); sight != newest_.rend() && all.size() < kMost; ++sight) {
+    if (newest_.back().way - sight->way > kSoughtTravel) break;
+    const auto& frame = state.map.keyFrame(sight->frame);
+    const TPose2D pose = planar(frame.map_from_base - map_from_newest);
+    if (last && last->way - sight->way < kSpacing && distanceBetween(pose, last_pose).radians < kTurn) continue;
+    last = &*sight;
+    last_pose = pose;
+    auto seen = beamsInBase(frame, label_);
+    all.push_back({pose + seen.local_from_sensor, std::move(seen.scan)});
+  }
+  return all;
+}
+
+matching::Location GlobalMatcher::locate(const mapper::State& state, mapper::Decision& decision) const {
+  using Answer = matching::Location::Answer;
+  matching::Location location;
+  const auto scans = beams(state);
+  try {
+    location = places_.relocaliser().locateTogether(scans);
+  } catch (const base::Error& error) {
+    if (error.code() != base::ExitCode::out_of_range) throw;
+    decision.reason = error.what();  // a map too large for it
+    return location;
+  }
+  const auto& candidates = location.candidates;
+  decision.numbers.emplace_back("scans", static_cast<double>(scans.size()));
+  decision.numbers.emplace_back("places alike", static_cast<double>(candidates.size()));
+  if (!candidates.empty()) {
+    decision.numbers.emplace_back("probability", candidates[0].probability);
+    decision.numbers.emplace_back("logarithm of a beam's likelihood", candidates[0].log_likelihood);
+  }
+  if (candidates.size() > 1) decision.numbers.emplace_back("probability of the next", candidates[1].probability);
+  if (location.answer == Answer::ambiguous) decision.reason = "ambiguous: it fits as well elsewhere in the map";
+  if (location.answer == Answer::none) decision.reason = "nowhere in the map";
+  return location;
+}
+
+bool GlobalMatcher::fitsAllTheWay(const Found& found, const mapper::State& state, mapper::Decision& decision) const {
+  constexpr double kSpacing = 1.5;                            // [m] of travel from one scan to the next
+  constexpr double kWindow = 0.5, kWindowTurn = 5 * kDegree;  // [m] [rad] of drift on the way
+  constexpr double kLeast = -0.8;  // mean logarithm of the beams' likelihoods of a scan that fits
+  const TPose2D map_from_newest = found.place.map_from_base + found.match.reference_from_scan;
+  const auto& base_from_map = state.map.keyFrame(newest_.back().frame).map_from_base;
+  const double travel = newest_.back().way - newest_.front().way;
+  constexpr double kNothing = -10;
+  double worst = 0;
+  const LoopSearch::Sight* last = nullptr;
+  for (auto sight = newest_.rbegin(); sight != newest_.rend(); ++sight) {
+    if (last && last->way - sight->way < kSpacing) continue;
+    last = &*sight;
+    const auto& frame = state.map.keyFrame(sight->frame);
+    const auto seen = beamsInBase(frame, label_);
+    const TPose2D guess = map_from_newest + planar(frame.map_from_base - base_from_map) + seen.local_from_sensor;
+    const auto located =
+        places_.relocaliser().locate(seen.scan, matching::SearchWindow{guess, kWindow, kWindow, kWindowTurn});
+    const double likelihood = located.candidates.empty() ? kNothing : located.candidates.front().log_likelihood;
+    worst = std::min(worst, likelihood);
+  }
+  decision.numbers.emplace_back("distance looked back on [m]", travel);
+  decision.numbers.emplace_back("logarithm of a beam's likelihood where it fits worst", worst);
+  if (worst < kLeast) {
+    decision.reason = "what was seen on the way there does not fit";
+    return false;
+  }
+  if (travel < options_.join_way) {
+    decision.reason = "so much is alike that it waits for a longer way that fits";
+    return false;
+  }
+  return true;
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,312 @@
+#include "LoopClosurePlugin.h"
+
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/matching/ScanInBase.h>
+#include <omnimapper/perception/LaserPointsExtractor.h>
+#include <omnimapper/plugin/PoseFactors.h>
+#include <omnimapper/plugin/SharedSection.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "MapConsistency.h"
+
+IMPLEMENTS_MRPT_OBJECT(LoopClosurePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+namespace {
+
+constexpr std::size_t kPlacesAsked = 3;
+
+struct PreparedScan : mapper::Prepared {
+  std::shared_ptr<const matching::PlanarScan> scan;  // in the base
+};
+
+}  // namespace
+
+LoopClosurePlugin::LoopClosurePlugin(const LoopClosureOptions& options, const matching::ScanMatcherOptions& matching,
+                                     const mapper::PluginContext& context)
+    : options_(options), context_(context), matcher_(matching::makeMatcher(matching)) {}
+
+bool LoopClosurePlugin::wants(const mrpt::obs::CObservation& observation) const {
+  if (!dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation)) return false;
+  const std::string& label = observation.sensorLabel;
+  if (!options_.labels.empty()) {
+    return std::find(options_.labels.begin(), options_.labels.end(), label) != options_.labels.end();
+  }
+  const std::string suffix = perception::kPointsSuffix;
+  return label.size() >= suffix.size() && label.compare(label.size() - suffix.size(), suffix.size(), suffix) == 0;
+}
+
+std::unique_ptr<const mapper::Prepared> LoopClosurePlugin::prepare(const mrpt::obs::CObservation& observation) const {
+  auto prepared = std::make_unique<PreparedScan>();
+  prepared->scan = std::make_shared<const matching::PlanarScan>(
+      matching::scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(observation)));
+  return prepared;
+}
+
+mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                                         const mapper::View& view) {
+  History& history = histories_[observed.observation.sensorLabel];
+  const auto& scan = dynamic_cast<const PreparedScan&>(*observed.prepared).scan;
+  const std::size_t index = remember(frame, scan, view, history);
+  if (scan->empty()) return {};
+  seekInMap(observed.observation.sensorLabel, history, index, view);
+  closures_.noteSolves(view.solves.size());
+  seekGlobally(observed.observation.sensorLabel, history, index, view);
+  seekSlip(history, view);
+  const double way = history[index].sight.way;
+  const auto [last, is_first] = searched_.emplace(observed.observation.sensorLabel, way);
+  // In a map that is held every one is sought: where the base is counts now, and costs the same always.
+  const bool is_soon = !is_first && std::abs(way - last->second) < options_.spacing;
+  if (is_soon && !context_.map_is_held) return {};
+  auto places = loopPlaces(frame, history, index, view);
+  if (!places.empty()) {
+    last->second = way;
+    searches_.emplace_back(options_, context_, matcher_,
+                           sights(history, index, options_.context + options_.max_window, 0), std::move(places));
+  }
+  return {};
+}
+
+std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state,
+                                        History& history) {
+  const auto after = std::upper_bound(
+      history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
+      [](const auto& wanted, const Seen& seen) { return wanted < std::tuple(seen.sight.frame.session, seen.stamp); });
+  double way = 0;
+  if (after != history.begin()) {
+    const auto& before = *std::prev(after);
+    const auto& map_from_before = state.map.keyFrame(before.sight.frame).map_from_base;
+    // How far the base was carried between sessions nobody knows: all of an earlier one counts as left long ago.
+    const bool same_session = before.sight.frame.session == frame.id.session;
+    way = before.sight.way +
+          (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_way);
+  }
+  closures_.add(frame);
+  const auto place = history.insert(after, {{frame.id, scan, way}, frame.stamp});
+  return static_cast<std::size_t>(place - history.begin());
+}
+
+// Each time that one more closure was refused. Key frames at which another sensor saw something are spans, too.
+void LoopClosurePlugin::seekSlip(const History& history, const mapper::View& view) {
+  if (context_.map_is_held) return;
+  auto refused = closures_.refusedGlobally(view.graph);
+  const bool has_more = refused.size() > refused_before_ && refused.size() > 1;
+  refused_before_ = refused.size();
+  if (!has_more) return;
+  static const auto kNothingSeen = std::make_shared<const matching::PlanarScan>();
+  std::vector<LoopSearch::Sight> trajectory;
+  auto seen = history.begin();
+  for (const auto& frame : view.map.key_frames) {
+    const bool has_scan = seen != history.end() && seen->sight.frame == frame.id;
+    const double travel = trajectory.empty() ? 0 : trajectory.back().way;
+    trajectory.push_back(has_scan ? seen++->sight : LoopSearch::Sight{frame.id, kNothingSeen, travel});
+  }
+  slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(trajectory));
+}
+
+// Since the newest key frame that is not after `stamp`, or since the session began [m].
+double LoopClosurePlugin::travelSince(std::optional<base::Stamp> stamp, const History& history, std::size_t index) {
+  const auto& newest = history[index].sight;
+  std::size_t i = index;
+  while (i > 0 && history[i - 1].sight.frame.session == newest.frame.session && (!stamp || history[i].stamp > *stamp))
+    --i;
+  return newest.way - history[i].sight.way;
+}
+
+// Ever more rarely where nothing is found, for on new ground there is nothing to find, and more rarely in a large map,
+// which costs more to search.
+void LoopClosurePlugin::seekGlobally(const std::string& label, const History& history, std::size_t index,
+                                     const mapper::State& state) {
+  constexpr double kSpacing = 3;                                 // [m]
+  constexpr double kShareOfLost = 0.1, kShareOnNewGround = 0.5;  // of the travel since the last closure
+  constexpr double kShareOfAll = 0.01;                           // of all travel
+  constexpr double kGrown = 1.2;                                 // a map that is prepared for searches serves till then
+  if (context_.map_is_held || !state.map.sessions.back().joined) return;
+  const double travel = history[index].sight.way;
+  const auto tied = closures_.newestTied(state.graph);
+  if (travelSince(tied, history, index) < options_.lost_way) return;
+  const auto answered = std::max(tied, closures_.newestWithNote(state.graph, kGlobalClosure));
+  const double since_answer = travelSince(answered, history, index);
+  const double spacing = std::max({kSpacing, kShareOfLost * since_answer, kShareOfAll * travel});
+  SoughtGlobally& last = sought_globally_[label];
+  if (last.travel > 0 && std::abs(travel - last.travel) < spacing) return;
+  last.travel = travel;
+  const double rarely = std::max(kSpacing, kShareOnNewGround * since_answer);
+  const bool on_new_ground = std::abs(travel - last.on_new_ground) >= rarely;
+  if (on_new_ground) last.on_new_ground = travel;
+  std::vector<LoopSearch::Sight> earlier;
+  for (std::size_t i = 0; i < index && travel - history[i].sight.way >= options_.min_way; ++i)
+    earlier.push_back(history[i].sight);
+  if (earlier.empty()) return;
+  const bool has_grown = static_cast<double>(earlier.size()) > kGrown * static_cast<double>(last.size);
+  const bool is_moved = tied != last.tied || closures_.corrections() != last.corrections;
+  if (!last.places || has_grown || is_moved) {
+    last.places = placesToLoopTo(state.map, label, earlier, matcher_);
+    last.size = earlier.size();
+    last.tied = tied;
+    last.corrections = closures_.corrections();
+  }
+  global_searches_.emplace_back(options_, context_, matcher_, last.places, label,
+                                sights(history, index, options_.join_way + kSpacing, 0), std::move(earlier),
+                                on_new_ground);
+}
+
+// Ever more rarely, for a session of another place is never joined; often again once it was moved to where it was
+// found.
+void LoopClosurePlugin::seekInMap(const std::string& label, const History& history, std::size_t index,
+                                  const mapper::State& state) {
+  constexpr double kSpacing = 3,
+                   kShareOfWay = 0.1;  // [m] [1] of the way without an answer, from one search to the next
+  constexpr double kMoved = 1;         // [m]
+  if (!places_) return;
+  const auto& session = state.map.sessions.back();
+  const auto& sight = history[index].sight;
+  if (session.joined || sight.frame.session != session.number) return;
+  const auto first = std::find_if(history.begin(), history.end(),
+                                  [&](const Seen& seen) { return seen.sight.frame.session == session.number; });
+  const double way = sight.way - first->sight.way;
+  const auto begun_at = mapper::poseOf(state.graph, session.anchor).translation();
+  const auto [entry, is_first] = sought_in_map_.try_emplace(label, Sought{way, way, begun_at});
+  Sought& last = entry->second;
+  if ((begun_at - last.begun_at).norm() > kMoved) last.answered = last.way;
+  last.begun_at = begun_at;
+  if (!is_first && way - last.way < std::max(kSpacing, kShareOfWay * (way - last.answered))) return;
+  last.way = way;
+  map_searches_.emplace_back(options_, context_, matcher_, places_, label,
+                             sights(history, index, options_.join_way + kSpacing, 0), way);
+}
+
+void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view) {
+  std::set<std::uint16_t> lying_apart;
+  for (const auto& session : view.map.sessions) {
+    if (!session.joined) lying_apart.insert(session.number);
+  }
+  for (const auto& frame : view.map.key_frames) {
+    // In a map that is held it stays where nobody knows that it is.
+    if (context_.map_is_held && lying_apart.count(frame.id.session) > 0) continue;
+    for (const auto& observation : frame.observations) {
+      if (!wants(*observation)) continue;
+      const auto prepared = prepare(*observation);
+      remember(frame, dynamic_cast<const PreparedScan&>(*prepared).scan, view, histories_[observation->sensorLabel]);
+    }
+  }
+  if (view.map.key_frames.empty()) return;
+  std::map<std::string, std::vector<LoopSearch::Sight>> sights;
+  for (const auto& [label, history] : histories_) {
+    for (const auto& seen : history) sights[label].push_back(seen.sight);
+  }
+  auto places = std::make_shared<const KnownPlaces>(view.map, sights, matcher_);
+  if (!places->empty()) places_ = std::move(places);
+}
+
+void LoopClosurePlugin::retired(const map::KeyFrame& frame) {
+  for (auto& [label, history] : histories_) {
+    const auto seen = std::lower_bound(
+        history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
+        [](const Seen& one, const auto& wanted) { return std::tuple(one.sight.frame.session, one.stamp) < wanted; });
+    if (seen != history.end() && seen->sight.frame == frame.id) history.erase(seen);
+  }
+}
+
+mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, const mapper::View& view) {
+  mapper::FollowUp follow_up;
+  follow_up.batch = closures_.proposedAgain(view, context_.section);
+  for (auto& search : searches_) follow_up.jobs.push_back({"loop closure of " + toString(frame.id), std::move(search)});
+  for (auto& search : global_searches_)
+    follow_up.jobs.push_back({"global loop search of " + toString(frame.id), std::move(search)});
+  for (auto& search : slip_searches_)
+    follow_up.jobs.push_back({"slip search of " + toString(frame.id), std::move(search)});
+  for (auto& search : map_searches_)
+    follow_up.jobs.push_back({"relocalisation of " + toString(frame.id), std::move(search)});
+  searches_.clear();
+  global_searches_.clear();
+  slip_searches_.clear();
+  map_searches_.clear();
+  return follow_up;
+}
+
+// The last solve has tested all.
+mapper::Batch LoopClosurePlugin::atEnd(const mapper::View& view) {
+  closures_.noteSolves(view.solves.size() + 1);
+  return closures_.proposedAgain(view, context_.section);
+}
+
+std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& view) const {
+  std::vector<std::string> labels;
+  for (const auto& [label, history] : histories_) labels.push_back(label);
+  auto all = revisits(view, context_.section, labels, options_.min_way);
+  all.insert(all.begin(), scansThroughWalls(view.map, labels));
+  for (auto& one : slips(view, context_.section, view.decisions)) all.push_back(std::move(one));
+  return all;
+}
+
+std::vector<LoopSearch::Sight> LoopClosurePlugin::sights(const History& history, std::size_t centre, double before,
+                                                         double after) {
+  const auto& middle = history[centre].sight;
+  const auto belongs = [&](std::size_t i) {
+    const auto& sight = history[i].sight;
+    return sight.frame.session == middle.frame.session && sight.way >= middle.way - before &&
+           sight.way <= middle.way + after;
+  };
+  std::size_t first = centre, end = centre + 1;
+  while (first > 0 && belongs(first - 1)) --first;
+  while (end < history.size() && belongs(end)) ++end;
+  // A base that turns on the spot sees the same again and again: of many sights some do.
+  constexpr std::size_t kMost = 200;
+  const std::size_t stride = 1 + (end - first) / kMost;
+  std::vector<LoopSearch::Sight> all;
+  for (std::size_t i = first; i < end; ++i) {
+    if (i == centre || (i - first) % stride == 0) all.push_back(history[i].sight);
+  }
+  return all;
+}
+
+// The nearest place of each earlier pass, with the scans around it: some more than are tried, for how uncertain they
+// are is not known here.
+std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame& frame, const History& history,
+                                                             std::size_t index, const mapper::State& state) const {
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t i = 0; i < index; ++i) {
+    if (history[index].sight.way - history[i].sight.way < options_.min_way) break;
+    if (context_.map_is_held && history[i].sight.frame.session == frame.id.session) break;
+    const auto& place = state.map.keyFrame(history[i].sight.frame).map_from_base;
+    const double distance = (place.translation() - frame.map_from_base.translation()).norm();
+    if (distance <= options_.radius + options_.max_window) near.emplace_back(distance, i);
+  }
+  std::sort(near.begin(), near.end());
+  const double around = 2 * options_.context + options_.max_window;
+  std::vector<std::size_t> chosen;
+  std::vector<LoopSearch::Place> places;
+  for (const auto& candidate : near) {
+    const std::size_t i = candidate.second;
+    // Neighbours along the path would only repeat it.
+    const bool repeats = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
+      return std::abs(history[other].sight.way - history[i].sight.way) < options_.min_way;
+    });
+    if (repeats) continue;
+    chosen.push_back(i);
+    places.push_back({history[i].sight, sights(history, i, around, around)});
+    if (places.size() == kPlacesAsked * static_cast<std::size_t>(options_.candidates)) break;
+  }
+  return places;
+}
+
+using LoopClosureSection = mapper::SharedSection<LoopClosureOptions, matching::ScanMatcherOptions>;
+
+const std::vector<base::OptionSpec>& LoopClosurePluginFactory::options() const {
+  return LoopClosureSection::options();
+}
+
+std::unique_ptr<mapper::MeasurementPlugin> LoopClosurePluginFactory::make(const base::ConfigSection& section,
+                                                                          const mapper::PluginContext& context) const {
+  return std::make_unique<LoopClosurePlugin>(LoopClosureSection::read<LoopClosureOptions>(section),
+                                             LoopClosureSection::read<matching::ScanMatcherOptions>(section), context);
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,223 @@
+#include "LoopSearch.h"
+
+#include <omnimapper/matching/CorrelativeSearch.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "ScanFactor.h"
+
+namespace omnimapper::plugins {
+
+using mrpt::math::TPose2D;
+
+namespace {
+constexpr double kReachSigmas = 3;  // standard deviations that an estimate may be off by
+constexpr double kAlike = 0.05;     // of overlap: two matches that differ by less are as good as one another
+constexpr double kSame = 0.3, kSameTurn = 0.1;  // [m] [rad] within which two matches are one
+constexpr std::size_t kMostBlocks = 100'000;  // of a search: a second or so in a window that is large and tells little
+}  // namespace
+
+matching::PlanarScan localMap(const std::vector<LoopSearch::Sight>& sights, base::KeyFrameId centre,
+                              const mapper::State& state) {
+  const auto& map_from_centre = state.map.keyFrame(centre).map_from_base;
+  matching::PlanarScan local;
+  for (const auto& sight : sights) {
+    matching::append(*sight.scan, planar(state.map.keyFrame(sight.frame).map_from_base - map_from_centre), local);
+  }
+  return local;
+}
+
+mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
+  std::vector<Attempt> attempts;
+  for (const auto& place : places_) {
+    if (static_cast<int>(attempts.size()) == options_.candidates) break;
+    if (auto attempt = attemptAt(place, state)) attempts.push_back(std::move(*attempt));
+  }
+  mapper::Batch batch;
+  for (auto& attempt : attempts) {
+    auto& decision = attempt.decision;
+    judgeClosure(options_, attempt.matches, attempt.guess, decision);
+    if (decision.accepted) {
+      if (const auto elsewhere = overlapElsewhere(attempts, attempt, state)) {
+        decision.accepted = false;
+        decision.reason = "ambiguous: it fits as well or better at another place";
+        decision.numbers.emplace_back("overlap elsewhere", *elsewhere);
+      }
+    }
+    if (!decision.accepted) {
+      batch.log(std::move(decision));
+      continue;
+    }
+    auto closure = scanFactor(options_, context_, state.map.keyFrame(attempt.place->centre.frame).pose,
+                              state.map.keyFrame(newest_.back().frame).pose, attempt.matches.front());
+    closure.loss = graph::Loss::cauchy(options_.loss_scale);
+    batch.addHypothesis(std::move(closure), std::move(decision));
+  }
+  return batch;
+}
+
+// The same was sought at each of these places: of a match at another that is as good and not the same spot, its
+// overlap. How the places lie to one another is as sure as the map.
+std::optional<double> LoopSearch::overlapElsewhere(const std::vector<Attempt>& attempts, const Attempt& attempt,
+                                                   const mapper::State& state) {
+  const auto& best = attempt.matches.front();
+  const auto here = attempt.place->centre.frame;
+  for (const auto& other : attempts) {
+    const auto there = other.place->centre.frame;
+    if (&other == &attempt || other.matches.empty() || other.matches.front().overlap < best.overlap - kAlike) continue;
+    const auto covariance = state.covarianceBetween(here, there);
+    if (!covariance) continue;
+    const double metres = kSame + kReachSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));
+    const double radians = kSameTurn + kReachSigmas * std::sqrt((*covariance)(5, 5));
+    const auto here_from_there =
+        planar(state.map.keyFrame(there).map_from_base - state.map.keyFrame(here).map_from_base);
+    for (const auto& match : other.matches) {
+      if (match.overlap < best.overlap - kAlike) break;
+      const auto apart = (here_from_there + match.reference_from_scan) - best.reference_from_scan;
+      if (std::hypot(apart.x, apart.y) > metres || std::abs(mrpt::math::wrapToPi(apart.phi)) > radians)
+        return match.overlap;
+    }
+  }
+  return std::nullopt;
+}
+
+LoopSearch::Doubt LoopSearch::doubtAt(const Place& place, const mapper::State& state) const {
+  const auto covariance = state.covarianceBetween(place.centre.frame, newest_.back().frame);
+  if (!covariance) return {options_.max_window, options_.max_window_angle};
+  const Eigen::Matrix2d position = covariance->topLeftCorner<2, 2>();
+  return {kReachSigmas * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]),
+          kReachSigmas * std::sqrt((*covariance)(5, 5))};
+}
+
+double LoopSearch::queryWay(const Doubt& doubt) const {
+  return options_.context + doubt.position;
+}
+
+// What is sought is no part of where it is sought: it would fit itself wherever the estimate has it.
+matching::PlanarScan LoopSearch::localMapOf(const Place& place, const Doubt& doubt, const mapper::State& state) const {
+  const double reach = 2 * options_.context + doubt.position, end = newest_.back().way - queryWay(doubt);
+  std::vector<Sight> sights;
+  std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(sights), [&](const Sight& sight) {
+    const bool is_sought = sight.frame.session == newest_.back().frame.session && sight.way >= end;
+    return !is_sought && std::abs(sight.way - place.centre.way) <= reach;
+  });
+  return localMap(sights, place.centre.frame, state);
+}
+
+matching::PlanarScan LoopSearch::query(const Doubt& doubt, const mapper::State& state) const {
+  std::vector<Sight> sights;
+  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sights),
+               [&](const Sight& sight) { return newest_.back().way - sight.way <= queryWay(doubt); });
+  return localMap(sights, newest_.back().frame, state);
+}
+
+// Within what the fine matcher reaches by itself the guess will do.
+std::vector<TPose2D> LoopSearch::starts(const matching::PlanarScan& local, const matching::PlanarScan& query,
+                                        const TPose2D& guess, const Doubt& doubt) const {
+  constexpr double kReach = 0.4;       // [m]
+  constexpr double kAngleReach = 0.2;  // [rad]
+  constexpr double kSpacing = 0.25;    // [m] between the points that are searched with
+  if (doubt.position < kReach && doubt.yaw < kAngleReach) return {guess};
+  grid::LikelihoodOptions grid;
+  grid.cell = 0.1;
+  grid.sigma = 0.1;
+  const grid::LikelihoodPyramid pyramid(local.points, grid);
+  matching::SearchWindow window;
+  window.centre = guess;
+  window.half_x = window.half_y = std::min(doubt.position, options_.max_window);
+  window.half_yaw = std::min(doubt.yaw, options_.max_window_angle);
+  matching::SearchOptions limits;
+  limits.min_score = 0.5;
+  limits.min_share_of_best = 0.9;
+  limits.max_blocks = kMostBlocks;
+  std::vector<TPose2D> found;
+  for (const auto& result : matching::search(pyramid, matching::oncePerCell(query, kSpacing).points, window, limits)) {
+    found.push_back(result.map_from_scan);
+  }
+  return found;
+}
+
+namespace {
+// Whether one of them is of the newest session, which nothing ties to the other's.
+bool isApart(base::KeyFrameId place, base::KeyFrameId newest, const map::Map& map) {
+  if (map.sessions.empty() || map.sessions.back().joined) return false;
+  return newest.session == map.sessions.back().number && place.session != newest.session;
+}
+}  // namespace
+
+std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, const mapper::State& state) const {
+  const auto& frame = state.map.keyFrame(newest_.back().frame);
+  const auto& centre = state.map.keyFrame(place.centre.frame);
+  const auto guess = planar(frame.map_from_base - centre.map_from_base);
+  const Doubt doubt = doubtAt(place, state);
+  const double apart = std::hypot(guess.x, guess.y);
+  if (apart > options_.radius + doubt.position) return std::nullopt;
+  // In a window smaller than the doubt a wrong place would fit as well: that is for MapSearch.
+  if (isApart(centre.id, frame.id, state.map) && doubt.position > options_.max_window) return std::nullopt;
+  // A closure that tells what the map knows as well only makes every solve dearer.
+  const bool is_known =
+      doubt.position < kReachSigmas * options_.known_sigma && doubt.yaw < kReachSigmas * options_.known_angle_sigma;
+  if (is_known && !context_.map_is_held) return std::nullopt;
+
+  Attempt attempt{&place, guess, {}, {}};
+  auto& decision = attempt.decision;
+  decision.stamp = frame.stamp;
+  decision.plugin = context_.section;
+  decision.kind = "loop closure";
+  decision.from = frame.id;
+  decision.to = centre.id;
+  decision.numbers = {{"may be off by [m]", doubt.position},
+                      {"may be off by [deg]", doubt.yaw / base::option_text::kRadiansPerDegree}};
+  constexpr double kSpacing = 0.08;  // [m]
+  const auto local = matching::oncePerCell(localMapOf(place, doubt, state), kSpacing / 2),
+             query = matching::oncePerCell(this->query(doubt, state), kSpacing);
+  const auto reference = matcher_->prepare(local);
+  auto& matches = attempt.matches;
+  for (const auto& start : starts(local, query, guess, doubt))
+    matches.push_back(matcher_->match(*reference, query, start));
+  std::sort(matches.begin(), matches.end(), [](const auto& a, const auto& b) { return a.overlap > b.overlap; });
+  return attempt;
+}
+
+// The best of them, unless another is elsewhere and as good: alike corridors, rooms with a symmetry.
+void judgeClosure(const LoopClosureOptions& options, const std::vector<matching::ScanMatch>& matches,
+                  const TPose2D& guess, mapper::Decision& decision) {
+  if (matches.empty()) {
+    decision.reason = "nothing alike";
+    return;
+  }
+  const auto& best = matches.front();
+  const auto correction = best.reference_from_scan - guess;
+  decision.numbers.insert(decision.numbers.end(), {{"overlap", best.overlap},
+                                                   {"distance from walls [m]", best.wall_distance},
+                                                   {"correction [m]", std::hypot(correction.x, correction.y)},
+                                                   {"correction [deg]", std::abs(mrpt::math::wrapToPi(correction.phi)) /
+                                                                            base::option_text::kRadiansPerDegree}});
+  if (best.overlap < options.min_overlap) {
+    decision.reason = "too little overlap";
+    return;
+  }
+  for (std::size_t i = 1; i < matches.size() && matches[i].overlap > best.overlap - kAlike; ++i) {
+    const auto apart = matches[i].reference_from_scan - best.reference_from_scan;
+    if (std::hypot(apart.x, apart.y) < kSame && std::abs(mrpt::math::wrapToPi(apart.phi)) < kSameTurn) continue;
+    decision.reason = "ambiguous: it fits as well elsewhere";
+    decision.numbers.emplace_back("overlap elsewhere", matches[i].overlap);
+    return;
+  }
+  // What slides along a corridor says nothing of where in it.
+  const double point_sigma = std::max(options.point_sigma, best.point_sigma);
+  const Eigen::Matrix2d position = best.unit_covariance.topLeftCorner<2, 2>();
+  const double sigma =
+      point_sigma * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]);
+  decision.numbers.emplace_back("uncertainty of the match [m]", sigma);
+  if (best.degenerate || sigma > options.max_sigma) {
+    decision.reason = best.degenerate ? "the walls leave a direction open" : "the walls hardly fix it";
+    return;
+  }
+  decision.accepted = true;
+  decision.reason = "matched";
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,301 @@
+#include "MapConsistency.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/grid/LikelihoodPyramid.h>
+#include <omnimapper/matching/WallCrossings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "KnownPlaces.h"
+#include "PlanarMotion.h"
+#include "SlipSearch.h"
+
+namespace omnimapper::plugins {
+
+using mapper::Evidence;
+using mrpt::math::TPose2D;
+
+namespace {
+
+template <class... Numbers>
+std::string format(const char* pattern, Numbers... numbers) {
+  char text[256];
+  std::snprintf(text, sizeof text, pattern, numbers...);
+  return text;
+}
+
+}  // namespace
+
+double shareOnWalls(const std::vector<Eigen::Vector2f>& map, const std::vector<Eigen::Vector2f>& seen) {
+  if (map.empty() || seen.empty()) return 0;
+  grid::LikelihoodOptions grid;
+  grid.cell = 0.1;
+  grid.sigma = 0.15;
+  grid.levels = 1;
+  return grid::LikelihoodPyramid(map, grid).score(seen, TPose2D());
+}
+
+Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& labels) {
+  constexpr double kCrossed = 0.2;       // share of a scan's beams that no people, glass or doors explain
+  constexpr double kMostPercent = 0.5;   // of scans
+  constexpr std::size_t kFewBeams = 20;  // say nothing of a scan
+  Evidence evidence{"scans_through_walls_percent", 0, Evidence::Says::too_little,
+                    "there are no 2D scans to judge it by"};
+  std::vector<matching::MapScan> scans;
+  std::vector<base::Stamp> stamps;
+  for (const auto& frame : map.key_frames) {
+    for (const auto& label : labels) {
+      auto seen = beamsInBase(frame, label);
+      if (seen.scan.hits.size() < kFewBeams) continue;
+      scans.push_back({planar(frame.map_from_base) + seen.local_from_sensor, std::move(seen.scan)});
+      stamps.push_back(frame.stamp);
+    }
+  }
+  if (scans.empty()) return evidence;
+  std::size_t bad = 0, worst = 0;
+  double worst_share = 0;
+  try {
+    const auto crossings = matching::crossedWalls(scans);
+    if (crossings.walls == 0) {
+      evidence.reason = "no wall was seen from enough places to judge it by";
+      return evidence;
+    }
+    const auto& sums = crossings.scans;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const double share =
+          static_cast<double>(sums[i].crossed) / static_cast<double>(std::max(kFewBeams, sums[i].beams));
+      bad += share > kCrossed;
+      if (share <= worst_share) continue;
+      worst = i;
+      worst_share = share;
+    }
+  } catch (const base::Error& error) {
+    evidence.reason = error.what();
+    return evidence;
+  }
+  evidence.value = 100.0 * static_cast<double>(bad) / static_cast<double>(scans.size());
+  if (evidence.value > kMostPercent) {
+    evidence.says = Evidence::Says::against_it;
+    evidence.reason = format(
+        "in %zu of %zu scans a fifth of the beams or more pass through walls of the map, most of all %.0f s after the "
+        "start",
+        bad, scans.size(), base::secondsBetween(map.key_frames.begin()->stamp, stamps[worst]));
+  } else {
+    evidence.says = Evidence::Says::good;
+    evidence.reason = bad == 0 ? "no scan looks through walls of the map"
+                               : format("%zu of %zu scans look through walls of the map", bad, scans.size());
+  }
+  return evidence;
+}
+
+namespace {
+
+// A key frame, and the distance travelled until there [m].
+struct Stop {
+  TPose2D pose;
+  double travelled;
+  base::Stamp stamp;
+  bool is_tied = false;  // a closure leads from it to an earlier one, or from one that is near in travel
+};
+
+std::vector<Stop> stopsOf(const map::Map& map, double between_sessions) {
+  std::vector<Stop> stops;
+  const map::KeyFrame* before = nullptr;
+  for (const auto& frame : map.key_frames) {
+    Stop stop{planar(frame.map_from_base), 0, frame.stamp};
+    if (before) {
+      const TPose2D& last = stops.back().pose;
+      const bool same = before->id.session == frame.id.session;
+      stop.travelled =
+          stops.back().travelled + (same ? std::hypot(stop.pose.x - last.x, stop.pose.y - last.y) : between_sessions);
+    }
+    stops.push_back(stop);
+    before = &frame;
+  }
+  return stops;
+}
+
+// Marks the stops within `reach` [m] of travel of the later end of a closure that acts. Those of earlier sessions are
+// in the graph, not among the decisions of this run. Returns how many act.
+std::size_t markTied(const mapper::State& state, const std::string& section, double reach, std::vector<Stop>& stops) {
+  std::map<base::VariableId, std::size_t> stop_of;
+  for (std::size_t i = 0; i < stops.size(); ++i) stop_of[state.map.key_frames[i].pose] = i;
+  std::size_t closures = 0;
+  for (const auto& [id, record] : state.graph.factors()) {
+    if (record.tags.owner != section || record.tags.note == kSlip || record.weight <= 0) continue;
+    std::size_t poses = 0, latest = 0;
+    for (const auto variable : record.variables) {
+      const auto found = stop_of.find(variable);
+      if (found == stop_of.end()) continue;
+      ++poses;
+      latest = std::max(latest, found->second);
+    }
+    if (poses < 2) continue;
+    ++closures;
+    const double there = stops[latest].travelled;
+    for (std::size_t i = latest; i < stops.size() && stops[i].travelled <= there + reach; ++i) stops[i].is_tied = true;
+    for (std::size_t i = latest; i-- > 0 && stops[i].travelled >= there - reach;) stops[i].is_tied = true;
+  }
+  return closures;
+}
+
+// Stops by the square of the floor they are in.
+class Squares {
+ public:
+  explicit Squares(double side) : side_(side) {}
+  void add(const Stop& stop, std::size_t index) { squares_[{cell(stop.pose.x), cell(stop.pose.y)}].push_back(index); }
+  // Whether that holds for one of those in the same square or the eight around it.
+  template <class Condition>
+  bool anyNear(const Stop& stop, const Condition& holds) const {
+    for (const double dx : {-1, 0, 1}) {
+      for (const double dy : {-1, 0, 1}) {
+        const auto found = squares_.find({cell(stop.pose.x) + dx, cell(stop.pose.y) + dy});
+        if (found != squares_.end() && std::any_of(found->second.begin(), found->second.end(), holds)) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  // A whole number; a double, for a pose may be anywhere.
+  double cell(double x) const { return std::floor(x / side_); }
+  double side_;
+  std::map<std::pair<double, double>, std::vector<std::size_t>> squares_;
+};
+
+// How much of what was seen at a stop lies on what was seen near there at least `min_travel` [m] before, [0, 1]: where
+// the map is right, what stands there.
+double shareSeenBefore(const map::Map& map, const std::vector<std::string>& labels, const std::vector<Stop>& stops,
+                       std::size_t at, double min_travel) {
+  constexpr double kNear = 6;  // [m] from where most of it was in sight
+  constexpr std::size_t kMost = 12;
+  std::vector<Eigen::Vector2f> before, seen;
+  const auto add = [&](std::size_t i, std::vector<Eigen::Vector2f>& points) {
+    const TPose2D here_from_base = stops[i].pose - stops[at].pose;
+    for (const auto& label : labels) {
+      const auto beams = beamsInBase(*std::next(map.key_frames.begin(), static_cast<std::ptrdiff_t>(i)), label);
+      const TPose2D here_from_sensor = here_from_base + beams.local_from_sensor;
+      for (const auto& hit : beams.scan.hits) {
+        const auto point = here_from_sensor.composePoint({hit.x(), hit.y()});
+        points.emplace_back(static_cast<float>(point.x), static_cast<float>(point.y));
+      }
+    }
+  };
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t i = 0; i < at && stops[at].travelled - stops[i].travelled >= min_travel; ++i) {
+    const double apart = std::hypot(stops[i].pose.x - stops[at].pose.x, stops[i].pose.y - stops[at].pose.y);
+    if (apart < kNear) near.emplace_back(apart, i);
+  }
+  std::sort(near.begin(), near.end());
+  near.resize(std::min(near.size(), kMost));
+  for (const auto& [apart, i] : near) add(i, before);
+  add(at, seen);
+  return shareOnWalls(before, seen);
+}
+
+// Which stops lie where the robot has been, at least `min_travel` [m] before.
+std::vector<bool> revisiting(const std::vector<Stop>& stops, double min_travel) {
+  constexpr double kNear = 2.0, kAngle = 0.8;  // [m] [rad] within which two scans of 180 deg see much the same
+  Squares squares(kNear);
+  std::vector<bool> again(stops.size());
+  std::size_t entered = 0;
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    for (; entered < i && stops[i].travelled - stops[entered].travelled >= min_travel; ++entered)
+      squares.add(stops[entered], entered);
+    again[i] = squares.anyNear(stops[i], [&](std::size_t other) {
+      const TPose2D &here = stops[i].pose, &there = stops[other].pose;
+      return std::hypot(here.x - there.x, here.y - there.y) < kNear &&
+             std::abs(mrpt::math::wrapToPi(here.phi - there.phi)) < kAngle;
+    });
+  }
+  return again;
+}
+
+}  // namespace
+
+std::vector<Evidence> revisits(const mapper::State& state, const std::string& section,
+                               const std::vector<std::string>& labels, double min_travel) {
+  constexpr double kTied = 15;   // [m] of travel from a closure within which a revisit counts as recognized
+  constexpr double kLong = 10;   // [m] of a stretch that is not
+  constexpr double kFits = 0.5;  // of shareSeenBefore()
+  auto stops = stopsOf(state.map, 2 * min_travel);
+  const std::size_t closures = markTied(state, section, kTied, stops);
+  const auto again = revisiting(stops, min_travel);
+  double revisited = 0, untied = 0, fitting = 0, stretch = 0, longest = 0;
+  base::Stamp longest_until{};
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    const double step = again[i] ? stops[i].travelled - stops[i - 1].travelled : 0;
+    revisited += step;
+    const bool is_known =
+        !again[i] || stops[i].is_tied || shareSeenBefore(state.map, labels, stops, i, min_travel) > kFits;
+    stretch = is_known ? 0 : stretch + step;
+    if (stretch > 0) untied += step;
+    if (is_known && !stops[i].is_tied) fitting += step;
+    if (stretch > longest) {
+      longest = stretch;
+      longest_until = stops[i].stamp;
+    }
+  }
+  Evidence again_m{"revisited_m", revisited, Evidence::Says::good,
+                   format("%zu closures tie %.0f m that were driven again", closures, revisited - untied - fitting)};
+  if (fitting > kLong)
+    again_m.reason += format(", and on %.0f m more the scans fit what was seen there before", fitting);
+  if (revisited == 0) {
+    again_m.says = Evidence::Says::too_little;
+    again_m.reason = "the robot never came back to a place that it had seen before";
+  }
+  Evidence untied_m{"revisited_without_closure_m", untied, Evidence::Says::good, ""};
+  if (longest > kLong) {
+    untied_m.says = Evidence::Says::against_it;
+    untied_m.reason = format(
+        "for %.0f m, until %.0f s after the start, the robot drives where it has been before and sees something else",
+        longest, base::secondsBetween(stops.front().stamp, longest_until));
+  }
+  return {again_m, untied_m};
+}
+
+std::vector<Evidence> slips(const mapper::State& state, const std::string& section,
+                            const mapper::DecisionLog& decisions) {
+  std::vector<Evidence> all;
+  const auto stampOf = [&](base::KeyFrameId id) { return state.map.keyFrame(id).stamp; };
+  const auto secondsOf = [&](base::Stamp stamp) {
+    return base::secondsBetween(state.map.key_frames.begin()->stamp, stamp);
+  };
+  const mapper::Decision* contradiction = nullptr;
+  Evidence undone{"slips_undone", 0, Evidence::Says::good, ""};
+  for (const auto& decision : decisions) {
+    if (decision.plugin != section || decision.kind != kSlip) continue;
+    if (!decision.accepted) {
+      contradiction = &decision;
+      continue;
+    }
+    double metres = 0, degrees = 0;
+    for (const auto& [name, value] : decision.numbers) {
+      if (name == kSlippedBy) metres = value;
+      if (name == kSlippedByAngle) degrees = value;
+    }
+    ++undone.value;
+    undone.reason += (undone.reason.empty() ? "" : "; ") +
+                     format("a slip of %.1f m and %.0f deg, %.0f s after the start, was undone", metres, degrees,
+                            secondsOf(decision.stamp));
+  }
+  if (undone.value > 0) all.push_back(undone);
+  if (!contradiction) return all;
+  // One that ties what came after it to what was there before.
+  const bool is_resolved = std::any_of(decisions.begin(), decisions.end(), [&](const mapper::Decision& decision) {
+    return decision.plugin == section && decision.kind == "loop closure" && decision.accepted && decision.to &&
+           stampOf(decision.from) >= contradiction->stamp && stampOf(*decision.to) <= stampOf(*contradiction->to);
+  });
+  if (is_resolved) return all;
+  const double seconds = secondsOf(contradiction->stamp);
+  all.push_back(
+      {"contradicted_after_s", seconds, Evidence::Says::against_it,
+       format("closures that agree with one another, from %.0f s after the start on, contradict the map", seconds)});
+  return all;
+}
+
+}  // namespace omnimapper::plugins

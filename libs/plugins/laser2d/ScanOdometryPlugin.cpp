@@ -1,0 +1,382 @@
+#include "ScanOdometryPlugin.h"
+
+#include <mrpt/core/bits_math.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/geometry/Covariance.h>
+#include <omnimapper/matching/ScanInBase.h>
+#include <omnimapper/plugin/SharedSection.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <tuple>
+#include <utility>
+
+#include "PlanarMotion.h"
+
+IMPLEMENTS_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+// Of the laser on the base [m].
+Eigen::Vector2f placeOf(const mrpt::obs::CObservation2DRangeScan& scan) {
+  return {static_cast<float>(scan.sensorPose.x()), static_cast<float>(scan.sensorPose.y())};
+}
+
+// How far a point at arm's length of the laser, some metres away, is moved [m].
+double sizeOf(const TPose2D& motion) {
+  constexpr double kLever = 3;  // [m]
+  return std::hypot(motion.x, motion.y) + kLever * std::abs(mrpt::math::wrapToPi(motion.phi));
+}
+
+TPose2D scaled(const TPose2D& motion, double factor) {
+  return {factor * motion.x, factor * motion.y, factor * motion.phi};
+}
+
+TPose2D perSecond(const TPose2D& motion, double seconds) {
+  return {motion.x / seconds, motion.y / seconds, mrpt::math::wrapToPi(motion.phi) / seconds};
+}
+
+}  // namespace
+
+const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
+  using Options = ScanOdometryOptions;
+  const auto zero_or_more = base::Range::notNegative();
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("label", &Options::label, "Sensor label of the laser; empty for the first that comes.")
+          .text("odometry_label", &Options::odometry_label,
+                "Sensor label of the odometry that predicts; empty for that which agrees best with the matches.")
+          .number("sweep_s", &Options::sweep, zero_or_more,
+                  "Time from the first beam of a scan, when it is stamped, to the last: the motion meanwhile is taken "
+                  "out of it. 0: all at once.")
+          .number("max_gap_s", &Options::max_gap, base::Range::positive(),
+                  "After a longer time without a match the laser begins anew, and other sources tell the motion.")
+          .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
+                  "A prediction that is faster is not believed.")
+          .number("guess_sigma_m", &Options::guess_sigma, base::Range::positive(),
+                  "Standard deviation of a predicted position; counts where the walls leave a direction open.")
+          .number("guess_sigma_deg", &Options::guess_angle_sigma, base::Range::positive(),
+                  "Standard deviation of a predicted heading.")
+          .number("guess_sigma_per_m", &Options::guess_sigma_per_m, zero_or_more,
+                  "Both grow by this share of the motion that is predicted.")
+          .number("point_sigma_m", &Options::point_sigma, base::Range::positive(),
+                  "Standard deviation of a point from the wall it lies on, at least; a match may find more.")
+          .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
+                  "Standard deviation of the position after 1 m of way [m] beside that of the matches.")
+          .number("yaw_noise_per_root_m_deg", &Options::yaw_noise_per_root_m, zero_or_more,
+                  "Standard deviation of the heading after 1 m of way beside that of the matches.")
+          .number("yaw_noise_per_root_turn", &Options::yaw_noise_per_root_turn, zero_or_more,
+                  "Standard deviation of the heading after 1 rad of turning [rad] beside that of the matches.");
+  return table;
+}
+
+ScanOdometryPlugin::ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
+                                       const perception::LaserPointsOptions& points)
+    : options_(options),
+      extractor_(points),
+      tracker_(options.tracker, matching::makeMatcher(matching)),
+      noise_(options.point_sigma) {}
+
+bool ScanOdometryPlugin::isOurs(const mrpt::obs::CObservation2DRangeScan& scan) {
+  if (label_ && scan.sensorLabel != *label_) return false;
+  if (!options_.label.empty() && scan.sensorLabel != options_.label) return false;
+  const double tilt = matching::tiltOf(scan.sensorPose);
+  if (!(tilt <= matching::kLargestTilt)) {
+    auto& tilted = tilted_[scan.sensorLabel];
+    ++tilted.scans;
+    tilted.tilt = std::max(tilted.tilt, tilt);
+    return false;
+  }
+  label_ = scan.sensorLabel;
+  return true;
+}
+
+// Nothing of a tilted laser beside a level one that was taken instead.
+std::vector<std::string> ScanOdometryPlugin::warnings() const {
+  std::vector<std::string> sentences;
+  for (const auto& [label, tilted] : tilted_) {
+    if (label_ && label != *label_) continue;
+    const auto degrees = std::lround(tilted.tilt / base::option_text::kRadiansPerDegree);
+    sentences.push_back(std::to_string(tilted.scans) + " scans of the laser '" + label +
+                        "' were left out: by its sensor pose it is tilted by " + std::to_string(degrees) +
+                        " deg, more than " +
+                        std::to_string(std::lround(matching::kLargestTilt / base::option_text::kRadiansPerDegree)) +
+                        ", and does not tell motion on a floor; name a level laser as label, correct its pose by " +
+                        "[mapper] sensors, or take the plugin out of [mapper] pose_plugins");
+  }
+  return sentences;
+}
+
+std::vector<mapper::Evidence> ScanOdometryPlugin::evidence() const {
+  constexpr double kMostBlind = 10;  // [%]
+  const auto too_little = mapper::Evidence::Says::too_little;
+  std::vector<mapper::Evidence> all;
+  char text[200];
+  if (gaps_.count > 0) {
+    std::snprintf(text, sizeof text,
+                  "nothing told the motion across %zu gaps of the laser, the first %.0f s after its start", gaps_.count,
+                  gaps_.first);
+    all.push_back({"laser_gaps_without_motion", static_cast<double>(gaps_.count), too_little, text});
+  }
+  const double percent = 100 * blind_seconds_ / std::max(blind_seconds_ + seeing_seconds_, 1e-9);
+  if (percent > kMostBlind) {
+    std::snprintf(text, sizeof text,
+                  "for %.0f %% of the time the laser saw nothing that tells motion along a corridor, and no odometry "
+                  "told it",
+                  percent);
+    all.push_back({"blind_along_percent", percent, too_little, text});
+  }
+  return all;
+}
+
+ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation& observation) {
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation);
+  if (!scan) addOdometry(observation);
+  if (!scan || !isOurs(*scan)) return Taken::not_mine;
+  if (!reached_ || scan->timestamp > *reached_) wait_.emplace(scan->timestamp, *scan);
+  return Taken::taken;
+}
+
+std::optional<base::Stamp> ScanOdometryPlugin::coveredUntil() const {
+  if (!wait_.empty()) return wait_.rbegin()->first;
+  return reached_;
+}
+
+// One scan beyond it, so that the motion to between two scans is known.
+void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
+  while (!wait_.empty() && (!reached_ || *reached_ < stamp)) {
+    const auto next = wait_.extract(wait_.begin());
+    reached_ = next.key();
+    follow(next.mapped());
+  }
+  for (auto& odometry : odometries_) odometry.source.forgetBefore(last_.value_or(stamp));
+}
+
+base::Stamp ScanOdometryPlugin::middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const {
+  return scan.timestamp + base::durationFromSeconds(0.5 * options_.sweep);
+}
+
+matching::PlanarScan ScanOdometryPlugin::wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
+                                                 const TPose2D& velocity) const {
+  const auto derived = extractor_.extract(scan);
+  const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*derived);
+  if (options_.sweep == 0) return matching::scanInBase(cloud);
+  return matching::scanInBase(cloud, {scan.aperture, scan.rightToLeft, scaled(velocity, options_.sweep)});
+}
+
+void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation) {
+  const std::string& label = observation.sensorLabel;
+  if (!options_.odometry_label.empty() && label != options_.odometry_label) return;
+  for (auto& known : odometries_) {
+    if (known.label != label) continue;
+    known.source.add(observation);
+    return;
+  }
+  matching::WheelOdometryOptions odometry;
+  odometry.label = label;
+  matching::WheelOdometry source(odometry);
+  if (source.add(observation) != matching::WheelOdometry::Taken::not_mine)
+    odometries_.push_back({label, std::move(source), {}, {}, {}});
+}
+
+void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
+  constexpr double kMemory = 0.9;
+  if (!predictor.motion) return;
+  const TPose2D off = *predictor.motion - motion;
+  const auto average = [](double& mean, double value) { mean = kMemory * mean + (1 - kMemory) * value; };
+  average(predictor.error, sizeOf(off));
+  average(predictor.position_error, mrpt::square(std::hypot(off.x, off.y)));
+  average(predictor.angle_error, mrpt::square(mrpt::math::wrapToPi(off.phi)));
+  predictor.is_judged = true;
+}
+
+namespace {
+// Of a motion along walls that nothing tells: however the base drove last, it may have braked or gone on. That it does
+// so for a while, and not anew at each scan, makes the spans' errors alike: they add up as those of such a while do.
+double blindVariance(double seconds) {
+  constexpr double kUsualSpeed = 0.5, kWhile = 10;  // [m/s] [s]
+  return mrpt::square(kUsualSpeed) * kWhile * seconds;
+}
+
+}  // namespace
+
+// Whether wheels or inertia told the motion that is sought now.
+bool ScanOdometryPlugin::isTold() const {
+  return std::any_of(odometries_.begin(), odometries_.end(),
+                     [](const Odometry& odometry) { return odometry.told.has_value(); });
+}
+
+void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) {
+  if (!last_) return restart(scan);
+  const base::Stamp stamp = middleOf(scan);
+  const double seconds = base::secondsBetween(*last_, stamp);
+  const auto predictions = this->predictions(stamp);
+  // Of stamps that nearly coincide the noise would be a speed.
+  constexpr double kShortest = 0.02;  // [s]
+  const bool is_long = seconds > kShortest;
+  const TPose2D velocity =
+      is_long && !predictions.empty() ? perSecond(predictions.front().guess.reference_from_scan, seconds) : velocity_;
+  const auto tracked = tracker_.track(wallsOf(scan, velocity), placeOf(scan), predictions);
+  if (!tracked) {
+    if (seconds <= options_.max_gap) return;
+    if (!isTold() && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
+    return restart(scan);
+  }
+  const TPose2D& motion = tracked->match.reference_from_scan;
+  const bool is_blind = tracked->match.degenerate && !isTold();
+  auto guess = predictions[tracked->prediction].guess;
+  if (is_blind)
+    guess.information.topLeftCorner<2, 2>() =
+        mrpt::square(noise_) / blindVariance(seconds) * Eigen::Matrix2d::Identity();
+  (is_blind ? blind_seconds_ : seeing_seconds_) += seconds;
+  const auto told = motionOf(*tracked, guess);
+  if (is_first_ && is_long) {
+    // From its stamp on, as the base went on.
+    const auto before = mrpt::poses::CPose2D(scaled(motion, 0.5 * options_.sweep / seconds));
+    timeline_.insert(*last_ - base::durationFromSeconds(0.5 * options_.sweep), *last_,
+                     {mrpt::poses::CPose3D(before), told.covariance});
+  }
+  is_first_ = false;
+  timeline_.insert(*last_, stamp, told);
+  constexpr double kMemory = 0.98;  // it is a property of the laser and of the place
+  noise_ = kMemory * noise_ + (1 - kMemory) * std::max(options_.point_sigma, tracked->match.point_sigma);
+  // Where a direction is open the match agrees with whatever it began with.
+  if (!tracked->match.degenerate) {
+    for (auto& odometry : odometries_) {
+      judge(odometry.predictor, motion);
+      if (odometry.told) odometry.calibration.learn(*odometry.told, motion);
+    }
+    judge(by_velocity_, motion);
+  }
+  if (is_long) velocity_ = perSecond(motion, seconds);
+  last_ = stamp;
+}
+
+// Not from a scan that sees nothing: those after it would find nothing in it. How the base moves is not known yet.
+void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan& scan) {
+  constexpr std::size_t kFewPoints = 10;
+  last_.reset();
+  const auto walls = wallsOf(scan, {});
+  if (walls.size() < kFewPoints) return;
+  tracker_.restart(walls, placeOf(scan));
+  velocity_ = {};
+  last_ = middleOf(scan);
+  if (!begun_) begun_ = last_;
+  is_first_ = true;
+}
+
+// That which was nearer to the truth of late first; last that the base stands still.
+std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::Stamp stamp) {
+  const double seconds = base::secondsBetween(*last_, stamp);
+  constexpr double kSlack = 1;               // [m] for stamps that are not exact
+  std::vector<const Odometry*> by_odometry;  // the best of late first
+  for (auto& odometry : odometries_) {
+    odometry.told.reset();
+    odometry.predictor.motion.reset();
+    const auto told = odometry.source.between(*last_, stamp);
+    if (!told) continue;
+    const TPose2D motion = planar(told->begin_from_end);
+    if (std::hypot(motion.x, motion.y) > kSlack + options_.max_speed * seconds) continue;
+    odometry.told = motion;
+    odometry.predictor.motion = odometry.calibration.applied(motion);
+    by_odometry.push_back(&odometry);
+  }
+  const auto rank = [](const Odometry* one) { return std::tuple(!one->predictor.is_judged, one->predictor.error); };
+  std::stable_sort(by_odometry.begin(), by_odometry.end(),
+                   [&](const Odometry* a, const Odometry* b) { return rank(a) < rank(b); });
+  by_velocity_.motion = scaled(velocity_, seconds);
+  // What wheels and inertia tell counts where walls tell little, such as along a corridor. A base that goes on as it
+  // did may have braked or turned.
+  constexpr double kAcceleration = 1, kTurnAcceleration = 1;            // [m/s2] [rad/s2]
+  constexpr double kMostAcceleration = 10, kMostTurnAcceleration = 20;  // of wheels that grip, and slip
+  constexpr double kStampError = 0.05;                                  // [s]
+  constexpr double kMostPosition = 0.1, kMostAngle = 0.2;               // [m] [rad] by what a laser or its wheels err
+  const double most_position = kMostPosition + kStampError * std::hypot(velocity_.x, velocity_.y) +
+                               0.5 * kMostAcceleration * mrpt::square(seconds);
+  const double most_angle =
+      kMostAngle + kStampError * std::abs(velocity_.phi) + 0.5 * kMostTurnAcceleration * mrpt::square(seconds);
+  const auto predicted = [&](const Predictor& predictor, double change, double turn_change) {
+    const TPose2D& motion = *predictor.motion;
+    const double position =
+        std::hypot(options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y) + change,
+                   std::sqrt(predictor.position_error));
+    const double angle =
+        std::hypot(options_.guess_angle_sigma + options_.guess_sigma_per_m * std::abs(motion.phi) + turn_change,
+                   std::sqrt(predictor.angle_error));
+    const Eigen::Vector3d sigmas(position, position, angle);
+    return matching::MotionPrediction{
+        {motion, Eigen::Matrix3d((noise_ * sigmas.cwiseInverse()).cwiseAbs2().asDiagonal())},
+        position,
+        angle,
+        most_position,
+        most_angle,
+        false};
+  };
+  const double change = 0.5 * kAcceleration * mrpt::square(seconds),
+               turn_change = 0.5 * kTurnAcceleration * mrpt::square(seconds);
+  std::vector<matching::MotionPrediction> all;
+  for (const auto* odometry : by_odometry) all.push_back(predicted(odometry->predictor, 0, 0));
+  constexpr double kLongestSearch = 10, kUsualSpeed = 0.5, kUsualTurn = 0.5;  // [s] [m/s] [rad/s]
+  // Across a gap neither steady motion nor rest is a prediction: a match that begins with one finds some wall or other.
+  // Nor is rest where the laser has just begun anew and something else tells the motion.
+  const bool is_unknown = is_first_ && !by_odometry.empty();
+  if (seconds > options_.max_gap || is_unknown) {
+    by_velocity_.motion.reset();
+    if (all.empty() && seconds <= kLongestSearch) {
+      const double reach = kUsualSpeed * seconds, turn = kUsualTurn * seconds;
+      all.push_back({{}, reach, turn, options_.max_speed * seconds, M_PI, true});
+    }
+    return all;
+  }
+  const bool steady_is_better = by_odometry.empty() || by_velocity_.error < 0.5 * by_odometry.front()->predictor.error;
+  all.insert(steady_is_better ? all.begin() : all.end(), predicted(by_velocity_, change, turn_change));
+  if (all.size() == 1) all.push_back({{}, kAcceleration * seconds, kTurnAcceleration * seconds});
+  return all;
+}
+
+// Variances grow with the way and the turn so that spans add up: what a match is uncertain by is taken up once in half
+// the length of the local map, to which the scans in between are all matched alike. What the walls leave open is as
+// good as the guess.
+mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker::Tracked& tracked,
+                                                    const matching::MatchGuess& guess) const {
+  const auto& match = tracked.match;
+  const TPose2D& motion = match.reference_from_scan;
+  const double way = std::hypot(motion.x, motion.y), turn = std::abs(mrpt::math::wrapToPi(motion.phi));
+  const double share =
+      std::min(1.0, 2 / static_cast<double>(options_.tracker.local_scans) *
+                            (way / options_.tracker.local_distance + turn / options_.tracker.local_angle) +
+                        0.001);
+  const double sigma = std::max(options_.point_sigma, match.point_sigma);
+  Eigen::Matrix3d covariance =
+      ((share * mrpt::square(sigma) * match.unit_covariance).inverse() + guess.information / mrpt::square(noise_))
+          .inverse();
+  const double position = mrpt::square(options_.position_noise_per_root_m) * way;
+  covariance += tracked.doubt;
+  covariance.diagonal() += Eigen::Vector3d(
+      position, position,
+      mrpt::square(options_.yaw_noise_per_root_m) * way + mrpt::square(options_.yaw_noise_per_root_turn) * turn);
+  return planarMotion(motion, covariance);
+}
+
+using ScanOdometrySection = mapper::SharedSection<ScanOdometryOptions, matching::ScanTrackerOptions,
+                                                  matching::ScanMatcherOptions, perception::LaserPointsOptions>;
+
+const std::vector<base::OptionSpec>& ScanOdometryPluginFactory::options() const {
+  return ScanOdometrySection::options();
+}
+
+std::unique_ptr<mapper::PosePlugin> ScanOdometryPluginFactory::make(const base::ConfigSection& section,
+                                                                    const mapper::PluginContext&) const {
+  auto options = ScanOdometrySection::read<ScanOdometryOptions>(section);
+  options.tracker = ScanOdometrySection::read<matching::ScanTrackerOptions>(section);
+  return std::make_unique<ScanOdometryPlugin>(options, ScanOdometrySection::read<matching::ScanMatcherOptions>(section),
+                                              ScanOdometrySection::read<perception::LaserPointsOptions>(section));
+}
+
+}  // namespace omnimapper::plugins

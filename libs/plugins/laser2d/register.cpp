@@ -1,0 +1,18 @@
+#include <omnimapper/base/AtLoad.h>
+
+#include "LaserPointsPlugin.h"
+#include "LoopClosurePlugin.h"
+#include "ScanOdometryPlugin.h"
+
+namespace omnimapper::plugins {
+
+// The build links this file last: the ids of the classes are made before.
+const base::AtLoad kRegister([] {
+  using mrpt::rtti::registerClass;
+  mapper::registerFactoryBases();
+  registerClass(CLASS_ID(LaserPointsPluginFactory));
+  registerClass(CLASS_ID(LoopClosurePluginFactory));
+  registerClass(CLASS_ID(ScanOdometryPluginFactory));
+});
+
+}  // namespace omnimapper::plugins

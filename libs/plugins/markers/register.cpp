@@ -1,0 +1,14 @@
+#include <omnimapper/base/AtLoad.h>
+
+#include "ArucoMarkersPlugin.h"
+
+namespace omnimapper::plugins {
+
+// The build links this file last: the ids of the classes are made before.
+const base::AtLoad kRegister([] {
+  using mrpt::rtti::registerClass;
+  mapper::registerFactoryBases();
+  registerClass(CLASS_ID(ArucoMarkersPluginFactory));
+});
+
+}  // namespace omnimapper::plugins

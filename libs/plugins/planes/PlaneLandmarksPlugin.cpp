@@ -1,0 +1,133 @@
+#include "PlaneLandmarksPlugin.h"
+
+#include <omnimapper/landmarks/PlaneFactors.h>
+#include <omnimapper/landmarks/SurfaceForm.h>
+#include <omnimapper/landmarks/WallFactor.h>
+#include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/obs/CObservationPlanes.h>
+
+#include "KnownPlanes.h"
+#include "PlaneMerging.h"
+#include "PlaneMoment.h"
+
+IMPLEMENTS_MRPT_OBJECT(PlaneLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<PlaneLandmarksOptions>& PlaneLandmarksOptions::table() {
+  using Options = PlaneLandmarksOptions;
+  using base::Range;
+  static const auto table = [] {
+    auto own =
+        base::OptionTable<Options>()
+            .choice("form", &Options::form, {{"plane", Options::Form::plane}, {"wall", Options::Form::wall}},
+                    "What is optimised: planes in space, or, in a planar map with level lasers, walls as lines on the "
+                    "floor. Of walls only lines are taken.")
+            .choice(
+                "ground", &Options::ground, {{"start", Options::Ground::start}, {"map", Options::Ground::map}},
+                "What tables and floors are told apart by their height from: where the first key frame's base is, or "
+                "z = 0 of the map, for a camera on given poses.")
+            .choice(
+                "boundary", &Options::boundary, {{"hull", Options::Boundary::hull}, {"seen", Options::Boundary::seen}},
+                "Boundary of a surface in the map: the convex hull of what was seen of it, or the union of it, with "
+                "bays; takes more time and room.")
+            .flag("planes", &Options::planes, "Take the planes of depth images and clouds.")
+            .flag("lines", &Options::lines, "Take the lines of 2D lasers.")
+            .number("min_area_m2", &Options::min_area, Range::notNegative(),
+                    "A new landmark seen as a plane is so large.")
+            .number("min_length_m", &Options::min_length, Range::notNegative(),
+                    "A new landmark seen as a line is so long.")
+            .number("max_gap_m", &Options::max_gap, Range::notNegative(),
+                    "Surfaces on one plane that are so far apart are landmarks of their own.")
+            .number("plane_sigma_m", &Options::plane_sigma, Range::notNegative(),
+                    "Standard deviation of a surface from flat, beside the noise that an observed plane tells of.")
+            .number("plane_angle_sigma_deg", &Options::plane_angle_sigma, Range::notNegative(),
+                    "The same of its normal.")
+            .number("line_sigma_m", &Options::line_sigma, Range::notNegative(),
+                    "Standard deviation of a wall from straight, beside the noise that an observed line tells of.")
+            .number("line_angle_sigma_deg", &Options::line_angle_sigma, Range::notNegative(),
+                    "The same of its direction.")
+            .number("upright_sigma_deg", &Options::upright_sigma, Range::positive(),
+                    "What only lines of one height have shown is upright, with this standard deviation.")
+            .number("loss_scale", &Options::loss_scale, Range::positive(),
+                    "Scale of the Huber loss, in standard deviations.");
+    return declareIn(own);
+  }();
+  return table;
+}
+
+namespace {
+
+PlanePayload emptyPayload(const PlaneLandmarksOptions& options) {
+  PlanePayload empty;
+  empty.form = options.form == PlaneLandmarksOptions::Form::wall ? landmarks::SurfaceForm::Kind::wall
+                                                                 : landmarks::SurfaceForm::Kind::plane;
+  empty.ground = options.ground;
+  empty.boundary = options.boundary;
+  return empty;
+}
+
+}  // namespace
+
+PlaneLandmarksPlugin::PlaneLandmarksPlugin(const PlaneLandmarksOptions& options, const mapper::PluginContext& context)
+    : options_(options),
+      context_(context),
+      known_(std::make_unique<KnownPlanes>(context.section, emptyPayload(options))) {
+  if (options.form != PlaneLandmarksOptions::Form::wall) return;
+  options_.planes = false;
+  if (context.motion == mapper::Motion::planar) return;
+  throw base::Error(base::ExitCode::out_of_range,
+                    "[" + context.section +
+                        "] form = wall needs [mapper] motion = planar; for a map in space "
+                        "take form = plane");
+}
+
+PlaneLandmarksPlugin::~PlaneLandmarksPlugin() = default;
+
+bool PlaneLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) const {
+  return (options_.planes && dynamic_cast<const obs::CObservationPlanes*>(&observation)) ||
+         (options_.lines && dynamic_cast<const obs::CObservationLaserLines*>(&observation));
+}
+
+mapper::Batch PlaneLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                                            const mapper::View& view) {
+  known_->update(view);
+  PlaneMoment moment(options_, context_, *known_, frame, view);
+  return moment.take(planeSightings(observed.observation, moment.upInBase(), known_->form(), options_));
+}
+
+void PlaneLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {
+  for (const auto id : ids.landmarks) known_->add(id);
+}
+
+mapper::FollowUp PlaneLandmarksPlugin::afterCommit(const map::KeyFrame&, const mapper::View& view) {
+  if (view.solves.size() == merged_at_solve_ || view.map_is_held) return {};
+  merged_at_solve_ = view.solves.size();
+  return {mergeAlike(*known_, options_, context_.section, view), {}};
+}
+
+mapper::Batch PlaneLandmarksPlugin::atEnd(const mapper::View& view) {
+  return view.map_is_held ? mapper::Batch() : mergeAlike(*known_, options_, context_.section, view);
+}
+
+void PlaneLandmarksPlugin::restore(const map::MapSection*, const mapper::View& view) {
+  known_->restore(view);
+}
+
+void PlaneLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+  kinds.factors.add(landmarks::SurfaceForm::of(landmarks::SurfaceForm::Kind::plane).variable());
+  kinds.factors.add(landmarks::SurfaceForm::of(landmarks::SurfaceForm::Kind::wall).variable());
+  landmarks::PlaneFactor::addTo(kinds.factors);
+  landmarks::LineOnPlaneFactor::addTo(kinds.factors);
+  landmarks::UprightFactor::addTo(kinds.factors);
+  landmarks::WallFactor::addTo(kinds.factors);
+  PlanePayload::addTo(kinds.payloads);
+}
+
+std::unique_ptr<mapper::MeasurementPlugin> PlaneLandmarksPluginFactory::make(
+    const base::ConfigSection& section, const mapper::PluginContext& context) const {
+  return std::make_unique<PlaneLandmarksPlugin>(section.read<PlaneLandmarksOptions>(mapper::sectionKeysOfEngine()),
+                                                context);
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,184 @@
+#include "PlanePayload.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
+#include <omnimapper/graph/ByteIo.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "PlaneExtent.h"
+#include "PlaneSighting.h"
+
+namespace omnimapper::plugins {
+
+namespace {
+
+constexpr std::uint64_t kVersion = 3;  // 2: the ground; 3: the boundary
+
+// What people call a surface of that slope, so high above the ground [m].
+std::string labelOf(const geometry::Plane3& plane, double height) {
+  constexpr double kUpright = 0.2, kLevel = 0.95;  // of the normal's height
+  constexpr double kGround = 0.15;                 // [m]
+  if (std::abs(plane.normal.z()) < kUpright) return "wall";
+  if (plane.normal.z() < -kLevel) return "ceiling";
+  if (plane.normal.z() < kLevel) return "slope";
+  return height > kGround ? "table" : height > -kGround ? "floor" : "level surface";
+}
+
+void writeId(std::ostream& out, base::KeyFrameId id) {
+  graph::writeUint(out, id.session, 2);
+  graph::writeUint(out, id.index, 4);
+}
+
+base::KeyFrameId readId(std::istream& in) {
+  const auto session = static_cast<std::uint16_t>(graph::readUint(in, 2));
+  return {session, static_cast<std::uint32_t>(graph::readUint(in, 4))};
+}
+
+std::string number(double value) {
+  const double rounded = std::round(value * 1000) / 1000;
+  std::string text = std::to_string(rounded + 0.0);
+  text.erase(text.size() - 3);
+  return text;
+}
+
+}  // namespace
+
+bool PlanePayload::wasSeenAsPlane() const {
+  return std::any_of(seen_by.begin(), seen_by.end(), [](const auto& sensor) { return sensor.second.planes > 0; });
+}
+
+std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, const PlaneSighting& sighting,
+                                                       bool tells_more) const {
+  auto more = std::make_shared<PlanePayload>(*this);
+  if (tells_more) more->patches.push_back({frame, sighting.outline_in_base});
+  SeenBy& seen = more->seen_by[sighting.sensor_label];
+  ++(sighting.is_line ? seen.lines : seen.planes);
+  more->last_seen_from = frame;
+  return more;
+}
+
+std::shared_ptr<const PlanePayload> PlanePayload::with(const PlanePayload& other) const {
+  auto both = std::make_shared<PlanePayload>(*this);
+  both->patches.insert(both->patches.end(), other.patches.begin(), other.patches.end());
+  for (const auto& [label, seen] : other.seen_by) {
+    both->seen_by[label].planes += seen.planes;
+    both->seen_by[label].lines += seen.lines;
+  }
+  both->last_seen_from = std::max(last_seen_from, other.last_seen_from);
+  return both;
+}
+
+std::shared_ptr<const map::LandmarkPayload> PlanePayload::seenFrom(const std::set<base::KeyFrameId>& frames) const {
+  auto part = std::make_shared<PlanePayload>(*this);
+  part->patches.erase(std::remove_if(part->patches.begin(), part->patches.end(),
+                                     [&](const SurfacePatch& patch) { return frames.count(patch.frame) == 0; }),
+                      part->patches.end());
+  return part->patches.empty() ? nullptr : part;
+}
+
+map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& values,
+                                       const map::KeyFrames& key_frames) const {
+  map::LandmarkShape shape;
+  if (values.empty()) return shape;
+  const auto plane = landmarks::SurfaceForm::of(form).plane(values.front());
+  const landmarks::PlaneAxes axes(plane);
+  const auto corners = cornersInMap(patches, key_frames);
+  const auto hull = hullOn(axes, corners);
+  if (hull.empty()) return shape;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& corner : hull) middle += axes.inSpace(corner) / static_cast<double>(hull.size());
+  shape.label = labelOf(plane, middle.z() - (ground == Ground::map ? 0 : key_frames.front().map_from_base.z()));
+  shape.normal = plane.normal;
+  // A laser alone tells how long a wall is, not how high.
+  if (wasSeenAsPlane() && hull.size() > 2) {
+    double area = 0;
+    std::vector<std::vector<Eigen::Vector2d>> outlines;
+    if (boundary == Boundary::seen) outlines = seenOn(axes, patches, key_frames);
+    if (outlines.empty()) outlines = {hull};
+    for (const auto& outline : outlines) {
+      area += geometry::area(outline);
+      geometry::Polygon3& surface = shape.surfaces.emplace_back();
+      for (const auto& corner : outline) surface.vertices.push_back(axes.inSpace(corner));
+    }
+    shape.properties.emplace_back("area_m2", number(area));
+  } else if (hull.size() > 1) {
+    const auto [low, high] =
+        std::minmax_element(hull.begin(), hull.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
+    shape.lines.emplace_back(axes.inSpace(*low), axes.inSpace(*high));
+    shape.properties.emplace_back("length_m", number((*high - *low).norm()));
+  }
+  for (const auto& [label, seen] : seen_by) {
+    shape.properties.emplace_back("seen_by_" + label, std::to_string(seen.planes + seen.lines));
+  }
+  return shape;
+}
+
+bool PlanePayload::fits(const std::vector<std::string_view>& kinds) const {
+  return kinds == std::vector<std::string_view>{landmarks::SurfaceForm::of(form).variable()->kind()};
+}
+
+std::vector<base::KeyFrameId> PlanePayload::keyFrames() const {
+  std::vector<base::KeyFrameId> frames{last_seen_from};
+  for (const auto& patch : patches) frames.push_back(patch.frame);
+  return frames;
+}
+
+void PlanePayload::write(std::ostream& out) const {
+  graph::writeUint(out, kVersion, 1);
+  graph::writeUint(out, static_cast<std::uint64_t>(form), 1);
+  graph::writeUint(out, static_cast<std::uint64_t>(ground), 1);
+  graph::writeUint(out, static_cast<std::uint64_t>(boundary), 1);
+  graph::writeUint(out, patches.size(), 4);
+  for (const auto& patch : patches) {
+    writeId(out, patch.frame);
+    graph::writeUint(out, patch.outline_in_base.size(), 4);
+    for (const auto& point : patch.outline_in_base)
+      for (const double coordinate : point) graph::writeDouble(out, coordinate);
+  }
+  writeId(out, last_seen_from);
+  graph::writeUint(out, seen_by.size(), 4);
+  for (const auto& [label, seen] : seen_by) {
+    graph::writeText(out, label);
+    graph::writeUint(out, seen.planes, 4);
+    graph::writeUint(out, seen.lines, 4);
+  }
+}
+
+void PlanePayload::addTo(map::PayloadRegistry& registry) {
+  registry.add("plane", [](std::istream& in) {
+    const auto version = graph::readUint(in, 1);
+    if (version > kVersion) {
+      throw base::Error(base::ExitCode::unreadable_input,
+                        "a plane of version " + std::to_string(version) + ": this program reads versions up to " +
+                            std::to_string(kVersion) + "; take the OmniMapper that wrote the map");
+    }
+    auto payload = std::make_shared<PlanePayload>();
+    payload->form =
+        graph::readUint(in, 1) == 0 ? landmarks::SurfaceForm::Kind::plane : landmarks::SurfaceForm::Kind::wall;
+    if (version > 1) payload->ground = graph::readUint(in, 1) == 0 ? Ground::start : Ground::map;
+    if (version > 2) payload->boundary = graph::readUint(in, 1) == 0 ? Boundary::hull : Boundary::seen;
+    for (auto left = graph::readUint(in, 4); left > 0; --left) {
+      SurfacePatch patch;
+      patch.frame = readId(in);
+      for (auto points = graph::readUint(in, 4); points > 0; --points) {
+        Eigen::Vector3d point;
+        for (double& coordinate : point) coordinate = graph::readDouble(in);
+        patch.outline_in_base.push_back(point);
+      }
+      payload->patches.push_back(std::move(patch));
+    }
+    payload->last_seen_from = readId(in);
+    for (auto left = graph::readUint(in, 4); left > 0; --left) {
+      const std::string label = graph::readText(in);
+      SeenBy& seen = payload->seen_by[label];
+      seen.planes = static_cast<std::uint32_t>(graph::readUint(in, 4));
+      seen.lines = static_cast<std::uint32_t>(graph::readUint(in, 4));
+    }
+    return payload;
+  });
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/landmarks/SurfaceForm.h>
+#include <omnimapper/map/KeyFrames.h>
+#include <omnimapper/map/PayloadRegistry.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "PlaneLandmarksPlugin.h"
+
+namespace omnimapper::plugins {
+
+/// A part of a surface as one observation showed it.
+struct SurfacePatch {
+  base::KeyFrameId frame;
+  std::vector<Eigen::Vector3d> outline_in_base;  ///< [m] a polygon, or the two ends of a laser line
+};
+
+/// Which sensor saw it, and how often.
+struct SeenBy {
+  std::uint32_t planes = 0;  ///< as planes
+  std::uint32_t lines = 0;   ///< as lines of a laser
+};
+
+/// What is known of a plane landmark beside where its plane is (thesis 4.2.2.1). Its parts hang on the key frames that
+/// saw them and are put on the optimised plane when somebody asks, so that a loop closure moves them for free.
+struct PlanePayload : map::LandmarkPayload {
+  using Ground = PlaneLandmarksOptions::Ground;
+  using Boundary = PlaneLandmarksOptions::Boundary;
+
+  landmarks::SurfaceForm::Kind form = landmarks::SurfaceForm::Kind::plane;
+  Ground ground = Ground::start;  ///< for what people call it
+  Boundary boundary = Boundary::hull;
+  std::vector<SurfacePatch> patches;      ///< those that tell something of the extent that the others do not
+  std::map<std::string, SeenBy> seen_by;  ///< sensor label
+  base::KeyFrameId last_seen_from;
+
+  std::string_view kind() const override { return "plane"; }
+  void write(std::ostream& out) const override;
+  bool fits(const std::vector<std::string_view>& kinds) const override;
+  std::vector<base::KeyFrameId> keyFrames() const override;
+  std::shared_ptr<const map::LandmarkPayload> seenFrom(const std::set<base::KeyFrameId>& frames) const override;
+  map::LandmarkShape shape(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames& key_frames) const override;
+  static void addTo(map::PayloadRegistry& registry);
+
+  bool wasSeenAsPlane() const;
+  /// With one more sighting; its outline only where it `tells_more` of the extent.
+  std::shared_ptr<const PlanePayload> with(base::KeyFrameId frame, const struct PlaneSighting& sighting,
+                                           bool tells_more) const;
+  /// With all that is known of another.
+  std::shared_ptr<const PlanePayload> with(const PlanePayload& other) const;
+};
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,266 @@
+#include "PointLandmarksPlugin.h"
+
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/landmarks/FirstTie.h>
+#include <omnimapper/plugin/PoseFactors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "KnownPoints.h"
+#include "PointMerging.h"
+#include "PointPayload.h"
+#include "PointSighting.h"
+#include "RangeBearingFactor.h"
+
+IMPLEMENTS_MRPT_OBJECT(PointLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+using mrpt::obs::CObservationBearingRange;
+
+const base::OptionTable<PointLandmarksOptions>& PointLandmarksOptions::table() {
+  using Options = PointLandmarksOptions;
+  using base::Range;
+  static const auto table = [] {
+    auto own = base::OptionTable<Options>()
+                   .text("label", &Options::label, "Sensor label; empty for every sensor of ranges and bearings.")
+                   .number("sigma_range_m", &Options::sigma_range, Range::notNegative(),
+                           "Standard deviation of a range; 0 takes what the observation tells.")
+                   .number("sigma_yaw_deg", &Options::sigma_yaw, Range::notNegative(), "The same of a yaw.")
+                   .number("sigma_pitch_deg", &Options::sigma_pitch, Range::notNegative(), "The same of a pitch.")
+                   .number("loss_scale", &Options::loss_scale, Range::positive(),
+                           "Scale of the Huber loss, in standard deviations.");
+    return declareIn(own);
+  }();
+  return table;
+}
+
+// The work on one observation.
+class PointLandmarksPlugin::Moment {
+ public:
+  Moment(const PointLandmarksOptions& options, const mapper::PluginContext& context, const KnownPoints& known,
+         const map::KeyFrame& frame, const mapper::View& view)
+      : options_(options),
+        context_(context),
+        known_(known),
+        frame_(frame),
+        view_(view),
+        map_from_base_(geometry::fromMrpt(mapper::poseOf(view.graph, frame.pose))) {}
+
+  mapper::Batch take(const CObservationBearingRange& observation) {
+    label_ = observation.sensorLabel;
+    const auto measurements = pointMeasurements(observation, context_.motion, options_);
+    std::vector<const PointMeasurement*> numbered, nameless;
+    for (const auto& measured : measurements) {
+      if (measured.sighting) {
+        (measured.number < 0 ? nameless : numbered).push_back(&measured);
+      } else {
+        mapper::Decision decision = decisionOf(measured);
+        decision.reason = measured.why_useless;
+        batch_.log(std::move(decision));
+      }
+    }
+    takeNumbered(numbered);
+    takeNameless(nameless);
+    return std::move(batch_);
+  }
+
+ private:
+  // Each has one landmark that it may be of: nothing to be told jointly.
+  void takeNumbered(const std::vector<const PointMeasurement*>& measurements) {
+    std::vector<mapper::Pairing> pairings;
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+      const auto id = known_.ofNumber(measurements[i]->number);
+      if (id) pairings.push_back({i, *id, record(*measurements[i]->sighting, known_.variableOf(*id), *id)});
+    }
+    mapper::AssociationOptions options = options_;
+    options.method = mapper::AssociationOptions::Method::nearest;
+    const auto found = mapper::associate(measurements.size(), pairings, view_, options, mapper::Repeats::no);
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+      const auto& match = found.matches[i];
+      mapper::Decision decision = decisionOf(*measurements[i]);
+      found.tell(i, decision);
+      if (!match.pairing) {
+        addNew(*measurements[i], std::move(decision));
+        continue;
+      }
+      const mapper::Pairing& pairing = pairings[*match.pairing];
+      met_.insert(pairing.landmark);
+      if (match.kind == mapper::Match::Kind::matched || !view_.areJoined(frame_.id.session, pairing.landmark.session)) {
+        addToKnown(*measurements[i], pairing, std::move(decision));
+      } else {
+        keepWithoutWeight(pairing, std::move(decision));
+      }
+    }
+  }
+
+  void takeNameless(const std::vector<const PointMeasurement*>& measurements) {
+    if (measurements.empty()) return;
+    std::vector<mapper::Pairing> pairings;
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+      const PointSighting& sighting = *measurements[i]->sighting;
+      for (const auto& [id, variable] : known_.all()) {
+        if (met_.count(id) == 0 && mayBe(sighting, variable))
+          pairings.push_back({i, id, record(sighting, variable, id)});
+      }
+    }
+    const auto found = mapper::associate(measurements.size(), pairings, view_, options_, mapper::Repeats::no);
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+      const auto& match = found.matches[i];
+      mapper::Decision decision = decisionOf(*measurements[i]);
+      found.tell(i, decision);
+      if (match.pairing) decision.numbers.emplace_back("landmark", pairings[*match.pairing].landmark.index);
+      if (match.kind == mapper::Match::Kind::matched) {
+        addToKnown(*measurements[i], pairings[*match.pairing], std::move(decision));
+      } else if (match.kind == mapper::Match::Kind::unknown) {
+        addNew(*measurements[i], std::move(decision));
+      } else {
+        batch_.log(std::move(decision));
+      }
+    }
+  }
+
+  // Wide open: what is near enough is for the covariance to say.
+  bool mayBe(const PointSighting& sighting, base::VariableId variable) {
+    constexpr double kNear = 0.5, kSigmas = 5;  // [m]
+    const Eigen::VectorXd& there = view_.graph.value(variable);
+    Eigen::Vector3d way = map_from_base_ * sighting.point_in_base;
+    for (int i = 0; i < 3; ++i) way[i] = i < there.size() ? there[i] - way[i] : 0;
+    const double own = kNear + 2 * kSigmas * sighting.sigma;
+    return way.norm() <= own || way.norm() <= own + kSigmas * poseSigma(sighting.point_in_base.norm());
+  }
+
+  // Of a point so far from the base, by what is not known of the base [m].
+  double poseSigma(double range) {
+    if (!pose_variances_) {
+      const auto pose = view_.jointCovariance({frame_.pose});
+      const Eigen::Index places = pose && pose->rows() == 6 ? 3 : 2;
+      pose_variances_ =
+          pose ? std::pair(pose->diagonal().head(places).sum(), pose->diagonal().tail(pose->rows() - places).sum())
+               : std::pair(0.0, 0.0);
+    }
+    return std::sqrt(pose_variances_->first + range * range * pose_variances_->second);
+  }
+
+  graph::FactorRecord record(const PointSighting& sighting, base::VariableId point, base::LandmarkId landmark) const {
+    graph::FactorRecord record{{frame_.pose, point}, sighting.factor, sighting.noise};
+    record.loss = graph::Loss::huber(options_.loss_scale);
+    record.tags.owner = context_.section;
+    record.tags.landmark = landmark;
+    record.tags.note = "point sighting";
+    return record;
+  }
+
+  mapper::Decision decisionOf(const PointMeasurement& measured) const {
+    mapper::Decision decision;
+    decision.stamp = frame_.stamp;
+    decision.plugin = context_.section;
+    decision.kind = "point sighting";
+    decision.from = frame_.id;
+    if (measured.number >= 0) decision.numbers.emplace_back("number", measured.number);
+    decision.numbers.emplace_back("range [m]", measured.range);
+    return decision;
+  }
+
+  void addToKnown(const PointMeasurement& measured, const mapper::Pairing& pairing, mapper::Decision decision) {
+    if (landmarks::addAsFirstTie(view_, frame_.id, pairing, decision, batch_)) return;
+    batch_.log(std::move(decision));
+    batch_.addFactor(pairing.record);
+    const auto& payload = dynamic_cast<const PointPayload&>(*view_.map.landmark(pairing.landmark).payload);
+    batch_.addEvidence(pairing.landmark, payload.with(label_, measured.sighting->point_in_base.z()));
+  }
+
+  // It says of itself which it is, and it is not where that one is: it may have moved.
+  void keepWithoutWeight(const mapper::Pairing& pairing, mapper::Decision decision) {
+    decision.reason = "gated out: not where its landmark is; kept without weight";
+    batch_.log(std::move(decision));
+    graph::FactorRecord elsewhere = pairing.record;
+    elsewhere.weight = 0;
+    batch_.addFactor(std::move(elsewhere));
+  }
+
+  void addNew(const PointMeasurement& measured, mapper::Decision decision) {
+    if (view_.map_is_held) {
+      decision.reason = "not in the map: " + decision.reason;
+      return batch_.log(std::move(decision));
+    }
+    decision.accepted = true;
+    decision.reason = "new: " + decision.reason;
+    batch_.log(std::move(decision));
+    const PointSighting& sighting = *measured.sighting;
+    const Eigen::Vector3d point = map_from_base_ * sighting.point_in_base;
+    const bool planar = context_.motion == mapper::Motion::planar;
+    const auto variable =
+        planar ? batch_.addVariable(graph::point2(), point.head<2>()) : batch_.addVariable(graph::point3(), point);
+    PointPayload payload;
+    payload.number = measured.number;
+    const auto landmark = batch_.addLandmark(measured.number < 0 ? "point" : "marker", {variable},
+                                             payload.with(label_, sighting.point_in_base.z()));
+    batch_.addFactor(record(sighting, variable, landmark));
+  }
+
+  const PointLandmarksOptions& options_;
+  const mapper::PluginContext& context_;
+  const KnownPoints& known_;
+  const map::KeyFrame& frame_;
+  const mapper::View& view_;
+  geometry::Se3 map_from_base_;
+  std::string label_;
+  std::optional<std::pair<double, double>> pose_variances_;  // of the place [m^2], of the turn [rad^2]
+  std::set<base::LandmarkId> met_;
+  mapper::Batch batch_;
+};
+
+PointLandmarksPlugin::PointLandmarksPlugin(const PointLandmarksOptions& options, const mapper::PluginContext& context)
+    : options_(options), context_(context), known_(std::make_unique<KnownPoints>(context.section)) {}
+
+PointLandmarksPlugin::~PointLandmarksPlugin() = default;
+
+bool PointLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) const {
+  return dynamic_cast<const CObservationBearingRange*>(&observation) &&
+         (options_.label.empty() || observation.sensorLabel == options_.label);
+}
+
+mapper::Batch PointLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                                            const mapper::View& view) {
+  known_->update(view);
+  return Moment(options_, context_, *known_, frame, view)
+      .take(dynamic_cast<const CObservationBearingRange&>(observed.observation));
+}
+
+void PointLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {
+  for (const auto id : ids.landmarks) known_->add(id);
+}
+
+mapper::FollowUp PointLandmarksPlugin::afterCommit(const map::KeyFrame&, const mapper::View& view) {
+  if (view.solves.size() == merged_at_solve_) return {};
+  merged_at_solve_ = view.solves.size();
+  return {atEnd(view), {}};
+}
+
+mapper::Batch PointLandmarksPlugin::atEnd(const mapper::View& view) {
+  if (view.map_is_held) return {};
+  known_->update(view);
+  return mergeAlike(*known_, options_, context_.section, view);
+}
+
+void PointLandmarksPlugin::restore(const map::MapSection*, const mapper::View& view) {
+  known_->restore(view);
+}
+
+void PointLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+  RangeBearingFactor2::addTo(kinds.factors);
+  RangeBearingFactor3::addTo(kinds.factors);
+  PointPayload::addTo(kinds.payloads);
+}
+
+std::unique_ptr<mapper::MeasurementPlugin> PointLandmarksPluginFactory::make(
+    const base::ConfigSection& section, const mapper::PluginContext& context) const {
+  return std::make_unique<PointLandmarksPlugin>(section.read<PointLandmarksOptions>(mapper::sectionKeysOfEngine()),
+                                                context);
+}
+
+}  // namespace omnimapper::plugins

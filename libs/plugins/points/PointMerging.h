@@ -1,0 +1,18 @@
+#pragma once
+
+#include <omnimapper/plugin/Batch.h>
+#include <omnimapper/plugin/View.h>
+
+#include <string>
+
+#include "KnownPoints.h"
+#include "PointLandmarksPlugin.h"
+
+namespace omnimapper::plugins {
+
+/// Merges points without numbers that turn out to be one: they differ by no more than the map leaves open, and were
+/// never seen at once.
+mapper::Batch mergeAlike(const KnownPoints& known, const PointLandmarksOptions& options, const std::string& section,
+                         const mapper::View& view);
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,252 @@
+#include "RelationFactors.h"
+
+#include <omnimapper/geometry/Angle.h>
+#include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/graph/ByteIo.h>
+#include <omnimapper/landmarks/PlaneVariable.h>
+#include <omnimapper/landmarks/WallVariable.h>
+
+#include <cmath>
+
+namespace omnimapper::plugins {
+
+namespace {
+
+using Kinds = std::vector<std::string_view>;
+template <int Rows, int Columns>
+using RelationJacobian =
+    Eigen::Map<Eigen::Matrix<double, Rows, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
+
+const Kinds& twoWalls() {
+  static const Kinds kinds = {"wall", "wall"};
+  return kinds;
+}
+
+const Kinds& twoPlanes() {
+  static const Kinds kinds = {"plane", "plane"};
+  return kinds;
+}
+
+double headingOf(const geometry::Segment2& wall) {
+  const Eigen::Vector2d along = geometry::direction(wall);
+  return std::atan2(along.y(), along.x());
+}
+
+/// The distance of b's middle from a, and its derivatives by both.
+struct Shift {
+  double value;
+  Eigen::RowVector2d by_a, by_b;
+
+  Shift(const geometry::Segment2& a, const geometry::Segment2& b) {
+    const Eigen::Vector2d between = middle(b) - middle(a);
+    value = landmarks::normalOf(a).dot(between);
+    by_a << -direction(a).dot(between), -1;
+    by_b << 0, landmarks::normalOf(a).dot(landmarks::normalOf(b));
+  }
+};
+
+/// How a normal changes with the tangent of its plane.
+Eigen::Matrix3d normalByPlane(const geometry::Plane3& plane) {
+  Eigen::Matrix3d by_plane = Eigen::Matrix3d::Zero();
+  by_plane.leftCols<2>() = geometry::tangentBasis(plane.normal);
+  return by_plane;
+}
+
+/// How the distance of a point changes with the tangent of the plane.
+Eigen::RowVector3d distanceByPlane(const geometry::Plane3& plane, const Eigen::Vector3d& point) {
+  return point.transpose() * normalByPlane(plane) + Eigen::RowVector3d::UnitZ();
+}
+
+/// b's normal across a's, and its derivatives by both.
+struct Across {
+  Eigen::Vector2d value;
+  Eigen::Matrix<double, 2, 3> by_a, by_b;
+
+  Across(const geometry::Plane3& a, const geometry::Plane3& b) {
+    const Eigen::Matrix<double, 3, 2> basis = geometry::tangentBasis(a.normal);
+    value = basis.transpose() * b.normal;
+    by_b = basis.transpose() * normalByPlane(b);
+    // The basis follows the normal: b1 is the unit axis e made square to n, b2 = n x b1.
+    int axis = 0;
+    a.normal.cwiseAbs().minCoeff(&axis);
+    const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector3d square = along - a.normal * a.normal.dot(along);
+    const double length = square.norm();
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector3d dn = basis.col(i);
+      const Eigen::Vector3d dsquare = -dn * a.normal.dot(along) - a.normal * dn.dot(along);
+      const Eigen::Vector3d db1 = (dsquare - basis.col(0) * basis.col(0).dot(dsquare)) / length;
+      const Eigen::Vector3d db2 = dn.cross(basis.col(0)) + a.normal.cross(db1);
+      by_a.col(i) << db1.dot(b.normal), db2.dot(b.normal);
+    }
+    by_a.col(2).setZero();
+  }
+};
+
+void writePoint(std::ostream& out, const Eigen::Vector3d& point) {
+  for (const double coordinate : point) graph::writeDouble(out, coordinate);
+}
+
+Eigen::Vector3d readPoint(std::istream& in) {
+  Eigen::Vector3d point;
+  for (double& coordinate : point) coordinate = graph::readDouble(in);
+  return point;
+}
+
+}  // namespace
+
+const Kinds& PointOnWallFactor::variableKinds() const {
+  static const Kinds kinds = {"point2", "wall"};
+  return kinds;
+}
+
+void PointOnWallFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Segment2 wall = landmarks::wallFromValue(values[1]);
+  const Eigen::Vector2d from_wall = Eigen::Vector2d(values[0][0], values[0][1]) - middle(wall);
+  residual[0] = landmarks::normalOf(wall).dot(from_wall);
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<1, 2>{jacobians[0]} = landmarks::normalOf(wall).transpose();
+  if (jacobians[1]) RelationJacobian<1, 2>{jacobians[1]} << -direction(wall).dot(from_wall), -1;
+}
+
+void PointOnWallFactor::write(std::ostream&) const {}
+
+const Kinds& PointOnPlaneFactor::variableKinds() const {
+  static const Kinds kinds = {"point3", "plane"};
+  return kinds;
+}
+
+void PointOnPlaneFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Plane3 plane = landmarks::planeFromValue(values[1]);
+  const Eigen::Vector3d point(values[0][0], values[0][1], values[0][2]);
+  residual[0] = signedDistance(plane, point);
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<1, 3>{jacobians[0]} = plane.normal.transpose();
+  if (jacobians[1]) RelationJacobian<1, 3>{jacobians[1]} << point.transpose() * geometry::tangentBasis(plane.normal), 1;
+}
+
+void PointOnPlaneFactor::write(std::ostream&) const {}
+
+const Kinds& WallTurnFactor::variableKinds() const {
+  return twoWalls();
+}
+
+void WallTurnFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  residual[0] = geometry::wrapToPi(headingOf(landmarks::wallFromValue(values[1])) -
+                                   headingOf(landmarks::wallFromValue(values[0])) - quarters_ * geometry::kPi / 2);
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<1, 2>{jacobians[0]} << -1, 0;
+  if (jacobians[1]) RelationJacobian<1, 2>{jacobians[1]} << 1, 0;
+}
+
+void WallTurnFactor::write(std::ostream& out) const {
+  graph::writeUint(out, static_cast<std::uint64_t>(quarters_), 1);
+}
+
+const Kinds& WallsAlignedFactor::variableKinds() const {
+  return twoWalls();
+}
+
+void WallsAlignedFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Segment2 a = landmarks::wallFromValue(values[0]), b = landmarks::wallFromValue(values[1]);
+  const Shift shift(a, b);
+  residual[0] = geometry::wrapToPi(headingOf(b) - headingOf(a));
+  residual[1] = shift.value;
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<2, 2>{jacobians[0]} << -1, 0, shift.by_a;
+  if (jacobians[1]) RelationJacobian<2, 2>{jacobians[1]} << 1, 0, shift.by_b;
+}
+
+void WallsAlignedFactor::write(std::ostream&) const {}
+
+const Kinds& WallShiftFactor::variableKinds() const {
+  return twoWalls();
+}
+
+void WallShiftFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const Shift shift(landmarks::wallFromValue(values[0]), landmarks::wallFromValue(values[1]));
+  residual[0] = shift.value;
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<1, 2>{jacobians[0]} = shift.by_a;
+  if (jacobians[1]) RelationJacobian<1, 2>{jacobians[1]} = shift.by_b;
+}
+
+void WallShiftFactor::write(std::ostream&) const {}
+
+const Kinds& PlanesParallelFactor::variableKinds() const {
+  return twoPlanes();
+}
+
+void PlanesParallelFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const Across across(landmarks::planeFromValue(values[0]), landmarks::planeFromValue(values[1]));
+  Eigen::Map<Eigen::Vector2d>{residual} = across.value;
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<2, 3>{jacobians[0]} = across.by_a;
+  if (jacobians[1]) RelationJacobian<2, 3>{jacobians[1]} = across.by_b;
+}
+
+void PlanesParallelFactor::write(std::ostream&) const {}
+
+const Kinds& PlanesSquareFactor::variableKinds() const {
+  return twoPlanes();
+}
+
+void PlanesSquareFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Plane3 a = landmarks::planeFromValue(values[0]), b = landmarks::planeFromValue(values[1]);
+  residual[0] = a.normal.dot(b.normal);
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<1, 3>{jacobians[0]} = b.normal.transpose() * normalByPlane(a);
+  if (jacobians[1]) RelationJacobian<1, 3>{jacobians[1]} = a.normal.transpose() * normalByPlane(b);
+}
+
+void PlanesSquareFactor::write(std::ostream&) const {}
+
+const Kinds& PlanesAlignedFactor::variableKinds() const {
+  return twoPlanes();
+}
+
+void PlanesAlignedFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Plane3 a = landmarks::planeFromValue(values[0]), b = landmarks::planeFromValue(values[1]);
+  const Across across(a, b);
+  Eigen::Map<Eigen::Vector2d>{residual} = across.value;
+  residual[2] = signedDistance(b, near_) - signedDistance(a, near_);
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<3, 3>{jacobians[0]} << across.by_a, -distanceByPlane(a, near_);
+  if (jacobians[1]) RelationJacobian<3, 3>{jacobians[1]} << across.by_b, distanceByPlane(b, near_);
+}
+
+void PlanesAlignedFactor::write(std::ostream& out) const {
+  writePoint(out, near_);
+}
+
+const Kinds& PlaneShiftFactor::variableKinds() const {
+  return twoPlanes();
+}
+
+void PlaneShiftFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const geometry::Plane3 a = landmarks::planeFromValue(values[0]), b = landmarks::planeFromValue(values[1]);
+  residual[0] = signedDistance(b, near_) - signedDistance(a, near_);
+  if (!jacobians) return;
+  if (jacobians[0]) RelationJacobian<1, 3>{jacobians[0]} = -distanceByPlane(a, near_);
+  if (jacobians[1]) RelationJacobian<1, 3>{jacobians[1]} = distanceByPlane(b, near_);
+}
+
+void PlaneShiftFactor::write(std::ostream& out) const {
+  writePoint(out, near_);
+}
+
+void addRelationsTo(graph::FactorRegistry& registry) {
+  registry.add("point_on_wall", [](std::istream&) { return std::make_shared<PointOnWallFactor>(); });
+  registry.add("point_on_plane", [](std::istream&) { return std::make_shared<PointOnPlaneFactor>(); });
+  registry.add("wall_turn", [](std::istream& in) {
+    return std::make_shared<WallTurnFactor>(static_cast<int>(graph::readUint(in, 1)));
+  });
+  registry.add("walls_aligned", [](std::istream&) { return std::make_shared<WallsAlignedFactor>(); });
+  registry.add("wall_shift", [](std::istream&) { return std::make_shared<WallShiftFactor>(); });
+  registry.add("planes_parallel", [](std::istream&) { return std::make_shared<PlanesParallelFactor>(); });
+  registry.add("planes_square", [](std::istream&) { return std::make_shared<PlanesSquareFactor>(); });
+  registry.add("planes_aligned", [](std::istream& in) { return std::make_shared<PlanesAlignedFactor>(readPoint(in)); });
+  registry.add("plane_shift", [](std::istream& in) { return std::make_shared<PlaneShiftFactor>(readPoint(in)); });
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,87 @@
+#include "RelationsPlugin.h"
+
+#include <algorithm>
+
+#include "RelationFactors.h"
+#include "Relations.h"
+
+IMPLEMENTS_MRPT_OBJECT(RelationsPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<RelationsOptions>& RelationsOptions::table() {
+  using Options = RelationsOptions;
+  using base::Range;
+  static const auto table =
+      base::OptionTable<Options>()
+          .flag("point_on_wall", &Options::point_on_wall, "Points that lie on walls, tables and other surfaces.")
+          .flag("parallel", &Options::parallel, "Walls and planes in parallel.")
+          .flag("perpendicular", &Options::perpendicular, "Walls and planes at right angles.")
+          .flag("aligned", &Options::aligned, "Walls on one line, surfaces on one plane.")
+          .number("distance_sigma_m", &Options::distance_sigma, Range::positive(),
+                  "Standard deviation of a point from its wall or table, and of walls from one line.")
+          .number("angle_sigma_deg", &Options::angle_sigma, Range::positive(),
+                  "Standard deviation of walls from parallel and from the right angle.")
+          .number("max_distance_m", &Options::max_distance, Range::positive(),
+                  "Points farther from a surface have nothing to do with it; nor walls farther from one line.")
+          .number("max_angle_deg", &Options::max_angle, Range::positive(),
+                  "Walls farther from parallel and from the right angle stand as they like.")
+          .number(
+              "min_likelihood_ratio", &Options::min_likelihood_ratio, Range::positive(),
+              "A relation is proposed when what is known is so many times likelier if it holds than if the two have "
+              "nothing to do with each other.")
+          .integer("min_sightings", &Options::min_sightings, Range{1, 1e9}, "Of each of the two landmarks.");
+  return table;
+}
+
+RelationsPlugin::RelationsPlugin(const RelationsOptions& options, const mapper::PluginContext& context)
+    : options_(options), section_(context.section) {}
+
+RelationsPlugin::~RelationsPlugin() = default;
+
+mapper::FollowUp RelationsPlugin::afterCommit(const map::KeyFrame&, const mapper::View& view) {
+  if (view.solves.size() == solves_ || view.map_is_held) return {};
+  solves_ = view.solves.size();
+  return {propose(view), {}};
+}
+
+mapper::Batch RelationsPlugin::atEnd(const mapper::View& view) {
+  return view.map_is_held ? mapper::Batch() : propose(view);
+}
+
+// What it proposed stands in the graph, with landmarks merged since.
+mapper::Batch RelationsPlugin::propose(const mapper::View& view) {
+  KnownRelations known;
+  for (const auto& [id, record] : view.graph.factors()) {
+    if (record.tags.owner == section_ && record.variables.size() == 2)
+      known[{std::string(record.factor->kind()), std::minmax(record.variables[0], record.variables[1])}] =
+          record.weight > 0;
+  }
+  mapper::Batch batch;
+  for (Relation& relation : findRelations(view, options_, known)) {
+    mapper::Decision decision;
+    decision.stamp = view.map.key_frames.back().stamp;
+    decision.plugin = section_;
+    decision.kind = relation.name;
+    decision.from = view.map.key_frames.back().id;
+    decision.reason = "waits for the consistency test";
+    decision.numbers = {{"landmark variable", relation.record.variables[0].index},
+                        {"other", relation.record.variables[1].index},
+                        {"chi-square", relation.chi2},
+                        {"likelihood ratio", relation.likelihood_ratio}};
+    relation.record.tags.owner = section_;
+    batch.addHypothesis(std::move(relation.record), std::move(decision));
+  }
+  return batch;
+}
+
+void RelationsPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+  addRelationsTo(kinds.factors);
+}
+
+std::unique_ptr<mapper::MeasurementPlugin> RelationsPluginFactory::make(const base::ConfigSection& section,
+                                                                        const mapper::PluginContext& context) const {
+  return std::make_unique<RelationsPlugin>(section.read<RelationsOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::plugins

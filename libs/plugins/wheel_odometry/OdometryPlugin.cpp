@@ -1,0 +1,42 @@
+#include "OdometryPlugin.h"
+
+IMPLEMENTS_MRPT_OBJECT(OdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<OdometryOptions>& OdometryOptions::table() {
+  static const auto table = [] {
+    base::OptionTable<OdometryOptions> options;
+    return declareIn(options).flag(
+        "fallback", &OdometryOptions::fallback,
+        "Tell the motion only where no other source does: beside laser odometry, whose guess it is already, "
+        "wheels that slip, freeze or jump then bend nothing.");
+  }();
+  return table;
+}
+
+OdometryPlugin::Taken OdometryPlugin::add(const mrpt::obs::CObservation& observation) {
+  using Of = matching::WheelOdometry::Taken;
+  switch (odometry_.add(observation)) {
+    case Of::taken:
+      return Taken::taken;
+    case Of::unusable:
+      return Taken::unusable;
+    case Of::not_mine:
+      break;
+  }
+  return Taken::not_mine;
+}
+
+std::optional<OdometryPlugin::Span> OdometryPlugin::news() const {
+  const auto news = odometry_.news();
+  if (!news) return std::nullopt;
+  return Span{news->begin, news->end};
+}
+
+std::unique_ptr<mapper::PosePlugin> OdometryPluginFactory::make(const base::ConfigSection& section,
+                                                                const mapper::PluginContext&) const {
+  return std::make_unique<OdometryPlugin>(section.read<OdometryOptions>(mapper::sectionKeysOfEngine()));
+}
+
+}  // namespace omnimapper::plugins

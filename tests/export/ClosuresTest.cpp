@@ -1,0 +1,26 @@
+#include <gtest/gtest.h>
+#include <omnimapper/testing/HandMadeRun.h>
+
+#include "run/Closures.h"
+
+namespace omnimapper::exports::closures_test {
+namespace {
+
+// What a search found where the estimate has it, a slip, and a change of mind are decisions about two key frames, too.
+TEST(Closures, AreLoopClosuresAndNoOtherDecisionAboutTwoKeyFrames) {
+  testing::HandMadeRun run;
+  for (int i = 0; i < 4; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
+  for (const std::string kind : {"loop closure", "global loop search", "slip", "loop closure, taken back"}) {
+    mapper::Decision decision;
+    decision.kind = kind;
+    decision.from = run.map.key_frames[3].id;
+    decision.to = run.map.key_frames[0].id;
+    run.decisions.push_back(decision);
+  }
+  const auto closures = closuresOf(run.map, run.decisions);
+  ASSERT_EQ(closures.size(), 1U);
+  EXPECT_EQ(closures[0].decision->kind, "loop closure");
+}
+
+}  // namespace
+}  // namespace omnimapper::exports::closures_test

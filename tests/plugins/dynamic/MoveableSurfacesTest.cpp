@@ -1,0 +1,227 @@
+// Moved walls, tables and points with what else speaks of them: what holds them upright, relations, planes and lines.
+#include <gtest/gtest.h>
+#include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/landmarks/PlaneVariable.h>
+
+#include "MoveableRoom.h"
+#include "dynamic/LooseHold.h"
+#include "relations/RelationFactors.h"
+
+namespace omnimapper::plugins::moveable_surfaces_test {
+namespace {
+
+using geometry::Segment2;
+using Kind = landmarks::SurfaceForm::Kind;
+using Seen = MoveableRoom::Seen;
+using State = map::Landmark::State;
+
+const Segment2 kSouth{{-3, -2.3}, {3, -2.3}}, kEast{{3, -2.3}, {3, 4.7}}, kNorth{{3, 4.7}, {-3, 4.7}},
+    kWest{{-3, 4.7}, {-3, -2.3}};
+const Segment2 kPanel{{2.4, 0.2}, {2.4, 2.2}}, kScreen{{-1, -1.8}, {1, -1.8}};
+
+Segment2 shifted(const Segment2& wall, const Eigen::Vector2d& by) {
+  return {wall.from + by, wall.to + by};
+}
+
+std::vector<base::LandmarkId> addWalls(MoveableRoom& room, Kind form, Seen seen = Seen::as_lines) {
+  std::vector<base::LandmarkId> walls;
+  for (const auto& wall : {kSouth, kEast, kNorth, kWest})
+    walls.push_back(room.addSurface(form, wall, wall, seen, seen));
+  return walls;
+}
+
+void addPoints(MoveableRoom& room) {
+  for (const Eigen::Vector2d& at : {Eigen::Vector2d(2.9, 0), {-2.5, 1}, {0.3, 4}, {1, -2}, {-2, -1.5}, {2, 4}})
+    room.addPoint(at, at);
+}
+
+void expectWhole(const MoveableRoom& room) {
+  EXPECT_TRUE(room.isKnown(room.run.map.key_frames.back().pose)) << "covariances are told of the map after it";
+  for (const auto& [id, landmark] : room.run.map.landmarks) {
+    if (landmark.variables.empty()) continue;
+    if (landmark.state == State::active) {
+      EXPECT_TRUE(room.isKnown(landmark.variables.front())) << toString(id);
+    } else {
+      EXPECT_FALSE(room.actsOnAnything(id)) << toString(id);
+    }
+  }
+}
+
+class MoveableSurfaces : public ::testing::TestWithParam<Kind> {
+ protected:
+  std::shared_ptr<const graph::Factor> parallel() const {
+    if (GetParam() == Kind::wall) return std::make_shared<WallTurnFactor>(0);
+    return std::make_shared<PlanesParallelFactor>();
+  }
+  // Of a wall to the east of the room to one in the south.
+  std::shared_ptr<const graph::Factor> square() const {
+    if (GetParam() == Kind::wall) return std::make_shared<WallTurnFactor>(-1);
+    return std::make_shared<PlanesSquareFactor>();
+  }
+};
+
+TEST_P(MoveableSurfaces, WhatStandsIsLeftAlone) {
+  MoveableRoom room;
+  addPoints(room);
+  const auto walls = addWalls(room, GetParam());
+  room.relate(walls[1], walls[0], square());
+  room.look();
+  for (const auto id : walls) EXPECT_EQ(room.stateOf(id), State::active);
+  expectWhole(room);
+}
+
+TEST_P(MoveableSurfaces, AMovedOneIsFoundWithBothItsPlaces) {
+  MoveableRoom room;
+  addPoints(room);
+  const auto walls = addWalls(room, GetParam());
+  const auto panel = room.addSurface(GetParam(), kPanel, shifted(kPanel, {-0.5, 1.5}));
+  room.look();
+  const auto* record = room.recordOf(panel);
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->label, "wall");
+  const auto shape = record->shape({}, room.run.map.key_frames);
+  ASSERT_EQ(shape.points.size(), 2U);
+  EXPECT_LT((shape.points[0].head<2>() - Eigen::Vector2d(2.4, 1.2)).norm(), 0.1) << shape.points[0].transpose();
+  EXPECT_LT((shape.points[1].head<2>() - Eigen::Vector2d(1.9, 2.7)).norm(), 0.1) << shape.points[1].transpose();
+  for (const auto id : walls) EXPECT_EQ(room.stateOf(id), State::active);
+  EXPECT_LT(room.error(), 0.05);
+  expectWhole(room);
+}
+
+TEST_P(MoveableSurfaces, RelationsOfAMovedOneGoWithIt) {
+  MoveableRoom room;
+  addPoints(room);
+  const auto walls = addWalls(room, GetParam());
+  const auto panel = room.addSurface(GetParam(), kPanel, shifted(kPanel, {-0.5, 0}));
+  const auto screen = room.addSurface(GetParam(), kScreen, shifted(kScreen, {0, 0.6}));
+  room.relate(panel, screen, square());
+  room.relate(walls[1], panel, parallel());
+  room.relate(walls[1], walls[0], square());
+  room.look();
+  EXPECT_TRUE(room.recordOf(panel));
+  EXPECT_TRUE(room.recordOf(screen));
+  EXPECT_TRUE(room.run.view().factorsOf(walls[1]).size() == 2 * MoveableRoom::kRound + 1 + (GetParam() == Kind::plane))
+      << "its sightings, what holds it upright and its relation to what stands";
+  EXPECT_LT(room.error(), 0.05);
+  expectWhole(room);
+}
+
+// With everything else gone a relation binds them to one another and to nothing.
+TEST_P(MoveableSurfaces, TwoThatMovedAndHoldOneAnotherHangOnNothing) {
+  MoveableRoom room;
+  const auto panel = room.addSurface(GetParam(), kPanel, shifted(kPanel, {-0.5, 0}));
+  const auto screen = room.addSurface(GetParam(), kScreen, shifted(kScreen, {0, 0.6}));
+  room.relate(panel, screen, square());
+  addPoints(room);
+  ASSERT_NO_THROW(room.look());
+  EXPECT_TRUE(room.recordOf(panel));
+  EXPECT_TRUE(room.recordOf(screen));
+  expectWhole(room);
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, MoveableSurfaces, ::testing::Values(Kind::plane, Kind::wall),
+                         [](const auto& info) { return info.param == Kind::wall ? "Wall" : "Plane"; });
+
+TEST(MoveableThings, APointOnAMovedWallMovesWithIt) {
+  MoveableRoom room;
+  addPoints(room);
+  addWalls(room, Kind::wall);
+  const Eigen::Vector2d by(-0.5, 0), on_panel(2.4, 1);
+  const auto panel = room.addSurface(Kind::wall, kPanel, shifted(kPanel, by));
+  const auto point = room.addPoint(on_panel, on_panel + by);
+  room.relate(point, panel, std::make_shared<PointOnWallFactor>());
+  room.look();
+  EXPECT_TRUE(room.recordOf(panel));
+  EXPECT_TRUE(room.recordOf(point));
+  expectWhole(room);
+}
+
+TEST(MoveableThings, SeenAsPlanesAndAfterTheMoveAsLinesOfOneHeight) {
+  MoveableRoom room;
+  addPoints(room);
+  addWalls(room, Kind::plane, Seen::as_planes);
+  const auto panel = room.addSurface(Kind::plane, kPanel, shifted(kPanel, {-0.5, 0}), Seen::as_planes, Seen::as_lines);
+  ASSERT_NO_THROW(room.look());
+  EXPECT_TRUE(room.recordOf(panel)) << "its lean is not known there, but its distance is";
+  expectWhole(room);
+}
+
+TEST(MoveableThings, WhatIsDeterminedNowhereIsGivenUp) {
+  MoveableRoom room;
+  addPoints(room);
+  addWalls(room, Kind::plane);
+  // Once at each of three places.
+  const auto point = room.addPoint({{2, {2, 1}}, {12, {1, 2}}, {30, {-1, 1}}});
+  MoveableThingsOptions options;
+  options.min_sightings = MoveableRoom::kRound + 1;
+  const auto panel = room.addSurface(Kind::plane, kPanel, shifted(kPanel, {-0.5, 0}));
+  room.look(options);
+  for (const auto id : {point, panel}) {
+    EXPECT_EQ(room.stateOf(id), State::retired);
+    EXPECT_FALSE(room.recordOf(id));
+  }
+  EXPECT_TRUE(std::any_of(room.run.decisions.begin(), room.run.decisions.end(), [](const auto& decision) {
+    return decision.reason.rfind("given up", 0) == 0 && !decision.accepted;
+  }));
+  EXPECT_LT(room.error(), 0.05);
+  expectWhole(room);
+}
+
+TEST(MoveableThings, ASessionThatOnlyMovedOnesTieToTheMapStaysTied) {
+  MoveableRoom room(1, true);
+  room.addPoint({2, 1}, {2, 2});  // three metres apart no more
+  room.addPoint({-1, 1}, {-1, -2});
+  ASSERT_NO_THROW(room.look());
+  expectWhole(room);
+  EXPECT_EQ(room.run.decisions.back().reason,
+            "cannot tell what has moved: without what seems to have moved a part of the map hangs free");
+}
+
+// Turned by its normal, what two planes are off is in the axes of each: geometry::tangentBasis jumps where another axis
+// of space becomes the least.
+TEST(Differences, ChangeWithBothValuesAsTheyAreTold) {
+  const auto unit = [](double x, double y, double z) { return Eigen::Vector3d(x, y, z).normalized(); };
+  struct Case {
+    std::shared_ptr<const graph::Variable> kind;
+    Eigen::VectorXd a, b;
+  };
+  const std::vector<Case> cases = {
+      {landmarks::planeVariable(), landmarks::toValue(geometry::Plane3{unit(1, 0.101, 0.1), 2}),
+       landmarks::toValue(geometry::Plane3{unit(1, 0.1, 0.101), 2.001})},
+      {landmarks::wallVariable(), landmarks::toValue(Segment2{{0, 0}, {2, 0}}),
+       landmarks::toValue(Segment2{{0, 0.1}, {2, 0.101}})},
+      {graph::point2(), Eigen::Vector2d(1, 2), Eigen::Vector2d(3, 5)}};
+  for (const auto& [kind, a, b] : cases) {
+    const auto told = landmarks::differenceOf(*kind, a, b);
+    const int size = kind->tangentSize();
+    constexpr double kStep = 1e-6;
+    for (int column = 0; column < 2 * size; ++column) {
+      Eigen::VectorXd delta = Eigen::VectorXd::Zero(2 * size), moved_a = a, moved_b = b, change(size);
+      delta[column] = kStep;
+      kind->plus(a.data(), delta.data(), moved_a.data());
+      kind->plus(b.data(), delta.data() + size, moved_b.data());
+      // In the axes of the unmoved `a`.
+      Eigen::VectorXd of_a(size);
+      kind->minus(moved_b.data(), a.data(), change.data());
+      kind->minus(moved_a.data(), a.data(), of_a.data());
+      const Eigen::VectorXd slope = (change - of_a - told.change) / kStep;
+      EXPECT_LT((slope - told.by_both.col(column)).norm(), 0.02) << kind->kind() << " " << column;
+    }
+  }
+}
+
+TEST(LooseHold, PullsToWhereItWasAndHardly) {
+  graph::Graph graph;
+  const auto id =
+      graph.addVariable(landmarks::planeVariable(), landmarks::toValue(geometry::Plane3{Eigen::Vector3d::UnitX(), 2}));
+  holdLoosely(graph, id);
+  EXPECT_EQ(graph.cost(), 0);
+  graph.setValue(id, landmarks::toValue(geometry::Plane3{Eigen::Vector3d(0.6, 0.8, 0), 3}));
+  EXPECT_NEAR(2 * graph.cost(), (1 + std::pow(std::acos(0.6), 2)) / 1e4, 1e-12);
+  graph::solve(graph);
+  EXPECT_NEAR(graph.value(id)[0], 1, 1e-6);
+  EXPECT_NEAR(graph.value(id)[3], 2, 1e-6);
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins::moveable_surfaces_test

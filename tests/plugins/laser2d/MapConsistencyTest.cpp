@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/graph/Between.h>
+#include <omnimapper/testing/HandMadeRun.h>
+
+#include "laser2d/MapConsistency.h"
+#include "laser2d/SlipSearch.h"
+
+namespace omnimapper::plugins::map_consistency_test {
+namespace {
+
+using mapper::Evidence;
+using Says = Evidence::Says;
+
+// 30 m there and, turned round twice as it were, 30 m along the same line again, a key frame each metre.
+testing::HandMadeRun thereAgain() {
+  testing::HandMadeRun run;
+  for (int i = 0; i <= 30; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
+  for (int i = 0; i <= 30; ++i) run.addFrame({1.0 * i, 0.5, 0, 0, 0, 0});
+  return run;
+}
+
+void close(testing::HandMadeRun& run, std::size_t from, std::size_t to, double weight = 1) {
+  graph::FactorRecord record{{run.map.key_frames[from].pose, run.map.key_frames[to].pose},
+                             std::make_shared<graph::BetweenSe2>(geometry::Se2{}),
+                             graph::SquareRootInformation::fromSigmas(Eigen::Vector3d(1, 1, 1))};
+  record.weight = weight;
+  record.tags.owner = "loops";
+  run.graph.addFactor(std::move(record));
+}
+
+TEST(MapConsistency, WithoutAWayBackNothingCanBeTold) {
+  testing::HandMadeRun run;
+  for (int i = 0; i <= 30; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
+  const auto evidence = revisits(run.view(), "loops", {}, 8);
+  EXPECT_EQ(evidence[0].says, Says::too_little);
+  EXPECT_EQ(evidence[1].says, Says::good);
+  EXPECT_TRUE(revisits(testing::HandMadeRun().view(), "loops", {}, 8)[0].says == Says::too_little) << "an empty map";
+}
+
+TEST(MapConsistency, ALongWayAgainWithoutAClosureIsAgainstTheMap) {
+  const auto evidence = revisits(thereAgain().view(), "loops", {}, 8);
+  EXPECT_EQ(evidence[0].says, Says::good);
+  EXPECT_NEAR(evidence[0].value, 60, 1.5) << "30 m again, and the jump back along them";
+  EXPECT_EQ(evidence[1].says, Says::against_it);
+  EXPECT_NE(evidence[1].reason.find("sees something else"), std::string::npos);
+}
+
+// Two walls along the way, as a laser in the base sees them, the second time `off` to the side [m].
+testing::HandMadeRun thereAgainBetweenWalls(double off) {
+  auto run = thereAgain();
+  for (std::uint32_t i = 0; i < run.map.key_frames.size(); ++i) {
+    auto& frame = run.map.key_frames.edit({0, i});
+    const double base_y = frame.map_from_base.y() + (i > 30 ? off : 0);
+    auto points = mrpt::maps::CSimplePointsMap::Create();
+    for (int k = -100; k <= 100; ++k) {
+      for (const double y : {-1.5, 1.5})
+        points->insertPoint(static_cast<float>(0.05 * k), static_cast<float>(y - base_y), 0);
+    }
+    auto cloud = mrpt::obs::CObservationPointCloud::Create();
+    cloud->sensorLabel = "laser_points";
+    cloud->pointcloud = points;
+    frame.observations.push_back(cloud);
+  }
+  return run;
+}
+
+TEST(MapConsistency, AWayAgainOnWhichTheScansFitIsNotAgainstTheMap) {
+  const auto fits = revisits(thereAgainBetweenWalls(0).view(), "loops", {"laser_points"}, 8);
+  EXPECT_EQ(fits[1].says, Says::good);
+  EXPECT_EQ(fits[1].value, 0);
+  EXPECT_NE(fits[0].reason.find("60 m more"), std::string::npos) << fits[0].reason;
+  const auto doubled = revisits(thereAgainBetweenWalls(0.5).view(), "loops", {"laser_points"}, 8);
+  EXPECT_EQ(doubled[1].says, Says::against_it);
+}
+
+// Whatever run they are of: a session that goes on has the closures of those before it in the graph alone.
+TEST(MapConsistency, AClosureOfTheGraphTiesFifteenMetresAroundIt) {
+  auto run = thereAgain();
+  close(run, 45, 14);
+  const auto evidence = revisits(run.view(), "loops", {}, 8);
+  EXPECT_EQ(evidence[1].reason.find("for 29 m"), std::string::npos);
+  EXPECT_LT(evidence[1].value, revisits(thereAgain().view(), "loops", {}, 8)[1].value - 28);
+}
+
+TEST(MapConsistency, AClosureThatWasRefusedOrIsSomebodyElsesTiesNothing) {
+  auto run = thereAgain();
+  const double open = revisits(run.view(), "loops", {}, 8)[1].value;
+  close(run, 45, 14, 0);
+  EXPECT_EQ(revisits(run.view(), "loops", {}, 8)[1].value, open);
+  close(run, 45, 14);
+  EXPECT_EQ(revisits(run.view(), "others", {}, 8)[1].value, open);
+}
+
+mapper::Decision decisionAbout(const testing::HandMadeRun& run, const std::string& kind, std::size_t from,
+                               std::size_t to, bool accepted) {
+  mapper::Decision decision;
+  decision.plugin = "loops";
+  decision.kind = kind;
+  decision.from = run.map.key_frames[from].id;
+  decision.to = run.map.key_frames[to].id;
+  decision.stamp = run.map.key_frames[from].stamp;
+  decision.accepted = accepted;
+  return decision;
+}
+
+TEST(MapConsistency, ASlipThatWasUndoneIsToldWithItsPlaceAndSize) {
+  auto run = thereAgain();
+  EXPECT_TRUE(slips(run.view(), "loops", run.decisions).empty());
+  auto decision = decisionAbout(run, kSlip, 20, 19, true);
+  decision.numbers = {{kSlippedBy, 1.25}, {kSlippedByAngle, 14}};
+  run.decisions.push_back(decision);
+  const auto evidence = slips(run.view(), "loops", run.decisions);
+  ASSERT_EQ(evidence.size(), 1U);
+  EXPECT_EQ(evidence[0].says, Says::good);
+  EXPECT_EQ(evidence[0].reason, "a slip of 1.2 m and 14 deg, 20 s after the start, was undone");
+  EXPECT_TRUE(slips(run.view(), "others", run.decisions).empty());
+}
+
+TEST(MapConsistency, ClosuresThatAgreeAndContradictItAreAgainstTheMapUntilOneActsAcross) {
+  auto run = thereAgain();
+  run.decisions = {decisionAbout(run, "loop closure", 30, 5, true), decisionAbout(run, kSlip, 40, 10, false),
+                   decisionAbout(run, "loop closure", 50, 35, true)};
+  const auto evidence = slips(run.view(), "loops", run.decisions);
+  ASSERT_EQ(evidence.size(), 1U);
+  EXPECT_EQ(evidence[0].says, Says::against_it);
+  EXPECT_NE(evidence[0].reason.find("from 40 s after the start on"), std::string::npos) << evidence[0].reason;
+  run.decisions.push_back(decisionAbout(run, "loop closure", 55, 8, true));
+  EXPECT_TRUE(slips(run.view(), "loops", run.decisions).empty());
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins::map_consistency_test

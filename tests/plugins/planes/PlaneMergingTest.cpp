@@ -1,0 +1,90 @@
+#include "SurfaceRun.h"
+#include "planes/PlanePayload.h"
+
+namespace omnimapper::plugins::plane_merging_test {
+namespace {
+
+using namespace surface_run;
+
+class PlaneMerging : public SurfaceRun {};
+
+// A table like an L, its arms seen one after the other, and then the corner between them.
+TEST_F(PlaneMerging, ABoundaryAsSeenHasBaysUntilTheyAreSeen) {
+  PlaneLandmarksOptions options;
+  options.boundary = PlaneLandmarksOptions::Boundary::seen;
+  make(options);
+  driveTo({});
+  see(planesOf({plane({2, 0, 0.7}, {1, 0, 0}, {0, 0.3, 0})}));
+  see(planesOf({plane({2.7, 0.5, 0.7}, {0.3, 0, 0}, {0, 0.8, 0})}));
+  ASSERT_EQ(active().size(), 1U);
+  ASSERT_EQ(shapeOf(active()[0]).surfaces.size(), 1U);
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 1.2 + 0.6 * 1.0, 1e-6);
+  see(planesOf({plane({2.2, 0.5, 0.7}, {0.2, 0, 0}, {0, 0.2, 0})}));
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 1.8 + 0.4 * 0.4, 1e-6);
+  const auto patches = [&] { return dynamic_cast<const PlanePayload&>(*active()[0].payload).patches.size(); };
+  EXPECT_EQ(patches(), 3U);
+  see(planesOf({plane({2.2, 0.5, 0.7}, {0.2, 0, 0}, {0, 0.2, 0})}));
+  EXPECT_EQ(patches(), 3U) << "nothing new";
+  for (int i = 0; i < 30; ++i) {
+    const double noise = 0.01 * (i % 3 - 1);
+    see(planesOf({plane({2.2 + noise, 0.5, 0.7}, {0.2 + noise, 0, 0}, {0, 0.2 - noise, 0})}));
+  }
+  EXPECT_EQ(patches(), 3U) << "edges are seen a little elsewhere each time";
+}
+
+// Lines of two heights span a hull that a camera's plane lies within.
+TEST_F(PlaneMerging, ABoundaryAsSeenOfAWallThatLinesHaveShownFirst) {
+  PlaneLandmarksOptions options;
+  options.boundary = PlaneLandmarksOptions::Boundary::seen;
+  make(options);
+  driveTo({});
+  see(linesOf({line({3, -2}, {3, 2})}, 0.1));
+  see(linesOf({line({3, -2}, {3, 2})}, 1.9));
+  see(planesOf({wallPlane(3, -1, 1)}));
+  ASSERT_EQ(active().size(), 1U);
+  ASSERT_EQ(shapeOf(active()[0]).surfaces.size(), 1U);
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 2 * 1.6, 0.01);
+}
+
+TEST_F(PlaneMerging, TwoTablesOfOneHeightStayTwo) {
+  driveTo({});
+  see(planesOf({tableTop(2, -1, 0.7), tableTop(2, 1, 0.7)}));
+  see(planesOf({tableTop(2, 1, 0.701)}));
+  ASSERT_EQ(active().size(), 2U);
+  EXPECT_EQ(active()[0].evidence, 1U);
+  EXPECT_EQ(active()[1].evidence, 2U);
+  EXPECT_EQ(shapeOf(active()[1]).label, "table");
+}
+
+TEST_F(PlaneMerging, PartsThatAreFoundToBeOneAreMerged) {
+  driveTo({});
+  see(planesOf({wallPlane(3, -2, -1), wallPlane(3, 0, 1)}));
+  ASSERT_EQ(active().size(), 2U);
+  see(planesOf({wallPlane(3, -1.5, 0.5)}));
+  EXPECT_EQ(active().size(), 2U);
+  solve();
+  ASSERT_EQ(active().size(), 1U);
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 3 * 1.6, 0.01);
+  EXPECT_EQ(active()[0].evidence, 3U);
+  EXPECT_EQ(run_.decisions.back().kind, "merge");
+}
+
+TEST_F(PlaneMerging, TheFacesOfAThinWallAreTwo) {
+  driveTo({});
+  see(planesOf({wallPlane(3, -1, 1)}));
+  driveTo({6.1, 0, 0, geometry::kPi, 0, 0});
+  see(planesOf({wallPlane(3, -1, 1)}));
+  solve();
+  EXPECT_EQ(active().size(), 2U);
+}
+
+TEST_F(PlaneMerging, StretchesOfANewWallSeenAtOnceAreOne) {
+  driveTo({});
+  see(linesOf({line({3, -2}, {3, -0.3}), line({3, 0.1}, {3, 2})}));
+  EXPECT_EQ(active().size(), 1U);
+  EXPECT_EQ(factorsOfKind("line_on_plane"), 2U);
+  EXPECT_EQ(factorsOfKind("upright_plane"), 1U);
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins::plane_merging_test
