@@ -90,7 +90,7 @@ bool CloudPlaneExtractor::wants(const mrpt::obs::CObservation& raw) const {
   return std::find(labels.begin(), labels.end(), raw.sensorLabel) != labels.end();
 }
 
-std::shared_ptr<obs::CObservationPlanes> CloudPlaneExtractor::extract(const mrpt::obs::CObservation& raw) const {
+std::shared_ptr<obs::CObservationPlanes> CloudPlaneExtractor::planesOf(const mrpt::obs::CObservation& raw) const {
   auto derived = obs::CObservationPlanes::Create();
   derived->timestamp = raw.timestamp;
   raw.getSensorPose(derived->sensorPose);
@@ -99,6 +99,14 @@ std::shared_ptr<obs::CObservationPlanes> CloudPlaneExtractor::extract(const mrpt
   for (auto& plane : finder_.find(pointsOf(raw, options_.min_range)).planes)
     derived->planes.push_back(observed(std::move(plane)));
   return derived;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> CloudPlaneExtractor::extract(const mrpt::obs::CObservation& raw) const {
+  return {planesOf(raw)};
+}
+
+std::vector<DerivedName> CloudPlaneExtractor::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + kPlanesSuffix}};
 }
 
 }  // namespace omnimapper::perception

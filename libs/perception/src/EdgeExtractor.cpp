@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "DepthScan.h"
 #include "RangeScan.h"
 #include "edges/Canny.h"
 
@@ -110,6 +111,22 @@ std::vector<mrpt::obs::CObservationPointCloud::Ptr> EdgeExtractor::extract(
     clouds.push_back(std::move(derived));
   }
   return clouds;
+}
+
+bool EdgeExtractor::wants(const mrpt::obs::CObservation& raw) const {
+  return depthScanOf(raw) != nullptr;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> EdgeExtractor::extract(const mrpt::obs::CObservation& raw) const {
+  const auto clouds = extract(*depthScanOf(raw));
+  return {clouds.begin(), clouds.end()};
+}
+
+std::vector<DerivedName> EdgeExtractor::namesOf(const mrpt::obs::CObservation& raw) const {
+  std::vector<DerivedName> names;
+  for (auto& label : labelsOf(*depthScanOf(raw)))
+    names.push_back({CLASS_ID(mrpt::obs::CObservationPointCloud), std::move(label)});
+  return names;
 }
 
 }  // namespace omnimapper::perception

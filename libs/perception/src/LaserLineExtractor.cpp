@@ -131,4 +131,16 @@ std::shared_ptr<obs::CObservationLaserLines> LaserLineExtractor::extract(
   return derived;
 }
 
+bool LaserLineExtractor::wants(const mrpt::obs::CObservation& raw) const {
+  return dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&raw) != nullptr;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> LaserLineExtractor::extract(const mrpt::obs::CObservation& raw) const {
+  return {extract(dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(raw))};
+}
+
+std::vector<DerivedName> LaserLineExtractor::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(obs::CObservationLaserLines), raw.sensorLabel + kLinesSuffix}};
+}
+
 }  // namespace omnimapper::perception

@@ -87,4 +87,16 @@ mrpt::obs::CObservation::Ptr LaserPointsExtractor::extract(const mrpt::obs::CObs
   return derived;
 }
 
+bool LaserPointsExtractor::wants(const mrpt::obs::CObservation& raw) const {
+  return dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&raw) != nullptr;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> LaserPointsExtractor::extract(const mrpt::obs::CObservation& raw) const {
+  return {extract(dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(raw))};
+}
+
+std::vector<DerivedName> LaserPointsExtractor::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(mrpt::obs::CObservationPointCloud), raw.sensorLabel + kPointsSuffix}};
+}
+
 }  // namespace omnimapper::perception

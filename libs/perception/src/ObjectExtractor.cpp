@@ -1,6 +1,7 @@
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/ObjectExtractor.h>
 
+#include "DepthScan.h"
 #include "RangeScan.h"
 #include "planes/PlaneObservation.h"
 
@@ -72,6 +73,29 @@ ObjectExtractor::Found ObjectExtractor::extract(const mrpt::obs::CObservation3DR
     found.objects->objects.push_back(std::move(object));
   }
   return found;
+}
+
+bool ObjectExtractor::wants(const mrpt::obs::CObservation& raw) const {
+  return depthScanOf(raw) != nullptr;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> ObjectExtractor::extract(const mrpt::obs::CObservation& raw) const {
+  const auto found = extract(*depthScanOf(raw));
+  ++scans_;
+  with_surface_ += found.has_surface;
+  return {found.planes, found.objects};
+}
+
+std::vector<DerivedName> ObjectExtractor::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + kPlanesSuffix},
+          {CLASS_ID(obs::CObservationObjects), raw.sensorLabel + kObjectsSuffix}};
+}
+
+std::vector<std::string> ObjectExtractor::warnings() const {
+  if (scans_ == 0 || with_surface_ > 0 || !options_.objects.on_surfaces_only) return {};
+  return {"none of " + std::to_string(scans_) +
+          " scans shows a level surface for things to stand on: is the sensor's place on the base right, which tells "
+          "what is level? For a camera in the hand set max_tilt_deg = 75"};
 }
 
 }  // namespace omnimapper::perception

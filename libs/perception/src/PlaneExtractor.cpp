@@ -1,6 +1,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/perception/PlaneExtractor.h>
 
+#include "DepthScan.h"
 #include "RangeScan.h"
 #include "planes/PlaneObservation.h"
 
@@ -26,6 +27,18 @@ std::shared_ptr<obs::CObservationPlanes> PlaneExtractor::extract(const mrpt::obs
   }
   return planes::observe(segmenter_.segment(depth.image(), colours.inDepthView(depth)), scan, depth, colours,
                          outlines_.tolerance);
+}
+
+bool PlaneExtractor::wants(const mrpt::obs::CObservation& raw) const {
+  return depthScanOf(raw) != nullptr;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> PlaneExtractor::extract(const mrpt::obs::CObservation& raw) const {
+  return {extract(*depthScanOf(raw))};
+}
+
+std::vector<DerivedName> PlaneExtractor::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + kPlanesSuffix}};
 }
 
 }  // namespace omnimapper::perception

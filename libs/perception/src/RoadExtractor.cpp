@@ -1,6 +1,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/perception/RoadExtractor.h>
 
+#include "DepthScan.h"
 #include "RangeScan.h"
 #include "planes/PlaneObservation.h"
 
@@ -25,6 +26,18 @@ std::shared_ptr<obs::CObservationPlanes> RoadExtractor::extract(const mrpt::obs:
   auto derived = planes::observe(found.ground, scan, depth, ScanColours(scan), outlines_.tolerance);
   derived->sensorLabel = scan.sensorLabel + kRoadSuffix;
   return derived;
+}
+
+bool RoadExtractor::wants(const mrpt::obs::CObservation& raw) const {
+  return depthScanOf(raw) != nullptr;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> RoadExtractor::extract(const mrpt::obs::CObservation& raw) const {
+  return {extract(*depthScanOf(raw))};
+}
+
+std::vector<DerivedName> RoadExtractor::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(obs::CObservationPlanes), raw.sensorLabel + kRoadSuffix}};
 }
 
 }  // namespace omnimapper::perception

@@ -1,6 +1,7 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/perception/LaserPointsExtractor.h>
+#include <omnimapper/plugin/ExtractorFactoryOf.h>
 
-#include "LaserPointsPlugin.h"
 #include "LoopClosurePlugin.h"
 #include "ScanOdometryPlugin.h"
 
@@ -10,9 +11,9 @@ namespace omnimapper::plugins {
 const base::AtLoad kRegister([] {
   using mrpt::rtti::registerClass;
   mapper::registerFactoryBases();
-  registerClass(CLASS_ID(LaserPointsPluginFactory));
   registerClass(CLASS_ID(LoopClosurePluginFactory));
   registerClass(CLASS_ID(ScanOdometryPluginFactory));
+  mapper::ExtractorFactoryOf<perception::LaserPointsExtractor, perception::LaserPointsOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

@@ -1,14 +1,13 @@
 #include <omnimapper/base/AtLoad.h>
-
-#include "ArucoMarkersPlugin.h"
+#include <omnimapper/perception/ArucoMarkerExtractor.h>
+#include <omnimapper/plugin/ExtractorFactoryOf.h>
 
 namespace omnimapper::plugins {
 
 // The build links this file last: the ids of the classes are made before.
 const base::AtLoad kRegister([] {
-  using mrpt::rtti::registerClass;
   mapper::registerFactoryBases();
-  registerClass(CLASS_ID(ArucoMarkersPluginFactory));
+  mapper::ExtractorFactoryOf<perception::ArucoMarkerExtractor, perception::ArucoMarkerOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

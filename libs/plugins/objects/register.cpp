@@ -1,16 +1,16 @@
 #include <omnimapper/base/AtLoad.h>
-
-#include "EdgesPlugin.h"
-#include "ObjectsPlugin.h"
+#include <omnimapper/perception/EdgeExtractor.h>
+#include <omnimapper/perception/ObjectExtractor.h>
+#include <omnimapper/plugin/ExtractorFactoryOf.h>
 
 namespace omnimapper::plugins {
 
 // The build links this file last: the ids of the classes are made before.
 const base::AtLoad kRegister([] {
-  using mrpt::rtti::registerClass;
   mapper::registerFactoryBases();
-  registerClass(CLASS_ID(EdgesPluginFactory));
-  registerClass(CLASS_ID(ObjectsPluginFactory));
+  mapper::ExtractorFactoryOf<perception::ObjectExtractor, perception::PlaneOptions, perception::OutlineOptions,
+                             perception::ObjectOptions, perception::ObjectPointOptions>::registerClass();
+  mapper::ExtractorFactoryOf<perception::EdgeExtractor, perception::EdgeOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

@@ -1,10 +1,11 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/perception/CloudPlaneExtractor.h>
+#include <omnimapper/perception/LaserLineExtractor.h>
+#include <omnimapper/perception/PlaneExtractor.h>
+#include <omnimapper/perception/RoadExtractor.h>
+#include <omnimapper/plugin/ExtractorFactoryOf.h>
 
-#include "CloudPlanesPlugin.h"
-#include "LaserLinesPlugin.h"
 #include "PlaneLandmarksPlugin.h"
-#include "PlanesPlugin.h"
-#include "RoadPlugin.h"
 
 namespace omnimapper::plugins {
 
@@ -12,11 +13,14 @@ namespace omnimapper::plugins {
 const base::AtLoad kRegister([] {
   using mrpt::rtti::registerClass;
   mapper::registerFactoryBases();
-  registerClass(CLASS_ID(CloudPlanesPluginFactory));
-  registerClass(CLASS_ID(LaserLinesPluginFactory));
   registerClass(CLASS_ID(PlaneLandmarksPluginFactory));
-  registerClass(CLASS_ID(PlanesPluginFactory));
-  registerClass(CLASS_ID(RoadPluginFactory));
+  mapper::ExtractorFactoryOf<perception::PlaneExtractor, perception::PlaneOptions, perception::OutlineOptions,
+                             perception::PlaneComparisonOptions>::registerClass();
+  mapper::ExtractorFactoryOf<perception::CloudPlaneExtractor, perception::CloudPlaneOptions,
+                             perception::CloudSensorOptions>::registerClass();
+  mapper::ExtractorFactoryOf<perception::LaserLineExtractor, perception::LaserLineOptions>::registerClass();
+  mapper::ExtractorFactoryOf<perception::RoadExtractor, perception::RoadOptions, perception::OutlineOptions,
+                             perception::RoadPoseOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

@@ -93,7 +93,7 @@ void extractPackets(Input& input, const CloudPlaneOptions& options) {
     }
   }
   mayRefuse([&] {
-    const auto found = CloudPlaneExtractor(options, {}).extract(scan);
+    const auto found = CloudPlaneExtractor(options, {}).planesOf(scan);
     for (const auto& plane : found->planes) require(plane.centroid.allFinite(), "a plane that is not finite");
   });
 }

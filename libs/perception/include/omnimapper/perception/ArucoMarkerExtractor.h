@@ -4,6 +4,7 @@
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/perception/Extractor.h>
 
 namespace omnimapper::perception {
 
@@ -59,8 +60,11 @@ inline constexpr char kMarkersSuffix[] = ".markers";
 /// Both throw Error(missing_images) for a picture that is in a file and was not loaded; sources load them; and
 /// Error(unreadable_input) for a camera whose focal length is below 1 px, or a parameter not finite or beyond 10^6 px,
 /// unless the picture has no pixels. Thread-safe; the same picture gives the same bits.
-class ArucoMarkerExtractor {
+class ArucoMarkerExtractor : public Extractor {
  public:
+  static constexpr const char* kName = "ArucoMarkerExtractor";
+  static constexpr const char* kSummary = "Square markers with numbers, from pictures, by range and bearing.";
+
   explicit ArucoMarkerExtractor(const ArucoMarkerOptions& options) : options_(options) {}
 
   /// cameraPose is of the optical frame: x right, y down, z forward.
@@ -68,6 +72,11 @@ class ArucoMarkerExtractor {
   /// Of its intensity image, by the camera of that; by the depth camera where both have one view
   /// (isPictureOfDepthView()). Without an intensity image there are no markers.
   mrpt::obs::CObservationBearingRange::Ptr extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
+
+  /// Pictures, and scans of range cameras that have one.
+  bool wants(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   ArucoMarkerOptions options_;

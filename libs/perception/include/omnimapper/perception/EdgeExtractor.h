@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/perception/EdgeDetector.h>
+#include <omnimapper/perception/Extractor.h>
 
 #include <string>
 #include <vector>
@@ -13,8 +14,12 @@ namespace omnimapper::perception {
 inline constexpr char kEdgesSuffix[] = ".edges.";
 
 /// The 3D edges that a range camera's depth image and picture show (thesis 3.1), as EdgeDetector finds them.
-class EdgeExtractor {
+class EdgeExtractor : public Extractor {
  public:
+  static constexpr const char* kName = "EdgeExtractor";
+  static constexpr const char* kSummary =
+      "3D edges of depth images and their pictures, a cloud of points for each kind.";
+
   /// Throws as EdgeDetector.
   explicit EdgeExtractor(const EdgeOptions& options) : options_(options), detector_(options) {}
 
@@ -27,6 +32,10 @@ class EdgeExtractor {
   std::vector<mrpt::obs::CObservationPointCloud::Ptr> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
   /// Of the clouds that extract() makes of the scan. Throws where its picture was not loaded.
   std::vector<std::string> labelsOf(const mrpt::obs::CObservation3DRangeScan& scan) const;
+
+  bool wants(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   EdgeOptions options_;

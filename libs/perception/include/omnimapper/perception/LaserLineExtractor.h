@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/perception/Extractor.h>
 
 namespace omnimapper::perception {
 
@@ -32,8 +33,11 @@ inline constexpr char kLinesSuffix[] = ".lines";
 /// points, the line with most points first, as the thesis has it; or splitting the scan where it bends most and merging
 /// what lies on one line. The rest is one: how far a point may be off is told by the noise of range and the width of
 /// the beam where it meets the wall; weighted total least squares with that noise; walls that meet end in their corner.
-class LaserLineExtractor {
+class LaserLineExtractor : public Extractor {
  public:
+  static constexpr const char* kName = "LaserLineExtractor";
+  static constexpr const char* kSummary = "Straight walls of 2D scans as lines with ends and covariance.";
+
   explicit LaserLineExtractor(const LaserLineOptions& options) : options_(options) {}
 
   /// Lines with the scan's stamp and sensorPose, label "<scan label>.lines". Beams that are invalid, not finite, out of
@@ -41,6 +45,10 @@ class LaserLineExtractor {
   /// may go on over the end of the scan: its first beam is then the larger. Thread-safe; the same scan gives the same
   /// bits.
   std::shared_ptr<obs::CObservationLaserLines> extract(const mrpt::obs::CObservation2DRangeScan& scan) const;
+
+  bool wants(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   LaserLineOptions options_;

@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/perception/Extractor.h>
 
 namespace omnimapper::perception {
 
@@ -18,14 +19,21 @@ struct LaserPointsOptions {
 inline constexpr char kPointsSuffix[] = ".points";
 
 /// The valid beams of a 2D scan as points, evenly spaced along the walls: near walls would otherwise outweigh far ones.
-class LaserPointsExtractor {
+class LaserPointsExtractor : public Extractor {
  public:
+  static constexpr const char* kName = "LaserPointsExtractor";
+  static constexpr const char* kSummary = "Valid beams of 2D scans as evenly spaced points.";
+
   explicit LaserPointsExtractor(const LaserPointsOptions& options) : options_(options) {}
 
   /// A CObservationPointCloud with the scan's stamp and sensorPose, points in the sensor frame [m], label
   /// "<scan label>.points". Beams that are invalid, not finite, out of range or at the sensor's own limit, where
   /// nothing came back, give no point. Thread-safe.
   mrpt::obs::CObservation::Ptr extract(const mrpt::obs::CObservation2DRangeScan& scan) const;
+
+  bool wants(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   LaserPointsOptions options_;

@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/perception/Extractor.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
 
 namespace omnimapper::perception {
@@ -19,8 +20,11 @@ struct OutlineOptions {
 inline constexpr char kPlanesSuffix[] = ".planes";
 
 /// The planes that a range camera's depth image shows (thesis 3.4), as PlaneSegmenter finds them.
-class PlaneExtractor {
+class PlaneExtractor : public Extractor {
  public:
+  static constexpr const char* kName = "PlaneExtractor";
+  static constexpr const char* kSummary = "Planes of depth images with outlines and covariance.";
+
   /// Throws Error(out_of_range) for min_depth >= max_depth.
   PlaneExtractor(const PlaneOptions& planes, const OutlineOptions& outlines,
                  const PlaneComparisonOptions& comparison = {})
@@ -33,6 +37,10 @@ class PlaneExtractor {
   /// needs colours and the scan has none, and Error(missing_images) for images that are in files and were not loaded;
   /// sources load them. Thread-safe; the same scan gives the same bits.
   std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
+
+  bool wants(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   PlaneSegmenter segmenter_;

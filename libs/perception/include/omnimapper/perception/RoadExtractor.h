@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/perception/Extractor.h>
 #include <omnimapper/perception/PlaneExtractor.h>
 #include <omnimapper/perception/RoadSegmenter.h>
 
@@ -21,8 +22,12 @@ inline constexpr char kRoadSuffix[] = ".road";
 geometry::Plane3 expectedGround(const mrpt::obs::CObservation3DRangeScan& scan, double ground_height);
 
 /// The ground that a depth camera sees, as RoadSegmenter finds it (thesis 3.4.7).
-class RoadExtractor {
+class RoadExtractor : public Extractor {
  public:
+  static constexpr const char* kName = "RoadExtractor";
+  static constexpr const char* kSummary =
+      "The ground of depth images, sloped too, near the one expected from the camera's pose.";
+
   /// Throws as RoadSegmenter.
   RoadExtractor(const RoadOptions& road, const OutlineOptions& outlines, const RoadPoseOptions& pose)
       : segmenter_(road), outlines_(outlines), pose_(pose) {}
@@ -30,6 +35,10 @@ class RoadExtractor {
   /// The pieces of ground, each with the plane that fits it best, as PlaneExtractor tells planes, label
   /// "<scan label>.road". Throws as PlaneExtractor. Thread-safe; the same scan gives the same bits.
   std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
+
+  bool wants(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
   RoadSegmenter segmenter_;

@@ -5,7 +5,7 @@
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 
-namespace omnimapper::plugins::laser_points_plugin_test {
+namespace omnimapper::plugins::laser_points_extractor_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -28,7 +28,7 @@ mrpt::obs::CObservation2DRangeScan scanOf(const std::vector<float>& ranges) {
   return scan;
 }
 
-TEST(LaserPointsPlugin, TurnsScansAndNothingElseIntoClouds) {
+TEST(LaserPointsExtractorOfAnIni, TurnsScansAndNothingElseIntoClouds) {
   const auto set = made("");
   const auto& extractor = *set.extractors.front().plugin;
   EXPECT_FALSE(extractor.wants(mrpt::obs::CObservationOdometry()));
@@ -43,7 +43,7 @@ TEST(LaserPointsPlugin, TurnsScansAndNothingElseIntoClouds) {
   EXPECT_EQ(cloud->sensorPose, scan.sensorPose);
 }
 
-TEST(LaserPointsPlugin, ReadsItsOptionsFromTheIni) {
+TEST(LaserPointsExtractorOfAnIni, ReadsItsOptionsFromTheIni) {
   const auto count = [](const std::string& options) {
     const auto set = made("spacing_m = 0\nisolated_distance_m = 0\n" + options);
     const auto derived = set.extractors.front().plugin->extract(scanOf({2, 4, 6, 8}));
@@ -56,4 +56,4 @@ TEST(LaserPointsPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins::laser_points_plugin_test
+}  // namespace omnimapper::plugins::laser_points_extractor_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace omnimapper::plugins::road_plugin_test {
+namespace omnimapper::plugins::road_extractor_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -38,7 +38,7 @@ std::size_t piecesOf(const std::string& options) {
   return std::dynamic_pointer_cast<obs::CObservationPlanes>(derived.at(0))->planes.size();
 }
 
-TEST(RoadPlugin, TurnsDepthImagesAndNothingElseIntoGround) {
+TEST(RoadExtractorOfAnIni, TurnsDepthImagesAndNothingElseIntoGround) {
   const auto set = made("");
   const auto& extractor = *set.extractors.front().plugin;
   EXPECT_FALSE(extractor.wants(mrpt::obs::CObservation2DRangeScan()));
@@ -53,7 +53,7 @@ TEST(RoadPlugin, TurnsDepthImagesAndNothingElseIntoGround) {
   EXPECT_NEAR(found->planes[0].plane_in_sensor.distance, 1, 0.01);
 }
 
-TEST(RoadPlugin, ReadsItsOptionsFromTheIni) {
+TEST(RoadExtractorOfAnIni, ReadsItsOptionsFromTheIni) {
   EXPECT_EQ(piecesOf(""), 1U);
   EXPECT_EQ(piecesOf("ground_height_m = 0.9\nmax_off_m = 0.02\nmax_slope_deg = 0\n"), 0U);
   EXPECT_EQ(piecesOf("min_pixels = 8000\n"), 0U);
@@ -62,4 +62,4 @@ TEST(RoadPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins::road_plugin_test
+}  // namespace omnimapper::plugins::road_extractor_test

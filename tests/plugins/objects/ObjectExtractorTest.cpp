@@ -6,7 +6,7 @@
 #include <omnimapper/obs/CObservationObjects.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 
-namespace omnimapper::plugins::objects_plugin_test {
+namespace omnimapper::plugins::object_extractor_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -15,7 +15,7 @@ mapper::PluginSet made(const std::string& options) {
   return mapper::makePlugins({{}, {"objects"}, {}, {}}, config, {});
 }
 
-TEST(ObjectsPlugin, TurnsDepthImagesIntoPlanesAndObjects) {
+TEST(ObjectExtractorOfAnIni, TurnsDepthImagesIntoPlanesAndObjects) {
   const auto set = made("");
   const auto& extractor = *set.extractors.front().plugin;
   EXPECT_FALSE(extractor.wants(mrpt::obs::CObservation2DRangeScan()));
@@ -32,7 +32,7 @@ TEST(ObjectsPlugin, TurnsDepthImagesIntoPlanesAndObjects) {
   EXPECT_EQ(derived[1]->sensorLabel, "kinect.objects");
 }
 
-TEST(ObjectsPlugin, ReadsItsOptionsFromTheIni) {
+TEST(ObjectExtractorOfAnIni, ReadsItsOptionsFromTheIni) {
   EXPECT_NO_THROW(made("min_pixels = 500\noutline_tolerance_px = 2\nmax_tilt_deg = 75\nmax_points = 10\n"));
   EXPECT_NO_THROW(made("comparator = euclidean\n"));
   EXPECT_THROW(made("comparator = guess\n"), base::Error);
@@ -42,4 +42,4 @@ TEST(ObjectsPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins::objects_plugin_test
+}  // namespace omnimapper::plugins::object_extractor_test

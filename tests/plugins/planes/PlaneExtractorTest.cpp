@@ -5,7 +5,7 @@
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 
-namespace omnimapper::plugins::planes_plugin_test {
+namespace omnimapper::plugins::plane_extractor_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -32,7 +32,7 @@ std::size_t countOf(const std::string& options) {
   return std::dynamic_pointer_cast<obs::CObservationPlanes>(derived.at(0))->planes.size();
 }
 
-TEST(PlanesPlugin, TurnsDepthImagesAndNothingElseIntoPlanes) {
+TEST(PlaneExtractorOfAnIni, TurnsDepthImagesAndNothingElseIntoPlanes) {
   const auto set = made("");
   const auto& extractor = *set.extractors.front().plugin;
   EXPECT_FALSE(extractor.wants(mrpt::obs::CObservation2DRangeScan()));
@@ -56,7 +56,7 @@ mrpt::obs::CObservation3DRangeScan twoColours() {
   return scan;
 }
 
-TEST(PlanesPlugin, SwapsItsComparatorByTheIni) {
+TEST(PlaneExtractorOfAnIni, SwapsItsComparatorByTheIni) {
   const auto count = [](const std::string& options) {
     const auto derived = made(options).extractors.front().plugin->extract(twoColours());
     return std::dynamic_pointer_cast<obs::CObservationPlanes>(derived.at(0))->planes.size();
@@ -71,7 +71,7 @@ TEST(PlanesPlugin, SwapsItsComparatorByTheIni) {
   EXPECT_THROW(countOf("comparator = plane_colour\n"), base::Error) << "no picture";
 }
 
-TEST(PlanesPlugin, ReadsItsOptionsFromTheIni) {
+TEST(PlaneExtractorOfAnIni, ReadsItsOptionsFromTheIni) {
   EXPECT_EQ(countOf(""), 1U);
   EXPECT_EQ(countOf("outline_tolerance_px = 0\n"), 1U);
   EXPECT_EQ(countOf("max_depth_m = 1.5\n"), 0U);
@@ -82,4 +82,4 @@ TEST(PlanesPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins::planes_plugin_test
+}  // namespace omnimapper::plugins::plane_extractor_test

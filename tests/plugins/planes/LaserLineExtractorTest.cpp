@@ -5,7 +5,7 @@
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/testing/LineScans.h>
 
-namespace omnimapper::plugins::laser_lines_plugin_test {
+namespace omnimapper::plugins::laser_line_extractor_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -21,7 +21,7 @@ std::size_t countOf(const std::string& options) {
   return std::dynamic_pointer_cast<obs::CObservationLaserLines>(derived.at(0))->lines.size();
 }
 
-TEST(LaserLinesPlugin, TurnsScansAndNothingElseIntoLines) {
+TEST(LaserLineExtractorOfAnIni, TurnsScansAndNothingElseIntoLines) {
   const auto set = made("");
   const auto& extractor = *set.extractors.front().plugin;
   EXPECT_FALSE(extractor.wants(mrpt::obs::CObservationOdometry()));
@@ -34,7 +34,7 @@ TEST(LaserLinesPlugin, TurnsScansAndNothingElseIntoLines) {
   EXPECT_EQ(derived.front()->timestamp, scan.timestamp);
 }
 
-TEST(LaserLinesPlugin, ReadsItsOptionsFromTheIni) {
+TEST(LaserLineExtractorOfAnIni, ReadsItsOptionsFromTheIni) {
   EXPECT_GT(countOf(""), 1U);
   EXPECT_GT(countOf("method = ransac\n"), 1U);
   EXPECT_EQ(countOf("min_length_m = 50\n"), 0U);
@@ -44,4 +44,4 @@ TEST(LaserLinesPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins::laser_lines_plugin_test
+}  // namespace omnimapper::plugins::laser_line_extractor_test

@@ -9,10 +9,9 @@
 #include <cmath>
 #include <optional>
 
-#include "markers/ArucoMarkersPlugin.h"
 #include "points/PointPayload.h"
 
-namespace omnimapper::plugins::aruco_markers_plugin_test {
+namespace omnimapper::plugins::aruco_marker_extractor_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -120,7 +119,7 @@ std::vector<mrpt::obs::CObservation::Ptr> drive() {
   return all;
 }
 
-TEST(ArucoMarkersPlugin, MarkersOfADriveBecomeLandmarksWhereTheyAre) {
+TEST(ArucoMarkerExtractorOfAnIni, MarkersOfADriveBecomeLandmarksWhereTheyAre) {
   const auto engine = testing::makeEngine(kIni);
   testing::run(*engine, drive());
   const auto view = engine->view();
@@ -146,7 +145,7 @@ mapper::PluginSet made(const std::string& options) {
   return mapper::makePlugins({{}, {"markers"}, {}, {}}, config, {});
 }
 
-TEST(ArucoMarkersPlugin, TurnsPicturesAndNothingElseIntoRangesAndBearings) {
+TEST(ArucoMarkerExtractorOfAnIni, TurnsPicturesAndNothingElseIntoRangesAndBearings) {
   const auto set = made("side_m = 0.3\n");
   const auto& extractor = *set.extractors.front().plugin;
   EXPECT_FALSE(extractor.wants(mrpt::obs::CObservation2DRangeScan()));
@@ -164,7 +163,7 @@ TEST(ArucoMarkersPlugin, TurnsPicturesAndNothingElseIntoRangesAndBearings) {
   EXPECT_EQ(names.front().label, derived.front()->sensorLabel);
 }
 
-TEST(ArucoMarkersPlugin, ReadsItsOptionsFromTheIni) {
+TEST(ArucoMarkerExtractorOfAnIni, ReadsItsOptionsFromTheIni) {
   EXPECT_NO_THROW(made("dictionary = 6x6_250\nrefinement = gradients\n"));
   EXPECT_THROW(made("dictionary = 9x9\n"), base::Error);
   EXPECT_THROW(made("side_m = 0\n"), base::Error);
@@ -172,4 +171,4 @@ TEST(ArucoMarkersPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins::aruco_markers_plugin_test
+}  // namespace omnimapper::plugins::aruco_marker_extractor_test

@@ -7,7 +7,7 @@
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 
-namespace omnimapper::plugins::cloud_planes_plugin_test {
+namespace omnimapper::plugins::cloud_plane_extractor_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -61,11 +61,11 @@ void expectFloor(const mrpt::obs::CObservation& raw) {
   EXPECT_NEAR(area(found->planes[0].outline), 4, 0.3);
 }
 
-TEST(CloudPlanesPlugin, FindsTheFloorOfACloud) {
+TEST(CloudPlaneExtractorOfAnIni, FindsTheFloorOfACloud) {
   expectFloor(cloud());
 }
 
-TEST(CloudPlanesPlugin, FindsTheFloorOfAVelodyneScan) {
+TEST(CloudPlaneExtractorOfAnIni, FindsTheFloorOfAVelodyneScan) {
   auto scan = labelled<mrpt::obs::CObservationVelodyneScan>();
   addFloor([&](float x, float y, float z) {
     scan.point_cloud.x.push_back(x);
@@ -75,12 +75,12 @@ TEST(CloudPlanesPlugin, FindsTheFloorOfAVelodyneScan) {
   expectFloor(scan);
 }
 
-TEST(CloudPlanesPlugin, ObservationsWithoutPointsHaveNoPlanes) {
+TEST(CloudPlaneExtractorOfAnIni, ObservationsWithoutPointsHaveNoPlanes) {
   EXPECT_TRUE(planesOf(labelled<mrpt::obs::CObservationVelodyneScan>())->planes.empty());
   EXPECT_TRUE(planesOf(labelled<mrpt::obs::CObservationPointCloud>())->planes.empty());
 }
 
-TEST(CloudPlanesPlugin, ACloudThatWasNotLoadedIsAnErrorThatNamesItsFile) {
+TEST(CloudPlaneExtractorOfAnIni, ACloudThatWasNotLoadedIsAnErrorThatNamesItsFile) {
   auto outside = labelled<mrpt::obs::CObservationPointCloud>();
   outside.setAsExternalStorage("/nowhere/cloud.txt",
                                mrpt::obs::CObservationPointCloud::ExternalStorageFormat::PlainTextFile);
@@ -94,7 +94,7 @@ TEST(CloudPlanesPlugin, ACloudThatWasNotLoadedIsAnErrorThatNamesItsFile) {
   }
 }
 
-TEST(CloudPlanesPlugin, TakesTheSensorsThatCountAndNothingElse) {
+TEST(CloudPlaneExtractorOfAnIni, TakesTheSensorsThatCountAndNothingElse) {
   const auto all = made(""), some = made("sensor_labels = left, velodyne\n"), others = made("sensor_labels = left\n");
   EXPECT_FALSE(all.extractors.front().plugin->wants(mrpt::obs::CObservation2DRangeScan()));
   EXPECT_TRUE(some.extractors.front().plugin->wants(cloud()));
@@ -107,7 +107,7 @@ TEST(CloudPlanesPlugin, TakesTheSensorsThatCountAndNothingElse) {
   }
 }
 
-TEST(CloudPlanesPlugin, ReadsItsOptionsFromTheIni) {
+TEST(CloudPlaneExtractorOfAnIni, ReadsItsOptionsFromTheIni) {
   EXPECT_TRUE(planesOf(cloud(), "min_points = 7000\n")->planes.empty());
   EXPECT_EQ(planesOf(cloud(), "outline = convex\n")->planes.at(0).outline.vertices.size(), 4U);
   EXPECT_THROW(made("min_range_m = 100\n"), base::Error);
@@ -115,4 +115,4 @@ TEST(CloudPlanesPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins::cloud_planes_plugin_test
+}  // namespace omnimapper::plugins::cloud_plane_extractor_test

@@ -5,9 +5,7 @@
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 
-#include "objects/EdgesPlugin.h"
-
-namespace omnimapper::plugins::edges_plugin_test {
+namespace omnimapper::plugins::edge_extractor_test {
 namespace {
 
 mapper::PluginSet made(const std::string& options) {
@@ -29,7 +27,7 @@ mrpt::obs::CObservation3DRangeScan board() {
   return scan;
 }
 
-TEST(EdgesPlugin, TurnsDepthImagesAndNothingElseIntoCloudsOfEdges) {
+TEST(EdgeExtractorOfAnIni, TurnsDepthImagesAndNothingElseIntoCloudsOfEdges) {
   const auto set = made("");
   const auto& extractor = *set.extractors.front().plugin;
   EXPECT_FALSE(extractor.wants(mrpt::obs::CObservation2DRangeScan()));
@@ -43,7 +41,7 @@ TEST(EdgesPlugin, TurnsDepthImagesAndNothingElseIntoCloudsOfEdges) {
   EXPECT_EQ(points, 2U * 80);
 }
 
-TEST(EdgesPlugin, ReadsItsOptionsFromTheIni) {
+TEST(EdgeExtractorOfAnIni, ReadsItsOptionsFromTheIni) {
   EXPECT_EQ(made("high_curvature = false\n").extractors.front().plugin->extract(board()).size(), 3U);
   EXPECT_THROW(made("min_depth_m = 12\n"), base::Error);
   EXPECT_THROW(made("rgb_low = 200\n"), base::Error);
@@ -51,4 +49,4 @@ TEST(EdgesPlugin, ReadsItsOptionsFromTheIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins::edges_plugin_test
+}  // namespace omnimapper::plugins::edge_extractor_test
