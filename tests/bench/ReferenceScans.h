@@ -2,7 +2,7 @@
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/eval/TumFile.h>
-#include <omnimapper/matching/Relocaliser.h>
+#include <omnimapper/matching/Relocalizer.h>
 #include <omnimapper/source/CarmenLog.h>
 
 #include <algorithm>

@@ -42,7 +42,7 @@ void row(const std::string& name, const std::vector<matching::MapScan>& scans, c
   std::vector<double> build, search;
   int right = 0;
   for (std::size_t i = kScans; i < scans.size(); ++i) {
-    matching::PlanarScan map;
+    matching::ScanWithNormals map;
     for (std::size_t k = i - kScans; k < i; ++k) {
       matching::append(matching::fitLines(scans[k].scan.hits), scans[k].map_from_sensor, map);
     }

@@ -4,7 +4,7 @@
 //
 // Example: bench-kidnapping --logs ../shared/data/laser2d -o out/kidnapping
 #include <omnimapper/matching/PointToLineMatcher.h>
-#include <omnimapper/matching/Relocaliser.h>
+#include <omnimapper/matching/Relocalizer.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -43,14 +43,14 @@ struct Outcome {
   bool found() const { return location.answer == Location::Answer::found; }
 };
 
-Outcome locate(const std::vector<MapScan>& scans, std::size_t left_out, const matching::RelocaliserOptions& options) {
+Outcome locate(const std::vector<MapScan>& scans, std::size_t left_out, const matching::RelocalizerOptions& options) {
   std::vector<MapScan> others = scans;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
-  const matching::Relocaliser relocaliser(
+  const matching::Relocalizer relocalizer(
       std::move(others), std::make_shared<matching::PointToLineMatcher>(matching::ScanMatcherOptions()), options);
   Outcome outcome;
   const auto begin = std::chrono::steady_clock::now();
-  outcome.location = relocaliser.locate(scans[left_out].scan);
+  outcome.location = relocalizer.locate(scans[left_out].scan);
   outcome.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   const TPose2D& truth = scans[left_out].map_from_sensor;
   const auto& candidates = outcome.location.candidates;
@@ -68,7 +68,7 @@ Outcome locate(const std::vector<MapScan>& scans, std::size_t left_out, const ma
 }
 
 std::vector<Outcome> locateAll(const std::vector<MapScan>& scans, int every, int threads,
-                               const matching::RelocaliserOptions& options) {
+                               const matching::RelocalizerOptions& options) {
   std::vector<Outcome> outcomes((scans.size() + every - 1) / every);
   std::vector<std::thread> workers;
   for (int first = 0; first < threads; ++first) {
@@ -152,7 +152,7 @@ void writeSvg(const std::string& path, const std::vector<MapScan>& scans, const 
          "stroke-linecap=\"round\" d=\"";
   svg.precision(4);
   for (std::size_t i = 0; i < scans.size(); i += 3) {
-    matching::PlanarScan walls;
+    matching::ScanWithNormals walls;
     matching::append({scans[i].scan.hits, {scans[i].scan.hits.size(), Eigen::Vector2f::Zero()}},
                      scans[i].map_from_sensor, walls);
     for (std::size_t k = 0; k < walls.size(); k += 4) {
@@ -197,7 +197,7 @@ int main(int argc, char** argv) {
   std::string logs, out;
   int every = 1, threads = 1;
   std::vector<std::string> names{"aces", "intel", "simul", "range_030_bearing_015"};
-  matching::RelocaliserOptions options;
+  matching::RelocalizerOptions options;
   CLI::App app("Locates each scan that has a reference pose in the map made of the others.");
   app.add_option("--logs", logs, "folder with NAME.clf.bz2 and NAME.reference.tum")->required();
   app.add_option("-o,--output", out, "folder for the CSV and SVG files")->required();

@@ -2,7 +2,7 @@
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/landmarks/SurfaceForm.h>
+#include <omnimapper/landmarks/PlaneParametrization.h>
 #include <omnimapper/landmarks/WallFactor.h>
 #include <omnimapper/landmarks/WallVariable.h>
 #include <omnimapper/testing/SimulatedLog.h>
@@ -114,10 +114,10 @@ TEST(WallFactor, ComesBackFromAFile) {
 }
 
 // What merging compares: the derivatives of the difference by both surfaces.
-class SurfaceFormTest : public ::testing::TestWithParam<SurfaceForm::Kind> {};
+class PlaneParametrizationTest : public ::testing::TestWithParam<PlaneParametrization::Kind> {};
 
-TEST_P(SurfaceFormTest, DifferenceChangesAsItSays) {
-  const SurfaceForm& form = SurfaceForm::of(GetParam());
+TEST_P(PlaneParametrizationTest, DifferenceChangesAsItSays) {
+  const PlaneParametrization& form = PlaneParametrization::of(GetParam());
   const auto& kind = *form.variable();
   const int size = kind.tangentSize();
   // The axes of a plane's tangent jump where two coordinates of its normal are as small: not here.
@@ -140,8 +140,8 @@ TEST_P(SurfaceFormTest, DifferenceChangesAsItSays) {
   }
 }
 
-TEST_P(SurfaceFormTest, AValueGivesItsPlaneBack) {
-  const SurfaceForm& form = SurfaceForm::of(GetParam());
+TEST_P(PlaneParametrizationTest, AValueGivesItsPlaneBack) {
+  const PlaneParametrization& form = PlaneParametrization::of(GetParam());
   const geometry::Plane3 plane{{-0.6, 0.8, 0}, 1.5};
   const Eigen::Vector3d foot = -plane.distance * plane.normal, along(0.8, 0.6, 0);
   const auto back = form.plane(form.value(plane, {foot - along, foot + 2 * along}));
@@ -149,7 +149,8 @@ TEST_P(SurfaceFormTest, AValueGivesItsPlaneBack) {
   EXPECT_NEAR(back.distance, plane.distance, 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, SurfaceFormTest, ::testing::Values(SurfaceForm::Kind::plane, SurfaceForm::Kind::wall));
+INSTANTIATE_TEST_SUITE_P(Both, PlaneParametrizationTest,
+                         ::testing::Values(PlaneParametrization::Kind::plane, PlaneParametrization::Kind::wall));
 
 }  // namespace
 }  // namespace omnimapper::landmarks::wall_factor_test

@@ -57,7 +57,7 @@ class Localize : public ::testing::Test {
 };
 
 // Root mean square distance [m] of what was known when each key frame came from the truth.
-double errorOf(const std::vector<Fix>& fixes, const SimulatedLog& log) {
+double errorOf(const std::vector<LocalizationEstimate>& fixes, const SimulatedLog& log) {
   double sum = 0, count = 0;
   for (const auto& fix : fixes) {
     if (!fix.located()) continue;
@@ -74,8 +74,8 @@ TEST_F(Localize, AnotherDriveIsLocatedAsWellAsTheMapIsKnown) {
   const auto view = engine->view();
   EXPECT_TRUE(view.map_is_held);
   ASSERT_GT(view.fixes.size(), 50U);
-  const auto located =
-      std::count_if(view.fixes.begin(), view.fixes.end(), [](const Fix& fix) { return fix.located(); });
+  const auto located = std::count_if(view.fixes.begin(), view.fixes.end(),
+                                     [](const LocalizationEstimate& fix) { return fix.located(); });
   EXPECT_GT(static_cast<double>(located), 0.9 * static_cast<double>(view.fixes.size()));
   const double error = errorOf(view.fixes, log);
   RecordProperty("rmse_m", std::to_string(error));
@@ -151,7 +151,8 @@ TEST_F(Localize, ByGpsAloneFromAStartThatIsFarOff) {
   engine->localizeIn(std::move(map), start, kFreeKeyFrames);
   testing::run(*engine, log.observations());
   const auto& fixes = engine->view().fixes;
-  const auto located = std::count_if(fixes.begin(), fixes.end(), [](const Fix& fix) { return fix.located(); });
+  const auto located =
+      std::count_if(fixes.begin(), fixes.end(), [](const LocalizationEstimate& fix) { return fix.located(); });
   EXPECT_GT(static_cast<double>(located), 0.5 * static_cast<double>(fixes.size()));
   EXPECT_LT(errorOf(fixes, log), 0.5);
 }

@@ -16,7 +16,7 @@ using mrpt::math::TPose2D;
 using testing::FloorPlan;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-ScanMatch match(const PlanarScan& reference, const PlanarScan& scan, const TPose2D& guess) {
+ScanMatch match(const ScanWithNormals& reference, const ScanWithNormals& scan, const TPose2D& guess) {
   const PointToLineMatcher matcher(ScanMatcherOptions{});
   return matcher.match(*matcher.prepare(reference), scan, guess);
 }

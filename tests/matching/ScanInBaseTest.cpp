@@ -23,7 +23,7 @@ mrpt::obs::CObservationPointCloud threePoints(const mrpt::poses::CPose3D& base_f
   return cloud;
 }
 
-void expectPoints(const matching::PlanarScan& scan, const std::vector<Eigen::Vector2f>& expected) {
+void expectPoints(const matching::ScanWithNormals& scan, const std::vector<Eigen::Vector2f>& expected) {
   ASSERT_EQ(scan.points.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_LT((scan.points[i] - expected[i]).norm(), 1e-6) << i;
 }

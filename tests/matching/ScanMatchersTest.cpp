@@ -33,7 +33,7 @@ std::ostream& operator<<(std::ostream& out, const Which& which) {
 
 class ScanMatchers : public ::testing::TestWithParam<Which> {
  protected:
-  ScanMatch match(const PlanarScan& reference, const PlanarScan& scan, const TPose2D& guess) const {
+  ScanMatch match(const ScanWithNormals& reference, const ScanWithNormals& scan, const TPose2D& guess) const {
     return matcher_->match(*matcher_->prepare(reference), scan, {guess});
   }
 
@@ -120,8 +120,8 @@ TEST_P(ScanMatchers, AStraightWallAloneFixesItsDistanceAndTheHeading) {
 TEST_P(ScanMatchers, WithoutPointsTheGuessStandsAndTheOverlapIsZero) {
   const auto some = scanFrom(FloorPlan::box(), {0, 0, 0});
   const TPose2D guess(1, 2, 0.3);
-  for (const auto& [reference, scan] :
-       {std::pair{PlanarScan(), some}, std::pair{some, PlanarScan()}, std::pair{PlanarScan(), PlanarScan()}}) {
+  for (const auto& [reference, scan] : {std::pair{ScanWithNormals(), some}, std::pair{some, ScanWithNormals()},
+                                        std::pair{ScanWithNormals(), ScanWithNormals()}}) {
     const auto found = match(reference, scan, guess);
     EXPECT_EQ(found.overlap, 0);
     EXPECT_EQ(found.reference_from_scan, guess);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/matching/PlanarScan.h>
+#include <omnimapper/matching/ScanWithNormals.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <cmath>
@@ -10,8 +10,8 @@ namespace omnimapper::matching {
 
 /// What a laser of 181 beams over half a turn sees of a floor plan from a pose, lines fitted. Beams that meet no wall
 /// within max_range are left out.
-inline PlanarScan scanFrom(const testing::FloorPlan& plan, const mrpt::math::TPose2D& pose, double sigma = 0,
-                           std::uint64_t seed = 1, double max_range = 12) {
+inline ScanWithNormals scanFrom(const testing::FloorPlan& plan, const mrpt::math::TPose2D& pose, double sigma = 0,
+                                std::uint64_t seed = 1, double max_range = 12) {
   testing::Dice dice(seed);
   std::vector<Eigen::Vector2f> points;
   for (int i = -90; i <= 90; ++i) {

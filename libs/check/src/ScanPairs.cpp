@@ -17,7 +17,7 @@ constexpr std::size_t kMostPairs = 400;
 constexpr double kLeastOverlap = 0.6;
 constexpr double kWallDistance = 0.1;  // [m]
 
-matching::PlanarScan wallsOf(const mrpt::obs::CObservation2DRangeScan& scan) {
+matching::ScanWithNormals wallsOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   static const perception::LaserPointsExtractor extractor{perception::LaserPointsOptions()};
   return matching::scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*extractor.extract(scan)));
 }

@@ -62,7 +62,7 @@ void writeFrame(ByteWriter& out, const KeyFrame& frame) {
   writePose(out, frame.map_from_base);
   writePose(out, frame.keyframe_from_next);
   out.uint(frame.hanging.size(), 4);
-  for (const HangingFrame& hanging : frame.hanging) {
+  for (const DependentFrame& hanging : frame.hanging) {
     writeStamp(out, hanging.stamp);
     writePose(out, hanging.keyframe_from_base);
   }

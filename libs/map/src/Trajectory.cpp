@@ -19,7 +19,7 @@ class Spread {
 
   // The disagreement is a tangent at the told end; turned into the hanging frame it is the same step and the same turn
   // in the map, of which the frame takes its share by time. At the end the share is all of it: the next key frame.
-  mrpt::poses::CPose3D operator()(const HangingFrame& frame) const {
+  mrpt::poses::CPose3D operator()(const DependentFrame& frame) const {
     const double share = std::clamp(base::secondsBetween(begin_, frame.stamp) / seconds_, 0.0, 1.0);
     const geometry::Se3 begin_from_frame = geometry::fromMrpt(frame.keyframe_from_base);
     const Eigen::Quaterniond turn = begin_from_frame.rotation.conjugate() * begin_from_told_end_.rotation;
@@ -47,12 +47,12 @@ std::vector<StampedPose> denseTrajectory(const Map& map) {
     if (frame.reference) trajectory.push_back({frame.stamp, frame.map_from_base, frame.id.session});
     if (frame.hanging.empty()) continue;
     if (i + 1 == map.key_frames.size() || map.key_frames[i + 1].id.session != frame.id.session) {
-      for (const HangingFrame& h : frame.hanging) {
+      for (const DependentFrame& h : frame.hanging) {
         trajectory.push_back({h.stamp, frame.map_from_base + h.keyframe_from_base, frame.id.session});
       }
     } else {
       const Spread spread(frame, map.key_frames[i + 1]);
-      for (const HangingFrame& h : frame.hanging) trajectory.push_back({h.stamp, spread(h), frame.id.session});
+      for (const DependentFrame& h : frame.hanging) trajectory.push_back({h.stamp, spread(h), frame.id.session});
     }
   }
   return trajectory;

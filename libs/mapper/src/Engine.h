@@ -18,11 +18,11 @@
 #include <string>
 #include <vector>
 
-#include "back_end/Committer.h"
+#include "back_end/BatchApplier.h"
 #include "back_end/Estimator.h"
 #include "back_end/PoseChain.h"
 #include "back_end/SlidingWindow.h"
-#include "front_end/Intake.h"
+#include "front_end/InputFilter.h"
 #include "front_end/Perception.h"
 #include "front_end/ReleaseQueue.h"
 
@@ -119,7 +119,7 @@ class Engine {
   EngineSettings settings_;
   SensorPoses sensor_poses_;
   PluginSet plugins_;
-  Intake intake_;
+  InputFilter intake_;
   Trigger trigger_;
   ReleaseQueue queue_;
   std::deque<Moment> moments_;
@@ -138,11 +138,11 @@ class Engine {
   std::set<std::string> fed_;  // pose sources and measurement plugins that an observation came to
   BusyTimes busy_;
   std::optional<SlidingWindow> window_;  // of a run that localizes
-  std::vector<Fix> fixes_;
+  std::vector<LocalizationEstimate> fixes_;
   Verdict verdict_;
 
   Perception perception_;
-  Committer committer_;
+  BatchApplier committer_;
   // Last, so that it ends first: its tasks use what stands above.
   base::WorkerPool pool_;
 };

@@ -1,5 +1,5 @@
 // What the engine does with a moment: its key frame, what plugins measure there, what is concluded and solved.
-#include <omnimapper/mapper/Joining.h>
+#include <omnimapper/mapper/SessionAlignment.h>
 
 #include <algorithm>
 #include <iterator>
@@ -115,7 +115,7 @@ void Engine::commit(base::KeyFrameId id) {
   estimator_.refine(id);
   committer_.applyJobs(false, busy_.jobs);
   if (estimator_.isDue()) solveNow(settings_.solver.running());
-  committer_.followUp(id, view(), busy_.plugins);
+  committer_.collectFollowUps(id, view(), busy_.plugins);
 }
 
 // Each plugin sees what those before it concluded.

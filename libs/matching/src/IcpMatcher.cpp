@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRefinedWithin = 0.3;  // [m] of a point from its wall
 
-mrpt::maps::CSimplePointsMap pointsMap(const PlanarScan& scan) {
+mrpt::maps::CSimplePointsMap pointsMap(const ScanWithNormals& scan) {
   mrpt::maps::CSimplePointsMap map;
   map.reserve(scan.size());
   for (const auto& point : scan.points) map.insertPointFast(point.x(), point.y(), 0);
@@ -25,18 +25,19 @@ mrpt::maps::CSimplePointsMap pointsMap(const PlanarScan& scan) {
 
 // MRPT's maps build their search tree when first asked, so that matches against one must take turns.
 struct IcpReference : PointIndex {
-  explicit IcpReference(PlanarScan scan) : PointIndex(scan), map(pointsMap(scan)) {}
+  explicit IcpReference(ScanWithNormals scan) : PointIndex(scan), map(pointsMap(scan)) {}
   mrpt::maps::CSimplePointsMap map;
   mutable std::mutex turn;
 };
 
 }  // namespace
 
-std::shared_ptr<const MatchReference> IcpMatcher::prepare(PlanarScan reference) const {
+std::shared_ptr<const MatchReference> IcpMatcher::prepare(ScanWithNormals reference) const {
   return std::make_shared<const IcpReference>(std::move(reference));
 }
 
-ScanMatch IcpMatcher::match(const MatchReference& reference, const PlanarScan& scan, const MatchGuess& guess) const {
+ScanMatch IcpMatcher::match(const MatchReference& reference, const ScanWithNormals& scan,
+                            const MatchGuess& guess) const {
   const auto& icp_reference = dynamic_cast<const IcpReference&>(reference);
   ScanMatch nothing;
   nothing.reference_from_scan = guess.reference_from_scan;

@@ -10,7 +10,7 @@ constexpr float kSide = 0.25F;        // [m] of a cell
 constexpr float kCellsPerPoint = 16;  // a larger extent gets larger cells
 }  // namespace
 
-PointIndex::PointIndex(const PlanarScan& scan) {
+PointIndex::PointIndex(const ScanWithNormals& scan) {
   if (scan.empty()) return;
   Eigen::Array2f low = scan.points.front(), high = low;
   for (const auto& p : scan.points) {

@@ -11,7 +11,7 @@ namespace omnimapper::matching {
 /// Points sorted into the square cells of a grid, for the nearest one within a distance.
 class PointIndex : public MatchReference {
  public:
-  explicit PointIndex(const PlanarScan& scan);
+  explicit PointIndex(const ScanWithNormals& scan);
 
   static constexpr int kNone = -1;
   /// Index of the nearest point within `max_distance` [m], or kNone. `likely`: a point that may be it, or kNone; a good

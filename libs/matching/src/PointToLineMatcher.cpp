@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "LinePartners.h"
+#include "Correspondences.h"
 
 namespace omnimapper::matching {
 
@@ -38,7 +38,7 @@ Eigen::Vector3d motion(const TPose2D& guess, const TPose2D& pose) {
 }
 
 // Gauss-Newton with the partners as they are, twice, because the weights change. Tells the larger step [m].
-double refine(const LinePartners& partners, const MatchGuess& guess, double loss_scale, bool wide, TPose2D& pose) {
+double refine(const Correspondences& partners, const MatchGuess& guess, double loss_scale, bool wide, TPose2D& pose) {
   const FixedDirections directions(partners.equations(pose, loss_scale, kPointsFix, 0),
                                    wide ? kWideNoiseShare : FixedDirections::kNoiseShare);
   double largest = 0;
@@ -51,7 +51,7 @@ double refine(const LinePartners& partners, const MatchGuess& guess, double loss
   return largest;
 }
 
-ScanMatch toMatch(const LinePartners& partners, const PlanarScan& scan, const TPose2D& pose) {
+ScanMatch toMatch(const Correspondences& partners, const ScanWithNormals& scan, const TPose2D& pose) {
   ScanMatch match;
   match.reference_from_scan = pose;
   if (partners.count() == 0) return match;
@@ -65,7 +65,7 @@ ScanMatch toMatch(const LinePartners& partners, const PlanarScan& scan, const TP
   return match;
 }
 
-PlanarScan scanOf(const mrpt::maps::CMetricMap* map) {
+ScanWithNormals scanOf(const mrpt::maps::CMetricMap* map) {
   const auto* cloud = dynamic_cast<const mrpt::maps::CPointsMap*>(map);
   if (!cloud) throw base::Error(base::ExitCode::internal, "PointToLineMatcher aligns maps of points only");
   std::vector<Eigen::Vector2f> points;
@@ -77,15 +77,15 @@ PlanarScan scanOf(const mrpt::maps::CMetricMap* map) {
 
 }  // namespace
 
-std::shared_ptr<const MatchReference> PointToLineMatcher::prepare(PlanarScan reference) const {
+std::shared_ptr<const MatchReference> PointToLineMatcher::prepare(ScanWithNormals reference) const {
   return std::make_shared<const PointIndex>(std::move(reference));
 }
 
 // Wide at first: partners from far, and what they are away along the walls counts too, which leads in from where lines
 // alone would lead astray. Then only what lies on the same wall as well as most points do.
-ScanMatch PointToLineMatcher::match(const MatchReference& reference, const PlanarScan& scan,
+ScanMatch PointToLineMatcher::match(const MatchReference& reference, const ScanWithNormals& scan,
                                     const MatchGuess& guess) const {
-  LinePartners partners(dynamic_cast<const PointIndex&>(reference), scan);
+  Correspondences partners(dynamic_cast<const PointIndex&>(reference), scan);
   TPose2D pose = guess.reference_from_scan;
   double reach = options_.max_distance, loss_scale = options_.max_distance;
   bool wide = true, settled = false;
@@ -111,8 +111,8 @@ ScanMatch PointToLineMatcher::match(const MatchReference& reference, const Plana
   return toMatch(partners, scan, pose);
 }
 
-ScanMatch PointToLineMatcher::judge(const MatchReference& reference, const PlanarScan& scan, const TPose2D& pose) {
-  LinePartners partners(dynamic_cast<const PointIndex&>(reference), scan);
+ScanMatch PointToLineMatcher::judge(const MatchReference& reference, const ScanWithNormals& scan, const TPose2D& pose) {
+  Correspondences partners(dynamic_cast<const PointIndex&>(reference), scan);
   partners.find(pose, kJudgedWithin);
   return toMatch(partners, scan, pose);
 }

@@ -38,11 +38,11 @@ double tiltOf(const mrpt::poses::CPose3D& base_from_sensor) {
   return std::acos(std::min(1.0, std::abs(base_from_sensor.getRotationMatrix()(2, 2))));
 }
 
-PlanarScan scanInBase(const mrpt::obs::CObservationPointCloud& cloud) {
+ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud) {
   return fitLines(pointsOf(cloud).in_base);
 }
 
-PlanarScan scanInBase(const mrpt::obs::CObservationPointCloud& cloud, const ScanSweep& sweep) {
+ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud, const ScanSweep& sweep) {
   const auto points = pointsOf(cloud);
   auto fractions = points.directions;
   const double per_angle = sweep.aperture > 0 ? (sweep.right_to_left ? 1 : -1) / sweep.aperture : 0;

@@ -1,4 +1,4 @@
-#include <omnimapper/grid/BeamGrid.h>
+#include <omnimapper/grid/HitMissGrid.h>
 #include <omnimapper/matching/CorrelativeSearch.h>
 #include <omnimapper/matching/ScanTracker.h>
 
@@ -63,7 +63,7 @@ bool isSure(const ScanTracker::Tracked& one, const std::vector<MotionPrediction>
 }
 
 // As its laser saw it.
-grid::BeamScan beamsOf(const PlanarScan& scan, const Eigen::Vector2f& sensor) {
+grid::BeamScan beamsOf(const ScanWithNormals& scan, const Eigen::Vector2f& sensor) {
   grid::BeamScan beams;
   beams.hits.reserve(scan.size());
   for (const auto& point : scan.points) beams.hits.push_back(point - sensor);
@@ -96,7 +96,7 @@ struct ScanTracker::Candidates {
     double prior;  // logarithm of the density that the predictions give
   };
 
-  const PlanarScan& scan;
+  const ScanWithNormals& scan;
   grid::BeamScan beams;
   const Eigen::Vector2f& sensor;
   const std::vector<MotionPrediction>& predictions;
@@ -129,13 +129,13 @@ ScanTracker::~ScanTracker() = default;
 ScanTracker::ScanTracker(ScanTracker&&) noexcept = default;
 ScanTracker& ScanTracker::operator=(ScanTracker&&) noexcept = default;
 
-void ScanTracker::restart(const PlanarScan& scan, const Eigen::Vector2f& sensor) {
+void ScanTracker::restart(const ScanWithNormals& scan, const Eigen::Vector2f& sensor) {
   locals_.clear();
   track_from_last_ = {};
   remember(scan, sensor);
 }
 
-std::optional<ScanTracker::Tracked> ScanTracker::track(const PlanarScan& scan, const Eigen::Vector2f& sensor,
+std::optional<ScanTracker::Tracked> ScanTracker::track(const ScanWithNormals& scan, const Eigen::Vector2f& sensor,
                                                        const std::vector<MotionPrediction>& predictions) {
   if (!reference_ || scan.empty() || predictions.empty()) return std::nullopt;
   const TPose2D local_from_last = track_from_last_ - locals_.back().track_from_scan;
@@ -158,7 +158,7 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(const PlanarScan& scan, c
 }
 
 // Matches that differ, each by the first prediction that led to it, and predictions that led nowhere.
-std::vector<ScanTracker::Tracked> ScanTracker::matchesOf(const PlanarScan& scan,
+std::vector<ScanTracker::Tracked> ScanTracker::matchesOf(const ScanWithNormals& scan,
                                                          const std::vector<MotionPrediction>& predictions,
                                                          const TPose2D& local_from_last) const {
   std::vector<Tracked> found;
@@ -195,7 +195,7 @@ void ScanTracker::search(Candidates& candidates) {
   window.half_x = window.half_y =
       std::clamp(kSigmas * prediction.position_sigma, kLeast, prediction.is_blind ? kMostBlind : kMost);
   window.half_yaw = M_PI;
-  const auto points = oncePerCell(candidates.scan, kSpacing).points;
+  const auto points = voxelDownsample(candidates.scan, kSpacing).points;
   SearchOptions limits;
   limits.max_blocks = kMostBlocks;
   for (const auto& result : matching::search(*walls_, points, window, limits)) {
@@ -243,25 +243,25 @@ ScanTracker::Tracked ScanTracker::mostProbable(const Candidates& candidates) {
   return tracked;
 }
 
-const grid::BeamGrid& ScanTracker::beams() {
+const grid::HitMissGrid& ScanTracker::beams() {
   if (!beams_) {
     grid::BeamModel model;
     model.cell = 0.1;
     model.near_wall = 0.1;
     std::vector<grid::BeamScan> scans;
     scans.reserve(locals_.size());
-    std::vector<grid::BeamGrid::Placed> placed;
+    std::vector<grid::HitMissGrid::Placed> placed;
     for (const auto& local : locals_) {
       scans.push_back(beamsOf(local.scan, local.sensor));
       const TPose2D newest_from_scan = local.track_from_scan - locals_.back().track_from_scan;
       placed.push_back({newest_from_scan + TPose2D(local.sensor.x(), local.sensor.y(), 0), &scans.back()});
     }
-    beams_ = std::make_unique<const grid::BeamGrid>(placed, model);
+    beams_ = std::make_unique<const grid::HitMissGrid>(placed, model);
   }
   return *beams_;
 }
 
-void ScanTracker::remember(const PlanarScan& scan, const Eigen::Vector2f& sensor) {
+void ScanTracker::remember(const ScanWithNormals& scan, const Eigen::Vector2f& sensor) {
   locals_.push_back({track_from_last_, scan, sensor});
   if (locals_.size() > static_cast<std::size_t>(options_.local_scans)) locals_.pop_front();
   reference_ = matcher_->prepare(localMap());
@@ -269,8 +269,8 @@ void ScanTracker::remember(const PlanarScan& scan, const Eigen::Vector2f& sensor
   walls_.reset();
 }
 
-PlanarScan ScanTracker::localMap() const {
-  PlanarScan all;
+ScanWithNormals ScanTracker::localMap() const {
+  ScanWithNormals all;
   for (const auto& local : locals_) append(local.scan, local.track_from_scan - locals_.back().track_from_scan, all);
   return all;
 }

@@ -1,6 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/grid/GridWalk.h>
-#include <omnimapper/matching/PlanarScan.h>
+#include <omnimapper/matching/ScanWithNormals.h>
 #include <omnimapper/matching/WallCrossings.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ class Walls {
  private:
   static constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
   Eigen::Vector2d inCells(const Eigen::Vector2d& place) const { return (place - low_) / options_.cell; }
-  void add(std::size_t number, const TPose2D& map_from_sensor, const PlanarScan& lines);
+  void add(std::size_t number, const TPose2D& map_from_sensor, const ScanWithNormals& lines);
 
   WallCrossingOptions options_;
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
@@ -90,7 +90,7 @@ Walls::Walls(const std::vector<MapScan>& scans, const WallCrossingOptions& optio
   for (std::size_t i = 0; i < scans.size(); ++i) add(i, scans[i].map_from_sensor, fitLines(scans[i].scan.hits));
 }
 
-void Walls::add(std::size_t number, const TPose2D& map_from_sensor, const PlanarScan& lines) {
+void Walls::add(std::size_t number, const TPose2D& map_from_sensor, const ScanWithNormals& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines.normals[i].squaredNorm() < 0.5F) continue;
     const Eigen::Vector2d cell = inCells(moved(map_from_sensor, lines.points[i]));

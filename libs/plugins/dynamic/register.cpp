@@ -1,6 +1,6 @@
 #include <omnimapper/base/AtLoad.h>
 
-#include "MoveableThingsPlugin.h"
+#include "DynamicLandmarksPlugin.h"
 
 namespace omnimapper::plugins {
 
@@ -8,7 +8,7 @@ namespace omnimapper::plugins {
 const base::AtLoad kRegister([] {
   using mrpt::rtti::registerClass;
   mapper::registerFactoryBases();
-  registerClass(CLASS_ID(MoveableThingsPluginFactory));
+  registerClass(CLASS_ID(DynamicLandmarksPluginFactory));
 });
 
 }  // namespace omnimapper::plugins

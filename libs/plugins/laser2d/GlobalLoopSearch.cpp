@@ -16,8 +16,8 @@ using mrpt::math::TPose2D;
 
 GlobalLoopSearch::GlobalLoopSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
                                    std::shared_ptr<const matching::ScanMatcher> matcher,
-                                   std::shared_ptr<const KnownPlaces> places, std::string label,
-                                   std::vector<LoopSearch::Sight> newest, std::vector<LoopSearch::Sight> earlier,
+                                   std::shared_ptr<const ScanDatabase> places, std::string label,
+                                   std::vector<LoopSearch::KeyScan> newest, std::vector<LoopSearch::KeyScan> earlier,
                                    bool on_new_ground)
     : options_(options),
       context_(context),
@@ -91,25 +91,25 @@ std::optional<GlobalLoopSearch::Estimate> GlobalLoopSearch::judged(const mapper:
   const TPose2D place = planar(state.map.keyFrame(nearest.frame).map_from_base);
   if (distanceBetween(place, map_from_base).metres > options_.radius + uncertainty)
     return Estimate{uncertainty, on_new_ground_};
-  std::vector<LoopSearch::Sight> sights;
+  std::vector<LoopSearch::KeyScan> sights;
   for (const auto& one : near) sights.push_back(earlier_[one.second]);
   const double fits = shareOnWalls(localMap(sights, newest_.back().frame, state).points, newest_.back().scan->points);
   decision.numbers.emplace_back("share that fits the map there [1]", fits);
   return Estimate{uncertainty, fits < kFits};
 }
 
-std::shared_ptr<const KnownPlaces> placesToLoopTo(const map::Map& map, const std::string& label,
-                                                  const std::vector<LoopSearch::Sight>& earlier,
-                                                  std::shared_ptr<const matching::ScanMatcher> matcher) {
+std::shared_ptr<const ScanDatabase> placesToLoopTo(const map::Map& map, const std::string& label,
+                                                   const std::vector<LoopSearch::KeyScan>& earlier,
+                                                   std::shared_ptr<const matching::ScanMatcher> matcher) {
   // Coarse, for the fine matcher follows, and bounded, for on new ground nothing fits and there is no end to the
   // search.
-  matching::RelocaliserOptions options;
+  matching::RelocalizerOptions options;
   options.cell = 0.2;
   options.sigma = 0.2;
   options.spacing = 0.3;
   options.max_blocks = 20'000;
-  const std::map<std::string, std::vector<LoopSearch::Sight>> sights{{label, earlier}};
-  return std::make_shared<const KnownPlaces>(map, sights, std::move(matcher), options);
+  const std::map<std::string, std::vector<LoopSearch::KeyScan>> sights{{label, earlier}};
+  return std::make_shared<const ScanDatabase>(map, sights, std::move(matcher), options);
 }
 
 }  // namespace omnimapper::plugins

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "KnownPlaces.h"
+#include "ScanDatabase.h"
 
 namespace omnimapper::plugins {
 
@@ -19,8 +19,8 @@ class GlobalLoopSearch {
   /// placesToLoopTo() as it was then or somewhat before; clouds of `label`.
   /// `on_new_ground`: search even where the estimate is sure to be where nothing was seen before.
   GlobalLoopSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
-                   std::shared_ptr<const matching::ScanMatcher> matcher, std::shared_ptr<const KnownPlaces> places,
-                   std::string label, std::vector<LoopSearch::Sight> newest, std::vector<LoopSearch::Sight> earlier,
+                   std::shared_ptr<const matching::ScanMatcher> matcher, std::shared_ptr<const ScanDatabase> places,
+                   std::string label, std::vector<LoopSearch::KeyScan> newest, std::vector<LoopSearch::KeyScan> earlier,
                    bool on_new_ground);
 
   /// Empty if the robot is where the estimate has it; else a decision, and a hypothesis if a single place fits.
@@ -37,15 +37,15 @@ class GlobalLoopSearch {
   LoopClosureOptions options_;
   mapper::PluginContext context_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
-  std::shared_ptr<const KnownPlaces> places_;
+  std::shared_ptr<const ScanDatabase> places_;
   std::string label_;
-  std::vector<LoopSearch::Sight> newest_, earlier_;
+  std::vector<LoopSearch::KeyScan> newest_, earlier_;
   bool on_new_ground_;
 };
 
 /// What such searches look in: `earlier` as it lies in `map`, which has key frames.
-std::shared_ptr<const KnownPlaces> placesToLoopTo(const map::Map& map, const std::string& label,
-                                                  const std::vector<LoopSearch::Sight>& earlier,
-                                                  std::shared_ptr<const matching::ScanMatcher> matcher);
+std::shared_ptr<const ScanDatabase> placesToLoopTo(const map::Map& map, const std::string& label,
+                                                   const std::vector<LoopSearch::KeyScan>& earlier,
+                                                   std::shared_ptr<const matching::ScanMatcher> matcher);
 
 }  // namespace omnimapper::plugins

@@ -30,12 +30,12 @@ std::optional<GlobalMatcher::Found> GlobalMatcher::find(const mapper::State& sta
   const auto around = places_.nearest(map_from_base, kAround);
   decision.to = around.front().sight.frame;
   const TPose2D place_from_base = map_from_base - around.front().map_from_base;
-  std::vector<LoopSearch::Sight> sights, sought;
+  std::vector<LoopSearch::KeyScan> sights, sought;
   for (const auto& place : around) sights.push_back(place.sight);
   std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sought),
-               [&](const LoopSearch::Sight& sight) { return newest_.back().way - sight.way <= kSoughtTravel; });
-  const auto local = matching::oncePerCell(localMap(sights, sights.front().frame, state), kSpacing / 2),
-             query = matching::oncePerCell(localMap(sought, newest_.back().frame, state), kSpacing);
+               [&](const LoopSearch::KeyScan& sight) { return newest_.back().way - sight.way <= kSoughtTravel; });
+  const auto local = matching::voxelDownsample(localMap(sights, sights.front().frame, state), kSpacing / 2),
+             query = matching::voxelDownsample(localMap(sought, newest_.back().frame, state), kSpacing);
   const auto match = matcher_.match(*matcher_.prepare(local), query, place_from_base);
   judgeClosure(options_, {match}, place_from_base, decision);
   if (decision.accepted && !distanceBetween(match.reference_from_scan, place_from_base).within(kAstray, kAstrayTurn)) {
@@ -52,7 +52,7 @@ std::vector<matching::LocalScan> GlobalMatcher::beams(const mapper::State& state
   const auto& map_from_newest = state.map.keyFrame(newest_.back().frame).map_from_base;
   constexpr std::size_t kMost = 6;
   std::vector<matching::LocalScan> all;
-  const LoopSearch::Sight* last = nullptr;
+  const LoopSearch::KeyScan* last = nullptr;
   TPose2D last_pose;
   for (auto sight = newest_.rbegin(); sight != newest_.rend() && all.size() < kMost; ++sight) {
     if (newest_.back().way - sight->way > kSoughtTravel) break;
@@ -72,7 +72,7 @@ matching::Location GlobalMatcher::locate(const mapper::State& state, mapper::Dec
   matching::Location location;
   const auto scans = beams(state);
   try {
-    location = places_.relocaliser().locateTogether(scans);
+    location = places_.relocalizer().locateTogether(scans);
   } catch (const base::Error& error) {
     if (error.code() != base::ExitCode::out_of_range) throw;
     decision.reason = error.what();  // a map too large for it
@@ -100,7 +100,7 @@ bool GlobalMatcher::fitsAllTheWay(const Found& found, const mapper::State& state
   const double travel = newest_.back().way - newest_.front().way;
   constexpr double kNothing = -10;
   double worst = 0;
-  const LoopSearch::Sight* last = nullptr;
+  const LoopSearch::KeyScan* last = nullptr;
   for (auto sight = newest_.rbegin(); sight != newest_.rend(); ++sight) {
     if (last && last->way - sight->way < kSpacing) continue;
     last = &*sight;
@@ -108,7 +108,7 @@ bool GlobalMatcher::fitsAllTheWay(const Found& found, const mapper::State& state
     const auto seen = beamsInBase(frame, label_);
     const TPose2D guess = map_from_newest + planar(frame.map_from_base - base_from_map) + seen.local_from_sensor;
     const auto located =
-        places_.relocaliser().locate(seen.scan, matching::SearchWindow{guess, kWindow, kWindow, kWindowTurn});
+        places_.relocalizer().locate(seen.scan, matching::SearchWindow{guess, kWindow, kWindow, kWindowTurn});
     const double likelihood = located.candidates.empty() ? kNothing : located.candidates.front().log_likelihood;
     worst = std::min(worst, likelihood);
   }

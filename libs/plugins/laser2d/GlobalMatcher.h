@@ -4,21 +4,21 @@
 #include <string>
 #include <vector>
 
-#include "KnownPlaces.h"
+#include "ScanDatabase.h"
 
 namespace omnimapper::plugins {
 
 /// Matches the newest scans of a drive with all of the known places, however far the estimate is off: a global search
-/// (matching::Relocaliser), then the fine matcher on the scans around the answer. Refers to its arguments.
+/// (matching::Relocalizer), then the fine matcher on the scans around the answer. Refers to its arguments.
 class GlobalMatcher {
  public:
   /// `newest`: the newest last, of clouds of `label`.
-  GlobalMatcher(const LoopClosureOptions& options, const matching::ScanMatcher& matcher, const KnownPlaces& places,
-                const std::string& label, const std::vector<LoopSearch::Sight>& newest)
+  GlobalMatcher(const LoopClosureOptions& options, const matching::ScanMatcher& matcher, const ScanDatabase& places,
+                const std::string& label, const std::vector<LoopSearch::KeyScan>& newest)
       : options_(options), matcher_(matcher), places_(places), label_(label), newest_(newest) {}
 
   struct Found {
-    KnownPlaces::Place place;   ///< the nearest to the answer, which is the reference of the match
+    ScanDatabase::Place place;  ///< the nearest to the answer, which is the reference of the match
     matching::ScanMatch match;  ///< of the newest key frame
     bool is_distinct;           ///< only few other places look alike
   };
@@ -34,9 +34,9 @@ class GlobalMatcher {
 
   const LoopClosureOptions& options_;
   const matching::ScanMatcher& matcher_;
-  const KnownPlaces& places_;
+  const ScanDatabase& places_;
   const std::string& label_;
-  const std::vector<LoopSearch::Sight>& newest_;
+  const std::vector<LoopSearch::KeyScan>& newest_;
 };
 
 }  // namespace omnimapper::plugins

@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kPlacesAsked = 3;
 
 struct PreparedScan : mapper::Prepared {
-  std::shared_ptr<const matching::PlanarScan> scan;  // in the base
+  std::shared_ptr<const matching::ScanWithNormals> scan;  // in the base
 };
 
 }  // namespace
@@ -44,7 +44,7 @@ bool LoopClosurePlugin::wants(const mrpt::obs::CObservation& observation) const 
 
 std::unique_ptr<const mapper::Prepared> LoopClosurePlugin::prepare(const mrpt::obs::CObservation& observation) const {
   auto prepared = std::make_unique<PreparedScan>();
-  prepared->scan = std::make_shared<const matching::PlanarScan>(
+  prepared->scan = std::make_shared<const matching::ScanWithNormals>(
       matching::scanInBase(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(observation)));
   return prepared;
 }
@@ -99,13 +99,13 @@ void LoopClosurePlugin::seekSlip(const History& history, const mapper::View& vie
   const bool has_more = refused.size() > refused_before_ && refused.size() > 1;
   refused_before_ = refused.size();
   if (!has_more) return;
-  static const auto kNothingSeen = std::make_shared<const matching::PlanarScan>();
-  std::vector<LoopSearch::Sight> trajectory;
+  static const auto kNothingSeen = std::make_shared<const matching::ScanWithNormals>();
+  std::vector<LoopSearch::KeyScan> trajectory;
   auto seen = history.begin();
   for (const auto& frame : view.map.key_frames) {
     const bool has_scan = seen != history.end() && seen->sight.frame == frame.id;
     const double travel = trajectory.empty() ? 0 : trajectory.back().way;
-    trajectory.push_back(has_scan ? seen++->sight : LoopSearch::Sight{frame.id, kNothingSeen, travel});
+    trajectory.push_back(has_scan ? seen++->sight : LoopSearch::KeyScan{frame.id, kNothingSeen, travel});
   }
   slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(trajectory));
 }
@@ -140,7 +140,7 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   const double rarely = std::max(kSpacing, kShareOnNewGround * since_answer);
   const bool on_new_ground = std::abs(travel - last.on_new_ground) >= rarely;
   if (on_new_ground) last.on_new_ground = travel;
-  std::vector<LoopSearch::Sight> earlier;
+  std::vector<LoopSearch::KeyScan> earlier;
   for (std::size_t i = 0; i < index && travel - history[i].sight.way >= options_.min_way; ++i)
     earlier.push_back(history[i].sight);
   if (earlier.empty()) return;
@@ -197,11 +197,11 @@ void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view
     }
   }
   if (view.map.key_frames.empty()) return;
-  std::map<std::string, std::vector<LoopSearch::Sight>> sights;
+  std::map<std::string, std::vector<LoopSearch::KeyScan>> sights;
   for (const auto& [label, history] : histories_) {
     for (const auto& seen : history) sights[label].push_back(seen.sight);
   }
-  auto places = std::make_shared<const KnownPlaces>(view.map, sights, matcher_);
+  auto places = std::make_shared<const ScanDatabase>(view.map, sights, matcher_);
   if (!places->empty()) places_ = std::move(places);
 }
 
@@ -246,8 +246,8 @@ std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& vi
   return all;
 }
 
-std::vector<LoopSearch::Sight> LoopClosurePlugin::sights(const History& history, std::size_t centre, double before,
-                                                         double after) {
+std::vector<LoopSearch::KeyScan> LoopClosurePlugin::sights(const History& history, std::size_t centre, double before,
+                                                           double after) {
   const auto& middle = history[centre].sight;
   const auto belongs = [&](std::size_t i) {
     const auto& sight = history[i].sight;
@@ -260,7 +260,7 @@ std::vector<LoopSearch::Sight> LoopClosurePlugin::sights(const History& history,
   // A base that turns on the spot sees the same again and again: of many sights some do.
   constexpr std::size_t kMost = 200;
   const std::size_t stride = 1 + (end - first) / kMost;
-  std::vector<LoopSearch::Sight> all;
+  std::vector<LoopSearch::KeyScan> all;
   for (std::size_t i = first; i < end; ++i) {
     if (i == centre || (i - first) % stride == 0) all.push_back(history[i].sight);
   }

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "GlobalLoopSearch.h"
+#include "GlobalRelocalization.h"
 #include "LoopClosureOptions.h"
 #include "LoopSearch.h"
-#include "MapSearch.h"
 #include "SlipSearch.h"
 #include "TestedClosures.h"
 
@@ -43,7 +43,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
  private:
   /// What one sensor saw at one key frame.
   struct Seen {
-    LoopSearch::Sight sight;
+    LoopSearch::KeyScan sight;
     base::Stamp stamp;
   };
   /// The last search in all of the saved map.
@@ -54,13 +54,13 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   /// The last global searches of a session for its own loops, and what they look in.
   struct SoughtGlobally {
     double travel = 0, on_new_ground = 0;  // [m]
-    std::shared_ptr<const KnownPlaces> places;
+    std::shared_ptr<const ScanDatabase> places;
     std::size_t size = 0;             // of the places
     std::optional<base::Stamp> tied;  // of TestedClosures, and its corrections, when they were gathered
     std::size_t corrections = 0;
   };
   using History = std::vector<Seen>;  // in order of session, then stamp
-  using Scan = std::shared_ptr<const matching::PlanarScan>;
+  using Scan = std::shared_ptr<const matching::ScanWithNormals>;
 
   /// Puts it in its place and gives the index.
   std::size_t remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state, History& history);
@@ -72,7 +72,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   std::vector<LoopSearch::Place> loopPlaces(const map::KeyFrame& frame, const History& history, std::size_t index,
                                             const mapper::State& state) const;
   /// What was seen in the session of the one at `centre`, so much way [m] before and after it.
-  static std::vector<LoopSearch::Sight> sights(const History& history, std::size_t centre, double before, double after);
+  static std::vector<LoopSearch::KeyScan> sights(const History& history, std::size_t centre, double before,
+                                                 double after);
 
   LoopClosureOptions options_;
   mapper::PluginContext context_;
@@ -85,9 +86,9 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   std::vector<SlipSearch> slip_searches_;                  // of the key frame being measured
   std::map<std::string, SoughtGlobally> sought_globally_;  // by label
   std::vector<GlobalLoopSearch> global_searches_;          // of the key frame being measured
-  std::shared_ptr<const KnownPlaces> places_;              // of a map that is continued
+  std::shared_ptr<const ScanDatabase> places_;             // of a map that is continued
   std::map<std::string, Sought> sought_in_map_;            // by label
-  std::vector<MapSearch> map_searches_;                    // of the key frame being measured
+  std::vector<GlobalRelocalization> map_searches_;         // of the key frame being measured
 };
 
 class LoopClosurePluginFactory : public mapper::MeasurementPluginFactory {

@@ -19,10 +19,10 @@ constexpr double kSame = 0.3, kSameTurn = 0.1;  // [m] [rad] within which two ma
 constexpr std::size_t kMostBlocks = 100'000;  // of a search: a second or so in a window that is large and tells little
 }  // namespace
 
-matching::PlanarScan localMap(const std::vector<LoopSearch::Sight>& sights, base::KeyFrameId centre,
-                              const mapper::State& state) {
+matching::ScanWithNormals localMap(const std::vector<LoopSearch::KeyScan>& sights, base::KeyFrameId centre,
+                                   const mapper::State& state) {
   const auto& map_from_centre = state.map.keyFrame(centre).map_from_base;
-  matching::PlanarScan local;
+  matching::ScanWithNormals local;
   for (const auto& sight : sights) {
     matching::append(*sight.scan, planar(state.map.keyFrame(sight.frame).map_from_base - map_from_centre), local);
   }
@@ -83,7 +83,7 @@ std::optional<double> LoopSearch::overlapElsewhere(const std::vector<Attempt>& a
   return std::nullopt;
 }
 
-LoopSearch::Doubt LoopSearch::doubtAt(const Place& place, const mapper::State& state) const {
+LoopSearch::SearchUncertainty LoopSearch::doubtAt(const Place& place, const mapper::State& state) const {
   const auto covariance = state.covarianceBetween(place.centre.frame, newest_.back().frame);
   if (!covariance) return {options_.max_window, options_.max_window_angle};
   const Eigen::Matrix2d position = covariance->topLeftCorner<2, 2>();
@@ -91,31 +91,32 @@ LoopSearch::Doubt LoopSearch::doubtAt(const Place& place, const mapper::State& s
           kReachSigmas * std::sqrt((*covariance)(5, 5))};
 }
 
-double LoopSearch::queryWay(const Doubt& doubt) const {
+double LoopSearch::queryWay(const SearchUncertainty& doubt) const {
   return options_.context + doubt.position;
 }
 
 // What is sought is no part of where it is sought: it would fit itself wherever the estimate has it.
-matching::PlanarScan LoopSearch::localMapOf(const Place& place, const Doubt& doubt, const mapper::State& state) const {
+matching::ScanWithNormals LoopSearch::localMapOf(const Place& place, const SearchUncertainty& doubt,
+                                                 const mapper::State& state) const {
   const double reach = 2 * options_.context + doubt.position, end = newest_.back().way - queryWay(doubt);
-  std::vector<Sight> sights;
-  std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(sights), [&](const Sight& sight) {
+  std::vector<KeyScan> sights;
+  std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(sights), [&](const KeyScan& sight) {
     const bool is_sought = sight.frame.session == newest_.back().frame.session && sight.way >= end;
     return !is_sought && std::abs(sight.way - place.centre.way) <= reach;
   });
   return localMap(sights, place.centre.frame, state);
 }
 
-matching::PlanarScan LoopSearch::query(const Doubt& doubt, const mapper::State& state) const {
-  std::vector<Sight> sights;
+matching::ScanWithNormals LoopSearch::query(const SearchUncertainty& doubt, const mapper::State& state) const {
+  std::vector<KeyScan> sights;
   std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sights),
-               [&](const Sight& sight) { return newest_.back().way - sight.way <= queryWay(doubt); });
+               [&](const KeyScan& sight) { return newest_.back().way - sight.way <= queryWay(doubt); });
   return localMap(sights, newest_.back().frame, state);
 }
 
 // Within what the fine matcher reaches by itself the guess will do.
-std::vector<TPose2D> LoopSearch::starts(const matching::PlanarScan& local, const matching::PlanarScan& query,
-                                        const TPose2D& guess, const Doubt& doubt) const {
+std::vector<TPose2D> LoopSearch::starts(const matching::ScanWithNormals& local, const matching::ScanWithNormals& query,
+                                        const TPose2D& guess, const SearchUncertainty& doubt) const {
   constexpr double kReach = 0.4;       // [m]
   constexpr double kAngleReach = 0.2;  // [rad]
   constexpr double kSpacing = 0.25;    // [m] between the points that are searched with
@@ -133,7 +134,8 @@ std::vector<TPose2D> LoopSearch::starts(const matching::PlanarScan& local, const
   limits.min_share_of_best = 0.9;
   limits.max_blocks = kMostBlocks;
   std::vector<TPose2D> found;
-  for (const auto& result : matching::search(pyramid, matching::oncePerCell(query, kSpacing).points, window, limits)) {
+  for (const auto& result :
+       matching::search(pyramid, matching::voxelDownsample(query, kSpacing).points, window, limits)) {
     found.push_back(result.map_from_scan);
   }
   return found;
@@ -141,7 +143,7 @@ std::vector<TPose2D> LoopSearch::starts(const matching::PlanarScan& local, const
 
 namespace {
 // Whether one of them is of the newest session, which nothing ties to the other's.
-bool isApart(base::KeyFrameId place, base::KeyFrameId newest, const map::Map& map) {
+bool isUnaligned(base::KeyFrameId place, base::KeyFrameId newest, const map::Map& map) {
   if (map.sessions.empty() || map.sessions.back().joined) return false;
   return newest.session == map.sessions.back().number && place.session != newest.session;
 }
@@ -151,11 +153,11 @@ std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, con
   const auto& frame = state.map.keyFrame(newest_.back().frame);
   const auto& centre = state.map.keyFrame(place.centre.frame);
   const auto guess = planar(frame.map_from_base - centre.map_from_base);
-  const Doubt doubt = doubtAt(place, state);
+  const SearchUncertainty doubt = doubtAt(place, state);
   const double apart = std::hypot(guess.x, guess.y);
   if (apart > options_.radius + doubt.position) return std::nullopt;
-  // In a window smaller than the doubt a wrong place would fit as well: that is for MapSearch.
-  if (isApart(centre.id, frame.id, state.map) && doubt.position > options_.max_window) return std::nullopt;
+  // In a window smaller than the doubt a wrong place would fit as well: that is for GlobalRelocalization.
+  if (isUnaligned(centre.id, frame.id, state.map) && doubt.position > options_.max_window) return std::nullopt;
   // A closure that tells what the map knows as well only makes every solve dearer.
   const bool is_known =
       doubt.position < kReachSigmas * options_.known_sigma && doubt.yaw < kReachSigmas * options_.known_angle_sigma;
@@ -171,8 +173,8 @@ std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, con
   decision.numbers = {{"may be off by [m]", doubt.position},
                       {"may be off by [deg]", doubt.yaw / base::option_text::kRadiansPerDegree}};
   constexpr double kSpacing = 0.08;  // [m]
-  const auto local = matching::oncePerCell(localMapOf(place, doubt, state), kSpacing / 2),
-             query = matching::oncePerCell(this->query(doubt, state), kSpacing);
+  const auto local = matching::voxelDownsample(localMapOf(place, doubt, state), kSpacing / 2),
+             query = matching::voxelDownsample(this->query(doubt, state), kSpacing);
   const auto reference = matcher_->prepare(local);
   auto& matches = attempt.matches;
   for (const auto& start : starts(local, query, guess, doubt))

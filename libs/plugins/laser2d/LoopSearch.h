@@ -18,19 +18,20 @@ namespace omnimapper::plugins {
 class LoopSearch {
  public:
   /// What a key frame saw, in its base.
-  struct Sight {
+  struct KeyScan {
     base::KeyFrameId frame;
-    std::shared_ptr<const matching::PlanarScan> scan;
+    std::shared_ptr<const matching::ScanWithNormals> scan;
     double way;  // [m] driven until there
   };
   /// A place to try: the key frame it is about, and those before and after it that its local map is made of.
   struct Place {
-    Sight centre;
-    std::vector<Sight> around;
+    KeyScan centre;
+    std::vector<KeyScan> around;
   };
 
   LoopSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
-             std::shared_ptr<const matching::ScanMatcher> matcher, std::vector<Sight> newest, std::vector<Place> places)
+             std::shared_ptr<const matching::ScanMatcher> matcher, std::vector<KeyScan> newest,
+             std::vector<Place> places)
       : options_(options),
         context_(context),
         matcher_(std::move(matcher)),
@@ -42,14 +43,15 @@ class LoopSearch {
 
  private:
   /// How far off the newest key frame may be, seen from a place [m] [rad].
-  struct Doubt {
+  struct SearchUncertainty {
     double position, yaw;
   };
-  Doubt doubtAt(const Place& place, const mapper::State& state) const;
+  SearchUncertainty doubtAt(const Place& place, const mapper::State& state) const;
   /// As much of what was seen as leaves no doubt where along a corridor it was: the more, the vaguer the estimate.
-  matching::PlanarScan localMapOf(const Place& place, const Doubt& doubt, const mapper::State& state) const;
-  matching::PlanarScan query(const Doubt& doubt, const mapper::State& state) const;
-  double queryWay(const Doubt& doubt) const;  // [m] back from the newest key frame
+  matching::ScanWithNormals localMapOf(const Place& place, const SearchUncertainty& doubt,
+                                       const mapper::State& state) const;
+  matching::ScanWithNormals query(const SearchUncertainty& doubt, const mapper::State& state) const;
+  double queryWay(const SearchUncertainty& doubt) const;  // [m] back from the newest key frame
   /// What was found at a place.
   struct Attempt {
     const Place* place;
@@ -61,13 +63,14 @@ class LoopSearch {
   std::optional<Attempt> attemptAt(const Place& place, const mapper::State& state) const;
   static std::optional<double> overlapElsewhere(const std::vector<Attempt>& attempts, const Attempt& attempt,
                                                 const mapper::State& state);
-  std::vector<mrpt::math::TPose2D> starts(const matching::PlanarScan& local, const matching::PlanarScan& query,
-                                          const mrpt::math::TPose2D& guess, const Doubt& doubt) const;
+  std::vector<mrpt::math::TPose2D> starts(const matching::ScanWithNormals& local,
+                                          const matching::ScanWithNormals& query, const mrpt::math::TPose2D& guess,
+                                          const SearchUncertainty& doubt) const;
 
   LoopClosureOptions options_;
   mapper::PluginContext context_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
-  std::vector<Sight> newest_;  // the newest last
+  std::vector<KeyScan> newest_;  // the newest last
   std::vector<Place> places_;
 };
 
@@ -75,8 +78,8 @@ class LoopSearch {
 inline constexpr char kGlobalClosure[] = "global loop closure";
 
 /// The scans of some key frames together, in the frame of `centre`, by the estimate in `state`.
-matching::PlanarScan localMap(const std::vector<LoopSearch::Sight>& sights, base::KeyFrameId centre,
-                              const mapper::State& state);
+matching::ScanWithNormals localMap(const std::vector<LoopSearch::KeyScan>& sights, base::KeyFrameId centre,
+                                   const mapper::State& state);
 
 /// Whether the best of `matches`, best first, is a closure, told in `decision`: enough overlap, walls that fix it, and
 /// no other as good elsewhere. `guess`: where the estimate has it.

@@ -10,8 +10,8 @@
 #include <map>
 #include <utility>
 
-#include "KnownPlaces.h"
 #include "PlanarMotion.h"
+#include "ScanDatabase.h"
 #include "SlipSearch.h"
 
 namespace omnimapper::plugins {

@@ -162,8 +162,8 @@ base::Stamp ScanOdometryPlugin::middleOf(const mrpt::obs::CObservation2DRangeSca
   return scan.timestamp + base::durationFromSeconds(0.5 * options_.sweep);
 }
 
-matching::PlanarScan ScanOdometryPlugin::wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
-                                                 const TPose2D& velocity) const {
+matching::ScanWithNormals ScanOdometryPlugin::wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
+                                                      const TPose2D& velocity) const {
   const auto derived = extractor_.extract(scan);
   const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*derived);
   if (options_.sweep == 0) return matching::scanInBase(cloud);

@@ -94,8 +94,8 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   void follow(const mrpt::obs::CObservation2DRangeScan& scan);
   base::Stamp middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
   /// In the base; `velocity` [m/s] [rad/s] during the scan.
-  matching::PlanarScan wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
-                               const mrpt::math::TPose2D& velocity) const;
+  matching::ScanWithNormals wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
+                                    const mrpt::math::TPose2D& velocity) const;
   std::vector<matching::MotionPrediction> predictions(base::Stamp stamp);
   bool isTold() const;
   void restart(const mrpt::obs::CObservation2DRangeScan& scan);

@@ -69,7 +69,7 @@ struct SlipSearch::SpanCorrection {
 
 SlipSearch::SlipSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
                        std::shared_ptr<const matching::ScanMatcher> matcher, std::vector<base::FactorId> refused,
-                       std::vector<LoopSearch::Sight> trajectory)
+                       std::vector<LoopSearch::KeyScan> trajectory)
     : options_(options),
       context_(context),
       matcher_(std::move(matcher)),
@@ -214,8 +214,8 @@ std::vector<SlipSearch::Span> SlipSearch::spans(const std::vector<Closure>& agre
   return all;
 }
 
-matching::PlanarScan SlipSearch::seenBefore(const Span& span, const mapper::State& state) const {
-  std::vector<LoopSearch::Sight> sights;
+matching::ScanWithNormals SlipSearch::seenBefore(const Span& span, const mapper::State& state) const {
+  std::vector<LoopSearch::KeyScan> sights;
   for (std::size_t i = span.before + 1; i-- > 0;) {
     if (trajectory_[span.before].way - trajectory_[i].way > 2 * options_.context) break;
     sights.push_back(trajectory_[i]);
@@ -223,8 +223,8 @@ matching::PlanarScan SlipSearch::seenBefore(const Span& span, const mapper::Stat
   return localMap(sights, trajectory_[span.before].frame, state);
 }
 
-matching::PlanarScan SlipSearch::seenAfter(const Span& span, const mapper::State& state) const {
-  std::vector<LoopSearch::Sight> sights;
+matching::ScanWithNormals SlipSearch::seenAfter(const Span& span, const mapper::State& state) const {
+  std::vector<LoopSearch::KeyScan> sights;
   for (std::size_t i = span.before + 1; i < trajectory_.size(); ++i) {
     if (trajectory_[i].way - trajectory_[span.before + 1].way > options_.context) break;
     sights.push_back(trajectory_[i]);
@@ -245,7 +245,7 @@ void SlipSearch::compare(std::vector<Span>& spans, const mapper::State& state) c
   limits.max_blocks = 2000;
   for (auto& span : spans) {
     const grid::LikelihoodPyramid pyramid(seenBefore(span, state).points, grid);
-    const auto query = matching::oncePerCell(seenAfter(span, state), kSpacing).points;
+    const auto query = matching::voxelDownsample(seenAfter(span, state), kSpacing).points;
     span.as_estimated = pyramid.score(query, span.estimated);
     const auto found = matching::search(pyramid, query, {span.required, kMapErrs, kMapErrs, kMapErrsBy}, limits);
     if (found.empty()) continue;
@@ -267,8 +267,8 @@ std::optional<SlipSearch::SpanCorrection> SlipSearch::correctedByScans(std::vect
   double best_gain = kBetter;
   for (std::size_t i = 0; i < std::min(kMost, spans.size()) && gain(spans[i]) > 0; ++i) {
     const Span& span = spans[i];
-    const auto reference = matcher_->prepare(matching::oncePerCell(seenBefore(span, state), kFine / 2));
-    const auto query = matching::oncePerCell(seenAfter(span, state), kFine);
+    const auto reference = matcher_->prepare(matching::voxelDownsample(seenBefore(span, state), kFine / 2));
+    const auto query = matching::voxelDownsample(seenAfter(span, state), kFine);
     const auto match = matcher_->match(*reference, query, span.found);
     if (match.degenerate || match.overlap < kLeastOverlap) continue;
     if (distanceBetween(match.reference_from_scan, span.estimated).within(kSameSlip, kSameSlipTurn)) continue;

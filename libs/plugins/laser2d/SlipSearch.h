@@ -19,7 +19,7 @@ class SlipSearch {
   /// an empty scan where that was nothing.
   SlipSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
              std::shared_ptr<const matching::ScanMatcher> matcher, std::vector<base::FactorId> refused,
-             std::vector<LoopSearch::Sight> trajectory);
+             std::vector<LoopSearch::KeyScan> trajectory);
 
   /// Empty if no two of them agree; else a decision of the kind kSlip, with the new motion if it is accepted. It is of
   /// another kind if no slip can explain them.
@@ -39,8 +39,8 @@ class SlipSearch {
   void compare(std::vector<Span>& spans, const mapper::State& state) const;
   std::optional<SpanCorrection> correctedByScans(std::vector<Span> spans, const mapper::State& state) const;
   static std::optional<SpanCorrection> correctedByClosures(std::vector<Span> spans);
-  matching::PlanarScan seenBefore(const Span& span, const mapper::State& state) const;
-  matching::PlanarScan seenAfter(const Span& span, const mapper::State& state) const;
+  matching::ScanWithNormals seenBefore(const Span& span, const mapper::State& state) const;
+  matching::ScanWithNormals seenAfter(const Span& span, const mapper::State& state) const;
   static mapper::RelativeMotion withTheRest(mapper::RelativeMotion motion, const map::KeyFrame& before,
                                             const map::KeyFrame& after, const mapper::State& state);
   mrpt::math::TPose2D motion(std::size_t from, std::size_t to, const mapper::State& state) const;
@@ -49,7 +49,7 @@ class SlipSearch {
   mapper::PluginContext context_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
   std::vector<base::FactorId> refused_;
-  std::vector<LoopSearch::Sight> trajectory_;
+  std::vector<LoopSearch::KeyScan> trajectory_;
 };
 
 /// Kind of the decision, and note of the factor that replaces what was measured.

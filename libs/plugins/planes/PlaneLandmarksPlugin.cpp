@@ -1,14 +1,14 @@
 #include "PlaneLandmarksPlugin.h"
 
 #include <omnimapper/landmarks/PlaneFactors.h>
-#include <omnimapper/landmarks/SurfaceForm.h>
+#include <omnimapper/landmarks/PlaneParametrization.h>
 #include <omnimapper/landmarks/WallFactor.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 
-#include "KnownPlanes.h"
+#include "PlaneAssociator.h"
+#include "PlaneLandmarkIndex.h"
 #include "PlaneMerging.h"
-#include "PlaneMoment.h"
 
 IMPLEMENTS_MRPT_OBJECT(PlaneLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -60,8 +60,8 @@ namespace {
 
 PlanePayload emptyPayload(const PlaneLandmarksOptions& options) {
   PlanePayload empty;
-  empty.form = options.form == PlaneLandmarksOptions::Form::wall ? landmarks::SurfaceForm::Kind::wall
-                                                                 : landmarks::SurfaceForm::Kind::plane;
+  empty.form = options.form == PlaneLandmarksOptions::Form::wall ? landmarks::PlaneParametrization::Kind::wall
+                                                                 : landmarks::PlaneParametrization::Kind::plane;
   empty.ground = options.ground;
   empty.boundary = options.boundary;
   return empty;
@@ -72,7 +72,7 @@ PlanePayload emptyPayload(const PlaneLandmarksOptions& options) {
 PlaneLandmarksPlugin::PlaneLandmarksPlugin(const PlaneLandmarksOptions& options, const mapper::PluginContext& context)
     : options_(options),
       context_(context),
-      known_(std::make_unique<KnownPlanes>(context.section, emptyPayload(options))) {
+      known_(std::make_unique<PlaneLandmarkIndex>(context.section, emptyPayload(options))) {
   if (options.form != PlaneLandmarksOptions::Form::wall) return;
   options_.planes = false;
   if (context.motion == mapper::Motion::planar) return;
@@ -92,8 +92,8 @@ bool PlaneLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) con
 mapper::Batch PlaneLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                             const mapper::View& view) {
   known_->update(view);
-  PlaneMoment moment(options_, context_, *known_, frame, view);
-  return moment.take(planeSightings(observed.observation, moment.upInBase(), known_->form(), options_));
+  PlaneAssociator moment(options_, context_, *known_, frame, view);
+  return moment.take(planeMeasurements(observed.observation, moment.upInBase(), known_->form(), options_));
 }
 
 void PlaneLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {
@@ -115,8 +115,8 @@ void PlaneLandmarksPlugin::restore(const map::MapSection*, const mapper::View& v
 }
 
 void PlaneLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
-  kinds.factors.add(landmarks::SurfaceForm::of(landmarks::SurfaceForm::Kind::plane).variable());
-  kinds.factors.add(landmarks::SurfaceForm::of(landmarks::SurfaceForm::Kind::wall).variable());
+  kinds.factors.add(landmarks::PlaneParametrization::of(landmarks::PlaneParametrization::Kind::plane).variable());
+  kinds.factors.add(landmarks::PlaneParametrization::of(landmarks::PlaneParametrization::Kind::wall).variable());
   landmarks::PlaneFactor::addTo(kinds.factors);
   landmarks::LineOnPlaneFactor::addTo(kinds.factors);
   landmarks::UprightFactor::addTo(kinds.factors);

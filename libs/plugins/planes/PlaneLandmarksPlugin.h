@@ -58,7 +58,7 @@ class PlaneLandmarksPlugin : public mapper::MeasurementPlugin {
  private:
   PlaneLandmarksOptions options_;
   mapper::PluginContext context_;
-  std::unique_ptr<class KnownPlanes> known_;
+  std::unique_ptr<class PlaneLandmarkIndex> known_;
   std::size_t merged_at_solve_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-using Surface = KnownPlanes::Surface;
+using Surface = PlaneLandmarkIndex::Surface;
 
 constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m] what is farther apart looks like two
 
@@ -27,8 +27,8 @@ bool overlap(const Surface& a, const Surface& b) {
 }
 
 // Of the change that takes a's plane to b's, by all that ties them together.
-std::optional<landmarks::Fit> fitOfDifference(const landmarks::SurfaceForm& form, const Surface& a, const Surface& b,
-                                              double inflation, const mapper::View& view) {
+std::optional<landmarks::Fit> fitOfDifference(const landmarks::PlaneParametrization& form, const Surface& a,
+                                              const Surface& b, double inflation, const mapper::View& view) {
   const auto joint = view.jointCovariance({a.variable, b.variable});
   if (!joint) return std::nullopt;
   const auto [change, by_both] = form.difference(view.graph.value(a.variable), view.graph.value(b.variable));
@@ -44,7 +44,7 @@ bool onOnePlane(const Surface& a, const Surface& b) {
   return std::abs(signedDistance(larger.plane, smaller.middle)) <= kOff;
 }
 
-mapper::Batch mergeAlike(KnownPlanes& known, const PlaneLandmarksOptions& options, const std::string& section,
+mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
                          const mapper::View& view) {
   known.update(view);
   const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize());

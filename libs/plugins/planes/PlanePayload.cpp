@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "PlaneExtent.h"
-#include "PlaneSighting.h"
+#include "PlaneMeasurement.h"
 
 namespace omnimapper::plugins {
 
@@ -50,7 +50,7 @@ bool PlanePayload::wasSeenAsPlane() const {
   return std::any_of(seen_by.begin(), seen_by.end(), [](const auto& sensor) { return sensor.second.planes > 0; });
 }
 
-std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, const PlaneSighting& sighting,
+std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, const PlaneMeasurement& sighting,
                                                        bool tells_more) const {
   auto more = std::make_shared<PlanePayload>(*this);
   if (tells_more) more->patches.push_back({frame, sighting.outline_in_base});
@@ -83,7 +83,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
                                        const map::KeyFrames& key_frames) const {
   map::LandmarkShape shape;
   if (values.empty()) return shape;
-  const auto plane = landmarks::SurfaceForm::of(form).plane(values.front());
+  const auto plane = landmarks::PlaneParametrization::of(form).plane(values.front());
   const landmarks::PlaneAxes axes(plane);
   const auto corners = cornersInMap(patches, key_frames);
   const auto hull = hullOn(axes, corners);
@@ -117,7 +117,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
 }
 
 bool PlanePayload::fits(const std::vector<std::string_view>& kinds) const {
-  return kinds == std::vector<std::string_view>{landmarks::SurfaceForm::of(form).variable()->kind()};
+  return kinds == std::vector<std::string_view>{landmarks::PlaneParametrization::of(form).variable()->kind()};
 }
 
 std::vector<base::KeyFrameId> PlanePayload::keyFrames() const {
@@ -156,8 +156,8 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
                             std::to_string(kVersion) + "; take the OmniMapper that wrote the map");
     }
     auto payload = std::make_shared<PlanePayload>();
-    payload->form =
-        graph::readUint(in, 1) == 0 ? landmarks::SurfaceForm::Kind::plane : landmarks::SurfaceForm::Kind::wall;
+    payload->form = graph::readUint(in, 1) == 0 ? landmarks::PlaneParametrization::Kind::plane
+                                                : landmarks::PlaneParametrization::Kind::wall;
     if (version > 1) payload->ground = graph::readUint(in, 1) == 0 ? Ground::start : Ground::map;
     if (version > 2) payload->boundary = graph::readUint(in, 1) == 0 ? Boundary::hull : Boundary::seen;
     for (auto left = graph::readUint(in, 4); left > 0; --left) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/geometry/Plane3.h>
-#include <omnimapper/landmarks/SurfaceForm.h>
+#include <omnimapper/landmarks/PlaneParametrization.h>
 #include <omnimapper/map/KeyFrames.h>
 #include <omnimapper/map/PayloadRegistry.h>
 
@@ -34,7 +34,7 @@ struct PlanePayload : map::LandmarkPayload {
   using Ground = PlaneLandmarksOptions::Ground;
   using Boundary = PlaneLandmarksOptions::Boundary;
 
-  landmarks::SurfaceForm::Kind form = landmarks::SurfaceForm::Kind::plane;
+  landmarks::PlaneParametrization::Kind form = landmarks::PlaneParametrization::Kind::plane;
   Ground ground = Ground::start;  ///< for what people call it
   Boundary boundary = Boundary::hull;
   std::vector<SurfacePatch> patches;      ///< those that tell something of the extent that the others do not
@@ -51,7 +51,7 @@ struct PlanePayload : map::LandmarkPayload {
 
   bool wasSeenAsPlane() const;
   /// With one more sighting; its outline only where it `tells_more` of the extent.
-  std::shared_ptr<const PlanePayload> with(base::KeyFrameId frame, const struct PlaneSighting& sighting,
+  std::shared_ptr<const PlanePayload> with(base::KeyFrameId frame, const struct PlaneMeasurement& sighting,
                                            bool tells_more) const;
   /// With all that is known of another.
   std::shared_ptr<const PlanePayload> with(const PlanePayload& other) const;

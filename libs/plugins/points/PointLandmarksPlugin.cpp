@@ -2,14 +2,14 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/landmarks/FirstTie.h>
+#include <omnimapper/landmarks/InterSessionHypothesis.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "KnownPoints.h"
+#include "PointLandmarkIndex.h"
 #include "PointMerging.h"
 #include "PointPayload.h"
 #include "PointSighting.h"
@@ -41,7 +41,7 @@ const base::OptionTable<PointLandmarksOptions>& PointLandmarksOptions::table() {
 // The work on one observation.
 class PointLandmarksPlugin::Moment {
  public:
-  Moment(const PointLandmarksOptions& options, const mapper::PluginContext& context, const KnownPoints& known,
+  Moment(const PointLandmarksOptions& options, const mapper::PluginContext& context, const PointLandmarkIndex& known,
          const map::KeyFrame& frame, const mapper::View& view)
       : options_(options),
         context_(context),
@@ -166,7 +166,7 @@ class PointLandmarksPlugin::Moment {
   }
 
   void addToKnown(const PointMeasurement& measured, const mapper::Pairing& pairing, mapper::Decision decision) {
-    if (landmarks::addAsFirstTie(view_, frame_.id, pairing, decision, batch_)) return;
+    if (landmarks::addInterSessionHypothesis(view_, frame_.id, pairing, decision, batch_)) return;
     batch_.log(std::move(decision));
     batch_.addFactor(pairing.record);
     const auto& payload = dynamic_cast<const PointPayload&>(*view_.map.landmark(pairing.landmark).payload);
@@ -204,7 +204,7 @@ class PointLandmarksPlugin::Moment {
 
   const PointLandmarksOptions& options_;
   const mapper::PluginContext& context_;
-  const KnownPoints& known_;
+  const PointLandmarkIndex& known_;
   const map::KeyFrame& frame_;
   const mapper::View& view_;
   geometry::Se3 map_from_base_;
@@ -215,7 +215,7 @@ class PointLandmarksPlugin::Moment {
 };
 
 PointLandmarksPlugin::PointLandmarksPlugin(const PointLandmarksOptions& options, const mapper::PluginContext& context)
-    : options_(options), context_(context), known_(std::make_unique<KnownPoints>(context.section)) {}
+    : options_(options), context_(context), known_(std::make_unique<PointLandmarkIndex>(context.section)) {}
 
 PointLandmarksPlugin::~PointLandmarksPlugin() = default;
 

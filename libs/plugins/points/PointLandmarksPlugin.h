@@ -42,7 +42,7 @@ class PointLandmarksPlugin : public mapper::MeasurementPlugin {
 
   PointLandmarksOptions options_;
   mapper::PluginContext context_;
-  std::unique_ptr<class KnownPoints> known_;
+  std::unique_ptr<class PointLandmarkIndex> known_;
   std::size_t merged_at_solve_ = 0;
 };
 

@@ -40,7 +40,7 @@ struct Nameless {
 };
 
 // In the order of x, so that those that are near stand near.
-std::vector<Nameless> namelessOf(const KnownPoints& known, const mapper::View& view) {
+std::vector<Nameless> namelessOf(const PointLandmarkIndex& known, const mapper::View& view) {
   std::vector<Nameless> nameless;
   for (const auto& [id, variable] : known.all()) {
     const auto& payload = dynamic_cast<const PointPayload&>(*view.map.landmark(id).payload);
@@ -53,8 +53,8 @@ std::vector<Nameless> namelessOf(const KnownPoints& known, const mapper::View& v
 
 }  // namespace
 
-mapper::Batch mergeAlike(const KnownPoints& known, const PointLandmarksOptions& options, const std::string& section,
-                         const mapper::View& view) {
+mapper::Batch mergeAlike(const PointLandmarkIndex& known, const PointLandmarksOptions& options,
+                         const std::string& section, const mapper::View& view) {
   mapper::Batch batch;
   std::vector<Nameless> left = namelessOf(known, view);
   for (std::size_t i = 0; i < left.size(); ++i) {

@@ -13,8 +13,8 @@
 #include <cmath>
 #include <optional>
 
+#include "RelationClosure.h"
 #include "RelationFactors.h"
-#include "ToldRelations.h"
 
 namespace omnimapper::plugins {
 
@@ -247,7 +247,7 @@ class Finder {
   const mapper::State& state_;
   const RelationsOptions& options_;
   const KnownRelations& known_;
-  ToldRelations told_;
+  RelationClosure told_;
   std::vector<Thing> things_;
   std::vector<Relation> found_;
 };

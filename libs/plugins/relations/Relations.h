@@ -30,7 +30,7 @@ struct Relation {
 /// What may be said of the landmarks of a map, beside what is `known` (thesis 4.5.1): each possible relation of two
 /// landmarks is weighed by the likelihood of its residual if it holds, by the covariance of both, against that of any
 /// residual there is room for. A point gets one relation at most, and directions and lines a tree each: what many share
-/// is told once of each, not once of each pair (ToldRelations). Landmarks of a session that is not joined are related
+/// is told once of each, not once of each pair (RelationClosure). Landmarks of a session that is not joined are related
 /// among themselves only. The likeliest first.
 std::vector<Relation> findRelations(const mapper::State& state, const RelationsOptions& options,
                                     const KnownRelations& known);

@@ -10,7 +10,7 @@
 
 #include <random>
 
-#include "dynamic/MoveableThingsPlugin.h"
+#include "dynamic/DynamicLandmarksPlugin.h"
 #include "dynamic/MovedThingPayload.h"
 #include "planes/PlanePayload.h"
 #include "points/PointPayload.h"
@@ -50,14 +50,14 @@ class MoveableRoom {
 
   /// A surface over a stretch of the floor, its free side on the left, that stands at `first` in the first round and at
   /// `second` in the other.
-  base::LandmarkId addSurface(landmarks::SurfaceForm::Kind form, const geometry::Segment2& first,
+  base::LandmarkId addSurface(landmarks::PlaneParametrization::Kind form, const geometry::Segment2& first,
                               const geometry::Segment2& second, Seen in_first = Seen::as_lines,
                               Seen in_second = Seen::as_lines) {
     const auto planeOf = [](const geometry::Segment2& wall) {
       const Eigen::Vector2d normal = landmarks::normalOf(wall);
       return geometry::Plane3::through({wall.from.x(), wall.from.y(), 0}, {normal.x(), normal.y(), 0});
     };
-    const auto& its = landmarks::SurfaceForm::of(form);
+    const auto& its = landmarks::PlaneParametrization::of(form);
     auto payload = std::make_shared<PlanePayload>();
     payload->form = form;
     const auto id = addLandmark(
@@ -128,11 +128,11 @@ class MoveableRoom {
   }
 
   /// Solves, lets the plugin look, and solves what it left.
-  void look(const MoveableThingsOptions& options = {}) {
+  void look(const DynamicLandmarksOptions& options = {}) {
     solve();
     mapper::PluginContext context;
     context.section = "moveables";
-    MoveableThingsPlugin plugin(options, context);
+    DynamicLandmarksPlugin plugin(options, context);
     const auto batch = plugin.atEnd(run.view());
     mapper::apply(batch, {"moveables", run.map.key_frames.back().stamp}, run.graph, run.map);
     run.decisions.insert(run.decisions.end(), batch.decisions().begin(), batch.decisions().end());

@@ -4,14 +4,14 @@
 #include <omnimapper/landmarks/PlaneVariable.h>
 
 #include "MoveableRoom.h"
-#include "dynamic/LooseHold.h"
+#include "dynamic/WeakPrior.h"
 #include "relations/RelationFactors.h"
 
 namespace omnimapper::plugins::moveable_surfaces_test {
 namespace {
 
 using geometry::Segment2;
-using Kind = landmarks::SurfaceForm::Kind;
+using Kind = landmarks::PlaneParametrization::Kind;
 using Seen = MoveableRoom::Seen;
 using State = map::Landmark::State;
 
@@ -152,7 +152,7 @@ TEST(MoveableThings, WhatIsDeterminedNowhereIsGivenUp) {
   addWalls(room, Kind::plane);
   // Once at each of three places.
   const auto point = room.addPoint({{2, {2, 1}}, {12, {1, 2}}, {30, {-1, 1}}});
-  MoveableThingsOptions options;
+  DynamicLandmarksOptions options;
   options.min_sightings = MoveableRoom::kRound + 1;
   const auto panel = room.addSurface(Kind::plane, kPanel, shifted(kPanel, {-0.5, 0}));
   room.look(options);
@@ -210,11 +210,11 @@ TEST(Differences, ChangeWithBothValuesAsTheyAreTold) {
   }
 }
 
-TEST(LooseHold, PullsToWhereItWasAndHardly) {
+TEST(WeakPrior, PullsToWhereItWasAndHardly) {
   graph::Graph graph;
   const auto id =
       graph.addVariable(landmarks::planeVariable(), landmarks::toValue(geometry::Plane3{Eigen::Vector3d::UnitX(), 2}));
-  holdLoosely(graph, id);
+  addWeakPrior(graph, id);
   EXPECT_EQ(graph.cost(), 0);
   graph.setValue(id, landmarks::toValue(geometry::Plane3{Eigen::Vector3d(0.6, 0.8, 0), 3}));
   EXPECT_NEAR(2 * graph.cost(), (1 + std::pow(std::acos(0.6), 2)) / 1e4, 1e-12);

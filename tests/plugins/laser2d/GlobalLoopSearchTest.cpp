@@ -40,8 +40,8 @@ class GlobalLoopSearchTest : public ::testing::Test {
   }
 
   /// A key frame that truly is there, and is thought to be at `thought` if that is given, known to `sigma` [m].
-  LoopSearch::Sight see(const CPose3D& truly, const std::optional<CPose3D>& thought, double sigma,
-                        const World& world = twoRooms()) {
+  LoopSearch::KeyScan see(const CPose3D& truly, const std::optional<CPose3D>& thought, double sigma,
+                          const World& world = twoRooms()) {
     const CPose3D estimate = thought.value_or(truly);
     const auto id = run_.addFrame(estimate).id;
     auto& frame = run_.map.key_frames.edit(id);
@@ -62,7 +62,7 @@ class GlobalLoopSearchTest : public ::testing::Test {
     return {id, scan, travel_ += 0.6};
   }
 
-  mapper::Batch search(std::vector<LoopSearch::Sight> newest) {
+  mapper::Batch search(std::vector<LoopSearch::KeyScan> newest) {
     run_.uncertainty = mapper::Uncertainty(run_.graph);
     mapper::PluginContext context;
     context.section = "loop_closure";
@@ -75,7 +75,7 @@ class GlobalLoopSearchTest : public ::testing::Test {
   testing::HandMadeRun run_;
   double travel_ = 0;
   bool on_new_ground_ = false;
-  std::vector<LoopSearch::Sight> earlier_;
+  std::vector<LoopSearch::KeyScan> earlier_;
 };
 
 TEST_F(GlobalLoopSearchTest, WhoIsSureOfAPlaceThatLooksOtherwiseIsFoundInTheOtherRoom) {

@@ -34,7 +34,7 @@ class LoopSearchVerdict : public ::testing::Test {
           {{run_.map.keyFrame(place).pose, run_.map.keyFrame(newest).pose}, measured, sigmas, {}, 1, {}});
       run_.uncertainty = mapper::Uncertainty(run_.graph);
     }
-    const LoopSearch::Sight first{place, seenFrom({}, then, 12), 0};
+    const LoopSearch::KeyScan first{place, seenFrom({}, then, 12), 0};
     mapper::PluginContext context;
     context.section = "loop_closure";
     const LoopSearch search(options_, context, matching::makeMatcher({}),
@@ -103,8 +103,9 @@ TEST_F(LoopSearchVerdict, ARoomThatIsLikeAnotherIsNoClosureWhereTheOtherFitsBett
   bind(second, {12, 0, 0}, {0.05, 0.05, 0.01});
   bind(newest, {7, 0.5, 0.2}, {4, 4, 0.2});
   run_.uncertainty = mapper::Uncertainty(run_.graph);
-  const LoopSearch::Sight in_first{first, seenFrom({}, whole, 12), 0}, in_second{second, seenFrom({}, lacking, 12), 12};
-  const LoopSearch::Sight seen{newest, seenFrom({1, 0.2, 0, 0.1, 0, 0}, whole, 8), 40};
+  const LoopSearch::KeyScan in_first{first, seenFrom({}, whole, 12), 0},
+      in_second{second, seenFrom({}, lacking, 12), 12};
+  const LoopSearch::KeyScan seen{newest, seenFrom({1, 0.2, 0, 0.1, 0, 0}, whole, 8), 40};
   mapper::PluginContext context;
   context.section = "loop_closure";
   const std::shared_ptr<const matching::ScanMatcher> matcher = matching::makeMatcher({});

@@ -2,7 +2,7 @@
 
 // Worlds of walls for the tests of loop closures, and what a laser sees of them.
 #include <mrpt/poses/CPose3D.h>
-#include <omnimapper/matching/PlanarScan.h>
+#include <omnimapper/matching/ScanWithNormals.h>
 
 #include <Eigen/Geometry>
 #include <memory>
@@ -26,10 +26,10 @@ inline World corridor() {
 }
 
 /// What is seen from there of walls that hide nothing: their points within `reach` [m], in the base.
-inline std::shared_ptr<const matching::PlanarScan> seenFrom(const mrpt::poses::CPose3D& map_from_base,
-                                                            const World& world, double reach) {
+inline std::shared_ptr<const matching::ScanWithNormals> seenFrom(const mrpt::poses::CPose3D& map_from_base,
+                                                                 const World& world, double reach) {
   constexpr double kSpacing = 0.05;  // [m]
-  auto scan = std::make_shared<matching::PlanarScan>();
+  auto scan = std::make_shared<matching::ScanWithNormals>();
   const mrpt::poses::CPose3D base_from_map = mrpt::poses::CPose3D() - map_from_base;
   const Eigen::Rotation2Dd turn(base_from_map.yaw());
   for (const auto& wall : world) {

@@ -82,7 +82,7 @@ class SlipSearchTest : public ::testing::Test {
   double unseen_ = 0;  // [rad] of the circle that the robot drives farther where it slips
   testing::HandMadeRun run_;
   std::vector<Se2> poses_;
-  std::vector<LoopSearch::Sight> drive_;
+  std::vector<LoopSearch::KeyScan> drive_;
   std::vector<base::FactorId> refused_;
   base::FactorId step_, slipped_;
 };

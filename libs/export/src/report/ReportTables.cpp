@@ -2,7 +2,7 @@
 
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/map/SessionFigures.h>
-#include <omnimapper/mapper/Joining.h>
+#include <omnimapper/mapper/SessionAlignment.h>
 
 #include <algorithm>
 #include <set>

@@ -12,7 +12,7 @@ namespace omnimapper::exports {
 
 namespace {
 
-std::string lineOf(const mapper::Fix& fix) {
+std::string lineOf(const mapper::LocalizationEstimate& fix) {
   constexpr double kDegrees = 1 / base::option_text::kRadiansPerDegree;
   const auto& pose = fix.map_from_base;
   std::string line = base::formatUnix(fix.stamp);

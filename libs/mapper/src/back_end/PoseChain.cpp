@@ -10,7 +10,7 @@ namespace {
 
 using mrpt::poses::CPose3D;
 
-std::vector<base::Stamp> stampsOf(const std::vector<map::HangingFrame>& hanging) {
+std::vector<base::Stamp> stampsOf(const std::vector<map::DependentFrame>& hanging) {
   std::vector<base::Stamp> stamps;
   for (const auto& frame : hanging) stamps.push_back(frame.stamp);
   return stamps;
@@ -94,8 +94,8 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
   // What hung on the key frame before and is later hangs on this one.
   const auto later = std::upper_bound(hanging.begin(), hanging.end(), stamp);
   const auto earlier = std::lower_bound(hanging.begin(), later, stamp);
-  if (before && earlier != hanging.end()) rehang(*place.before, {hanging.begin(), earlier});
-  if (later != hanging.end()) rehang(place.id, {later, hanging.end()});
+  if (before && earlier != hanging.end()) reattach(*place.before, {hanging.begin(), earlier});
+  if (later != hanging.end()) reattach(place.id, {later, hanging.end()});
   map_.key_frames.edit(place.id).reference = earlier != later;
   return place;
 }
@@ -154,7 +154,7 @@ void PoseChain::unlink(base::KeyFrameId begin) {
 
 // Step by step: asking for all of the motion each time would cost ever more while the robot rests. Where nothing is
 // told, a frame is where the one before it is.
-void PoseChain::rehang(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps) {
+void PoseChain::reattach(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps) {
   map::KeyFrame& frame = map_.key_frames.edit(begin);
   frame.hanging.clear();
   base::Stamp reached = frame.stamp;
@@ -177,7 +177,7 @@ bool PoseChain::hang(base::Stamp stamp) {
   map::KeyFrame& frame = map_.key_frames.edit(before->id);
   auto place =
       std::lower_bound(frame.hanging.begin(), frame.hanging.end(), stamp,
-                       [](const map::HangingFrame& other, base::Stamp wanted) { return other.stamp < wanted; });
+                       [](const map::DependentFrame& other, base::Stamp wanted) { return other.stamp < wanted; });
   if (place != frame.hanging.end() && place->stamp == stamp) return true;
   const bool first = place == frame.hanging.begin();
   const auto told = motion(first ? frame.stamp : std::prev(place)->stamp, stamp, true);
@@ -201,7 +201,7 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
       unlink(id);
       link(id, next.id, told);
     }
-    rehang(id, stampsOf(map_.keyFrame(id).hanging));
+    reattach(id, stampsOf(map_.keyFrame(id).hanging));
   }
 }
 

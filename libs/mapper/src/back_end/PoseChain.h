@@ -71,7 +71,7 @@ class PoseChain {
   void hold(base::VariableId first_pose);
   void link(base::KeyFrameId begin, base::KeyFrameId end, const Told& told);
   void unlink(base::KeyFrameId begin);
-  void rehang(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps);
+  void reattach(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps);
 
   Motion motion_;
   const std::vector<Named<PosePlugin>>& sources_;

@@ -1,7 +1,7 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/map/SessionFigures.h>
-#include <omnimapper/mapper/Joining.h>
 #include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/mapper/SessionAlignment.h>
 #include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 #include <omnimapper/source/RawlogSource.h>
@@ -18,7 +18,7 @@
 #include "Engine.h"
 #include "run/RunWarnings.h"
 #include "run/SensorLabels.h"
-#include "sessions/TakeUp.h"
+#include "sessions/MapLoader.h"
 
 namespace omnimapper::mapper {
 
@@ -207,7 +207,7 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
     engine.warn(config.file() + ": no list of [mapper] or [perception] names the plugins " +
                 base::option_text::format(off) + ": they are switched off");
   }
-  takeUpMap(request, session, config.file(), options.motion, engine);
+  loadMapInto(request, session, config.file(), options.motion, engine);
   source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop), stop);
   const base::InputsKept kept(request.logs);
   base::makeWritableFolder(request.output_folder);

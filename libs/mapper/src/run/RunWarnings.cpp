@@ -1,6 +1,6 @@
 #include "run/RunWarnings.h"
 
-#include <omnimapper/mapper/Joining.h>
+#include <omnimapper/mapper/SessionAlignment.h>
 
 #include "run/SourceWarnings.h"
 

@@ -11,8 +11,8 @@ class IcpMatcher : public ScanMatcher {
  public:
   explicit IcpMatcher(const ScanMatcherOptions& options) : options_(options) {}
 
-  std::shared_ptr<const MatchReference> prepare(PlanarScan reference) const override;
-  ScanMatch match(const MatchReference& reference, const PlanarScan& scan, const MatchGuess& guess) const override;
+  std::shared_ptr<const MatchReference> prepare(ScanWithNormals reference) const override;
+  ScanMatch match(const MatchReference& reference, const ScanWithNormals& scan, const MatchGuess& guess) const override;
 
  private:
   ScanMatcherOptions options_;

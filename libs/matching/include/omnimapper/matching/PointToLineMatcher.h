@@ -13,10 +13,10 @@ class PointToLineMatcher : public ScanMatcher, public mrpt::slam::CMetricMapsAli
  public:
   explicit PointToLineMatcher(const ScanMatcherOptions& options) : options_(options) {}
 
-  std::shared_ptr<const MatchReference> prepare(PlanarScan reference) const override;
-  ScanMatch match(const MatchReference& reference, const PlanarScan& scan, const MatchGuess& guess) const override;
+  std::shared_ptr<const MatchReference> prepare(ScanWithNormals reference) const override;
+  ScanMatch match(const MatchReference& reference, const ScanWithNormals& scan, const MatchGuess& guess) const override;
   /// The match of a pose as it stands, without moving it.
-  static ScanMatch judge(const MatchReference& reference, const PlanarScan& scan, const mrpt::math::TPose2D& pose);
+  static ScanMatch judge(const MatchReference& reference, const ScanWithNormals& scan, const mrpt::math::TPose2D& pose);
 
   /// MRPT's interface: both maps are mrpt::maps::CPointsMap, points in the order of the beams; what is told is the pose
   /// of `m2` in `m1`. Throws base::Error for maps of other kinds.

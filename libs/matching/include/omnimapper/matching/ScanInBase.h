@@ -4,12 +4,12 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/poses/CPose3D.h>
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/matching/PlanarScan.h>
+#include <omnimapper/matching/ScanWithNormals.h>
 
 namespace omnimapper::matching {
 
 /// The cloud of a 2D scan in the plane of the base, lines fitted. Points that are not finite are left out.
-PlanarScan scanInBase(const mrpt::obs::CObservationPointCloud& cloud);
+ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud);
 
 /// Between the plane that a 2D laser scans and the floor, whichever side is up: 0 to pi / 2 [rad].
 double tiltOf(const mrpt::poses::CPose3D& base_from_sensor);
@@ -25,6 +25,6 @@ struct ScanSweep {
 
 /// The same, as it would look had all beams been taken in the middle of the sweep: there an error of the motion that is
 /// told moves the scan least. When a point was measured is told by its direction.
-PlanarScan scanInBase(const mrpt::obs::CObservationPointCloud& cloud, const ScanSweep& sweep);
+ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud, const ScanSweep& sweep);
 
 }  // namespace omnimapper::matching

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
-#include <omnimapper/matching/PlanarScan.h>
+#include <omnimapper/matching/ScanWithNormals.h>
 
 #include <Eigen/Core>
 #include <memory>
@@ -46,10 +46,11 @@ class MatchReference {
 class ScanMatcher {
  public:
   virtual ~ScanMatcher() = default;
-  virtual std::shared_ptr<const MatchReference> prepare(PlanarScan reference) const = 0;
+  virtual std::shared_ptr<const MatchReference> prepare(ScanWithNormals reference) const = 0;
   /// `reference` from prepare() of a matcher of this class. A match without partners says so by overlap = 0, and leaves
   /// the guess as it is. The covariance is that of the points alone, without what the guess knew.
-  virtual ScanMatch match(const MatchReference& reference, const PlanarScan& scan, const MatchGuess& guess) const = 0;
+  virtual ScanMatch match(const MatchReference& reference, const ScanWithNormals& scan,
+                          const MatchGuess& guess) const = 0;
 };
 
 }  // namespace omnimapper::matching

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace omnimapper::grid {
-class BeamGrid;
+class HitMissGrid;
 class LikelihoodPyramid;
 }  // namespace omnimapper::grid
 
@@ -55,7 +55,7 @@ class ScanTracker {
   ScanTracker& operator=(ScanTracker&&) noexcept;
 
   /// Forgets all scans; this one is the first. `sensor`: where its laser stood, in its frame [m].
-  void restart(const PlanarScan& scan, const Eigen::Vector2f& sensor);
+  void restart(const ScanWithNormals& scan, const Eigen::Vector2f& sensor);
   struct Tracked {
     ScanMatch match;  ///< of the motion since the last scan; covariance and all are of the scan in the local map
     std::size_t prediction = 0;  ///< that led to it
@@ -65,31 +65,31 @@ class ScanTracker {
   };
   /// Matches a scan and takes it for the last one. `predictions`: that most trusted first. None, and nothing changes,
   /// if none leads to a match, or what is more probable than the match is none.
-  std::optional<Tracked> track(const PlanarScan& scan, const Eigen::Vector2f& sensor,
+  std::optional<Tracked> track(const ScanWithNormals& scan, const Eigen::Vector2f& sensor,
                                const std::vector<MotionPrediction>& predictions);
 
  private:
   struct Local {
     mrpt::math::TPose2D track_from_scan;
-    PlanarScan scan;
+    ScanWithNormals scan;
     Eigen::Vector2f sensor;
   };
   struct Candidates;
-  std::vector<Tracked> matchesOf(const PlanarScan& scan, const std::vector<MotionPrediction>& predictions,
+  std::vector<Tracked> matchesOf(const ScanWithNormals& scan, const std::vector<MotionPrediction>& predictions,
                                  const mrpt::math::TPose2D& local_from_last) const;
   void search(Candidates& candidates);
   static void addPredictions(Candidates& candidates);
   void weigh(Candidates& candidates);
   static Tracked mostProbable(const Candidates& candidates);
-  void remember(const PlanarScan& scan, const Eigen::Vector2f& sensor);
-  PlanarScan localMap() const;
-  const grid::BeamGrid& beams();
+  void remember(const ScanWithNormals& scan, const Eigen::Vector2f& sensor);
+  ScanWithNormals localMap() const;
+  const grid::HitMissGrid& beams();
 
   ScanTrackerOptions options_;
   std::shared_ptr<const ScanMatcher> matcher_;
   std::deque<Local> locals_;
   std::shared_ptr<const MatchReference> reference_;       // of locals_, in the frame of the newest of them
-  std::unique_ptr<const grid::BeamGrid> beams_;           // the same, once somebody has asked for it
+  std::unique_ptr<const grid::HitMissGrid> beams_;        // the same, once somebody has asked for it
   std::unique_ptr<const grid::LikelihoodPyramid> walls_;  // and again
   mrpt::math::TPose2D track_from_last_;
 };

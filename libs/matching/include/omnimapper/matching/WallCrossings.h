@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/matching/Relocaliser.h>
+#include <omnimapper/matching/Relocalizer.h>
 
 #include <cstddef>
 #include <vector>

@@ -20,7 +20,7 @@ struct HandMadeRun {
   std::vector<std::string> warnings;
   std::vector<map::MapSection> sections;
   bool map_is_held = false;
-  std::vector<mapper::Fix> fixes;
+  std::vector<mapper::LocalizationEstimate> fixes;
   mapper::Verdict verdict;
   mapper::Uncertainty uncertainty;  ///< of nothing, until a test sets it
 

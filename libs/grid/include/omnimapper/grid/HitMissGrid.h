@@ -1,0 +1,59 @@
+#pragma once
+
+#include <mrpt/math/TPose2D.h>
+#include <omnimapper/grid/BeamScan.h>
+#include <omnimapper/grid/LikelihoodPyramid.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace omnimapper::grid {
+
+struct BeamModel {
+  double cell = 0.05;                ///< [m]
+  double tolerance = 0.3;            ///< [m] before a beam's end where the map's walls do not count as crossed
+  double near_wall = 0.06;           ///< [m] standard deviation of a beam's end from its wall
+  double clutter = 0.02;             ///< probability that a beam ends where the map says that nothing is
+  double unknown = 0.3;              ///< likelihood of an end where the map knows nothing
+  double anything = 0.01;            ///< least likelihood of a beam
+  std::size_t max_cells = 64000000;  ///< a larger map is refused; 5 bytes each
+};
+
+/// Counts, for each cell of a map, the beams that ended in it and those that passed: walls and free space. Judges what
+/// a scan would be worth at a pose, its free space included. Never changes, so threads may share it.
+class HitMissGrid {
+ public:
+  struct Placed {
+    mrpt::math::TPose2D map_from_sensor;
+    const BeamScan* scan;
+  };
+
+  /// Points must be finite. Throws Error(out_of_range) for scans spread over more than max_cells.
+  HitMissGrid(const std::vector<Placed>& scans, const BeamModel& model = {});
+
+  /// Logarithm of each beam's likelihood, in [anything, 1]: of a beam that ends, that no wall stood in its way and one
+  /// at its end; of one that does not, the first alone. First the hits, then the misses.
+  std::vector<double> logLikelihoods(const BeamScan& scan, const mrpt::math::TPose2D& map_from_sensor) const;
+  /// Their mean; 0 without beams.
+  double logLikelihood(const BeamScan& scan, const mrpt::math::TPose2D& map_from_sensor) const;
+
+ private:
+  struct Cell {
+    std::uint16_t hits = 0, passes = 0;
+  };
+  void add(const Placed& placed);
+  double beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bool hit) const;
+  const Cell* at(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width_ && y < height_ ? &cells_[static_cast<std::size_t>(y) * width_ + x] : nullptr;
+  }
+
+  BeamModel model_;
+  int width_ = 0, height_ = 0;
+  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+  std::vector<Cell> cells_;
+  std::unique_ptr<const LikelihoodPyramid> walls_;
+};
+
+}  // namespace omnimapper::grid

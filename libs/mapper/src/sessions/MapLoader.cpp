@@ -1,0 +1,55 @@
+#include "sessions/MapLoader.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/mapper/SavedMap.h>
+
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <system_error>
+#include <utility>
+
+namespace omnimapper::mapper {
+
+void loadMapInto(const RunRequest& request, const SessionOptions& session, const std::string& ini, Motion motion,
+                 Engine& engine) {
+  const std::string& path = request.localize_map.empty() ? request.continue_map : request.localize_map;
+  if (path.empty()) return;
+  auto saved = readMap(path, registeredKinds());
+  if (saved.motion() != motion) {
+    const std::string of_map = saved.motion() == Motion::planar ? "planar" : "spatial";
+    throw base::Error(base::ExitCode::unreadable_input,
+                      path + ": the map is " + of_map + ", which [mapper] motion of " + ini +
+                          " is not: go on from it with motion = " + of_map + ", or map its log again");
+  }
+  const auto start = session.startOn(saved.map);
+  try {
+    if (request.localize_map.empty()) return engine.continueFrom(std::move(saved), start);
+    engine.localizeIn(std::move(saved), start, session.free_key_frames);
+  } catch (const base::Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {  // parts that do not belong together, such as a landmark of another kind
+    throw base::Error(base::ExitCode::unreadable_input, path + ": the map cannot be gone on from (" + error.what() +
+                                                            "): damaged. Take another copy of it.");
+  }
+}
+
+void checkRequest(const RunRequest& request) {
+  namespace fs = std::filesystem;
+  if (request.localize_map.empty()) return;
+  if (!request.continue_map.empty()) {
+    throw base::Error(base::ExitCode::command_line,
+                      "--continue adds to a map, --localize leaves it as it is: give one of them");
+  }
+  std::error_code error;
+  if (fs::exists(fs::path(request.output_folder) / "map.omnimap", error)) {
+    throw base::Error(base::ExitCode::command_line,
+                      "-o " + request.output_folder +
+                          " is the folder of a map, whose trajectory and report would be lost: give another");
+  }
+}
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,262 @@
+#include "DynamicLandmarksPlugin.h"
+
+#include <omnimapper/base/Config.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/graph/ChiSquare.h>
+#include <omnimapper/graph/Solver.h>
+#include <omnimapper/plugin/PoseFactors.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "LandmarkRelocations.h"
+#include "MovedThingPayload.h"
+#include "WeakPrior.h"
+
+IMPLEMENTS_MRPT_OBJECT(DynamicLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<DynamicLandmarksOptions>& DynamicLandmarksOptions::table() {
+  using Options = DynamicLandmarksOptions;
+  using base::Range;
+  static const auto table =
+      base::OptionTable<Options>()
+          .list("landmarks", &Options::landmarks, "Sections whose landmarks may have been moved; empty for all.")
+          .integer("every_solves", &Options::every_solves, Range::notNegative(),
+                   "Looks for them after so many solves, too; 0: at the end of the log alone.")
+          .number("max_weight", &Options::max_weight, Range{0, 1},
+                  "A landmark of less weight is looked at; one that stands keeps 0.9 or more, 99 times of 100.")
+          .integer("min_sightings", &Options::min_sightings, Range{1, 1e6},
+                   "A place is one where it was seen so often; what was seen elsewhere less often was an error.")
+          .number("min_move_m", &Options::min_move, Range::notNegative(), "What moved by less has not moved.")
+          .number("visit_gap_s", &Options::visit_gap, Range::positive(),
+                  "What was out of sight for longer may have been moved in between.")
+          .number("confidence", &Options::confidence, Range{0.5, 0.999999999},
+                  "Sightings of one place are taken for that with this probability.");
+  return table;
+}
+
+namespace {
+
+// The work of one look.
+class Look {
+ public:
+  Look(const DynamicLandmarksOptions& options, const std::string& section, const mapper::View& view)
+      : options_(options), section_(section), view_(view) {}
+
+  mapper::Batch run() {
+    const auto landmarks = landmarksToWeigh(view_, options_.landmarks);
+    if (landmarks.empty()) return {};
+    Weighing weighing = weighLandmarks(heldLoosely(landmarks), landmarks);
+    std::vector<WeighedLandmark> suspects;
+    for (const auto& landmark : weighing.landmarks) {
+      keepAsTheyWere(landmark.sightings, weighing.graph);
+      const bool has_place =
+          middleOf(view_.map.landmark(landmark.id), valuesOf(landmark), view_.map.key_frames).has_value();
+      if (landmark.weight < options_.max_weight && has_place) suspects.push_back(landmark);
+    }
+    if (!suspects.empty()) {
+      for (const auto& landmark : suspects) setWeights(landmark.sightings, 0, weighing.graph);
+      auto places = tellPlaces(view_.map, weighing.graph, suspects, options_);
+      if (!places) return cannotTell("a part of the map is determined by nothing");
+      for (std::size_t i = 0; i < suspects.size(); ++i) judge(suspects[i], std::move((*places)[i]), weighing.graph);
+      graph::solve(weighing.graph, {graph::SolveOptions::Method::levenberg_marquardt, 50, 1e-7, {}});
+      const SightingFrames frames(view_.map.key_frames);
+      for (const auto& [landmark, seen] : moved_) addRecord(landmark, seen, frames, weighing.graph);
+    }
+    for (const auto& landmark : landmarks) {
+      for (const auto id : landmark.sightings) {
+        const double weight = weighing.graph.factor(id).weight;
+        if (weight != view_.graph.factor(id).weight) batch_.setWeight(id, weight);
+      }
+    }
+    if (!leavesTheMapWhole()) return cannotTell("without what seems to have moved a part of the map hangs free");
+    return std::move(batch_);
+  }
+
+ private:
+  // The graph, in which landmarks and whole sessions stay where they are when what measured them no longer counts.
+  graph::Graph heldLoosely(const std::vector<WeighedLandmark>& landmarks) const {
+    graph::Graph graph = view_.graph;
+    for (const auto& landmark : landmarks)
+      for (const auto id : landmark.variables) addWeakPrior(graph, id);
+    std::set<std::uint16_t> sessions;
+    for (const auto& frame : view_.map.key_frames)
+      if (sessions.insert(frame.id.session).second && !graph.variable(frame.pose).fixed)
+        addWeakPrior(graph, frame.pose);
+    return graph;
+  }
+
+  // Where each session is in the map is known after the batch if it was before.
+  bool leavesTheMapWhole() const {
+    if (!batch_.changesGraph()) return true;
+    map::Map map = view_.map;
+    graph::Graph graph = view_.graph;
+    mapper::apply(batch_, {section_, view_.map.key_frames.back().stamp}, graph, map);
+    const mapper::Uncertainty after(graph);
+    std::map<std::uint16_t, base::VariableId> last_poses;
+    for (const auto& frame : view_.map.key_frames) last_poses[frame.id.session] = frame.pose;
+    return std::all_of(last_poses.begin(), last_poses.end(), [&](const auto& of_session) {
+      const std::vector<base::VariableId> pose = {of_session.second};
+      return !isKnown(view_.jointCovariance(pose)) || isKnown(after.joint(graph, pose));
+    });
+  }
+
+  // A direction that nothing determines may come out of the rounding as a variance beyond all bounds.
+  static bool isKnown(const std::optional<Eigen::MatrixXd>& covariance) {
+    constexpr double kUnknown = 1e4;  // [m^2, rad^2]
+    return covariance && covariance->diagonal().maxCoeff() < kUnknown;
+  }
+
+  mapper::Batch cannotTell(const std::string& why) const {
+    mapper::Batch nothing;
+    mapper::Decision decision = newDecision();
+    decision.reason = "cannot tell what has moved: " + why;
+    nothing.log(std::move(decision));
+    return nothing;
+  }
+
+  mapper::Decision newDecision() const {
+    mapper::Decision decision;
+    decision.stamp = view_.map.key_frames.back().stamp;
+    decision.plugin = section_;
+    decision.kind = "moved thing";
+    decision.from = view_.map.key_frames.back().id;
+    return decision;
+  }
+
+  std::vector<Eigen::VectorXd> valuesOf(const WeighedLandmark& landmark) const {
+    std::vector<Eigen::VectorXd> values;
+    for (const auto id : landmark.variables) values.push_back(view_.graph.value(id));
+    return values;
+  }
+
+  static void setWeights(const std::vector<base::FactorId>& factors, double weight, graph::Graph& graph) {
+    for (const auto id : factors) graph.setWeight(id, weight);
+  }
+
+  // A sighting that was left without weight while the map grew may fit the map as it is now.
+  void keepAsTheyWere(const std::vector<base::FactorId>& sightings, graph::Graph& graph) const {
+    for (const auto id : sightings) {
+      const double before = view_.graph.factor(id).weight;
+      const Eigen::VectorXd residual = graph.whitenedResidual(id);
+      const double limit = graph::chiSquareQuantile(options_.confidence, static_cast<int>(residual.size()));
+      graph.setWeight(id, before > 0 ? before : residual.squaredNorm() <= limit ? 1 : 0);
+    }
+  }
+
+  void judge(const WeighedLandmark& landmark, std::vector<SeenPlace> places, graph::Graph& graph) {
+    const auto enough = [&](const SeenPlace& place) {
+      return place.sightings.size() >= static_cast<std::size_t>(options_.min_sightings);
+    };
+    places.erase(std::remove_if(places.begin(), places.end(), [&](const auto& place) { return !enough(place); }),
+                 places.end());
+    const bool moved = places.size() > 1;
+    const bool stands = places.size() == 1 && isDetermined(landmark, places.front().sightings, view_.graph);
+    mapper::Decision decision = newDecision();
+    decision.numbers = {{"landmark", landmark.id.index},
+                        {"weight", landmark.weight},
+                        {"chi-square", landmark.chi2},
+                        {"degrees of freedom", landmark.degrees_of_freedom},
+                        {"sightings", static_cast<double>(landmark.sightings.size())},
+                        {"places", static_cast<double>(places.size())}};
+    decision.accepted = moved;
+    decision.reason = moved    ? "moved: it was seen in more than one place"
+                      : stands ? "stands where it stood; what does not fit is left out"
+                               : "given up: its sightings do not fit, and those of no place tell where it is";
+    batch_.log(std::move(decision));
+    if (stands) {
+      setWeights(places.front().sightings, 1, graph);
+    } else {
+      retire(landmark);
+    }
+    if (moved) moved_.emplace_back(landmark, std::move(places));
+  }
+
+  // Nothing bears on it any more, and it on nothing: what is no sighting goes, and sightings stay without weight.
+  void retire(const WeighedLandmark& landmark) {
+    for (const auto id : view_.factorsOf(landmark.id)) {
+      const bool is_sighting = std::binary_search(landmark.sightings.begin(), landmark.sightings.end(), id);
+      if (!is_sighting && removed_.insert(id).second) batch_.removeFactor(id);
+    }
+    batch_.retireLandmark(landmark.id);
+  }
+
+  void addRecord(const WeighedLandmark& landmark, const std::vector<SeenPlace>& places, const SightingFrames& frames,
+                 const graph::Graph& graph) {
+    const map::Landmark& gone = view_.map.landmark(landmark.id);
+    auto payload = std::make_shared<MovedThingPayload>();
+    payload->landmark = landmark.id;
+    payload->label = gone.payload->shape(valuesOf(landmark), view_.map.key_frames).label;
+    for (const SeenPlace& place : places) {
+      const auto* first = frames.of(graph.factor(place.sightings.front()));
+      const auto* last = frames.of(graph.factor(place.sightings.back()));
+      std::set<base::KeyFrameId> seen_from;
+      for (const auto id : place.sightings) seen_from.insert(frames.of(graph.factor(id))->id);
+      const auto middle =
+          middleOf(gone, valuesSeenBy(place.sightings, landmark, graph), view_.map.key_frames, seen_from);
+      const auto map_from_base = geometry::fromMrpt(mapper::poseOf(graph, last->pose));
+      payload->places.push_back({last->id, inverse(map_from_base) * *middle, first->stamp, last->stamp,
+                                 static_cast<std::uint32_t>(place.sightings.size())});
+    }
+    // Retired as well: it tells where the thing was.
+    batch_.retireLandmark(batch_.addLandmark("moved thing", {}, std::move(payload)));
+  }
+
+  const DynamicLandmarksOptions& options_;
+  const std::string& section_;
+  const mapper::View& view_;
+  std::vector<std::pair<WeighedLandmark, std::vector<SeenPlace>>> moved_;
+  std::set<base::FactorId> removed_;
+  mapper::Batch batch_;
+};
+
+}  // namespace
+
+DynamicLandmarksPlugin::DynamicLandmarksPlugin(const DynamicLandmarksOptions& options,
+                                               const mapper::PluginContext& context)
+    : options_(options), section_(context.section), config_text_(context.config_text) {}
+
+mapper::FollowUp DynamicLandmarksPlugin::afterCommit(const map::KeyFrame&, const mapper::View& view) {
+  if (!config_text_.empty()) refuseUnknownSections(view.map);
+  const auto every = static_cast<std::size_t>(options_.every_solves);
+  if (every == 0 || view.map_is_held || view.solves.size() < looked_at_solve_ + every) return {};
+  looked_at_solve_ = view.solves.size();
+  return {Look(options_, section_, view).run(), {}};
+}
+
+// Once: what an earlier session made is in the map before the first key frame.
+void DynamicLandmarksPlugin::refuseUnknownSections(const map::Map& map) {
+  // Nobody has asked this copy for a section: those are all of them.
+  auto known = base::Config::fromText(config_text_, "the INI").switchedOffPlugins();
+  config_text_.clear();
+  for (const auto& [id, landmark] : map.landmarks)
+    if (std::find(known.begin(), known.end(), landmark.owner) == known.end()) known.push_back(landmark.owner);
+  for (const auto& name : options_.landmarks) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = base::nearestName(name, known);
+    throw base::Error(base::ExitCode::unknown_key,
+                      "[" + section_ + "] landmarks: '" + name + "' is no plugin's section of the INI and owns no " +
+                          "landmark of the map" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                          " (known: " + base::option_text::format(known) + ")");
+  }
+}
+
+mapper::Batch DynamicLandmarksPlugin::atEnd(const mapper::View& view) {
+  return view.map_is_held ? mapper::Batch() : Look(options_, section_, view).run();
+}
+
+void DynamicLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+  MovedThingPayload::addTo(kinds.payloads);
+}
+
+std::unique_ptr<mapper::MeasurementPlugin> DynamicLandmarksPluginFactory::make(
+    const base::ConfigSection& section, const mapper::PluginContext& context) const {
+  return std::make_unique<DynamicLandmarksPlugin>(section.read<DynamicLandmarksOptions>(mapper::sectionKeysOfEngine()),
+                                                  context);
+}
+
+}  // namespace omnimapper::plugins

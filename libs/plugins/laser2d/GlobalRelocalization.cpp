@@ -1,0 +1,77 @@
+#include "GlobalRelocalization.h"
+
+#include <mrpt/poses/CPose2D.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "GlobalMatcher.h"
+#include "ScanFactor.h"
+
+namespace omnimapper::plugins {
+
+GlobalRelocalization::GlobalRelocalization(const LoopClosureOptions& options, const mapper::PluginContext& context,
+                                           std::shared_ptr<const matching::ScanMatcher> matcher,
+                                           std::shared_ptr<const ScanDatabase> places, const std::string& label,
+                                           std::vector<LoopSearch::KeyScan> newest, double way)
+    : options_(options),
+      context_(context),
+      matcher_(std::move(matcher)),
+      places_(std::move(places)),
+      label_(label),
+      newest_(std::move(newest)),
+      way_(way) {}
+
+mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const {
+  constexpr double kAgree = 1, kAgreeTurn = 0.25;  // [m] [rad] of an answer and where the session lies
+  const auto& frame = state.map.keyFrame(newest_.back().frame);
+  mapper::Batch batch;
+  mapper::Decision decision;
+  decision.stamp = frame.stamp;
+  decision.plugin = context_.section;
+  decision.kind = "relocalisation";
+  decision.from = frame.id;
+  if (state.map.sessions.back().joined || !isLost(state, decision)) return batch;
+  const GlobalMatcher matcher(options_, *matcher_, *places_, label_, newest_);
+  const auto found = matcher.find(state, decision);
+  if (!found) {
+    batch.log(std::move(decision));
+    return batch;
+  }
+  const auto& place = state.map.keyFrame(found->place.sight.frame);
+  const auto& measured = found->match.reference_from_scan;
+  if (distanceBetween(measured, planar(frame.map_from_base - place.map_from_base)).within(kAgree, kAgreeTurn)) {
+    if (!found->is_distinct && !matcher.fitsAllTheWay(*found, state, decision)) {
+      decision.accepted = false;
+      batch.log(std::move(decision));
+      return batch;
+    }
+    decision.kind = "loop closure";
+    auto closure = scanFactor(options_, context_, place.pose, frame.pose, found->match);
+    closure.loss = graph::Loss::cauchy(options_.loss_scale);
+    batch.addHypothesis(std::move(closure), std::move(decision));
+    return batch;
+  }
+  auto start = places_->anywhere();
+  start.map_from_base = place.map_from_base + mrpt::poses::CPose3D(mrpt::poses::CPose2D(measured));
+  batch.placeSession({frame.id, start});
+  decision.reason = "the session is moved there, and waits for another that agrees";
+  batch.log(std::move(decision));
+  return batch;
+}
+
+// Whether the windows around the estimate are too small for what is known of it, or nothing was found in them for long.
+bool GlobalRelocalization::isLost(const mapper::State& state, mapper::Decision& decision) const {
+  constexpr double kSigmas = 3;
+  const auto& frame = state.map.keyFrame(newest_.back().frame);
+  const auto near = places_->nearest(planar(frame.map_from_base), 1);
+  decision.numbers.emplace_back("way of the session [m]", way_);
+  const auto covariance = state.covarianceBetween(near.front().sight.frame, frame.id);
+  if (!covariance) return true;
+  const double doubt = kSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));  // [m] of either axis
+  decision.numbers.emplace_back("may be off by [m]", doubt);
+  return doubt > options_.max_window || way_ > options_.lost_way;
+}
+
+}  // namespace omnimapper::plugins

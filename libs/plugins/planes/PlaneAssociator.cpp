@@ -1,0 +1,270 @@
+#include "PlaneAssociator.h"
+
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
+#include <omnimapper/geometry/PolygonUnion.h>
+#include <omnimapper/landmarks/InterSessionHypothesis.h>
+#include <omnimapper/landmarks/PlaneFactors.h>
+#include <omnimapper/plugin/PoseFactors.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "PlaneExtent.h"
+#include "PlaneMerging.h"
+
+namespace omnimapper::plugins {
+
+using geometry::Plane3;
+
+PlaneAssociator::PlaneAssociator(const PlaneLandmarksOptions& options, const mapper::PluginContext& context,
+                                 const PlaneLandmarkIndex& known, const map::KeyFrame& frame, const mapper::View& view)
+    : options_(options),
+      context_(context),
+      known_(known),
+      form_(known.form()),
+      frame_(frame),
+      view_(view),
+      map_from_base_(geometry::fromMrpt(mapper::poseOf(view.graph, frame.pose))) {
+  const auto pose = view.jointCovariance({frame.pose});
+  if (pose) pose_sigma_ = std::sqrt(pose->topLeftCorner<2, 2>().trace());
+}
+
+namespace {
+
+constexpr double kSigmas = 4;  // of what the base may be off, to look at a landmark at all
+
+PlaneLandmarkIndex::Heights toldBy(const PlaneMeasurement& sighting) {
+  return sighting.is_line ? PlaneLandmarkIndex::Heights::unknown : PlaneLandmarkIndex::Heights::known;
+}
+
+}  // namespace
+
+mapper::Batch PlaneAssociator::take(const std::vector<PlaneMeasurement>& all) {
+  std::vector<PlaneMeasurement> sightings;
+  for (const auto& sighting : all) {
+    if (sighting.why_useless.empty()) {
+      sightings.push_back(sighting);
+    } else {
+      logUseless(sighting);
+    }
+  }
+  const auto pairings = pairingsOf(sightings);
+  const auto found = mapper::associate(sightings.size(), pairings, view_, options_, mapper::Repeats::yes);
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const auto& match = found.matches[i];
+    mapper::Decision decision = decisionOf(sightings[i]);
+    found.tell(i, decision);
+    if (match.pairing) decision.numbers.emplace_back("landmark", pairings[*match.pairing].landmark.index);
+    const bool spans_two = spansTwo(match, pairings);
+    if (spans_two) decision.reason = "matched: reaches over two landmarks of one plane";
+    if (match.kind == mapper::Match::Kind::matched || spans_two) {
+      decision.accepted = true;
+      addToKnown(sightings[i], pairings[*match.pairing], std::move(decision));
+    } else if (match.kind == mapper::Match::Kind::unknown) {
+      addNew(sightings[i], std::move(decision));
+    } else {
+      batch_.log(std::move(decision));
+    }
+  }
+  return std::move(batch_);
+}
+
+std::vector<mapper::Pairing> PlaneAssociator::pairingsOf(const std::vector<PlaneMeasurement>& sightings) {
+  std::vector<mapper::Pairing> pairings;
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const auto points = inMap(sightings[i].outline_in_base);
+    double range = 0;
+    for (const auto& corner : sightings[i].outline_in_base) range = std::max(range, corner.norm());
+    for (const auto& [id, surface] : known_.all()) {
+      const auto miss = missIfAlike(surface, sightings[i], points);
+      // Farther ones where the base may have slid so far since it saw them.
+      if (!miss || (*miss > 0 && *miss > kSigmas * sigmaSince(surface.last_seen_from, range))) continue;
+      pairings.push_back({i, surface.id, record(sightings[i], surface.variable, surface.id)});
+    }
+  }
+  return pairings;
+}
+
+bool PlaneAssociator::spansTwo(const mapper::Match& match, const std::vector<mapper::Pairing>& pairings) const {
+  if (match.kind != mapper::Match::Kind::ambiguous) return false;
+  const auto& all = known_.all();
+  return onOnePlane(all.at(pairings[*match.pairing].landmark), all.at(*match.rival));
+}
+
+std::optional<double> PlaneAssociator::missIfAlike(const PlaneLandmarkIndex::Surface& surface,
+                                                   const PlaneMeasurement& sighting,
+                                                   const std::vector<Eigen::Vector3d>& points) const {
+  constexpr double kAlong = 0.8, kFarthest = 0.5;  // cosine of the turn, [m]
+  const Eigen::Vector3d normal = map_from_base_.rotation * sighting.plane_in_base.normal;
+  if (surface.plane.normal.dot(normal) < kAlong) return std::nullopt;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& point : points) middle += point / static_cast<double>(points.size());
+  const double off = std::abs(signedDistance(surface.plane, middle)) - kFarthest;
+  if (off > kSigmas * pose_sigma_) return std::nullopt;
+  const double gap = gapBetween(surface, points, toldBy(sighting)) - options_.max_gap;
+  if (gap > kSigmas * pose_sigma_) return std::nullopt;
+  return std::max(off, gap);
+}
+
+double PlaneAssociator::sigmaSince(base::KeyFrameId frame, double range) {
+  const auto [found, is_new] = variances_since_.try_emplace(frame, pose_sigma_ * pose_sigma_, 0);
+  if (is_new) {
+    const auto motion = view_.covarianceBetween(frame, frame_.id);
+    if (motion) found->second = {motion->topLeftCorner<3, 3>().trace(), motion->bottomRightCorner<3, 3>().trace()};
+  }
+  return std::sqrt(found->second.first + range * range * found->second.second);
+}
+
+std::vector<Eigen::Vector3d> PlaneAssociator::inMap(const std::vector<Eigen::Vector3d>& in_base) const {
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& point : in_base) points.push_back(map_from_base_ * point);
+  return points;
+}
+
+graph::FactorRecord PlaneAssociator::record(const PlaneMeasurement& sighting, base::VariableId plane,
+                                            base::LandmarkId landmark) const {
+  graph::FactorRecord record{{frame_.pose, plane}, sighting.factor, sighting.noise};
+  record.loss = graph::Loss::huber(options_.loss_scale);
+  record.tags.owner = context_.section;
+  record.tags.landmark = landmark;
+  record.tags.note = sighting.is_line ? "line of a laser" : "plane";
+  return record;
+}
+
+mapper::Decision PlaneAssociator::decisionOf(const PlaneMeasurement& sighting) const {
+  mapper::Decision decision;
+  decision.stamp = frame_.stamp;
+  decision.plugin = context_.section;
+  decision.kind = sighting.is_line ? "line of a wall" : "plane";
+  decision.from = frame_.id;
+  decision.numbers = {{sighting.is_line ? "length [m]" : "area [m^2]", sighting.size}};
+  return decision;
+}
+
+void PlaneAssociator::addToKnown(const PlaneMeasurement& sighting, const mapper::Pairing& pairing,
+                                 mapper::Decision decision) {
+  const base::LandmarkId id = pairing.landmark;
+  if (landmarks::addInterSessionHypothesis(view_, frame_.id, pairing, decision, batch_)) return;
+  batch_.log(std::move(decision));
+  batch_.addFactor(pairing.record);
+  // A landmark may be met twice in a moment: the second time goes on from what the first made of it.
+  auto& payload = payloads_[id];
+  if (!payload) payload = std::dynamic_pointer_cast<const PlanePayload>(view_.map.landmark(id).payload);
+  const PlaneLandmarkIndex::Surface& surface = known_.all().at(id);
+  const auto points = inMap(sighting.outline_in_base);
+  if (tellsLean(sighting, points, surface, *payload)) {
+    const auto upright = uprightFactor(view_.graph, surface.variable);
+    if (upright && leaning_.insert(*upright).second) batch_.removeFactor(*upright);
+  }
+  const bool tells_more = reachesOver(surface, points) || showsMore(*payload, sighting, surface, points);
+  payload = payload->with(frame_.id, sighting, tells_more);
+  batch_.addEvidence(id, payload);
+}
+
+bool PlaneAssociator::tellsLean(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points,
+                                const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) {
+  constexpr double kSecondHeight = 0.4;  // [m]
+  if (payload.wasSeenAsPlane()) return false;
+  if (!sighting.is_line) return true;
+  const auto [low, high] = heightsOf(points);
+  const double before = surface.highest - surface.lowest;
+  const double now = std::max(high, surface.highest) - std::min(low, surface.lowest);
+  return before < kSecondHeight && now >= kSecondHeight;
+}
+
+bool PlaneAssociator::reachesOver(const PlaneLandmarkIndex::Surface& surface,
+                                  const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kEdge = 0.05;  // [m]
+  const landmarks::PlaneAxes axes(surface.plane);
+  return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+    return geometry::distance(surface.hull, {axes.onto(point)}) > kEdge;
+  });
+}
+
+bool PlaneAssociator::showsMore(const PlanePayload& payload, const PlaneMeasurement& sighting,
+                                const PlaneLandmarkIndex::Surface& surface,
+                                const std::vector<Eigen::Vector3d>& points) {
+  if (payload.boundary != PlanePayload::Boundary::seen || sighting.is_line) return false;
+  constexpr double kBay = 0.03, kEdge = 0.02;  // [m^2], [m] that edges are seen alike
+  const landmarks::PlaneAxes axes(surface.plane);
+  std::vector<Eigen::Vector2d> polygon;
+  double around = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    polygon.push_back(axes.onto(points[i]));
+    around += (points[i] - points[(i + 1) % points.size()]).norm();
+  }
+  return geometry::areaOutside(polygon, surface.seen) > kBay + kEdge * around;
+}
+
+void PlaneAssociator::logUseless(const PlaneMeasurement& sighting) {
+  mapper::Decision decision = decisionOf(sighting);
+  decision.reason = sighting.why_useless;
+  batch_.log(std::move(decision));
+}
+
+void PlaneAssociator::addNew(const PlaneMeasurement& sighting, mapper::Decision decision) {
+  if (view_.map_is_held) {
+    decision.reason = "not in the map: " + decision.reason;
+    return batch_.log(std::move(decision));
+  }
+  const Plane3 plane = map_from_base_ * sighting.plane_in_base;
+  const auto points = inMap(sighting.outline_in_base);
+  if (Fresh* same = alikeInThisMoment(sighting, points)) {
+    decision.accepted = true;
+    decision.reason = "of a new landmark seen twice at once";
+    batch_.log(std::move(decision));
+    batch_.addFactor(record(sighting, same->surface.variable, same->surface.id));
+    same->payload = same->payload->with(frame_.id, sighting, true);
+    batch_.addEvidence(same->surface.id, same->payload);
+    const landmarks::PlaneAxes axes(same->surface.plane);
+    for (const auto& point : points) same->surface.hull.push_back(axes.onto(point));
+    same->surface.hull = geometry::convexHull(std::move(same->surface.hull));
+    return;
+  }
+  const bool large = sighting.size >= (sighting.is_line ? options_.min_length : options_.min_area);
+  decision.accepted = large;
+  decision.reason = (large ? "new: " : "too small for a new one: ") + decision.reason;
+  batch_.log(std::move(decision));
+  if (!large) return;
+  const auto variable = batch_.addVariable(form_.variable(), form_.value(plane, points));
+  const auto payload = known_.emptyPayload().with(frame_.id, sighting, true);
+  const auto landmark = batch_.addLandmark("plane", {variable}, payload);
+  batch_.addFactor(record(sighting, variable, landmark));
+  if (sighting.is_line && form_.mayLean()) {
+    graph::FactorRecord upright{
+        {variable},
+        std::make_shared<landmarks::UprightFactor>(),
+        graph::SquareRootInformation::fromSigmas(Eigen::VectorXd::Constant(1, options_.upright_sigma))};
+    upright.tags.owner = context_.section;
+    upright.tags.landmark = landmark;
+    upright.tags.note = "upright";
+    batch_.addFactor(upright);
+  }
+  Fresh fresh;
+  fresh.surface.id = landmark;
+  fresh.surface.variable = variable;
+  fresh.surface.plane = plane;
+  fresh.surface.hull = hullOn(landmarks::PlaneAxes(plane), points);
+  fresh.surface.heights = toldBy(sighting);
+  fresh.payload = payload;
+  fresh_.push_back(std::move(fresh));
+}
+
+PlaneAssociator::Fresh* PlaneAssociator::alikeInThisMoment(const PlaneMeasurement& sighting,
+                                                           const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kTurn = 0.05, kOff = 0.05;  // [rad], [m]
+  const Eigen::Vector3d normal = map_from_base_.rotation * sighting.plane_in_base.normal;
+  for (Fresh& fresh : fresh_) {
+    const Plane3& plane = fresh.surface.plane;
+    const bool off = std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+      return std::abs(signedDistance(plane, point)) > kOff;
+    });
+    if (!off && plane.normal.cross(normal).norm() < kTurn && plane.normal.dot(normal) > 0 &&
+        gapBetween(fresh.surface, points, toldBy(sighting)) <= options_.max_gap)
+      return &fresh;
+  }
+  return nullptr;
+}
+
+}  // namespace omnimapper::plugins

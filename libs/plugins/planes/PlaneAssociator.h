@@ -1,0 +1,78 @@
+#pragma once
+
+#include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/geometry/Se3.h>
+#include <omnimapper/plugin/Batch.h>
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "PlaneLandmarkIndex.h"
+#include "PlaneLandmarksPlugin.h"
+#include "PlaneMeasurement.h"
+
+namespace omnimapper::plugins {
+
+/// The work of PlaneLandmarksPlugin on one observation: which landmark each sighting is of, and what becomes of it.
+class PlaneAssociator {
+ public:
+  PlaneAssociator(const PlaneLandmarksOptions& options, const mapper::PluginContext& context,
+                  const PlaneLandmarkIndex& known, const map::KeyFrame& frame, const mapper::View& view);
+
+  Eigen::Vector3d upInBase() const { return map_from_base_.rotation.conjugate() * Eigen::Vector3d::UnitZ(); }
+  /// To be called once.
+  mapper::Batch take(const std::vector<PlaneMeasurement>& sightings);
+
+ private:
+  struct Fresh {
+    PlaneLandmarkIndex::Surface surface;
+    std::shared_ptr<const PlanePayload> payload;
+  };
+
+  std::vector<mapper::Pairing> pairingsOf(const std::vector<PlaneMeasurement>& sightings);
+  // Of two landmarks on one plane, say on both sides of a door: each is as right, and now they touch.
+  bool spansTwo(const mapper::Match& match, const std::vector<mapper::Pairing>& pairings) const;
+  // By how much a sighting misses a surface that faces the same way [m]: off its plane, or along it, beyond what is
+  // near enough to look at in any case (<= 0: it is near enough). None if it is none however wrong the base may be.
+  std::optional<double> missIfAlike(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting,
+                                    const std::vector<Eigen::Vector3d>& points) const;
+  // How far what is at that range from the base may have slid since then [m, sigma].
+  double sigmaSince(base::KeyFrameId frame, double range);
+  std::vector<Eigen::Vector3d> inMap(const std::vector<Eigen::Vector3d>& in_base) const;
+  graph::FactorRecord record(const PlaneMeasurement& sighting, base::VariableId plane, base::LandmarkId landmark) const;
+  mapper::Decision decisionOf(const PlaneMeasurement& sighting) const;
+  void addToKnown(const PlaneMeasurement& sighting, const mapper::Pairing& pairing, mapper::Decision decision);
+  // Whether it is the first that shows how the landmark leans: a plane, or a line of a second height (thesis 4.2.3).
+  static bool tellsLean(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points,
+                        const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload);
+  // Whether a corner lies outside by more than edges are seen alike.
+  static bool reachesOver(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points);
+  // Whether a plane shows a part of the surface that nobody has seen yet, where boundaries are kept as seen.
+  static bool showsMore(const PlanePayload& payload, const PlaneMeasurement& sighting,
+                        const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points);
+  void logUseless(const PlaneMeasurement& sighting);
+  void addNew(const PlaneMeasurement& sighting, mapper::Decision decision);
+  // Two stretches of one wall, with a door between them.
+  Fresh* alikeInThisMoment(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points);
+
+  const PlaneLandmarksOptions& options_;
+  const mapper::PluginContext& context_;
+  const PlaneLandmarkIndex& known_;
+  const landmarks::PlaneParametrization& form_;
+  const map::KeyFrame& frame_;
+  const mapper::View& view_;
+  geometry::Se3 map_from_base_;
+  double pose_sigma_ = 0;                                                  // [m] of the base in the map
+  std::map<base::KeyFrameId, std::pair<double, double>> variances_since_;  // of the way [m^2], of the turn [rad^2]
+  std::vector<Fresh> fresh_;
+  std::set<base::FactorId> leaning_;                                          // upright priors that were removed
+  std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>> payloads_;  // of those that were met
+  mapper::Batch batch_;
+};
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,91 @@
+#include "PlaneLandmarkIndex.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace omnimapper::plugins {
+
+namespace {
+
+struct Interval {
+  double low, high;
+};
+
+Interval alongFloor(const std::vector<Eigen::Vector2d>& hull) {
+  const auto [low, high] =
+      std::minmax_element(hull.begin(), hull.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
+  return {low->x(), high->x()};
+}
+
+}  // namespace
+
+void PlaneLandmarkIndex::restore(const mapper::State& state) {
+  for (const auto id : state.candidates(owner_)) {
+    const auto* payload = dynamic_cast<const PlanePayload*>(state.map.landmark(id).payload.get());
+    if (!payload || payload->form != empty_.form) {
+      const std::string there = !payload ? "landmarks of another kind"
+                                : payload->form == landmarks::PlaneParametrization::Kind::wall
+                                    ? "landmarks of form = wall"
+                                    : "landmarks of form = plane";
+      throw base::Error(
+          base::ExitCode::out_of_range,
+          "[" + owner_ + "] the map has " + there +
+              " under this name; give the section the settings that the map was made with, or another name");
+    }
+    add(id);
+  }
+}
+
+void PlaneLandmarkIndex::update(const mapper::View& view) {
+  for (auto at = surfaces_.begin(); at != surfaces_.end();) {
+    Surface& surface = at->second;
+    const map::Landmark* landmark = view.map.landmarks.find(surface.id);
+    if (!landmark || landmark->state != map::Landmark::State::active) {
+      at = surfaces_.erase(at);
+      continue;
+    }
+    ++at;
+    if (surface.payload == landmark->payload && surface.solve == view.solves.size() + 1) continue;
+    const auto& payload = dynamic_cast<const PlanePayload&>(*landmark->payload);
+    surface.variable = landmark->variables.front();
+    surface.plane = form().plane(view.graph.value(surface.variable));
+    const landmarks::PlaneAxes axes(surface.plane);
+    const auto corners = cornersInMap(payload.patches, view.map.key_frames);
+    surface.hull = hullOn(axes, corners);
+    if (payload.boundary == PlanePayload::Boundary::seen)
+      surface.seen = seenOn(axes, payload.patches, view.map.key_frames);
+    std::tie(surface.lowest, surface.highest) = heightsOf(corners);
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    for (const auto& corner : surface.hull) middle += corner / static_cast<double>(surface.hull.size());
+    surface.radius = 0;
+    for (const auto& corner : surface.hull) surface.radius = std::max(surface.radius, (corner - middle).norm());
+    surface.middle = axes.inSpace(middle);
+    surface.heights = payload.wasSeenAsPlane() ? Heights::known : Heights::unknown;
+    surface.last_seen_from = payload.last_seen_from;
+    surface.payload = landmark->payload;
+    surface.solve = view.solves.size() + 1;
+  }
+}
+
+std::pair<double, double> heightsOf(const std::vector<Eigen::Vector3d>& points) {
+  const auto [low, high] =
+      std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.z() < b.z(); });
+  return points.empty() ? std::pair(0.0, 0.0) : std::pair(low->z(), high->z());
+}
+
+double gapBetween(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
+                  PlaneLandmarkIndex::Heights of_points) {
+  constexpr double kUpright = 0.2;  // of the normal's height
+  using Heights = PlaneLandmarkIndex::Heights;
+  const auto hull = hullOn(landmarks::PlaneAxes(surface.plane), points_in_map);
+  const bool known = surface.heights == Heights::known && of_points == Heights::known;
+  if (known || std::abs(surface.plane.normal.z()) > kUpright) return geometry::distance(surface.hull, hull);
+  const Interval a = alongFloor(surface.hull), b = alongFloor(hull);
+  return std::max({0.0, b.low - a.high, a.low - b.high});
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,141 @@
+#include "PlaneMeasurement.h"
+
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
+#include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/landmarks/PlaneFactors.h>
+#include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/obs/CObservationPlanes.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "PlaneExtent.h"
+
+namespace omnimapper::plugins {
+
+namespace {
+
+using geometry::Plane3;
+using geometry::Se3;
+
+bool allFinite(const std::vector<Eigen::Vector3d>& points) {
+  return std::all_of(points.begin(), points.end(), [](const auto& point) { return point.allFinite(); });
+}
+
+bool isCovariance(const Eigen::MatrixXd& matrix) {
+  return matrix.allFinite() && Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success;
+}
+
+constexpr const char* kNoCovariance = "its covariance is singular or not finite";
+
+PlaneMeasurement useless(PlaneMeasurement sighting, std::string why) {
+  sighting.why_useless = std::move(why);
+  return sighting;
+}
+
+PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_sensor,
+                         const PlaneLandmarksOptions& options) {
+  const Plane3& in_sensor = seen.plane_in_sensor;
+  PlaneMeasurement sighting;
+  const bool usable = in_sensor.normal.allFinite() && std::abs(in_sensor.normal.norm() - 1) < 1e-3 &&
+                      std::isfinite(in_sensor.distance) && seen.centroid.allFinite() &&
+                      allFinite(seen.outline.vertices);
+  if (!usable) return useless(sighting, "not finite");
+  const Eigen::Matrix3d covariance =
+      withRoughness(in_sensor, seen.covariance, seen.centroid, options.plane_angle_sigma, options.plane_sigma);
+  if (!isCovariance(covariance)) return useless(sighting, kNoCovariance);
+  const Plane3 in_base = base_from_sensor * Plane3{in_sensor.normal.normalized(), in_sensor.distance};
+  const Eigen::Matrix3d in_base_covariance = geometry::transportCovariance(base_from_sensor, in_sensor, covariance);
+  std::vector<Eigen::Vector3d> corners;
+  for (const auto& vertex : seen.outline.vertices) corners.push_back(base_from_sensor * vertex);
+  const landmarks::PlaneAxes axes(in_base);
+  const auto hull = hullOn(axes, corners);
+  if (hull.size() < 3) return useless(sighting, "its outline has no area");
+  sighting.plane_in_base = in_base;
+  if (options.boundary == PlaneLandmarksOptions::Boundary::seen) {
+    sighting.outline_in_base = corners;
+  } else {
+    for (const auto& corner : hull) sighting.outline_in_base.push_back(axes.inSpace(corner));
+  }
+  sighting.size = geometry::area(hull);
+  sighting.factor = std::make_shared<landmarks::PlaneFactor>(in_base);
+  sighting.noise = graph::SquareRootInformation::fromCovariance(in_base_covariance);
+  return sighting;
+}
+
+// The line x cos a + y sin a = d of the scan, with its middle as far as s along e = (-sin a, cos a): errors of a and d
+// turn e by -da against the normal, and move the middle by dd - s da (doc/derivations/line_on_plane.md).
+PlaneMeasurement ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor, const Eigen::Vector3d& up_in_base,
+                        const landmarks::PlaneParametrization& form, const PlaneLandmarksOptions& options) {
+  PlaneMeasurement sighting;
+  sighting.is_line = true;
+  sighting.size = geometry::length(seen.segment_in_sensor);
+  const Eigen::Vector2d along = geometry::direction(seen.segment_in_sensor);
+  const Eigen::Vector2d middle = geometry::middle(seen.segment_in_sensor);
+  if (!along.allFinite() || !middle.allFinite()) return useless(sighting, "not finite");
+  if (!(sighting.size > 0)) return useless(sighting, "its ends are one point");
+  const Eigen::Vector2d by_angle(-std::sin(seen.angle), std::cos(seen.angle));
+  const double s = middle.dot(by_angle);
+  Eigen::Matrix2d by_line;
+  by_line << -1, 0, -s, 1;
+  Eigen::Matrix2d covariance = by_line * seen.covariance * by_line.transpose();
+  covariance(0, 0) += options.line_angle_sigma * options.line_angle_sigma;
+  covariance(1, 1) += options.line_sigma * options.line_sigma;
+  if (!isCovariance(covariance)) return useless(sighting, kNoCovariance);
+  const auto inBase = [&](const Eigen::Vector2d& point) -> Eigen::Vector3d {
+    return base_from_sensor * Eigen::Vector3d(point.x(), point.y(), 0);
+  };
+  Eigen::Vector3d direction = base_from_sensor.rotation * Eigen::Vector3d(along.x(), along.y(), 0);
+  Eigen::Vector3d normal = up_in_base.cross(direction);
+  if (normal.norm() < 0.5) return useless(sighting, "the scan does not lie level: no upright plane is known from it");
+  normal.normalize();
+  const Eigen::Vector3d from_wall = base_from_sensor.translation - inBase(middle);
+  if (normal.dot(from_wall) < 0) {
+    normal = -normal;  // the free side is on the left of the direction
+    direction = -direction;
+  }
+  const Eigen::Vector3d by_angle_in_base = base_from_sensor.rotation * Eigen::Vector3d(by_angle.x(), by_angle.y(), 0);
+  if (direction.dot(by_angle_in_base) < 0) covariance(0, 1) = covariance(1, 0) = -covariance(0, 1);
+  sighting.plane_in_base = Plane3::through(inBase(middle), normal);
+  sighting.outline_in_base = {inBase(seen.segment_in_sensor.from), inBase(seen.segment_in_sensor.to)};
+  sighting.factor = form.ofLine(direction, inBase(middle));
+  sighting.noise = graph::SquareRootInformation::fromCovariance(covariance);
+  return sighting;
+}
+
+}  // namespace
+
+Eigen::Matrix3d withRoughness(const Plane3& plane, const Eigen::Matrix3d& covariance, const Eigen::Vector3d& middle,
+                              double angle_sigma, double distance_sigma) {
+  const Se3 middle_from_here{Eigen::Quaterniond::Identity(), -middle}, here_from_middle = inverse(middle_from_here);
+  Eigen::Matrix3d about_middle = geometry::transportCovariance(middle_from_here, plane, covariance);
+  about_middle.diagonal() +=
+      Eigen::Vector3d(angle_sigma * angle_sigma, angle_sigma * angle_sigma, distance_sigma * distance_sigma);
+  return geometry::transportCovariance(here_from_middle, middle_from_here * plane, about_middle);
+}
+
+std::vector<PlaneMeasurement> planeMeasurements(const mrpt::obs::CObservation& observation,
+                                                const Eigen::Vector3d& up_in_base,
+                                                const landmarks::PlaneParametrization& form,
+                                                const PlaneLandmarksOptions& options) {
+  std::vector<PlaneMeasurement> sightings;
+  const auto take = [&](PlaneMeasurement sighting, const std::string& label) {
+    sighting.sensor_label = label;
+    sightings.push_back(std::move(sighting));
+  };
+  if (const auto* planes = dynamic_cast<const obs::CObservationPlanes*>(&observation)) {
+    const Se3 base_from_sensor = geometry::fromMrpt(planes->sensorPose);
+    for (const auto& plane : planes->planes) take(ofPlane(plane, base_from_sensor, options), planes->source_label);
+  } else if (const auto* lines = dynamic_cast<const obs::CObservationLaserLines*>(&observation)) {
+    const Se3 base_from_sensor = geometry::fromMrpt(lines->sensorPose);
+    for (const auto& line : lines->lines)
+      take(ofLine(line, base_from_sensor, up_in_base, form, options), lines->source_label);
+  }
+  return sightings;
+}
+
+}  // namespace omnimapper::plugins

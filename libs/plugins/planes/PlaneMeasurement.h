@@ -1,0 +1,42 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+#include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/graph/Factor.h>
+#include <omnimapper/graph/Noise.h>
+#include <omnimapper/landmarks/PlaneParametrization.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "PlaneLandmarksPlugin.h"
+
+namespace omnimapper::plugins {
+
+/// One plane of a depth image or one line of a laser, as it binds a plane landmark. All in the frame of the base.
+struct PlaneMeasurement {
+  bool is_line = false;
+  std::string sensor_label;
+  geometry::Plane3 plane_in_base;  ///< of a line: the upright plane through it
+  /// [m] convex, or with boundary = seen as it was seen; of a line its two ends.
+  std::vector<Eigen::Vector3d> outline_in_base;
+  double size = 0;  ///< [m^2], of a line [m]
+  std::shared_ptr<const graph::Factor> factor;
+  graph::SquareRootInformation noise = graph::SquareRootInformation::identity(1);
+  std::string why_useless;  ///< not empty: nothing but is_line, sensor_label and size is told
+};
+
+/// All planes or lines of an observation, in its order. `up_in_base` is unit: what upright means for the planes of
+/// lines.
+std::vector<PlaneMeasurement> planeMeasurements(const mrpt::obs::CObservation& observation,
+                                                const Eigen::Vector3d& up_in_base,
+                                                const landmarks::PlaneParametrization& form,
+                                                const PlaneLandmarksOptions& options);
+
+/// Covariance of a plane in its tangent [rad, rad, m], with what a surface is off from flat added as it would be about
+/// `middle`, where its points are. All in one frame.
+Eigen::Matrix3d withRoughness(const geometry::Plane3& plane, const Eigen::Matrix3d& covariance,
+                              const Eigen::Vector3d& middle, double angle_sigma, double distance_sigma);
+
+}  // namespace omnimapper::plugins
