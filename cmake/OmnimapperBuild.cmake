@@ -178,6 +178,19 @@ function(omnimapper_feature name)
   install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/omnimapper")
 endfunction()
 
+# omnimapper_has_features(VARIABLE WHO <features...>): whether all of them are built; if not, says that WHO is left out.
+function(omnimapper_has_features variable who)
+  get_property(features GLOBAL PROPERTY omnimapper_features)
+  set(missing ${ARGN})
+  list(REMOVE_ITEM missing ${features} "")
+  set(${variable} TRUE PARENT_SCOPE)
+  if(missing)
+    list(JOIN missing ", " missing)
+    message(STATUS "Left out: ${who}, for want of ${missing}")
+    set(${variable} FALSE PARENT_SCOPE)
+  endif()
+endfunction()
+
 # omnimapper_app(NAME <targets...>): program NAME from the folder's sources, target app-NAME (a library may be called NAME too).
 function(omnimapper_app name)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
