@@ -41,8 +41,9 @@ function(omnimapper_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Werror)
   omnimapper_unity(${target})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # gcc's garbage collector takes a tenth of the time. It starts at 512 MiB: at 1 GiB a compiler would need over 2 GiB.
-    target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=524288)
+    # gcc's garbage collector takes a tenth of the time. It starts at 512 MiB, where a compiler needs at most 2.5 GiB, or
+    # never, where every core has 6 GiB.
+    target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=${omnimapper_collector_starts})
   endif()
   if(OMNIMAPPER_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE} -fno-omit-frame-pointer -g1 -O1)
@@ -73,6 +74,10 @@ endfunction()
 cmake_host_system_information(RESULT omnimapper_memory QUERY TOTAL_PHYSICAL_MEMORY)  # MiB
 cmake_host_system_information(RESULT omnimapper_cores QUERY NUMBER_OF_LOGICAL_CORES)
 math(EXPR omnimapper_memory_of_core "${omnimapper_memory} / ${omnimapper_cores}")
+set(omnimapper_collector_starts 524288)  # KiB
+if(omnimapper_memory_of_core GREATER 6000)
+  set(omnimapper_collector_starts 8388608)
+endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   set(omnimapper_largest_batch 64)
 elseif(omnimapper_memory_of_core GREATER 3500)
@@ -81,15 +86,18 @@ else()
   set(omnimapper_largest_batch 28)
 endif()
 
-# omnimapper_sources(VARIABLE <patterns...>): the files of these patterns, register.cpp last and compiled on its own: the
-# ids of the classes that it registers must be initialised before. CMake links unity files from the last to the first, and
-# before what is in none of them.
+# omnimapper_sources(VARIABLE <patterns...>): the files of these patterns, register.cpp last: the ids of the classes that it
+# registers must be initialised before. Where there are too many files for one unity file it is compiled on its own, for CMake
+# links unity files from the last to the first, and before what is in none of them.
 function(omnimapper_sources variable)
   file(GLOB sources CONFIGURE_DEPENDS ${ARGN})
   set(last ${sources})
   list(FILTER last INCLUDE REGEX "/register\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "/register\\.cpp$")
-  set_source_files_properties(${last} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  list(LENGTH sources count)
+  if(count GREATER_EQUAL omnimapper_largest_batch)
+    set_source_files_properties(${last} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
   set(${variable} ${sources} ${last} PARENT_SCOPE)
 endfunction()
 

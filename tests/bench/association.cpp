@@ -6,8 +6,8 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/graph/ByteIo.h>
-#include <omnimapper/mapper/Features.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
+#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
   app.add_flag("--list", setup.list, "each landmark with lines of two surfaces, before the table");
   app.add_option("--set", setup.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
-  mapper::loadFeatures();
+  testing::registerPlugins();
   const Truth truth(setup.place.folder);
   std::printf(
       "| association | key frames | landmarks | matches | wrong per 1,000 | ATE | per key frame |\n"

@@ -11,9 +11,9 @@
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
-#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
   app.add_flag("--list", list, "every closure that is wrong, and every right one that was refused");
   CLI11_PARSE(app, argc, argv);
 
-  mapper::loadFeatures();
+  testing::registerPlugins();
   const auto saved = mapper::readMap(folder, mapper::registeredKinds());
   const auto mapped = eval::readTum(folder + "/trajectory.tum");
   const Reference reference(reference_path, mapped);

@@ -14,11 +14,11 @@
 #include <omnimapper/graph/Between.h>
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/map/MapFile.h>
-#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/testing/SimulatedLog.h>
+#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", request.seeds, "runs of each kind");
   app.add_option("--set", request.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
-  omnimapper::mapper::loadFeatures();
+  omnimapper::testing::registerPlugins();
   mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FalseClosuresFactory, bench));
   return bench::main(request);
 }

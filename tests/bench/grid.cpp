@@ -7,9 +7,9 @@
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/grid/ScanBeams.h>
-#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/testing/registerPlugins.h>
 #include <time.h>
 
 #include <CLI/CLI.hpp>
@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   options.max_cells = 1e9;
   try {
-    mapper::loadFeatures();
+    testing::registerPlugins();
     std::printf(
         "| map | times | key frames | MRPT rebuild [ms] | ours, from scratch [ms] | ratio | ours, a fifth moved "
         "[ms] | ratio | cells out [ms] |\n|---|---|---|---|---|---|---|---|---|\n");

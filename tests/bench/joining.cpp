@@ -7,12 +7,12 @@
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/map/Trajectory.h>
-#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", setup.threads);
   app.add_option("--set", setup.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
-  mapper::loadFeatures();
+  testing::registerPlugins();
   std::filesystem::create_directories(setup.out);
   run(setup, setup.log, setup.out + "/whole", "");
   const auto mapIn = [](const std::string& folder) { return mapper::readMap(folder, mapper::registeredKinds()).map; };

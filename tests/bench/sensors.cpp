@@ -4,10 +4,10 @@
 //
 //   bench-sensors --simulated out/home out/office out/laboratory -o out/sensors --svg doc/results/sensors.svg
 #include <omnimapper/draw/Svg.h>
-#include <omnimapper/mapper/Features.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
   app.add_option("--scans", setup.scans_ini, "INI of scan matching alone")->capture_default_str();
   app.add_option("--threads", setup.threads);
   CLI11_PARSE(app, argc, argv);
-  mapper::loadFeatures();
+  testing::registerPlugins();
   std::printf(
       "| place | scan matching alone | laser lines | camera planes | both | landmarks: laser, camera, both |\n"
       "|---|---|---|---|---|---|\n");

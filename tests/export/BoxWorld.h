@@ -141,6 +141,7 @@ inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0
        false,
        "turned <too> far",
        {{"correction [m]", 2}}}};
+  for (auto& decision : run.decisions) decision.is_loop_closure = decision.kind == "loop closure";
   run.times.add("solve", 0.01);
   run.times.add("plugin laser", 0.02);
   run.times.keyFrames() = {{1, 0, 0.1}, {2, 0.5, 0.1}, {3, 0.5, 0.1}};

@@ -13,6 +13,7 @@ TEST(Closures, AreLoopClosuresAndNoOtherDecisionAboutTwoKeyFrames) {
   for (const std::string kind : {"loop closure", "global loop search", "slip", "loop closure, taken back"}) {
     mapper::Decision decision;
     decision.kind = kind;
+    decision.is_loop_closure = kind == "loop closure";
     decision.from = run.map.key_frames[3].id;
     decision.to = run.map.key_frames[0].id;
     run.decisions.push_back(decision);

@@ -280,6 +280,7 @@ TEST_F(EnginePlugins, AnInterruptedRunLeavesWhatIsNotJudgedUnjudged) {
     if (frame.id.index != 11) return batch;
     Decision decision;
     decision.kind = "loop closure";
+    decision.is_loop_closure = true;
     batch.addHypothesis(link(view.map.key_frames.front().pose, frame.pose, 11), decision);
     return batch;
   };

@@ -97,6 +97,7 @@ class Random : public MeasurementPlugin {
         const double truth = base::secondsBetween(other.stamp, frame.stamp);
         Decision decision;
         decision.kind = "loop closure";
+        decision.is_loop_closure = true;
         decision.from = frame.id;
         decision.to = other.id;
         batch.addHypothesis(

@@ -118,14 +118,14 @@ CObservationBearingRange::Ptr ArucoMarkerExtractor::extract(const mrpt::obs::COb
 }
 
 bool ArucoMarkerExtractor::wants(const mrpt::obs::CObservation& raw) const {
-  if (dynamic_cast<const CObservationImage*>(&raw) != nullptr) return true;
-  const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
+  if (dynamic_cast<const mrpt::obs::CObservationImage*>(&raw) != nullptr) return true;
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw);
   return scan != nullptr && scan->hasIntensityImage;
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> ArucoMarkerExtractor::extract(const mrpt::obs::CObservation& raw) const {
-  const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&raw);
-  return {scan != nullptr ? extract(*scan) : extract(dynamic_cast<const CObservationImage&>(raw))};
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw);
+  return {scan != nullptr ? extract(*scan) : extract(dynamic_cast<const mrpt::obs::CObservationImage&>(raw))};
 }
 
 std::vector<DerivedName> ArucoMarkerExtractor::namesOf(const mrpt::obs::CObservation& raw) const {

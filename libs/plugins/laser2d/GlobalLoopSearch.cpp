@@ -58,6 +58,7 @@ mapper::Batch GlobalLoopSearch::operator()(const mapper::State& state) const {
     return batch;
   }
   decision.kind = "loop closure";
+  decision.is_loop_closure = true;
   auto closure = scanFactor(options_, context_, place.pose, frame.pose, found->match);
   closure.loss = graph::Loss::cauchy(options_.loss_scale);
   closure.tags.note = kGlobalClosure;

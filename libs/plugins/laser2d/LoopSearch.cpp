@@ -168,6 +168,7 @@ std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, con
   decision.stamp = frame.stamp;
   decision.plugin = context_.section;
   decision.kind = "loop closure";
+  decision.is_loop_closure = true;
   decision.from = frame.id;
   decision.to = centre.id;
   decision.numbers = {{"may be off by [m]", doubt.position},

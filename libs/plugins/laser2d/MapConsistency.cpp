@@ -287,7 +287,7 @@ std::vector<Evidence> slips(const mapper::State& state, const std::string& secti
   if (!contradiction) return all;
   // One that ties what came after it to what was there before.
   const bool is_resolved = std::any_of(decisions.begin(), decisions.end(), [&](const mapper::Decision& decision) {
-    return decision.plugin == section && decision.kind == "loop closure" && decision.accepted && decision.to &&
+    return decision.plugin == section && decision.is_loop_closure && decision.accepted && decision.to &&
            stampOf(decision.from) >= contradiction->stamp && stampOf(*decision.to) <= stampOf(*contradiction->to);
   });
   if (is_resolved) return all;

@@ -79,6 +79,7 @@ mapper::Batch TestedClosures::proposedAgain(const mapper::State& state, const st
     decision.stamp = newest->stamp;
     decision.plugin = section;
     decision.kind = "loop closure";
+    decision.is_loop_closure = true;
     decision.from = newest->id;
     decision.to = place->id;
     decision.reason = "proposed again, without the slip";

@@ -17,7 +17,7 @@ using testing::SimulatedLog;
 
 const std::string kIni = kPointsIni + R"(
 [moveables]
-class     = DynamicLandmarksPlugin
+class     = MoveableThingsPlugin
 landmarks = points
 )";
 const std::vector<std::string> kWithMoveables = {"mapper.measurement_plugins=points, moveables"};

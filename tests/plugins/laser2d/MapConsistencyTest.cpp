@@ -98,6 +98,7 @@ mapper::Decision decisionAbout(const testing::HandMadeRun& run, const std::strin
   mapper::Decision decision;
   decision.plugin = "loops";
   decision.kind = kind;
+  decision.is_loop_closure = kind == "loop closure";
   decision.from = run.map.key_frames[from].id;
   decision.to = run.map.key_frames[to].id;
   decision.stamp = run.map.key_frames[from].stamp;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/mapper/PluginRegistry.h>

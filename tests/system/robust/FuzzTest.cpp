@@ -3,6 +3,7 @@
 // is not "a defect of ours".
 #include <omnimapper/base/ChildProcess.h>
 #include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/testing/registerPlugins.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,7 +37,7 @@ std::string damaged(std::string bytes, Dice& dice) {
 class Fuzz : public ::testing::Test {
  protected:
   Fuzz() {
-    omnimapper::mapper::loadFeatures();
+    omnimapper::testing::registerPlugins();
     SimulatedLogOptions options;
     options.place = SimulatedLogOptions::Place::box;
     options.laps = 0.15;

@@ -10,7 +10,7 @@ std::vector<Closure> closuresOf(const map::Map& map, const mapper::DecisionLog& 
   for (std::size_t i = 0; i < map.key_frames.size(); ++i) index[map.key_frames[i].id] = i;
   std::vector<Closure> closures;
   for (const mapper::Decision& decision : decisions) {
-    if (!decision.to || decision.kind != "loop closure") continue;
+    if (!decision.to || !decision.is_loop_closure) continue;
     const auto from = index.find(decision.from), to = index.find(*decision.to);
     if (from == index.end() || to == index.end()) continue;
     const auto apart = static_cast<long>(from->second) - static_cast<long>(to->second);

@@ -83,6 +83,7 @@ void Hypotheses::log(const graph::Verdict& verdict, const graph::FactorRecord& r
     if (!fresh) {
       Decision change = decision;
       change.kind += verdict.accepted ? ", taken after all" : ", taken back";
+      change.is_loop_closure = false;  // the entry that it changes is one
       change.numbers.clear();
       complete(change);
       if (!map.key_frames.empty()) change.stamp = map.key_frames.back().stamp;

@@ -12,6 +12,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -48,29 +49,6 @@ std::string titleOf(const std::vector<std::string>& logs) {
   std::string title;
   for (const auto& log : logs) title += (title.empty() ? "" : " + ") + std::filesystem::path(log).stem().string();
   return title;
-}
-
-// Reads the log into the engine until its end, or until `stop`. True if it was stopped.
-bool feed(source::ObservationSource& log, Engine& engine, double speed, base::Progress& progress,
-          const std::function<bool()>& stop) {
-  Pace pace(speed);
-  double reading = 0;
-  bool stopped = stop();
-  while (!stopped) {
-    const StopWatch watch;
-    const auto observation = log.next();
-    reading += watch.seconds();
-    if (!observation) {
-      stopped = log.report().ending == source::SourceReport::Ending::open && stop();  // stopped while it waited
-      break;
-    }
-    pace.waitFor(observation->timestamp, stop);
-    if ((stopped = stop())) break;
-    engine.add(observation);
-    progress.report(log.progress(), std::to_string(engine.view().map.key_frames.size()) + " key frames");
-  }
-  engine.addTime("source", reading);
-  return stopped;
 }
 
 // What breaks while the log is worked on must not cost the map of what came before it.
@@ -135,7 +113,7 @@ RunResult resultOf(const View& view) {
   result.factors = view.graph.factors().size();
   result.landmarks = countLandmarks(view);
   for (const auto& decision : view.decisions) {
-    if (decision.kind != "loop closure") continue;
+    if (!decision.is_loop_closure) continue;
     ++(decision.accepted ? result.closures : result.refused_closures);
   }
   result.sessions = view.map.sessions;
@@ -159,6 +137,165 @@ std::string landmarkLine(const std::map<std::string, std::size_t>& counts) {
   return text.empty() ? "" : "landmarks         " + text + "\n";
 }
 
+// One run of an INI over its logs: open(), feed(), finish(), report(), in that order.
+class Run {
+ public:
+  Run(const RunRequest& request, const base::Config& config, base::Progress& progress,
+      const std::function<bool()>& stop)
+      : request_(request), config_(config), progress_(progress), stop_(stop) {}
+
+  void open();
+  void feed();
+  void finish();
+  RunResult report();
+
+ private:
+  void makeEngine();
+  std::vector<std::string> warn();
+  RunResult result() const;
+  bool isSuspicious() const { return engine_->view().verdict.answer == Verdict::Answer::suspicious; }
+  bool localizes() const { return !request_.localize_map.empty(); }
+
+  const RunRequest& request_;
+  const base::Config& config_;
+  base::Progress& progress_;
+  const std::function<bool()>& stop_;
+  EngineSettings settings_ = EngineSettings::read(config_);
+  const PerceptionOptions perception_ = config_.section("perception").read<PerceptionOptions>();
+  const SessionOptions session_ = config_.section("session").read<SessionOptions>();
+  const source::SourceOptions source_ = config_.section("source").read<source::SourceOptions>();
+
+  std::set<std::string> measuring_;  // sections that measure
+  std::vector<std::pair<std::string, const PosePlugin*>> pose_plugins_;
+  std::vector<std::pair<std::string, const perception::Extractor*>> extractors_;
+  std::optional<Engine> engine_;
+  std::optional<source::ReadAhead> log_;
+  std::optional<base::InputsKept> kept_;
+  bool stopped_ = false;
+  std::exception_ptr failure_, failure_at_end_;  // while the log was fed, while the map was finished
+};
+
+// Everything that an INI, a map or a log can be refused for.
+void Run::open() {
+  makeEngine();
+  engine_->setStop(stop_);
+  if (const auto off = config_.switchedOffPlugins(); !off.empty()) {
+    engine_->warn(config_.file() + ": no list of [mapper] or [perception] names the plugins " +
+                  base::option_text::format(off) + ": they are switched off");
+  }
+  loadMapInto(request_, session_, config_.file(), settings_.engine.motion, *engine_);
+  log_.emplace(source::openRawlogs(request_.logs, source_, stop_), stop_);
+  kept_.emplace(request_.logs);
+  base::makeWritableFolder(request_.output_folder);
+}
+
+void Run::makeEngine() {
+  const auto& options = settings_.engine;
+  loadPluginLibraries(config_);
+  SensorPoses sensor_poses(options.sensors, config_);
+  auto outputs = options.output_plugins;
+  outputs.insert(outputs.end(), request_.more_outputs.begin(), request_.more_outputs.end());
+
+  PluginContext context;
+  context.motion = options.motion;
+  context.map_is_held = localizes();
+  context.output_folder = request_.output_folder;
+  context.title = titleOf(request_.logs);
+  context.config_text = config_.text();
+  auto plugins = makePlugins({options.pose_plugins, perception_.extractors, options.measurement_plugins, outputs},
+                             config_, context);
+  config_.refuseUnreadSections();
+  measuring_.insert(options.measurement_plugins.begin(), options.measurement_plugins.end());
+  for (const auto& [section, plugin] : plugins.pose) {
+    pose_plugins_.emplace_back(section, plugin.get());
+    if (!plugin->isFallback()) measuring_.insert(section);
+  }
+  for (const auto& [section, plugin] : plugins.extractors) extractors_.emplace_back(section, plugin.get());
+  engine_.emplace(settings_, context.title, std::move(sensor_poses), std::move(plugins), request_.threads);
+}
+
+void Run::feed() {
+  failure_ = tried(*engine_, [&] {
+    Pace pace(request_.speed);
+    double reading = 0;
+    stopped_ = stop_();
+    while (!stopped_) {
+      const StopWatch watch;
+      const auto observation = log_->next();
+      reading += watch.seconds();
+      if (!observation) {
+        // Stopped while it waited?
+        stopped_ = log_->report().ending == source::SourceReport::Ending::open && stop_();
+        break;
+      }
+      pace.waitFor(observation->timestamp, stop_);
+      if ((stopped_ = stop_())) break;
+      engine_->add(observation);
+      progress_.report(log_->progress(), std::to_string(engine_->view().map.key_frames.size()) + " key frames");
+    }
+    engine_->addTime("source", reading);
+  });
+}
+
+void Run::finish() {
+  failure_at_end_ = tried(*engine_, [&] { engine_->finish(); });
+}
+
+// What a user should know of the run, to the engine. The labels that an INI names and the log lacks are given, too.
+std::vector<std::string> Run::warn() {
+  const auto report = log_->report();
+  warnOfLog(report, stopped_, *engine_);
+  auto unknown_labels =
+      unknownLabels(config_, labelledSections(settings_.engine, perception_), report, engine_->view().map);
+  for (const auto& sentence : unknown_labels) engine_->warn(sentence);
+  const auto warn_of = [&](const auto& all) {
+    for (const auto& [section, plugin] : all) {
+      for (const auto& sentence : plugin->warnings()) engine_->warn("[" + section + "] " + sentence);
+    }
+  };
+  warn_of(pose_plugins_);
+  warn_of(extractors_);
+  warnOfNothingMeasured(measuring_, *engine_);
+  const auto so_far = resultOf(engine_->view());
+  warnOfCounts(engine_->view().counts, so_far.new_key_frames, *engine_);
+  warnOfSession(so_far.sessions.back(), *engine_);
+  if (localizes()) warnOfFixes(so_far, *engine_);
+  if (isSuspicious())
+    engine_->warn(sentenceOf(engine_->view().verdict) + " Look at map.png and report.html before you use it");
+  return unknown_labels;
+}
+
+RunResult Run::result() const {
+  auto result = resultOf(engine_->view());
+  result.verdict = engine_->view().verdict;
+  result.warnings = engine_->view().warnings;
+  result.source = log_->report();
+  result.code = stopped_ ? base::ExitCode::interrupted : result.source.exitCode();
+  if (result.code == base::ExitCode::ok) result.code = engine_->extractionErrors().code();
+  if (result.code == base::ExitCode::ok && request_.strict && isSuspicious())
+    result.code = base::ExitCode::suspicious_map;
+  return result;
+}
+
+// Writes the outputs. Throws where there is nothing worth writing, and at the end what broke the run off.
+RunResult Run::report() {
+  const auto unknown_labels = warn();
+  auto outcome = result();
+  // A map that is continued is there already: better that one than one broken off.
+  const bool keep_old = outcome.new_key_frames == 0 || !request_.continue_map.empty();
+  if (keep_old && failure_) std::rethrow_exception(failure_);
+  if (keep_old && failure_at_end_) std::rethrow_exception(failure_at_end_);
+  if (outcome.new_key_frames == 0) failWithNothingToMap(request_, config_.file(), outcome, unknown_labels);
+  if (const auto idle = engine_->idleSources(); !idle.empty() && !localizes() && outcome.new_key_frames > 1)
+    failWithNoMotion(request_, config_.file(), outcome, idle);
+  progress_.report(1.0, "writing the outputs");
+  engine_->writeOutputs();
+  if (failure_) std::rethrow_exception(failure_);
+  if (failure_at_end_) std::rethrow_exception(failure_at_end_);
+  if (localizes() && outcome.located == 0) failWithNoPlace(request_, outcome);
+  return outcome;
+}
+
 }  // namespace
 
 const FixedSections& fixedSections() {
@@ -174,85 +311,11 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
                      const std::function<bool()>& stop) {
   const StopWatch watch;
   checkRequest(request);
-  const auto settings = EngineSettings::read(config);
-  const auto& options = settings.engine;
-  const auto perception = config.section("perception").read<PerceptionOptions>();
-  const auto session = config.section("session").read<SessionOptions>();
-  const auto source_options = config.section("source").read<source::SourceOptions>();
-  loadPluginLibraries(config);
-  SensorPoses sensor_poses(options.sensors, config);
-  auto outputs = options.output_plugins;
-  outputs.insert(outputs.end(), request.more_outputs.begin(), request.more_outputs.end());
-
-  PluginContext context;
-  context.motion = options.motion;
-  context.map_is_held = !request.localize_map.empty();
-  context.output_folder = request.output_folder;
-  context.title = titleOf(request.logs);
-  context.config_text = config.text();
-  auto plugins =
-      makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, outputs}, config, context);
-  config.refuseUnreadSections();
-  std::set<std::string> measuring(options.measurement_plugins.begin(), options.measurement_plugins.end());
-  std::vector<std::pair<std::string, const PosePlugin*>> sources;
-  for (const auto& [section, plugin] : plugins.pose) {
-    sources.emplace_back(section, plugin.get());
-    if (!plugin->isFallback()) measuring.insert(section);
-  }
-  std::vector<std::pair<std::string, const perception::Extractor*>> extractors;
-  for (const auto& [section, plugin] : plugins.extractors) extractors.emplace_back(section, plugin.get());
-  Engine engine(settings, context.title, std::move(sensor_poses), std::move(plugins), request.threads);
-  engine.setStop(stop);
-  if (const auto off = config.switchedOffPlugins(); !off.empty()) {
-    engine.warn(config.file() + ": no list of [mapper] or [perception] names the plugins " +
-                base::option_text::format(off) + ": they are switched off");
-  }
-  loadMapInto(request, session, config.file(), options.motion, engine);
-  source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop), stop);
-  const base::InputsKept kept(request.logs);
-  base::makeWritableFolder(request.output_folder);
-  bool stopped = false;
-  const auto failure = tried(engine, [&] { stopped = feed(log, engine, request.speed, progress, stop); });
-  const auto failure_at_end = tried(engine, [&] { engine.finish(); });
-
-  const auto report = log.report();
-  warnOfLog(report, stopped, engine);
-  const auto unknown_labels = unknownLabels(config, labelledSections(options, perception), report, engine.view().map);
-  for (const auto& sentence : unknown_labels) engine.warn(sentence);
-  const auto warn = [&](const auto& all) {
-    for (const auto& [section, plugin] : all) {
-      for (const auto& sentence : plugin->warnings()) engine.warn("[" + section + "] " + sentence);
-    }
-  };
-  warn(sources);
-  warn(extractors);
-  warnOfNothingMeasured(measuring, engine);
-  auto result = resultOf(engine.view());
-  warnOfCounts(engine.view().counts, result.new_key_frames, engine);
-  warnOfSession(result.sessions.back(), engine);
-  const bool is_lost = context.map_is_held && result.located == 0;
-  if (context.map_is_held) warnOfFixes(result, engine);
-  result.verdict = engine.view().verdict;
-  const bool is_suspicious = result.verdict.answer == Verdict::Answer::suspicious;
-  if (is_suspicious) engine.warn(sentenceOf(result.verdict) + " Look at map.png and report.html before you use it");
-  result.warnings = engine.view().warnings;
-  result.source = report;
-  result.code = stopped ? base::ExitCode::interrupted : report.exitCode();
-  if (result.code == base::ExitCode::ok) result.code = engine.extractionErrors().code();
-  if (result.code == base::ExitCode::ok && request.strict && is_suspicious)
-    result.code = base::ExitCode::suspicious_map;
-  // A map that is continued is there already: better that one than one broken off.
-  const bool keep_old = result.new_key_frames == 0 || !request.continue_map.empty();
-  if (keep_old && failure) std::rethrow_exception(failure);
-  if (keep_old && failure_at_end) std::rethrow_exception(failure_at_end);
-  if (result.new_key_frames == 0) failWithNothingToMap(request, config.file(), result, unknown_labels);
-  if (const auto idle = engine.idleSources(); !idle.empty() && !context.map_is_held && result.new_key_frames > 1)
-    failWithNoMotion(request, config.file(), result, idle);
-  progress.report(1.0, "writing the outputs");
-  engine.writeOutputs();
-  if (failure) std::rethrow_exception(failure);
-  if (failure_at_end) std::rethrow_exception(failure_at_end);
-  if (is_lost) failWithNoPlace(request, result);
+  Run run(request, config, progress, stop);
+  run.open();
+  run.feed();
+  run.finish();
+  auto result = run.report();
   result.wall_seconds = watch.seconds();
   return result;
 }

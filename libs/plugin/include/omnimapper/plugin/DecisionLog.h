@@ -14,7 +14,7 @@ namespace omnimapper::mapper {
 struct Decision {
   base::Stamp stamp;                                    ///< of the key frame it was made at
   std::string plugin;                                   ///< INI section of who decided
-  std::string kind;                                     ///< "loop closure", "absolute pose", ...
+  std::string kind;                                     ///< for people: "loop closure", "absolute pose", ...
   base::KeyFrameId from;                                ///< the key frame it was made at
   std::optional<base::KeyFrameId> to;                   ///< the other one, of a closure
   bool accepted = false;                                ///< of a hypothesis: as it stands now
@@ -22,6 +22,7 @@ struct Decision {
   std::vector<std::pair<std::string, double>> numbers;  ///< what it was decided on: name with unit, value
   /// The factor that the consistency test decides about, if it is a hypothesis; `accepted` is how it stands now.
   std::optional<base::FactorId> hypothesis = {};
+  bool is_loop_closure = false;  ///< it is about two key frames that do not follow one another, `from` and `to`
 };
 
 using DecisionLog = std::vector<Decision>;
