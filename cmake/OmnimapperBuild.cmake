@@ -102,7 +102,7 @@ function(omnimapper_sources variable)
 endfunction()
 
 # omnimapper_optimize(TARGET KERNELS | LIGHT | ON | OFF): -O3 for KERNELS, -O1 for LIGHT, else -O2. Under a sanitizer KERNELS
-# and ON have -O1, the others nothing.
+# and ON have -O1, the others -O0.
 function(omnimapper_optimize target how)
   if(how STREQUAL "KERNELS")
     return()
@@ -117,10 +117,9 @@ endfunction()
 
 # omnimapper_library(NAME [KERNELS | OPTIMIZED | LIGHT] [WITHOUT <files...>] PUBLIC <targets...> PRIVATE <targets...>)
 # Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for the
-# libraries in whose loops mapping spends its time, which get -O3; the others get -O2, and LIGHT ones, which
-# compute little, -O1. Under a sanitizer these others are
-# not optimized, which halves the compiler's time and makes their tests hardly longer, unless they are OPTIMIZED: the
-# tests of what renders images would run for minutes.
+# libraries in whose loops mapping spends its time, which get -O3; the others get -O2, and LIGHT ones, which compute little,
+# -O1. Under a sanitizer these others are not optimized, which halves the compiler's time and makes their tests hardly longer,
+# unless they are OPTIMIZED: the tests of what renders images would run for minutes. WITHOUT leaves out files of these names.
 function(omnimapper_library name)
   cmake_parse_arguments(ARG "KERNELS;OPTIMIZED;LIGHT" "" "WITHOUT;PUBLIC;PRIVATE" ${ARGN})
   omnimapper_sources(sources "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
@@ -144,7 +143,9 @@ function(omnimapper_library name)
     omnimapper_optimize(${target} "${ARG_OPTIMIZED}")
   endif()
   install(TARGETS ${target} EXPORT omnimapperTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  list(TRANSFORM ARG_WITHOUT REPLACE "(.+)" "/\\1[.]h$|" OUTPUT_VARIABLE absent)
+  list(JOIN absent "" absent)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} REGEX "${absent}^$" EXCLUDE)
 endfunction()
 
 # omnimapper_feature(NAME PLUGINS <classes...> [NEEDS <target> <text>] LINKS <targets...>)
@@ -155,6 +156,7 @@ endfunction()
 function(omnimapper_feature name)
   cmake_parse_arguments(ARG "" "" "PLUGINS;NEEDS;LINKS" ${ARGN})
   option(OMNIMAPPER_FEATURE_${name} "Build the feature ${name}: ${ARG_PLUGINS}" ON)
+  set_property(GLOBAL APPEND PROPERTY omnimapper_declared_features ${name})
   set(left_out "")
   if(NOT OMNIMAPPER_FEATURE_${name})
     set(left_out "it was configured with -DOMNIMAPPER_FEATURE_${name}=OFF; configure it with ON")
@@ -212,8 +214,8 @@ function(omnimapper_app name)
 endfunction()
 
 # omnimapper_test(NAME [HALVES] [COST SECONDS] <targets...> [FILES FILES...] [OPTIMIZED FILES...] [RELEASE FILES...]
-# [THREADS FILES...]): one test binary for the folder's *Test.cpp files and those of FILES, named test-NAME. Tests are not optimized: they assert the same, and compile
-# in 40 % of the time. OPTIMIZED names the files that render images or search texts themselves, which would run for
+# [THREADS FILES...]): one test binary for the folder's *Test.cpp files and those of FILES, named test-NAME. Tests are not
+# optimized: they assert the same, and compile in 40 % of the time. OPTIMIZED names the files that render images or search texts themselves, which would run for
 # minutes. COST is roughly how long the test runs; ctest starts the longest first. Some files are once more in a binary
 # without the others: those of RELEASE in test-NAME-release, what tries more without a sanitizer (release_cases in
 # scripts/lib/suites.sh), and those of THREADS, in a build under the thread sanitizer, in test-NAME-threads (thread_cases

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "ShapedRun.h"
-#include "absolute/GpsPlugin.h"
 #include "plan/GeoJsonOutput.h"
 
 namespace geo_json_output_test {

@@ -6,7 +6,7 @@
 
 #include "Beams.h"
 
-namespace omnimapper::matching::relocaliser_test {
+namespace omnimapper::matching::relocalizer_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -155,4 +155,4 @@ TEST(Relocalizer, PointsThatAreNotFiniteAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching::relocaliser_test
+}  // namespace omnimapper::matching::relocalizer_test

@@ -27,6 +27,9 @@ void expectReference(const std::string& file, const std::string& program) {
 }
 
 TEST(IniReference, isWhatTheOptionTablesSay) {
+#ifdef OMNIMAPPER_LACKS_FEATURES
+  GTEST_SKIP() << "this build leaves a feature out, and the reference has the keys of all";
+#endif
   expectReference("ini/README.md", "omnimapper-graphslam");
   expectReference("ini/simulator.md", "omnimapper-simulate");
 }

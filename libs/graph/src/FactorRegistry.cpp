@@ -15,7 +15,8 @@ namespace {
 [[noreturn]] void failUnknown(const std::string& what, const std::string& kind) {
   throw base::Error(base::ExitCode::unregistered_class,
                     "graph: nobody registered the kind of " + what + " \"" + kind +
-                        "\": name the plugin library that brings it in [mapper] plugin_libraries");
+                        "\": install the feature of OmniMapper that the map was made with, or name the "
+                        "library of the plugin that brings it in [mapper] plugin_libraries");
 }
 
 template <class Point>

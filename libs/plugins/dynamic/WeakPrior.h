@@ -9,8 +9,8 @@
 
 namespace omnimapper::plugins {
 
-/// That a variable of any kind is about where it is. Variable: of that kind. Residual: what takes the kept value to its
-/// value, in its tangent [rad, m]. For copies of a graph alone: no file has it.
+/// A weak prior of a variable of any kind at its current value. Variable: of that kind. Residual: what takes the kept
+/// value to its value, in its tangent [rad, m]. For copies of a graph alone: no file has it.
 class WeakPrior : public graph::Factor {
  public:
   WeakPrior(std::shared_ptr<const graph::Variable> variable, const Eigen::VectorXd& value);

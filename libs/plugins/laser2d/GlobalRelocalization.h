@@ -8,7 +8,7 @@
 
 namespace omnimapper::plugins {
 
-/// One relocalisation of a session that nothing ties to the saved map, as a job: where the windows of LoopSearch are
+/// One relocalization of a session that nothing ties to the saved map, as a job: where the windows of LoopSearch are
 /// too small for what is known of its place, the newest scans are sought in the whole map. The first answer only moves
 /// the session there; the next one that agrees is a closure.
 class GlobalRelocalization {

@@ -37,8 +37,8 @@ class PlaneAssociator {
   std::vector<mapper::Pairing> pairingsOf(const std::vector<PlaneMeasurement>& sightings);
   // Of two landmarks on one plane, say on both sides of a door: each is as right, and now they touch.
   bool spansTwo(const mapper::Match& match, const std::vector<mapper::Pairing>& pairings) const;
-  // By how much a sighting misses a surface that faces the same way [m]: off its plane, or along it, beyond what is
-  // near enough to look at in any case (<= 0: it is near enough). None if it is none however wrong the base may be.
+  // Distance of a measurement outside the association gate of a surface [m], off its plane or along it; <= 0 within the
+  // gate. None if the normals disagree, however wrong the pose of the base may be.
   std::optional<double> missIfAlike(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting,
                                     const std::vector<Eigen::Vector3d>& points) const;
   // How far what is at that range from the base may have slid since then [m, sigma].

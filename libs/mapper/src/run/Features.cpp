@@ -4,10 +4,10 @@
 #include <omnimapper/obs/registerClasses.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <string>
 #include <system_error>
 
 #include "FeatureIndex.h"
@@ -31,17 +31,14 @@ std::map<std::string, std::string>& foundLibraries() {
 void loadAll() {
   obs::registerClasses();
   registerFactoryBases();
-  std::vector<fs::path> libraries;
-  std::error_code error;  // a folder that is not there holds no features
-  for (const auto& entry : fs::directory_iterator(featureFolder(), error)) {
-    const std::string name = entry.path().filename();
-    if (name.rfind("libomnimapper-", 0) == 0 && entry.path().extension() == ".so") libraries.push_back(entry.path());
-  }
-  std::sort(libraries.begin(), libraries.end());
-  for (const auto& library : libraries) {
+  for (const auto& entry : kFeatureIndex) {
+    const std::string library = libraryOf(entry.feature);
+    const fs::path path = fs::path(featureFolder()) / library;
+    std::error_code error;  // what cannot be looked at is not there
+    if (!entry.left_out.empty() || foundLibraries().count(library) > 0 || !fs::exists(path, error)) continue;
     std::string problem;
-    const bool loaded = mrpt::system::loadPluginModule(library, problem);
-    foundLibraries()[library.filename()] = loaded ? "" : problem;
+    const bool loaded = mrpt::system::loadPluginModule(path, problem);
+    foundLibraries()[library] = loaded ? "" : problem;
   }
 }
 
@@ -50,12 +47,25 @@ void loadAll() {
 std::string featureFolder() {
   Dl_info here;
   if (::dladdr(reinterpret_cast<const void*>(&featureFolder), &here) == 0) return {};
-  return (fs::absolute(here.dli_fname).parent_path() / "omnimapper").string();
+  return (fs::absolute(here.dli_fname).lexically_normal().parent_path() / "omnimapper").string();
 }
 
 void loadFeatures() {
   static std::once_flag loaded;
   std::call_once(loaded, loadAll);
+}
+
+std::string_view featureOf(std::string_view plugin_class) {
+  for (const auto& entry : kFeatureIndex) {
+    if (entry.plugin_class == plugin_class) return entry.feature;
+  }
+  return {};
+}
+
+std::vector<std::string> pluginsOfFeatures() {
+  std::vector<std::string> plugins;
+  for (const auto& entry : kFeatureIndex) plugins.emplace_back(entry.plugin_class);
+  return plugins;
 }
 
 std::string whyUnavailable(std::string_view plugin_class) {

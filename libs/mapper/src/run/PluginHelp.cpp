@@ -1,4 +1,5 @@
 #include <omnimapper/base/OptionHelp.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 
@@ -32,6 +33,8 @@ std::string printIni(const std::string& class_name) {
     return base::optionsAsIni(base::sectionNameFor(class_name, {"_plugin", "_output", "_extractor"}), class_name,
                               factory->summary(), factory->options());
   }
+  if (const auto why = whyUnavailable(class_name); !why.empty())
+    throw base::Error(base::ExitCode::unknown_plugin, "--print-ini: no '" + class_name + "' here: " + why);
   const std::string near = base::nearestName(class_name, known);
   throw base::Error(base::ExitCode::unknown_plugin, "--print-ini: no plugin class is called '" + class_name + "'" +
                                                         (near.empty() ? "" : "; did you mean '" + near + "'?") +

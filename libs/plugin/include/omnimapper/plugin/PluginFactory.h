@@ -16,6 +16,9 @@
 
 namespace omnimapper::mapper {
 
+using perception::DerivedName;
+using perception::Extractor;
+
 /// What every plugin may know of the run when it is made.
 struct PluginContext {
   std::string section;  ///< its section of the INI; owner of its factors and decisions

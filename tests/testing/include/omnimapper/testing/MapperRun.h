@@ -15,7 +15,8 @@
 
 #include "Engine.h"
 
-// For test binaries that link omnimapper::plugins: an engine to feed by hand, and what came out of it.
+// For test binaries that link omnimapper-engine, and features that their INIs name: an engine to feed by hand, and what
+// came out of it.
 namespace omnimapper::testing {
 
 /// Laser and wheel odometry, the null motion model and loop closures, as ini/laser2d.ini has them, without outputs.

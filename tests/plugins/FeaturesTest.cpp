@@ -1,0 +1,40 @@
+// What the build knows of features and their plugins is what their libraries register.
+#include <gtest/gtest.h>
+#include <omnimapper/mapper/Features.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+
+#include <set>
+#include <string>
+
+namespace omnimapper::plugins::features_test {
+namespace {
+
+TEST(Features, EveryPluginThatIsNoOutputBelongsToOne) {
+  mapper::loadFeatures();
+  std::size_t plugins = 0;
+  for (const auto& factory : mapper::registeredFactories()) {
+    if (factory->kind() == mapper::PluginKind::output) continue;
+    ++plugins;
+    EXPECT_NE(mapper::featureOf(factory->name()), "")
+        << "PLUGINS in the CMakeLists.txt of its feature lacks " << factory->name();
+    EXPECT_EQ(mapper::whyUnavailable(factory->name()), "");
+  }
+  EXPECT_GT(plugins, 0U);
+}
+
+TEST(Features, WhatIsThereRegistersAllThatTheBuildKnowsOfIt) {
+  mapper::loadFeatures();
+  std::set<std::string> registered;
+  for (const auto& factory : mapper::registeredFactories()) registered.insert(factory->name());
+  for (const auto& plugin : mapper::pluginsOfFeatures()) {
+    EXPECT_TRUE(registered.count(plugin) > 0 || !mapper::whyUnavailable(plugin).empty()) << plugin;
+  }
+}
+
+TEST(Features, OfTheProjectKnowNoOtherClass) {
+  EXPECT_EQ(mapper::featureOf("BeaconPlugin"), "");
+  EXPECT_EQ(mapper::whyUnavailable("BeaconPlugin"), "");
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins::features_test
