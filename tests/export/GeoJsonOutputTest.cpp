@@ -1,5 +1,6 @@
 // floorplan.geojson by the rules of RFC 7946.
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationGPS.h>
 #include <omnimapper/plugin/PlaceOnEarth.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/MapperRun.h>
