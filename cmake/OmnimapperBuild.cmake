@@ -209,7 +209,7 @@ function(omnimapper_app name)
   target_link_libraries(app-${name} PRIVATE ${ARGN})
   omnimapper_compile_options(app-${name})
   # Nothing of an app but the reading of its command line is compiled here.
-  target_compile_options(app-${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  omnimapper_optimize(app-${name} LIGHT)
   install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
