@@ -86,9 +86,9 @@ else()
   set(omnimapper_largest_batch 28)
 endif()
 
-# omnimapper_sources(VARIABLE <patterns...>): the files of these patterns, register.cpp last: the ids of the classes that it
-# registers must be initialised before. Where there are too many files for one unity file it is compiled on its own, for CMake
-# links unity files from the last to the first, and before what is in none of them.
+# omnimapper_sources(VARIABLE <patterns...>): the files of these patterns, register.cpp last: the ids of the classes
+# that it registers must be initialised before. Where there are too many files for one unity file it is compiled on its
+# own, for CMake links unity files from the last to the first, and before what is in none of them.
 function(omnimapper_sources variable)
   file(GLOB sources CONFIGURE_DEPENDS ${ARGN})
   set(last ${sources})
@@ -101,8 +101,8 @@ function(omnimapper_sources variable)
   set(${variable} ${sources} ${last} PARENT_SCOPE)
 endfunction()
 
-# omnimapper_optimize(TARGET KERNELS | LIGHT | ON | OFF): -O3 for KERNELS, -O1 for LIGHT, else -O2. Under a sanitizer KERNELS
-# and ON have -O1, the others -O0.
+# omnimapper_optimize(TARGET KERNELS | LIGHT | ON | OFF): -O3 for KERNELS, -O1 for LIGHT, else -O2. Under a sanitizer
+# KERNELS and ON have -O1, the others -O0.
 function(omnimapper_optimize target how)
   if(how STREQUAL "KERNELS")
     return()
@@ -117,9 +117,10 @@ endfunction()
 
 # omnimapper_library(NAME [KERNELS | OPTIMIZED | LIGHT] [WITHOUT <files...>] PUBLIC <targets...> PRIVATE <targets...>)
 # Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for the
-# libraries in whose loops mapping spends its time, which get -O3; the others get -O2, and LIGHT ones, which compute little,
-# -O1. Under a sanitizer these others are not optimized, which halves the compiler's time and makes their tests hardly longer,
-# unless they are OPTIMIZED: the tests of what renders images would run for minutes. WITHOUT leaves out files of these names.
+# libraries in whose loops mapping spends its time, which get -O3; the others get -O2, and LIGHT ones, which compute
+# little, -O1. Under a sanitizer these others are not optimized, which halves the compiler's time and makes their tests
+# hardly longer, unless they are OPTIMIZED: the tests of what renders images would run for minutes. WITHOUT leaves out
+# files of these names.
 function(omnimapper_library name)
   cmake_parse_arguments(ARG "KERNELS;OPTIMIZED;LIGHT" "" "WITHOUT;PUBLIC;PRIVATE" ${ARGN})
   omnimapper_sources(sources "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
@@ -201,7 +202,8 @@ function(omnimapper_has_features variable who)
   endif()
 endfunction()
 
-# omnimapper_app(NAME <targets...>): program NAME from the folder's sources, target app-NAME (a library may be called NAME too).
+# omnimapper_app(NAME <targets...>): program NAME from the folder's sources, target app-NAME (a library may be called
+# NAME too).
 function(omnimapper_app name)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   add_executable(app-${name} ${sources})
@@ -214,13 +216,13 @@ function(omnimapper_app name)
 endfunction()
 
 # omnimapper_test(NAME [HALVES] [COST SECONDS] <targets...> [FILES FILES...] [OPTIMIZED FILES...] [RELEASE FILES...]
-# [THREADS FILES...]): one test binary for the folder's *Test.cpp files and those of FILES, named test-NAME. Tests are not
-# optimized: they assert the same, and compile in 40 % of the time. OPTIMIZED names the files that render images or search texts themselves, which would run for
-# minutes. COST is roughly how long the test runs; ctest starts the longest first. Some files are once more in a binary
-# without the others: those of RELEASE in test-NAME-release, what tries more without a sanitizer (release_cases in
-# scripts/lib/suites.sh), and those of THREADS, in a build under the thread sanitizer, in test-NAME-threads (thread_cases
-# there). With HALVES the cases run in two tests of ctest side by side, NAME and NAME-2; whoever runs the program itself
-# runs them all.
+# [THREADS FILES...]): one test binary for the folder's *Test.cpp files and those of FILES, named test-NAME. Tests are
+# not optimized: they assert the same, and compile in 40 % of the time. OPTIMIZED names the files that render images or
+# search texts themselves, which would run for minutes. COST is roughly how long the test runs; ctest starts the longest
+# first. Some files are once more in a binary without the others: those of RELEASE in test-NAME-release, what tries more
+# without a sanitizer (release_cases in scripts/lib/suites.sh), and those of THREADS, in a build under the thread
+# sanitizer, in test-NAME-threads (thread_cases there). With HALVES the cases run in two tests of ctest side by side,
+# NAME and NAME-2; whoever runs the program itself runs them all.
 function(omnimapper_test name)
   cmake_parse_arguments(ARG "HALVES" "COST" "FILES;OPTIMIZED;RELEASE;THREADS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" "*Test.cpp")
