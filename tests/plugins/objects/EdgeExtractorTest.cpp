@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
