@@ -97,7 +97,7 @@ inline map::KeyFrame keyFrame(std::uint32_t index, double seconds, const CPose3D
   return frame;
 }
 
-/// Three key frames in the room, a hanging frame after the first, a small graph, and decisions of both verdicts.
+/// Three key frames in the room, a dependent frame after the first, a small graph, and decisions of both verdicts.
 inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0.1, 0, 0)) {
   RunRecord run;
   const std::vector<CPose3D> poses{{0, 0, 0, 0, 0, 0}, {1, 0.25, 0, 0.5, 0, 0}, {0.5, 1.25, 0, 2.5, 0, 0}};
@@ -106,7 +106,7 @@ inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0
   }
   const auto edit = [&](std::size_t i) -> map::KeyFrame& { return run.map.key_frames.edit(run.map.key_frames[i].id); };
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) edit(i).keyframe_from_next = poses[i + 1] - poses[i];
-  edit(0).hanging.push_back({at(0.5), CPose3D(0.5, 0.1, 0, 0.2, 0, 0)});
+  edit(0).dependents.push_back({at(0.5), CPose3D(0.5, 0.1, 0, 0.2, 0, 0)});
   const auto noise3 = graph::SquareRootInformation::fromSigmas(Eigen::Vector3d(0.1, 0.1, 0.05));
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const geometry::Se2 pose{poses[i].x(), poses[i].y(), poses[i].yaw()};

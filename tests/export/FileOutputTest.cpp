@@ -40,7 +40,7 @@ TEST(TrajectoryOutput, hasOneLineForEachObservationWithStampsToTheTick) {
   map::KeyFrame first;
   first.stamp = at(0.1234567);
   first.map_from_base = CPose3D(1, -2, 0.5, -M_PI / 2, 0, 0);
-  first.hanging.push_back({at(0.25), CPose3D(1, 0, 0, 0, 0, 0)});
+  first.dependents.push_back({at(0.25), CPose3D(1, 0, 0, 0, 0, 0)});
   run.map.key_frames.insert(first);
   exports::TrajectoryOutput({}, contextFor(folder.path())).finish(run.view());
   const auto lines = linesOf(contentOf(folder / "trajectory.tum"));
@@ -51,7 +51,7 @@ TEST(TrajectoryOutput, hasOneLineForEachObservationWithStampsToTheTick) {
             "1000000000.2500000 1.000000000 -3.000000000 0.500000000 0.000000000 0.000000000 -0.707106781 0.707106781");
 }
 
-TEST(TrajectoryOutput, hangingFramesAreLeftOutOnRequest) {
+TEST(TrajectoryOutput, DependentFramesAreLeftOutOnRequest) {
   ScratchFolder folder;
   exports::TrajectoryOutput({}, contextFor(folder.path())).finish(boxRun().view());
   EXPECT_EQ(linesOf(contentOf(folder / "trajectory.tum")).size(), 4u);

@@ -68,7 +68,7 @@ map::Map awkwardMap() {
     frame.pose = {1, 10 + i};
     frame.map_from_base = pose();
     frame.keyframe_from_next = pose();
-    for (int h = 0; h < 3; ++h) frame.hanging.push_back({frame.stamp + base::Duration(h + 1), pose()});
+    for (int h = 0; h < 3; ++h) frame.dependents.push_back({frame.stamp + base::Duration(h + 1), pose()});
     auto scan = mrpt::obs::CObservation2DRangeScan::Create();
     scan->sensorLabel = "LASER";
     scan->timestamp = frame.stamp;
@@ -198,9 +198,10 @@ TEST(FramesSection, keepsEveryBitOfPosesStampsAndObservations) {
     EXPECT_EQ(a.stamp, b.stamp);
     EXPECT_EQ(a.map_from_base.getRotationMatrix(), b.map_from_base.getRotationMatrix());
     EXPECT_EQ(a.keyframe_from_next.m_coords, b.keyframe_from_next.m_coords);
-    ASSERT_EQ(b.hanging.size(), 3u);
-    EXPECT_EQ(a.hanging[2].stamp, b.hanging[2].stamp);
-    EXPECT_EQ(a.hanging[2].keyframe_from_base.getRotationMatrix(), b.hanging[2].keyframe_from_base.getRotationMatrix());
+    ASSERT_EQ(b.dependents.size(), 3u);
+    EXPECT_EQ(a.dependents[2].stamp, b.dependents[2].stamp);
+    EXPECT_EQ(a.dependents[2].keyframe_from_base.getRotationMatrix(),
+              b.dependents[2].keyframe_from_base.getRotationMatrix());
     ASSERT_EQ(b.observations.size(), 2u);
     const auto scan = std::dynamic_pointer_cast<const mrpt::obs::CObservation2DRangeScan>(b.observations[0]);
     ASSERT_TRUE(scan);

@@ -53,7 +53,7 @@ TEST(Map, aKeyFrameThatIsNotThereIsAnErrorNamingIt) {
 TEST(DenseTrajectory, spreadsADriftEvenlyInTime) {
   // The source told 1 m straight ahead in 1 s, seen at 0.25 s and 0.5 s; the graph says 1.2 m ahead and 0.4 m left.
   map::KeyFrame first = keyFrame(0, 0, {});
-  first.hanging = {{at(0.25), CPose3D(0.25, 0, 0, 0, 0, 0)}, {at(0.5), CPose3D(0.5, 0, 0, 0, 0, 0)}};
+  first.dependents = {{at(0.25), CPose3D(0.25, 0, 0, 0, 0, 0)}, {at(0.5), CPose3D(0.5, 0, 0, 0, 0, 0)}};
   first.keyframe_from_next = CPose3D(1, 0, 0, 0, 0, 0);
   const auto path = map::denseTrajectory(mapOf({first, keyFrame(1, 1, CPose3D(1.2, 0.4, 0, 0, 0, 0))}));
   ASSERT_EQ(path.size(), 4u);
@@ -67,7 +67,7 @@ TEST(DenseTrajectory, spreadsADriftEvenlyInTime) {
 TEST(DenseTrajectory, aDriftKeepsItsDirectionInTheMapWhileTheRobotTurns) {
   // The robot turns a half circle on the spot while the optimised end lies 0.2 m along the map's x.
   map::KeyFrame first = keyFrame(0, 0, {});
-  first.hanging = {{at(0.5), CPose3D(0, 0, 0, M_PI / 2, 0, 0)}};
+  first.dependents = {{at(0.5), CPose3D(0, 0, 0, M_PI / 2, 0, 0)}};
   first.keyframe_from_next = CPose3D(0, 0, 0, M_PI, 0, 0);
   const auto path = map::denseTrajectory(mapOf({first, keyFrame(1, 1, CPose3D(0.2, 0, 0, M_PI, 0, 0))}));
   expectNear(path[1].map_from_base, CPose3D(0.1, 0, 0, M_PI / 2, 0, 0), 1e-12);
@@ -75,7 +75,7 @@ TEST(DenseTrajectory, aDriftKeepsItsDirectionInTheMapWhileTheRobotTurns) {
 
 TEST(DenseTrajectory, spreadsATurnEvenlyInTime) {
   map::KeyFrame first = keyFrame(0, 0, {});
-  first.hanging = {{at(1), CPose3D(0, 0, 0, 0.1, 0, 0)}};
+  first.dependents = {{at(1), CPose3D(0, 0, 0, 0.1, 0, 0)}};
   first.keyframe_from_next = CPose3D(0, 0, 0, 0.4, 0, 0);
   const auto path = map::denseTrajectory(mapOf({first, keyFrame(1, 4, CPose3D(0, 0, 0, 0.8, 0, 0))}));
   expectNear(path[1].map_from_base, CPose3D(0, 0, 0, 0.2, 0, 0), 1e-12);
@@ -90,7 +90,7 @@ TEST(DenseTrajectory, aHangingFrameAtTheEndIsTheNextKeyFrameInSpace) {
   for (int trial = 0; trial < 100; ++trial) {
     map::KeyFrame first = keyFrame(0, 0, pose());
     first.keyframe_from_next = pose();
-    first.hanging = {{at(0), CPose3D()}, {at(2), first.keyframe_from_next}};
+    first.dependents = {{at(0), CPose3D()}, {at(2), first.keyframe_from_next}};
     const map::KeyFrame second = keyFrame(1, 2, pose());
     const auto path = map::denseTrajectory(mapOf({first, second}));
     expectNear(path[1].map_from_base, first.map_from_base, 1e-9);
@@ -100,16 +100,16 @@ TEST(DenseTrajectory, aHangingFrameAtTheEndIsTheNextKeyFrameInSpace) {
 
 TEST(DenseTrajectory, withoutDisagreementItIsTheToldPath) {
   map::KeyFrame first = keyFrame(0, 0, CPose3D(1, 2, 3, 0.4, 0.1, -0.2));
-  first.hanging = {{at(0.3), CPose3D(0.1, 0.2, 0, 0.3, 0, 0)}};
+  first.dependents = {{at(0.3), CPose3D(0.1, 0.2, 0, 0.3, 0, 0)}};
   first.keyframe_from_next = CPose3D(0.5, 0.1, 0.2, 0.6, 0.1, 0);
   const auto path =
       map::denseTrajectory(mapOf({first, keyFrame(1, 1, first.map_from_base + first.keyframe_from_next)}));
-  expectNear(path[1].map_from_base, first.map_from_base + first.hanging[0].keyframe_from_base, 1e-12);
+  expectNear(path[1].map_from_base, first.map_from_base + first.dependents[0].keyframe_from_base, 1e-12);
 }
 
 TEST(DenseTrajectory, afterTheNewestKeyFrameTheSourceAloneSpeaks) {
   map::KeyFrame only = keyFrame(0, 0, CPose3D(1, 0, 0, M_PI / 2, 0, 0));
-  only.hanging = {{at(1), CPose3D(2, 0, 0, 0, 0, 0)}};
+  only.dependents = {{at(1), CPose3D(2, 0, 0, 0, 0, 0)}};
   const auto path = map::denseTrajectory(mapOf({only}));
   ASSERT_EQ(path.size(), 2u);
   expectNear(path[1].map_from_base, CPose3D(1, 2, 0, M_PI / 2, 0, 0), 1e-12);

@@ -187,7 +187,7 @@ TEST(SessionFigures, AreOfEachSessionAndNotOfTheLeapBetween) {
   add({0, 2}, 130, -1);
   add({1, 0}, 50, 1000);
   add({1, 1}, 55, 1001);
-  map.key_frames.edit({1, 1}).hanging.push_back({base::stampFromUnix(1e9 + 57), {}});
+  map.key_frames.edit({1, 1}).dependents.push_back({base::stampFromUnix(1e9 + 57), {}});
   const auto figures = sessionFigures(map);
   ASSERT_EQ(figures.size(), 2U);
   EXPECT_EQ(figures[0].key_frames, 3U);

@@ -46,7 +46,7 @@ class Continue : public ::testing::Test {
     auto saved = readMap(path_, registeredKinds());
     const auto start = start_.startOn(saved.map);
     auto engine = testing::makeEngine(ini_, settings_);
-    engine->continueFrom(std::move(saved), start);
+    engine->sessions().continueFrom(std::move(saved), start);
     testing::run(*engine, observations);
     return engine;
   }
@@ -171,7 +171,7 @@ TEST_F(Continue, TheMapOfTwoSessionsIsTheSameInEveryBitWithMoreThreads) {
   auto saved = readMap(path_, registeredKinds());
   const auto start = start_.startOn(saved.map);
   const auto again = testing::makeEngine(ini_, settings_, 3);
-  again->continueFrom(std::move(saved), start);
+  again->sessions().continueFrom(std::move(saved), start);
   testing::run(*again, second);
   EXPECT_TRUE(testing::bitsOf(once->view()) == testing::bitsOf(again->view()));
 }
@@ -186,7 +186,7 @@ TEST_F(Continue, ASectionOfNobodyHereSurvivesTwoSessions) {
   auto saved = readMap(path_, registeredKinds());
   const auto start = start_.startOn(saved.map);
   auto second = testing::makeEngine(ini_);
-  second->continueFrom(std::move(saved), start);
+  second->sessions().continueFrom(std::move(saved), start);
   testing::run(*second, {rest.begin(), middle});
   const auto third = goOn(*second, {middle, rest.end()});
   const auto& sections = third->view().sections;

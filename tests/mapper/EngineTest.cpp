@@ -66,8 +66,8 @@ TEST_F(Engine, KeyFramesAreTheFirstScansThatReachDistanceOrAngleByOdometry) {
   for (std::size_t i = 0; i + 1 < frames().size(); ++i) {
     const auto& frame = frames()[i];
     EXPECT_TRUE(isFar(odometry_->between(frame.stamp, frames()[i + 1].stamp)->begin_from_end)) << "key frame " << i;
-    for (const auto& hanging : frame.hanging) {
-      EXPECT_FALSE(isFar(odometry_->between(frame.stamp, hanging.stamp)->begin_from_end)) << "after key frame " << i;
+    for (const auto& dependent : frame.dependents) {
+      EXPECT_FALSE(isFar(odometry_->between(frame.stamp, dependent.stamp)->begin_from_end)) << "after key frame " << i;
     }
   }
 }
@@ -76,11 +76,11 @@ TEST_F(Engine, EveryScanIsAKeyFrameOrHangsOnTheOneBeforeIt) {
   std::vector<base::Stamp> stamps;
   for (const auto& frame : frames()) {
     stamps.push_back(frame.stamp);
-    for (const auto& hanging : frame.hanging) {
-      stamps.push_back(hanging.stamp);
-      const auto motion = odometry_->between(frame.stamp, hanging.stamp);
+    for (const auto& dependent : frame.dependents) {
+      stamps.push_back(dependent.stamp);
+      const auto motion = odometry_->between(frame.stamp, dependent.stamp);
       ASSERT_TRUE(motion);
-      EXPECT_LT((hanging.keyframe_from_base - motion->begin_from_end).translation().norm(), 1e-9);
+      EXPECT_LT((dependent.keyframe_from_base - motion->begin_from_end).translation().norm(), 1e-9);
     }
   }
   EXPECT_EQ(stamps, scanStamps());

@@ -47,7 +47,7 @@ class Localize : public ::testing::Test {
     session.start = SessionOptions::Start::origin;
     const auto start = session.startOn(map.map);
     auto engine = testing::makeEngine(testing::kLaserIni, {}, threads, true);
-    engine->localizeIn(std::move(map), start, kFreeKeyFrames);
+    engine->sessions().localizeIn(std::move(map), start, kFreeKeyFrames);
     testing::run(*engine, observations);
     return engine;
   }
@@ -73,14 +73,14 @@ TEST_F(Localize, AnotherDriveIsLocatedAsWellAsTheMapIsKnown) {
   const auto engine = localize(log.observations());
   const auto view = engine->view();
   EXPECT_TRUE(view.map_is_held);
-  ASSERT_GT(view.fixes.size(), 50U);
-  const auto located = std::count_if(view.fixes.begin(), view.fixes.end(),
+  ASSERT_GT(view.localization.size(), 50U);
+  const auto located = std::count_if(view.localization.begin(), view.localization.end(),
                                      [](const LocalizationEstimate& fix) { return fix.located(); });
-  EXPECT_GT(static_cast<double>(located), 0.9 * static_cast<double>(view.fixes.size()));
-  const double error = errorOf(view.fixes, log);
+  EXPECT_GT(static_cast<double>(located), 0.9 * static_cast<double>(view.localization.size()));
+  const double error = errorOf(view.localization, log);
   RecordProperty("rmse_m", std::to_string(error));
   EXPECT_LT(error, 0.1);
-  EXPECT_LT(std::sqrt((*view.fixes.back().covariance)(0, 0)), 0.1);
+  EXPECT_LT(std::sqrt((*view.localization.back().covariance)(0, 0)), 0.1);
 }
 
 TEST_F(Localize, TheMapStaysAsItWasAndOnlyTheWindowIsFree) {
@@ -101,7 +101,7 @@ TEST_F(Localize, TheMapStaysAsItWasAndOnlyTheWindowIsFree) {
     const bool is_own = frame.id.session == 1;
     most += is_own && base::secondsBetween(frame.stamp, newest) < EngineOptions().horizon;
   }
-  EXPECT_GT(view.fixes.size(), 2 * most);
+  EXPECT_GT(view.localization.size(), 2 * most);
   EXPECT_LE(free, most);
   EXPECT_LE(kept, most) << "scans of what left the window are let go";
   EXPECT_LT(view.graph.factors().size(), 6 * most);
@@ -124,7 +124,7 @@ TEST_F(Localize, WhatComesTooLateForTheWindowIsRefusedAndCounted) {
   observations.push_back(late);
   const auto engine = localize(observations);
   EXPECT_EQ(engine->view().counts.too_late, 1U);
-  EXPECT_LT(errorOf(engine->view().fixes, log), 0.1);
+  EXPECT_LT(errorOf(engine->view().localization, log), 0.1);
 }
 
 // Neither scans nor closures: the map and the log have the earth in common.
@@ -148,9 +148,9 @@ TEST_F(Localize, ByGpsAloneFromAStartThatIsFarOff) {
   session.start_x = 30, session.start_y = -20, session.start_yaw = 2;
   const auto start = session.startOn(map.map);
   const auto engine = testing::makeEngine(ini, {}, 1, true);
-  engine->localizeIn(std::move(map), start, kFreeKeyFrames);
+  engine->sessions().localizeIn(std::move(map), start, kFreeKeyFrames);
   testing::run(*engine, log.observations());
-  const auto& fixes = engine->view().fixes;
+  const auto& fixes = engine->view().localization;
   const auto located =
       std::count_if(fixes.begin(), fixes.end(), [](const LocalizationEstimate& fix) { return fix.located(); });
   EXPECT_GT(static_cast<double>(located), 0.5 * static_cast<double>(fixes.size()));
@@ -165,7 +165,7 @@ TEST_F(Localize, ASessionOfTheMapThatWasNeverJoinedIsNoPlaceToBeLocatedIn) {
   auto first = saved();
   const auto begin = SessionOptions().startOn(first.map);
   const auto both = testing::makeEngine(testing::kLaserIni);
-  both->continueFrom(std::move(first), begin);
+  both->sessions().continueFrom(std::move(first), begin);
   testing::run(*both, box.observations());
   ASSERT_FALSE(both->view().map.sessions.back().joined);
   const auto view = both->view();
@@ -173,9 +173,9 @@ TEST_F(Localize, ASessionOfTheMapThatWasNeverJoinedIsNoPlaceToBeLocatedIn) {
   auto map = readMap(*folder_ / "apart.omnimap", registeredKinds());
   SessionStart start{map.map.key_frames[saved().map.key_frames.size()].map_from_base, 1, 0.5};
   const auto engine = testing::makeEngine(testing::kLaserIni, {}, 1, true);
-  engine->localizeIn(std::move(map), start, kFreeKeyFrames);
+  engine->sessions().localizeIn(std::move(map), start, kFreeKeyFrames);
   testing::run(*engine, box.observations());
-  for (const auto& fix : engine->view().fixes) EXPECT_FALSE(fix.located()) << fix.key_frame;
+  for (const auto& fix : engine->view().localization) EXPECT_FALSE(fix.located()) << fix.key_frame;
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ TEST_F(SavedMapFile, AFactorThatLeavesNoDigitsToTheOthersIsRefused) {
 }
 
 TEST_F(SavedMapFile, ANewSessionStartsWhereTheOptionsSay) {
-  run_.map.key_frames.edit({0, 3}).hanging.push_back(
+  run_.map.key_frames.edit({0, 3}).dependents.push_back(
       {run_.map.key_frames[3].stamp + base::Duration(1), CPose3D(0.2, 0, 0, 0, 0, 0)});
   SessionOptions options;
   const auto end = options.startOn(run_.map);

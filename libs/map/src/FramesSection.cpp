@@ -61,10 +61,10 @@ void writeFrame(ByteWriter& out, const KeyFrame& frame) {
   writeId(out, frame.pose);
   writePose(out, frame.map_from_base);
   writePose(out, frame.keyframe_from_next);
-  out.uint(frame.hanging.size(), 4);
-  for (const DependentFrame& hanging : frame.hanging) {
-    writeStamp(out, hanging.stamp);
-    writePose(out, hanging.keyframe_from_base);
+  out.uint(frame.dependents.size(), 4);
+  for (const DependentFrame& dependent : frame.dependents) {
+    writeStamp(out, dependent.stamp);
+    writePose(out, dependent.keyframe_from_base);
   }
   out.uint(frame.observations.size(), 4);
   for (const auto& observation : frame.observations) writeObservation(out, *observation);
@@ -80,7 +80,7 @@ KeyFrame readFrame(ByteReader& in, std::uint32_t version) {
   frame.keyframe_from_next = readPose(in);
   for (std::uint64_t left = in.uint(4); left > 0; --left) {
     const base::Stamp stamp = readStamp(in);
-    frame.hanging.push_back({stamp, readPose(in)});
+    frame.dependents.push_back({stamp, readPose(in)});
   }
   for (std::uint64_t left = in.uint(4); left > 0; --left) frame.observations.push_back(readObservation(in));
   frame.reference = version == 1 || in.uint(1) != 0;

@@ -12,7 +12,7 @@ std::vector<SessionFigures> sessionFigures(const Map& map) {
     } else {
       all.back().way += (frame.map_from_base.translation() - before->map_from_base.translation()).norm();
     }
-    const base::Stamp last = frame.hanging.empty() ? frame.stamp : frame.hanging.back().stamp;
+    const base::Stamp last = frame.dependents.empty() ? frame.stamp : frame.dependents.back().stamp;
     all.back().seconds = base::secondsBetween(first->stamp, last);
     ++all.back().key_frames;
     before = &frame;

@@ -17,8 +17,8 @@ class Spread {
         begin_from_told_end_(geometry::fromMrpt(begin.keyframe_from_next)),
         disagreement_(geometry::minus(geometry::fromMrpt(end.map_from_base), map_from_begin_ * begin_from_told_end_)) {}
 
-  // The disagreement is a tangent at the told end; turned into the hanging frame it is the same step and the same turn
-  // in the map, of which the frame takes its share by time. At the end the share is all of it: the next key frame.
+  // The disagreement is a tangent at the told end; turned into the dependent frame it is the same step and the same
+  // turn in the map, of which the frame takes its share by time. At the end the share is all of it: the next key frame.
   mrpt::poses::CPose3D operator()(const DependentFrame& frame) const {
     const double share = std::clamp(base::secondsBetween(begin_, frame.stamp) / seconds_, 0.0, 1.0);
     const geometry::Se3 begin_from_frame = geometry::fromMrpt(frame.keyframe_from_base);
@@ -40,19 +40,19 @@ class Spread {
 std::vector<StampedPose> denseTrajectory(const Map& map) {
   std::vector<StampedPose> trajectory;
   std::size_t size = map.key_frames.size();
-  for (const KeyFrame& frame : map.key_frames) size += frame.hanging.size();
+  for (const KeyFrame& frame : map.key_frames) size += frame.dependents.size();
   trajectory.reserve(size);
   for (std::size_t i = 0; i < map.key_frames.size(); ++i) {
     const KeyFrame& frame = map.key_frames[i];
     if (frame.reference) trajectory.push_back({frame.stamp, frame.map_from_base, frame.id.session});
-    if (frame.hanging.empty()) continue;
+    if (frame.dependents.empty()) continue;
     if (i + 1 == map.key_frames.size() || map.key_frames[i + 1].id.session != frame.id.session) {
-      for (const DependentFrame& h : frame.hanging) {
+      for (const DependentFrame& h : frame.dependents) {
         trajectory.push_back({h.stamp, frame.map_from_base + h.keyframe_from_base, frame.id.session});
       }
     } else {
       const Spread spread(frame, map.key_frames[i + 1]);
-      for (const DependentFrame& h : frame.hanging) trajectory.push_back({h.stamp, spread(h), frame.id.session});
+      for (const DependentFrame& h : frame.dependents) trajectory.push_back({h.stamp, spread(h), frame.id.session});
     }
   }
   return trajectory;

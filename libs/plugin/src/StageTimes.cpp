@@ -2,10 +2,56 @@
 
 namespace omnimapper::mapper {
 
-void StageTimes::add(const std::string& stage, double seconds) {
-  auto& total = totals_[stage];
+namespace {
+
+std::string nameOf(Stage stage, const std::string& section) {
+  switch (stage) {
+    case Stage::source:
+      return "source";
+    case Stage::perception_wait:
+      return "perception wait";
+    case Stage::job_wait:
+      return "job wait";
+    case Stage::plugin:
+      return "plugin " + section;
+    case Stage::solve:
+      return "solve";
+    case Stage::output:
+      return "output " + section;
+    case Stage::engine:
+      break;
+  }
+  return "engine";
+}
+
+}  // namespace
+
+StageTimes::Timer::Timer(StageTimes& times, Stage stage, const std::string& section)
+    : times_(times), stage_(stage), section_(section), outer_(times.running_) {
+  if (outer_) outer_->before_ += outer_->watch_.seconds();
+  times_.running_ = this;
+  watch_ = {};
+}
+
+StageTimes::Timer::~Timer() {
+  const double seconds = before_ + watch_.seconds();
+  Total& total = times_.totals_[nameOf(stage_, section_)];
   total.seconds += seconds;
   ++total.calls;
+  times_.seconds_[static_cast<std::size_t>(stage_)] += seconds;
+  times_.running_ = outer_;
+  if (outer_) outer_->watch_ = {};
+}
+
+StageTimes::Mark StageTimes::mark() const {
+  return {
+      {}, seconds(Stage::plugin), seconds(Stage::solve), seconds(Stage::perception_wait) + seconds(Stage::job_wait)};
+}
+
+void StageTimes::addKeyFrame(const Mark& begin) {
+  const Mark now = mark();
+  const double plugin = now.plugin - begin.plugin, solve = now.solve - begin.solve, wait = now.wait - begin.wait;
+  key_frames_.push_back({1e3 * plugin, 1e3 * solve, 1e3 * (begin.watch.seconds() - plugin - solve - wait)});
 }
 
 }  // namespace omnimapper::mapper

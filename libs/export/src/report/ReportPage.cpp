@@ -39,7 +39,7 @@ std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
                      figure(base::fixed(figures.way, figures.way < 100 ? 1 : 0) + " m", "way driven") +
                      figure(duration(figures.log_seconds), "recorded");
   if (view.map_is_held) {
-    html += figure(grouped(figures.located) + " of " + grouped(figures.fixes), "new key frames located");
+    html += figure(grouped(figures.located) + " of " + grouped(figures.localized), "new key frames located");
   }
   if (input.picture) {
     html += figure(base::fixed(input.picture->maxX() - input.picture->min_x, 0) + " &#215; " +

@@ -40,7 +40,7 @@ LocalizationOutput::LocalizationOutput(const LocalizationOptions&, const mapper:
 void LocalizationOutput::finish(const mapper::View& view) {
   if (!view.map_is_held) return removeFile(path_);
   std::string text = "stamp,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg,sigma_x_m,sigma_y_m,sigma_yaw_deg,located\n";
-  for (const auto& fix : view.fixes) text += lineOf(fix);
+  for (const auto& fix : view.localization) text += lineOf(fix);
   writeBytes(path_, text);
 }
 

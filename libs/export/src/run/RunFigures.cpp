@@ -31,8 +31,8 @@ RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPos
   for (const Closure& closure : closuresOf(view.map, view.decisions)) {
     ++(closure.decision->accepted ? figures.closures : figures.refused_closures);
   }
-  figures.fixes = view.fixes.size();
-  for (const auto& fix : view.fixes) figures.located += fix.located();
+  figures.localized = view.localization.size();
+  for (const auto& estimate : view.localization) figures.located += estimate.located();
   for (const auto& [stage, total] : view.times.totals()) figures.wall_seconds += total.seconds;
   return figures;
 }

@@ -18,8 +18,8 @@ struct RunFigures {
   double way = 0;          ///< [m] along the key frames of every session
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0, min_z = 0, max_z = 0;  ///< [m] of the key frames
   std::size_t closures = 0, refused_closures = 0;
-  std::size_t fixes = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
-  double wall_seconds = 0;             ///< sum of all stages
+  std::size_t localized = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
+  double wall_seconds = 0;                 ///< sum of all stages
 };
 RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPose>& trajectory);
 

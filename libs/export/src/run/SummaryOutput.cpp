@@ -121,7 +121,7 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   summary["extent_m"] = {{"min", {figures.min_x, figures.min_y, figures.min_z}},
                          {"max", {figures.max_x, figures.max_y, figures.max_z}}};
   summary["sessions"] = sessionsOf(view.map);
-  if (view.map_is_held) summary["localization"] = {{"key_frames", figures.fixes}, {"located", figures.located}};
+  if (view.map_is_held) summary["localization"] = {{"key_frames", figures.localized}, {"located", figures.located}};
   summary["landmarks"] = mapper::countLandmarks(view);
   summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
   summary["verdict"] = verdictOf(view.verdict);

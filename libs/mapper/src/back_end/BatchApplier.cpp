@@ -1,7 +1,5 @@
 #include "back_end/BatchApplier.h"
 
-#include <omnimapper/plugin/StageTimes.h>
-
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -9,34 +7,36 @@
 namespace omnimapper::mapper {
 
 void BatchApplier::apply(const Batch& batch, const BatchOrigin& origin, MeasurementPlugin& plugin) {
-  const auto ids = mapper::apply(batch, origin, graph_, map_);
-  decisions_.insert(decisions_.end(), batch.decisions().begin(), batch.decisions().end());
+  const auto ids = mapper::apply(batch, origin, state_.graph, state_.map);
+  state_.decisions.insert(state_.decisions.end(), batch.decisions().begin(), batch.decisions().end());
   estimator_.applied(batch, ids);
   plugin.applied(ids);
 }
 
-void BatchApplier::collectFollowUps(base::KeyFrameId id, const View& view, double& plugin_seconds) {
+void BatchApplier::collectFollowUps(base::KeyFrameId id) {
   std::shared_ptr<const Snapshot> snapshot;
-  for (auto& [section, plugin] : plugins_) {
-    const StopWatch watch;
-    FollowUp follow_up = plugin->afterCommit(map_.keyFrame(id), view);
-    plugin_seconds += watch.seconds();
-    const BatchOrigin origin{section, map_.keyFrame(id).stamp};
-    if (!follow_up.jobs.empty() && !snapshot) {
-      snapshot = std::make_shared<const Snapshot>(Snapshot{map_, graph_, estimator_.uncertainty()});
-    }
-    for (auto& job : follow_up.jobs) jobs_.add(map_.key_frames.size(), origin, id, std::move(job), snapshot);
-    if (!follow_up.batch.empty()) apply(follow_up.batch, origin, *plugin);
+  for (auto& named : plugins_) {
+    const map::KeyFrame& frame = state_.map.keyFrame(id);
+    const auto asked = [&] {
+      const auto timer = state_.times.measure(Stage::plugin, named.section);
+      return named.plugin->afterCommit(frame, state_.view());
+    };
+    FollowUp follow_up = asked();
+    const BatchOrigin origin{named.section, frame.stamp};
+    if (!follow_up.jobs.empty() && !snapshot)
+      snapshot = std::make_shared<const Snapshot>(Snapshot{state_.map, state_.graph, state_.uncertainty});
+    for (auto& job : follow_up.jobs) jobs_.add(state_.map.key_frames.size(), origin, id, std::move(job), snapshot);
+    if (!follow_up.batch.empty()) apply(follow_up.batch, origin, *named.plugin);
   }
 }
 
-void BatchApplier::applyJobs(bool all, double& waited) {
-  for (;;) {
-    const StopWatch watch;
-    const auto done = jobs_.take(map_.key_frames.size(), all);
-    waited += watch.seconds();
-    if (!done) return;
-    const std::string why_unfit = whyUnfit(done->batch, graph_, map_);
+void BatchApplier::applyJobs(Which which) {
+  const auto next = [&] {
+    const auto timer = state_.times.measure(Stage::job_wait);
+    return jobs_.take(state_.map.key_frames.size(), which == Which::all);
+  };
+  while (const auto done = next()) {
+    const std::string why_unfit = whyUnfit(done->batch, state_.graph, state_.map);
     if (why_unfit.empty()) {
       apply(done->batch, done->origin, pluginOf(done->origin.owner));
       continue;
@@ -47,7 +47,7 @@ void BatchApplier::applyJobs(bool all, double& waited) {
     dropped.kind = done->name;
     dropped.from = done->frame;
     dropped.reason = "what it is about has changed since: " + why_unfit;
-    decisions_.push_back(std::move(dropped));
+    state_.decisions.push_back(std::move(dropped));
   }
 }
 

@@ -8,34 +8,34 @@
 namespace omnimapper::mapper {
 
 void Estimator::refine(base::KeyFrameId id) {
-  map::KeyFrame& frame = map_.key_frames.edit(id);
-  graph::solveOne(graph_, frame.pose);
-  frame.map_from_base = poseOf(graph_, frame.pose);
+  map::KeyFrame& frame = state_.map.key_frames.edit(id);
+  graph::solveOne(state_.graph, frame.pose);
+  frame.map_from_base = poseOf(state_.graph, frame.pose);
 }
 
 void Estimator::applied(const Batch& batch, const AppliedBatch& ids) {
   // More than its noise explains, nineteen times of twenty: chi-square is about its rows' number, 7.8 for three.
   constexpr double kContradiction = 2.6;
-  hypotheses_.take(batch, ids, graph_, decisions_);
+  hypotheses_.take(batch, ids, state_.graph, state_.decisions);
   for (const auto id : ids.factors) {
-    if (!graph_.factor(id).tags.hypothesis) continue;
-    const auto residual = graph_.whitenedResidual(id);
+    if (!state_.graph.factor(id).tags.hypothesis) continue;
+    const auto residual = state_.graph.whitenedResidual(id);
     contradicted_ = contradicted_ || residual.squaredNorm() > kContradiction * static_cast<double>(residual.size());
   }
 }
 
 bool Estimator::isDue() const {
   const auto& options = settings_.engine;
-  const double since_solve = static_cast<double>(map_.key_frames.size() - key_frames_at_solve_);
+  const double since_solve = static_cast<double>(state_.map.key_frames.size() - key_frames_at_solve_);
   // In a window a solve is cheap, and where the robot is counts now; so does what may join a session to the map.
-  const bool is_joined = map_.sessions.empty() || map_.sessions.back().joined;
+  const bool is_joined = state_.map.sessions.empty() || state_.map.sessions.back().joined;
   if (held_ > 0 && hypotheses_.anyFresh()) {
     // Nothing leaves the window of a session that is not joined yet.
-    const double own = static_cast<double>(map_.key_frames.size() - held_);
+    const double own = static_cast<double>(state_.map.key_frames.size() - held_);
     return is_joined || since_solve >= options.solve_growth * own;
   }
   if (held_ > 0 || (!is_joined && hypotheses_.anyFresh())) return since_solve >= options.solve_after_closure;
-  const double growth = options.solve_growth * static_cast<double>(map_.key_frames.size());
+  const double growth = options.solve_growth * static_cast<double>(state_.map.key_frames.size());
   if (!hypotheses_.anyFresh()) return since_solve >= std::max<double>(options.solve_every, growth);
   return since_solve >= std::max<double>(options.solve_after_closure, contradicted_ ? growth / 4 : growth);
 }
@@ -43,15 +43,16 @@ bool Estimator::isDue() const {
 void Estimator::solve(graph::SolveOptions options) {
   const StopWatch watch;
   options.stop = stop_;
-  const double initial_cost = graph_.cost();
-  hypotheses_.solve(graph_, options, map_, decisions_);
-  for (std::size_t i = held_; i < map_.key_frames.size(); ++i) {
-    auto& frame = map_.key_frames.edit(map_.key_frames[i].id);
-    frame.map_from_base = poseOf(graph_, frame.pose);
+  const double initial_cost = state_.graph.cost();
+  hypotheses_.solve(state_.graph, options, state_.map, state_.decisions);
+  for (std::size_t i = held_; i < state_.map.key_frames.size(); ++i) {
+    auto& frame = state_.map.key_frames.edit(state_.map.key_frames[i].id);
+    frame.map_from_base = poseOf(state_.graph, frame.pose);
   }
-  uncertainty_ = Uncertainty(graph_);
-  solves_.push_back({map_.key_frames.size(), graph_.factors().size(), initial_cost, graph_.cost(), watch.seconds()});
-  key_frames_at_solve_ = map_.key_frames.size();
+  state_.uncertainty = Uncertainty(state_.graph);
+  state_.solves.push_back({state_.map.key_frames.size(), state_.graph.factors().size(), initial_cost,
+                           state_.graph.cost(), watch.seconds()});
+  key_frames_at_solve_ = state_.map.key_frames.size();
   contradicted_ = false;
 }
 

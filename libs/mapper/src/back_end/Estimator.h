@@ -1,14 +1,12 @@
 #pragma once
 
-#include <omnimapper/graph/Graph.h>
-#include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/EngineOptions.h>
-#include <omnimapper/plugin/Uncertainty.h>
-#include <omnimapper/plugin/View.h>
 
+#include <cstddef>
 #include <functional>
-#include <vector>
+#include <utility>
 
+#include "RunState.h"
 #include "back_end/Hypotheses.h"
 
 namespace omnimapper::mapper {
@@ -17,20 +15,16 @@ namespace omnimapper::mapper {
 /// record for the curves. Between solves the newest pose alone is refined.
 class Estimator {
  public:
-  /// `map`, `graph` and `decisions` stay the caller's.
-  Estimator(const EngineSettings& settings, map::Map& map, graph::Graph& graph, DecisionLog& decisions)
-      : settings_(settings),
-        map_(map),
-        graph_(graph),
-        decisions_(decisions),
-        hypotheses_(settings.hypotheses.consistency()) {}
+  /// Both stay the caller's.
+  Estimator(const EngineSettings& settings, RunState& state)
+      : settings_(settings), state_(state), hypotheses_(settings.hypotheses.consistency()) {}
 
   /// The first key frame of a session is there: gates start from it.
-  void begin() { uncertainty_ = Uncertainty(graph_); }
+  void begin() { state_.uncertainty = Uncertainty(state_.graph); }
   /// A map with a past is there, solved as it is.
   void takeUp() {
     begin();
-    key_frames_at_solve_ = map_.key_frames.size();
+    key_frames_at_solve_ = state_.map.key_frames.size();
   }
   /// The first so many key frames of the map are held, in a graph that binds them no more (SlidingWindow).
   void hold(std::size_t key_frames) { held_ = key_frames; }
@@ -46,17 +40,11 @@ class Estimator {
 
   /// Asked while a solve runs; true ends it with the best so far.
   void setStop(std::function<bool()> stop) { stop_ = std::move(stop); }
-  const Uncertainty& uncertainty() const { return uncertainty_; }
-  const std::vector<SolveRecord>& solves() const { return solves_; }
 
  private:
   const EngineSettings& settings_;
-  map::Map& map_;
-  graph::Graph& graph_;
-  DecisionLog& decisions_;
+  RunState& state_;
   Hypotheses hypotheses_;
-  Uncertainty uncertainty_;
-  std::vector<SolveRecord> solves_;
   std::function<bool()> stop_;
   std::size_t key_frames_at_solve_ = 0;
   std::size_t held_ = 0;       // key frames

@@ -10,9 +10,9 @@ namespace {
 
 using mrpt::poses::CPose3D;
 
-std::vector<base::Stamp> stampsOf(const std::vector<map::DependentFrame>& hanging) {
+std::vector<base::Stamp> stampsOf(const std::vector<map::DependentFrame>& dependents) {
   std::vector<base::Stamp> stamps;
-  for (const auto& frame : hanging) stamps.push_back(frame.stamp);
+  for (const auto& frame : dependents) stamps.push_back(frame.stamp);
   return stamps;
 }
 
@@ -85,17 +85,17 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
   map::KeyFrame frame = newFrame(stamp, guess);
   place.id = frame.id;
   const base::VariableId pose = frame.pose;
-  std::vector<base::Stamp> hanging;
-  if (before) hanging = stampsOf(before->hanging);
+  std::vector<base::Stamp> dependents;
+  if (before) dependents = stampsOf(before->dependents);
   map_.key_frames.insert(std::move(frame));
   if (before) link(*place.before, place.id, to);
   if (after) link(place.id, *place.after, from);
   if (!before) hold(pose);
-  // What hung on the key frame before and is later hangs on this one.
-  const auto later = std::upper_bound(hanging.begin(), hanging.end(), stamp);
-  const auto earlier = std::lower_bound(hanging.begin(), later, stamp);
-  if (before && earlier != hanging.end()) reattach(*place.before, {hanging.begin(), earlier});
-  if (later != hanging.end()) reattach(place.id, {later, hanging.end()});
+  // Dependent frames of the key frame before that are later than this one become its own.
+  const auto later = std::upper_bound(dependents.begin(), dependents.end(), stamp);
+  const auto earlier = std::lower_bound(dependents.begin(), later, stamp);
+  if (before && earlier != dependents.end()) reattach(*place.before, {dependents.begin(), earlier});
+  if (later != dependents.end()) reattach(place.id, {later, dependents.end()});
   map_.key_frames.edit(place.id).reference = earlier != later;
   return place;
 }
@@ -156,17 +156,17 @@ void PoseChain::unlink(base::KeyFrameId begin) {
 // told, a frame is where the one before it is.
 void PoseChain::reattach(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps) {
   map::KeyFrame& frame = map_.key_frames.edit(begin);
-  frame.hanging.clear();
+  frame.dependents.clear();
   base::Stamp reached = frame.stamp;
   CPose3D keyframe_from_base;
   for (const auto stamp : stamps) {
     if (const auto step = motion(reached, stamp, true)) keyframe_from_base = keyframe_from_base + step->begin_from_end;
-    frame.hanging.push_back({stamp, keyframe_from_base});
+    frame.dependents.push_back({stamp, keyframe_from_base});
     reached = stamp;
   }
 }
 
-bool PoseChain::hang(base::Stamp stamp) {
+bool PoseChain::attach(base::Stamp stamp) {
   const map::KeyFrame* after = frameAfter(stamp);
   if (after && after->stamp == stamp) {
     map_.key_frames.edit(after->id).reference = true;
@@ -176,14 +176,14 @@ bool PoseChain::hang(base::Stamp stamp) {
   if (!before) return false;
   map::KeyFrame& frame = map_.key_frames.edit(before->id);
   auto place =
-      std::lower_bound(frame.hanging.begin(), frame.hanging.end(), stamp,
+      std::lower_bound(frame.dependents.begin(), frame.dependents.end(), stamp,
                        [](const map::DependentFrame& other, base::Stamp wanted) { return other.stamp < wanted; });
-  if (place != frame.hanging.end() && place->stamp == stamp) return true;
-  const bool first = place == frame.hanging.begin();
+  if (place != frame.dependents.end() && place->stamp == stamp) return true;
+  const bool first = place == frame.dependents.begin();
   const auto told = motion(first ? frame.stamp : std::prev(place)->stamp, stamp, true);
   if (!told) return false;
   const CPose3D start = first ? CPose3D() : std::prev(place)->keyframe_from_base;
-  frame.hanging.insert(place, {stamp, start + told->begin_from_end});
+  frame.dependents.insert(place, {stamp, start + told->begin_from_end});
   return true;
 }
 
@@ -201,7 +201,7 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
       unlink(id);
       link(id, next.id, told);
     }
-    reattach(id, stampsOf(map_.keyFrame(id).hanging));
+    reattach(id, stampsOf(map_.keyFrame(id).dependents));
   }
 }
 

@@ -37,9 +37,9 @@ class PoseChain {
   /// The key frame of that stamp: the one there is, or a new one in its place. None if no source tells the motion to
   /// its neighbours.
   std::optional<Place> place(base::Stamp stamp);
-  /// An observation of the reference sensor that is no key frame: hangs on the key frame before it. False if there is
-  /// none, or no source tells the motion from it.
-  bool hang(base::Stamp stamp);
+  /// An observation of the reference sensor that is no key frame: becomes a dependent frame of the key frame before it.
+  /// False if there is none, or no source tells the motion from it.
+  bool attach(base::Stamp stamp);
   /// A source tells other than before of that span: what links the key frames there is made anew.
   void relink(base::Stamp begin, base::Stamp end);
 

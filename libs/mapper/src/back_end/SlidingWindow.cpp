@@ -85,7 +85,7 @@ std::vector<base::KeyFrameId> SlidingWindow::retire(base::Stamp stamp) {
   return retired;
 }
 
-// The first pose that came hangs on where the session began.
+// The first pose that came is tied to where the session began.
 void SlidingWindow::retireAnchor() {
   const auto anchor = map_.sessions.back().anchor;
   const auto factors = graph_.factorsOf(anchor);

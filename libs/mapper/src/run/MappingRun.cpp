@@ -117,8 +117,8 @@ RunResult resultOf(const View& view) {
     ++(decision.accepted ? result.closures : result.refused_closures);
   }
   result.sessions = view.map.sessions;
-  result.fixes = view.fixes.size();
-  for (const auto& fix : view.fixes) result.located += fix.located();
+  result.localized = view.localization.size();
+  for (const auto& estimate : view.localization) result.located += estimate.located();
   const auto figures = map::sessionFigures(view.map);
   if (!figures.empty() && figures.back().number == result.sessions.back().number) {
     result.new_key_frames = figures.back().key_frames;
@@ -217,12 +217,13 @@ void Run::makeEngine() {
 void Run::feed() {
   failure_ = tried(*engine_, [&] {
     Pace pace(request_.speed);
-    double reading = 0;
+    const auto read = [this] {
+      const auto timer = engine_->measure(Stage::source);
+      return log_->next();
+    };
     stopped_ = stop_();
     while (!stopped_) {
-      const StopWatch watch;
-      const auto observation = log_->next();
-      reading += watch.seconds();
+      const auto observation = read();
       if (!observation) {
         // Stopped while it waited?
         stopped_ = log_->report().ending == source::SourceReport::Ending::open && stop_();
@@ -233,7 +234,6 @@ void Run::feed() {
       engine_->add(observation);
       progress_.report(log_->progress(), std::to_string(engine_->view().map.key_frames.size()) + " key frames");
     }
-    engine_->addTime("source", reading);
   });
 }
 
@@ -259,7 +259,7 @@ std::vector<std::string> Run::warn() {
   const auto so_far = resultOf(engine_->view());
   warnOfCounts(engine_->view().counts, so_far.new_key_frames, *engine_);
   warnOfSession(so_far.sessions.back(), *engine_);
-  if (localizes()) warnOfFixes(so_far, *engine_);
+  if (localizes()) warnOfLocalization(so_far, *engine_);
   if (isSuspicious())
     engine_->warn(sentenceOf(engine_->view().verdict) + " Look at map.png and report.html before you use it");
   return unknown_labels;
@@ -322,10 +322,11 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
 
 std::string toText(const RunResult& result, const std::string& output_folder) {
   std::string sessions;
-  if (result.fixes > 0) {
+  if (result.localized > 0) {
     char located[128];
     std::snprintf(located, sizeof located, "located           %.1f %% of %zu key frames\n",
-                  100.0 * static_cast<double>(result.located) / static_cast<double>(result.fixes), result.fixes);
+                  100.0 * static_cast<double>(result.located) / static_cast<double>(result.localized),
+                  result.localized);
     sessions = located;
   } else if (result.sessions.size() > 1) {
     const auto& session = result.sessions.back();

@@ -68,11 +68,11 @@ void warnOfSession(const map::Session& session, Engine& engine) {
       "another place? If not, drive on where the map was made, or give a better start (origin, pose, or anywhere)");
 }
 
-void warnOfFixes(const RunResult& result, Engine& engine) {
-  const std::string of_all = std::to_string(result.located) + " of " + std::to_string(result.fixes) + " key frames";
+void warnOfLocalization(const RunResult& result, Engine& engine) {
+  const std::string of_all = std::to_string(result.located) + " of " + std::to_string(result.localized) + " key frames";
   if (result.located == 0) {
     engine.warn("the log was located nowhere in the map: its trajectory lies where [session] start says");
-  } else if (2 * result.located < result.fixes) {
+  } else if (2 * result.located < result.localized) {
     engine.warn("only " + of_all + " were located: was much of the way outside the map, or is [session] start wrong? " +
                 "start = anywhere seeks the whole map");
   }

@@ -19,6 +19,6 @@ void warnOfNothingMeasured(const std::set<std::string>& measuring, Engine& engin
 /// The place of a session in a map that was there before: known by nothing, or in doubt.
 void warnOfSession(const map::Session& session, Engine& engine);
 /// How much of a run that localizes was located.
-void warnOfFixes(const RunResult& result, Engine& engine);
+void warnOfLocalization(const RunResult& result, Engine& engine);
 
 }  // namespace omnimapper::mapper

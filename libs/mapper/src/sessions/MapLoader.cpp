@@ -25,8 +25,8 @@ void loadMapInto(const RunRequest& request, const SessionOptions& session, const
   }
   const auto start = session.startOn(saved.map);
   try {
-    if (request.localize_map.empty()) return engine.continueFrom(std::move(saved), start);
-    engine.localizeIn(std::move(saved), start, session.free_key_frames);
+    if (request.localize_map.empty()) return engine.sessions().continueFrom(std::move(saved), start);
+    engine.sessions().localizeIn(std::move(saved), start, session.free_key_frames);
   } catch (const base::Error&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -33,7 +33,7 @@ SessionStart SessionOptions::startOn(const map::Map& map) const {
   if (start != Start::end) return session;
   const auto& last = map.key_frames.back();
   session.map_from_base = last.map_from_base;
-  if (!last.hanging.empty()) session.map_from_base = last.map_from_base + last.hanging.back().keyframe_from_base;
+  if (!last.dependents.empty()) session.map_from_base = last.map_from_base + last.dependents.back().keyframe_from_base;
   return session;
 }
 

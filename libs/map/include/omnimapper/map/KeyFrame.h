@@ -9,7 +9,7 @@
 
 namespace omnimapper::map {
 
-/// An observation of the reference sensor between two key frames: it hangs on the key frame before it.
+/// An observation of the reference sensor between two key frames: it depends on the key frame before it.
 struct DependentFrame {
   base::Stamp stamp;
   mrpt::poses::CPose3D keyframe_from_base;  ///< motion since the key frame, by the continuous pose source
@@ -22,8 +22,8 @@ struct KeyFrame {
   base::VariableId pose;                                        ///< its variable in the graph
   mrpt::poses::CPose3D map_from_base;                           ///< latest estimate
   std::vector<mrpt::obs::CObservation::ConstPtr> observations;  ///< raw and derived, all of `stamp`; sensor frames
-  std::vector<DependentFrame> hanging;                          ///< in order of stamp, before the next key frame
-  /// Motion to the next key frame by the source that gave `hanging`; identity for the newest.
+  std::vector<DependentFrame> dependents;                       ///< in order of stamp, before the next key frame
+  /// Motion to the next key frame by the source that gave `dependents`; identity for the newest.
   mrpt::poses::CPose3D keyframe_from_next;
   bool reference = true;  ///< the reference sensor saw something here: the trajectory has a line for it
 };

@@ -13,7 +13,7 @@ struct StampedPose {
   std::uint16_t session = 0;
 };
 
-/// One pose for each observation of the reference sensor, at a key frame or hanging on one, in the order of key frames.
+/// One pose for each observation of the reference sensor, a key frame or a dependent frame, in the order of key frames.
 /// Between two key frames the disagreement of the continuous source with the optimised poses is spread evenly in time,
 /// so that the path has no steps.
 std::vector<StampedPose> denseTrajectory(const Map& map);

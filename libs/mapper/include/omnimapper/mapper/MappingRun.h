@@ -38,7 +38,7 @@ struct RunResult {
   source::SourceReport source;
   std::size_t key_frames = 0, factors = 0;  ///< of the whole map
   std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;
-  std::size_t fixes = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
+  std::size_t localized = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
   std::map<std::string, std::size_t> landmarks;  ///< of the whole map, by label
   std::vector<map::Session> sessions;            ///< of the whole map; the last is this run
   double log_seconds = 0;                        ///< from first to last stamp

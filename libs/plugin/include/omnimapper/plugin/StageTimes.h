@@ -1,36 +1,13 @@
 #pragma once
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace omnimapper::mapper {
-
-/// Wall time spent in each stage of the flow, in total and per key frame. The engine measures, algorithms do not.
-/// Stages: "source", "perception wait", "job wait", "plugin <section>", "solve", "output <section>", "engine" (all the
-/// rest).
-class StageTimes {
- public:
-  struct Total {
-    double seconds = 0;
-    std::size_t calls = 0;
-  };
-  struct PerKeyFrame {
-    double matching_ms = 0;  ///< measurement plugins
-    double solve_ms = 0;
-    double engine_ms = 0;  ///< everything else in the engine's thread
-  };
-
-  void add(const std::string& stage, double seconds);
-  const std::map<std::string, Total>& totals() const { return totals_; }
-  std::vector<PerKeyFrame>& keyFrames() { return key_frames_; }
-  const std::vector<PerKeyFrame>& keyFrames() const { return key_frames_; }
-
- private:
-  std::map<std::string, Total> totals_;
-  std::vector<PerKeyFrame> key_frames_;
-};
 
 /// Seconds since it was made.
 class StopWatch {
@@ -41,17 +18,71 @@ class StopWatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Adds the seconds of its life to a sum.
-class Timed {
+/// What the engine's thread spends its time on.
+enum class Stage {
+  source,           ///< reading the log
+  perception_wait,  ///< until the workers have extracted what a key frame needs
+  job_wait,         ///< until the workers have finished a job that is due
+  plugin,           ///< in a pose or measurement plugin
+  solve,
+  output,  ///< in an output plugin
+  engine,  ///< all the rest
+};
+
+/// Wall time of the engine's thread by stage, in total and for each key frame. The engine measures it, algorithms do
+/// not.
+class StageTimes {
  public:
-  explicit Timed(double& sum) : sum_(sum) {}
-  ~Timed() { sum_ += watch_.seconds(); }
-  Timed(const Timed&) = delete;
-  Timed& operator=(const Timed&) = delete;
+  struct Total {
+    double seconds = 0;
+    std::size_t calls = 0;
+  };
+  struct PerKeyFrame {
+    double matching_ms = 0;  ///< plugins
+    double solve_ms = 0;
+    double engine_ms = 0;  ///< everything else but waiting
+  };
+
+  /// Measures a stage until it is destroyed. While a second one measures, the first stands still: each second counts
+  /// once.
+  class [[nodiscard]] Timer {
+   public:
+    Timer(StageTimes& times, Stage stage, const std::string& section);
+    ~Timer();
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+
+   private:
+    StageTimes& times_;
+    Stage stage_;
+    std::string section_;
+    Timer* outer_;
+    double before_ = 0;  // [s] until a timer within this one took over
+    StopWatch watch_;    // since it began or went on
+  };
+  /// `section`: of the INI, for plugins and outputs. These times must outlive the timer and stay in their place.
+  Timer measure(Stage stage, const std::string& section = {}) { return {*this, stage, section}; }
+
+  /// A moment of the run, to be compared with a later one.
+  struct Mark {
+    StopWatch watch;
+    double plugin, solve, wait;
+  };
+  Mark mark() const;
+  /// What has passed since `begin` was the work on one key frame.
+  void addKeyFrame(const Mark& begin);
+
+  /// By name: "source", "perception wait", "job wait", "plugin <section>", "solve", "output <section>", "engine".
+  const std::map<std::string, Total>& totals() const { return totals_; }
+  const std::vector<PerKeyFrame>& keyFrames() const { return key_frames_; }
 
  private:
-  double& sum_;
-  StopWatch watch_;
+  double seconds(Stage stage) const { return seconds_[static_cast<std::size_t>(stage)]; }
+
+  std::map<std::string, Total> totals_;
+  std::array<double, static_cast<std::size_t>(Stage::engine) + 1> seconds_{};
+  std::vector<PerKeyFrame> key_frames_;
+  Timer* running_ = nullptr;
 };
 
 }  // namespace omnimapper::mapper

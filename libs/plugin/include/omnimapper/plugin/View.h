@@ -52,7 +52,7 @@ struct View : State {
   /// The run only finds its way in a map that stands: what earlier sessions made is not its own.
   bool map_is_held = false;
   /// Of such a run, one for each key frame in the order they came.
-  const std::vector<LocalizationEstimate>& fixes;
+  const std::vector<LocalizationEstimate>& localization;
   /// What the run thinks of the map, once it is finished.
   const Verdict& verdict;
 };

@@ -20,13 +20,21 @@ struct HandMadeRun {
   std::vector<std::string> warnings;
   std::vector<map::MapSection> sections;
   bool map_is_held = false;
-  std::vector<mapper::LocalizationEstimate> fixes;
+  std::vector<mapper::LocalizationEstimate> localization;
   mapper::Verdict verdict;
   mapper::Uncertainty uncertainty;  ///< of nothing, until a test sets it
 
   mapper::View view() const {
-    return {
-        {map, graph, uncertainty}, decisions, times, counts, solves, warnings, sections, map_is_held, fixes, verdict};
+    return {{map, graph, uncertainty},
+            decisions,
+            times,
+            counts,
+            solves,
+            warnings,
+            sections,
+            map_is_held,
+            localization,
+            verdict};
   }
 
   /// A key frame of the graph's session at that estimate, one second after the one before.

@@ -1,0 +1,221 @@
+#include "back_end/BackEnd.h"
+
+#include <omnimapper/mapper/SessionAlignment.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "run/OneSensor.h"
+
+namespace omnimapper::mapper {
+
+namespace {
+
+std::set<std::string> absoluteSections(const PluginSet& plugins) {
+  std::set<std::string> sections;
+  for (const auto& [section, plugin] : plugins.measurement) {
+    if (plugin->givesAbsolutePoses()) sections.insert(section);
+  }
+  return sections;
+}
+
+}  // namespace
+
+BackEnd::BackEnd(const EngineSettings& settings, PluginSet& plugins, base::WorkerPool& pool, RunState& state)
+    : settings_(settings),
+      plugins_(plugins),
+      state_(state),
+      absolute_(absoluteSections(plugins)),
+      chain_(settings.engine.motion, plugins.pose, state.map, state.graph),
+      estimator_(settings, state),
+      applier_(plugins.measurement, state, estimator_, pool, static_cast<std::size_t>(settings.engine.job_delay)) {}
+
+void BackEnd::beginSession(const map::Session& session, const std::optional<SessionStart>& start) {
+  chain_.beginSession(session, start, !absolute_.empty());
+}
+
+bool BackEnd::process(FrameBundle& bundle) {
+  if (bundle.observations.empty()) {
+    if (!chain_.attach(bundle.stamp)) ++state_.counts.unconnected;
+    return false;
+  }
+  const auto begin = state_.times.mark();
+  const auto place = chain_.place(bundle.stamp);
+  if (!place) {
+    state_.counts.unconnected += bundle.observations.size();
+    return false;
+  }
+  if (bundle.reference) state_.map.key_frames.edit(place->id).reference = true;
+  const bool is_first = place->is_new && !place->before && !place->after;
+  if (is_first) estimator_.begin();  // of its session, whose place is known to so much
+  if (place->is_new && place->after) {
+    ++state_.counts.spliced;
+    for (auto& [section, plugin] : plugins_.measurement) {
+      plugin->spliced(state_.map.keyFrame(place->id), place->before, place->after);
+    }
+  }
+  const auto perceived = gather(bundle, place->id);
+  measure(place->id, perceived);
+  commit(place->id);
+  if (window_ && place->is_new && !place->after) addEstimate(place->id);
+  state_.times.addKeyFrame(begin);
+  return true;
+}
+
+// The raw observations, then what the workers made of them, without what the key frame has already: a perceived log
+// brings derived observations of its own, and a late one may repeat an old one.
+std::vector<Perceived> BackEnd::gather(FrameBundle& bundle, base::KeyFrameId id) {
+  std::vector<Perceived> raw, derived;
+  for (auto& pending : bundle.observations) {
+    const auto timer = state_.times.measure(Stage::perception_wait);
+    auto [parts, errors] = pending.get();
+    state_.extraction_errors.add(errors);
+    raw.push_back(std::move(parts.front()));
+    std::move(parts.begin() + 1, parts.end(), std::back_inserter(derived));
+  }
+  map::KeyFrame& frame = state_.map.key_frames.edit(id);
+  std::vector<Perceived> added;
+  for (auto* part : {&raw, &derived}) {
+    for (auto& perceived : *part) {
+      const bool is_there = std::any_of(frame.observations.begin(), frame.observations.end(), [&](const auto& other) {
+        return isOfOneSensor(*other, *perceived.observation);
+      });
+      if (is_there) {
+        state_.counts.repeated_stamp += part == &raw;
+        continue;
+      }
+      frame.observations.push_back(perceived.observation);
+      added.push_back(std::move(perceived));
+    }
+  }
+  return added;
+}
+
+void BackEnd::measure(base::KeyFrameId id, const std::vector<Perceived>& perceived) {
+  for (std::size_t i = 0; i < plugins_.measurement.size(); ++i) {
+    auto& [section, plugin] = plugins_.measurement[i];
+    for (const auto& one : perceived) {
+      if (!plugin->wants(*one.observation)) continue;
+      state_.fed.insert(section);
+      const auto& frame = state_.map.keyFrame(id);
+      const auto measured = [&, &section = section, &plugin = plugin] {
+        const auto timer = state_.times.measure(Stage::plugin, section);
+        return plugin->measure(frame, {*one.observation, one.prepared[i].get()}, state_.view());
+      };
+      const Batch batch = measured();
+      applier_.apply(batch, {section, frame.stamp}, *plugin);
+      // Plugins that follow tell landmarks apart by this pose: it takes up what was measured of it first.
+      if (plugin->givesAbsolutePoses() && batch.changesGraph()) estimator_.refine(id);
+    }
+  }
+}
+
+void BackEnd::commit(base::KeyFrameId id) {
+  estimator_.refine(id);
+  applier_.applyJobs(BatchApplier::Which::due);
+  if (estimator_.isDue()) solve(settings_.solver.running());
+  applier_.collectFollowUps(id);
+}
+
+void BackEnd::applyAllJobs() {
+  applier_.applyJobs(BatchApplier::Which::all);
+}
+
+void BackEnd::solve(const graph::SolveOptions& options) {
+  {
+    const auto timer = state_.times.measure(Stage::solve);
+    estimator_.solve(options);
+    if (!window_) {
+      markJoined(state_.map, state_.graph, absolute_);
+    } else if (!window_->hasRetired()) {
+      markLocated(state_.map, state_.graph, absolute_);
+    }
+  }
+  ++state_.counts.solves;
+  for (auto& [section, plugin] : plugins_.output) {
+    const auto timer = state_.times.measure(Stage::output, section);
+    plugin->update(state_.view());
+  }
+}
+
+// Each plugin sees what those before it concluded.
+void BackEnd::conclude() {
+  const base::Stamp now = state_.map.key_frames.back().stamp;
+  for (auto& named : plugins_.measurement) {
+    const auto concluded = [&] {
+      const auto timer = state_.times.measure(Stage::plugin, named.section);
+      return named.plugin->atEnd(state_.view());
+    };
+    const Batch batch = concluded();
+    if (batch.empty()) continue;
+    applier_.apply(batch, {named.section, now}, *named.plugin);
+    if (batch.changesGraph()) solveFinally();
+  }
+}
+
+void BackEnd::judgeMap() {
+  std::vector<Evidence> evidence;
+  const auto collect = [&](const auto& plugins, const auto& evidence_of) {
+    for (const auto& [section, plugin] : plugins) {
+      const auto timer = state_.times.measure(Stage::plugin, section);
+      auto some = evidence_of(*plugin);
+      evidence.insert(evidence.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
+    }
+  };
+  collect(plugins_.pose, [](const PosePlugin& plugin) { return plugin.evidence(); });
+  collect(plugins_.measurement, [this](const MeasurementPlugin& plugin) { return plugin.evidence(state_.view()); });
+  state_.verdict = mapper::conclude(std::move(evidence));
+}
+
+void BackEnd::resume() {
+  estimator_.takeUp();
+  for (auto& [section, plugin] : plugins_.measurement) {
+    const auto found =
+        std::find_if(state_.sections.begin(), state_.sections.end(),
+                     [name = kPluginSectionPrefix + section](const auto& other) { return other.name == name; });
+    plugin->restore(found == state_.sections.end() ? nullptr : &*found, state_.view());
+  }
+}
+
+// What plugins keep takes the place of what they kept before; sections of nobody here stay.
+void BackEnd::collectSections() {
+  for (auto& [section, plugin] : plugins_.measurement) {
+    auto saved = plugin->save();
+    if (!saved) continue;
+    saved->name = kPluginSectionPrefix + section;
+    const auto place = std::find_if(state_.sections.begin(), state_.sections.end(),
+                                    [&](const auto& other) { return other.name == saved->name; });
+    if (place == state_.sections.end()) {
+      state_.sections.push_back(std::move(*saved));
+    } else {
+      *place = std::move(*saved);
+    }
+  }
+}
+
+void BackEnd::holdMap(int key_frames) {
+  // What a job finds of a key frame must find it free.
+  const int free = std::max(key_frames, settings_.engine.job_delay + 1);
+  window_.emplace(settings_.engine.motion, static_cast<std::size_t>(free), state_.map, state_.graph);
+  window_->holdMap();
+  estimator_.hold(window_->held());
+  state_.map_is_held = true;
+}
+
+void BackEnd::retireBefore(base::Stamp stamp) {
+  if (!window_) return;
+  for (const auto id : window_->retire(stamp)) {
+    chain_.retire(id);
+    for (auto& [section, plugin] : plugins_.measurement) plugin->retired(state_.map.keyFrame(id));
+  }
+  estimator_.hold(window_->held());
+}
+
+void BackEnd::addEstimate(base::KeyFrameId id) {
+  const auto& frame = state_.map.keyFrame(id);
+  const auto covariance = state_.view().covarianceBetween(state_.map.key_frames.front().id, id);
+  state_.localization.push_back({id, frame.stamp, frame.map_from_base, covariance, state_.map.sessions.back().joined});
+}
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,146 @@
+#include "front_end/FrontEnd.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+// Bundles that wait for their perception. The number of threads plays no part in it: what is known of the odometry when
+// a bundle is worked on must not depend on them.
+constexpr std::size_t kPipelineDepth = 8;
+// How long beyond the window an observation waits for a pose source that lags behind.
+constexpr double kPatienceSeconds = 3;
+
+template <class Plugin>
+std::vector<const Plugin*> pointers(const std::vector<Named<Plugin>>& plugins) {
+  std::vector<const Plugin*> all;
+  for (const auto& named : plugins) all.push_back(named.plugin.get());
+  return all;
+}
+
+}  // namespace
+
+FrontEnd::FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, PluginSet& plugins, PoseChain& chain,
+                   base::WorkerPool& pool, RunState& state)
+    : options_(settings.engine),
+      sensor_poses_(std::move(sensor_poses)),
+      plugins_(plugins),
+      chain_(chain),
+      state_(state),
+      queue_(base::durationFromSeconds(settings.engine.window)),
+      trigger_(settings.trigger),
+      perception_(pointers(plugins.extractors), pointers(plugins.measurement), pool),
+      reference_sensor_(settings.engine.reference_sensor) {}
+
+void FrontEnd::add(const mrpt::obs::CObservation::Ptr& observation) {
+  RunCounts& counts = state_.counts;
+  ++counts.observations;
+  if (!filter_.accepts(*observation, counts)) return;
+  if (queue_.holds(*observation)) {
+    ++counts.repeated_stamp;
+    return;
+  }
+  queue_.arrived(observation->timestamp);
+  const auto placed = sensor_poses_.applied(observation);
+  const bool is_taken = feedSources(*placed);
+  if (perception_.wants(*placed)) {
+    if (!queue_.add(placed)) addLate(placed);
+  } else if (!is_taken) {
+    ++counts.unwanted;
+  }
+}
+
+// Whether a pose source took it. Where a source corrects what it said of the past, the factors there change.
+bool FrontEnd::feedSources(const mrpt::obs::CObservation& observation) {
+  bool taken = false;
+  for (auto& [section, plugin] : plugins_.pose) {
+    const auto answer = plugin->add(observation);
+    state_.counts.unusable += answer == PosePlugin::Taken::unusable;
+    if (answer == PosePlugin::Taken::taken) state_.fed.insert(section);
+    taken = taken || answer != PosePlugin::Taken::not_mine;
+    const auto newest = chain_.newest();
+    const auto news = plugin->news();
+    if (news && newest && news->begin < *newest) chain_.relink(news->begin, news->end);
+  }
+  return taken;
+}
+
+// Whether every continuous source can tell the motion until then. One that has fallen silent is waited for no more.
+bool FrontEnd::isCovered(base::Stamp stamp) const {
+  const auto patience = base::durationFromSeconds(options_.window + kPatienceSeconds);
+  return std::all_of(plugins_.pose.begin(), plugins_.pose.end(), [&](const auto& named) {
+    const auto until = named.plugin->coveredUntil();
+    return named.plugin->isFallback() || !until || *until >= stamp || *until + patience < *queue_.now();
+  });
+}
+
+// Later than its window. Beyond the horizon nobody knows any more how the base moved then.
+void FrontEnd::addLate(const mrpt::obs::CObservation::Ptr& observation) {
+  const auto newest = chain_.newest();
+  if (newest && observation->timestamp + base::durationFromSeconds(options_.horizon) < *newest) {
+    ++state_.counts.too_late;
+    return;
+  }
+  ++state_.counts.late;
+  release({observation->timestamp, {observation}}, true);
+}
+
+std::optional<FrameBundle> FrontEnd::next() {
+  while (bundles_.size() <= kPipelineDepth && releaseNext()) continue;
+  if (bundles_.empty() || (bundles_.size() <= kPipelineDepth && !closed_)) return std::nullopt;
+  FrameBundle first = std::move(bundles_.front());
+  bundles_.pop_front();
+  return first;
+}
+
+// Whether there was a group that waits no more.
+bool FrontEnd::releaseNext() {
+  const auto due = queue_.due();
+  const bool is_ready = closed_ || (due && isCovered(*due));
+  if (!is_ready) {
+    if (queue_.size() <= static_cast<std::size_t>(options_.queue_limit)) return false;
+    ++state_.counts.hurried;
+  }
+  const auto group = queue_.next();
+  if (group) release(*group, false);
+  return group.has_value();
+}
+
+// Past the trigger, perception starts at once; the bundle itself is worked on when those before it are.
+void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
+  for (auto& [section, plugin] : plugins_.pose) {
+    const auto timer = state_.times.measure(Stage::plugin, section);
+    plugin->processUntil(group.stamp);
+  }
+  const auto motion = [this](base::Stamp begin, base::Stamp end) { return chain_.motion(begin, end, false); };
+  FrameBundle bundle{group.stamp, false, {}};
+  std::vector<mrpt::obs::CObservation::ConstPtr> fired;
+  for (const auto& observation : group.observations) {
+    const bool fires = late ? trigger_.firesLate(observation->sensorLabel, group.stamp, motion)
+                            : trigger_.fires(observation->sensorLabel, group.stamp, motion);
+    if (fires) {
+      if (reference_sensor_.empty()) reference_sensor_ = observation->sensorLabel;
+      fired.push_back(observation);
+    } else {
+      ++state_.counts.not_triggered;
+    }
+    bundle.reference = bundle.reference || observation->sensorLabel == reference_sensor_;
+  }
+  for (const auto& raw : fired) bundle.observations.push_back(perception_.submit(raw, fired));
+  if (!bundle.observations.empty() || bundle.reference) bundles_.push_back(std::move(bundle));
+}
+
+std::optional<base::Stamp> FrontEnd::oldestWaiting() const {
+  const auto first = std::min_element(bundles_.begin(), bundles_.end(),
+                                      [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  return first == bundles_.end() ? std::nullopt : std::make_optional(first->stamp);
+}
+
+void FrontEnd::forgetBefore(base::Stamp stamp) {
+  for (auto& [section, plugin] : plugins_.pose) plugin->forgetBefore(stamp);
+  trigger_.forgetBefore(stamp);
+}
+
+}  // namespace omnimapper::mapper

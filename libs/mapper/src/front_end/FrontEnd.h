@@ -1,0 +1,65 @@
+#pragma once
+
+#include <omnimapper/base/WorkerPool.h>
+#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/mapper/SensorPoses.h>
+#include <omnimapper/mapper/Trigger.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "RunState.h"
+#include "back_end/PoseChain.h"
+#include "front_end/FrameBundle.h"
+#include "front_end/InputFilter.h"
+#include "front_end/Perception.h"
+#include "front_end/ReleaseQueue.h"
+
+namespace omnimapper::mapper {
+
+/// Observations in, in order of arrival; bundles for key frames out, in order of time (thesis 5.2.3.2, 5.3.2.1).
+/// Pose sources are fed on the way, and perception of a bundle starts in the worker pool when the trigger lets it
+/// through.
+class FrontEnd {
+ public:
+  /// All but `sensor_poses` stay the caller's. `chain` answers the trigger how the base moved, and learns of what pose
+  /// sources correct.
+  FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, PluginSet& plugins, PoseChain& chain,
+           base::WorkerPool& pool, RunState& state);
+
+  /// Takes one observation. What cannot be used is counted.
+  void add(const mrpt::obs::CObservation::Ptr& observation);
+  /// The log has ended: next() hands out all that still waits.
+  void close() { closed_ = true; }
+  /// The bundle to work on now; none until more is added. What is asked for next may depend on what became of it.
+  std::optional<FrameBundle> next();
+
+  /// Stamp of the oldest bundle that waits to be handed out; late ones stand behind younger ones.
+  std::optional<base::Stamp> oldestWaiting() const;
+  /// No late observation before `stamp` will be accepted.
+  void forgetBefore(base::Stamp stamp);
+
+ private:
+  bool feedSources(const mrpt::obs::CObservation& observation);
+  bool isCovered(base::Stamp stamp) const;
+  void addLate(const mrpt::obs::CObservation::Ptr& observation);
+  bool releaseNext();
+  void release(const ReleaseQueue::Group& group, bool late);
+
+  const EngineOptions& options_;
+  SensorPoses sensor_poses_;
+  PluginSet& plugins_;
+  PoseChain& chain_;
+  RunState& state_;
+  InputFilter filter_;
+  ReleaseQueue queue_;
+  Trigger trigger_;
+  Perception perception_;
+  std::string reference_sensor_;
+  std::deque<FrameBundle> bundles_;
+  bool closed_ = false;
+};
+
+}  // namespace omnimapper::mapper

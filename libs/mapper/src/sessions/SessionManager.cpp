@@ -1,0 +1,24 @@
+#include "sessions/SessionManager.h"
+
+#include <utility>
+
+namespace omnimapper::mapper {
+
+void SessionManager::continueFrom(SavedMap saved, const SessionStart& start) {
+  map::Session session = state_.map.sessions.back();
+  state_.map = std::move(saved.map);
+  state_.graph = std::move(saved.graph);
+  state_.sections = std::move(saved.sections);
+  session.number = static_cast<std::uint16_t>(state_.map.sessions.empty() ? 0 : state_.map.sessions.back().number + 1);
+  session.joined = false;
+  state_.graph.setSession(session.number);
+  back_end_.beginSession(session, start);
+  back_end_.resume();
+}
+
+void SessionManager::localizeIn(SavedMap saved, const SessionStart& start, int key_frames) {
+  continueFrom(std::move(saved), start);
+  back_end_.holdMap(key_frames);
+}
+
+}  // namespace omnimapper::mapper
