@@ -142,9 +142,9 @@ inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0
        "turned <too> far",
        {{"correction [m]", 2}}}};
   for (auto& decision : run.decisions) decision.is_loop_closure = decision.kind == "loop closure";
-  run.times.add("solve", 0.01);
-  run.times.add("plugin laser", 0.02);
-  run.times.keyFrames() = {{1, 0, 0.1}, {2, 0.5, 0.1}, {3, 0.5, 0.1}};
+  run.times.add(mapper::Stage::solve, "", 0.01);
+  run.times.add(mapper::Stage::plugin, "laser", 0.02);
+  for (const double plugin_ms : {1, 2, 3}) run.times.addKeyFrame({plugin_ms, plugin_ms > 1 ? 0.5 : 0, 0.1});
   run.counts.observations = 12;
   run.counts.solves = 1;
   run.solves = {{3, 3, 40.0, 20.0, 5}};

@@ -94,8 +94,8 @@ TEST(MapOutput, timesDoNotEnterIt) {
   RunRecord run = boxRun();
   exports::MapOutput({}, contextFor(folder.path())).finish(run.view());
   const std::string bytes = contentOf(folder / "map.omnimap");
-  run.times.add("solve", 123);
-  run.times.keyFrames()[0].engine_ms = 77;
+  run.times.add(mapper::Stage::solve, "", 123);
+  run.times.addKeyFrame({0, 0, 77});
   exports::MapOutput({}, contextFor(folder.path())).finish(run.view());
   EXPECT_EQ(contentOf(folder / "map.omnimap"), bytes);
 }

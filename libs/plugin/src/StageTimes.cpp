@@ -34,13 +34,16 @@ StageTimes::Timer::Timer(StageTimes& times, Stage stage, const std::string& sect
 }
 
 StageTimes::Timer::~Timer() {
-  const double seconds = before_ + watch_.seconds();
-  Total& total = times_.totals_[nameOf(stage_, section_)];
-  total.seconds += seconds;
-  ++total.calls;
-  times_.seconds_[static_cast<std::size_t>(stage_)] += seconds;
+  times_.add(stage_, section_, before_ + watch_.seconds());
   times_.running_ = outer_;
   if (outer_) outer_->watch_ = {};
+}
+
+void StageTimes::add(Stage stage, const std::string& section, double seconds) {
+  Total& total = totals_[nameOf(stage, section)];
+  total.seconds += seconds;
+  ++total.calls;
+  seconds_[static_cast<std::size_t>(stage)] += seconds;
 }
 
 StageTimes::Mark StageTimes::mark() const {
@@ -48,10 +51,10 @@ StageTimes::Mark StageTimes::mark() const {
       {}, seconds(Stage::plugin), seconds(Stage::solve), seconds(Stage::perception_wait) + seconds(Stage::job_wait)};
 }
 
-void StageTimes::addKeyFrame(const Mark& begin) {
+void StageTimes::addKeyFrameSince(const Mark& begin) {
   const Mark now = mark();
   const double plugin = now.plugin - begin.plugin, solve = now.solve - begin.solve, wait = now.wait - begin.wait;
-  key_frames_.push_back({1e3 * plugin, 1e3 * solve, 1e3 * (begin.watch.seconds() - plugin - solve - wait)});
+  addKeyFrame({1e3 * plugin, 1e3 * solve, 1e3 * (begin.watch.seconds() - plugin - solve - wait)});
 }
 
 }  // namespace omnimapper::mapper

@@ -59,7 +59,7 @@ bool BackEnd::process(FrameBundle& bundle) {
   measure(place->id, perceived);
   commit(place->id);
   if (window_ && place->is_new && !place->after) addEstimate(place->id);
-  state_.times.addKeyFrame(begin);
+  state_.times.addKeyFrameSince(begin);
   return true;
 }
 

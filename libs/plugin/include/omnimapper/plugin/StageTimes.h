@@ -60,8 +60,13 @@ class StageTimes {
     double before_ = 0;  // [s] until a timer within this one took over
     StopWatch watch_;    // since it began or went on
   };
-  /// `section`: of the INI, for plugins and outputs. These times must outlive the timer and stay in their place.
+  /// `section`: of the INI, for plugins and outputs; else empty. These times must outlive the timer and stay in their
+  /// place.
   Timer measure(Stage stage, const std::string& section = {}) { return {*this, stage, section}; }
+
+  /// Adds a time that was measured.
+  void add(Stage stage, const std::string& section, double seconds);
+  void addKeyFrame(const PerKeyFrame& times) { key_frames_.push_back(times); }
 
   /// A moment of the run, to be compared with a later one.
   struct Mark {
@@ -70,7 +75,7 @@ class StageTimes {
   };
   Mark mark() const;
   /// What has passed since `begin` was the work on one key frame.
-  void addKeyFrame(const Mark& begin);
+  void addKeyFrameSince(const Mark& begin);
 
   /// By name: "source", "perception wait", "job wait", "plugin <section>", "solve", "output <section>", "engine".
   const std::map<std::string, Total>& totals() const { return totals_; }
