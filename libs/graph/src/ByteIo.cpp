@@ -1,8 +1,8 @@
 #include "omnimapper/graph/ByteIo.h"
 
+#include <omnimapper/base/Bytes.h>
 #include <omnimapper/base/Error.h>
 
-#include <cstring>
 #include <istream>
 #include <ostream>
 
@@ -20,14 +20,12 @@ void readBytes(std::istream& in, char* bytes, std::size_t count) {
 
 void writeUint(std::ostream& out, std::uint64_t value, int bytes) {
   char buffer[8];
-  for (int i = 0; i < bytes; ++i) buffer[i] = static_cast<char>((value >> (8 * i)) & 0xff);
+  base::toBytes(value, bytes, buffer);
   out.write(buffer, bytes);
 }
 
 void writeDouble(std::ostream& out, double value) {
-  std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  writeUint(out, bits, 8);
+  writeUint(out, base::bitsOf(value), 8);
 }
 
 void writeText(std::ostream& out, const std::string& text) {
@@ -36,18 +34,13 @@ void writeText(std::ostream& out, const std::string& text) {
 }
 
 std::uint64_t readUint(std::istream& in, int bytes) {
-  unsigned char buffer[8];
-  readBytes(in, reinterpret_cast<char*>(buffer), static_cast<std::size_t>(bytes));
-  std::uint64_t value = 0;
-  for (int i = 0; i < bytes; ++i) value |= std::uint64_t{buffer[i]} << (8 * i);
-  return value;
+  char buffer[8];
+  readBytes(in, buffer, static_cast<std::size_t>(bytes));
+  return base::fromBytes(buffer, bytes);
 }
 
 double readDouble(std::istream& in) {
-  const std::uint64_t bits = readUint(in, 8);
-  double value;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
+  return base::fromBits(readUint(in, 8));
 }
 
 std::string readText(std::istream& in) {

@@ -1,4 +1,5 @@
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Bytes.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/InputFile.h>
 #include <omnimapper/map/MapFile.h>
@@ -7,9 +8,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "Bytes.h"
-
 namespace omnimapper::map {
+
+using base::ByteReader;
+using base::ByteWriter;
 
 namespace {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/base/Bytes.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Id.h>
 #include <omnimapper/base/Stamp.h>
@@ -7,10 +8,11 @@
 
 #include <string>
 
-#include "Bytes.h"
-
 // What the sections of a map file have in common.
 namespace omnimapper::map {
+
+using base::ByteReader;
+using base::ByteWriter;
 
 template <class Tag>
 void writeId(ByteWriter& out, base::Id<Tag> id) {

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <omnimapper/base/Error.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace omnimapper::base {
+
+/// The lowest `count` bytes of a number, at most 8, little-endian whatever the machine.
+inline void toBytes(std::uint64_t value, int count, char* bytes) {
+  for (int i = 0; i < count; ++i) bytes[i] = static_cast<char>((value >> (8 * i)) & 0xff);
+}
+inline std::uint64_t fromBytes(const char* bytes, int count) {
+  std::uint64_t value = 0;
+  for (int i = 0; i < count; ++i) value |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * i);
+  return value;
+}
+
+/// All bits of a number, and back.
+inline std::uint64_t bitsOf(double value) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+inline double fromBits(std::uint64_t bits) {
+  double value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// Appends numbers to bytes, little-endian whatever the machine; doubles keep every bit.
+class ByteWriter {
+ public:
+  void uint(std::uint64_t value, int bytes) {
+    char buffer[8];
+    toBytes(value, bytes, buffer);
+    bytes_.append(buffer, static_cast<std::size_t>(bytes));
+  }
+  void real(double value) { uint(bitsOf(value), 8); }
+  void raw(std::string_view bytes) { bytes_.append(bytes); }
+  /// Length in 8 bytes, then the bytes.
+  void block(std::string_view bytes) {
+    uint(bytes.size(), 8);
+    raw(bytes);
+  }
+  const std::string& bytes() const { return bytes_; }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+/// Reads what ByteWriter wrote. Throws Error(unreadable_input) naming `what` where the bytes end early.
+class ByteReader {
+ public:
+  ByteReader(std::string_view bytes, std::string what) : bytes_(bytes), what_(std::move(what)) {}
+
+  std::uint64_t uint(int bytes) { return fromBytes(raw(static_cast<std::uint64_t>(bytes)).data(), bytes); }
+  double real() { return fromBits(uint(8)); }
+  std::string_view raw(std::uint64_t count) {
+    if (count > bytes_.size() - position_) {
+      throw Error(ExitCode::unreadable_input, what_ + ": truncated: byte " + std::to_string(position_) +
+                                                  " begins something of " + std::to_string(count) +
+                                                  " bytes, but only " + std::to_string(bytes_.size() - position_) +
+                                                  " are left. Take another copy of the file.");
+    }
+    const std::string_view result = bytes_.substr(position_, count);
+    position_ += count;
+    return result;
+  }
+  std::string_view block() { return raw(uint(8)); }
+  bool atEnd() const { return position_ == bytes_.size(); }
+  /// Names the place in messages from here on.
+  void setWhat(std::string what) { what_ = std::move(what); }
+
+ private:
+  std::string_view bytes_;
+  std::string what_;
+  std::uint64_t position_ = 0;
+};
+
+}  // namespace omnimapper::base
