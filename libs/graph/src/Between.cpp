@@ -1,24 +1,11 @@
 #include "omnimapper/graph/Between.h"
 
-#include "PoseIo.h"
-#include "omnimapper/graph/VariableKinds.h"
+#include "omnimapper/graph/ByteIo.h"
 
 namespace omnimapper::graph {
 
-namespace {
-
-using RowMatrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-using RowMatrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-
-}  // namespace
-
 BetweenSe2::BetweenSe2(const geometry::Se2& a_from_b)
     : a_from_b_(a_from_b), cosine_(std::cos(a_from_b.yaw)), sine_(std::sin(a_from_b.yaw)) {}
-
-const std::vector<std::string_view>& BetweenSe2::variableKinds() const {
-  static const std::vector<std::string_view> kinds = {"se2", "se2"};
-  return kinds;
-}
 
 void BetweenSe2::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const double* a = values[0];
@@ -30,23 +17,18 @@ void BetweenSe2::evaluate(const double* const* values, double* residual, double*
   residual[1] = cosine_ * ey - sine_ * ex;
   residual[2] = geometry::wrapToPi(b[2] - a[2] - a_from_b_.yaw);
   if (!jacobians) return;
-  if (jacobians[0])
-    Eigen::Map<RowMatrix3>{jacobians[0]} << -cosine_, -sine_, cosine_ * y - sine_ * x,  //
-        sine_, -cosine_, -sine_ * y - cosine_ * x,                                      //
+  if (auto by_a = jacobian<0>(jacobians))
+    by_a << -cosine_, -sine_, cosine_ * y - sine_ * x,  //
+        sine_, -cosine_, -sine_ * y - cosine_ * x,      //
         0, 0, -1;
-  if (jacobians[1]) {
+  if (auto by_b = jacobian<1>(jacobians)) {
     const double turn = b[2] - a[2] - a_from_b_.yaw, c = std::cos(turn), s = std::sin(turn);
-    Eigen::Map<RowMatrix3>{jacobians[1]} << c, -s, 0, s, c, 0, 0, 0, 1;
+    by_b << c, -s, 0, s, c, 0, 0, 0, 1;
   }
 }
 
 void BetweenSe2::write(std::ostream& out) const {
-  writePose(out, a_from_b_);
-}
-
-const std::vector<std::string_view>& BetweenSe3::variableKinds() const {
-  static const std::vector<std::string_view> kinds = {"se3", "se3"};
-  return kinds;
+  writeVector(out, toValue(a_from_b_));
 }
 
 void BetweenSe3::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
@@ -61,18 +43,17 @@ void BetweenSe3::evaluate(const double* const* values, double* residual, double*
   r << measured_back * (b_in_a - a_from_b_.translation), turn;
   if (!jacobians) return;
   const Eigen::Matrix3d turn_jacobian = geometry::inverseRightJacobianSo3(turn);
-  if (jacobians[0]) {
+  if (auto by_a = jacobian<0>(jacobians)) {
     const Eigen::Matrix3d back = measured_back.toRotationMatrix();
-    Eigen::Map<RowMatrix6>{jacobians[0]} << -back, back * geometry::skew(b_in_a), Eigen::Matrix3d::Zero(),
+    by_a << -back, back * geometry::skew(b_in_a), Eigen::Matrix3d::Zero(),
         -turn_jacobian * rotation.toRotationMatrix().transpose();
   }
-  if (jacobians[1])
-    Eigen::Map<RowMatrix6>{jacobians[1]} << error.toRotationMatrix(), Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(),
-        turn_jacobian;
+  if (auto by_b = jacobian<1>(jacobians))
+    by_b << error.toRotationMatrix(), Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), turn_jacobian;
 }
 
 void BetweenSe3::write(std::ostream& out) const {
-  writePose(out, a_from_b_);
+  writeVector(out, toValue(a_from_b_));
 }
 
 }  // namespace omnimapper::graph

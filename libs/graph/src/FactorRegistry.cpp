@@ -2,8 +2,8 @@
 
 #include <omnimapper/base/Error.h>
 
-#include "PoseIo.h"
 #include "omnimapper/graph/Between.h"
+#include "omnimapper/graph/ByteIo.h"
 #include "omnimapper/graph/PointFactor.h"
 #include "omnimapper/graph/Prior.h"
 #include "omnimapper/graph/VariableKinds.h"
@@ -19,11 +19,12 @@ namespace {
                         "library of the plugin that brings it in [mapper] plugin_libraries");
 }
 
-template <class Point>
-Point readPoint(std::istream& in) {
-  Point point;
-  for (double& coordinate : point) coordinate = readDouble(in);
-  return point;
+geometry::Se2 readSe2(std::istream& in) {
+  return se2FromValue(readVector<3>(in).data());
+}
+
+geometry::Se3 readSe3(std::istream& in) {
+  return se3FromValue(readVector<7>(in).data());
 }
 
 }  // namespace
@@ -35,10 +36,8 @@ FactorRegistry FactorRegistry::withBuiltIns() {
   registry.add("between_se3", [](std::istream& in) { return std::make_shared<BetweenSe3>(readSe3(in)); });
   registry.add("prior_se2", [](std::istream& in) { return std::make_shared<PriorSe2>(readSe2(in)); });
   registry.add("prior_se3", [](std::istream& in) { return std::make_shared<PriorSe3>(readSe3(in)); });
-  registry.add("point2_from_se2",
-               [](std::istream& in) { return std::make_shared<PointFactor2>(readPoint<Eigen::Vector2d>(in)); });
-  registry.add("point3_from_se3",
-               [](std::istream& in) { return std::make_shared<PointFactor3>(readPoint<Eigen::Vector3d>(in)); });
+  registry.add("point2_from_se2", [](std::istream& in) { return std::make_shared<PointFactor2>(readVector<2>(in)); });
+  registry.add("point3_from_se3", [](std::istream& in) { return std::make_shared<PointFactor3>(readVector<3>(in)); });
   return registry;
 }
 

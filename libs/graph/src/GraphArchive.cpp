@@ -19,20 +19,6 @@ constexpr std::uint64_t kVersion = 1;
 // number is damaged.
 constexpr std::uint64_t kMaxHoles = 1'000'000, kMaxHolesPerEntry = 1000, kBytesOfId = 6;
 
-template <class IdType>
-void writeId(std::ostream& out, IdType id) {
-  writeUint(out, id.session, 2);
-  writeUint(out, id.index, 4);
-}
-
-template <class IdType>
-IdType readId(std::istream& in) {
-  IdType id;
-  id.session = static_cast<std::uint16_t>(readUint(in, 2));
-  id.index = static_cast<std::uint32_t>(readUint(in, 4));
-  return id;
-}
-
 [[noreturn]] void failDamaged(const std::string& what) {
   throw base::Error(base::ExitCode::damaged_input, "graph: " + what + ": the file is damaged; use an intact copy");
 }

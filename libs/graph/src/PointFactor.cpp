@@ -1,14 +1,8 @@
 #include "omnimapper/graph/PointFactor.h"
 
 #include "omnimapper/graph/ByteIo.h"
-#include "omnimapper/graph/VariableKinds.h"
 
 namespace omnimapper::graph {
-
-const std::vector<std::string_view>& PointFactor2::variableKinds() const {
-  static const std::vector<std::string_view> kinds = {"se2", "point2"};
-  return kinds;
-}
 
 void PointFactor2::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const double* base = values[0];
@@ -18,17 +12,12 @@ void PointFactor2::evaluate(const double* const* values, double* residual, doubl
   residual[0] = x - point_in_base_.x();
   residual[1] = y - point_in_base_.y();
   if (!jacobians) return;
-  if (jacobians[0]) Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>>{jacobians[0]} << -1, 0, y, 0, -1, -x;
-  if (jacobians[1]) Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>{jacobians[1]} << c, s, -s, c;
+  if (auto by_base = jacobian<0>(jacobians)) by_base << -1, 0, y, 0, -1, -x;
+  if (auto by_point = jacobian<1>(jacobians)) by_point << c, s, -s, c;
 }
 
 void PointFactor2::write(std::ostream& out) const {
-  for (const double coordinate : point_in_base_) writeDouble(out, coordinate);
-}
-
-const std::vector<std::string_view>& PointFactor3::variableKinds() const {
-  static const std::vector<std::string_view> kinds = {"se3", "point3"};
-  return kinds;
+  writeVector(out, point_in_base_);
 }
 
 void PointFactor3::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
@@ -38,14 +27,12 @@ void PointFactor3::evaluate(const double* const* values, double* residual, doubl
       base_from_map * (Eigen::Map<const Eigen::Vector3d>(values[1]) - map_from_base.translation);
   Eigen::Map<Eigen::Vector3d>{residual} = predicted - point_in_base_;
   if (!jacobians) return;
-  if (jacobians[0])
-    Eigen::Map<Eigen::Matrix<double, 3, 6, Eigen::RowMajor>>{jacobians[0]} << -Eigen::Matrix3d::Identity(),
-        geometry::skew(predicted);
-  if (jacobians[1]) Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{jacobians[1]} = base_from_map;
+  if (auto by_base = jacobian<0>(jacobians)) by_base << -Eigen::Matrix3d::Identity(), geometry::skew(predicted);
+  if (auto by_point = jacobian<1>(jacobians)) by_point = base_from_map;
 }
 
 void PointFactor3::write(std::ostream& out) const {
-  for (const double coordinate : point_in_base_) writeDouble(out, coordinate);
+  writeVector(out, point_in_base_);
 }
 
 }  // namespace omnimapper::graph

@@ -1,8 +1,6 @@
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/graph/ByteIo.h>
-#include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
 
 #include <cmath>
 
@@ -13,11 +11,6 @@ namespace {
 using geometry::Plane3;
 using geometry::Se3;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
-
-const std::vector<std::string_view>& poseAndPlane() {
-  static const std::vector<std::string_view> kinds = {"se3", "plane"};
-  return kinds;
-}
 
 /// A plane of the map as it is in the base, with how its normal and distance change.
 struct PredictedPlane {
@@ -41,24 +34,7 @@ struct PredictedPlane {
   }
 };
 
-void writeVector(std::ostream& out, const Eigen::Vector3d& vector) {
-  for (const double number : vector) graph::writeDouble(out, number);
-}
-
-Eigen::Vector3d readVector(std::istream& in) {
-  Eigen::Vector3d vector;
-  for (double& number : vector) number = graph::readDouble(in);
-  return vector;
-}
-
-template <int Rows, int Columns>
-using RowMajorMap = Eigen::Map<Eigen::Matrix<double, Rows, Columns, Eigen::RowMajor>>;
-
 }  // namespace
-
-const std::vector<std::string_view>& PlaneFactor::variableKinds() const {
-  return poseAndPlane();
-}
 
 void PlaneFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const PredictedPlane predicted(values);
@@ -75,32 +51,24 @@ void PlaneFactor::evaluate(const double* const* values, double* residual, double
     const Eigen::RowVector3d theta_by_normal = c * s_by_normal - s * measured_.normal.transpose();
     turn_by_normal = theta / s * across + u / s * (theta_by_normal - theta / s * s_by_normal);
   }
-  if (jacobians[0]) {
-    RowMajorMap<3, 6> by_pose(jacobians[0]);
+  if (auto by_pose = jacobian<0>(jacobians)) {
     by_pose.topRows<2>() = turn_by_normal * predicted.normal_by_pose;
     by_pose.bottomRows<1>() = predicted.distance_by_pose;
   }
-  if (jacobians[1]) {
-    RowMajorMap<3, 3> by_plane(jacobians[1]);
+  if (auto by_plane = jacobian<1>(jacobians)) {
     by_plane.topRows<2>() = turn_by_normal * predicted.normal_by_plane;
     by_plane.bottomRows<1>() = predicted.distance_by_plane;
   }
 }
 
 void PlaneFactor::write(std::ostream& out) const {
-  writeVector(out, measured_.normal);
-  graph::writeDouble(out, measured_.distance);
+  graph::writeVector(out, toValue(measured_));
 }
 
 void PlaneFactor::addTo(graph::FactorRegistry& registry) {
   registry.add("plane_from_se3", [](std::istream& in) {
-    const Eigen::Vector3d normal = readVector(in);
-    return std::make_shared<PlaneFactor>(Plane3{normal, graph::readDouble(in)});
+    return std::make_shared<PlaneFactor>(planeFromValue(graph::readVector<4>(in).data()));
   });
-}
-
-const std::vector<std::string_view>& LineOnPlaneFactor::variableKinds() const {
-  return poseAndPlane();
 }
 
 void LineOnPlaneFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
@@ -110,33 +78,26 @@ void LineOnPlaneFactor::evaluate(const double* const* values, double* residual, 
   if (!jacobians) return;
   Eigen::Matrix<double, 2, 3> by_normal;
   by_normal << direction_.transpose(), middle_.transpose();
-  if (jacobians[0]) {
-    RowMajorMap<2, 6> by_pose(jacobians[0]);
+  if (auto by_pose = jacobian<0>(jacobians)) {
     by_pose = by_normal * predicted.normal_by_pose;
     by_pose.row(1) += predicted.distance_by_pose;
   }
-  if (jacobians[1]) {
-    RowMajorMap<2, 3> by_plane(jacobians[1]);
+  if (auto by_plane = jacobian<1>(jacobians)) {
     by_plane = by_normal * predicted.normal_by_plane;
     by_plane.row(1) += predicted.distance_by_plane;
   }
 }
 
 void LineOnPlaneFactor::write(std::ostream& out) const {
-  writeVector(out, direction_);
-  writeVector(out, middle_);
+  graph::writeVector(out, direction_);
+  graph::writeVector(out, middle_);
 }
 
 void LineOnPlaneFactor::addTo(graph::FactorRegistry& registry) {
   registry.add("line_on_plane", [](std::istream& in) {
-    const Eigen::Vector3d direction = readVector(in);
-    return std::make_shared<LineOnPlaneFactor>(direction, readVector(in));
+    const Eigen::Vector3d direction = graph::readVector<3>(in);
+    return std::make_shared<LineOnPlaneFactor>(direction, graph::readVector<3>(in));
   });
-}
-
-const std::vector<std::string_view>& UprightFactor::variableKinds() const {
-  static const std::vector<std::string_view> kinds = {"plane"};
-  return kinds;
 }
 
 void UprightFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
@@ -147,9 +108,10 @@ void UprightFactor::evaluate(const double* const* values, double* residual, doub
   const bool is_level = square < kLeastCosine * kLeastCosine;
   const double cosine = is_level ? kLeastCosine : std::sqrt(square);
   residual[0] = sine / cosine;
-  if (!jacobians || !jacobians[0]) return;
+  auto by_plane = jacobian<0>(jacobians);
+  if (!by_plane) return;
   const double by_sine = is_level ? 1 / cosine : 1 / (cosine * square);
-  RowMajorMap<1, 3>(jacobians[0]) << by_sine * geometry::tangentBasis(plane.normal).row(2), 0;
+  by_plane << by_sine * geometry::tangentBasis(plane.normal).row(2), 0;
 }
 
 void UprightFactor::write(std::ostream&) const {}

@@ -34,8 +34,7 @@ std::optional<PlaceOnEarth> placeOnEarth(const View& view) {
     if (!isPlace(section.bytes)) continue;
     std::istringstream in(section.bytes);
     PlaceOnEarth place;
-    place.map_from_enu.session = static_cast<std::uint16_t>(graph::readUint(in, 2));
-    place.map_from_enu.index = static_cast<std::uint32_t>(graph::readUint(in, 4));
+    place.map_from_enu = graph::readId<base::VariableId>(in);
     if (!view.graph.contains(place.map_from_enu)) continue;
     for (double* number : {&place.origin.latitude, &place.origin.longitude, &place.origin.altitude})
       *number = graph::readDouble(in);

@@ -35,16 +35,14 @@ void AntennaFactor::evaluate(const double* const* values, double* residual, doub
 }
 
 void AntennaFactor::write(std::ostream& out) const {
-  for (const double coordinate : antenna_in_base_) graph::writeDouble(out, coordinate);
-  for (const double coordinate : antenna_in_enu_) graph::writeDouble(out, coordinate);
+  graph::writeVector(out, antenna_in_base_);
+  graph::writeVector(out, antenna_in_enu_);
   graph::writeUint(out, up_, 1);
 }
 
 void AntennaFactor::addTo(graph::FactorRegistry& registry) {
   registry.add("antenna", [](std::istream& in) {
-    Eigen::Vector3d antenna_in_base, antenna_in_enu;
-    for (double& coordinate : antenna_in_base) coordinate = graph::readDouble(in);
-    for (double& coordinate : antenna_in_enu) coordinate = graph::readDouble(in);
+    const Eigen::Vector3d antenna_in_base = graph::readVector<3>(in), antenna_in_enu = graph::readVector<3>(in);
     const bool up = graph::readUint(in, 1) != 0;
     return std::make_shared<AntennaFactor>(antenna_in_base, antenna_in_enu, up);
   });

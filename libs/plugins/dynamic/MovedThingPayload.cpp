@@ -10,18 +10,6 @@ namespace {
 
 constexpr std::uint64_t kMovedThingVersion = 1;
 
-template <class Id>
-void writeAnyId(std::ostream& out, Id id) {
-  graph::writeUint(out, id.session, 2);
-  graph::writeUint(out, id.index, 4);
-}
-
-template <class Id>
-Id readAnyId(std::istream& in) {
-  const auto session = static_cast<std::uint16_t>(graph::readUint(in, 2));
-  return {session, static_cast<std::uint32_t>(graph::readUint(in, 4))};
-}
-
 void writeStamp(std::ostream& out, base::Stamp stamp) {
   graph::writeUint(out, static_cast<std::uint64_t>(stamp.time_since_epoch().count()), 8);
 }
@@ -57,12 +45,12 @@ std::vector<base::KeyFrameId> MovedThingPayload::keyFrames() const {
 
 void MovedThingPayload::write(std::ostream& out) const {
   graph::writeUint(out, kMovedThingVersion, 1);
-  writeAnyId(out, landmark);
+  graph::writeId(out, landmark);
   graph::writeText(out, label);
   graph::writeUint(out, places.size(), 4);
   for (const ObservedPlace& place : places) {
-    writeAnyId(out, place.seen_from);
-    for (const double coordinate : place.point_in_base) graph::writeDouble(out, coordinate);
+    graph::writeId(out, place.seen_from);
+    graph::writeVector(out, place.point_in_base);
     writeStamp(out, place.first_seen);
     writeStamp(out, place.last_seen);
     graph::writeUint(out, place.sightings, 4);
@@ -77,12 +65,12 @@ void MovedThingPayload::addTo(map::PayloadRegistry& registry) {
                             std::to_string(kMovedThingVersion) + "; take the OmniMapper that wrote the map");
     }
     auto payload = std::make_shared<MovedThingPayload>();
-    payload->landmark = readAnyId<base::LandmarkId>(in);
+    payload->landmark = graph::readId<base::LandmarkId>(in);
     payload->label = graph::readText(in);
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
       ObservedPlace place;
-      place.seen_from = readAnyId<base::KeyFrameId>(in);
-      for (double& coordinate : place.point_in_base) coordinate = graph::readDouble(in);
+      place.seen_from = graph::readId<base::KeyFrameId>(in);
+      place.point_in_base = graph::readVector<3>(in);
       place.first_seen = readStamp(in);
       place.last_seen = readStamp(in);
       place.sightings = static_cast<std::uint32_t>(graph::readUint(in, 4));

@@ -27,16 +27,6 @@ std::string labelOf(const geometry::Plane3& plane, double height) {
   return height > kGround ? "table" : height > -kGround ? "floor" : "level surface";
 }
 
-void writeId(std::ostream& out, base::KeyFrameId id) {
-  graph::writeUint(out, id.session, 2);
-  graph::writeUint(out, id.index, 4);
-}
-
-base::KeyFrameId readId(std::istream& in) {
-  const auto session = static_cast<std::uint16_t>(graph::readUint(in, 2));
-  return {session, static_cast<std::uint32_t>(graph::readUint(in, 4))};
-}
-
 std::string number(double value) {
   const double rounded = std::round(value * 1000) / 1000;
   std::string text = std::to_string(rounded + 0.0);
@@ -133,12 +123,11 @@ void PlanePayload::write(std::ostream& out) const {
   graph::writeUint(out, static_cast<std::uint64_t>(boundary), 1);
   graph::writeUint(out, patches.size(), 4);
   for (const auto& patch : patches) {
-    writeId(out, patch.frame);
+    graph::writeId(out, patch.frame);
     graph::writeUint(out, patch.outline_in_base.size(), 4);
-    for (const auto& point : patch.outline_in_base)
-      for (const double coordinate : point) graph::writeDouble(out, coordinate);
+    for (const auto& point : patch.outline_in_base) graph::writeVector(out, point);
   }
-  writeId(out, last_seen_from);
+  graph::writeId(out, last_seen_from);
   graph::writeUint(out, seen_by.size(), 4);
   for (const auto& [label, seen] : seen_by) {
     graph::writeText(out, label);
@@ -162,15 +151,12 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
     if (version > 2) payload->boundary = graph::readUint(in, 1) == 0 ? Boundary::hull : Boundary::seen;
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
       SurfacePatch patch;
-      patch.frame = readId(in);
-      for (auto points = graph::readUint(in, 4); points > 0; --points) {
-        Eigen::Vector3d point;
-        for (double& coordinate : point) coordinate = graph::readDouble(in);
-        patch.outline_in_base.push_back(point);
-      }
+      patch.frame = graph::readId<base::KeyFrameId>(in);
+      for (auto points = graph::readUint(in, 4); points > 0; --points)
+        patch.outline_in_base.push_back(graph::readVector<3>(in));
       payload->patches.push_back(std::move(patch));
     }
-    payload->last_seen_from = readId(in);
+    payload->last_seen_from = graph::readId<base::KeyFrameId>(in);
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
       const std::string label = graph::readText(in);
       SeenBy& seen = payload->seen_by[label];

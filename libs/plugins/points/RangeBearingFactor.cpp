@@ -2,7 +2,6 @@
 
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/graph/ByteIo.h>
-#include <omnimapper/graph/VariableKinds.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,15 +17,7 @@ using geometry::wrapToPi;
 // nothing elsewhere.
 constexpr double kNearestPoint = 1e-9;  // [m]
 
-template <int Rows, int Columns>
-using JacobianMap = Eigen::Map<Eigen::Matrix<double, Rows, Columns, Eigen::RowMajor>>;
-
 }  // namespace
-
-const std::vector<std::string_view>& RangeBearingFactor2::variableKinds() const {
-  static const std::vector<std::string_view> kinds = {"se2", "point2"};
-  return kinds;
-}
 
 void RangeBearingFactor2::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const double *base = values[0], *point = values[1];
@@ -39,32 +30,23 @@ void RangeBearingFactor2::evaluate(const double* const* values, double* residual
   if (!jacobians) return;
   Eigen::Matrix2d by_d;
   by_d << d.x() / range, d.y() / range, -d.y() / (range * range), d.x() / (range * range);
-  if (jacobians[0]) {
-    JacobianMap<2, 3> by_base(jacobians[0]);
-    by_base << -by_d, by_d * Eigen::Vector2d(in_base.y(), -in_base.x());
-  }
-  if (jacobians[1]) {
+  if (auto by_base = jacobian<0>(jacobians)) by_base << -by_d, by_d * Eigen::Vector2d(in_base.y(), -in_base.x());
+  if (auto by_point = jacobian<1>(jacobians)) {
     Eigen::Matrix2d base_from_map;
     base_from_map << c, s, -s, c;
-    JacobianMap<2, 2>{jacobians[1]} = by_d * base_from_map;
+    by_point = by_d * base_from_map;
   }
 }
 
 void RangeBearingFactor2::write(std::ostream& out) const {
-  for (const double number : {sensor_in_base_.x(), sensor_in_base_.y(), range_, bearing_})
-    graph::writeDouble(out, number);
+  graph::writeVector(out, Eigen::Vector4d(sensor_in_base_.x(), sensor_in_base_.y(), range_, bearing_));
 }
 
 void RangeBearingFactor2::addTo(graph::FactorRegistry& registry) {
   registry.add("range_bearing2", [](std::istream& in) {
-    const double x = graph::readDouble(in), y = graph::readDouble(in), range = graph::readDouble(in);
-    return std::make_shared<RangeBearingFactor2>(Eigen::Vector2d(x, y), range, graph::readDouble(in));
+    const Eigen::Vector4d numbers = graph::readVector<4>(in);
+    return std::make_shared<RangeBearingFactor2>(numbers.head<2>(), numbers[2], numbers[3]);
   });
-}
-
-const std::vector<std::string_view>& RangeBearingFactor3::variableKinds() const {
-  static const std::vector<std::string_view> kinds = {"se3", "point3"};
-  return kinds;
 }
 
 void RangeBearingFactor3::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
@@ -81,23 +63,20 @@ void RangeBearingFactor3::evaluate(const double* const* values, double* residual
   by_p.row(1) = Eigen::Vector3d(-p.y(), p.x(), 0) / (rho * rho);
   by_p.row(2) = Eigen::Vector3d(p.x() * p.z() / rho, p.y() * p.z() / rho, -rho) / (range * range);
   const Eigen::Matrix3d by_in_base = by_p * base_from_sensor_.rotation.conjugate().toRotationMatrix();
-  if (jacobians[0]) JacobianMap<3, 6>{jacobians[0]} << -by_in_base, by_in_base * geometry::skew(in_base);
-  if (jacobians[1])
-    JacobianMap<3, 3>{jacobians[1]} = by_in_base * map_from_base.rotation.conjugate().toRotationMatrix();
+  if (auto by_base = jacobian<0>(jacobians)) by_base << -by_in_base, by_in_base * geometry::skew(in_base);
+  if (auto by_point = jacobian<1>(jacobians))
+    by_point = by_in_base * map_from_base.rotation.conjugate().toRotationMatrix();
 }
 
 void RangeBearingFactor3::write(std::ostream& out) const {
-  for (const double number : graph::toValue(base_from_sensor_)) graph::writeDouble(out, number);
-  for (const double number : measured_) graph::writeDouble(out, number);
+  graph::writeVector(out, graph::toValue(base_from_sensor_));
+  graph::writeVector(out, measured_);
 }
 
 void RangeBearingFactor3::addTo(graph::FactorRegistry& registry) {
   registry.add("range_bearing3", [](std::istream& in) {
-    Eigen::Matrix<double, 7, 1> pose;
-    Eigen::Vector3d measured;
-    for (double& number : pose) number = graph::readDouble(in);
-    for (double& number : measured) number = graph::readDouble(in);
-    return std::make_shared<RangeBearingFactor3>(graph::se3FromValue(pose.data()), measured);
+    const geometry::Se3 base_from_sensor = graph::se3FromValue(graph::readVector<7>(in).data());
+    return std::make_shared<RangeBearingFactor3>(base_from_sensor, graph::readVector<3>(in));
   });
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <omnimapper/geometry/Se3.h>
-#include <omnimapper/graph/Factor.h>
 #include <omnimapper/graph/FactorRegistry.h>
+#include <omnimapper/graph/SizedFactor.h>
+#include <omnimapper/graph/VariableKinds.h>
 
 #include <Eigen/Core>
 
@@ -12,15 +13,13 @@ namespace omnimapper::plugins {
 
 /// In a planar map (thesis 4.6.2.1, equation 10). Variables: map_from_base (se2), point in map (point2). Residual:
 /// range over the floor [m], bearing [rad, in (-pi, pi]], each predicted - measured.
-class RangeBearingFactor2 : public graph::Factor {
+class RangeBearingFactor2 : public graph::SizedFactor<2, graph::Se2Kind, graph::Point2Kind> {
  public:
   /// `sensor_in_base`: [m] over the floor. `bearing`: direction over the floor from the sensor, from the x of the base.
   RangeBearingFactor2(const Eigen::Vector2d& sensor_in_base, double range, double bearing)
       : sensor_in_base_(sensor_in_base), range_(range), bearing_(bearing) {}
 
   std::string_view kind() const override { return "range_bearing2"; }
-  int residualSize() const override { return 2; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
   static void addTo(graph::FactorRegistry& registry);
@@ -32,14 +31,12 @@ class RangeBearingFactor2 : public graph::Factor {
 
 /// In space. Variables: map_from_base (se3), point in map (point3). Residual: range [m], yaw and pitch [rad], each
 /// predicted - measured, the angles in (-pi, pi]; MRPT's sense: yaw to the left, pitch down.
-class RangeBearingFactor3 : public graph::Factor {
+class RangeBearingFactor3 : public graph::SizedFactor<3, graph::Se3Kind, graph::Point3Kind> {
  public:
   RangeBearingFactor3(const geometry::Se3& base_from_sensor, const Eigen::Vector3d& range_yaw_pitch)
       : base_from_sensor_(base_from_sensor), measured_(range_yaw_pitch) {}
 
   std::string_view kind() const override { return "range_bearing3"; }
-  int residualSize() const override { return 3; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
   static void addTo(graph::FactorRegistry& registry);

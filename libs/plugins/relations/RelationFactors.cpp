@@ -3,29 +3,12 @@
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/graph/ByteIo.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
-#include <omnimapper/landmarks/WallVariable.h>
 
 #include <cmath>
 
 namespace omnimapper::plugins {
 
 namespace {
-
-using Kinds = std::vector<std::string_view>;
-template <int Rows, int Columns>
-using RelationJacobian =
-    Eigen::Map<Eigen::Matrix<double, Rows, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
-
-const Kinds& twoWalls() {
-  static const Kinds kinds = {"wall", "wall"};
-  return kinds;
-}
-
-const Kinds& twoPlanes() {
-  static const Kinds kinds = {"plane", "plane"};
-  return kinds;
-}
 
 double headingOf(const geometry::Segment2& wall) {
   const Eigen::Vector2d along = geometry::direction(wall);
@@ -83,68 +66,40 @@ struct Across {
   }
 };
 
-void writePoint(std::ostream& out, const Eigen::Vector3d& point) {
-  for (const double coordinate : point) graph::writeDouble(out, coordinate);
-}
-
-Eigen::Vector3d readPoint(std::istream& in) {
-  Eigen::Vector3d point;
-  for (double& coordinate : point) coordinate = graph::readDouble(in);
-  return point;
-}
-
 }  // namespace
-
-const Kinds& PointOnWallFactor::variableKinds() const {
-  static const Kinds kinds = {"point2", "wall"};
-  return kinds;
-}
 
 void PointOnWallFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const geometry::Segment2 wall = landmarks::wallFromValue(values[1]);
   const Eigen::Vector2d from_wall = Eigen::Vector2d(values[0][0], values[0][1]) - middle(wall);
   residual[0] = landmarks::normalOf(wall).dot(from_wall);
   if (!jacobians) return;
-  if (jacobians[0]) RelationJacobian<1, 2>{jacobians[0]} = landmarks::normalOf(wall).transpose();
-  if (jacobians[1]) RelationJacobian<1, 2>{jacobians[1]} << -direction(wall).dot(from_wall), -1;
+  if (auto by_point = jacobian<0>(jacobians)) by_point = landmarks::normalOf(wall).transpose();
+  if (auto by_wall = jacobian<1>(jacobians)) by_wall << -direction(wall).dot(from_wall), -1;
 }
 
 void PointOnWallFactor::write(std::ostream&) const {}
-
-const Kinds& PointOnPlaneFactor::variableKinds() const {
-  static const Kinds kinds = {"point3", "plane"};
-  return kinds;
-}
 
 void PointOnPlaneFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const geometry::Plane3 plane = landmarks::planeFromValue(values[1]);
   const Eigen::Vector3d point(values[0][0], values[0][1], values[0][2]);
   residual[0] = signedDistance(plane, point);
   if (!jacobians) return;
-  if (jacobians[0]) RelationJacobian<1, 3>{jacobians[0]} = plane.normal.transpose();
-  if (jacobians[1]) RelationJacobian<1, 3>{jacobians[1]} << point.transpose() * geometry::tangentBasis(plane.normal), 1;
+  if (auto by_point = jacobian<0>(jacobians)) by_point = plane.normal.transpose();
+  if (auto by_plane = jacobian<1>(jacobians)) by_plane << point.transpose() * geometry::tangentBasis(plane.normal), 1;
 }
 
 void PointOnPlaneFactor::write(std::ostream&) const {}
-
-const Kinds& WallTurnFactor::variableKinds() const {
-  return twoWalls();
-}
 
 void WallTurnFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   residual[0] = geometry::wrapToPi(headingOf(landmarks::wallFromValue(values[1])) -
                                    headingOf(landmarks::wallFromValue(values[0])) - quarters_ * geometry::kPi / 2);
   if (!jacobians) return;
-  if (jacobians[0]) RelationJacobian<1, 2>{jacobians[0]} << -1, 0;
-  if (jacobians[1]) RelationJacobian<1, 2>{jacobians[1]} << 1, 0;
+  if (auto by_a = jacobian<0>(jacobians)) by_a << -1, 0;
+  if (auto by_b = jacobian<1>(jacobians)) by_b << 1, 0;
 }
 
 void WallTurnFactor::write(std::ostream& out) const {
   graph::writeUint(out, static_cast<std::uint64_t>(quarters_), 1);
-}
-
-const Kinds& WallsAlignedFactor::variableKinds() const {
-  return twoWalls();
 }
 
 void WallsAlignedFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
@@ -153,57 +108,41 @@ void WallsAlignedFactor::evaluate(const double* const* values, double* residual,
   residual[0] = geometry::wrapToPi(headingOf(b) - headingOf(a));
   residual[1] = shift.value;
   if (!jacobians) return;
-  if (jacobians[0]) RelationJacobian<2, 2>{jacobians[0]} << -1, 0, shift.by_a;
-  if (jacobians[1]) RelationJacobian<2, 2>{jacobians[1]} << 1, 0, shift.by_b;
+  if (auto by_a = jacobian<0>(jacobians)) by_a << -1, 0, shift.by_a;
+  if (auto by_b = jacobian<1>(jacobians)) by_b << 1, 0, shift.by_b;
 }
 
 void WallsAlignedFactor::write(std::ostream&) const {}
-
-const Kinds& WallShiftFactor::variableKinds() const {
-  return twoWalls();
-}
 
 void WallShiftFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const Shift shift(landmarks::wallFromValue(values[0]), landmarks::wallFromValue(values[1]));
   residual[0] = shift.value;
   if (!jacobians) return;
-  if (jacobians[0]) RelationJacobian<1, 2>{jacobians[0]} = shift.by_a;
-  if (jacobians[1]) RelationJacobian<1, 2>{jacobians[1]} = shift.by_b;
+  if (auto by_a = jacobian<0>(jacobians)) by_a = shift.by_a;
+  if (auto by_b = jacobian<1>(jacobians)) by_b = shift.by_b;
 }
 
 void WallShiftFactor::write(std::ostream&) const {}
-
-const Kinds& PlanesParallelFactor::variableKinds() const {
-  return twoPlanes();
-}
 
 void PlanesParallelFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const Across across(landmarks::planeFromValue(values[0]), landmarks::planeFromValue(values[1]));
   Eigen::Map<Eigen::Vector2d>{residual} = across.value;
   if (!jacobians) return;
-  if (jacobians[0]) RelationJacobian<2, 3>{jacobians[0]} = across.by_a;
-  if (jacobians[1]) RelationJacobian<2, 3>{jacobians[1]} = across.by_b;
+  if (auto by_a = jacobian<0>(jacobians)) by_a = across.by_a;
+  if (auto by_b = jacobian<1>(jacobians)) by_b = across.by_b;
 }
 
 void PlanesParallelFactor::write(std::ostream&) const {}
-
-const Kinds& PlanesSquareFactor::variableKinds() const {
-  return twoPlanes();
-}
 
 void PlanesSquareFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const geometry::Plane3 a = landmarks::planeFromValue(values[0]), b = landmarks::planeFromValue(values[1]);
   residual[0] = a.normal.dot(b.normal);
   if (!jacobians) return;
-  if (jacobians[0]) RelationJacobian<1, 3>{jacobians[0]} = b.normal.transpose() * normalByPlane(a);
-  if (jacobians[1]) RelationJacobian<1, 3>{jacobians[1]} = a.normal.transpose() * normalByPlane(b);
+  if (auto by_a = jacobian<0>(jacobians)) by_a = b.normal.transpose() * normalByPlane(a);
+  if (auto by_b = jacobian<1>(jacobians)) by_b = a.normal.transpose() * normalByPlane(b);
 }
 
 void PlanesSquareFactor::write(std::ostream&) const {}
-
-const Kinds& PlanesAlignedFactor::variableKinds() const {
-  return twoPlanes();
-}
 
 void PlanesAlignedFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const geometry::Plane3 a = landmarks::planeFromValue(values[0]), b = landmarks::planeFromValue(values[1]);
@@ -211,28 +150,24 @@ void PlanesAlignedFactor::evaluate(const double* const* values, double* residual
   Eigen::Map<Eigen::Vector2d>{residual} = across.value;
   residual[2] = signedDistance(b, near_) - signedDistance(a, near_);
   if (!jacobians) return;
-  if (jacobians[0]) RelationJacobian<3, 3>{jacobians[0]} << across.by_a, -distanceByPlane(a, near_);
-  if (jacobians[1]) RelationJacobian<3, 3>{jacobians[1]} << across.by_b, distanceByPlane(b, near_);
+  if (auto by_a = jacobian<0>(jacobians)) by_a << across.by_a, -distanceByPlane(a, near_);
+  if (auto by_b = jacobian<1>(jacobians)) by_b << across.by_b, distanceByPlane(b, near_);
 }
 
 void PlanesAlignedFactor::write(std::ostream& out) const {
-  writePoint(out, near_);
-}
-
-const Kinds& PlaneShiftFactor::variableKinds() const {
-  return twoPlanes();
+  graph::writeVector(out, near_);
 }
 
 void PlaneShiftFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const geometry::Plane3 a = landmarks::planeFromValue(values[0]), b = landmarks::planeFromValue(values[1]);
   residual[0] = signedDistance(b, near_) - signedDistance(a, near_);
   if (!jacobians) return;
-  if (jacobians[0]) RelationJacobian<1, 3>{jacobians[0]} = -distanceByPlane(a, near_);
-  if (jacobians[1]) RelationJacobian<1, 3>{jacobians[1]} = distanceByPlane(b, near_);
+  if (auto by_a = jacobian<0>(jacobians)) by_a = -distanceByPlane(a, near_);
+  if (auto by_b = jacobian<1>(jacobians)) by_b = distanceByPlane(b, near_);
 }
 
 void PlaneShiftFactor::write(std::ostream& out) const {
-  writePoint(out, near_);
+  graph::writeVector(out, near_);
 }
 
 void addRelationsTo(graph::FactorRegistry& registry) {
@@ -245,8 +180,10 @@ void addRelationsTo(graph::FactorRegistry& registry) {
   registry.add("wall_shift", [](std::istream&) { return std::make_shared<WallShiftFactor>(); });
   registry.add("planes_parallel", [](std::istream&) { return std::make_shared<PlanesParallelFactor>(); });
   registry.add("planes_square", [](std::istream&) { return std::make_shared<PlanesSquareFactor>(); });
-  registry.add("planes_aligned", [](std::istream& in) { return std::make_shared<PlanesAlignedFactor>(readPoint(in)); });
-  registry.add("plane_shift", [](std::istream& in) { return std::make_shared<PlaneShiftFactor>(readPoint(in)); });
+  registry.add("planes_aligned",
+               [](std::istream& in) { return std::make_shared<PlanesAlignedFactor>(graph::readVector<3>(in)); });
+  registry.add("plane_shift",
+               [](std::istream& in) { return std::make_shared<PlaneShiftFactor>(graph::readVector<3>(in)); });
 }
 
 }  // namespace omnimapper::plugins

@@ -1,7 +1,10 @@
 #pragma once
 
-#include <omnimapper/graph/Factor.h>
 #include <omnimapper/graph/FactorRegistry.h>
+#include <omnimapper/graph/SizedFactor.h>
+#include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/landmarks/PlaneVariable.h>
+#include <omnimapper/landmarks/WallVariable.h>
 
 #include <Eigen/Core>
 
@@ -11,34 +14,28 @@ namespace omnimapper::plugins {
 /// doc/derivations/relations.md.
 
 /// A point lies on a wall. Variables: point2, wall. Residual: its distance [m], positive on the free side.
-class PointOnWallFactor : public graph::Factor {
+class PointOnWallFactor : public graph::SizedFactor<1, graph::Point2Kind, landmarks::WallKind> {
  public:
   std::string_view kind() const override { return "point_on_wall"; }
-  int residualSize() const override { return 1; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 };
 
 /// A point lies on a plane. Variables: point3, plane. Residual: its distance [m], positive on the free side.
-class PointOnPlaneFactor : public graph::Factor {
+class PointOnPlaneFactor : public graph::SizedFactor<1, graph::Point3Kind, landmarks::PlaneKind> {
  public:
   std::string_view kind() const override { return "point_on_plane"; }
-  int residualSize() const override { return 1; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 };
 
 /// Two walls at a multiple of the right angle. Variables: wall a, wall b. Residual: b's direction less a's less so many
 /// quarter turns [rad], in (-pi, pi].
-class WallTurnFactor : public graph::Factor {
+class WallTurnFactor : public graph::SizedFactor<1, landmarks::WallKind, landmarks::WallKind> {
  public:
   explicit WallTurnFactor(int quarters) : quarters_(quarters & 3) {}
 
   std::string_view kind() const override { return "wall_turn"; }
-  int residualSize() const override { return 1; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 
@@ -48,56 +45,46 @@ class WallTurnFactor : public graph::Factor {
 
 /// Two walls on one line, with the same free side. Variables: wall a, wall b. Residual: b's direction less a's [rad],
 /// then the distance of b's middle from a [m].
-class WallsAlignedFactor : public graph::Factor {
+class WallsAlignedFactor : public graph::SizedFactor<2, landmarks::WallKind, landmarks::WallKind> {
  public:
   std::string_view kind() const override { return "walls_aligned"; }
-  int residualSize() const override { return 2; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 };
 
 /// The second half of WallsAlignedFactor, for two walls of which the turn is told by others. Variables: wall a, wall b.
 /// Residual: the distance of b's middle from a [m].
-class WallShiftFactor : public graph::Factor {
+class WallShiftFactor : public graph::SizedFactor<1, landmarks::WallKind, landmarks::WallKind> {
  public:
   std::string_view kind() const override { return "wall_shift"; }
-  int residualSize() const override { return 1; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 };
 
 /// Two planes side by side, or face to face. Variables: plane a, plane b. Residual: the part of b's normal across a's,
 /// in the axes of geometry::tangentBasis(a) [rad to first order].
-class PlanesParallelFactor : public graph::Factor {
+class PlanesParallelFactor : public graph::SizedFactor<2, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   std::string_view kind() const override { return "planes_parallel"; }
-  int residualSize() const override { return 2; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 };
 
 /// Two planes at a right angle. Variables: plane a, plane b. Residual: the product of the normals [rad to first order].
-class PlanesSquareFactor : public graph::Factor {
+class PlanesSquareFactor : public graph::SizedFactor<1, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   std::string_view kind() const override { return "planes_square"; }
-  int residualSize() const override { return 1; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 };
 
 /// Two surfaces on one plane, with the same free side. Variables: plane a, plane b. Residual: as PlanesParallelFactor,
 /// then b's distance less a's, as far from the origin as `near`, where both are [m].
-class PlanesAlignedFactor : public graph::Factor {
+class PlanesAlignedFactor : public graph::SizedFactor<3, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   explicit PlanesAlignedFactor(const Eigen::Vector3d& near_in_map) : near_(near_in_map) {}
 
   std::string_view kind() const override { return "planes_aligned"; }
-  int residualSize() const override { return 3; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 
@@ -107,13 +94,11 @@ class PlanesAlignedFactor : public graph::Factor {
 
 /// The last row of PlanesAlignedFactor, for two planes that others tell to be parallel. Variables: plane a, plane b.
 /// Residual: b's distance less a's at `near` [m].
-class PlaneShiftFactor : public graph::Factor {
+class PlaneShiftFactor : public graph::SizedFactor<1, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   explicit PlaneShiftFactor(const Eigen::Vector3d& near_in_map) : near_(near_in_map) {}
 
   std::string_view kind() const override { return "plane_shift"; }
-  int residualSize() const override { return 1; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 

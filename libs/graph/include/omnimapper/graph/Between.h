@@ -2,7 +2,8 @@
 
 #include <omnimapper/geometry/Se3.h>
 
-#include "omnimapper/graph/Factor.h"
+#include "omnimapper/graph/SizedFactor.h"
+#include "omnimapper/graph/VariableKinds.h"
 
 namespace omnimapper::graph {
 
@@ -10,14 +11,12 @@ namespace omnimapper::graph {
 /// Residual: minus(inverse(map_from_a) * map_from_b, a_from_b measured), that is, in the measured frame b,
 /// translation [m], then yaw or rotation vector [rad]. Its noise is the covariance of a_from_b in its own tangent.
 /// Derivation: doc/derivations/between.md.
-class BetweenSe2 : public Factor {
+class BetweenSe2 : public SizedFactor<3, Se2Kind, Se2Kind> {
  public:
   explicit BetweenSe2(const geometry::Se2& a_from_b);
   const geometry::Se2& measured() const { return a_from_b_; }
 
   std::string_view kind() const override { return "between_se2"; }
-  int residualSize() const override { return 3; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 
@@ -26,14 +25,12 @@ class BetweenSe2 : public Factor {
   double cosine_, sine_;  // of the measured yaw
 };
 
-class BetweenSe3 : public Factor {
+class BetweenSe3 : public SizedFactor<6, Se3Kind, Se3Kind> {
  public:
   explicit BetweenSe3(const geometry::Se3& a_from_b) : a_from_b_(a_from_b) {}
   const geometry::Se3& measured() const { return a_from_b_; }
 
   std::string_view kind() const override { return "between_se3"; }
-  int residualSize() const override { return 6; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 

@@ -2,21 +2,20 @@
 
 #include <Eigen/Core>
 
-#include "omnimapper/graph/Factor.h"
+#include "omnimapper/graph/SizedFactor.h"
+#include "omnimapper/graph/VariableKinds.h"
 
 namespace omnimapper::graph {
 
 /// A point of the map seen from a pose. Variables: map_from_base, point_in_map.
 /// Residual: inverse(map_from_base) * point_in_map - point_in_base measured, axes of the base [m].
 /// Derivation: doc/derivations/point.md.
-class PointFactor2 : public Factor {
+class PointFactor2 : public SizedFactor<2, Se2Kind, Point2Kind> {
  public:
   explicit PointFactor2(const Eigen::Vector2d& point_in_base) : point_in_base_(point_in_base) {}
   const Eigen::Vector2d& measured() const { return point_in_base_; }
 
   std::string_view kind() const override { return "point2_from_se2"; }
-  int residualSize() const override { return 2; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 
@@ -24,14 +23,12 @@ class PointFactor2 : public Factor {
   Eigen::Vector2d point_in_base_;
 };
 
-class PointFactor3 : public Factor {
+class PointFactor3 : public SizedFactor<3, Se3Kind, Point3Kind> {
  public:
   explicit PointFactor3(const Eigen::Vector3d& point_in_base) : point_in_base_(point_in_base) {}
   const Eigen::Vector3d& measured() const { return point_in_base_; }
 
   std::string_view kind() const override { return "point3_from_se3"; }
-  int residualSize() const override { return 3; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 

@@ -2,7 +2,8 @@
 
 #include <omnimapper/geometry/Se3.h>
 
-#include "omnimapper/graph/Factor.h"
+#include "omnimapper/graph/SizedFactor.h"
+#include "omnimapper/graph/VariableKinds.h"
 
 namespace omnimapper::graph {
 
@@ -10,14 +11,12 @@ namespace omnimapper::graph {
 /// Residual: minus(map_from_a, map_from_a measured): translation [m] in the measured frame, then yaw or rotation vector
 /// [rad]. Its noise is the covariance of the measured pose in its own tangent.
 /// Derivation: doc/derivations/prior.md.
-class PriorSe2 : public Factor {
+class PriorSe2 : public SizedFactor<3, Se2Kind> {
  public:
   explicit PriorSe2(const geometry::Se2& map_from_a) : map_from_a_(map_from_a) {}
   const geometry::Se2& measured() const { return map_from_a_; }
 
   std::string_view kind() const override { return "prior_se2"; }
-  int residualSize() const override { return 3; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 
@@ -25,14 +24,12 @@ class PriorSe2 : public Factor {
   geometry::Se2 map_from_a_;
 };
 
-class PriorSe3 : public Factor {
+class PriorSe3 : public SizedFactor<6, Se3Kind> {
  public:
   explicit PriorSe3(const geometry::Se3& map_from_a) : map_from_a_(map_from_a) {}
   const geometry::Se3& measured() const { return map_from_a_; }
 
   std::string_view kind() const override { return "prior_se3"; }
-  int residualSize() const override { return 6; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 

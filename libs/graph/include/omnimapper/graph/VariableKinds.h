@@ -3,6 +3,7 @@
 #include <omnimapper/geometry/Se3.h>
 
 #include <memory>
+#include <string_view>
 
 #include "omnimapper/graph/Variable.h"
 
@@ -18,6 +19,24 @@ const std::shared_ptr<const Variable>& se3();
 const std::shared_ptr<const Variable>& point2();
 /// "point3": x y z.
 const std::shared_ptr<const Variable>& point3();
+
+/// The same kinds as types, for SizedFactor.
+struct Se2Kind {
+  static constexpr std::string_view kName = "se2";
+  static constexpr int kTangentSize = 3;
+};
+struct Se3Kind {
+  static constexpr std::string_view kName = "se3";
+  static constexpr int kTangentSize = 6;
+};
+struct Point2Kind {
+  static constexpr std::string_view kName = "point2";
+  static constexpr int kTangentSize = 2;
+};
+struct Point3Kind {
+  static constexpr std::string_view kName = "point3";
+  static constexpr int kTangentSize = 3;
+};
 
 /// Values of poses as the graph stores them, and back. The pointers are to a whole ambient value.
 Eigen::Vector3d toValue(const geometry::Se2& pose);

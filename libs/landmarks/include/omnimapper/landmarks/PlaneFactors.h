@@ -1,8 +1,10 @@
 #pragma once
 
 #include <omnimapper/geometry/Plane3.h>
-#include <omnimapper/graph/Factor.h>
 #include <omnimapper/graph/FactorRegistry.h>
+#include <omnimapper/graph/SizedFactor.h>
+#include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/landmarks/PlaneVariable.h>
 
 #include <Eigen/Core>
 
@@ -13,13 +15,11 @@ namespace omnimapper::landmarks {
 /// A plane seen as a plane (thesis 4.2.2.3, whose four rows are one too many). Variables: map_from_base, plane in map.
 /// Residual: minus(plane predicted in the base, plane measured in the base), geometry/PlaneTangent.h: two turns of the
 /// normal [rad], then the distance [m].
-class PlaneFactor : public graph::Factor {
+class PlaneFactor : public graph::SizedFactor<3, graph::Se3Kind, PlaneKind> {
  public:
   explicit PlaneFactor(const geometry::Plane3& plane_in_base) : measured_(plane_in_base) {}
 
   std::string_view kind() const override { return "plane_from_se3"; }
-  int residualSize() const override { return 3; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
   static void addTo(graph::FactorRegistry& registry);
@@ -31,15 +31,13 @@ class PlaneFactor : public graph::Factor {
 /// A straight line of a laser scan that lies on a plane (thesis 4.2.3): it leaves the turn about itself open.
 /// Variables: map_from_base, plane in map. Residual: n . b, the sine of the angle between line and plane [rad]; then
 /// the distance of the line's middle from the plane [m], positive on the side of the normal n.
-class LineOnPlaneFactor : public graph::Factor {
+class LineOnPlaneFactor : public graph::SizedFactor<2, graph::Se3Kind, PlaneKind> {
  public:
   /// `direction_in_base` is unit.
   LineOnPlaneFactor(const Eigen::Vector3d& direction_in_base, const Eigen::Vector3d& middle_in_base)
       : direction_(direction_in_base), middle_(middle_in_base) {}
 
   std::string_view kind() const override { return "line_on_plane"; }
-  int residualSize() const override { return 2; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
   static void addTo(graph::FactorRegistry& registry);
@@ -51,13 +49,11 @@ class LineOnPlaneFactor : public graph::Factor {
 /// That a plane is upright, for one that only lines of one height have shown. Variable: plane in map. Residual: the
 /// tangent of its lean, at most 100. A sine is at most 1: a few wrong lines could turn the plane level, where every
 /// line of a level laser fits it.
-class UprightFactor : public graph::Factor {
+class UprightFactor : public graph::SizedFactor<1, PlaneKind> {
  public:
   static constexpr std::string_view kKind = "upright_plane";
 
   std::string_view kind() const override { return kKind; }
-  int residualSize() const override { return 1; }
-  const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
   static void addTo(graph::FactorRegistry& registry);

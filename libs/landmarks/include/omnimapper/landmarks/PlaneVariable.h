@@ -5,12 +5,18 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string_view>
 
 namespace omnimapper::landmarks {
 
 /// Kind "plane": unit normal x y z, then distance [m], of the points p of the map with normal . p + distance = 0.
 /// Tangent: geometry/PlaneTangent.h, three degrees of freedom. Derivation: doc/derivations/plane.md.
 const std::shared_ptr<const graph::Variable>& planeVariable();
+/// The kind as a type, for graph::SizedFactor.
+struct PlaneKind {
+  static constexpr std::string_view kName = "plane";
+  static constexpr int kTangentSize = 3;
+};
 
 Eigen::Vector4d toValue(const geometry::Plane3& plane);
 /// The pointer is to a whole ambient value.

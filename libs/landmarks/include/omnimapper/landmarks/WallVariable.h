@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string_view>
 
 namespace omnimapper::landmarks {
 
@@ -13,6 +14,11 @@ namespace omnimapper::landmarks {
 /// tangent is what a line can be off: a turn about the middle of the two [rad], then a shift to the free side [m]. The
 /// points themselves never slide along the wall. Derivation: doc/derivations/wall.md.
 const std::shared_ptr<const graph::Variable>& wallVariable();
+/// The kind as a type, for graph::SizedFactor.
+struct WallKind {
+  static constexpr std::string_view kName = "wall";
+  static constexpr int kTangentSize = 2;
+};
 
 Eigen::Vector4d toValue(const geometry::Segment2& wall);
 /// The pointer is to a whole ambient value.

@@ -11,15 +11,12 @@
 namespace omnimapper::mapper {
 
 inline void writeVariableId(std::ostream& out, base::VariableId id) {
-  graph::writeUint(out, id.session, 2);
-  graph::writeUint(out, id.index, 4);
+  graph::writeId(out, id);
 }
 
 /// Throws Error(unreadable_input) if the graph has no such variable.
 inline base::VariableId readVariableId(std::istream& in, const View& view, const std::string& section) {
-  base::VariableId id;
-  id.session = static_cast<std::uint16_t>(graph::readUint(in, 2));
-  id.index = static_cast<std::uint32_t>(graph::readUint(in, 4));
+  const auto id = graph::readId<base::VariableId>(in);
   if (!view.graph.contains(id)) {
     throw base::Error(base::ExitCode::unreadable_input, "map file, section \"" + section + "\": variable " +
                                                             toString(id) + " is not in the graph: the file is damaged");
