@@ -57,4 +57,33 @@ struct View : State {
   const Verdict& verdict;
 };
 
+/// The map of a run and what the run notes beside it: what a View shows.
+struct ViewedRun {
+  map::Map map;
+  graph::Graph graph;
+  Uncertainty uncertainty;  ///< as of the last solve
+  DecisionLog decisions;
+  StageTimes times;
+  RunCounts counts;
+  std::vector<SolveRecord> solves;
+  std::vector<std::string> warnings;
+  std::vector<map::MapSection> sections;
+  bool map_is_held = false;
+  std::vector<LocalizationEstimate> localization;
+  Verdict verdict;
+
+  View view() const {
+    return {{map, graph, uncertainty},
+            decisions,
+            times,
+            counts,
+            solves,
+            warnings,
+            sections,
+            map_is_held,
+            localization,
+            verdict};
+  }
+};
+
 }  // namespace omnimapper::mapper

@@ -4,38 +4,11 @@
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugin/View.h>
 
-#include <vector>
-
 namespace omnimapper::testing {
 
 /// A map and graph that grow by hand, for what needs a View without an engine.
-struct HandMadeRun {
+struct HandMadeRun : mapper::ViewedRun {
   mapper::Motion motion = mapper::Motion::planar;
-  map::Map map;
-  graph::Graph graph;
-  mapper::DecisionLog decisions;
-  mapper::StageTimes times;
-  mapper::RunCounts counts;
-  std::vector<mapper::SolveRecord> solves;
-  std::vector<std::string> warnings;
-  std::vector<map::MapSection> sections;
-  bool map_is_held = false;
-  std::vector<mapper::LocalizationEstimate> localization;
-  mapper::Verdict verdict;
-  mapper::Uncertainty uncertainty;  ///< of nothing, until a test sets it
-
-  mapper::View view() const {
-    return {{map, graph, uncertainty},
-            decisions,
-            times,
-            counts,
-            solves,
-            warnings,
-            sections,
-            map_is_held,
-            localization,
-            verdict};
-  }
 
   /// A key frame of the graph's session at that estimate, one second after the one before.
   const map::KeyFrame& addFrame(const mrpt::poses::CPose3D& map_from_base) {
