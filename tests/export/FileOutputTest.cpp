@@ -51,7 +51,7 @@ TEST(TrajectoryOutput, hasOneLineForEachObservationWithStampsToTheTick) {
             "1000000000.2500000 1.000000000 -3.000000000 0.500000000 0.000000000 0.000000000 -0.707106781 0.707106781");
 }
 
-TEST(TrajectoryOutput, DependentFramesAreLeftOutOnRequest) {
+TEST(TrajectoryOutput, dependentFramesAreLeftOutOnRequest) {
   ScratchFolder folder;
   exports::TrajectoryOutput({}, contextFor(folder.path())).finish(boxRun().view());
   EXPECT_EQ(linesOf(contentOf(folder / "trajectory.tum")).size(), 4u);

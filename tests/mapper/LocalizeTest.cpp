@@ -57,12 +57,12 @@ class Localize : public ::testing::Test {
 };
 
 // Root mean square distance [m] of what was known when each key frame came from the truth.
-double errorOf(const std::vector<LocalizationEstimate>& fixes, const SimulatedLog& log) {
+double errorOf(const std::vector<LocalizationEstimate>& estimates, const SimulatedLog& log) {
   double sum = 0, count = 0;
-  for (const auto& fix : fixes) {
-    if (!fix.located()) continue;
-    const mrpt::poses::CPose3D truth(log.truthAt(fix.stamp) - log.truthAt(log.begin()));
-    sum += (truth.translation() - fix.map_from_base.translation()).sqrNorm();
+  for (const auto& estimate : estimates) {
+    if (!estimate.located()) continue;
+    const mrpt::poses::CPose3D truth(log.truthAt(estimate.stamp) - log.truthAt(log.begin()));
+    sum += (truth.translation() - estimate.map_from_base.translation()).sqrNorm();
     ++count;
   }
   return std::sqrt(sum / count);
@@ -75,7 +75,7 @@ TEST_F(Localize, AnotherDriveIsLocatedAsWellAsTheMapIsKnown) {
   EXPECT_TRUE(view.map_is_held);
   ASSERT_GT(view.localization.size(), 50U);
   const auto located = std::count_if(view.localization.begin(), view.localization.end(),
-                                     [](const LocalizationEstimate& fix) { return fix.located(); });
+                                     [](const LocalizationEstimate& estimate) { return estimate.located(); });
   EXPECT_GT(static_cast<double>(located), 0.9 * static_cast<double>(view.localization.size()));
   const double error = errorOf(view.localization, log);
   RecordProperty("rmse_m", std::to_string(error));
@@ -150,11 +150,11 @@ TEST_F(Localize, ByGpsAloneFromAStartThatIsFarOff) {
   const auto engine = testing::makeEngine(ini, {}, 1, true);
   engine->sessions().localizeIn(std::move(map), start, kFreeKeyFrames);
   testing::run(*engine, log.observations());
-  const auto& fixes = engine->view().localization;
-  const auto located =
-      std::count_if(fixes.begin(), fixes.end(), [](const LocalizationEstimate& fix) { return fix.located(); });
-  EXPECT_GT(static_cast<double>(located), 0.5 * static_cast<double>(fixes.size()));
-  EXPECT_LT(errorOf(fixes, log), 0.5);
+  const auto& estimates = engine->view().localization;
+  const auto located = std::count_if(estimates.begin(), estimates.end(),
+                                     [](const LocalizationEstimate& estimate) { return estimate.located(); });
+  EXPECT_GT(static_cast<double>(located), 0.5 * static_cast<double>(estimates.size()));
+  EXPECT_LT(errorOf(estimates, log), 0.5);
 }
 
 // What nobody tied to the map lies anywhere: to be found in it says nothing.
@@ -175,7 +175,7 @@ TEST_F(Localize, ASessionOfTheMapThatWasNeverJoinedIsNoPlaceToBeLocatedIn) {
   const auto engine = testing::makeEngine(testing::kLaserIni, {}, 1, true);
   engine->sessions().localizeIn(std::move(map), start, kFreeKeyFrames);
   testing::run(*engine, box.observations());
-  for (const auto& fix : engine->view().localization) EXPECT_FALSE(fix.located()) << fix.key_frame;
+  for (const auto& estimate : engine->view().localization) EXPECT_FALSE(estimate.located()) << estimate.key_frame;
 }
 
 }  // namespace

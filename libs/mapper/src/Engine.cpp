@@ -1,5 +1,8 @@
 #include "Engine.h"
 
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Stamp.h>
+
 #include <algorithm>
 #include <exception>
 #include <optional>
@@ -13,7 +16,7 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
       plugins_(std::move(plugins)),
       back_end_(settings_, plugins_, pool_, state_),
       front_end_(settings_, std::move(sensor_poses), plugins_, back_end_.chain(), pool_, state_),
-      sessions_(back_end_, state_),
+      sessions_(title, back_end_, state_),
       pool_(std::max(1, threads)) {
   if (plugins_.pose.empty() || plugins_.measurement.empty()) {
     throw base::Error(base::ExitCode::unknown_plugin,
@@ -21,7 +24,6 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
                           std::string(plugins_.pose.empty() ? "pose_plugins" : "measurement_plugins") +
                           ": a map needs at least one of each; see --list-plugins");
   }
-  sessions_.begin(title);
 }
 
 void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
@@ -30,9 +32,15 @@ void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
   while (auto bundle = front_end_.next()) process(*bundle);
 }
 
-// What no late observation will ask for is let go: neither one that comes within the horizon, nor one that waits.
 void Engine::process(FrameBundle& bundle) {
+  const auto begin = state_.times.mark();
   if (!back_end_.process(bundle)) return;
+  forget();
+  state_.times.addKeyFrameSince(begin);
+}
+
+// What no late observation will ask for: neither one that comes within the horizon, nor one that waits.
+void Engine::forget() {
   PoseChain& chain = back_end_.chain();
   const base::Stamp horizon = *chain.newest() - base::durationFromSeconds(settings_.engine.horizon);
   const auto kept = chain.lastAtOrBefore(std::min(horizon, front_end_.oldestWaiting().value_or(horizon)));

@@ -27,7 +27,7 @@ class Engine {
   Engine(const EngineSettings& settings, const std::string& title, SensorPoses sensor_poses, PluginSet plugins,
          int threads);
 
-  /// Before the first observation, for a run that goes on from a saved map or localizes in it.
+  /// To be called before the first observation if the run continues a saved map or localizes in it.
   SessionManager& sessions() { return sessions_; }
   /// Takes one observation, in order of arrival, and works on whatever that releases. What cannot be used is counted.
   void add(const mrpt::obs::CObservation::Ptr& observation);
@@ -59,6 +59,7 @@ class Engine {
 
  private:
   void process(FrameBundle& bundle);
+  void forget();
 
   EngineSettings settings_;
   PluginSet plugins_;

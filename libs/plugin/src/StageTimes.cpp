@@ -27,15 +27,21 @@ std::string nameOf(Stage stage, const std::string& section) {
 }  // namespace
 
 StageTimes::Timer::Timer(StageTimes& times, Stage stage, const std::string& section)
-    : times_(times), stage_(stage), section_(section), outer_(times.running_) {
+    : times_(times),
+      total_(times.totals_[nameOf(stage, section)]),
+      of_stage_(times.seconds_[static_cast<std::size_t>(stage)]),
+      outer_(times.running_.timer) {
   if (outer_) outer_->before_ += outer_->watch_.seconds();
-  times_.running_ = this;
+  times_.running_.timer = this;
   watch_ = {};
 }
 
 StageTimes::Timer::~Timer() {
-  times_.add(stage_, section_, before_ + watch_.seconds());
-  times_.running_ = outer_;
+  const double seconds = before_ + watch_.seconds();
+  total_.seconds += seconds;
+  ++total_.calls;
+  of_stage_ += seconds;
+  times_.running_.timer = outer_;
   if (outer_) outer_->watch_ = {};
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "run/OneSensor.h"
@@ -40,7 +42,6 @@ bool BackEnd::process(FrameBundle& bundle) {
     if (!chain_.attach(bundle.stamp)) ++state_.counts.unconnected;
     return false;
   }
-  const auto begin = state_.times.mark();
   const auto place = chain_.place(bundle.stamp);
   if (!place) {
     state_.counts.unconnected += bundle.observations.size();
@@ -48,7 +49,8 @@ bool BackEnd::process(FrameBundle& bundle) {
   }
   if (bundle.reference) state_.map.key_frames.edit(place->id).reference = true;
   const bool is_first = place->is_new && !place->before && !place->after;
-  if (is_first) estimator_.begin();  // of its session, whose place is known to so much
+  // The first key frame of a session: gates start from the covariance of its prior.
+  if (is_first) estimator_.begin();
   if (place->is_new && place->after) {
     ++state_.counts.spliced;
     for (auto& [section, plugin] : plugins_.measurement) {
@@ -59,7 +61,6 @@ bool BackEnd::process(FrameBundle& bundle) {
   measure(place->id, perceived);
   commit(place->id);
   if (window_ && place->is_new && !place->after) addEstimate(place->id);
-  state_.times.addKeyFrameSince(begin);
   return true;
 }
 
@@ -169,7 +170,7 @@ void BackEnd::judgeMap() {
 }
 
 void BackEnd::resume() {
-  estimator_.takeUp();
+  estimator_.resume();
   for (auto& [section, plugin] : plugins_.measurement) {
     const auto found =
         std::find_if(state_.sections.begin(), state_.sections.end(),

@@ -20,7 +20,7 @@
 namespace omnimapper::mapper {
 
 /// Bundles of observations in, a map out (thesis 5.2.3, 5.3.3): each becomes a key frame, plugins measure there, and
-/// the graph is solved from time to time. It alone changes map and graph.
+/// the graph is solved from time to time. During a run nothing but the back end's classes changes map and graph.
 class BackEnd {
  public:
   /// All of them stay the caller's.
@@ -34,10 +34,10 @@ class BackEnd {
   /// kept free.
   void holdMap(int key_frames);
 
-  /// Whether the bundle became or joined a key frame. False where nothing links its stamp to the others, which is
-  /// counted, and where it is a dependent frame alone.
+  /// Whether the bundle became or joined a key frame. False where its stamp is a dependent frame alone, and where no
+  /// source links it to the others, which is counted.
   bool process(FrameBundle& bundle);
-  /// Nothing before `stamp` will be measured any more.
+  /// Takes key frames before `stamp` out of the window of a run that localizes; does nothing in others.
   void retireBefore(base::Stamp stamp);
 
   /// Whether jobs are still to be applied.

@@ -23,8 +23,9 @@ class BatchApplier {
   void apply(const Batch& batch, const BatchOrigin& origin, MeasurementPlugin& plugin);
   /// What each plugin wants after key frame `id`: its batch now, its jobs into the queue.
   void collectFollowUps(base::KeyFrameId id);
+  /// The jobs that are due now, or all that are left.
   enum class Which { due, all };
-  /// Applies the batches of those jobs. Of what does not fit any more a word is left in the log.
+  /// Applies the batches of those jobs. One that no longer fits is dropped, and the decision log says why.
   void applyJobs(Which which);
   /// Jobs whose batches are not applied yet.
   std::size_t jobs() const { return jobs_.size(); }

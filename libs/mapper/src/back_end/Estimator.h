@@ -21,8 +21,8 @@ class Estimator {
 
   /// The first key frame of a session is there: gates start from it.
   void begin() { state_.uncertainty = Uncertainty(state_.graph); }
-  /// A map with a past is there, solved as it is.
-  void takeUp() {
+  /// A saved map is there, which counts as solved.
+  void resume() {
     begin();
     key_frames_at_solve_ = state_.map.key_frames.size();
   }

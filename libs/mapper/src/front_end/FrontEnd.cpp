@@ -1,7 +1,10 @@
 #include "front_end/FrontEnd.h"
 
+#include <omnimapper/base/Stamp.h>
+
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace omnimapper::mapper {
 

@@ -19,7 +19,8 @@
 
 namespace omnimapper::mapper {
 
-/// Observations in, in order of arrival; bundles for key frames out, in order of time (thesis 5.2.3.2, 5.3.2.1).
+/// Observations in, in order of arrival; bundles for key frames out, in order of time except for late ones (thesis
+/// 5.2.3.2, 5.3.2.1).
 /// Pose sources are fed on the way, and perception of a bundle starts in the worker pool when the trigger lets it
 /// through.
 class FrontEnd {
@@ -33,12 +34,13 @@ class FrontEnd {
   void add(const mrpt::obs::CObservation::Ptr& observation);
   /// The log has ended: next() hands out all that still waits.
   void close() { closed_ = true; }
-  /// The bundle to work on now; none until more is added. What is asked for next may depend on what became of it.
+  /// The bundle to work on now; none until more is added. Process it before the next call: the
+  /// trigger asks how the base moved until then.
   std::optional<FrameBundle> next();
 
   /// Stamp of the oldest bundle that waits to be handed out; late ones stand behind younger ones.
   std::optional<base::Stamp> oldestWaiting() const;
-  /// No late observation before `stamp` will be accepted.
+  /// Lets pose sources and trigger drop what they keep of the time before `stamp`.
   void forgetBefore(base::Stamp stamp);
 
  private:

@@ -1,5 +1,6 @@
 #include "sessions/SessionManager.h"
 
+#include <cstdint>
 #include <utility>
 
 namespace omnimapper::mapper {

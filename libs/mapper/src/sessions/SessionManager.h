@@ -3,6 +3,7 @@
 #include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/plugin/SessionStart.h>
 
+#include <optional>
 #include <string>
 
 #include "RunState.h"
@@ -14,13 +15,13 @@ namespace omnimapper::mapper {
 /// localized in it.
 class SessionManager {
  public:
-  /// Both stay the caller's.
-  SessionManager(BackEnd& back_end, RunState& state) : back_end_(back_end), state_(state) {}
+  /// Begins the first session of a new map, with that title. Back end and state stay the caller's.
+  SessionManager(const std::string& title, BackEnd& back_end, RunState& state) : back_end_(back_end), state_(state) {
+    back_end_.beginSession({0, title, {}, true}, std::nullopt);
+  }
 
-  /// The first session of a new map. `title` names it.
-  void begin(const std::string& title) { back_end_.beginSession({0, title, {}, true}, std::nullopt); }
-  /// Before the first observation: takes up a map as it was saved; what follows is a new session of it, which begins
-  /// at `start`. Throws Error(unreadable_input) if a plugin cannot make use of its section.
+  /// Before the first observation: loads a map as it was saved. The session that was begun becomes a new one of it,
+  /// which begins at `start`. Throws Error(unreadable_input) if a plugin cannot make use of its section.
   void continueFrom(SavedMap saved, const SessionStart& start);
   /// As continueFrom(), but the map is held as it is: what follows is only localized in it, and no more than about
   /// `key_frames` of it are kept free.

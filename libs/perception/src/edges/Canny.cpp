@@ -1,6 +1,8 @@
 #include "Canny.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
 
 namespace omnimapper::perception::edges {
@@ -9,9 +11,10 @@ namespace {
 
 // The weights of ITU-R BT.601 in parts of 256.
 template <int kFirst, int kThird>
-void addGrey(const std::uint8_t* from, int n, std::uint8_t* to) {
-  for (int x = 0; x < n; ++x, from += 3)
+void writeGrey(const std::uint8_t* from, int n, std::uint8_t* to) {
+  for (int x = 0; x < n; ++x, from += 3) {
     to[x] = static_cast<std::uint8_t>((kFirst * from[0] + 150 * from[1] + kThird * from[2] + 128) >> 8);
+  }
 }
 
 cv::Mat greyOf(const ColourImage& image) {
@@ -23,10 +26,10 @@ cv::Mat greyOf(const ColourImage& image) {
         std::copy(from, from + image.width, grey.ptr(y));
         break;
       case ColourImage::Order::rgb:
-        addGrey<77, 29>(from, image.width, grey.ptr(y));
+        writeGrey<77, 29>(from, image.width, grey.ptr(y));
         break;
       case ColourImage::Order::bgr:
-        addGrey<29, 77>(from, image.width, grey.ptr(y));
+        writeGrey<29, 77>(from, image.width, grey.ptr(y));
         break;
     }
   }

@@ -22,7 +22,8 @@ class SizedFactor : public Factor {
   }
 
  protected:
-  /// The derivative by variable `Index`, [Rows x tangentSize of its kind], to assign to; false if nobody asks for it.
+  /// The derivative by variable `Index`, [Rows x tangentSize of its kind], to assign to. It converts to
+  /// false if the caller does not want it.
   template <std::size_t Index>
   static auto jacobian(double* const* jacobians) {
     using Kind = std::tuple_element_t<Index, std::tuple<Kinds...>>;

@@ -40,7 +40,7 @@ class StageTimes {
   struct PerKeyFrame {
     double matching_ms = 0;  ///< plugins
     double solve_ms = 0;
-    double engine_ms = 0;  ///< everything else but waiting
+    double engine_ms = 0;  ///< everything else but waiting; letting go of old data included
   };
 
   /// Measures a stage until it is destroyed. While a second one measures, the first stands still: each second counts
@@ -54,8 +54,8 @@ class StageTimes {
 
    private:
     StageTimes& times_;
-    Stage stage_;
-    std::string section_;
+    Total& total_;
+    double& of_stage_;
     Timer* outer_;
     double before_ = 0;  // [s] until a timer within this one took over
     StopWatch watch_;    // since it began or went on
@@ -68,7 +68,7 @@ class StageTimes {
   void add(Stage stage, const std::string& section, double seconds);
   void addKeyFrame(const PerKeyFrame& times) { key_frames_.push_back(times); }
 
-  /// A moment of the run, to be compared with a later one.
+  /// What has been spent until some point of the run.
   struct Mark {
     StopWatch watch;
     double plugin, solve, wait;
@@ -87,7 +87,13 @@ class StageTimes {
   std::map<std::string, Total> totals_;
   std::array<double, static_cast<std::size_t>(Stage::engine) + 1> seconds_{};
   std::vector<PerKeyFrame> key_frames_;
-  Timer* running_ = nullptr;
+  /// The innermost timer that measures. It stays with the times that it began with: a copy has none.
+  struct Running {
+    Running() = default;
+    Running(const Running&) {}
+    Running& operator=(const Running&) { return *this; }
+    Timer* timer = nullptr;
+  } running_;
 };
 
 }  // namespace omnimapper::mapper
