@@ -48,6 +48,11 @@ graph::FactorRegistry registry() {
   return registry;
 }
 
+TEST(PlaneVariable, IsTheKindThatFactorsName) {
+  EXPECT_EQ(PlaneKind::kName, planeVariable()->kind());
+  EXPECT_EQ(+PlaneKind::kTangentSize, planeVariable()->tangentSize());
+}
+
 TEST(PlaneVariable, PlusAndMinusAreInverseAndKeepTheNormalUnit) {
   testing::Dice dice(1);
   for (int i = 0; i < 50; ++i) {

@@ -29,6 +29,11 @@ Evaluation at(const WallFactor& factor, const Se2& map_from_base, const Segment2
   return {factor, {graph::se2(), wallVariable()}, {graph::toValue(map_from_base), toValue(wall)}};
 }
 
+TEST(WallVariable, IsTheKindThatFactorsName) {
+  EXPECT_EQ(WallKind::kName, wallVariable()->kind());
+  EXPECT_EQ(+WallKind::kTangentSize, wallVariable()->tangentSize());
+}
+
 TEST(WallVariable, TurnsAboutItsMiddleAndShiftsToTheFreeSide) {
   const Segment2 wall{{0, 2}, {4, 2}};  // free above it
   EXPECT_LT((normalOf(wall) - Vector2d(0, 1)).norm(), 1e-15);
