@@ -151,8 +151,8 @@ class Run {
 
  private:
   void makeEngine();
-  std::vector<std::string> warn();
-  RunResult result() const;
+  std::vector<std::string> warn(const RunResult& result);
+  void complete(RunResult& result) const;
   bool isSuspicious() const { return engine_->view().verdict.answer == Verdict::Answer::suspicious; }
   bool localizes() const { return !request_.localize_map.empty(); }
 
@@ -241,8 +241,9 @@ void Run::finish() {
   failure_at_end_ = tried(*engine_, [&] { engine_->finish(); });
 }
 
-// What a user should know of the run, to the engine. The labels that an INI names and the log lacks are given, too.
-std::vector<std::string> Run::warn() {
+// Tells the engine what a user should know of the run. Gives a sentence for each label that the INI names and the log
+// lacks.
+std::vector<std::string> Run::warn(const RunResult& result) {
   const auto report = log_->report();
   warnOfLog(report, stopped_, *engine_);
   auto unknown_labels =
@@ -256,17 +257,16 @@ std::vector<std::string> Run::warn() {
   warn_of(pose_plugins_);
   warn_of(extractors_);
   warnOfNothingMeasured(measuring_, *engine_);
-  const auto so_far = resultOf(engine_->view());
-  warnOfCounts(engine_->view().counts, so_far.new_key_frames, *engine_);
-  warnOfSession(so_far.sessions.back(), *engine_);
-  if (localizes()) warnOfLocalization(so_far, *engine_);
+  warnOfCounts(engine_->view().counts, result.new_key_frames, *engine_);
+  warnOfSession(result.sessions.back(), *engine_);
+  if (localizes()) warnOfLocalization(result, *engine_);
   if (isSuspicious())
     engine_->warn(sentenceOf(engine_->view().verdict) + " Look at map.png and report.html before you use it");
   return unknown_labels;
 }
 
-RunResult Run::result() const {
-  auto result = resultOf(engine_->view());
+// What stands only after warn(), and how the run ended.
+void Run::complete(RunResult& result) const {
   result.verdict = engine_->view().verdict;
   result.warnings = engine_->view().warnings;
   result.source = log_->report();
@@ -274,13 +274,13 @@ RunResult Run::result() const {
   if (result.code == base::ExitCode::ok) result.code = engine_->extractionErrors().code();
   if (result.code == base::ExitCode::ok && request_.strict && isSuspicious())
     result.code = base::ExitCode::suspicious_map;
-  return result;
 }
 
 // Writes the outputs. Throws where there is nothing worth writing, and at the end what broke the run off.
 RunResult Run::report() {
-  const auto unknown_labels = warn();
-  auto outcome = result();
+  auto outcome = resultOf(engine_->view());
+  const auto unknown_labels = warn(outcome);
+  complete(outcome);
   // A map that is continued is there already: better that one than one broken off.
   const bool keep_old = outcome.new_key_frames == 0 || !request_.continue_map.empty();
   if (keep_old && failure_) std::rethrow_exception(failure_);
