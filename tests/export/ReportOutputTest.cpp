@@ -148,13 +148,6 @@ TEST(Report, aMapWithoutScansShowsItsTrajectory) {
   EXPECT_NE(html.find("class=\"track\" d=\"M"), std::string::npos);
 }
 
-TEST(Html, escapesMarkupAndRepairsWhatIsNoUtf8) {
-  EXPECT_EQ(exports::escapeHtml("a<b> & \"c\""), "a&lt;b&gt; &amp; &quot;c&quot;");
-  EXPECT_EQ(exports::escapeHtml("M\xc3\xa1laga \xff\xc3("),
-            "M\xc3\xa1laga ?"
-            "?(");
-}
-
 TEST(Html, base64OfKnownTexts) {
   EXPECT_EQ(exports::encodeBase64(""), "");
   EXPECT_EQ(exports::encodeBase64("f"), "Zg==");

@@ -1,3 +1,4 @@
+#include <omnimapper/draw/Markup.h>
 #include <omnimapper/draw/Svg.h>
 
 #include <algorithm>
@@ -13,22 +14,6 @@ std::string pixels(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);
   return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
 }
 
 }  // namespace
@@ -75,7 +60,7 @@ void Svg::dot(const Eigen::Vector2d& centre, double radius, const std::string& f
 void Svg::text(const Eigen::Vector2d& at, const std::string& text, Anchor anchor, double size) {
   const char* name = anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
   out_ << "<text x=\"" << pixels(at.x()) << "\" y=\"" << pixels(at.y()) << "\" font-size=\"" << pixels(size)
-       << "\" fill=\"#333333\" text-anchor=\"" << name << "\">" << escaped(text) << "</text>\n";
+       << "\" fill=\"#333333\" text-anchor=\"" << name << "\">" << escapeMarkup(text) << "</text>\n";
 }
 
 std::string heatColour(double share) {

@@ -1,6 +1,7 @@
 #include "plan/LandmarkLayers.h"
 
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/draw/Markup.h>
 
 #include <map>
 
@@ -21,7 +22,7 @@ std::string titleOf(const ShapedLandmark& shaped) {
   std::string text = shape.label + " " + toString(landmark->id) + (moved ? " (moved)" : "") + ": " +
                      std::to_string(landmark->evidence) + " sightings";
   for (const auto& [name, value] : shape.properties) text += "\n" + name + " " + value;
-  return "<title>" + escapeHtml(text) + "</title>";
+  return "<title>" + draw::escapeMarkup(text) + "</title>";
 }
 
 std::string svgPathOf(const std::string& kind, const std::string& data) {

@@ -1,6 +1,7 @@
 #include "report/Chart.h"
 
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/draw/Markup.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +71,7 @@ class Axes {
 
 std::string text(double x, double y, const std::string& anchor, const std::string& content) {
   return "<text x=\"" + base::fixed(x, 1) + "\" y=\"" + base::fixed(y, 1) + "\" text-anchor=\"" + anchor + "\">" +
-         escapeHtml(content) + "</text>";
+         draw::escapeMarkup(content) + "</text>";
 }
 
 std::string rule(double x1, double y1, double x2, double y2) {
@@ -151,13 +152,13 @@ std::string drawChart(const Chart& chart) {
     const std::string curve = drawSeries(series, axes);
     if (curve.empty()) continue;
     curves += curve;
-    legend += "<span class=\"key\"><i class=\"s" + std::to_string(series.colour) + "\"></i>" + escapeHtml(series.name) +
-              "</span>";
+    legend += "<span class=\"key\"><i class=\"s" + std::to_string(series.colour) + "\"></i>" +
+              draw::escapeMarkup(series.name) + "</span>";
   }
-  const std::string unit = chart.y_label.empty() ? "" : " <small>" + escapeHtml(chart.y_label) + "</small>";
-  return "<figure class=\"card chart\"><figcaption><b>" + escapeHtml(chart.title) + "</b>" + unit +
+  const std::string unit = chart.y_label.empty() ? "" : " <small>" + draw::escapeMarkup(chart.y_label) + "</small>";
+  return "<figure class=\"card chart\"><figcaption><b>" + draw::escapeMarkup(chart.title) + "</b>" + unit +
          "<span class=\"legend\">" + legend + "</span></figcaption><svg viewBox=\"0 0 " + base::brief(kWidth) + " " +
-         base::brief(kHeight) + "\" role=\"img\" aria-label=\"" + escapeHtml(chart.title) + "\">" +
+         base::brief(kHeight) + "\" role=\"img\" aria-label=\"" + draw::escapeMarkup(chart.title) + "\">" +
          drawAxes(chart, axes) + curves + "</svg></figure>\n";
 }
 
@@ -165,12 +166,12 @@ std::string drawBars(const std::string& title, std::vector<Bar> bars) {
   if (bars.empty()) return {};
   std::stable_sort(bars.begin(), bars.end(), [](const Bar& a, const Bar& b) { return a.value > b.value; });
   const double longest = std::max(bars.front().value, std::numeric_limits<double>::min());
-  std::string html =
-      "<figure class=\"card chart\"><figcaption><b>" + escapeHtml(title) + "</b></figcaption><div class=\"bars\">";
+  std::string html = "<figure class=\"card chart\"><figcaption><b>" + draw::escapeMarkup(title) +
+                     "</b></figcaption><div class=\"bars\">";
   for (const Bar& bar : bars) {
-    html += "<span>" + escapeHtml(bar.name) + "</span><span class=\"track\"><i style=\"width:" +
+    html += "<span>" + draw::escapeMarkup(bar.name) + "</span><span class=\"track\"><i style=\"width:" +
             base::fixed(100 * std::max(0.0, bar.value) / longest, 2) + "%\"></i></span><span class=\"num\">" +
-            escapeHtml(bar.text) + "</span>";
+            draw::escapeMarkup(bar.text) + "</span>";
   }
   return html + "</div></figure>\n";
 }

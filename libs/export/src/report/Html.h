@@ -1,12 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace omnimapper::exports {
 
-/// Text as it may stand between tags and in attributes; bytes that are no UTF-8 become question marks.
-std::string escapeHtml(std::string_view text);
 std::string encodeBase64(std::string_view bytes);
 /// Cells of a table row: text, and numbers, which stand to the right and are sorted as such.
 std::string cell(const std::string& html);

@@ -1,6 +1,7 @@
 #include "report/ReportLandmarks.h"
 
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/draw/Markup.h>
 
 #include <algorithm>
 #include <map>
@@ -24,7 +25,7 @@ std::string swatch(const std::string& label) {
 std::string sensorsOf(const map::LandmarkShape& shape) {
   std::string text;
   for (const auto& [label, count] : seenBy(shape))
-    text += (text.empty() ? "" : ", ") + escapeHtml(label) + " " + grouped(count);
+    text += (text.empty() ? "" : ", ") + draw::escapeMarkup(label) + " " + grouped(count);
   return text;
 }
 
@@ -33,7 +34,7 @@ std::string otherProperties(const map::LandmarkShape& shape) {
   std::string text;
   for (const auto& [name, value] : shape.properties) {
     if (name == "area_m2" || name == "length_m" || name.rfind("seen_by_", 0) == 0) continue;
-    text += (text.empty() ? "" : ", ") + escapeHtml(name) + " " + escapeHtml(value);
+    text += (text.empty() ? "" : ", ") + draw::escapeMarkup(name) + " " + draw::escapeMarkup(value);
   }
   return text;
 }
@@ -46,8 +47,8 @@ std::string landmarkRow(const ShapedLandmark& shaped, base::Stamp start) {
   };
   const Eigen::AlignedBox3d box = boxOf(shape);
   const auto middle = [&](int axis) { return numberCell(box.isEmpty() ? "" : base::fixed(box.center()(axis), 2)); };
-  return "<tr>" + numberCell(toString(landmark->id)) + cell(swatch(shape.label) + escapeHtml(shape.label)) +
-         cell(escapeHtml(landmark->kind)) + middle(0) + middle(1) + middle(2) +
+  return "<tr>" + numberCell(toString(landmark->id)) + cell(swatch(shape.label) + draw::escapeMarkup(shape.label)) +
+         cell(draw::escapeMarkup(landmark->kind)) + middle(0) + middle(1) + middle(2) +
          numberCell(area > 0 ? base::fixed(area, 2) : "") + numberCell(length > 0 ? base::fixed(length, 2) : "") +
          numberCell(grouped(landmark->evidence)) + cell(sensorsOf(shape)) + numberCell(since(landmark->first_seen)) +
          numberCell(since(landmark->last_seen)) + cell(moved ? "moved" : "") + cell(otherProperties(shape)) + "</tr>\n";

@@ -1,6 +1,7 @@
 #include "report/ReportMap.h"
 
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/draw/Markup.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +22,8 @@ std::string closureLine(const GridPicture& grid, const Closure& closure) {
   const mapper::Decision& d = *closure.decision;
   return "<line x1=\"" + base::fixed(from.x, 1) + "\" y1=\"" + base::fixed(from.y, 1) + "\" x2=\"" +
          base::fixed(to.x, 1) + "\" y2=\"" + base::fixed(to.y, 1) + "\"><title>" +
-         escapeHtml(d.kind + " " + toString(d.from) + " to " + toString(*d.to) + ": " + verdictText(d) + "\n" +
-                    numbersText(d)) +
+         draw::escapeMarkup(d.kind + " " + toString(d.from) + " to " + toString(*d.to) + ": " + verdictText(d) + "\n" +
+                            numbersText(d)) +
          "</title></line>\n";
 }
 
@@ -69,7 +70,7 @@ std::string legend(const std::vector<LandmarkLayer>& landmarks, const std::vecto
   std::string layers;
   for (const auto& layer : landmarks) {
     layers += toggle(layer.name, "style=\"color:" + layer.colour + "\"",
-                     escapeHtml(layer.label) + ": " + grouped(layer.count), layer.shown);
+                     draw::escapeMarkup(layer.label) + ": " + grouped(layer.count), layer.shown);
   }
   return "<div class=\"toggles\">" + toggle("track", "class=\"kt\"", "trajectory", true) +
          toggle("accepted", "class=\"ka\"", "closures accepted: " + grouped(accepted), true) +

@@ -1,6 +1,7 @@
 #include "report/ReportPage.h"
 
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/draw/Markup.h>
 
 #include <cmath>
 
@@ -61,7 +62,7 @@ std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
 std::string drawWarnings(const std::vector<std::string>& warnings) {
   if (warnings.empty()) return {};
   std::string items;
-  for (const std::string& warning : warnings) items += "<li>" + escapeHtml(warning) + "</li>";
+  for (const std::string& warning : warnings) items += "<li>" + draw::escapeMarkup(warning) + "</li>";
   return "<section class=\"card warnings\"><h2>Warnings</h2><ul>" + items + "</ul></section>\n";
 }
 
@@ -69,12 +70,12 @@ std::string drawWarnings(const std::vector<std::string>& warnings) {
 std::string drawVerdict(const mapper::Verdict& verdict) {
   if (verdict.evidence.empty()) return {};
   return "<section class=\"card\"><h2>Verdict: " + mapper::toString(verdict.answer) + "</h2><p>" +
-         escapeHtml(sentenceOf(verdict)) + "</p></section>\n";
+         draw::escapeMarkup(sentenceOf(verdict)) + "</p></section>\n";
 }
 
 std::string drawConfig(const std::string& text) {
   if (text.empty()) return {};
-  return "<details class=\"card\"><summary>Settings of this run (INI)</summary><pre>" + escapeHtml(text) +
+  return "<details class=\"card\"><summary>Settings of this run (INI)</summary><pre>" + draw::escapeMarkup(text) +
          "</pre></details>\n";
 }
 
@@ -86,7 +87,7 @@ std::string charts(const std::string& title, const std::string& html) {
 
 std::string drawReport(const ReportInput& input) {
   const mapper::View& view = input.view;
-  const std::string title = escapeHtml(input.context.title.empty() ? "Map" : input.context.title);
+  const std::string title = draw::escapeMarkup(input.context.title.empty() ? "Map" : input.context.title);
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\"/>\n<title>" +

@@ -1,6 +1,7 @@
 #include "report/ReportTables.h"
 
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/draw/Markup.h>
 #include <omnimapper/map/SessionFigures.h>
 #include <omnimapper/mapper/SessionAlignment.h>
 
@@ -20,10 +21,10 @@ std::string verdict(bool accepted) {
 
 std::string row(const mapper::Decision& d, base::Stamp start) {
   return "<tr data-verdict=\"" + std::string(d.accepted ? "accepted" : "refused") + "\" data-kind=\"" +
-         escapeHtml(d.kind) + "\">" + numberCell(toString(d.from)) +
-         numberCell(base::fixed(base::secondsBetween(start, d.stamp), 1)) + cell(escapeHtml(d.plugin)) +
-         cell(escapeHtml(d.kind)) + numberCell(d.to ? toString(*d.to) : "") + verdict(d.accepted) +
-         cell(escapeHtml(d.reason)) + cell(escapeHtml(numbersText(d))) + "</tr>\n";
+         draw::escapeMarkup(d.kind) + "\">" + numberCell(toString(d.from)) +
+         numberCell(base::fixed(base::secondsBetween(start, d.stamp), 1)) + cell(draw::escapeMarkup(d.plugin)) +
+         cell(draw::escapeMarkup(d.kind)) + numberCell(d.to ? toString(*d.to) : "") + verdict(d.accepted) +
+         cell(draw::escapeMarkup(d.reason)) + cell(draw::escapeMarkup(numbersText(d))) + "</tr>\n";
 }
 
 /// Which decisions are listed: all, or the refusals and those about two key frames first.
@@ -43,7 +44,7 @@ std::string options(const mapper::DecisionLog& decisions) {
   for (const mapper::Decision& d : decisions) kinds.insert(d.kind);
   std::string html = "<option value=\"\">every kind</option>";
   for (const std::string& kind : kinds) {
-    html += "<option value=\"" + escapeHtml(kind) + "\">" + escapeHtml(kind) + "</option>";
+    html += "<option value=\"" + draw::escapeMarkup(kind) + "\">" + draw::escapeMarkup(kind) + "</option>";
   }
   return html;
 }
@@ -55,7 +56,7 @@ std::string countTable(const std::string& title, const Counts& counts) {
     if (count == 0) continue;
     std::string words = name;
     std::replace(words.begin(), words.end(), '_', ' ');
-    rows += "<tr>" + cell(escapeHtml(words)) + numberCell(grouped(count)) + "</tr>";
+    rows += "<tr>" + cell(draw::escapeMarkup(words)) + numberCell(grouped(count)) + "</tr>";
   }
   return rows.empty() ? ""
                       : "<section class=\"card\"><h3>" + title + "</h3><table class=\"plain\"><tbody>" + rows +
@@ -72,10 +73,10 @@ std::string drawSessionTable(const map::Map& map) {
                                       [&](const auto& other) { return other.number == figures.number; });
     if (session == map.sessions.end()) continue;
     const bool first = session == map.sessions.begin();
-    rows += "<tr>" + numberCell(std::to_string(figures.number)) + cell(escapeHtml(session->title)) +
+    rows += "<tr>" + numberCell(std::to_string(figures.number)) + cell(draw::escapeMarkup(session->title)) +
             numberCell(grouped(figures.key_frames)) + numberCell(base::fixed(figures.way, 1)) +
-            numberCell(base::fixed(figures.seconds, 1)) + cell(first ? "" : escapeHtml(mapper::joinedText(*session))) +
-            "</tr>\n";
+            numberCell(base::fixed(figures.seconds, 1)) +
+            cell(first ? "" : draw::escapeMarkup(mapper::joinedText(*session))) + "</tr>\n";
   }
   return "<section class=\"card\"><h2>Sessions</h2><div class=\"scroll\"><table class=\"sortable\"><thead><tr>"
          "<th class=\"num\">session</th><th>log</th><th class=\"num\">key frames</th><th class=\"num\">way [m]</th>"
@@ -92,8 +93,9 @@ std::string drawReasonTable(const mapper::DecisionLog& decisions) {
   if (decisions.empty()) return {};
   std::string rows;
   for (const ReasonCount& count : countReasons(decisions)) {
-    rows += "<tr>" + cell(escapeHtml(count.plugin)) + cell(escapeHtml(count.kind)) + verdict(count.accepted) +
-            cell(escapeHtml(count.reason)) + numberCell(grouped(count.count)) + "</tr>\n";
+    rows += "<tr>" + cell(draw::escapeMarkup(count.plugin)) + cell(draw::escapeMarkup(count.kind)) +
+            verdict(count.accepted) + cell(draw::escapeMarkup(count.reason)) + numberCell(grouped(count.count)) +
+            "</tr>\n";
   }
   return "<section class=\"card\"><h2>Decisions by reason</h2><div class=\"scroll\"><table "
          "class=\"sortable\"><thead><tr>"

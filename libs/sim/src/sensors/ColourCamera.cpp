@@ -1,12 +1,12 @@
 #include "ColourCamera.h"
 
 #include <mrpt/obs/CObservationImage.h>
+#include <omnimapper/draw/Image.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 
 #include <cmath>
 
-#include "../camera/Png16.h"
 #include "../camera/ViewTruth.h"
 #include "FrameName.h"
 
@@ -100,7 +100,8 @@ Measurement ColourCamera::measure(int k) const {
   Measurement measurement{picture, truth.dump(), {}};
   if (o.labels) {
     measurement.truth_files.push_back(
-        {frameName("labels", label(), k), png16(labelsOf(frame), camera_.width, camera_.height)});
+        {frameName("labels", label(), k),
+         draw::encodePng(draw::Grey16Image{camera_.width, camera_.height, labelsOf(frame)})});
   }
   return measurement;
 }

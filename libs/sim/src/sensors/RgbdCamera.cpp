@@ -1,13 +1,13 @@
 #include "RgbdCamera.h"
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/draw/Image.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 
 #include <cmath>
 #include <optional>
 
-#include "../camera/Png16.h"
 #include "../camera/ViewTruth.h"
 #include "FrameName.h"
 
@@ -133,11 +133,13 @@ Measurement RgbdCamera::measure(int k) const {
   const Pinhole& camera = exact.camera;
   if (options_of_camera_.labels) {
     measurement.truth_files.push_back(
-        {frameName("labels", label(), k), png16(labelsOf(exact), camera.width, camera.height)});
+        {frameName("labels", label(), k),
+         draw::encodePng(draw::Grey16Image{camera.width, camera.height, labelsOf(exact)})});
   }
   if (options_of_camera_.true_depth) {
     measurement.truth_files.push_back(
-        {frameName("depth", label(), k), png16(depthsOf(exact, 0.0002), camera.width, camera.height)});
+        {frameName("depth", label(), k),
+         draw::encodePng(draw::Grey16Image{camera.width, camera.height, depthsOf(exact, 0.0002)})});
   }
   return measurement;
 }

@@ -1,4 +1,5 @@
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/draw/Markup.h>
 #include <omnimapper/sim/PlanDrawing.h>
 #include <omnimapper/sim/Triangulate.h>
 
@@ -60,10 +61,10 @@ std::string colourOf(const Material& material, double mix_with_white) {
   return text;
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '_' ? " " : std::string(1, c);
-  return result;
+// Names of rooms have underscores where people write spaces.
+std::string labelOf(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return draw::escapeMarkup(name);
 }
 
 // Parts below eye level of a body that is looked at from above, the lower ones first.
@@ -185,7 +186,7 @@ std::string drawPlan(const World& world, const PlanDrawingOptions& options) {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    const std::string words = escaped(room.name);
+    const std::string words = labelOf(room.name);
     const double fit = 1.4 * (high - low).x() * drawing.scale / std::max<std::size_t>(words.size(), 1);
     if (fit > 5) drawing.text((low + high) / 2, std::min(16.0, fit), words);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -28,8 +29,16 @@ struct PaletteImage {
   std::vector<std::uint8_t> pixels;
 };
 
-/// The bytes of a PNG file. The same picture gives the same bytes.
+/// Grey pixels of 16 bits, such as depths or numbers of things, row by row from the top.
+struct Grey16Image {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> pixels;
+};
+
+/// The bytes of a PNG file (ISO/IEC 15948). The same picture gives the same bytes.
 std::string encodePng(const Image& image);
 std::string encodePng(const PaletteImage& image);
+/// Throws Error(internal) if there are not width * height pixels, or none.
+std::string encodePng(const Grey16Image& image);
 
 }  // namespace omnimapper::draw

@@ -1,23 +1,21 @@
-#include <camera/Png16.h>
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/draw/Image.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <fstream>
-#include <stdexcept>
 
-namespace png16_test {
+namespace omnimapper::draw::grey16_test {
 namespace {
 
-using omnimapper::sim::png16;
-
-TEST(Png16, mrptReadsEveryValueBack) {
+TEST(Grey16Image, mrptReadsEveryValueBack) {
   constexpr int kWidth = 37, kHeight = 23;
   std::vector<std::uint16_t> values(kWidth * kHeight);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(i * 7919 * 31);
   values[3] = 65535, values[4] = 0, values[5] = 256, values[6] = 255;
   const omnimapper::testing::ScratchFolder folder;
-  std::ofstream(folder / "a.png", std::ios::binary) << png16(values, kWidth, kHeight);
+  std::ofstream(folder / "a.png", std::ios::binary) << encodePng(Grey16Image{kWidth, kHeight, values});
   mrpt::img::CImage image;
   ASSERT_TRUE(image.loadFromFile(folder / "a.png"));
   ASSERT_EQ(image.getWidth(), static_cast<std::size_t>(kWidth));
@@ -29,10 +27,10 @@ TEST(Png16, mrptReadsEveryValueBack) {
   }
 }
 
-TEST(Png16, valuesMustFillThePicture) {
-  EXPECT_THROW(png16({1, 2, 3}, 2, 2), std::invalid_argument);
-  EXPECT_THROW(png16({}, 0, 0), std::invalid_argument);
+TEST(Grey16Image, pixelsMustFillThePicture) {
+  EXPECT_THROW(encodePng(Grey16Image{2, 2, {1, 2, 3}}), base::Error);
+  EXPECT_THROW(encodePng(Grey16Image{}), base::Error);
 }
 
 }  // namespace
-}  // namespace png16_test
+}  // namespace omnimapper::draw::grey16_test
