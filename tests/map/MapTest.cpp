@@ -81,7 +81,7 @@ TEST(DenseTrajectory, spreadsATurnEvenlyInTime) {
   expectNear(path[1].map_from_base, CPose3D(0, 0, 0, 0.2, 0, 0), 1e-12);
 }
 
-TEST(DenseTrajectory, aHangingFrameAtTheEndIsTheNextKeyFrameInSpace) {
+TEST(DenseTrajectory, aDependentFrameAtTheEndIsTheNextKeyFrameInSpace) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1, 1);
   const auto pose = [&] {

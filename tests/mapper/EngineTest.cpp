@@ -72,7 +72,7 @@ TEST_F(Engine, KeyFramesAreTheFirstScansThatReachDistanceOrAngleByOdometry) {
   }
 }
 
-TEST_F(Engine, EveryScanIsAKeyFrameOrHangsOnTheOneBeforeIt) {
+TEST_F(Engine, EveryScanIsAKeyFrameOrDependsOnTheOneBeforeIt) {
   std::vector<base::Stamp> stamps;
   for (const auto& frame : frames()) {
     stamps.push_back(frame.stamp);

@@ -123,7 +123,7 @@ class Proposal {
     });
     if (can_be_named && !lasers_.empty() && lasers_.size() < facts_.scans.size()) {
       std::vector<std::string> labels;
-      for (const auto& laser : lasers_) labels.push_back(laser + perception::kPointsSuffix);
+      for (const auto& laser : lasers_) labels.push_back(perception::LaserPointsExtractor::labelOf(laser));
       set("loop_closure", "labels", joined(labels, ", "), "the other lasers see nothing that can be matched");
     }
     if (laser_odometry_ && !lasers_.empty() && facts_.scans.size() > 1 && canBeNamed(lasers_.front())) {

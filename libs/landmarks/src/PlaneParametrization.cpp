@@ -22,7 +22,7 @@ class PlaneForm : public PlaneParametrization {
                                               const Eigen::Vector3d& middle) const override {
     return std::make_shared<LineOnPlaneFactor>(direction, middle);
   }
-  bool mayLean() const override { return true; }
+  bool mayTilt() const override { return true; }
 
   Difference difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const override {
     const geometry::Plane3 from = plane(a), to = plane(b);
@@ -53,7 +53,7 @@ class WallForm : public PlaneParametrization {
                                               const Eigen::Vector3d& middle) const override {
     return std::make_shared<WallFactor>(direction.head<2>().normalized(), middle.head<2>());
   }
-  bool mayLean() const override { return false; }
+  bool mayTilt() const override { return false; }
 
   Difference difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const override {
     const geometry::Segment2 from = wallFromValue(a.data()), to = wallFromValue(b.data());

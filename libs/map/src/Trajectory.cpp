@@ -14,15 +14,16 @@ class Spread {
       : begin_(begin.stamp),
         seconds_(base::secondsBetween(begin.stamp, end.stamp)),
         map_from_begin_(geometry::fromMrpt(begin.map_from_base)),
-        begin_from_told_end_(geometry::fromMrpt(begin.keyframe_from_next)),
-        disagreement_(geometry::minus(geometry::fromMrpt(end.map_from_base), map_from_begin_ * begin_from_told_end_)) {}
+        begin_from_measured_end_(geometry::fromMrpt(begin.keyframe_from_next)),
+        disagreement_(
+            geometry::minus(geometry::fromMrpt(end.map_from_base), map_from_begin_ * begin_from_measured_end_)) {}
 
-  // The disagreement is a tangent at the told end; turned into the dependent frame it is the same step and the same
+  // The disagreement is a tangent at the measured end; turned into the dependent frame it is the same step and the same
   // turn in the map, of which the frame takes its share by time. At the end the share is all of it: the next key frame.
   mrpt::poses::CPose3D operator()(const DependentFrame& frame) const {
     const double share = std::clamp(base::secondsBetween(begin_, frame.stamp) / seconds_, 0.0, 1.0);
     const geometry::Se3 begin_from_frame = geometry::fromMrpt(frame.keyframe_from_base);
-    const Eigen::Quaterniond turn = begin_from_frame.rotation.conjugate() * begin_from_told_end_.rotation;
+    const Eigen::Quaterniond turn = begin_from_frame.rotation.conjugate() * begin_from_measured_end_.rotation;
     geometry::Vector6d step;
     step << turn * disagreement_.head<3>(), turn * disagreement_.tail<3>();
     return geometry::toMrpt(geometry::plus(map_from_begin_ * begin_from_frame, share * step));
@@ -31,7 +32,7 @@ class Spread {
  private:
   base::Stamp begin_;
   double seconds_;
-  geometry::Se3 map_from_begin_, begin_from_told_end_;
+  geometry::Se3 map_from_begin_, begin_from_measured_end_;
   geometry::Vector6d disagreement_;
 };
 

@@ -115,7 +115,7 @@ LineEquations Correspondences::equations(const TPose2D& pose, double loss_scale,
 }
 
 // Yaw counts by the lever it moves the points with, so that all three are metres.
-FixedDirections::FixedDirections(const LineEquations& equations, double noise_share) {
+ObservableSubspace::ObservableSubspace(const LineEquations& equations, double noise_share) {
   const double total = equations.information.topLeftCorner<2, 2>().trace();
   if (!(total > 0)) {
     basis_.setIdentity();
@@ -136,8 +136,8 @@ FixedDirections::FixedDirections(const LineEquations& equations, double noise_sh
   }
 }
 
-Eigen::Vector3d FixedDirections::step(const LineEquations& equations, const Eigen::Matrix3d& guess_information,
-                                      const Eigen::Vector3d& from_guess) const {
+Eigen::Vector3d ObservableSubspace::step(const LineEquations& equations, const Eigen::Matrix3d& guess_information,
+                                         const Eigen::Vector3d& from_guess) const {
   constexpr double kNothing = 1e-9;
   const Eigen::Array3d counts = (fixed_.array() > 0).cast<double>();
   const Eigen::Matrix3d fixing = basis_ * counts.matrix().asDiagonal();
@@ -149,12 +149,12 @@ Eigen::Vector3d FixedDirections::step(const LineEquations& equations, const Eige
   return -basis_ * information.ldlt().solve(slope);
 }
 
-Eigen::Vector3d FixedDirections::fixedPart(const Eigen::Vector3d& motion) const {
+Eigen::Vector3d ObservableSubspace::fixedPart(const Eigen::Vector3d& motion) const {
   const Eigen::Array3d counts = (fixed_.array() > 0).cast<double>();
   return basis_ * (counts * (basis_.inverse() * motion).array()).matrix();
 }
 
-Eigen::Matrix3d FixedDirections::covariance() const {
+Eigen::Matrix3d ObservableSubspace::covariance() const {
   Eigen::Vector3d variance;
   for (int i = 0; i < 3; ++i) variance[i] = fixed_[i] > 0 ? 1 / fixed_[i] : ScanMatch::kOpen;
   return basis_ * variance.asDiagonal() * basis_.transpose();

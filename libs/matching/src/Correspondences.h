@@ -51,10 +51,10 @@ class Correspondences {
 };
 
 /// Which directions the partners fix, as a change of basis in which x y yaw count alike.
-class FixedDirections {
+class ObservableSubspace {
  public:
   /// What gets less than `noise_share` of all information counts as open.
-  explicit FixedDirections(const LineEquations& equations, double noise_share = kNoiseShare);
+  explicit ObservableSubspace(const LineEquations& equations, double noise_share = kNoiseShare);
   /// Normals are good to some 6 degrees: a direction that gets less than its square of all information gets noise.
   static constexpr double kNoiseShare = 0.01;
   bool all() const { return count_ == 3; }

@@ -39,8 +39,8 @@ Eigen::Vector3d motion(const TPose2D& guess, const TPose2D& pose) {
 
 // Gauss-Newton with the partners as they are, twice, because the weights change. Tells the larger step [m].
 double refine(const Correspondences& partners, const MatchGuess& guess, double loss_scale, bool wide, TPose2D& pose) {
-  const FixedDirections directions(partners.equations(pose, loss_scale, kPointsFix, 0),
-                                   wide ? kWideNoiseShare : FixedDirections::kNoiseShare);
+  const ObservableSubspace directions(partners.equations(pose, loss_scale, kPointsFix, 0),
+                                      wide ? kWideNoiseShare : ObservableSubspace::kNoiseShare);
   double largest = 0;
   for (int k = 0; k < 2; ++k) {
     const Eigen::Vector3d step = directions.step(partners.equations(pose, loss_scale, kPointsHold, wide ? kPull : 0),
@@ -56,7 +56,7 @@ ScanMatch toMatch(const Correspondences& partners, const ScanWithNormals& scan, 
   match.reference_from_scan = pose;
   if (partners.count() == 0) return match;
   const auto equations = partners.equations(pose, kJudgedLoss, kPointsFix, 0);
-  const FixedDirections directions(equations);
+  const ObservableSubspace directions(equations);
   match.overlap = static_cast<double>(partners.count()) / static_cast<double>(scan.size());
   match.wall_distance = equations.wallDistance();
   match.point_sigma = match.wall_distance * std::sqrt(static_cast<double>(scan.smoothing));
@@ -98,7 +98,7 @@ ScanMatch PointToLineMatcher::match(const MatchReference& reference, const ScanW
     if (!wide && moved < kStill && reach < 1.01 * std::max(options_.min_distance, kReachOfLoss * loss_scale)) {
       if (settled) break;
       settled = true;
-      const FixedDirections directions(partners.equations(pose, loss_scale, kPointsFix, 0));
+      const ObservableSubspace directions(partners.equations(pose, loss_scale, kPointsFix, 0));
       if (directions.all()) break;
       // What the wide search moved along a direction that has turned out to be open is taken back.
       const Eigen::Vector3d told = directions.fixedPart(motion(guess.reference_from_scan, pose));

@@ -238,7 +238,7 @@ ScanTracker::Tracked ScanTracker::mostProbable(const Candidates& candidates) {
   for (std::size_t i = 0; i < candidates.found.size(); ++i) {
     const TPose2D off = candidates.found[i].match.reference_from_scan - tracked.match.reference_from_scan;
     const Eigen::Vector3d delta(off.x, off.y, mrpt::math::wrapToPi(off.phi));
-    tracked.doubt += relative(i) / sum * delta * delta.transpose();
+    tracked.search_covariance += relative(i) / sum * delta * delta.transpose();
   }
   return tracked;
 }

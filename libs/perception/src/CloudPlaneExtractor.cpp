@@ -60,11 +60,8 @@ std::vector<Eigen::Vector3f> pointsOf(const mrpt::obs::CObservation& raw, double
 }
 
 // A cloud that another extractor made; logs of what was perceived have them.
-bool isDerived(const std::string& label) {
-  const std::string points = kPointsSuffix;
-  const bool of_points =
-      label.size() > points.size() && label.compare(label.size() - points.size(), points.size(), points) == 0;
-  return of_points || label.find(kEdgesSuffix) != std::string::npos;
+bool isDerived(const mrpt::obs::CObservation& raw) {
+  return LaserPointsExtractor::made(raw) || raw.sensorLabel.find(kEdgesSuffix) != std::string::npos;
 }
 
 obs::ObservedPlane observed(CloudPlane plane) {
@@ -86,7 +83,7 @@ bool CloudPlaneExtractor::wants(const mrpt::obs::CObservation& raw) const {
       dynamic_cast<const CObservationVelodyneScan*>(&raw) == nullptr)
     return false;
   const auto& labels = sensors_.sensor_labels;
-  if (labels.empty()) return !isDerived(raw.sensorLabel);
+  if (labels.empty()) return !isDerived(raw);
   return std::find(labels.begin(), labels.end(), raw.sensorLabel) != labels.end();
 }
 

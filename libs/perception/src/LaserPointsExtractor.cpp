@@ -83,8 +83,14 @@ mrpt::obs::CObservation::Ptr LaserPointsExtractor::extract(const mrpt::obs::CObs
   derived->pointcloud = cloud;
   derived->sensorPose = scan.sensorPose;
   derived->timestamp = scan.timestamp;
-  derived->sensorLabel = scan.sensorLabel + kPointsSuffix;
+  derived->sensorLabel = labelOf(scan.sensorLabel);
   return derived;
+}
+
+bool LaserPointsExtractor::made(const mrpt::obs::CObservation& observation) {
+  if (!dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation)) return false;
+  const std::string &label = observation.sensorLabel, end = labelOf("");
+  return label.size() >= end.size() && label.compare(label.size() - end.size(), end.size(), end) == 0;
 }
 
 bool LaserPointsExtractor::wants(const mrpt::obs::CObservation& raw) const {
@@ -96,7 +102,7 @@ std::vector<mrpt::obs::CObservation::Ptr> LaserPointsExtractor::extract(const mr
 }
 
 std::vector<DerivedName> LaserPointsExtractor::namesOf(const mrpt::obs::CObservation& raw) const {
-  return {{CLASS_ID(mrpt::obs::CObservationPointCloud), raw.sensorLabel + kPointsSuffix}};
+  return {{CLASS_ID(mrpt::obs::CObservationPointCloud), labelOf(raw.sensorLabel)}};
 }
 
 }  // namespace omnimapper::perception

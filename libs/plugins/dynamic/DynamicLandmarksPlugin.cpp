@@ -60,11 +60,11 @@ class Look {
     }
     if (!suspects.empty()) {
       for (const auto& landmark : suspects) setWeights(landmark.sightings, 0, weighing.graph);
-      auto places = tellPlaces(view_.map, weighing.graph, suspects, options_);
+      auto places = clusterMeasurements(view_.map, weighing.graph, suspects, options_);
       if (!places) return cannotTell("a part of the map is determined by nothing");
       for (std::size_t i = 0; i < suspects.size(); ++i) judge(suspects[i], std::move((*places)[i]), weighing.graph);
       graph::solve(weighing.graph, {graph::SolveOptions::Method::levenberg_marquardt, 50, 1e-7, {}});
-      const SightingFrames frames(view_.map.key_frames);
+      const MeasurementFrames frames(view_.map.key_frames);
       for (const auto& [landmark, seen] : moved_) addRecord(landmark, seen, frames, weighing.graph);
     }
     for (const auto& landmark : landmarks) {
@@ -185,7 +185,7 @@ class Look {
     batch_.retireLandmark(landmark.id);
   }
 
-  void addRecord(const WeighedLandmark& landmark, const std::vector<SeenPlace>& places, const SightingFrames& frames,
+  void addRecord(const WeighedLandmark& landmark, const std::vector<SeenPlace>& places, const MeasurementFrames& frames,
                  const graph::Graph& graph) {
     const map::Landmark& gone = view_.map.landmark(landmark.id);
     auto payload = std::make_shared<MovedThingPayload>();

@@ -70,7 +70,7 @@ class Visit {
   std::vector<base::FactorId> sightings_;
 };
 
-std::vector<Visit> visitsOf(const WeighedLandmark& landmark, const SightingFrames& frames, const map::Map& map,
+std::vector<Visit> visitsOf(const WeighedLandmark& landmark, const MeasurementFrames& frames, const map::Map& map,
                             const graph::Graph& graph, const DynamicLandmarksOptions& options) {
   constexpr double kInflation = 9;  // of the gate: within a visit only a jump is told
   std::map<std::pair<std::size_t, base::FactorId>, const map::KeyFrame*> in_order;
@@ -190,11 +190,11 @@ std::vector<SeenPlace> placesOfVisits(const map::Landmark& landmark, const std::
 
 }  // namespace
 
-SightingFrames::SightingFrames(const map::KeyFrames& key_frames) {
+MeasurementFrames::MeasurementFrames(const map::KeyFrames& key_frames) {
   for (const auto& frame : key_frames) of_poses_[frame.pose] = &frame;
 }
 
-const map::KeyFrame* SightingFrames::of(const graph::FactorRecord& sighting) const {
+const map::KeyFrame* MeasurementFrames::of(const graph::FactorRecord& sighting) const {
   for (const auto id : sighting.variables) {
     const auto found = of_poses_.find(id);
     if (found != of_poses_.end()) return found->second;
@@ -202,10 +202,10 @@ const map::KeyFrame* SightingFrames::of(const graph::FactorRecord& sighting) con
   return nullptr;
 }
 
-std::optional<std::vector<std::vector<SeenPlace>>> tellPlaces(const map::Map& map, const graph::Graph& graph,
-                                                              const std::vector<WeighedLandmark>& landmarks,
-                                                              const DynamicLandmarksOptions& options) {
-  const SightingFrames frames(map.key_frames);
+std::optional<std::vector<std::vector<SeenPlace>>> clusterMeasurements(const map::Map& map, const graph::Graph& graph,
+                                                                       const std::vector<WeighedLandmark>& landmarks,
+                                                                       const DynamicLandmarksOptions& options) {
+  const MeasurementFrames frames(map.key_frames);
   graph::Graph copy = graph;
   std::vector<std::vector<Visit>> visits;
   std::vector<VisitVariables> variables;

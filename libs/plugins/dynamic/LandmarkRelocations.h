@@ -12,9 +12,9 @@
 namespace omnimapper::plugins {
 
 /// The key frames that sightings were made at.
-class SightingFrames {
+class MeasurementFrames {
  public:
-  explicit SightingFrames(const map::KeyFrames& key_frames);
+  explicit MeasurementFrames(const map::KeyFrames& key_frames);
   /// None if it binds no pose.
   const map::KeyFrame* of(const graph::FactorRecord& sighting) const;
 
@@ -32,9 +32,9 @@ struct SeenPlace {
 /// of one place where they differ by no more than their covariance allows, or by less than what counts as a move. What
 /// is known of a landmark by itself holds in each visit; relations to others in none. None if a direction of some other
 /// variable is determined by nothing.
-std::optional<std::vector<std::vector<SeenPlace>>> tellPlaces(const map::Map& map, const graph::Graph& graph,
-                                                              const std::vector<WeighedLandmark>& landmarks,
-                                                              const DynamicLandmarksOptions& options);
+std::optional<std::vector<std::vector<SeenPlace>>> clusterMeasurements(const map::Map& map, const graph::Graph& graph,
+                                                                       const std::vector<WeighedLandmark>& landmarks,
+                                                                       const DynamicLandmarksOptions& options);
 
 /// Where those sightings alone show a landmark, with the poses held as they are in `graph`.
 std::vector<Eigen::VectorXd> valuesSeenBy(const std::vector<base::FactorId>& sightings, const WeighedLandmark& landmark,

@@ -45,7 +45,7 @@ mapper::Batch GlobalLoopSearch::operator()(const mapper::State& state) const {
     batch.log(std::move(decision));
     return batch;
   }
-  const auto& place = state.map.keyFrame(found->place.sight.frame);
+  const auto& place = state.map.keyFrame(found->place.key_scan.frame);
   const auto apart =
       distanceBetween(found->match.reference_from_scan, planar(frame.map_from_base - place.map_from_base));
   decision.numbers.emplace_back("from the estimate [m]", apart.metres);
@@ -92,9 +92,10 @@ std::optional<GlobalLoopSearch::Estimate> GlobalLoopSearch::judged(const mapper:
   const TPose2D place = planar(state.map.keyFrame(nearest.frame).map_from_base);
   if (distanceBetween(place, map_from_base).metres > options_.radius + uncertainty)
     return Estimate{uncertainty, on_new_ground_};
-  std::vector<LoopSearch::KeyScan> sights;
-  for (const auto& one : near) sights.push_back(earlier_[one.second]);
-  const double fits = shareOnWalls(localMap(sights, newest_.back().frame, state).points, newest_.back().scan->points);
+  std::vector<LoopSearch::KeyScan> key_scans;
+  for (const auto& one : near) key_scans.push_back(earlier_[one.second]);
+  const double fits =
+      shareOnWalls(localMap(key_scans, newest_.back().frame, state).points, newest_.back().scan->points);
   decision.numbers.emplace_back("share that fits the map there [1]", fits);
   return Estimate{uncertainty, fits < kFits};
 }
@@ -109,8 +110,8 @@ std::shared_ptr<const ScanDatabase> placesToLoopTo(const map::Map& map, const st
   options.sigma = 0.2;
   options.spacing = 0.3;
   options.max_blocks = 20'000;
-  const std::map<std::string, std::vector<LoopSearch::KeyScan>> sights{{label, earlier}};
-  return std::make_shared<const ScanDatabase>(map, sights, std::move(matcher), options);
+  const std::map<std::string, std::vector<LoopSearch::KeyScan>> key_scans{{label, earlier}};
+  return std::make_shared<const ScanDatabase>(map, key_scans, std::move(matcher), options);
 }
 
 }  // namespace omnimapper::plugins

@@ -28,13 +28,13 @@ std::optional<GlobalMatcher::Found> GlobalMatcher::find(const mapper::State& sta
   if (location.answer != matching::Location::Answer::found) return std::nullopt;
   const TPose2D map_from_base = location.candidates.front().map_from_sensor;
   const auto around = places_.nearest(map_from_base, kAround);
-  decision.to = around.front().sight.frame;
+  decision.to = around.front().key_scan.frame;
   const TPose2D place_from_base = map_from_base - around.front().map_from_base;
-  std::vector<LoopSearch::KeyScan> sights, sought;
-  for (const auto& place : around) sights.push_back(place.sight);
+  std::vector<LoopSearch::KeyScan> key_scans, sought;
+  for (const auto& place : around) key_scans.push_back(place.key_scan);
   std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sought),
-               [&](const LoopSearch::KeyScan& sight) { return newest_.back().way - sight.way <= kSoughtTravel; });
-  const auto local = matching::voxelDownsample(localMap(sights, sights.front().frame, state), kSpacing / 2),
+               [&](const LoopSearch::KeyScan& key_scan) { return newest_.back().way - key_scan.way <= kSoughtTravel; });
+  const auto local = matching::voxelDownsample(localMap(key_scans, key_scans.front().frame, state), kSpacing / 2),
              query = matching::voxelDownsample(localMap(sought, newest_.back().frame, state), kSpacing);
   const auto match = matcher_.match(*matcher_.prepare(local), query, place_from_base);
   judgeClosure(options_, {match}, place_from_base, decision);
@@ -54,12 +54,12 @@ std::vector<matching::LocalScan> GlobalMatcher::beams(const mapper::State& state
   std::vector<matching::LocalScan> all;
   const LoopSearch::KeyScan* last = nullptr;
   TPose2D last_pose;
-  for (auto sight = newest_.rbegin(); sight != newest_.rend() && all.size() < kMost; ++sight) {
-    if (newest_.back().way - sight->way > kSoughtTravel) break;
-    const auto& frame = state.map.keyFrame(sight->frame);
+  for (auto key_scan = newest_.rbegin(); key_scan != newest_.rend() && all.size() < kMost; ++key_scan) {
+    if (newest_.back().way - key_scan->way > kSoughtTravel) break;
+    const auto& frame = state.map.keyFrame(key_scan->frame);
     const TPose2D pose = planar(frame.map_from_base - map_from_newest);
-    if (last && last->way - sight->way < kSpacing && distanceBetween(pose, last_pose).radians < kTurn) continue;
-    last = &*sight;
+    if (last && last->way - key_scan->way < kSpacing && distanceBetween(pose, last_pose).radians < kTurn) continue;
+    last = &*key_scan;
     last_pose = pose;
     auto seen = beamsInBase(frame, label_);
     all.push_back({pose + seen.local_from_sensor, std::move(seen.scan)});
@@ -101,10 +101,10 @@ bool GlobalMatcher::fitsAllTheWay(const Found& found, const mapper::State& state
   constexpr double kNothing = -10;
   double worst = 0;
   const LoopSearch::KeyScan* last = nullptr;
-  for (auto sight = newest_.rbegin(); sight != newest_.rend(); ++sight) {
-    if (last && last->way - sight->way < kSpacing) continue;
-    last = &*sight;
-    const auto& frame = state.map.keyFrame(sight->frame);
+  for (auto key_scan = newest_.rbegin(); key_scan != newest_.rend(); ++key_scan) {
+    if (last && last->way - key_scan->way < kSpacing) continue;
+    last = &*key_scan;
+    const auto& frame = state.map.keyFrame(key_scan->frame);
     const auto seen = beamsInBase(frame, label_);
     const TPose2D guess = map_from_newest + planar(frame.map_from_base - base_from_map) + seen.local_from_sensor;
     const auto located =

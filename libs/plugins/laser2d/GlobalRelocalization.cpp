@@ -39,7 +39,7 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
     batch.log(std::move(decision));
     return batch;
   }
-  const auto& place = state.map.keyFrame(found->place.sight.frame);
+  const auto& place = state.map.keyFrame(found->place.key_scan.frame);
   const auto& measured = found->match.reference_from_scan;
   if (distanceBetween(measured, planar(frame.map_from_base - place.map_from_base)).within(kAgree, kAgreeTurn)) {
     if (!found->is_distinct && !matcher.fitsAllTheWay(*found, state, decision)) {
@@ -68,11 +68,12 @@ bool GlobalRelocalization::isLost(const mapper::State& state, mapper::Decision& 
   const auto& frame = state.map.keyFrame(newest_.back().frame);
   const auto near = places_->nearest(planar(frame.map_from_base), 1);
   decision.numbers.emplace_back("way of the session [m]", way_);
-  const auto covariance = state.covarianceBetween(near.front().sight.frame, frame.id);
+  const auto covariance = state.covarianceBetween(near.front().key_scan.frame, frame.id);
   if (!covariance) return true;
-  const double doubt = kSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));  // [m] of either axis
-  decision.numbers.emplace_back("may be off by [m]", doubt);
-  return doubt > options_.max_window || way_ > options_.lost_way;
+  const double uncertainty =
+      kSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));  // [m] of either axis
+  decision.numbers.emplace_back("may be off by [m]", uncertainty);
+  return uncertainty > options_.max_window || way_ > options_.lost_way;
 }
 
 }  // namespace omnimapper::plugins

@@ -34,12 +34,9 @@ LoopClosurePlugin::LoopClosurePlugin(const LoopClosureOptions& options, const ma
 
 bool LoopClosurePlugin::wants(const mrpt::obs::CObservation& observation) const {
   if (!dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation)) return false;
-  const std::string& label = observation.sensorLabel;
-  if (!options_.labels.empty()) {
-    return std::find(options_.labels.begin(), options_.labels.end(), label) != options_.labels.end();
-  }
-  const std::string suffix = perception::kPointsSuffix;
-  return label.size() >= suffix.size() && label.compare(label.size() - suffix.size(), suffix.size(), suffix) == 0;
+  const auto& labels = options_.labels;
+  if (labels.empty()) return perception::LaserPointsExtractor::made(observation);
+  return std::find(labels.begin(), labels.end(), observation.sensorLabel) != labels.end();
 }
 
 std::unique_ptr<const mapper::Prepared> LoopClosurePlugin::prepare(const mrpt::obs::CObservation& observation) const {
@@ -59,7 +56,7 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   closures_.noteSolves(view.solves.size());
   seekGlobally(observed.observation.sensorLabel, history, index, view);
   seekSlip(history, view);
-  const double way = history[index].sight.way;
+  const double way = history[index].key_scan.way;
   const auto [last, is_first] = searched_.emplace(observed.observation.sensorLabel, way);
   // In a map that is held every one is sought: where the base is counts now, and costs the same always.
   const bool is_soon = !is_first && std::abs(way - last->second) < options_.spacing;
@@ -68,23 +65,24 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   if (!places.empty()) {
     last->second = way;
     searches_.emplace_back(options_, context_, matcher_,
-                           sights(history, index, options_.context + options_.max_window, 0), std::move(places));
+                           keyScans(history, index, options_.context + options_.max_window, 0), std::move(places));
   }
   return {};
 }
 
 std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state,
                                         History& history) {
-  const auto after = std::upper_bound(
-      history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
-      [](const auto& wanted, const Seen& seen) { return wanted < std::tuple(seen.sight.frame.session, seen.stamp); });
+  const auto after = std::upper_bound(history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
+                                      [](const auto& wanted, const Seen& seen) {
+                                        return wanted < std::tuple(seen.key_scan.frame.session, seen.stamp);
+                                      });
   double way = 0;
   if (after != history.begin()) {
     const auto& before = *std::prev(after);
-    const auto& map_from_before = state.map.keyFrame(before.sight.frame).map_from_base;
+    const auto& map_from_before = state.map.keyFrame(before.key_scan.frame).map_from_base;
     // How far the base was carried between sessions nobody knows: all of an earlier one counts as left long ago.
-    const bool same_session = before.sight.frame.session == frame.id.session;
-    way = before.sight.way +
+    const bool same_session = before.key_scan.frame.session == frame.id.session;
+    way = before.key_scan.way +
           (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_way);
   }
   closures_.add(frame);
@@ -103,20 +101,21 @@ void LoopClosurePlugin::seekSlip(const History& history, const mapper::View& vie
   std::vector<LoopSearch::KeyScan> trajectory;
   auto seen = history.begin();
   for (const auto& frame : view.map.key_frames) {
-    const bool has_scan = seen != history.end() && seen->sight.frame == frame.id;
+    const bool has_scan = seen != history.end() && seen->key_scan.frame == frame.id;
     const double travel = trajectory.empty() ? 0 : trajectory.back().way;
-    trajectory.push_back(has_scan ? seen++->sight : LoopSearch::KeyScan{frame.id, kNothingSeen, travel});
+    trajectory.push_back(has_scan ? seen++->key_scan : LoopSearch::KeyScan{frame.id, kNothingSeen, travel});
   }
   slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(trajectory));
 }
 
 // Since the newest key frame that is not after `stamp`, or since the session began [m].
 double LoopClosurePlugin::travelSince(std::optional<base::Stamp> stamp, const History& history, std::size_t index) {
-  const auto& newest = history[index].sight;
+  const auto& newest = history[index].key_scan;
   std::size_t i = index;
-  while (i > 0 && history[i - 1].sight.frame.session == newest.frame.session && (!stamp || history[i].stamp > *stamp))
+  while (i > 0 && history[i - 1].key_scan.frame.session == newest.frame.session &&
+         (!stamp || history[i].stamp > *stamp))
     --i;
-  return newest.way - history[i].sight.way;
+  return newest.way - history[i].key_scan.way;
 }
 
 // Ever more rarely where nothing is found, for on new ground there is nothing to find, and more rarely in a large map,
@@ -128,7 +127,7 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   constexpr double kShareOfAll = 0.01;                           // of all travel
   constexpr double kGrown = 1.2;                                 // a map that is prepared for searches serves till then
   if (context_.map_is_held || !state.map.sessions.back().joined) return;
-  const double travel = history[index].sight.way;
+  const double travel = history[index].key_scan.way;
   const auto tied = closures_.newestTied(state.graph);
   if (travelSince(tied, history, index) < options_.lost_way) return;
   const auto answered = std::max(tied, closures_.newestWithNote(state.graph, kGlobalClosure));
@@ -141,8 +140,8 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   const bool on_new_ground = std::abs(travel - last.on_new_ground) >= rarely;
   if (on_new_ground) last.on_new_ground = travel;
   std::vector<LoopSearch::KeyScan> earlier;
-  for (std::size_t i = 0; i < index && travel - history[i].sight.way >= options_.min_way; ++i)
-    earlier.push_back(history[i].sight);
+  for (std::size_t i = 0; i < index && travel - history[i].key_scan.way >= options_.min_way; ++i)
+    earlier.push_back(history[i].key_scan);
   if (earlier.empty()) return;
   const bool has_grown = static_cast<double>(earlier.size()) > kGrown * static_cast<double>(last.size);
   const bool is_moved = tied != last.tied || closures_.corrections() != last.corrections;
@@ -153,7 +152,7 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
     last.corrections = closures_.corrections();
   }
   global_searches_.emplace_back(options_, context_, matcher_, last.places, label,
-                                sights(history, index, options_.join_way + kSpacing, 0), std::move(earlier),
+                                keyScans(history, index, options_.join_way + kSpacing, 0), std::move(earlier),
                                 on_new_ground);
 }
 
@@ -166,11 +165,11 @@ void LoopClosurePlugin::seekInMap(const std::string& label, const History& histo
   constexpr double kMoved = 1;         // [m]
   if (!places_) return;
   const auto& session = state.map.sessions.back();
-  const auto& sight = history[index].sight;
-  if (session.joined || sight.frame.session != session.number) return;
+  const auto& key_scan = history[index].key_scan;
+  if (session.joined || key_scan.frame.session != session.number) return;
   const auto first = std::find_if(history.begin(), history.end(),
-                                  [&](const Seen& seen) { return seen.sight.frame.session == session.number; });
-  const double way = sight.way - first->sight.way;
+                                  [&](const Seen& seen) { return seen.key_scan.frame.session == session.number; });
+  const double way = key_scan.way - first->key_scan.way;
   const auto begun_at = mapper::poseOf(state.graph, session.anchor).translation();
   const auto [entry, is_first] = sought_in_map_.try_emplace(label, Sought{way, way, begun_at});
   Sought& last = entry->second;
@@ -179,7 +178,7 @@ void LoopClosurePlugin::seekInMap(const std::string& label, const History& histo
   if (!is_first && way - last.way < std::max(kSpacing, kShareOfWay * (way - last.answered))) return;
   last.way = way;
   map_searches_.emplace_back(options_, context_, matcher_, places_, label,
-                             sights(history, index, options_.join_way + kSpacing, 0), way);
+                             keyScans(history, index, options_.join_way + kSpacing, 0), way);
 }
 
 void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view) {
@@ -197,11 +196,11 @@ void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view
     }
   }
   if (view.map.key_frames.empty()) return;
-  std::map<std::string, std::vector<LoopSearch::KeyScan>> sights;
+  std::map<std::string, std::vector<LoopSearch::KeyScan>> key_scans;
   for (const auto& [label, history] : histories_) {
-    for (const auto& seen : history) sights[label].push_back(seen.sight);
+    for (const auto& seen : history) key_scans[label].push_back(seen.key_scan);
   }
-  auto places = std::make_shared<const ScanDatabase>(view.map, sights, matcher_);
+  auto places = std::make_shared<const ScanDatabase>(view.map, key_scans, matcher_);
   if (!places->empty()) places_ = std::move(places);
 }
 
@@ -209,8 +208,8 @@ void LoopClosurePlugin::retired(const map::KeyFrame& frame) {
   for (auto& [label, history] : histories_) {
     const auto seen = std::lower_bound(
         history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
-        [](const Seen& one, const auto& wanted) { return std::tuple(one.sight.frame.session, one.stamp) < wanted; });
-    if (seen != history.end() && seen->sight.frame == frame.id) history.erase(seen);
+        [](const Seen& one, const auto& wanted) { return std::tuple(one.key_scan.frame.session, one.stamp) < wanted; });
+    if (seen != history.end() && seen->key_scan.frame == frame.id) history.erase(seen);
   }
 }
 
@@ -246,23 +245,23 @@ std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& vi
   return all;
 }
 
-std::vector<LoopSearch::KeyScan> LoopClosurePlugin::sights(const History& history, std::size_t centre, double before,
-                                                           double after) {
-  const auto& middle = history[centre].sight;
+std::vector<LoopSearch::KeyScan> LoopClosurePlugin::keyScans(const History& history, std::size_t centre, double before,
+                                                             double after) {
+  const auto& middle = history[centre].key_scan;
   const auto belongs = [&](std::size_t i) {
-    const auto& sight = history[i].sight;
-    return sight.frame.session == middle.frame.session && sight.way >= middle.way - before &&
-           sight.way <= middle.way + after;
+    const auto& key_scan = history[i].key_scan;
+    return key_scan.frame.session == middle.frame.session && key_scan.way >= middle.way - before &&
+           key_scan.way <= middle.way + after;
   };
   std::size_t first = centre, end = centre + 1;
   while (first > 0 && belongs(first - 1)) --first;
   while (end < history.size() && belongs(end)) ++end;
-  // A base that turns on the spot sees the same again and again: of many sights some do.
+  // A base that turns on the spot sees the same again and again: of many key scans some do.
   constexpr std::size_t kMost = 200;
   const std::size_t stride = 1 + (end - first) / kMost;
   std::vector<LoopSearch::KeyScan> all;
   for (std::size_t i = first; i < end; ++i) {
-    if (i == centre || (i - first) % stride == 0) all.push_back(history[i].sight);
+    if (i == centre || (i - first) % stride == 0) all.push_back(history[i].key_scan);
   }
   return all;
 }
@@ -273,9 +272,9 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
                                                              std::size_t index, const mapper::State& state) const {
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t i = 0; i < index; ++i) {
-    if (history[index].sight.way - history[i].sight.way < options_.min_way) break;
-    if (context_.map_is_held && history[i].sight.frame.session == frame.id.session) break;
-    const auto& place = state.map.keyFrame(history[i].sight.frame).map_from_base;
+    if (history[index].key_scan.way - history[i].key_scan.way < options_.min_way) break;
+    if (context_.map_is_held && history[i].key_scan.frame.session == frame.id.session) break;
+    const auto& place = state.map.keyFrame(history[i].key_scan.frame).map_from_base;
     const double distance = (place.translation() - frame.map_from_base.translation()).norm();
     if (distance <= options_.radius + options_.max_window) near.emplace_back(distance, i);
   }
@@ -287,11 +286,11 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
     const std::size_t i = candidate.second;
     // Neighbours along the path would only repeat it.
     const bool repeats = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
-      return std::abs(history[other].sight.way - history[i].sight.way) < options_.min_way;
+      return std::abs(history[other].key_scan.way - history[i].key_scan.way) < options_.min_way;
     });
     if (repeats) continue;
     chosen.push_back(i);
-    places.push_back({history[i].sight, sights(history, i, around, around)});
+    places.push_back({history[i].key_scan, keyScans(history, i, around, around)});
     if (places.size() == kPlacesAsked * static_cast<std::size_t>(options_.candidates)) break;
   }
   return places;

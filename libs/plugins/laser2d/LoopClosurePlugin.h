@@ -43,7 +43,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
  private:
   /// What one sensor saw at one key frame.
   struct Seen {
-    LoopSearch::KeyScan sight;
+    LoopSearch::KeyScan key_scan;
     base::Stamp stamp;
   };
   /// The last search in all of the saved map.
@@ -72,8 +72,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   std::vector<LoopSearch::Place> loopPlaces(const map::KeyFrame& frame, const History& history, std::size_t index,
                                             const mapper::State& state) const;
   /// What was seen in the session of the one at `centre`, so much way [m] before and after it.
-  static std::vector<LoopSearch::KeyScan> sights(const History& history, std::size_t centre, double before,
-                                                 double after);
+  static std::vector<LoopSearch::KeyScan> keyScans(const History& history, std::size_t centre, double before,
+                                                   double after);
 
   LoopClosureOptions options_;
   mapper::PluginContext context_;

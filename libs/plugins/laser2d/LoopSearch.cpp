@@ -19,12 +19,12 @@ constexpr double kSame = 0.3, kSameTurn = 0.1;  // [m] [rad] within which two ma
 constexpr std::size_t kMostBlocks = 100'000;  // of a search: a second or so in a window that is large and tells little
 }  // namespace
 
-matching::ScanWithNormals localMap(const std::vector<LoopSearch::KeyScan>& sights, base::KeyFrameId centre,
+matching::ScanWithNormals localMap(const std::vector<LoopSearch::KeyScan>& key_scans, base::KeyFrameId centre,
                                    const mapper::State& state) {
   const auto& map_from_centre = state.map.keyFrame(centre).map_from_base;
   matching::ScanWithNormals local;
-  for (const auto& sight : sights) {
-    matching::append(*sight.scan, planar(state.map.keyFrame(sight.frame).map_from_base - map_from_centre), local);
+  for (const auto& key_scan : key_scans) {
+    matching::append(*key_scan.scan, planar(state.map.keyFrame(key_scan.frame).map_from_base - map_from_centre), local);
   }
   return local;
 }
@@ -83,7 +83,7 @@ std::optional<double> LoopSearch::overlapElsewhere(const std::vector<Attempt>& a
   return std::nullopt;
 }
 
-LoopSearch::SearchUncertainty LoopSearch::doubtAt(const Place& place, const mapper::State& state) const {
+LoopSearch::SearchUncertainty LoopSearch::uncertaintyAt(const Place& place, const mapper::State& state) const {
   const auto covariance = state.covarianceBetween(place.centre.frame, newest_.back().frame);
   if (!covariance) return {options_.max_window, options_.max_window_angle};
   const Eigen::Matrix2d position = covariance->topLeftCorner<2, 2>();
@@ -91,44 +91,44 @@ LoopSearch::SearchUncertainty LoopSearch::doubtAt(const Place& place, const mapp
           kReachSigmas * std::sqrt((*covariance)(5, 5))};
 }
 
-double LoopSearch::queryWay(const SearchUncertainty& doubt) const {
-  return options_.context + doubt.position;
+double LoopSearch::queryWay(const SearchUncertainty& uncertainty) const {
+  return options_.context + uncertainty.position;
 }
 
 // What is sought is no part of where it is sought: it would fit itself wherever the estimate has it.
-matching::ScanWithNormals LoopSearch::localMapOf(const Place& place, const SearchUncertainty& doubt,
+matching::ScanWithNormals LoopSearch::localMapOf(const Place& place, const SearchUncertainty& uncertainty,
                                                  const mapper::State& state) const {
-  const double reach = 2 * options_.context + doubt.position, end = newest_.back().way - queryWay(doubt);
-  std::vector<KeyScan> sights;
-  std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(sights), [&](const KeyScan& sight) {
-    const bool is_sought = sight.frame.session == newest_.back().frame.session && sight.way >= end;
-    return !is_sought && std::abs(sight.way - place.centre.way) <= reach;
+  const double reach = 2 * options_.context + uncertainty.position, end = newest_.back().way - queryWay(uncertainty);
+  std::vector<KeyScan> key_scans;
+  std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(key_scans), [&](const KeyScan& key_scan) {
+    const bool is_sought = key_scan.frame.session == newest_.back().frame.session && key_scan.way >= end;
+    return !is_sought && std::abs(key_scan.way - place.centre.way) <= reach;
   });
-  return localMap(sights, place.centre.frame, state);
+  return localMap(key_scans, place.centre.frame, state);
 }
 
-matching::ScanWithNormals LoopSearch::query(const SearchUncertainty& doubt, const mapper::State& state) const {
-  std::vector<KeyScan> sights;
-  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sights),
-               [&](const KeyScan& sight) { return newest_.back().way - sight.way <= queryWay(doubt); });
-  return localMap(sights, newest_.back().frame, state);
+matching::ScanWithNormals LoopSearch::query(const SearchUncertainty& uncertainty, const mapper::State& state) const {
+  std::vector<KeyScan> key_scans;
+  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(key_scans),
+               [&](const KeyScan& key_scan) { return newest_.back().way - key_scan.way <= queryWay(uncertainty); });
+  return localMap(key_scans, newest_.back().frame, state);
 }
 
 // Within what the fine matcher reaches by itself the guess will do.
 std::vector<TPose2D> LoopSearch::starts(const matching::ScanWithNormals& local, const matching::ScanWithNormals& query,
-                                        const TPose2D& guess, const SearchUncertainty& doubt) const {
+                                        const TPose2D& guess, const SearchUncertainty& uncertainty) const {
   constexpr double kReach = 0.4;       // [m]
   constexpr double kAngleReach = 0.2;  // [rad]
   constexpr double kSpacing = 0.25;    // [m] between the points that are searched with
-  if (doubt.position < kReach && doubt.yaw < kAngleReach) return {guess};
+  if (uncertainty.position < kReach && uncertainty.yaw < kAngleReach) return {guess};
   grid::LikelihoodOptions grid;
   grid.cell = 0.1;
   grid.sigma = 0.1;
   const grid::LikelihoodPyramid pyramid(local.points, grid);
   matching::SearchWindow window;
   window.centre = guess;
-  window.half_x = window.half_y = std::min(doubt.position, options_.max_window);
-  window.half_yaw = std::min(doubt.yaw, options_.max_window_angle);
+  window.half_x = window.half_y = std::min(uncertainty.position, options_.max_window);
+  window.half_yaw = std::min(uncertainty.yaw, options_.max_window_angle);
   matching::SearchOptions limits;
   limits.min_score = 0.5;
   limits.min_share_of_best = 0.9;
@@ -153,14 +153,14 @@ std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, con
   const auto& frame = state.map.keyFrame(newest_.back().frame);
   const auto& centre = state.map.keyFrame(place.centre.frame);
   const auto guess = planar(frame.map_from_base - centre.map_from_base);
-  const SearchUncertainty doubt = doubtAt(place, state);
+  const SearchUncertainty uncertainty = uncertaintyAt(place, state);
   const double apart = std::hypot(guess.x, guess.y);
-  if (apart > options_.radius + doubt.position) return std::nullopt;
-  // In a window smaller than the doubt a wrong place would fit as well: that is for GlobalRelocalization.
-  if (isUnaligned(centre.id, frame.id, state.map) && doubt.position > options_.max_window) return std::nullopt;
+  if (apart > options_.radius + uncertainty.position) return std::nullopt;
+  // In a window smaller than the uncertainty a wrong place would fit as well: that is for GlobalRelocalization.
+  if (isUnaligned(centre.id, frame.id, state.map) && uncertainty.position > options_.max_window) return std::nullopt;
   // A closure that tells what the map knows as well only makes every solve dearer.
-  const bool is_known =
-      doubt.position < kReachSigmas * options_.known_sigma && doubt.yaw < kReachSigmas * options_.known_angle_sigma;
+  const bool is_known = uncertainty.position < kReachSigmas * options_.known_sigma &&
+                        uncertainty.yaw < kReachSigmas * options_.known_angle_sigma;
   if (is_known && !context_.map_is_held) return std::nullopt;
 
   Attempt attempt{&place, guess, {}, {}};
@@ -171,14 +171,14 @@ std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, con
   decision.is_loop_closure = true;
   decision.from = frame.id;
   decision.to = centre.id;
-  decision.numbers = {{"may be off by [m]", doubt.position},
-                      {"may be off by [deg]", doubt.yaw / base::option_text::kRadiansPerDegree}};
+  decision.numbers = {{"may be off by [m]", uncertainty.position},
+                      {"may be off by [deg]", uncertainty.yaw / base::option_text::kRadiansPerDegree}};
   constexpr double kSpacing = 0.08;  // [m]
-  const auto local = matching::voxelDownsample(localMapOf(place, doubt, state), kSpacing / 2),
-             query = matching::voxelDownsample(this->query(doubt, state), kSpacing);
+  const auto local = matching::voxelDownsample(localMapOf(place, uncertainty, state), kSpacing / 2),
+             query = matching::voxelDownsample(this->query(uncertainty, state), kSpacing);
   const auto reference = matcher_->prepare(local);
   auto& matches = attempt.matches;
-  for (const auto& start : starts(local, query, guess, doubt))
+  for (const auto& start : starts(local, query, guess, uncertainty))
     matches.push_back(matcher_->match(*reference, query, start));
   std::sort(matches.begin(), matches.end(), [](const auto& a, const auto& b) { return a.overlap > b.overlap; });
   return attempt;

@@ -46,12 +46,13 @@ class LoopSearch {
   struct SearchUncertainty {
     double position, yaw;
   };
-  SearchUncertainty doubtAt(const Place& place, const mapper::State& state) const;
-  /// As much of what was seen as leaves no doubt where along a corridor it was: the more, the vaguer the estimate.
-  matching::ScanWithNormals localMapOf(const Place& place, const SearchUncertainty& doubt,
+  SearchUncertainty uncertaintyAt(const Place& place, const mapper::State& state) const;
+  /// As much of what was seen as leaves no doubt where along a corridor it was: the more, the vaguer the
+  /// estimate.
+  matching::ScanWithNormals localMapOf(const Place& place, const SearchUncertainty& uncertainty,
                                        const mapper::State& state) const;
-  matching::ScanWithNormals query(const SearchUncertainty& doubt, const mapper::State& state) const;
-  double queryWay(const SearchUncertainty& doubt) const;  // [m] back from the newest key frame
+  matching::ScanWithNormals query(const SearchUncertainty& uncertainty, const mapper::State& state) const;
+  double queryWay(const SearchUncertainty& uncertainty) const;  // [m] back from the newest key frame
   /// What was found at a place.
   struct Attempt {
     const Place* place;
@@ -65,7 +66,7 @@ class LoopSearch {
                                                 const mapper::State& state);
   std::vector<mrpt::math::TPose2D> starts(const matching::ScanWithNormals& local,
                                           const matching::ScanWithNormals& query, const mrpt::math::TPose2D& guess,
-                                          const SearchUncertainty& doubt) const;
+                                          const SearchUncertainty& uncertainty) const;
 
   LoopClosureOptions options_;
   mapper::PluginContext context_;
@@ -78,7 +79,7 @@ class LoopSearch {
 inline constexpr char kGlobalClosure[] = "global loop closure";
 
 /// The scans of some key frames together, in the frame of `centre`, by the estimate in `state`.
-matching::ScanWithNormals localMap(const std::vector<LoopSearch::KeyScan>& sights, base::KeyFrameId centre,
+matching::ScanWithNormals localMap(const std::vector<LoopSearch::KeyScan>& key_scans, base::KeyFrameId centre,
                                    const mapper::State& state);
 
 /// Whether the best of `matches`, best first, is a closure, told in `decision`: enough overlap, walls that fix it, and

@@ -17,22 +17,23 @@ namespace omnimapper::plugins {
 
 using mrpt::math::TPose2D;
 
-ScanDatabase::ScanDatabase(const map::Map& map, const std::map<std::string, std::vector<LoopSearch::KeyScan>>& sights,
+ScanDatabase::ScanDatabase(const map::Map& map,
+                           const std::map<std::string, std::vector<LoopSearch::KeyScan>>& key_scans,
                            std::shared_ptr<const matching::ScanMatcher> matcher,
                            const matching::RelocalizerOptions& options)
     : matcher_(std::move(matcher)), options_(options), anywhere_(mapper::startAnywhere(map)) {
   options_.poor = -std::numeric_limits<double>::infinity();  // no second, wider search: there will be better scans
-  const auto isJoined = [&](const LoopSearch::KeyScan& sight) {
+  const auto isJoined = [&](const LoopSearch::KeyScan& key_scan) {
     return std::any_of(map.sessions.begin(), map.sessions.end(), [&](const map::Session& session) {
-      return session.number == sight.frame.session && session.joined;
+      return session.number == key_scan.frame.session && session.joined;
     });
   };
-  for (const auto& [label, all] : sights) {
-    for (const auto& sight : all) {
-      if (sight.scan->empty() || !isJoined(sight)) continue;
+  for (const auto& [label, all] : key_scans) {
+    for (const auto& key_scan : all) {
+      if (key_scan.scan->empty() || !isJoined(key_scan)) continue;
       labels_.push_back(label);
-      frames_.push_back(map.keyFrame(sight.frame));
-      places_.push_back({sight, planar(frames_.back().map_from_base)});
+      frames_.push_back(map.keyFrame(key_scan.frame));
+      places_.push_back({key_scan, planar(frames_.back().map_from_base)});
     }
   }
 }
@@ -100,7 +101,7 @@ matching::LocalScan beamsInBase(const map::KeyFrame& frame, const std::string& c
   const mrpt::obs::CObservationPointCloud* cloud = nullptr;
   for (const auto& observation : frame.observations) {
     const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(observation.get());
-    if (scan && scan->sensorLabel + perception::kPointsSuffix == cloud_label) return beamsOf(*scan);
+    if (scan && perception::LaserPointsExtractor::labelOf(scan->sensorLabel) == cloud_label) return beamsOf(*scan);
     if (observation->sensorLabel != cloud_label) continue;
     if (const auto* points = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get())) cloud = points;
   }

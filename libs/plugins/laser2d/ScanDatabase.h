@@ -20,12 +20,12 @@ namespace omnimapper::plugins {
 class ScanDatabase {
  public:
   struct Place {
-    LoopSearch::KeyScan sight;
+    LoopSearch::KeyScan key_scan;
     mrpt::math::TPose2D map_from_base;
   };
 
-  /// Of `sights`, by the label of their clouds, those of sessions that are joined. `map` has at least one key frame.
-  ScanDatabase(const map::Map& map, const std::map<std::string, std::vector<LoopSearch::KeyScan>>& sights,
+  /// Of `key_scans`, by the label of their clouds, those of sessions that are joined. `map` has at least one key frame.
+  ScanDatabase(const map::Map& map, const std::map<std::string, std::vector<LoopSearch::KeyScan>>& key_scans,
                std::shared_ptr<const matching::ScanMatcher> matcher, const matching::RelocalizerOptions& options = {});
 
   bool empty() const { return places_.empty(); }

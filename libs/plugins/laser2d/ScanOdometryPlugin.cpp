@@ -357,7 +357,7 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker:
       ((share * mrpt::square(sigma) * match.unit_covariance).inverse() + guess.information / mrpt::square(noise_))
           .inverse();
   const double position = mrpt::square(options_.position_noise_per_root_m) * way;
-  covariance += tracked.doubt;
+  covariance += tracked.search_covariance;
   covariance.diagonal() += Eigen::Vector3d(
       position, position,
       mrpt::square(options_.yaw_noise_per_root_m) * way + mrpt::square(options_.yaw_noise_per_root_turn) * turn);

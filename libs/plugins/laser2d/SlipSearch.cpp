@@ -215,21 +215,21 @@ std::vector<SlipSearch::Span> SlipSearch::spans(const std::vector<Closure>& agre
 }
 
 matching::ScanWithNormals SlipSearch::seenBefore(const Span& span, const mapper::State& state) const {
-  std::vector<LoopSearch::KeyScan> sights;
+  std::vector<LoopSearch::KeyScan> key_scans;
   for (std::size_t i = span.before + 1; i-- > 0;) {
     if (trajectory_[span.before].way - trajectory_[i].way > 2 * options_.context) break;
-    sights.push_back(trajectory_[i]);
+    key_scans.push_back(trajectory_[i]);
   }
-  return localMap(sights, trajectory_[span.before].frame, state);
+  return localMap(key_scans, trajectory_[span.before].frame, state);
 }
 
 matching::ScanWithNormals SlipSearch::seenAfter(const Span& span, const mapper::State& state) const {
-  std::vector<LoopSearch::KeyScan> sights;
+  std::vector<LoopSearch::KeyScan> key_scans;
   for (std::size_t i = span.before + 1; i < trajectory_.size(); ++i) {
     if (trajectory_[i].way - trajectory_[span.before + 1].way > options_.context) break;
-    sights.push_back(trajectory_[i]);
+    key_scans.push_back(trajectory_[i]);
   }
-  return localMap(sights, trajectory_[span.before + 1].frame, state);
+  return localMap(key_scans, trajectory_[span.before + 1].frame, state);
 }
 
 // How the scans before and after each span fit: as the map has it, and best near what is required, for the map between

@@ -231,7 +231,7 @@ void PlaneAssociator::addNew(const PlaneMeasurement& sighting, mapper::Decision 
   const auto payload = known_.emptyPayload().with(frame_.id, sighting, true);
   const auto landmark = batch_.addLandmark("plane", {variable}, payload);
   batch_.addFactor(record(sighting, variable, landmark));
-  if (sighting.is_line && form_.mayLean()) {
+  if (sighting.is_line && form_.mayTilt()) {
     graph::FactorRecord upright{
         {variable},
         std::make_shared<landmarks::UprightFactor>(),

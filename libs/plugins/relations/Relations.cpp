@@ -23,7 +23,7 @@ namespace {
 using geometry::kPi;
 
 /// A landmark as relations see it.
-struct Thing {
+struct LandmarkView {
   base::LandmarkId id;
   base::VariableId variable;
   std::string_view kind;  // of the variable
@@ -31,7 +31,7 @@ struct Thing {
 };
 
 /// What a relation says, and how much room there is for its residual if it does not hold.
-struct Claim {
+struct RelationHypothesis {
   std::string name;
   std::shared_ptr<const graph::Factor> factor;
   Eigen::VectorXd sigmas;
@@ -49,9 +49,9 @@ std::vector<Eigen::Vector3d> outlineOf(const map::LandmarkShape& shape) {
   return corners;
 }
 
-// Stretch of a thing along a level direction [m].
-std::optional<std::pair<double, double>> stretch(const Thing& thing, const Eigen::Vector3d& along) {
-  const auto corners = outlineOf(thing.shape);
+// Stretch of a landmark along a level direction [m].
+std::optional<std::pair<double, double>> stretch(const LandmarkView& landmark, const Eigen::Vector3d& along) {
+  const auto corners = outlineOf(landmark.shape);
   if (corners.empty()) return std::nullopt;
   std::pair<double, double> found{1e300, -1e300};
   for (const auto& corner : corners) {
@@ -71,14 +71,14 @@ class Finder {
       const auto variable = landmark.variables.front();
       map::LandmarkShape shape;
       if (landmark.payload) shape = landmark.payload->shape({state.graph.value(variable)}, state.map.key_frames);
-      things_.push_back({id, variable, state.graph.variable(variable).kind->kind(), std::move(shape)});
+      views_.push_back({id, variable, state.graph.variable(variable).kind->kind(), std::move(shape)});
     }
   }
 
   std::vector<Relation> find() {
-    for (std::size_t i = 0; i < things_.size(); ++i)
-      for (std::size_t j = 0; j < things_.size(); ++j) {
-        const Thing &a = things_[i], &b = things_[j];
+    for (std::size_t i = 0; i < views_.size(); ++i)
+      for (std::size_t j = 0; j < views_.size(); ++j) {
+        const LandmarkView &a = views_[i], &b = views_[j];
         if (!mayBeTied(a, b)) continue;
         if (a.kind == "point2" && b.kind == "wall") pointOnWall(a, b);
         if (a.kind == "point3" && b.kind == "plane") pointOnPlane(a, b);
@@ -100,13 +100,13 @@ class Finder {
 
  private:
   // Where a session is that nothing has joined, nobody knows; nor does a relation tell.
-  bool mayBeTied(const Thing& a, const Thing& b) const {
+  bool mayBeTied(const LandmarkView& a, const LandmarkView& b) const {
     return a.variable.session == b.variable.session || (isJoined(a) && isJoined(b));
   }
-  bool isJoined(const Thing& thing) const {
+  bool isJoined(const LandmarkView& landmark) const {
     const auto& sessions = state_.map.sessions;
     return std::all_of(sessions.begin(), sessions.end(), [&](const map::Session& session) {
-      return session.number != thing.variable.session || session.joined;
+      return session.number != landmark.variable.session || session.joined;
     });
   }
 
@@ -117,7 +117,7 @@ class Finder {
     return all;
   }
 
-  void pointOnWall(const Thing& point, const Thing& wall) {
+  void pointOnWall(const LandmarkView& point, const LandmarkView& wall) {
     if (!options_.point_on_wall || told_.isPlaced(point.variable)) return;
     const geometry::Segment2 segment = landmarks::wallFromValue(state_.graph.value(wall.variable).data());
     const Eigen::Vector2d place = state_.graph.value(point.variable), along = direction(segment);
@@ -129,7 +129,7 @@ class Finder {
           {"point on wall", std::make_shared<PointOnWallFactor>(), sigmas(0, 1), 2 * options_.max_distance});
   }
 
-  void pointOnPlane(const Thing& point, const Thing& plane) {
+  void pointOnPlane(const LandmarkView& point, const LandmarkView& plane) {
     if (!options_.point_on_wall || told_.isPlaced(point.variable)) return;
     const geometry::Plane3 surface = landmarks::planeFromValue(state_.graph.value(plane.variable).data());
     const Eigen::Vector3d place = state_.graph.value(point.variable);
@@ -149,7 +149,7 @@ class Finder {
           {"point on surface", std::make_shared<PointOnPlaneFactor>(), sigmas(0, 1), 2 * options_.max_distance});
   }
 
-  void twoWalls(const Thing& a, const Thing& b) {
+  void twoWalls(const LandmarkView& a, const LandmarkView& b) {
     const bool turned = told_.isTurned(a.variable, b.variable);
     const bool may_align = options_.aligned && !told_.isAligned(a.variable, b.variable);
     if (turned && !may_align) return;
@@ -169,7 +169,7 @@ class Finder {
   }
 
   // Of what is turned already only the rest is told.
-  bool wallsAligned(const Thing& a, const Thing& b, bool turned) {
+  bool wallsAligned(const LandmarkView& a, const LandmarkView& b, bool turned) {
     if (isKnown("walls_aligned", a, b) || isKnown("wall_shift", a, b)) return false;
     const double room = 2 * options_.max_distance;
     if (turned) return weigh(a, b, {"on one line", std::make_shared<WallShiftFactor>(), sigmas(0, 1), room});
@@ -177,7 +177,7 @@ class Finder {
                  {"on one line", std::make_shared<WallsAlignedFactor>(), sigmas(1, 1), 2 * options_.max_angle * room});
   }
 
-  void twoPlanes(const Thing& a, const Thing& b) {
+  void twoPlanes(const LandmarkView& a, const LandmarkView& b) {
     const geometry::Plane3 of_a = landmarks::planeFromValue(state_.graph.value(a.variable).data()),
                            of_b = landmarks::planeFromValue(state_.graph.value(b.variable).data());
     const double together = of_a.normal.dot(of_b.normal), reach = std::sin(options_.max_angle);
@@ -193,7 +193,7 @@ class Finder {
     }
   }
 
-  bool planesAligned(const Thing& a, const Thing& b, const geometry::Plane3& of_a, bool turned) {
+  bool planesAligned(const LandmarkView& a, const LandmarkView& b, const geometry::Plane3& of_a, bool turned) {
     const auto corners = outlineOf(b.shape);
     if (corners.empty() || isKnown("planes_aligned", a, b) || isKnown("plane_shift", a, b)) return false;
     Eigen::Vector3d near = Eigen::Vector3d::Zero();
@@ -205,19 +205,20 @@ class Finder {
                  {"on one plane", std::make_shared<PlanesAlignedFactor>(near), sigmas(2, 1), 4 * reach * reach * room});
   }
 
-  static RelatedPair pairOf(std::string_view kind, const Thing& a, const Thing& b) {
+  static RelatedPair pairOf(std::string_view kind, const LandmarkView& a, const LandmarkView& b) {
     return {std::string(kind), std::minmax(a.variable, b.variable)};
   }
-  bool isKnown(std::string_view kind, const Thing& a, const Thing& b) const {
+  bool isKnown(std::string_view kind, const LandmarkView& a, const LandmarkView& b) const {
     return known_.count(pairOf(kind, a, b)) > 0;
   }
 
   // Whether it is likelier than not. What was refused stays with the consistency test and is not proposed again.
-  bool weigh(const Thing& a, const Thing& b, const Claim& claim) {
-    if (isKnown(claim.factor->kind(), a, b)) return false;
-    Relation relation{pairOf(claim.factor->kind(), a, b),
-                      {{a.variable, b.variable}, claim.factor, graph::SquareRootInformation::fromSigmas(claim.sigmas)},
-                      claim.name};
+  bool weigh(const LandmarkView& a, const LandmarkView& b, const RelationHypothesis& hypothesis) {
+    if (isKnown(hypothesis.factor->kind(), a, b)) return false;
+    Relation relation{
+        pairOf(hypothesis.factor->kind(), a, b),
+        {{a.variable, b.variable}, hypothesis.factor, graph::SquareRootInformation::fromSigmas(hypothesis.sigmas)},
+        hypothesis.name};
     const auto joint = state_.jointCovariance(relation.record.variables);
     if (!joint) return false;
     const graph::Linearised linearised(state_.graph, relation.record);
@@ -231,7 +232,7 @@ class Finder {
     constexpr double kConfidence = 0.999;
     if (relation.chi2 > graph::chiSquareQuantile(kConfidence, rows)) return false;
     // Both densities in whitened units.
-    const double log_room = std::log(claim.room) - claim.sigmas.array().log().sum();
+    const double log_room = std::log(hypothesis.room) - hypothesis.sigmas.array().log().sum();
     const double log_density = -0.5 * (relation.chi2 + rows * std::log(2 * kPi)) -
                                Eigen::MatrixXd(root.matrixL()).diagonal().array().log().sum();
     relation.likelihood_ratio = std::exp(std::min(log_density + log_room, 50.0));
@@ -248,7 +249,7 @@ class Finder {
   const RelationsOptions& options_;
   const KnownRelations& known_;
   RelationClosure told_;
-  std::vector<Thing> things_;
+  std::vector<LandmarkView> views_;
   std::vector<Relation> found_;
 };
 

@@ -83,7 +83,7 @@ class MoveableRoom {
         ++payload->seen_by["laser"].lines;
       }
     }
-    if (its.mayLean() && in_first != Seen::as_planes && in_second != Seen::as_planes)
+    if (its.mayTilt() && in_first != Seen::as_planes && in_second != Seen::as_planes)
       run.graph.addFactor({{variableOf(id)},
                            std::make_shared<landmarks::UprightFactor>(),
                            graph::SquareRootInformation::fromSigmas(Eigen::VectorXd::Constant(1, 0.02))});

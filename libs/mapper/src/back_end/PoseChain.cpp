@@ -61,7 +61,7 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
   Place place{{}, true, {}, {}};
   if (after && after->stamp == stamp) return Place{after->id, false, {}, {}};
   if (retired_ && (!before || before->stamp <= map_.keyFrame(*retired_).stamp)) return std::nullopt;
-  Told to, from;
+  SpanMotions to, from;
   if (before) {
     place.before = before->id;
     to = motionBetween(before->stamp, stamp, true);
@@ -77,7 +77,7 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
                         : start_ ? start_->map_from_base
                                  : CPose3D();
   if (before && after) {
-    // What a source told of the whole span is not given up for the guess of a fallback.
+    // What a source measured of the whole span is not given up for the guess of a fallback.
     const bool guessed = to.by_guess || from.by_guess;
     if (guessed && !links_[*place.before].by_guess) return std::nullopt;
     unlink(*place.before);
@@ -137,14 +137,14 @@ void PoseChain::hold(base::VariableId first_pose) {
   session.anchor = first_pose;
 }
 
-void PoseChain::link(base::KeyFrameId begin, base::KeyFrameId end, const Told& told) {
+void PoseChain::link(base::KeyFrameId begin, base::KeyFrameId end, const SpanMotions& span) {
   map::KeyFrame& frame = map_.key_frames.edit(begin);
   const base::VariableId end_pose = map_.keyFrame(end).pose;
-  links_[begin].by_guess = told.by_guess;
-  for (const auto& [section, motion] : told.motions) {
+  links_[begin].by_guess = span.by_guess;
+  for (const auto& [section, motion] : span.motions) {
     links_[begin].factors.push_back(graph_.addFactor(betweenPoses(motion_, frame.pose, end_pose, motion, section)));
   }
-  frame.keyframe_from_next = told.motions.front().second.begin_from_end;
+  frame.keyframe_from_next = span.motions.front().second.begin_from_end;
 }
 
 void PoseChain::unlink(base::KeyFrameId begin) {
@@ -153,7 +153,7 @@ void PoseChain::unlink(base::KeyFrameId begin) {
 }
 
 // Step by step: asking for all of the motion each time would cost ever more while the robot rests. Where nothing is
-// told, a frame is where the one before it is.
+// measured, a frame is where the one before it is.
 void PoseChain::reattach(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps) {
   map::KeyFrame& frame = map_.key_frames.edit(begin);
   frame.dependents.clear();
@@ -180,10 +180,10 @@ bool PoseChain::attach(base::Stamp stamp) {
                        [](const map::DependentFrame& other, base::Stamp wanted) { return other.stamp < wanted; });
   if (place != frame.dependents.end() && place->stamp == stamp) return true;
   const bool first = place == frame.dependents.begin();
-  const auto told = motion(first ? frame.stamp : std::prev(place)->stamp, stamp, true);
-  if (!told) return false;
+  const auto span = motion(first ? frame.stamp : std::prev(place)->stamp, stamp, true);
+  if (!span) return false;
   const CPose3D start = first ? CPose3D() : std::prev(place)->keyframe_from_base;
-  frame.dependents.insert(place, {stamp, start + told->begin_from_end});
+  frame.dependents.insert(place, {stamp, start + span->begin_from_end});
   return true;
 }
 
@@ -195,37 +195,37 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
     if (retired_ && map_.key_frames[position].stamp <= map_.keyFrame(*retired_).stamp) continue;
     if (position + 1 < map_.key_frames.size()) {
       const map::KeyFrame& next = map_.key_frames[position + 1];
-      const auto told = motionBetween(map_.key_frames[position].stamp, next.stamp, true);
-      const bool worse = told.motions.empty() || (told.by_guess && !links_[id].by_guess);
-      if (worse) continue;  // what was told before is all there is
+      const auto span = motionBetween(map_.key_frames[position].stamp, next.stamp, true);
+      const bool worse = span.motions.empty() || (span.by_guess && !links_[id].by_guess);
+      if (worse) continue;  // what was measured before is all there is
       unlink(id);
-      link(id, next.id, told);
+      link(id, next.id, span);
     }
     reattach(id, stampsOf(map_.keyFrame(id).dependents));
   }
 }
 
 // Every source that covers the span; else the first fallback that does.
-PoseChain::Told PoseChain::motionBetween(base::Stamp begin, base::Stamp end, bool or_guess) const {
-  Told told;
+PoseChain::SpanMotions PoseChain::motionBetween(base::Stamp begin, base::Stamp end, bool or_guess) const {
+  SpanMotions span;
   for (const bool fallback : {false, true}) {
-    if (!told.motions.empty()) break;
+    if (!span.motions.empty()) break;
     for (const auto& [section, plugin] : sources_) {
       if (plugin->isFallback() != fallback || !(or_guess || plugin->measures())) continue;
       const auto motion = plugin->between(begin, end);
       if (!motion) continue;
-      told.motions.emplace_back(section, *motion);
-      told.by_guess = !plugin->measures();
+      span.motions.emplace_back(section, *motion);
+      span.by_guess = !plugin->measures();
       if (fallback) break;
     }
   }
-  return told;
+  return span;
 }
 
 std::optional<RelativeMotion> PoseChain::motion(base::Stamp begin, base::Stamp end, bool or_guess) const {
-  auto told = motionBetween(begin, end, or_guess);
-  if (told.motions.empty()) return std::nullopt;
-  return std::move(told.motions.front().second);
+  auto span = motionBetween(begin, end, or_guess);
+  if (span.motions.empty()) return std::nullopt;
+  return std::move(span.motions.front().second);
 }
 
 }  // namespace omnimapper::mapper

@@ -55,7 +55,7 @@ class PoseChain {
   std::optional<RelativeMotion> motion(base::Stamp begin, base::Stamp end, bool or_guess) const;
 
  private:
-  struct Told {
+  struct SpanMotions {
     std::vector<std::pair<std::string, RelativeMotion>> motions;  // by section of the source
     bool by_guess = false;
   };
@@ -63,13 +63,13 @@ class PoseChain {
     std::vector<base::FactorId> factors;
     bool by_guess = false;
   };
-  Told motionBetween(base::Stamp begin, base::Stamp end, bool or_guess) const;
+  SpanMotions motionBetween(base::Stamp begin, base::Stamp end, bool or_guess) const;
   std::uint16_t session() const { return map_.sessions.back().number; }
   const map::KeyFrame* frameBefore(base::Stamp stamp) const;
   const map::KeyFrame* frameAfter(base::Stamp stamp) const;
   map::KeyFrame newFrame(base::Stamp stamp, const mrpt::poses::CPose3D& map_from_base);
   void hold(base::VariableId first_pose);
-  void link(base::KeyFrameId begin, base::KeyFrameId end, const Told& told);
+  void link(base::KeyFrameId begin, base::KeyFrameId end, const SpanMotions& span);
   void unlink(base::KeyFrameId begin);
   void reattach(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps);
 

@@ -30,8 +30,8 @@ class PlaneParametrization {
   /// Of a laser's line: `direction_in_base` is unit, the free side on its left.
   virtual std::shared_ptr<const graph::Factor> ofLine(const Eigen::Vector3d& direction_in_base,
                                                       const Eigen::Vector3d& middle_in_base) const = 0;
-  /// Whether lines of one height leave the lean open.
-  virtual bool mayLean() const = 0;
+  /// Whether the tilt is a degree of freedom; lines of one height do not show it.
+  virtual bool mayTilt() const = 0;
 
   /// The change that takes `a` to `b`, and how it changes with both: the tangent of `a`, then that of `b`.
   struct Difference {

@@ -61,7 +61,7 @@ class ScanTracker {
     std::size_t prediction = 0;  ///< that led to it
     /// What other matches that were found, less probable ones, add to the covariance, in the scan's frame: x y yaw [m]
     /// [rad].
-    Eigen::Matrix3d doubt = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d search_covariance = Eigen::Matrix3d::Zero();
   };
   /// Matches a scan and takes it for the last one. `predictions`: that most trusted first. None, and nothing changes,
   /// if none leads to a match, or what is more probable than the match is none.

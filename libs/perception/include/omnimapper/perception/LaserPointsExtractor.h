@@ -4,6 +4,9 @@
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/perception/Extractor.h>
 
+#include <string>
+#include <vector>
+
 namespace omnimapper::perception {
 
 struct LaserPointsOptions {
@@ -15,9 +18,6 @@ struct LaserPointsOptions {
   static const base::OptionTable<LaserPointsOptions>& table();
 };
 
-/// What the label of a scan's points has behind the scan's own.
-inline constexpr char kPointsSuffix[] = ".points";
-
 /// The valid beams of a 2D scan as points, evenly spaced along the walls: near walls would otherwise outweigh far ones.
 class LaserPointsExtractor : public Extractor {
  public:
@@ -25,6 +25,11 @@ class LaserPointsExtractor : public Extractor {
   static constexpr const char* kSummary = "Valid beams of 2D scans as evenly spaced points.";
 
   explicit LaserPointsExtractor(const LaserPointsOptions& options) : options_(options) {}
+
+  /// Label of what this extractor makes of the scans with that label.
+  static std::string labelOf(const std::string& scan_label) { return scan_label + ".points"; }
+  /// Whether it made that observation, in this run or for a log of what was perceived.
+  static bool made(const mrpt::obs::CObservation& observation);
 
   /// A CObservationPointCloud with the scan's stamp and sensorPose, points in the sensor frame [m], label
   /// "<scan label>.points". Beams that are invalid, not finite, out of range or at the sensor's own limit, where
