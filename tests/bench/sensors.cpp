@@ -140,7 +140,7 @@ void drawLandmarks(draw::Svg& svg, double left, const Counts& counts) {
   }
 }
 
-void draw(const std::string& path, const std::vector<Figures>& all) {
+void drawFigures(const std::string& path, const std::vector<Figures>& all) {
   std::ofstream out(path);
   draw::Svg svg(out, kLeft + kColumn * static_cast<double>(all.size()), 560);
   double left = kLeft;
@@ -169,11 +169,11 @@ int main(int argc, char** argv) {
   app.add_option("--scans", setup.scans_ini, "INI of scan matching alone")->capture_default_str();
   app.add_option("--threads", setup.threads);
   CLI11_PARSE(app, argc, argv);
-  testing::registerPlugins();
+  omnimapper::testing::registerPlugins();
   std::printf(
       "| place | scan matching alone | laser lines | camera planes | both | landmarks: laser, camera, both |\n"
       "|---|---|---|---|---|---|\n");
   std::vector<Figures> figures;
   for (const auto& folder : folders) figures.push_back(printRow(setup, {folder}));
-  if (!svg.empty()) draw(svg, figures);
+  if (!svg.empty()) drawFigures(svg, figures);
 }
