@@ -20,9 +20,8 @@
 namespace omnimapper::mapper {
 
 /// Observations in, in order of arrival; bundles for key frames out, in order of time except for late ones (thesis
-/// 5.2.3.2, 5.3.2.1).
-/// Pose sources are fed on the way, and perception of a bundle starts in the worker pool when the trigger lets it
-/// through.
+/// 5.2.3.2, 5.3.2.1). Pose sources are fed on the way, and perception of a bundle starts in the worker pool when the
+/// trigger lets it through.
 class FrontEnd {
  public:
   /// All but `sensor_poses` stay the caller's. `chain` answers the trigger how the base moved, and learns of what pose
@@ -34,8 +33,8 @@ class FrontEnd {
   void add(const mrpt::obs::CObservation::Ptr& observation);
   /// The log has ended: next() hands out all that still waits.
   void close() { closed_ = true; }
-  /// The bundle to work on now; none until more is added. Process it before the next call: the
-  /// trigger asks how the base moved until then.
+  /// The bundle to work on now; none until more is added. Process it before the next call: the trigger asks how the
+  /// base moved until then.
   std::optional<FrameBundle> next();
 
   /// Stamp of the oldest bundle that waits to be handed out; late ones stand behind younger ones.
