@@ -35,7 +35,7 @@ class Engine : public ::testing::Test {
     engine_ = makeEngine(kLaserIni, {"mapper.pose_plugins=odometry, no_motion"});
     testing::run(*engine_, observations_);
     odometry_ = std::make_unique<plugins::OdometryPlugin>(plugins::OdometryOptions{});
-    for (const auto& observation : observations_) odometry_->add(*observation);
+    for (const auto& observation : observations_) odometry_->add(observation);
   }
   static void TearDownTestSuite() {
     engine_.reset();

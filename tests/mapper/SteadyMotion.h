@@ -11,7 +11,7 @@ inline base::Stamp at(double seconds) {
 
 class Steady : public mapper::PosePlugin {
  public:
-  Taken add(const mrpt::obs::CObservation&) override { return Taken::not_mine; }
+  Taken add(const mrpt::obs::CObservation::ConstPtr&) override { return Taken::not_mine; }
   std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
     const double way = base::secondsBetween(begin, end);
     return mapper::RelativeMotion{mrpt::poses::CPose3D(way, 0, 0, 0, 0, 0),

@@ -22,9 +22,9 @@ const base::OptionTable<GivenMotionOptions>& GivenMotionOptions::table() {
 }
 
 // Between the poses before and after it, whichever came first.
-GivenMotionPlugin::Taken GivenMotionPlugin::add(const mrpt::obs::CObservation& observation) {
+GivenMotionPlugin::Taken GivenMotionPlugin::add(const mrpt::obs::CObservation::ConstPtr& observation) {
   news_.reset();
-  const auto* given = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation);
+  const auto* given = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(observation.get());
   if (!given || (!options_.label.empty() && given->sensorLabel != options_.label)) return Taken::not_mine;
   if (!label_) label_ = given->sensorLabel;
   if (given->sensorLabel != *label_) return Taken::not_mine;

@@ -27,7 +27,7 @@ class GivenMotionPlugin : public mapper::PosePlugin {
  public:
   explicit GivenMotionPlugin(const GivenMotionOptions& options) : options_(options) {}
 
-  Taken add(const mrpt::obs::CObservation& observation) override;
+  Taken add(const mrpt::obs::CObservation::ConstPtr& observation) override;
   std::optional<Span> news() const override { return news_; }
   std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
     return timeline_.between(begin, end);

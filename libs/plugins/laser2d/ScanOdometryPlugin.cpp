@@ -135,11 +135,11 @@ std::vector<mapper::Evidence> ScanOdometryPlugin::evidence() const {
   return all;
 }
 
-ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation& observation) {
-  const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation);
-  if (!scan) addOdometry(observation);
+ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation::ConstPtr& observation) {
+  const auto scan = std::dynamic_pointer_cast<const mrpt::obs::CObservation2DRangeScan>(observation);
+  if (!scan) addOdometry(*observation);
   if (!scan || !isOurs(*scan)) return Taken::not_mine;
-  if (!reached_ || scan->timestamp > *reached_) wait_.emplace(scan->timestamp, *scan);
+  if (!reached_ || scan->timestamp > *reached_) wait_.emplace(scan->timestamp, scan);
   return Taken::taken;
 }
 
@@ -153,7 +153,7 @@ void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
   while (!wait_.empty() && (!reached_ || *reached_ < stamp)) {
     const auto next = wait_.extract(wait_.begin());
     reached_ = next.key();
-    follow(next.mapped());
+    follow(*next.mapped());
   }
   for (auto& odometry : odometries_) odometry.source.forgetBefore(last_.value_or(stamp));
 }

@@ -52,7 +52,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
                      const perception::LaserPointsOptions& points);
 
-  Taken add(const mrpt::obs::CObservation& observation) override;
+  Taken add(const mrpt::obs::CObservation::ConstPtr& observation) override;
   void processUntil(base::Stamp stamp) override;
   std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
     return timeline_.between(begin, end);
@@ -108,7 +108,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   std::vector<Odometry> odometries_;                                // in the order they came
   std::optional<std::string> label_;                                // of the first that came
   std::map<std::string, Tilted> tilted_;                            // by label
-  std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan> wait_;  // for their time
+  std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan::ConstPtr> wait_;  // for their time
   std::optional<base::Stamp> reached_;                              // scan that was worked on last
   std::optional<base::Stamp> last_;                                 // middle of the scan that was matched last
   std::optional<base::Stamp> begun_;                                // middle of the first scan of all

@@ -18,7 +18,7 @@ class NoMotionPlugin : public mapper::PosePlugin {
  public:
   explicit NoMotionPlugin(const NoMotionOptions& options) : options_(options) {}
 
-  Taken add(const mrpt::obs::CObservation&) override { return Taken::not_mine; }
+  Taken add(const mrpt::obs::CObservation::ConstPtr&) override { return Taken::not_mine; }
   std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override;
   std::optional<base::Stamp> coveredUntil() const override { return std::nullopt; }
   bool isFallback() const override { return true; }

@@ -15,9 +15,9 @@ const base::OptionTable<OdometryOptions>& OdometryOptions::table() {
   return table;
 }
 
-OdometryPlugin::Taken OdometryPlugin::add(const mrpt::obs::CObservation& observation) {
+OdometryPlugin::Taken OdometryPlugin::add(const mrpt::obs::CObservation::ConstPtr& observation) {
   using Of = matching::WheelOdometry::Taken;
-  switch (odometry_.add(observation)) {
+  switch (odometry_.add(*observation)) {
     case Of::taken:
       return Taken::taken;
     case Of::unusable:

@@ -16,7 +16,7 @@ class OdometryPlugin : public mapper::PosePlugin {
  public:
   explicit OdometryPlugin(const OdometryOptions& options) : odometry_(options), is_fallback_(options.fallback) {}
 
-  Taken add(const mrpt::obs::CObservation& observation) override;
+  Taken add(const mrpt::obs::CObservation::ConstPtr& observation) override;
   std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
     return odometry_.between(begin, end);
   }

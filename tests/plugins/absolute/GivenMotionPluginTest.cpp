@@ -15,11 +15,11 @@ base::Stamp at(double seconds) {
   return base::stampFromUnix(1'000'000'000) + base::durationFromSeconds(seconds);
 }
 
-mrpt::obs::CObservationRobotPose given(double seconds, const CPose3D& pose, const std::string& label = "mocap") {
-  mrpt::obs::CObservationRobotPose made;
-  made.timestamp = at(seconds);
-  made.sensorLabel = label;
-  made.pose.mean = pose;
+mrpt::obs::CObservationRobotPose::Ptr given(double seconds, const CPose3D& pose, const std::string& label = "mocap") {
+  const auto made = mrpt::obs::CObservationRobotPose::Create();
+  made->timestamp = at(seconds);
+  made->sensorLabel = label;
+  made->pose.mean = pose;
   return made;
 }
 
@@ -81,7 +81,7 @@ TEST(GivenMotionPlugin, TheTrackedBodyIsTakenBackToTheBase) {
   GivenMotionPlugin plugin({});
   for (const double yaw : {0.0, 0.1}) {
     auto pose = given(yaw, CPose3D(0, 0, 0, yaw, 0, 0));
-    pose.sensorPose = CPose3D(1, 0, 0, 0, 0, 0);
+    pose->sensorPose = CPose3D(1, 0, 0, 0, 0, 0);
     plugin.add(pose);
   }
   const auto motion = plugin.between(at(0), at(0.1));

@@ -42,7 +42,7 @@ Told follow(const SimulatedLog& log, const Change& change, const ScanOdometryOpt
   for (auto observation : log.observations()) {
     observation = change(observation);
     if (!observation) continue;
-    plugin.add(*observation);
+    plugin.add(observation);
     if (dynamic_cast<const CObservation2DRangeScan*>(observation.get())) scans.push_back(observation->timestamp);
   }
   plugin.processUntil(scans.back());
@@ -113,17 +113,17 @@ TEST(ScanOdometryPlugin, OfTwoOdometriesThatWhichAgreesWithTheMatchesBridgesAGap
     const bool is_scan = observation->sensorLabel == "laser";
     if (is_scan && in_gap(observation->timestamp)) continue;
     if (is_scan) {
-      CObservationOdometry stale;
-      stale.sensorLabel = "laser_ODOM";
-      stale.timestamp = observation->timestamp;
-      stale.odometry = last_told;
+      const auto stale = CObservationOdometry::Create();
+      stale->sensorLabel = "laser_ODOM";
+      stale->timestamp = observation->timestamp;
+      stale->odometry = last_told;
       plugin.add(stale);
       scans.push_back(observation->timestamp);
     } else {
       const auto& wheels = dynamic_cast<const CObservationOdometry&>(*observation);
       if (!in_gap(wheels.timestamp)) last_told = wheels.odometry;
     }
-    plugin.add(*observation);
+    plugin.add(observation);
   }
   plugin.processUntil(scans.back());
   const auto told = plugin.between(scans.front(), scans.back());
@@ -158,7 +158,7 @@ TEST(ScanOdometryPlugin, OfATiltedLaserNothingIsTakenAndTheUserIsTold) {
   ScanOdometryPlugin plugin({}, {}, {});
   std::size_t scans = 0;
   for (const auto& observation : log.observations()) {
-    EXPECT_EQ(plugin.add(*observation), mapper::PosePlugin::Taken::not_mine);
+    EXPECT_EQ(plugin.add(observation), mapper::PosePlugin::Taken::not_mine);
     scans += observation->sensorLabel == "tilted";
   }
   plugin.processUntil(log.end());
@@ -178,7 +178,7 @@ TEST(ScanOdometryPlugin, OfATiltedAndALevelLaserTheLevelOneIsTaken) {
     ScanOdometryOptions options;
     options.label = label;
     ScanOdometryPlugin plugin(options, {}, {});
-    for (const auto& observation : log.observations()) plugin.add(*observation);
+    for (const auto& observation : log.observations()) plugin.add(observation);
     plugin.processUntil(log.end());
     return std::pair(plugin.coveredUntil().has_value(), plugin.warnings().size());
   };
@@ -190,7 +190,7 @@ TEST(ScanOdometryPlugin, OfATiltedAndALevelLaserTheLevelOneIsTaken) {
 TEST(ScanOdometryPlugin, SpansAddUpAndScansInBetweenAreInterpolated) {
   const auto log = halfALap();
   ScanOdometryPlugin plugin({}, {}, {});
-  for (const auto& observation : log.observations()) plugin.add(*observation);
+  for (const auto& observation : log.observations()) plugin.add(observation);
   const auto at = [&](double seconds) { return log.begin() + base::durationFromSeconds(seconds); };
   EXPECT_FALSE(plugin.between(at(2), at(3))) << "nothing is worked on before its time";
   plugin.processUntil(at(6));
@@ -213,9 +213,9 @@ TEST(ScanOdometryPlugin, AScanAfterItsTimeIsLeftOutAndOrderBeforeItDoesNotMatter
   scans.resize(80);
   const auto told = [&](const std::vector<CObservation::Ptr>& order) {
     ScanOdometryPlugin plugin({}, {}, {});
-    for (const auto& scan : order) plugin.add(*scan);
+    for (const auto& scan : order) plugin.add(scan);
     plugin.processUntil(scans.back()->timestamp);
-    for (int i = 0; i < 30; ++i) EXPECT_EQ(plugin.add(*scans[i]), mapper::PosePlugin::Taken::taken);
+    for (int i = 0; i < 30; ++i) EXPECT_EQ(plugin.add(scans[i]), mapper::PosePlugin::Taken::taken);
     plugin.processUntil(scans.back()->timestamp);
     return plugin.between(scans.front()->timestamp, scans.back()->timestamp);
   };
@@ -247,7 +247,7 @@ TEST(ScanOdometryPlugin, AGapThatNothingTellsIsEvidence) {
     for (const auto& observation : log.observations()) {
       const double into = base::secondsBetween(log.begin(), observation->timestamp);
       if ((into > 8 && into < 19) || (observation->sensorLabel == "odometry" && !wheels)) continue;
-      plugin.add(*observation);
+      plugin.add(observation);
     }
     plugin.processUntil(*plugin.coveredUntil());
     const auto evidence = plugin.evidence();
@@ -288,9 +288,9 @@ TEST(ScanOdometryPlugin, AlongABareCorridorItKnowsThatItDoesNotKnow) {
         odometry->sensorLabel = "odometry";
         odometry->timestamp = base::stampFromUnix(1e9 + 0.1 * i);
         odometry->odometry = CPose2D(0.05 * i, 0, 0);
-        plugin.add(*odometry);
+        plugin.add(odometry);
       }
-      plugin.add(*scanOfACorridor(0.1 * i));
+      plugin.add(scanOfACorridor(0.1 * i));
     }
     plugin.processUntil(*plugin.coveredUntil());
     const auto told = plugin.between(base::stampFromUnix(1e9), base::stampFromUnix(1e9 + 10));
@@ -323,7 +323,7 @@ Errors errorsPerSecond(const SimulatedLog& log, double sweep, bool wheels) {
       scans.push_back(observation->timestamp);
     else if (!wheels)
       continue;
-    plugin.add(*observation);
+    plugin.add(observation);
   }
   plugin.processUntil(scans.back());
   Errors errors;
@@ -364,7 +364,7 @@ TEST(ScanOdometryPlugin, OfScansWithASweepAllTimeSinceTheFirstStampIsCovered) {
   ScanOdometryPlugin plugin(options, {}, {});
   std::vector<base::Stamp> scans;
   for (const auto& observation : halfALap().observations()) {
-    plugin.add(*observation);
+    plugin.add(observation);
     if (observation->sensorLabel != "odometry") scans.push_back(observation->timestamp);
   }
   plugin.processUntil(scans.back());

@@ -22,21 +22,21 @@ base::Stamp at(double seconds) {
   return base::stampFromUnix(1'000'000'000) + base::durationFromSeconds(seconds);
 }
 
-mrpt::obs::CObservationOdometry reading(double seconds, const CPose2D& pose, const std::string& label = "wheels") {
-  mrpt::obs::CObservationOdometry made;
-  made.timestamp = at(seconds);
-  made.sensorLabel = label;
-  made.odometry = pose;
+mrpt::obs::CObservationOdometry::Ptr reading(double seconds, const CPose2D& pose, const std::string& label = "wheels") {
+  const auto made = mrpt::obs::CObservationOdometry::Create();
+  made->timestamp = at(seconds);
+  made->sensorLabel = label;
+  made->odometry = pose;
   return made;
 }
 
-obs::CObservationRelativeMotion action(double begin, double end, const CPose3D& motion,
+obs::CObservationRelativeMotion::Ptr action(double begin, double end, const CPose3D& motion,
                                        const std::string& label = "wheels") {
-  obs::CObservationRelativeMotion made;
-  made.begin = at(begin);
-  made.timestamp = at(end);
-  made.sensorLabel = label;
-  made.begin_from_end = motion;
+  const auto made = obs::CObservationRelativeMotion::Create();
+  made->begin = at(begin);
+  made->timestamp = at(end);
+  made->sensorLabel = label;
+  made->begin_from_end = motion;
   return made;
 }
 
@@ -101,7 +101,7 @@ TEST(OdometryPlugin, TheCovarianceOfAnActionCountsOnlyWhereTheUserSaysSo) {
     options.use_reported_covariance = reported;
     OdometryPlugin plugin(options);
     auto made = action(0, 1, CPose3D(1, 0, 0, 0, 0, 0));
-    made.covariance.diagonal() << 7, 8, 0, 0, 0, 9;
+    made->covariance.diagonal() << 7, 8, 0, 0, 0, 9;
     plugin.add(made);
     const auto motion = plugin.between(at(0), at(1));
     ASSERT_TRUE(motion);
@@ -173,7 +173,7 @@ TEST(OdometryPlugin, TakesItsOwnLabelOrTheFirstThatComes) {
   OdometryPlugin first(roundNoise());
   EXPECT_EQ(first.add(reading(0, {}, "left")), Taken::taken);
   EXPECT_EQ(first.add(reading(0, {}, "right")), Taken::not_mine);
-  EXPECT_EQ(first.add(mrpt::obs::CObservationComment()), Taken::not_mine);
+  EXPECT_EQ(first.add(mrpt::obs::CObservationComment::Create()), Taken::not_mine);
   auto options = roundNoise();
   options.label = "right";
   OdometryPlugin named(options);

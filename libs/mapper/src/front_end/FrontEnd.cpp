@@ -47,7 +47,7 @@ void FrontEnd::add(const mrpt::obs::CObservation::Ptr& observation) {
   }
   queue_.arrived(observation->timestamp);
   const auto placed = sensor_poses_.applied(observation);
-  const bool is_taken = feedSources(*placed);
+  const bool is_taken = feedSources(placed);
   if (perception_.wants(*placed)) {
     if (!queue_.add(placed)) addLate(placed);
   } else if (!is_taken) {
@@ -56,7 +56,7 @@ void FrontEnd::add(const mrpt::obs::CObservation::Ptr& observation) {
 }
 
 // Whether a pose source took it. Where a source corrects what it said of the past, the factors there change.
-bool FrontEnd::feedSources(const mrpt::obs::CObservation& observation) {
+bool FrontEnd::feedSources(const mrpt::obs::CObservation::ConstPtr& observation) {
   bool taken = false;
   for (auto& [section, plugin] : plugins_.pose) {
     const auto answer = plugin->add(observation);

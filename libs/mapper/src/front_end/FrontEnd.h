@@ -43,7 +43,7 @@ class FrontEnd {
   void forgetBefore(base::Stamp stamp);
 
  private:
-  bool feedSources(const mrpt::obs::CObservation& observation);
+  bool feedSources(const mrpt::obs::CObservation::ConstPtr& observation);
   bool isCovered(base::Stamp stamp) const;
   void addLate(const mrpt::obs::CObservation::Ptr& observation);
   bool releaseNext();
