@@ -105,13 +105,13 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   ScanOdometryOptions options_;
   perception::LaserPointsExtractor extractor_;
   matching::ScanTracker tracker_;
-  std::vector<Odometry> odometries_;                                // in the order they came
-  std::optional<std::string> label_;                                // of the first that came
-  std::map<std::string, Tilted> tilted_;                            // by label
+  std::vector<Odometry> odometries_;                                          // in the order they came
+  std::optional<std::string> label_;                                          // of the first that came
+  std::map<std::string, Tilted> tilted_;                                      // by label
   std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan::ConstPtr> wait_;  // for their time
-  std::optional<base::Stamp> reached_;                              // scan that was worked on last
-  std::optional<base::Stamp> last_;                                 // middle of the scan that was matched last
-  std::optional<base::Stamp> begun_;                                // middle of the first scan of all
+  std::optional<base::Stamp> reached_;                                        // scan that was worked on last
+  std::optional<base::Stamp> last_;   // middle of the scan that was matched last
+  std::optional<base::Stamp> begun_;  // middle of the first scan of all
   Gaps gaps_;
   double blind_seconds_ = 0;      // in which the walls left a direction open, and no odometry told the motion
   double seeing_seconds_ = 0;     // all others that it followed the base

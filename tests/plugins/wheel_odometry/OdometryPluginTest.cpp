@@ -31,7 +31,7 @@ mrpt::obs::CObservationOdometry::Ptr reading(double seconds, const CPose2D& pose
 }
 
 obs::CObservationRelativeMotion::Ptr action(double begin, double end, const CPose3D& motion,
-                                       const std::string& label = "wheels") {
+                                            const std::string& label = "wheels") {
   const auto made = obs::CObservationRelativeMotion::Create();
   made->begin = at(begin);
   made->timestamp = at(end);

@@ -20,8 +20,8 @@ class PosePlugin {
     taken,
     unusable,  ///< of its kind, but not finite, or its time runs backwards
   };
-  /// Takes an observation, never null, into its history if it is of its kind. Called in order of arrival, which need not
-  /// be that of stamps. A source that works on it later keeps the pointer: nobody changes what it points to.
+  /// Takes an observation, never null, into its history if it is of its kind. Called in order of arrival, which need
+  /// not be that of stamps. A source that works on it later keeps the pointer: nobody changes what it points to.
   virtual Taken add(const mrpt::obs::CObservation::ConstPtr& observation) = 0;
   struct Span {
     base::Stamp begin, end;
