@@ -1,8 +1,8 @@
 #pragma once
 
-#include <omnimapper/sim/MeshBuilder.h>
-#include <omnimapper/sim/Textures.h>
-#include <omnimapper/sim/World.h>
+#include <omnimapper/sim_world/MeshBuilder.h>
+#include <omnimapper/sim_world/Textures.h>
+#include <omnimapper/sim_world/World.h>
 
 #include <string>
 

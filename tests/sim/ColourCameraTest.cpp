@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/sim/MarkerMaking.h>
-#include <omnimapper/sim/Textures.h>
+#include <omnimapper/sim_world/MarkerMaking.h>
+#include <omnimapper/sim_world/Textures.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/sim/Drive.h>
-#include <omnimapper/sim/Random.h>
+#include <omnimapper/sim_world/Random.h>
 
 #include "SmallWorlds.h"
 

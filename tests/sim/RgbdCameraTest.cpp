@@ -3,7 +3,7 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/serialization/CArchive.h>
-#include <omnimapper/sim/Textures.h>
+#include <omnimapper/sim_world/Textures.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <omnimapper/sim/Drive.h>
-#include <omnimapper/sim/WorldIni.h>
+#include <omnimapper/sim_world/WorldIni.h>
 
 #include "SeenMoves.h"
 

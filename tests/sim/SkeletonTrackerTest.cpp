@@ -2,8 +2,8 @@
 #include <mrpt/obs/CObservationSkeleton.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/sim/People.h>
-#include <omnimapper/sim/PointingError.h>
+#include <omnimapper/sim_world/People.h>
+#include <omnimapper/sim_world/PointingError.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/sim/World.h>
+#include <omnimapper/sim_world/World.h>
 
 #include <cmath>
 #include <string>

@@ -1,8 +1,8 @@
 #include "SeenMoves.h"
 
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/sim/Building.h>
 #include <omnimapper/sim/Drive.h>
+#include <omnimapper/sim_world/Building.h>
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 #include <omnimapper/sim/Drive.h>
 #include <omnimapper/sim/Odometry.h>
 #include <omnimapper/sim/Simulation.h>
-#include <omnimapper/sim/WorldIni.h>
+#include <omnimapper/sim_world/WorldIni.h>
 
 #include <algorithm>
 #include <map>

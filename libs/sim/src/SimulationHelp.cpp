@@ -2,7 +2,7 @@
 #include <omnimapper/sim/Drive.h>
 #include <omnimapper/sim/Simulation.h>
 #include <omnimapper/sim/SimulationHelp.h>
-#include <omnimapper/sim/WorldIni.h>
+#include <omnimapper/sim_world/WorldIni.h>
 
 #include <sstream>
 

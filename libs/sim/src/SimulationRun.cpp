@@ -2,8 +2,8 @@
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/geometry/TumLine.h>
-#include <omnimapper/sim/PlanDrawing.h>
 #include <omnimapper/sim/SimulationRun.h>
+#include <omnimapper/sim_world/PlanDrawing.h>
 #include <omnimapper/source/ExternalImages.h>
 
 #include <algorithm>

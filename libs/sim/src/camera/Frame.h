@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/sim/Scene.h>
+#include <omnimapper/sim_world/Scene.h>
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/sim/Random.h>
+#include <omnimapper/sim_world/Random.h>
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/img/CImage.h>
-#include <omnimapper/sim/Random.h>
+#include <omnimapper/sim_world/Random.h>
 
 #include "Frame.h"
 

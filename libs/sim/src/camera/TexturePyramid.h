@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/sim/Texture.h>
+#include <omnimapper/sim_world/Texture.h>
 
 #include <Eigen/Core>
 #include <cstdint>

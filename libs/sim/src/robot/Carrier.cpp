@@ -1,6 +1,6 @@
 #include "Carrier.h"
 
-#include <omnimapper/sim/Random.h>
+#include <omnimapper/sim_world/Random.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <omnimapper/sim/Footprint.h>
-#include <omnimapper/sim/World.h>
+#include <omnimapper/sim_world/Footprint.h>
+#include <omnimapper/sim_world/World.h>
 
 #include <optional>
 #include <vector>

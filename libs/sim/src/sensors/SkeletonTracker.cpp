@@ -3,8 +3,8 @@
 #include <mrpt/obs/CObservationSkeleton.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/sim/People.h>
-#include <omnimapper/sim/PointingError.h>
+#include <omnimapper/sim_world/People.h>
+#include <omnimapper/sim_world/PointingError.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <omnimapper/sim/Sensor.h>
+#include <omnimapper/sim_world/Skeleton.h>
 
 #include <vector>
 
-#include "../things/Skeleton.h"
 #include "PointingTables.h"
 
 namespace omnimapper::sim {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/base/Config.h>
-#include <omnimapper/sim/World.h>
+#include <omnimapper/sim_world/World.h>
 
 #include <string>
 #include <vector>

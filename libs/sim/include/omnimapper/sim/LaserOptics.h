@@ -1,7 +1,7 @@
 #pragma once
 
-#include <omnimapper/sim/Random.h>
-#include <omnimapper/sim/Scene.h>
+#include <omnimapper/sim_world/Random.h>
+#include <omnimapper/sim_world/Scene.h>
 
 #include <vector>
 

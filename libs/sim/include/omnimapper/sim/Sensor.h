@@ -3,8 +3,8 @@
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Stamp.h>
-#include <omnimapper/sim/Random.h>
-#include <omnimapper/sim/Scene.h>
+#include <omnimapper/sim_world/Random.h>
+#include <omnimapper/sim_world/Scene.h>
 
 #include <functional>
 #include <memory>

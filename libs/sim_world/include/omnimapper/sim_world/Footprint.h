@@ -1,0 +1,44 @@
+#pragma once
+
+#include <omnimapper/sim_world/Triangulate.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// Outlines on the floor, rings that go counter-clockwise. Lengths that are no more than this are none [m].
+constexpr double kFloorTolerance = 1e-6;
+
+/// A rectangle of length (along its x) and width about a centre, turned by yaw.
+Ring rectangle(const Eigen::Vector2d& centre, double length, double width, double yaw = 0);
+Ring rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
+
+/// The smallest rectangle along the axes that holds a ring, which has a point.
+struct Bounds {
+  Eigen::Vector2d low, high;
+};
+Bounds boundsOf(const Ring& ring);
+
+/// Whether a point lies in a simple ring or on its border.
+bool contains(const Ring& ring, const Eigen::Vector2d& point);
+/// Distance of a point from a segment [m].
+double distanceToSegment(const Eigen::Vector2d& point, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+/// Whether two convex rings share more than a border.
+bool convexOverlap(const Ring& a, const Ring& b);
+/// Whether two simple rings share more than a border.
+bool overlap(const Ring& a, const Ring& b);
+/// Whether a convex ring lies in a simple one; a shared border is allowed.
+bool isWithin(const Ring& convex, const Ring& ring);
+bool isSimple(const Ring& ring);
+
+/// What stands on the floor: a convex outline and the heights it fills.
+struct Footprint {
+  std::string name;
+  Ring outline_in_map;
+  double low_z = 0, high_z = 0;  ///< [m]
+};
+bool overlap(const Footprint& a, const Footprint& b);
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <omnimapper/sim_world/World.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// The shapes makeObject() knows, sorted: "ball", "book", "bottle", ...
+const std::vector<std::string>& objectShapes();
+
+struct ObjectSpec {
+  std::string name;        ///< of its body
+  std::string shape;       ///< one of objectShapes()
+  std::uint64_t seed = 0;  ///< decides colours, textures and, without a size, the size: up to 15 % from the usual
+  /// Extents along x, y and z of the whole thing, handle and all [m].
+  std::optional<Eigen::Vector3d> size;
+  geometry::Se3 map_from_object;
+  bool moveable = false;
+};
+
+struct MadeObject {
+  Body body;
+  Object object;
+};
+
+/// An object that stands on z = 0 of its body, its axis (or its middle) on the body's z; its front, if it has one,
+/// looks to -y. Surfaces: "<name>", and "<name>/<part>" for parts of other colours; none is flat in the sense of the
+/// truth. Each part is closed; parts may reach into one another. Throws base::Error(out_of_range) for an unknown shape,
+/// with the list of known ones, and for a size that is not positive.
+MadeObject makeObject(const ObjectSpec& spec);
+
+/// Extents of a body along its own axes [m].
+Eigen::Vector3d extentsOf(const Body& body);
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <omnimapper/sim_world/World.h>
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+struct PlanDrawingOptions {
+  double pixels_per_metre = 60;
+  double time = 0;                    ///< things are drawn where they are then [s]
+  std::vector<Eigen::Vector2d> path;  ///< a robot's way, drawn if there is one [m]
+};
+
+/// The world from above, y up, as the text of an SVG picture: floors with names, walls with openings and leaves,
+/// furniture, objects, door signs, posters, markers, landmarks, and a scale.
+std::string drawPlan(const World& world, const PlanDrawingOptions& options = {});
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <omnimapper/sim_world/Body.h>
+
+#include <cstdint>
+#include <string>
+
+namespace omnimapper::sim {
+
+/// What hangs on walls and is no door sign.
+enum class PosterKind {
+  poster,        ///< a picture of shapes with a title
+  notice,        ///< a sheet of text: the nearest to a sign that is none
+  extinguisher,  ///< the red plate above a fire extinguisher
+  clock          ///< a dial with numbers, on a square plate
+};
+
+struct PosterSpec {
+  std::string name;  ///< of its body and surface
+  PosterKind kind = PosterKind::poster;
+  std::uint64_t seed = 0;        ///< decides pictures, text and, where it is not given, the size
+  double width = 0, height = 0;  ///< [m]; 0: of its kind
+  std::string font_file;         ///< empty: DejaVu's
+  /// Frame as Sign's: x to the reader's right, y up, z to the reader; origin in the middle of the front, the back
+  /// 4 mm behind it.
+  geometry::Se3 map_from_poster;
+};
+
+constexpr double kPosterThickness = 0.004;  ///< [m]
+
+/// Surface "<name>" is the front, a planar face of kind poster; "<name>/edge" is the rest. Throws
+/// std::invalid_argument for a negative size; as drawText() for fonts.
+Body makePoster(const PosterSpec& spec);
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <omnimapper/sim_world/World.h>
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// How the signs of a building look.
+enum class SignStyle {
+  dark,  ///< dark blue plate, white bold sans text in the middle, the first line large, dots for fingers below
+  white  ///< white plate with a black border and a rule, serif text on the left, the first line large, an arrow
+};
+
+/// Thickness of every door sign: the frame of a sign on a wall is this far before the wall [m].
+constexpr double kSignThickness = 0.006;
+
+struct SignSpec {
+  std::string name;                ///< of its body and surface
+  std::vector<std::string> lines;  ///< number first, then names, UTF-8
+  std::string room;                ///< the room it names
+  SignStyle style = SignStyle::dark;
+  double width = 0, height = 0;  ///< [m]; 0: as its style and text need
+  std::string font_file;         ///< for all its text; empty: the fonts of its style
+  geometry::Se3 map_from_sign;   ///< frame as Sign's; the origin is in the middle of the front
+};
+
+struct MadeSign {
+  Body body;  ///< surface "<name>" is the front, with its text at 2,000 pixels a metre; "<name>/edge" the rest
+  Sign sign;
+};
+
+/// A thin plate with text. Capital letters are at least 24 pixels high on the texture. Throws base::Error(out_of_range)
+/// if there is no text, or it does not fit the size asked for or 0.5 m; as drawText() for fonts.
+MadeSign makeSign(const SignSpec& spec);
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <omnimapper/sim_world/Texture.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+enum class FontFace { sans, sans_bold, serif, serif_bold, mono, mono_bold };
+
+/// How text looks. Fonts are DejaVu's, of the Debian package fonts-dejavu-core, unless a file is named.
+struct TextStyle {
+  FontFace face = FontFace::sans_bold;
+  std::string font_file;       ///< a TrueType or OpenType file; empty: the face's file where Debian keeps it
+  double capital_height = 32;  ///< height of a capital H [pixel]
+  Eigen::Vector3f colour{0, 0, 0};
+};
+
+/// Extent of a line of UTF-8 text [pixel]: the way the pen goes, and the reach of ascenders and descenders in the font.
+struct TextExtent {
+  double width = 0, above = 0, below = 0;  ///< above and below the base line, both positive
+};
+
+/// Throws base::Error(unreadable_input) if the font is missing or no font, std::invalid_argument if the text is not
+/// UTF-8 or the height not positive.
+TextExtent measureText(const std::string& line, const TextStyle& style);
+
+/// Writes one line, anti-aliased, its pen starting at x on base line y, both from the upper left corner of the texture
+/// [pixel]. What lies outside the texture is cut off. Throws as measureText().
+void drawText(Texture& texture, const std::string& line, double x, double y, const TextStyle& style);
+
+enum class Alignment { left, centre, right };
+/// Writes lines below each other, the tops of the first line's capitals at y, lines 1.6 capitals apart; x is the left
+/// end, the middle or the right end of each. Returns the y of the last base line. Throws as measureText().
+double drawLines(Texture& texture, const std::vector<std::string>& lines, double x, double y, Alignment alignment,
+                 const TextStyle& style);
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <omnimapper/sim_world/Body.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// A room or a stretch of corridor as people name it.
+struct Room {
+  std::string name;                      ///< "kitchen"
+  std::string kind;                      ///< "kitchen", "office", "corridor", ...
+  std::string number;                    ///< "118", or empty
+  std::vector<Eigen::Vector2d> outline;  ///< counter-clockwise, of its free inside [m]
+  double floor_z = 0, height = 2.6;      ///< of the floor at outline.front(), and of the ceiling above it [m]
+  Eigen::Vector2d slope{0, 0};           ///< how much floor and ceiling rise per metre along x and y of the map
+  bool is_outdoors = false;              ///< no walls, no ceiling
+
+  double floorAt(const Eigen::Vector2d& in_map) const { return floor_z + slope.dot(in_map - outline.front()); }
+};
+
+/// A door sign. Its frame: x to the reader's right, y up, z out of the wall to the reader; origin at its middle.
+struct Sign {
+  std::string name;                ///< of its body and surface
+  std::vector<std::string> lines;  ///< its text, as written on it
+  std::string room;                ///< the room it names
+  geometry::Se3 map_from_sign;
+  double width = 0, height = 0;  ///< [m]
+};
+
+/// A square marker of a dictionary (ArUco), frame as Sign.
+struct Marker {
+  std::string name;  ///< of its body
+  int id = 0;
+  double side = 0;  ///< of the black square [m]
+};
+
+/// A point that a range-bearing sensor measures.
+struct PointLandmark {
+  std::string name;
+  int id = 0;
+  Eigen::Vector3d in_body = Eigen::Vector3d::Zero();
+  std::string body;  ///< the body it is fixed to; empty: to the map, in_body is in the map then
+};
+
+/// What may be put elsewhere, and is an object to people: cups, boxes, ... Its poses over time are its body's track.
+struct Object {
+  std::string name;   ///< of its body
+  std::string shape;  ///< "cup", "box", ...
+  bool moveable = false;
+};
+
+/// A person: several bodies that move, and the joints a skeleton tracker would see.
+struct Person {
+  /// A joint as mrpt::obs::CObservationSkeleton names it: "head", "left_hand", ...
+  struct Joint {
+    std::string name;
+    Track in_map;  ///< only its translation counts
+  };
+  /// One act of pointing: from `begin` to `end` [s] one arm points at the target.
+  struct Pointing {
+    double begin = 0, end = 0;
+    std::string target;  ///< name of the surface or object, or empty
+    Eigen::Vector3d target_in_map = Eigen::Vector3d::Zero();
+    bool right_arm = true;
+  };
+  std::string name;
+  std::vector<std::string> bodies;
+  std::vector<Joint> joints;
+  std::vector<Pointing> pointing;
+};
+
+/// Everything there is, in the map's frame: z up, floor of the first room at 0. Times are seconds since the start.
+struct World {
+  std::uint64_t seed = 0;
+  std::vector<Body> bodies;
+  std::vector<Room> rooms;
+  std::vector<Sign> signs;
+  std::vector<Marker> markers;
+  std::vector<PointLandmark> point_landmarks;
+  std::vector<Object> objects;
+  std::vector<Person> people;
+  /// Where no robot can be: outlines on the floor of what ever stands there, walls as polygons of their solid [m].
+  std::vector<std::vector<Eigen::Vector2d>> obstacles;
+};
+
+/// A surface by its number in the world. Labels of images and beams are this number plus one; 0 is nothing.
+struct SurfaceRef {
+  int body = 0, surface = 0;
+};
+/// All surfaces in order of bodies, then of the surfaces of each.
+std::vector<SurfaceRef> numberSurfaces(const World& world);
+
+/// Throws base::Error(internal) unless names are unique and all references inside the world hold.
+void validate(const World& world);
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <omnimapper/base/Config.h>
+#include <omnimapper/sim_world/World.h>
+#include <omnimapper/sim_world/WorldPlan.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::sim {
+
+enum class ClutterLevel { low, medium, high };
+
+/// Section [world] of an INI: what a generator makes, and what sections add to it.
+struct WorldOptions {
+  int seed = 1;
+  std::string generator = "none";  ///< one of generatorNames()
+  ClutterLevel clutter = ClutterLevel::medium;
+  double length = 200;    ///< of a loop of corridor, along its middle [m]
+  double move_time = 90;  ///< when what is moveable is carried elsewhere; negative: never [s]
+  std::string sign_style = "dark";
+  std::vector<std::string> rooms, doors, furniture, objects, signs, posters, markers, landmarks, people;
+  static const base::OptionTable<WorldOptions>& table();
+};
+
+/// Reads [world] and all sections it names. Throws base::Error unknown_key, wrong_type, out_of_range or unknown_plugin
+/// with file, section and key.
+WorldPlan readWorldPlan(const base::Config& config);
+/// makeWorld() of that.
+World readWorld(const base::Config& config);
+
+/// For the reference of keys: each kind of section that [world] may name, with its classes and options.
+struct WorldSectionReference {
+  std::string list;                       ///< key of [world] that names such sections
+  std::vector<std::string> class_names;   ///< what its key `class` may be
+  std::vector<base::OptionSpec> options;  ///< without `class`
+};
+std::vector<WorldSectionReference> worldSectionReferences();
+
+}  // namespace omnimapper::sim

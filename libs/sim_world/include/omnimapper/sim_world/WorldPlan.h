@@ -1,0 +1,140 @@
+#pragma once
+
+#include <omnimapper/sim_world/People.h>
+#include <omnimapper/sim_world/Triangulate.h>
+#include <omnimapper/sim_world/World.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// Plain descriptions of all that is in a world, as sections of an INI say them and as generators make them. Positions
+/// are in the map. `name` is the section's name; makeWorld() checks what they say and builds it.
+
+/// Area of the rectangle that all rooms of a world lie in, at most [m^2].
+constexpr double kLargestPlace = 80000;
+
+struct RoomPlan {
+  std::string name;
+  std::string kind = "room";        ///< "kitchen", "corridor", ...
+  std::string number;               ///< as on its sign
+  Ring outline;                     ///< of its free inside, in any sense of rotation [m]
+  double floor_z = 0;               ///< at the first corner [m]
+  double height = 2.6;              ///< [m]
+  double slope_x = 0, slope_y = 0;  ///< rise per metre along x and y of the map
+  bool is_outdoors = false;         ///< class Outdoors: a ground without walls and ceiling
+  std::string wall = "paint_white", floor = "wood_floor", ceiling = "ceiling_white";  ///< names of materials
+};
+
+struct OpeningPlan {
+  enum class Kind { door, passage, window };
+  enum class Leaf { none, open, closed };
+  std::string name;
+  Kind kind = Kind::door;
+  std::vector<std::string> rooms;  ///< the two it joins; "outside" may be the second
+  double x = 0, y = 0;             ///< a point near its middle; the nearest wall between the rooms counts [m]
+  double width = 0.9;              ///< 0: all that the two rooms share (passage) [m]
+  double height = 2.05, sill = 0;  ///< of the opening itself, and of its bottom above the floor [m]
+  Leaf leaf = Leaf::open;          ///< of a door
+  double leaf_angle = 1.6;         ///< how far an open one is turned into the first room [rad]
+  bool hinge_right = false;        ///< seen from the first room
+  std::string material = "door_wood";
+};
+
+struct PlacePlan {
+  double x = 0, y = 0;  ///< [m]
+  double yaw = 0;       ///< [rad]
+  std::string on;       ///< the level surface it stands on, "table_1/top"; empty: the floor
+};
+
+/// From `time` on a thing is elsewhere, or gone.
+struct MovePlan {
+  double time = 0;  ///< [s]
+  std::optional<PlacePlan> place;
+};
+
+/// Frame: origin in the middle of its outline on the floor, x along its length, the front looks to -y.
+struct FurniturePlan {
+  std::string name;
+  std::string shape;                         ///< one of furnitureShapes()
+  double x = 0, y = 0, z = 0;                ///< z above the floor [m]
+  double yaw = 0;                            ///< [rad]
+  double length = 0, width = 0, height = 0;  ///< 0: as is usual for the shape [m]
+  int boards = 0;                            ///< of a shelf; 0: one each 0.35 m
+  std::string material;                      ///< empty: as is usual
+};
+
+struct ObjectPlan {
+  std::string name;
+  std::string shape;  ///< one of objectShapes()
+  PlacePlan place;
+  double length = 0, width = 0, height = 0;  ///< all 0: as is usual [m]
+  bool moveable = true;
+  std::vector<MovePlan> moves;  ///< in order
+};
+
+/// What hangs on a wall: the nearest wall of the room that the point lies in; it must be within 0.5 m.
+struct OnWallPlan {
+  double x = 0, y = 0;  ///< [m]
+  double z = 1.5;       ///< of its middle above the floor [m]
+};
+
+struct SignPlan {
+  std::string name;
+  std::string room;                ///< the room it names
+  std::vector<std::string> lines;  ///< its text; empty: number and name of the room
+  std::string style = "dark";      ///< of the building's signs: one of signStyleNames()
+  OnWallPlan at;
+  double width = 0, height = 0;  ///< 0: as its text needs [m]
+};
+
+struct PosterPlan {
+  std::string name;
+  std::string kind = "poster";  ///< one of posterKindNames()
+  OnWallPlan at;
+  double width = 0, height = 0;  ///< 0: as is usual [m]
+};
+
+/// On a wall, or in a frame that stands on `place.on` or on the floor and looks along yaw.
+struct MarkerPlan {
+  std::string name;
+  int id = 0;
+  double side = 0.16;  ///< of the black square [m]
+  bool on_wall = true;
+  OnWallPlan at;
+  PlacePlan place;
+  std::vector<MovePlan> moves;
+  bool is_landmark = false;  ///< a range-bearing sensor measures its middle, with the same id
+};
+
+struct LandmarkPlan {
+  std::string name;
+  int id = 0;
+  double x = 0, y = 0, z = 0;  ///< [m]
+};
+
+struct WorldPlan {
+  std::string file;  ///< where it is from, for messages
+  std::uint64_t seed = 0;
+  std::vector<RoomPlan> rooms;
+  std::vector<OpeningPlan> openings;
+  std::vector<FurniturePlan> furniture;
+  std::vector<ObjectPlan> objects;
+  std::vector<SignPlan> signs;
+  std::vector<PosterPlan> posters;
+  std::vector<MarkerPlan> markers;
+  std::vector<LandmarkPlan> landmarks;
+  std::vector<PersonSpec> people;  ///< targets that have a name need no place: it is looked up
+};
+
+/// The world as described. Throws base::Error(out_of_range) for what cannot be, naming section and key.
+World makeWorld(const WorldPlan& plan);
+
+/// Throws base::Error(out_of_range): "<file>: [<section>] <key>: <what>".
+[[noreturn]] void refuse(const WorldPlan& plan, const std::string& section, const std::string& key,
+                         const std::string& what);
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <omnimapper/sim_world/Skeleton.h>
+
+#include <functional>
+#include <vector>
+
+#include "Walk.h"
+
+namespace omnimapper::sim {
+
+/// How a person stands at one moment.
+struct Posture {
+  double time = 0;
+  Skeleton in_map;
+  double yaw = 0;                       // of the body [rad]
+  double head_yaw = 0, head_pitch = 0;  // where it looks, pitch up [rad]
+  double left_foot_yaw = 0, right_foot_yaw = 0;
+};
+
+/// At every 0.05 s from before the first thing that happens to after the last.
+std::vector<Posture> posturesOf(const PersonSpec& spec, const Walk& walk, const Anatomy& anatomy);
+
+/// What moves with a person, posture by posture; where it rests, only the first and the last place are kept.
+Track trackAlong(const std::vector<Posture>& postures, const std::function<geometry::Se3(const Posture&)>& poseOf);
+
+}  // namespace omnimapper::sim

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <omnimapper/sim_world/People.h>
+
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// Where a walker's body and feet are at a time.
+struct Stance {
+  bool walks = false;
+  Eigen::Vector2d body;  // in the map [m]
+  double heading = 0;    // of the way [rad]; of the last way while it stands, of the first before
+  struct Foot {
+    Eigen::Vector2d in_map;  // [m]
+    double yaw = 0;          // [rad]
+    double lift = 0;         // above the floor [m]
+  };
+  Foot left, right;  // only while it walks
+};
+
+/// The ways of a person: stretches of walking between times of standing.
+class Walk {
+ public:
+  /// `half_hips` is how far the feet are to either side of the way, `step` about how far apart footprints are [m].
+  Walk(const std::vector<PersonSpec::Waypoint>& waypoints, double half_hips, double step);
+  Stance at(double time) const;
+  /// Whether it stands all the time from begin to end [s].
+  bool stands(double begin, double end) const;
+  /// The heading of the first way that begins after `time`, if it does so within `ahead` seconds.
+  const double* headingSoon(double time, double ahead) const;
+  bool everWalks() const { return !runs_.empty(); }
+
+ private:
+  struct Run {
+    std::vector<PersonSpec::Waypoint> waypoints;  // consecutive, each at another place than the one before
+    std::vector<double> along;                    // way to each [m]
+    int steps = 1;
+    double first_heading = 0;
+    double begin() const { return waypoints.front().time; }
+    double end() const { return waypoints.back().time; }
+    double length() const { return along.back(); }
+    double wayAt(double time) const;
+    Eigen::Vector2d placeAt(double way) const;
+    double headingAt(double way) const;
+  };
+  Stance::Foot printOf(const Run& run, double way, bool right) const;
+  Stance::Foot footAt(const Run& run, double way, bool right) const;
+
+  std::vector<Run> runs_;
+  std::vector<PersonSpec::Waypoint> waypoints_;
+  double half_hips_;
+};
+
+}  // namespace omnimapper::sim

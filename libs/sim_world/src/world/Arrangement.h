@@ -1,0 +1,99 @@
+#pragma once
+
+#include <omnimapper/sim_world/Building.h>
+#include <omnimapper/sim_world/Furniture.h>
+#include <omnimapper/sim_world/Generators.h>
+#include <omnimapper/sim_world/Random.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// Where along a wall a piece is tried first.
+enum class Along { corner, middle, anywhere };
+
+/// Furnishes rooms as people do: along walls, around tables, with free floor before doors and fronts, and a way for a
+/// robot through every room. What does not fit is left out. First rooms and openings go into `plan`; raise() ends that.
+class Arrangement {
+ public:
+  Arrangement(const WorldOptions& options, const std::string& file);
+
+  WorldPlan plan;
+  Random random;
+  ClutterLevel clutter;
+
+  RoomPlan& room(const std::string& name, const std::string& kind, const Eigen::Vector2d& low,
+                 const Eigen::Vector2d& high);
+  OpeningPlan& opening(OpeningPlan::Kind kind, const std::string& first, const std::string& second,
+                       const Eigen::Vector2d& near);
+  /// A window in an outer wall.
+  void window(const std::string& room, const Eigen::Vector2d& near, double width = 1.4);
+  void raise();
+  const Building& building() const { return building_; }
+  const Room& roomNamed(const std::string& name) const;
+
+  /// Puts a piece with its back to a wall, `clear` of floor before its front kept free. Returns its number in
+  /// plan.furniture, or nothing if there is no place left.
+  std::optional<std::size_t> alongWall(const std::string& room, const std::string& shape, Along along = Along::anywhere,
+                                       double clear = 0.6, FurniturePlan sized = {});
+  /// As near to the middle of the room as it fits, give or take `spread` [m], turned by a multiple of 90 deg.
+  std::optional<std::size_t> inMiddle(const std::string& room, const std::string& shape, FurniturePlan sized = {},
+                                      double spread = 0.4);
+  /// At a point of a piece's own frame, turned against it.
+  std::optional<std::size_t> beside(std::size_t piece, const std::string& shape, const Eigen::Vector2d& in_piece,
+                                    double turn, FurniturePlan sized = {});
+  /// Exactly there.
+  std::optional<std::size_t> place(FurniturePlan piece, double clear = 0);
+  /// Chairs on the long sides of a table, up to `count`, moved and turned a little.
+  void chairsAround(std::size_t table, const std::string& shape, int count);
+
+  /// Up to `count` objects of these shapes on a level surface of a piece, its `part`, spread at random.
+  void objectsOn(std::size_t piece, const std::string& part, int count, const std::vector<std::string>& shapes);
+  /// Some of the objects are carried to other surfaces at the options' move_time.
+  void carryObjects(double share);
+  /// A free place for a thing of this reach on one of the surfaces that objectsOn() was asked for, of rooms whose name
+  /// begins with `rooms`; it is taken from then on.
+  std::optional<PlacePlan> freePlace(const std::string& rooms, const Eigen::Vector2d& reach);
+  /// Piles of boxes and other things along walls, as many as the level asks for; at level medium so many for each m^2.
+  void scatter(const std::string& room, double per_square_metre);
+
+  /// On the wall of `from` beside the opening: the sign of `room`.
+  void signBeside(const OpeningPlan& door, const std::string& from, const std::string& room,
+                  const std::vector<std::string>& lines = {});
+  /// A free place of this size on the walls of a room, `share` of the way around it; it is taken from then on.
+  std::optional<OnWallPlan> freeWall(const std::string& room, double share, double z, double width, double height);
+  /// Up to `count` posters and notices around a room.
+  void postersIn(const std::string& room, int count);
+
+ private:
+  bool fits(const Footprint& footprint, const Ring& clear, const Room& room) const;
+  bool keepsWays(const Footprint& footprint, const Room& room) const;
+  std::size_t accept(FurniturePlan piece, const Footprint& footprint, const Ring& clear);
+  std::string newName(const std::string& shape);
+
+  bool hidesOpening(const Eigen::Vector2d& at_wall, const Eigen::Vector2d& direction, const Eigen::Vector2d& inward,
+                    const FurniturePlan& piece) const;
+  std::optional<OnWallPlan> hang(const WallFace& wall, double u, double z, double width, double height);
+
+  struct Top {
+    std::string surface, room;
+    Ring usable_in_map;
+    double yaw;
+    std::vector<Ring> taken;
+  };
+  std::optional<PlacePlan> freePlace(Top& top, const Eigen::Vector2d& reach);
+
+  WorldOptions options_;
+  Building building_;
+  std::vector<Footprint> taken_;
+  std::vector<Ring> doorways_;  ///< nothing stands there
+  std::vector<Ring> fronts_;    ///< nothing but chairs stands there
+  std::vector<Top> tops_;
+  std::vector<Footprint> hung_;
+  std::map<std::string, int> counts_;
+};
+
+}  // namespace omnimapper::sim

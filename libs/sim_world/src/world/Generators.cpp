@@ -1,0 +1,50 @@
+#include "generators.h"
+
+#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/sim_world/Generators.h>
+
+namespace omnimapper::sim {
+
+namespace {
+
+struct Generator {
+  const char* name;
+  void (*make)(Arrangement& place, const WorldOptions& options);
+};
+constexpr Generator kGenerators[] = {{"none", [](Arrangement&, const WorldOptions&) {}},
+                                     {"home", makeHome},
+                                     {"office", makeOffice},
+                                     {"laboratory", makeLaboratory},
+                                     {"two_offices", makeTwoOffices},
+                                     {"loop", makeLoop},
+                                     {"corridor_loop", makeCorridorLoop},
+                                     {"box", makeBox},
+                                     {"road", makeRoad}};
+
+}  // namespace
+
+const std::vector<std::string>& generatorNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> result;
+    for (const Generator& generator : kGenerators) result.emplace_back(generator.name);
+    return result;
+  }();
+  return names;
+}
+
+WorldPlan generate(const WorldOptions& options, const std::string& file_for_messages) {
+  for (const Generator& generator : kGenerators) {
+    if (options.generator != generator.name) continue;
+    Arrangement place(options, file_for_messages);
+    generator.make(place, options);
+    return std::move(place.plan);
+  }
+  const std::string near = base::nearestName(options.generator, generatorNames());
+  throw base::Error(base::ExitCode::out_of_range, file_for_messages + ": [world] generator = " + options.generator +
+                                                      ": there is none of that name" +
+                                                      (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                                      " Known: " + base::option_text::format(generatorNames()));
+}
+
+}  // namespace omnimapper::sim

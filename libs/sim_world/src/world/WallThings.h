@@ -1,0 +1,37 @@
+#pragma once
+
+#include <omnimapper/sim_world/Building.h>
+#include <omnimapper/sim_world/WorldPlan.h>
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::sim {
+
+/// Names that plans write: "dark", "white", and "poster", "notice", ... in the order of SignStyle and PosterKind.
+const std::vector<std::string>& signStyleNames();
+const std::vector<std::string>& posterKindNames();
+
+/// What hangs on the walls so far, so that nothing hangs over another.
+class WallSpace {
+ public:
+  WallSpace(const WorldPlan& plan, const Building& building) : plan_(plan), building_(building) {}
+
+  /// The frame of a thing of this size on the wall that `at` means, `thickness` before it, and takes its place. Frame
+  /// as Sign's. Throws base::Error naming section `name` unless it is on a wall, and on nothing else.
+  geometry::Se3 hang(const std::string& name, const OnWallPlan& at, double width, double height, double thickness);
+
+ private:
+  struct Taken {
+    std::string name;
+    const WallFace* wall;
+    double low_u, high_u, low_z, high_z;
+  };
+  const WallFace& wallAt(const std::string& name, const Eigen::Vector2d& point) const;
+
+  const WorldPlan& plan_;
+  const Building& building_;
+  std::vector<Taken> taken_;
+};
+
+}  // namespace omnimapper::sim
