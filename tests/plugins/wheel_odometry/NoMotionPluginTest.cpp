@@ -37,7 +37,7 @@ TEST(NoMotionPlugin, IsAskedLastTakesNothingAndHoldsUpNobody) {
   auto made = plugin();
   EXPECT_TRUE(made.isFallback());
   EXPECT_FALSE(made.coveredUntil());
-  EXPECT_EQ(made.add(mrpt::obs::CObservationOdometry()), mapper::PosePlugin::Taken::not_mine);
+  EXPECT_EQ(made.add(mrpt::obs::CObservationOdometry::Create()), mapper::PosePlugin::Taken::not_mine);
   EXPECT_FALSE(made.between(at(2), at(1)));
   EXPECT_GT(made.between(at(1), at(1))->covariance(0, 0), 0) << "a belief, not a certainty";
 }
