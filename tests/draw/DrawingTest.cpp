@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
 #include <omnimapper/draw/Drawing.h>
+#include <omnimapper/draw/Svg.h>
 #include <omnimapper/testing/Fixtures.h>
 
+#include <cmath>
 #include <fstream>
 
 namespace omnimapper::draw::drawing_test {
@@ -53,6 +55,13 @@ TEST(FillAreas, EvenOddToTheMiddleOfPixels) {
   fillAreas(image, {{}, {{-100, -100}, {100, -100}, {100, 100}}},
             {{255, 255, 255}, 0, 1});  // what is outside is cut off
   EXPECT_EQ(image.at(5, 0).r, 255);
+}
+
+TEST(RoundValues, coverTheRange) {
+  EXPECT_EQ(roundValues(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(roundValues(-0.3, 0.3, 3), (std::vector<double>{-0.2, 0, 0.2}));
+  EXPECT_EQ(roundValues(7, 7, 5), std::vector<double>{7});
+  EXPECT_EQ(roundValues(7, std::nextafter(7, 8), 5), std::vector<double>{7}) << "they differ by rounding alone";
 }
 
 }  // namespace

@@ -161,13 +161,6 @@ TEST(Html, thousandsAreGrouped) {
   EXPECT_EQ(exports::grouped(1234567), "1&#8239;234&#8239;567");
 }
 
-TEST(Chart, ticksAreRoundAndCoverTheRange) {
-  EXPECT_EQ(exports::niceTicks(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
-  EXPECT_EQ(exports::niceTicks(-0.3, 0.3, 3), (std::vector<double>{-0.2, 0, 0.2}));
-  EXPECT_EQ(exports::niceTicks(7, 7, 5), std::vector<double>{7});
-  EXPECT_EQ(exports::niceTicks(7, std::nextafter(7, 8), 5), std::vector<double>{7}) << "they differ by rounding alone";
-}
-
 TEST(Chart, thinsLongCurvesButKeepsPeaks) {
   exports::Chart chart{"t", "x", "y", false, {{"s", 1, exports::ChartSeries::Form::line, {}, {}}}};
   for (int i = 0; i < 100000; ++i) {

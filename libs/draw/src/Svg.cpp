@@ -1,3 +1,4 @@
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/draw/Markup.h>
 #include <omnimapper/draw/Svg.h>
 
@@ -101,15 +102,15 @@ Eigen::Vector2d Axes::pixel(const Eigen::Vector2d& value) const {
 
 void Axes::draw(Svg& svg, const std::string& x_name, const std::string& y_name) const {
   const double left = corner_.x(), top = corner_.y(), right = left + size_.x(), bottom = top + size_.y();
-  for (const auto& [value, text] : roundValues(low_.x(), high_.x(), 8)) {
+  for (const double value : roundValues(low_.x(), high_.x(), 8)) {
     const double x = pixel({value, low_.y()}).x();
     svg.line({x, top}, {x, bottom}, "#e4e4e4", 1);
-    svg.text({x, bottom + 17}, text, Svg::Anchor::middle);
+    svg.text({x, bottom + 17}, base::brief(value, 6), Svg::Anchor::middle);
   }
-  for (const auto& [value, text] : roundValues(low_.y(), high_.y(), size_.y() > 300 ? 8 : 4)) {
+  for (const double value : roundValues(low_.y(), high_.y(), size_.y() > 300 ? 8 : 4)) {
     const double y = pixel({low_.x(), value}).y();
     svg.line({left, y}, {right, y}, "#e4e4e4", 1);
-    svg.text({left - 7, y + 4}, text, Svg::Anchor::end);
+    svg.text({left - 7, y + 4}, base::brief(value, 6), Svg::Anchor::end);
   }
   svg.line({left, bottom}, {right, bottom}, "#555555", 1);
   svg.line({left, top}, {left, bottom}, "#555555", 1);
@@ -117,16 +118,15 @@ void Axes::draw(Svg& svg, const std::string& x_name, const std::string& y_name) 
   svg.text({left, top - 9}, y_name, Svg::Anchor::middle);
 }
 
-std::vector<std::pair<double, std::string>> roundValues(double low, double high, int count) {
-  const double rough = (high - low) / count;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  const double step = power * (rough > 5 * power ? 10 : rough > 2 * power ? 5 : rough > power ? 2 : 1);
-  std::vector<std::pair<double, std::string>> values;
-  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", i * step + 0.0);  // + 0.0: no "-0"
-    values.emplace_back(i * step, text);
-  }
+std::vector<double> roundValues(double low, double high, int count) {
+  // Between numbers that differ by their rounding alone there are no round ones; nor up to infinity.
+  if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)))) return {low};
+  const double rough = (high - low) / std::max(1, count), power = std::pow(10, std::floor(std::log10(rough)));
+  const double mantissa = rough / power;
+  const double step = power * (mantissa <= 1 ? 1 : mantissa <= 2 ? 2 : mantissa <= 5 ? 5 : 10);
+  std::vector<double> values;
+  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
+    values.push_back(i == 0 ? 0 : i * step);
   return values;
 }
 

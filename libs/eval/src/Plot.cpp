@@ -1,3 +1,4 @@
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/draw/Svg.h>
 #include <omnimapper/eval/Plot.h>
 
@@ -40,8 +41,8 @@ void drawColourBar(draw::Svg& svg, double max_error) {
   for (int i = 0; i < kSteps; ++i) {
     svg.box({815, 110 + 480.0 * i / kSteps}, {18, 480.0 / kSteps + 0.5}, draw::heatColour(1 - (i + 0.5) / kSteps));
   }
-  for (const auto& [value, text] : draw::roundValues(0, bar.high().y(), 6)) {
-    svg.text({839, bar.pixel({0, value}).y() + 4}, text, draw::Svg::Anchor::start);
+  for (const double value : draw::roundValues(0, bar.high().y(), 6)) {
+    svg.text({839, bar.pixel({0, value}).y() + 4}, base::brief(value, 6), draw::Svg::Anchor::start);
   }
   svg.text({824, 98}, "error [m]", draw::Svg::Anchor::middle);
 }

@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/draw/Markup.h>
+#include <omnimapper/draw/Svg.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,11 +48,11 @@ class Axes {
   double scaled(double y) const { return logarithmic_ ? std::log10(y) : y; }
   double px(double x) const { return kLeft + (x - x_.low) / (x_.high - x_.low) * (kWidth - kLeft - kRight); }
   double py(double y) const { return kTop + (y_.high - scaled(y)) / (y_.high - y_.low) * (kHeight - kTop - kBottom); }
-  std::vector<double> xTicks() const { return niceTicks(x_.low, x_.high, 7); }
+  std::vector<double> xTicks() const { return draw::roundValues(x_.low, x_.high, 7); }
   std::vector<double> yTicks() const {
-    if (!logarithmic_) return niceTicks(y_.low, y_.high, 5);
+    if (!logarithmic_) return draw::roundValues(y_.low, y_.high, 5);
     // Powers of ten; over few decades also their doubles and fives; within less than one, plain round numbers.
-    if (y_.high - y_.low < 0.7) return niceTicks(std::pow(10, y_.low), std::pow(10, y_.high), 4);
+    if (y_.high - y_.low < 0.7) return draw::roundValues(std::pow(10, y_.low), std::pow(10, y_.high), 4);
     const double step = std::max(1.0, std::ceil((y_.high - y_.low) / 6));
     const bool few = y_.high - y_.low < 2.5;
     std::vector<double> ticks;
@@ -131,18 +132,6 @@ std::string drawSeries(const ChartSeries& series, const Axes& axes) {
 }
 
 }  // namespace
-
-std::vector<double> niceTicks(double low, double high, int count) {
-  // Between numbers that differ by their rounding alone there are no round ones; nor up to infinity.
-  if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)))) return {low};
-  const double rough = (high - low) / std::max(1, count), power = std::pow(10, std::floor(std::log10(rough)));
-  const double mantissa = rough / power;
-  const double step = power * (mantissa <= 1 ? 1 : mantissa <= 2 ? 2 : mantissa <= 5 ? 5 : 10);
-  std::vector<double> ticks;
-  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
-    ticks.push_back(i == 0 ? 0 : i * step);
-  return ticks;
-}
 
 std::string drawChart(const Chart& chart) {
   const Axes axes(chart);

@@ -24,9 +24,6 @@ struct Chart {
 /// there is nothing finite to draw.
 std::string drawChart(const Chart& chart);
 
-/// Round numbers that cover [low, high], about `count` of them.
-std::vector<double> niceTicks(double low, double high, int count);
-
 struct Bar {
   std::string name;
   double value = 0;

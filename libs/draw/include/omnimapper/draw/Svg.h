@@ -50,7 +50,8 @@ class Axes {
   Eigen::Vector2d corner_, size_, low_, high_;
 };
 
-/// Round values (1, 2 or 5 times a power of ten apart) in [low, high], about `count` of them, with their texts.
-std::vector<std::pair<double, std::string>> roundValues(double low, double high, int count);
+/// Round values (1, 2 or 5 times a power of ten apart) in [low, high], about `count` of them, for the marks of an axis.
+/// Of a range without extent, that value.
+std::vector<double> roundValues(double low, double high, int count);
 
 }  // namespace omnimapper::draw
