@@ -100,6 +100,22 @@ TEST(HouseRules, librariesIncludeOnlyWhatStandsAboveThemAndTheirCMakeListsNames)
   }
 }
 
+// The folders of a library's private sources include one another in one direction, and what they share is beside them.
+TEST(HouseRules, roomsOfALibraryIncludeInOneDirection) {
+  for (const std::string& lib : folders("libs")) {
+    std::set<std::pair<std::string, std::string>> includes;
+    for (const path& file : files("libs/" + lib + "/src", {".h", ".cpp"})) {
+      const std::string room = file.parent_path().filename();
+      for (std::string other : matches(read(file), R"re(#include\s*"(?:\.\./)?(\w+)/)re"))
+        includes.insert({room, other});
+    }
+    for (const auto& [room, other] : includes) {
+      if (room >= other) continue;
+      EXPECT_EQ(includes.count({other, room}), 0) << "libs/" << lib << "/src: " << room << " and " << other;
+    }
+  }
+}
+
 TEST(HouseRules, everyLibraryFolderIsListed) {
   auto order = libraryOrder();
   order.emplace_back("plugins");

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "front_end/ExtractionErrors.h"
+#include "ExtractionErrors.h"
 
 namespace omnimapper::mapper {
 

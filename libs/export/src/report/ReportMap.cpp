@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "grid/ScaleBar.h"
-#include "plan/LandmarkLayers.h"
 #include "plan/MapPicture.h"
 #include "report/Html.h"
+#include "report/LandmarkLayers.h"
 #include "run/DecisionText.h"
 
 namespace omnimapper::exports {

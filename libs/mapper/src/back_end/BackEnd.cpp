@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "run/OneSensor.h"
+#include "OneSensor.h"
 
 namespace omnimapper::mapper {
 

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "FrameBundle.h"
 #include "RunState.h"
 #include "back_end/BatchApplier.h"
 #include "back_end/Estimator.h"
 #include "back_end/PoseChain.h"
 #include "back_end/SlidingWindow.h"
-#include "front_end/FrameBundle.h"
 
 namespace omnimapper::mapper {
 

@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
+#include "FrameBundle.h"
 #include "RunState.h"
 #include "back_end/PoseChain.h"
-#include "front_end/FrameBundle.h"
 #include "front_end/InputFilter.h"
 #include "front_end/Perception.h"
 #include "front_end/ReleaseQueue.h"

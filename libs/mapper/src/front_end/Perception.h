@@ -9,21 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "front_end/ExtractionErrors.h"
+#include "FrameBundle.h"
 
 namespace omnimapper::mapper {
-
-/// An observation with what each measurement plugin prepared of it, by the plugins' order; null where that is nothing.
-struct Perceived {
-  mrpt::obs::CObservation::ConstPtr observation;
-  std::vector<std::unique_ptr<const Prepared>> prepared;
-};
-
-/// All that the pool made of one observation.
-struct PerceivedParts {
-  std::vector<Perceived> parts;  ///< the observation itself, then what the extractors made of it, in their order
-  ExtractionErrors errors;       ///< of extractors that could not take it
-};
 
 /// What happens to an observation in the worker pool, ahead of the engine: extractors derive observations from it, and
 /// measurement plugins prepare what they want of it and of those. Depends on the observation, and on those given with

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "run/OneSensor.h"
+#include "OneSensor.h"
 
 namespace omnimapper::mapper {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "front_end/ExtractionErrors.h"
+#include "ExtractionErrors.h"
 
 namespace omnimapper::mapper {
 

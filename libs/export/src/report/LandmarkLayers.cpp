@@ -1,4 +1,4 @@
-#include "plan/LandmarkLayers.h"
+#include "report/LandmarkLayers.h"
 
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/draw/Markup.h>

@@ -1,4 +1,4 @@
-#include "front_end/ExtractionErrors.h"
+#include "ExtractionErrors.h"
 
 #include <omnimapper/base/Stamp.h>
 
