@@ -45,7 +45,7 @@ int run(Arguments& arguments) {
   const auto result = mapper::runMapping(arguments.run, config, *progress, stop);
   progress.reset();
   if (arguments.verbose) std::cout << base::printableLines(result.source.text());
-  if (!arguments.quiet) std::cout << base::printableLines(mapper::toText(result, arguments.run.output_folder));
+  if (!arguments.quiet) std::cout << base::printableLines(mapper::toText(result));
   for (const auto& warning : result.warnings) {
     if (arguments.quiet && result.code == base::ExitCode::ok) break;
     std::cerr << "omnimapper-graphslam: warning: " << base::printableLines(warning) << "\n";

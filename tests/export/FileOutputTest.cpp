@@ -155,13 +155,11 @@ TEST(PointsOutput, oneIsKeptOfEachVoxel) {
   }
 }
 
-TEST(PointsOutput, withoutPointsTheFileOfAnOlderRunIsRemoved) {
+TEST(PointsOutput, withoutPointsThereIsNoFile) {
   ScratchFolder folder;
   RunRecord run = boxRun();
-  exports::PointsOutput output({}, contextFor(folder.path()));
-  output.finish(run.view());
   clearObservations(run);
-  output.finish(run.view());
+  exports::PointsOutput({}, contextFor(folder.path())).finish(run.view());
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

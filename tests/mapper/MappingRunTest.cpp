@@ -62,7 +62,7 @@ TEST_F(MappingRun, ALogBecomesAMapAndItsFiguresAreTold) {
   EXPECT_EQ(result.factors, result.key_frames - 1 + result.closures) << "a link between neighbours, and the closures";
   EXPECT_NEAR(result.way, log_.lapLength(), 0.5);
   EXPECT_NEAR(result.log_seconds, base::secondsBetween(log_.begin(), log_.end()), 1.5);
-  const std::string text = toText(result, "out");
+  const std::string text = toText(result);
   EXPECT_NE(text.find(std::to_string(result.key_frames)), std::string::npos) << text;
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -68,11 +69,22 @@ inline std::string writeFile(const std::string& path, const std::string& bytes) 
   return path;
 }
 
+/// As `ls` shows them.
 inline std::set<std::string> filesIn(const std::string& folder) {
   std::set<std::string> names;
   if (!fs::exists(folder)) return names;
   for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+  names.erase(".omnimapper");
   return names;
+}
+
+/// The bytes of every file directly in a folder, by name.
+inline std::map<std::string, std::string> contentsOf(const std::string& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file()) contents[entry.path().filename()] = readFile(entry.path());
+  }
+  return contents;
 }
 
 /// What ini/laser2d.ini leaves in the output folder.

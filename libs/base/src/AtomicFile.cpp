@@ -125,10 +125,7 @@ void makeWritableFolder(const std::string& folder) {
 }
 
 void replaceFile(const std::string& path, const std::function<void(const std::string&)>& save) {
-  {
-    const std::lock_guard<std::mutex> lock(keptInputs().mutex);
-    refuseToReplaceInput(path, keptInputs().paths);
-  }
+  refuseToReplaceKeptInput(path);
   const fs::path target(path);
   if (const auto reason = whyUnwritable(folderOf(target)); !reason.empty()) failForFolder(path, "its", reason);
   const std::string temporary = temporaryOf(target).string();
@@ -170,6 +167,11 @@ InputsKept::InputsKept(const std::vector<std::string>& inputs) {
 InputsKept::~InputsKept() {
   const std::lock_guard<std::mutex> lock(keptInputs().mutex);
   keptInputs().paths = before_;
+}
+
+void refuseToReplaceKeptInput(const std::string& output) {
+  const std::lock_guard<std::mutex> lock(keptInputs().mutex);
+  refuseToReplaceInput(output, keptInputs().paths);
 }
 
 void refuseToReplaceInput(const std::string& output, const std::vector<std::string>& inputs) {

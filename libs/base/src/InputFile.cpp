@@ -1,5 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/InputFile.h>
+#include <omnimapper/base/OutputFolder.h>
 
 #include <cerrno>
 #include <cstring>
@@ -17,7 +18,7 @@ std::ifstream openInput(const std::string& path, const std::string& kind) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw Error(ExitCode::unreadable_input, path + ": is a pipe or a device and no " + kind);
   }
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in(committedPath(path), std::ios::binary);
   if (!in) {
     throw Error(ExitCode::unreadable_input,
                 path + ": this " + kind + " cannot be opened: " + std::strerror(errno) + "; is the path right?");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -102,18 +103,22 @@ std::vector<std::string> Engine::idleSources() const {
   return idle;
 }
 
-void Engine::writeOutputs() {
-  std::optional<base::Error> failed;
+std::vector<base::Error> Engine::writeOutputs() {
+  std::vector<base::Error> failures;
   for (auto& [section, plugin] : plugins_.output) {
     if (state_.map_is_held && plugin->isOfMap()) continue;
     const auto timer = state_.times.measure(Stage::output, section);
     try {
       plugin->finish(view());
     } catch (const base::Error& error) {
-      if (!failed) failed = error;
+      failures.push_back(error);
+    } catch (const std::bad_alloc&) {
+      failures.emplace_back(
+          base::ExitCode::out_of_memory,
+          "[" + section + "] ran out of memory; give the program more, or take this output off the list");
     }
   }
-  if (failed) throw *failed;
+  return failures;
 }
 
 }  // namespace omnimapper::mapper

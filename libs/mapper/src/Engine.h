@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/base/Error.h>
 #include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/PluginRegistry.h>
@@ -34,9 +35,8 @@ class Engine {
   /// The end of the log: everything still queued is worked off, jobs in order, the graph is solved to the end, and the
   /// map is judged.
   void finish();
-  /// Calls every output plugin's finish(). An output that cannot be written does not keep the others from theirs; the
-  /// first error is thrown at the end.
-  void writeOutputs();
+  /// Calls every output plugin's finish(), and gives the errors of those that could not write theirs.
+  std::vector<base::Error> writeOutputs();
 
   /// Asked while a solve runs; true ends it with the best so far (Ctrl-C).
   void setStop(std::function<bool()> stop) { back_end_.setStop(std::move(stop)); }

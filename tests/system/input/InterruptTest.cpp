@@ -49,6 +49,21 @@ TEST_P(Interrupt, WhileReplayingSavesTheMapSoFar) {
   EXPECT_TRUE(std::equal(found.begin(), found.end(), scans.begin())) << "all scans up to then";
 }
 
+TEST_P(Interrupt, OverAnOlderMapLeavesThatAndKeepsItsOwnApart) {
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder_)));
+  const auto before = contentsOf(folder_);
+  const auto program = started("4");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  program->send(GetParam());
+  EXPECT_TRUE(
+      endedWith(ExitCode::interrupted, program->wait(), {"is as an older run left it", folder_ + "/interrupted"}));
+  EXPECT_EQ(filesIn(folder_ + "/interrupted"), allOutputs());
+  EXPECT_LT(loadMap(folder_ + "/interrupted").map.key_frames.size(), loadMap(folder_).map.key_frames.size());
+  EXPECT_EQ(contentsOf(folder_), before);
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder_)));
+  EXPECT_EQ(filesIn(folder_), allOutputs()) << "a whole run leaves nothing of an interrupted one";
+}
+
 TEST_P(Interrupt, WhileWaitingForAPauseOfTheLogEndsAtOnce) {
   const auto program = started("0.001");
   std::this_thread::sleep_for(std::chrono::milliseconds(300));

@@ -1,5 +1,10 @@
 // Where the outputs cannot be written: the exit code tells the cause, and what was there before stays whole.
+#include <signal.h>
 #include <sys/mount.h>
+
+#include <array>
+#include <chrono>
+#include <thread>
 
 #include "../MapFolder.h"
 
@@ -54,30 +59,89 @@ TEST_F(OutputFolder, ThatCannotBeMadeOrWrittenIsRefusedByName) {
   EXPECT_EQ(readFile(file), "a file");
 }
 
-TEST_F(OutputFolder, OnAFullDiskKeepsTheOldMapAndLeavesNoHalfFiles) {
+TEST_F(OutputFolder, OnAFullDiskKeepsTheOldMapAndNamesAllThatFailed) {
   const std::string folder = scratch_ / "disk";
   const SmallDisk disk(folder, "1m");
   if (!disk.mounted()) GTEST_SKIP() << "may not mount a small disk; FilesThatMayNotGrow... has run";
   const std::string old_map = "the map of before";
   writeFile(folder + "/map.omnimap", old_map);
-  writeFile(folder + "/filler", std::string(950'000, 'x'));
+  writeFile(folder + "/filler", std::string(830'000, 'x'));
   EXPECT_TRUE(endedWith(ExitCode::disk_full, map({log_path_}, folder),
-                        {folder, "No space left on device", "previous content is kept", "Free some room"}));
+                        {folder + "/map.omnimap: ", folder + "/map.png: ", "No space left on device", "Free some room",
+                         "as an older run left it"}));
   EXPECT_EQ(readFile(folder + "/map.omnimap"), old_map);
-  for (const auto& name : filesIn(folder)) EXPECT_EQ(name.find(".tmp"), std::string::npos) << name;
+  EXPECT_EQ(filesIn(folder), (std::set<std::string>{"map.omnimap", "filler", "interrupted"}));
+  EXPECT_EQ(filesIn(folder + "/interrupted").count("trajectory.tum"), 1U) << "what fits is written";
 }
 
-TEST_F(OutputFolder, FilesThatMayNotGrowKeepTheOldMapAndTheOtherOutputsAreWritten) {
+TEST_F(OutputFolder, ADiskThatIsFullAlreadyIsFoundBeforeTheLogIsMapped) {
+  const std::string folder = scratch_ / "disk";
+  const SmallDisk disk(folder, "1m");
+  if (!disk.mounted()) GTEST_SKIP() << "may not mount a small disk; FilesThatMayNotGrow... has run";
+  writeFile(folder + "/filler", std::string(1'000'000, 'x'));
+  EXPECT_TRUE(endedWith(ExitCode::disk_full, map({log_path_}, folder), {folder, "no room for outputs", "Free some"}));
+  EXPECT_EQ(filesIn(folder), std::set<std::string>{"filler"});
+}
+
+TEST_F(OutputFolder, FilesThatMayNotGrowKeepTheOldMapAndTheOtherOutputsAreWrittenApart) {
   const std::string folder = scratch_ / "map";
   ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder)));
-  const std::string old_map = readFile(folder + "/map.omnimap");
-  fs::remove(folder + "/trajectory.tum");
+  const auto before = contentsOf(folder);
   ProgramOptions limited;
-  limited.largest_file = old_map.size() / 2;
+  limited.largest_file = before.at("map.omnimap").size() / 2;
   EXPECT_TRUE(endedWith(ExitCode::disk_full, map({log_path_}, folder, {}, limited),
-                        {folder, "previous content is kept", "Free some room"}));
-  EXPECT_EQ(filesIn(folder), allOutputs()) << "what fits is written";
-  EXPECT_TRUE(readFile(folder + "/map.omnimap") == old_map);
+                        {folder + "/map.omnimap: cannot be written", "as an older run left it", "Free some room"}));
+  EXPECT_EQ(contentsOf(folder), before);
+  auto written = allOutputs();
+  written.erase("map.omnimap");
+  for (const auto& name : filesIn(folder + "/interrupted")) EXPECT_EQ(written.count(name), 1U) << name;
+  EXPECT_EQ(filesIn(folder + "/interrupted").count("trajectory.tum"), 1U);
+}
+
+TEST_F(OutputFolder, AnotherIniLeavesNoFileOfTheOneBefore) {
+  const std::string folder = scratch_ / "map";
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder)));
+  writeFile(folder + "/notes.txt", "mine");
+  const auto ended = map({log_path_}, folder, {"--set", "mapper.output_plugins=trajectory"});
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended));
+  EXPECT_NE(ended.out.find("notes.txt"), std::string::npos) << ended.out;
+  EXPECT_EQ(filesIn(folder), (std::set<std::string>{"trajectory.tum", "notes.txt"}));
+}
+
+TEST_F(OutputFolder, OfARunThatStillGoesOnIsRefusedToASecond) {
+  const std::string folder = scratch_ / "map";
+  omnimapper::testing::Program first(mappingCommand({log_path_}, folder, {"--speed", "0.001"}));
+  while (!fs::exists(folder + "/.omnimapper/staged") && first.isRunning())
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(endedWith(ExitCode::unwritable_output, map({log_path_}, folder), {folder, "another run"}));
+  first.send(SIGKILL);
+  first.wait();
+  EXPECT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder))) << "the lock of the dead is no lock";
+  EXPECT_EQ(filesIn(folder), allOutputs());
+}
+
+// At any moment, by any signal: as the next program sees it, the folder is wholly old or wholly new.
+TEST_F(OutputFolder, KilledAtAnyTimeHoldsOneWholeRun) {
+  const std::string folder = scratch_ / "map";
+  const Words other{"--set", "grid.resolution_m=0.1"};
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, scratch_ / "new", other)));
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder)));
+  const auto stable = [](std::map<std::string, std::string> files) {
+    files.erase("report.html");  // with summary.json, the only ones that tell how long it took
+    files.erase("summary.json");
+    return files;
+  };
+  const auto old_run = stable(contentsOf(folder)), new_run = stable(contentsOf(scratch_ / "new"));
+  ASSERT_NE(old_run, new_run);
+  for (int i = 0; i < 30; ++i) {
+    omnimapper::testing::Program program(mappingCommand({log_path_}, folder, i % 2 == 0 ? other : Words{}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20 * i));
+    program.send(std::array{SIGKILL, SIGINT, SIGTERM}[i % 3]);
+    program.wait();
+    loadMap(folder);  // the next program
+    const auto files = stable(contentsOf(folder));
+    EXPECT_TRUE(files == old_run || files == new_run) << "killed after " << 20 * i << " ms";
+  }
 }
 
 }  // namespace

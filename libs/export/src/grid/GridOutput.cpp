@@ -32,10 +32,7 @@ GridOutput::GridOutput(const GridOptions& options, const mapper::PluginContext& 
 void GridOutput::finish(const mapper::View& view) {
   const auto grid =
       buildScanGrid(view.map, {options_.resolution, options_.max_range, options_.margin, 1e6 * options_.max_megacells});
-  if (!grid) {
-    for (const char* extension : {".pgm", ".yaml", ".png"}) removeFile(path_ + extension);
-    return;
-  }
+  if (!grid) return;
   constexpr double kCoarsest = 1;  // [m] above it no wall is told from another
   if (grid->resolution > std::max(kCoarsest, options_.resolution)) {
     throw base::Error(base::ExitCode::out_of_memory,

@@ -17,8 +17,7 @@ struct GridOptions {
 };
 
 /// Writes the occupancy grid of the 2D scans: grid.pgm and grid.yaml as ROS map_server reads them, and grid.png to look
-/// at. A map without scans gives no grid and no file, and those of an
-/// older run are removed.
+/// at. A map without scans gives no grid and no file.
 class GridOutput : public mapper::OutputPlugin {
  public:
   GridOutput(const GridOptions& options, const mapper::PluginContext& context);

@@ -52,9 +52,8 @@ void ReportOutput::finish(const mapper::View& view) {
   const auto picture =
       grid ? std::optional(drawGridToSize(focused(*grid, placesOf(trajectory, landmarks)), options_.picture_side))
            : emptyPicture(trajectory, landmarks, 1.0, options_.picture_side);
-  const std::string map_file = outputPath(context_, "map.png");
-  picture ? writeBytes(map_file, draw::encodePng(drawMap(*picture, landmarks, trajectory, closures)))
-          : removeFile(map_file);
+  if (picture)
+    writeBytes(outputPath(context_, "map.png"), draw::encodePng(drawMap(*picture, landmarks, trajectory, closures)));
   const ReportInput input{view,
                           context_,
                           picture ? &*picture : nullptr,

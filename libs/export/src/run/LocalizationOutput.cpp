@@ -38,7 +38,7 @@ LocalizationOutput::LocalizationOutput(const LocalizationOptions&, const mapper:
     : path_(outputPath(context, "localization.csv")) {}
 
 void LocalizationOutput::finish(const mapper::View& view) {
-  if (!view.map_is_held) return removeFile(path_);
+  if (!view.map_is_held) return;
   std::string text = "stamp,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg,sigma_x_m,sigma_y_m,sigma_yaw_deg,located\n";
   for (const auto& estimate : view.localization) text += lineOf(estimate);
   writeBytes(path_, text);

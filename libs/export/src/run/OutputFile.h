@@ -4,10 +4,8 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
-#include <filesystem>
 #include <ostream>
 #include <string>
-#include <system_error>
 
 namespace omnimapper::exports {
 
@@ -24,17 +22,6 @@ inline std::string outputPath(const mapper::PluginContext& context, const std::s
 inline void writeBytes(const std::string& path, const std::string& bytes) {
   base::writeFile(path,
                   [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
-}
-
-/// For what this run has nothing to put in: removes the file if an older run left one, which would pass for this run's.
-/// Throws Error(unwritable_output) if that fails.
-inline void removeFile(const std::string& path) {
-  std::error_code error;
-  std::filesystem::remove(path, error);
-  if (!error) return;
-  throw base::Error(base::ExitCode::unwritable_output, path +
-                                                           ": this run has nothing to write there, and the file of " +
-                                                           "an older run cannot be removed: " + error.message());
 }
 
 }  // namespace omnimapper::exports

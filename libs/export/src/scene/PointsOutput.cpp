@@ -28,9 +28,9 @@ PointsOutput::PointsOutput(const PointsOptions& options, const mapper::PluginCon
 
 void PointsOutput::finish(const mapper::View& view) {
   const auto points = pointsOf(view.map, options_);
-  points.empty() ? removeFile(path_) : writeBytes(path_, encodePly(points));
+  if (!points.empty()) writeBytes(path_, encodePly(points));
   const auto landmarks = landmarkTriangles(shapesOf(view));
-  landmarks.empty() ? removeFile(landmarks_path_) : writeBytes(landmarks_path_, encodePly(landmarks));
+  if (!landmarks.empty()) writeBytes(landmarks_path_, encodePly(landmarks));
 }
 
 std::unique_ptr<mapper::OutputPlugin> PointsOutputFactory::make(const base::ConfigSection& section,

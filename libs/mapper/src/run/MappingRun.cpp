@@ -1,4 +1,5 @@
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/OutputFolder.h>
 #include <omnimapper/map/SessionFigures.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/SessionAlignment.h>
@@ -104,7 +105,7 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
                     request.localize_map +
                         ": the log was located nowhere in the map: is it of another place? If not, " +
                         "say [session] start = anywhere, which seeks the whole map, or where it begins. Why: the " +
-                        "refused closures in " + request.output_folder + "/report.html");
+                        "refused closures in " + result.output_folder + "/report.html");
 }
 
 RunResult resultOf(const View& view) {
@@ -152,6 +153,7 @@ class Run {
  private:
   void makeEngine();
   std::vector<std::string> warn(const RunResult& result);
+  void publish(const std::vector<base::Error>& failures, RunResult& result);
   void complete(RunResult& result) const;
   bool isSuspicious() const { return engine_->view().verdict.answer == Verdict::Answer::suspicious; }
   bool localizes() const { return !request_.localize_map.empty(); }
@@ -171,6 +173,7 @@ class Run {
   std::optional<Engine> engine_;
   std::optional<source::ReadAhead> log_;
   std::optional<base::InputsKept> kept_;
+  base::OutputFolder outputs_{request_.output_folder};
   bool stopped_ = false;
   std::exception_ptr failure_, failure_at_end_;  // while the log was fed, while the map was finished
 };
@@ -186,7 +189,7 @@ void Run::open() {
   loadMapInto(request_, session_, config_.file(), settings_.engine.motion, *engine_);
   log_.emplace(source::openRawlogs(request_.logs, source_, stop_), stop_);
   kept_.emplace(request_.logs);
-  base::makeWritableFolder(request_.output_folder);
+  outputs_.open();
 }
 
 void Run::makeEngine() {
@@ -199,7 +202,7 @@ void Run::makeEngine() {
   PluginContext context;
   context.motion = options.motion;
   context.map_is_held = localizes();
-  context.output_folder = request_.output_folder;
+  context.output_folder = outputs_.staging();
   context.title = titleOf(request_.logs);
   context.config_text = config_.text();
   auto plugins = makePlugins({options.pose_plugins, perception_.extractors, options.measurement_plugins, outputs},
@@ -276,6 +279,35 @@ void Run::complete(RunResult& result) const {
     result.code = base::ExitCode::suspicious_map;
 }
 
+// Puts the outputs in the place of an older run's. Those of a run that is not whole never replace a whole one's: they
+// have a folder of their own. Throws what failed of the outputs, all of it.
+void Run::publish(const std::vector<base::Error>& failures, RunResult& result) {
+  constexpr char kInterrupted[] = "interrupted";
+  const bool is_whole = !stopped_ && !failure_ && !failure_at_end_ && failures.empty();
+  const bool keeps_older = !is_whole && outputs_.holdsRun();
+  std::string sentences;
+  for (const auto& error : failures) sentences += outputs_.asTheUserSees(error.what()) + "\n";
+  result.output_folder = outputs_.folder() + (keeps_older ? std::string("/") + kInterrupted : "");
+  try {
+    if (keeps_older) {
+      outputs_.commitInto(kInterrupted);
+    } else {
+      outputs_.commit();
+      outputs_.removeInner(kInterrupted);
+    }
+  } catch (const base::Error& error) {
+    throw base::Error(error.code(), sentences + error.what() + "\nNothing has changed in " + outputs_.folder() + ".");
+  }
+  result.foreign_files = outputs_.foreignFiles();
+  const std::string older = keeps_older ? outputs_.folder() +
+                                              " is as an older run left it; what there is of this run, "
+                                              "which is not whole, is in " +
+                                              result.output_folder
+                                        : "";
+  if (!failures.empty()) throw base::Error(failures.front().code(), sentences + older);
+  if (keeps_older) result.warnings.push_back(older);
+}
+
 // Writes the outputs. Throws where there is nothing worth writing, and at the end what broke the run off.
 RunResult Run::report() {
   auto outcome = resultOf(engine_->view());
@@ -289,7 +321,7 @@ RunResult Run::report() {
   if (const auto idle = engine_->idleSources(); !idle.empty() && !localizes() && outcome.new_key_frames > 1)
     failWithNoMotion(request_, config_.file(), outcome, idle);
   progress_.report(1.0, "writing the outputs");
-  engine_->writeOutputs();
+  publish(engine_->writeOutputs(), outcome);
   if (failure_) std::rethrow_exception(failure_);
   if (failure_at_end_) std::rethrow_exception(failure_at_end_);
   if (localizes() && outcome.located == 0) failWithNoPlace(request_, outcome);
@@ -320,7 +352,21 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   return result;
 }
 
-std::string toText(const RunResult& result, const std::string& output_folder) {
+namespace {
+
+// What is in the output folder beside the outputs; empty without any.
+std::string foreignLine(const std::vector<std::string>& files) {
+  constexpr std::size_t kMost = 4;
+  if (files.empty()) return "";
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kMost, files.size()); ++i) names += (i > 0 ? ", " : "") + files[i];
+  if (files.size() > kMost) names += " and " + std::to_string(files.size() - kMost) + " more";
+  return "also there        " + names + " (of no run; left as it is)\n";
+}
+
+}  // namespace
+
+std::string toText(const RunResult& result) {
   std::string sessions;
   if (result.localized > 0) {
     char located[128];
@@ -345,7 +391,8 @@ std::string toText(const RunResult& result, const std::string& output_folder) {
                 result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
   const std::string verdict =
       result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";
-  return sessions + text + landmarkLine(result.landmarks) + verdict + "outputs           " + output_folder + "\n";
+  return sessions + text + landmarkLine(result.landmarks) + verdict + "outputs           " + result.output_folder +
+         "\n" + foreignLine(result.foreign_files);
 }
 
 }  // namespace omnimapper::mapper

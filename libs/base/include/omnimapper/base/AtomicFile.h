@@ -23,7 +23,8 @@ void writeFile(const std::string& path, const std::function<void(std::ostream&)>
 /// Throws Error(command_line) if `output` is one of the files that are read, by whatever name, link or path.
 void refuseToReplaceInput(const std::string& output, const std::vector<std::string>& inputs);
 
-/// While it lives, replaceFile() and writeFile() refuse to replace these files as refuseToReplaceInput() does.
+/// While it lives, replaceFile() and writeFile() refuse to replace these files as refuseToReplaceInput() does, and so
+/// does refuseToReplaceKeptInput().
 class InputsKept {
  public:
   explicit InputsKept(const std::vector<std::string>& inputs);
@@ -34,5 +35,8 @@ class InputsKept {
  private:
   std::vector<std::string> before_;
 };
+
+/// Throws Error(command_line) if an InputsKept protects that file.
+void refuseToReplaceKeptInput(const std::string& output);
 
 }  // namespace omnimapper::base

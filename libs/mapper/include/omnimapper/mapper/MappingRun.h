@@ -36,6 +36,8 @@ struct RunResult {
   std::vector<std::string> warnings;
   Verdict verdict;  ///< on the whole map; without evidence in a run that localizes
   source::SourceReport source;
+  std::string output_folder;                ///< where the outputs are: that of the request, or one in it
+  std::vector<std::string> foreign_files;   ///< what else is in the folder of the request, and no run made
   std::size_t key_frames = 0, factors = 0;  ///< of the whole map
   std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;
   std::size_t localized = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
@@ -47,14 +49,16 @@ struct RunResult {
 };
 
 /// Log in, map out: opens the logs, makes the plugins, feeds the engine, writes the outputs. Damaged input and `stop`
-/// still give the map of what was read, with their own code; nothing is written if that holds no key frame. Throws
+/// still give the map of what was read, with their own code; nothing is written if that holds no key frame. The outputs
+/// take the place of an older run's all together, or not at all; those of a run that was stopped, broke off, or could
+/// not write all of them do so only where there was none, and else are in the folder "interrupted" in it. Throws
 /// base::Error for everything that keeps a map from being written. `stop` is asked while the logs are
 /// opened, between observations and while one is waited for; stopped while they are opened, it throws too.
 RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
                      const std::function<bool()>& stop);
 
 /// The summary for a screen, without the warnings.
-std::string toText(const RunResult& result, const std::string& output_folder);
+std::string toText(const RunResult& result);
 
 /// The sections of an INI that runMapping() reads beside those of the plugins.
 const FixedSections& fixedSections();

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::base {
+
+/// The folder of a run's outputs, whose files are replaced all together or not at all. They are written into a staging
+/// folder inside of it. commit() first notes, in one step, that the new ones count, and then moves them to their
+/// places. Who was killed before that note has changed nothing; what was killed after it is finished by whoever next
+/// opens the folder for writing, or one of its files with openInput().
+///
+/// A hidden folder ".omnimapper" holds the staging folder, the lock, and the list of the files of the run, by which a
+/// later run tells its own kind from what somebody else put there. That stays.
+class OutputFolder {
+ public:
+  /// Touches nothing yet.
+  explicit OutputFolder(const std::string& folder);
+  /// What was not committed goes, and so does the folder if open() made it and nothing is in it.
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  /// Makes the folder and its staging folder, and locks it until this object goes. Throws Error(unwritable_output) if
+  /// that fails, or another process has locked it, and Error(disk_full) if there is not even room to note a commit.
+  void open();
+  /// Where the files are to be written; there from open() on. Folders in it become folders of the same name.
+  const std::string& staging() const { return staging_; }
+  const std::string& folder() const { return folder_; }
+  /// Whether a run's files are there already; of a folder from before there were lists, a map.
+  bool holdsRun() const;
+
+  /// Replaces the files of the run before by those that were staged. A file of that run which somebody has changed
+  /// since stays, unless a new one has its name. Throws Error(unwritable_output), or Error(disk_full), and then nothing
+  /// has changed; also Error(command_line) if a file that InputsKept protects would be replaced.
+  void commit();
+  /// Moves what is staged into a folder in this one, whose files it replaces as commit() does; these stay.
+  void commitInto(const std::string& name);
+  /// Removes what commitInto() left in that folder, if anything. What somebody else put there stays.
+  void removeInner(const std::string& name);
+  /// Names of what is in the folder and no run made, sorted.
+  std::vector<std::string> foreignFiles() const;
+  /// A message about a staged file, with the place that it was to have.
+  std::string asTheUserSees(std::string message) const;
+
+ private:
+  void lock();
+
+  std::string folder_, hidden_, staging_;
+  int lock_ = -1;
+  bool is_new_ = false;
+};
+
+/// Where the bytes of a file are that a run wrote: finishes the commit of its folder if that was killed. If the folder
+/// may not be written, that is the staged file. Any other path is given back.
+std::string committedPath(const std::string& path);
+
+}  // namespace omnimapper::base

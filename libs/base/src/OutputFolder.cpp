@@ -1,0 +1,272 @@
+#include <fcntl.h>
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/OutputFolder.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+namespace omnimapper::base {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char kHidden[] = ".omnimapper", kStaged[] = "staged", kLock[] = "lock";
+// Room on the disk that is kept free for the note of the commit and the names of the files in their places.
+const char kReserve[] = "reserve";
+constexpr off_t kReservedBytes = 64 * 1024;
+// The files of the run, and those of a run that takes its place but has not been moved there whole.
+const char kFiles[] = "files", kCommit[] = "commit";
+const char kFirstLine[] = "files of a run of OmniMapper, 1";
+
+// By which a file is known to be as it was written.
+struct Trace {
+  std::uint64_t size = 0;
+  std::int64_t modified = 0;  // [ns]
+  bool operator==(const Trace& other) const { return size == other.size && modified == other.modified; }
+};
+using FileList = std::map<std::string, Trace>;  // by the path in the folder
+
+std::optional<Trace> traceOf(const fs::path& file) {
+  struct stat status {};
+  if (::lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return Trace{static_cast<std::uint64_t>(status.st_size),
+               status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec};
+}
+
+[[noreturn]] void fail(const std::string& folder, const std::string& reason,
+                       ExitCode code = ExitCode::unwritable_output) {
+  throw Error(code, folder + ": " + reason);
+}
+
+// A line a file: size, time, path. Empty if there is no such list, or it is none of ours.
+FileList readList(const fs::path& path) {
+  FileList files;
+  std::ifstream in(path);
+  std::string line;
+  if (!std::getline(in, line) || line != kFirstLine) return files;
+  while (std::getline(in, line)) {
+    std::istringstream words(line);
+    Trace trace;
+    std::string name;
+    if (!(words >> trace.size >> trace.modified) || !std::getline(words >> std::ws, name)) continue;
+    const fs::path relative(name);
+    const bool leaves = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
+    if (!leaves) files.emplace(name, trace);
+  }
+  return files;
+}
+
+FileList stagedFiles(const std::string& staging) {
+  FileList files;
+  for (const auto& entry : fs::recursive_directory_iterator(staging)) {
+    if (const auto trace = traceOf(entry.path()))
+      files.emplace(entry.path().lexically_relative(staging).string(), *trace);
+  }
+  return files;
+}
+
+// Folders that hold nothing any more, from the one of `file` up to `top`.
+void removeEmptyFolders(fs::path folder, const fs::path& top) {
+  std::error_code error;
+  for (; folder != top && fs::remove(folder, error); folder = folder.parent_path()) continue;
+}
+
+// Does what a commit has noted and not done. Can be broken off and done again at any point.
+void finishCommit(const fs::path& folder) {
+  const fs::path hidden = folder / kHidden, staged = hidden / kStaged;
+  if (!fs::exists(hidden / kCommit)) return;
+  const FileList before = readList(hidden / kFiles), after = readList(hidden / kCommit);
+  for (const auto& [name, trace] : after) {
+    if (!fs::exists(staged / name)) continue;
+    fs::create_directories((folder / name).parent_path());
+    fs::rename(staged / name, folder / name);
+  }
+  for (const auto& [name, trace] : before) {
+    const auto now = traceOf(folder / name);
+    if (after.count(name) > 0 || !now || !(*now == trace)) continue;
+    fs::remove(folder / name);
+    removeEmptyFolders((folder / name).parent_path(), folder);
+  }
+  fs::rename(hidden / kCommit, hidden / kFiles);
+}
+
+// The lock of a folder, or -1 with errno. A lock file that its owner has removed meanwhile counts for nothing.
+int takeLock(const fs::path& hidden) {
+  const std::string path = hidden / kLock;
+  for (;;) {
+    const int lock = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+    if (lock < 0) return -1;
+    const bool is_free =
+        ::flock(lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;  // some file systems have no locks
+    struct stat ours {
+    }, there{};
+    const bool is_there = ::fstat(lock, &ours) == 0 && ::stat(path.c_str(), &there) == 0 && ours.st_ino == there.st_ino;
+    if (is_free && is_there) return lock;
+    ::close(lock);
+    if (!is_free) return errno = EWOULDBLOCK, -1;
+  }
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const std::string& folder)
+    : folder_(folder), hidden_(folder + "/" + kHidden), staging_(hidden_ + "/" + kStaged) {}
+
+OutputFolder::~OutputFolder() {
+  if (lock_ < 0) return;
+  std::error_code ignored;
+  const fs::path hidden(hidden_);
+  if (!fs::exists(hidden / kCommit, ignored)) {
+    fs::remove_all(staging_, ignored);
+    fs::remove(hidden / kReserve, ignored);
+    if (!fs::exists(hidden / kFiles, ignored)) fs::remove_all(hidden, ignored);
+  }
+  if (is_new_) fs::remove(folder_, ignored);  // which fails while anything is in it
+  ::close(lock_);
+}
+
+void OutputFolder::open() {
+  lock();
+  const std::string reserve = hidden_ + "/" + kReserve;
+  const int file = ::open(reserve.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
+  // A file system that reserves nothing, and a limit of the user's own, are no full disk.
+  const int error = file < 0 ? errno : ::posix_fallocate(file, 0, kReservedBytes);
+  if (file >= 0) ::close(file);
+  if (file >= 0 && error != ENOSPC && error != EDQUOT) return;
+  fail(folder_,
+       std::string("there is no room for outputs (") + std::strerror(error) + "). Free some or choose another folder.",
+       ExitCode::disk_full);
+}
+
+void OutputFolder::lock() {
+  is_new_ = !fs::exists(folder_);
+  makeWritableFolder(folder_);
+  makeWritableFolder(hidden_);
+  lock_ = takeLock(hidden_);
+  if (lock_ < 0 && errno == EWOULDBLOCK)
+    fail(folder_, "another run writes into this folder now; wait for its end, or choose another with -o");
+  if (lock_ < 0) fail(folder_, std::string("cannot be locked (") + std::strerror(errno) + ")");
+  try {
+    finishCommit(folder_);
+    fs::remove_all(staging_);
+  } catch (const fs::filesystem_error& error) {
+    fail(folder_, std::string("what a run that was killed left there cannot be put in order (") + error.what() + ")");
+  }
+  makeWritableFolder(staging_);
+}
+
+bool OutputFolder::holdsRun() const {
+  std::error_code error;
+  return fs::exists(fs::path(hidden_) / kFiles, error) || fs::exists(fs::path(folder_) / "map.omnimap", error);
+}
+
+void OutputFolder::commit() {
+  try {
+    fs::remove(fs::path(hidden_) / kReserve);
+    const FileList files = stagedFiles(staging_);
+    for (const auto& [name, trace] : files) {
+      const fs::path target = fs::path(folder_) / name;
+      refuseToReplaceKeptInput(target);
+      if (fs::is_directory(target)) fail(target, "is a folder, where a file of this run is to be; move it away");
+    }
+    // This is the step: before it the old files count, after it the new ones.
+    writeFile(hidden_ + "/" + kCommit, [&](std::ostream& out) {
+      out << kFirstLine << "\n";
+      for (const auto& [name, trace] : files) out << trace.size << " " << trace.modified << " " << name << "\n";
+    });
+    finishCommit(folder_);
+  } catch (const fs::filesystem_error& error) {
+    fail(folder_, std::string("the outputs cannot be put in their places (") + error.what() + ")");
+  }
+}
+
+void OutputFolder::commitInto(const std::string& name) {
+  OutputFolder inner(folder_ + "/" + name);
+  try {
+    fs::remove(fs::path(hidden_) / kReserve);
+    inner.lock();
+    for (const auto& entry : fs::directory_iterator(staging_))
+      fs::rename(entry.path(), fs::path(inner.staging()) / entry.path().filename());
+  } catch (const fs::filesystem_error& error) {
+    fail(inner.folder(), std::string("the outputs cannot be put there (") + error.what() + ")");
+  }
+  inner.commit();
+}
+
+void OutputFolder::removeInner(const std::string& name) {
+  const fs::path folder = fs::path(folder_) / name;
+  if (!fs::exists(folder / kHidden / kFiles)) return;
+  try {
+    for (const auto& [file, trace] : readList(folder / kHidden / kFiles)) {
+      if (const auto now = traceOf(folder / file); !now || !(*now == trace)) continue;
+      fs::remove(folder / file);
+      removeEmptyFolders((folder / file).parent_path(), folder);
+    }
+    fs::remove_all(folder / kHidden);
+    std::error_code has_more;
+    fs::remove(folder, has_more);
+  } catch (const fs::filesystem_error& error) {
+    fail(folder, std::string("the results of an older run cannot be removed (") + error.what() + ")");
+  }
+}
+
+std::vector<std::string> OutputFolder::foreignFiles() const {
+  std::vector<std::string> names;
+  const FileList files = readList(fs::path(hidden_) / kFiles);
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename();
+    const auto inside = files.lower_bound(name + "/");
+    const bool is_of_run =
+        files.count(name) > 0 || (inside != files.end() && inside->first.compare(0, name.size() + 1, name + "/") == 0);
+    if (name != kHidden && !is_of_run && !fs::exists(entry.path() / kHidden)) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string OutputFolder::asTheUserSees(std::string message) const {
+  for (std::size_t at = 0; (at = message.find(staging_, at)) != std::string::npos; at += folder_.size())
+    message.replace(at, staging_.size(), folder_);
+  return message;
+}
+
+std::string committedPath(const std::string& path) {
+  const fs::path file(path), folder = file.has_parent_path() ? file.parent_path() : ".", hidden = folder / kHidden;
+  std::error_code error;
+  // Whoever holds the lock is about to do it.
+  for (int tries = 0; tries < 1000 && fs::exists(hidden / kCommit, error); ++tries) {
+    const int lock = takeLock(hidden);
+    if (lock < 0 && errno != EWOULDBLOCK) {
+      const fs::path staged = hidden / kStaged / file.filename();
+      return fs::exists(staged, error) ? staged.string() : path;
+    }
+    if (lock < 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      continue;
+    }
+    try {
+      finishCommit(folder);
+    } catch (const fs::filesystem_error&) {
+    }
+    ::close(lock);
+    const fs::path staged = hidden / kStaged / file.filename();
+    if (fs::exists(hidden / kCommit, error) && fs::exists(staged, error)) return staged.string();
+    break;
+  }
+  return path;
+}
+
+}  // namespace omnimapper::base

@@ -1,0 +1,242 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/InputFile.h>
+#include <omnimapper/base/OutputFolder.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+namespace omnimapper::base::output_folder_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ScratchFolder;
+using Contents = std::map<std::string, std::string>;
+
+void put(const std::string& path, const std::string& bytes) {
+  fs::create_directories(fs::path(path).parent_path());
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+void stage(const OutputFolder& folder, const Contents& files) {
+  for (const auto& [name, bytes] : files) put(folder.staging() + "/" + name, bytes);
+}
+
+void write(const std::string& path, const Contents& files) {
+  OutputFolder folder(path);
+  folder.open();
+  stage(folder, files);
+  folder.commit();
+}
+
+// What a user sees in it: all files but those of the hidden folder.
+Contents contents(const std::string& folder) {
+  Contents files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const auto name = entry.path().lexically_relative(folder).string();
+    if (entry.is_regular_file() && name.rfind(".omnimapper", 0) != 0) files[name] = readInput(entry.path());
+  }
+  return files;
+}
+
+ExitCode codeOf(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return ExitCode::ok;
+}
+
+const Contents kOld{{"map", "old"}, {"only_old", "1"}, {"pictures/a", "old a"}};
+const Contents kNew{{"map", "new"}, {"only_new", "2"}, {"truth/b", "new b"}};
+
+TEST(OutputFolder, ACommitReplacesAllFilesOfTheRunBefore) {
+  ScratchFolder scratch;
+  write(scratch / "out", kOld);
+  EXPECT_EQ(contents(scratch / "out"), kOld);
+  write(scratch / "out", kNew);
+  EXPECT_EQ(contents(scratch / "out"), kNew);
+  EXPECT_FALSE(fs::exists(scratch / "out/pictures"));
+}
+
+TEST(OutputFolder, WithoutACommitNothingChanges) {
+  ScratchFolder scratch;
+  write(scratch / "out", kOld);
+  {
+    OutputFolder folder(scratch / "out");
+    folder.open();
+    stage(folder, kNew);
+  }
+  EXPECT_EQ(contents(scratch / "out"), kOld);
+  EXPECT_FALSE(fs::exists(scratch / "out/.omnimapper/staged"));
+}
+
+TEST(OutputFolder, AFolderThatARunMadeForNothingGoesAgain) {
+  ScratchFolder scratch;
+  { OutputFolder(scratch / "out").open(); }
+  EXPECT_FALSE(fs::exists(scratch / "out"));
+  put(scratch / "used/notes.txt", "mine");
+  { OutputFolder(scratch / "used").open(); }
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch / "used"), {}), 1) << "no hidden folder is left either";
+}
+
+TEST(OutputFolder, WhatSomebodyElsePutThereStaysAndIsNamed) {
+  ScratchFolder scratch;
+  write(scratch / "out", {{"map", "old"}, {"truth/a", "1"}, {"truth.tum", "2"}, {"edited", "as written"}});
+  put(scratch / "out/notes.txt", "mine");
+  put(scratch / "out/truth/mine", "mine");
+  put(scratch / "out/edited", "by hand, and longer");
+  OutputFolder folder(scratch / "out");
+  folder.open();
+  stage(folder, {{"map", "new"}});
+  folder.commit();
+  EXPECT_EQ(
+      contents(scratch / "out"),
+      (Contents{{"map", "new"}, {"notes.txt", "mine"}, {"truth/mine", "mine"}, {"edited", "by hand, and longer"}}));
+  EXPECT_EQ(folder.foreignFiles(), (std::vector<std::string>{"edited", "notes.txt", "truth"}));
+}
+
+TEST(OutputFolder, TwoRunsAtOnceAreRefused) {
+  ScratchFolder scratch;
+  OutputFolder first(scratch / "out");
+  first.open();
+  EXPECT_EQ(codeOf([&] { OutputFolder(scratch / "out").open(); }), ExitCode::unwritable_output);
+  stage(first, kNew);
+  first.commit();
+  EXPECT_EQ(contents(scratch / "out"), kNew);
+}
+
+TEST(OutputFolder, AFullDiskAndAFolderInTheWayChangeNothing) {
+  ScratchFolder scratch;
+  write(scratch / "out", kOld);
+  {
+    OutputFolder folder(scratch / "out");
+    folder.open();
+    stage(folder, kNew);
+    const testing::SmallFiles full(16);
+    EXPECT_EQ(codeOf([&] { folder.commit(); }), ExitCode::disk_full);
+  }
+  EXPECT_EQ(contents(scratch / "out"), kOld);
+  fs::create_directories(scratch / "out/only_new/inside");
+  {
+    OutputFolder folder(scratch / "out");
+    folder.open();
+    stage(folder, kNew);
+    EXPECT_EQ(codeOf([&] { folder.commit(); }), ExitCode::unwritable_output);
+  }
+  EXPECT_EQ(contents(scratch / "out"), kOld);
+}
+
+TEST(OutputFolder, AnInputIsNotReplaced) {
+  ScratchFolder scratch;
+  write(scratch / "out", kOld);
+  const InputsKept kept({scratch / "out/map"});
+  OutputFolder folder(scratch / "out");
+  folder.open();
+  stage(folder, kNew);
+  EXPECT_EQ(codeOf([&] { folder.commit(); }), ExitCode::command_line);
+  EXPECT_EQ(contents(scratch / "out"), kOld);
+}
+
+TEST(OutputFolder, AnInnerFolderTakesWhatIsNotWholeAndGoesWithIt) {
+  ScratchFolder scratch;
+  write(scratch / "out", kOld);
+  OutputFolder folder(scratch / "out");
+  folder.open();
+  stage(folder, kNew);
+  folder.commitInto("interrupted");
+  auto expected = kOld;
+  for (const auto& [name, bytes] : kNew) expected["interrupted/" + name] = bytes;
+  auto seen = contents(scratch / "out");
+  for (auto it = seen.begin(); it != seen.end();)
+    it = it->first.find(".omnimapper") != std::string::npos ? seen.erase(it) : std::next(it);
+  EXPECT_EQ(seen, expected);
+  EXPECT_TRUE(folder.foreignFiles().empty());
+  folder.removeInner("interrupted");
+  EXPECT_EQ(contents(scratch / "out"), kOld);
+  EXPECT_FALSE(fs::exists(scratch / "out/interrupted"));
+}
+
+// A run that is killed while it moves its files leaves the note, and some of them moved.
+class KilledCommit : public ::testing::TestWithParam<int> {
+ protected:
+  void SetUp() override {
+    folder_ = scratch_ / "out";
+    write(folder_, kOld);
+    // The note is that of another folder with the same files.
+    OutputFolder killed(folder_);
+    killed.open();
+    stage(killed, kNew);
+    write(scratch_ / "other", kNew);
+    for (const auto& [name, bytes] : kNew)
+      fs::copy_file(scratch_ / "other/" + name, killed.staging() + "/" + name, fs::copy_options::overwrite_existing);
+    fs::copy_file(scratch_ / "other/.omnimapper/files", folder_ + "/.omnimapper/commit");
+    int moved = 0;
+    for (const auto& [name, bytes] : kNew) {
+      if (moved++ >= GetParam()) break;
+      fs::create_directories(fs::path(folder_ + "/" + name).parent_path());
+      fs::rename(killed.staging() + "/" + name, folder_ + "/" + name);
+    }
+  }
+  ScratchFolder scratch_;
+  std::string folder_;
+};
+
+TEST_P(KilledCommit, IsFinishedByWhoeverReadsAFile) {
+  EXPECT_EQ(readInput(folder_ + "/map"), "new");
+  EXPECT_EQ(contents(folder_), kNew);
+}
+
+TEST_P(KilledCommit, IsFinishedByWhoeverWritesIntoTheFolder) {
+  { OutputFolder(folder_).open(); }
+  EXPECT_EQ(contents(folder_), kNew);
+}
+
+INSTANTIATE_TEST_SUITE_P(AfterSoManyFiles, KilledCommit, ::testing::Values(0, 1, 2, 3));
+
+TEST(OutputFolder, AListThatNamesPlacesOutsideRemovesNothingThere) {
+  ScratchFolder scratch;
+  put(scratch / "precious", "mine");
+  write(scratch / "out", kOld);
+  const auto size = fs::file_size(scratch / "precious");
+  std::ofstream(scratch / "out/.omnimapper/files") << "files of a run of OmniMapper, 1\n"
+                                                   << size << " 0 ../precious\n"
+                                                   << size << " 0 " << scratch / "precious"
+                                                   << "\nnonsense\n";
+  write(scratch / "out", kNew);
+  EXPECT_TRUE(fs::exists(scratch / "precious"));
+}
+
+// Whatever the moment of its death: as the next program sees it, all is old or all is new.
+TEST(OutputFolder, KilledAtAnyTimeItIsWhollyOldOrWhollyNew) {
+  ScratchFolder scratch;
+  int old_ones = 0, new_ones = 0;
+  for (int delay = 0; delay < 3000; delay += 60) {
+    const std::string path = scratch / std::to_string(delay);
+    write(path, kOld);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      write(path, kNew);
+      _exit(0);
+    }
+    ::usleep(static_cast<unsigned>(delay));
+    ::kill(child, SIGKILL);
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    const bool is_new = readInput(path + "/map") == "new";
+    EXPECT_EQ(contents(path), is_new ? kNew : kOld) << delay << " us";
+    ++(is_new ? new_ones : old_ones);
+  }
+  RecordProperty("old", old_ones);
+  RecordProperty("new", new_ones);
+}
+
+}  // namespace
+}  // namespace omnimapper::base::output_folder_test
