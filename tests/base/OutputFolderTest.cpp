@@ -207,8 +207,8 @@ TEST(OutputFolder, AListThatNamesPlacesOutsideRemovesNothingThere) {
   write(scratch / "out", kOld);
   const auto size = fs::file_size(scratch / "precious");
   std::ofstream(scratch / "out/.omnimapper/files") << "files of a run of OmniMapper, 1\n"
-                                                   << size << " 0 ../precious\n"
-                                                   << size << " 0 " << scratch / "precious"
+                                                   << size << " ../precious\n"
+                                                   << size << " " << scratch / "precious"
                                                    << "\nnonsense\n";
   write(scratch / "out", kNew);
   EXPECT_TRUE(fs::exists(scratch / "precious"));

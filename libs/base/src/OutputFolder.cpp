@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -31,27 +30,14 @@ constexpr off_t kReservedBytes = 64 * 1024;
 const char kFiles[] = "files", kCommit[] = "commit";
 const char kFirstLine[] = "files of a run of OmniMapper, 1";
 
-// By which a file is known to be as it was written.
-struct Trace {
-  std::uint64_t size = 0;
-  std::int64_t modified = 0;  // [ns]
-  bool operator==(const Trace& other) const { return size == other.size && modified == other.modified; }
-};
-using FileList = std::map<std::string, Trace>;  // by the path in the folder
-
-std::optional<Trace> traceOf(const fs::path& file) {
-  struct stat status {};
-  if (::lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-  return Trace{static_cast<std::uint64_t>(status.st_size),
-               status.st_mtim.tv_sec * std::int64_t{1'000'000'000} + status.st_mtim.tv_nsec};
-}
+using FileList = std::map<std::string, std::uint64_t>;  // sizes, by the path in the folder
 
 [[noreturn]] void fail(const std::string& folder, const std::string& reason,
                        ExitCode code = ExitCode::unwritable_output) {
   throw Error(code, folder + ": " + reason);
 }
 
-// A line a file: size, time, path. Empty if there is no such list, or it is none of ours.
+// A line a file: size, path. Empty if there is no such list, or it is none of ours.
 FileList readList(const fs::path& path) {
   FileList files;
   std::ifstream in(path);
@@ -59,12 +45,12 @@ FileList readList(const fs::path& path) {
   if (!std::getline(in, line) || line != kFirstLine) return files;
   while (std::getline(in, line)) {
     std::istringstream words(line);
-    Trace trace;
+    std::uint64_t size = 0;
     std::string name;
-    if (!(words >> trace.size >> trace.modified) || !std::getline(words >> std::ws, name)) continue;
+    if (!(words >> size) || !std::getline(words >> std::ws, name)) continue;
     const fs::path relative(name);
     const bool leaves = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
-    if (!leaves) files.emplace(name, trace);
+    if (!leaves) files.emplace(name, size);
   }
   return files;
 }
@@ -72,10 +58,18 @@ FileList readList(const fs::path& path) {
 FileList stagedFiles(const std::string& staging) {
   FileList files;
   for (const auto& entry : fs::recursive_directory_iterator(staging)) {
-    if (const auto trace = traceOf(entry.path()))
-      files.emplace(entry.path().lexically_relative(staging).string(), *trace);
+    if (entry.is_regular_file()) files.emplace(entry.path().lexically_relative(staging).string(), entry.file_size());
   }
   return files;
+}
+
+// Whether nobody has changed a file since the list was written in which it stands.
+bool isAsWritten(const fs::path& file, std::uint64_t size, const fs::path& list) {
+  struct stat status {
+  }, of_list{};
+  if (::lstat(file.c_str(), &status) != 0 || ::stat(list.c_str(), &of_list) != 0) return false;
+  const auto time = [](const struct stat& of) { return std::pair(of.st_mtim.tv_sec, of.st_mtim.tv_nsec); };
+  return S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) == size && time(status) <= time(of_list);
 }
 
 // Folders that hold nothing any more, from the one of `file` up to `top`.
@@ -89,14 +83,13 @@ void finishCommit(const fs::path& folder) {
   const fs::path hidden = folder / kHidden, staged = hidden / kStaged;
   if (!fs::exists(hidden / kCommit)) return;
   const FileList before = readList(hidden / kFiles), after = readList(hidden / kCommit);
-  for (const auto& [name, trace] : after) {
+  for (const auto& [name, size] : after) {
     if (!fs::exists(staged / name)) continue;
     fs::create_directories((folder / name).parent_path());
     fs::rename(staged / name, folder / name);
   }
-  for (const auto& [name, trace] : before) {
-    const auto now = traceOf(folder / name);
-    if (after.count(name) > 0 || !now || !(*now == trace)) continue;
+  for (const auto& [name, size] : before) {
+    if (after.count(name) > 0 || !isAsWritten(folder / name, size, hidden / kFiles)) continue;
     fs::remove(folder / name);
     removeEmptyFolders((folder / name).parent_path(), folder);
   }
@@ -177,7 +170,7 @@ void OutputFolder::commit() {
   try {
     fs::remove(fs::path(hidden_) / kReserve);
     const FileList files = stagedFiles(staging_);
-    for (const auto& [name, trace] : files) {
+    for (const auto& [name, size] : files) {
       const fs::path target = fs::path(folder_) / name;
       refuseToReplaceKeptInput(target);
       if (fs::is_directory(target)) fail(target, "is a folder, where a file of this run is to be; move it away");
@@ -185,7 +178,7 @@ void OutputFolder::commit() {
     // This is the step: before it the old files count, after it the new ones.
     writeFile(hidden_ + "/" + kCommit, [&](std::ostream& out) {
       out << kFirstLine << "\n";
-      for (const auto& [name, trace] : files) out << trace.size << " " << trace.modified << " " << name << "\n";
+      for (const auto& [name, size] : files) out << size << " " << name << "\n";
     });
     finishCommit(folder_);
   } catch (const fs::filesystem_error& error) {
@@ -210,8 +203,8 @@ void OutputFolder::removeInner(const std::string& name) {
   const fs::path folder = fs::path(folder_) / name;
   if (!fs::exists(folder / kHidden / kFiles)) return;
   try {
-    for (const auto& [file, trace] : readList(folder / kHidden / kFiles)) {
-      if (const auto now = traceOf(folder / file); !now || !(*now == trace)) continue;
+    for (const auto& [file, size] : readList(folder / kHidden / kFiles)) {
+      if (!isAsWritten(folder / file, size, folder / kHidden / kFiles)) continue;
       fs::remove(folder / file);
       removeEmptyFolders((folder / file).parent_path(), folder);
     }

@@ -1,5 +1,6 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/base/OutputFolder.h>
 #include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/geometry/TumLine.h>
 #include <omnimapper/sim/SimulationRun.h>
@@ -10,6 +11,7 @@
 #include <cctype>
 #include <deque>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -18,7 +20,6 @@
 #include "FolderReadme.h"
 #include "LogWriter.h"
 #include "Pictures.h"
-#include "RunFolder.h"
 #include "TruthFolder.h"
 #include "WorldTruth.h"
 
@@ -185,6 +186,20 @@ void writeLog(const Simulation& simulation, const SimulationRequest& request, co
   if (!unused.empty()) removeImages(images, unused);
 }
 
+// What somebody else put there is not replaced. A folder of ours tells so by its page, too.
+void refuseForeignFolder(const std::string& folder) {
+  namespace fs = std::filesystem;
+  if (!fs::is_directory(folder) || fs::is_empty(folder) || base::OutputFolder(folder).holdsRun()) return;
+  std::ifstream page(fs::path(folder) / "README.md");
+  std::string title;
+  std::getline(page, title);
+  if (!nameInTitle(title).empty()) return;
+  throw base::Error(base::ExitCode::unwritable_output,
+                    folder +
+                        ": holds files but no simulated log, and they might be replaced; choose another with -o or "
+                        "empty it");
+}
+
 }  // namespace
 
 SimulationResult runSimulation(const Simulation& simulation, const SimulationRequest& request, base::Progress& progress,
@@ -194,8 +209,10 @@ SimulationResult runSimulation(const Simulation& simulation, const SimulationReq
         base::ExitCode::command_line,
         "--name " + request.name + ": names files, so it has no '/', does not begin with '.' and is text");
   }
-  RunFolder run(request.folder, request.name);
-  const std::string folder = run.draft();
+  refuseForeignFolder(request.folder);
+  base::OutputFolder outputs(request.folder);
+  outputs.open();
+  const std::string& folder = outputs.staging();
   SimulationResult result;
   result.duration = simulation.duration();
   result.warnings = simulation.warnings();
@@ -218,7 +235,7 @@ SimulationResult runSimulation(const Simulation& simulation, const SimulationReq
   writeText(folder + "/plan.svg", drawPlan(simulation.world(), plan));
   writeText(folder + "/" + request.name + ".ini", simulation.iniText());
   writeText(folder + "/README.md", folderReadme(simulation, request.name, result));
-  run.publish();
+  outputs.commit();
   return result;
 }
 

@@ -66,10 +66,7 @@ TEST_F(SimulateMistakes, AFullDiskLeavesNoHalfLog) {
   ProgramOptions limited;
   limited.largest_file = 50000;
   EXPECT_TRUE(endedWith(ExitCode::disk_full, with({}, limited), {folder_}));
-  for (const auto& [name, bytes] : contentOf(folder_)) {
-    EXPECT_EQ(name.find(".rawlog"), std::string::npos) << name;
-    EXPECT_EQ(name.find(".partial"), std::string::npos) << name;
-  }
+  EXPECT_FALSE(fs::exists(folder_));
 }
 
 TEST_F(SimulateMistakes, AFullDiskKeepsTheOlderRunWhole) {
@@ -97,20 +94,20 @@ TEST_F(SimulateMistakes, CtrlCLeavesNoImagesOfWhatIsNotInTheLog) {
   Program program({omnimapper::testing::ownProgram("omnimapper-simulate"), "-i", ini_, "-o", folder_, "--set",
                    "simulation.duration_s=3000", "--set", "simulation.images=external", "--set",
                    "simulation.sensors=camera"});
-  while (filesIn(folder_ + "/.unfinished/small_Images").size() < 80 && program.isRunning())
+  while (filesIn(folder_ + "/.omnimapper/staged/small_Images").size() < 80 && program.isRunning())
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   program.send(SIGINT);
   ASSERT_TRUE(endedWith(ExitCode::interrupted, program.wait()));
   const auto observations = readLog(folder_ + "/small.rawlog").observations();
   EXPECT_GT(observations, 0U);
   EXPECT_EQ(filesIn(folder_ + "/small_Images").size(), 2 * observations) << "colour and depth of each";
-  EXPECT_FALSE(fs::exists(folder_ + "/.unfinished"));
+  EXPECT_FALSE(fs::exists(folder_ + "/.omnimapper/staged"));
 }
 
 TEST_F(SimulateMistakes, CtrlCLeavesWhatWasMeasuredUntilThen) {
   Program program({omnimapper::testing::ownProgram("omnimapper-simulate"), "-i", ini_, "-o", folder_, "--set",
                    "simulation.duration_s=3000"});
-  while (!fs::exists(folder_ + "/.unfinished/truth") && program.isRunning())
+  while (!fs::exists(folder_ + "/.omnimapper/staged/truth") && program.isRunning())
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   program.send(SIGINT);
