@@ -169,13 +169,14 @@ TEST_F(Continue, KilledAtAnyMomentTheOldMapOrTheNewOneIsThere) {
   }
 }
 
-TEST_F(Continue, InterruptedTheMapHasAllOfTheOldSession) {
+TEST_F(Continue, InterruptedTheOldMapStaysAndTheOtherHasAllOfIt) {
   const std::string folder = folderWithFirst("interrupted");
   Program program(mappingCommand({file("b.rawlog")}, folder, {"--continue", folder, "--speed", "10"}));
   std::this_thread::sleep_for(std::chrono::duration<double>(2));
   program.send(SIGINT);
   EXPECT_TRUE(endedWith(ExitCode::interrupted, program.wait(), {"interrupted"}));
-  const auto before = loadMap(file("first")), after = loadMap(folder);
+  const auto before = loadMap(file("first")), after = loadMap(folder + "/interrupted");
+  EXPECT_EQ(loadMap(folder).map.key_frames.size(), before.map.key_frames.size());
   EXPECT_GT(after.map.key_frames.size(), before.map.key_frames.size());
   EXPECT_LT(after.map.key_frames.size(), loadMap(file("both")).map.key_frames.size());
   for (const auto& frame : before.map.key_frames) EXPECT_TRUE(after.map.key_frames.find(frame.id)) << frame.id;
