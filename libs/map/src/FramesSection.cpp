@@ -12,8 +12,10 @@ namespace omnimapper::map {
 namespace {
 
 const std::string kFramesName = "frames";
-// Version 2 says of each key frame whether the reference sensor saw something there.
-constexpr std::uint32_t kFramesVersion = 2;
+// Version 2 says of each key frame whether the reference sensor saw something there. Version 3 has the clouds of depth
+// images, and its bytes are in compressed blocks, so that whoever reads it holds one of them at a time.
+constexpr std::uint32_t kFramesVersion = 3;
+constexpr std::size_t kBlock = std::size_t{1} << 20;  // bytes of whole key frames, at least
 
 // The rotation matrix is what CPose3D keeps: angles or a quaternion would round, and a map saved twice would differ.
 void writePose(ByteWriter& out, const mrpt::poses::CPose3D& pose) {
@@ -69,6 +71,19 @@ void writeFrame(ByteWriter& out, const KeyFrame& frame) {
   out.uint(frame.observations.size(), 4);
   for (const auto& observation : frame.observations) writeObservation(out, *observation);
   out.uint(frame.reference, 1);
+  out.uint(frame.cloud.size(), 4);
+  for (const CloudPoint& point : frame.cloud) {
+    for (const std::int16_t coordinate : {point.x, point.y, point.z})
+      out.uint(static_cast<std::uint16_t>(coordinate), 2);
+    for (const std::uint8_t colour : {point.red, point.green, point.blue}) out.uint(colour, 1);
+  }
+}
+
+CloudPoint readCloudPoint(ByteReader& in) {
+  CloudPoint point;
+  for (std::int16_t* coordinate : {&point.x, &point.y, &point.z}) *coordinate = static_cast<std::int16_t>(in.uint(2));
+  for (std::uint8_t* colour : {&point.red, &point.green, &point.blue}) *colour = static_cast<std::uint8_t>(in.uint(1));
+  return point;
 }
 
 KeyFrame readFrame(ByteReader& in, std::uint32_t version) {
@@ -84,6 +99,9 @@ KeyFrame readFrame(ByteReader& in, std::uint32_t version) {
   }
   for (std::uint64_t left = in.uint(4); left > 0; --left) frame.observations.push_back(readObservation(in));
   frame.reference = version == 1 || in.uint(1) != 0;
+  if (version >= 3) {
+    for (std::uint64_t left = in.uint(4); left > 0; --left) frame.cloud.push_back(readCloudPoint(in));
+  }
   return frame;
 }
 
@@ -102,17 +120,41 @@ Map mapOf(std::vector<KeyFrame> frames) {
 }  // namespace
 
 MapSection framesToSection(const Map& map) {
-  ByteWriter out;
+  ByteWriter out, frames;
   out.uint(map.key_frames.size(), 4);
-  for (const KeyFrame& frame : map.key_frames) writeFrame(out, frame);
+  for (const KeyFrame& frame : map.key_frames) {
+    writeFrame(frames, frame);
+    if (frames.bytes().size() >= kBlock) writeCompressed(out, frames.take());
+  }
+  if (!frames.bytes().empty()) writeCompressed(out, frames.take());
   return {kFramesName, kFramesVersion, out.take()};
+}
+
+std::uint64_t uncompressedSize(const MapSection& frames) {
+  if (frames.version < 3) return frames.bytes.size();
+  ByteReader in(frames.bytes, placeOf(kFramesName));
+  std::uint64_t size = 0;
+  try {
+    for (in.uint(4); !in.atEnd(); in.block()) size += in.uint(8);
+  } catch (const base::Error&) {
+  }
+  return size;
 }
 
 Map framesFromSection(const MapSection& section) {
   expectSection(section, kFramesName, kFramesVersion);
   ByteReader in(section.bytes, placeOf(kFramesName));
+  std::uint64_t left = in.uint(4);
   std::vector<KeyFrame> frames;
-  for (std::uint64_t left = in.uint(4); left > 0; --left) frames.push_back(readFrame(in, section.version));
+  if (section.version < 3) {
+    for (; left > 0; --left) frames.push_back(readFrame(in, section.version));
+  }
+  while (left > 0) {
+    const std::string block = readCompressed(in);
+    ByteReader of_block(block, placeOf(kFramesName));
+    for (; left > 0 && !of_block.atEnd(); --left) frames.push_back(readFrame(of_block, section.version));
+    expectEnd(of_block, kFramesName);
+  }
   expectEnd(in, kFramesName);
   return mapOf(std::move(frames));
 }

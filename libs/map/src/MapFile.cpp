@@ -6,11 +6,11 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 
 namespace omnimapper::map {
 
-using base::ByteReader;
 using base::ByteWriter;
 
 namespace {
@@ -44,7 +44,40 @@ std::uint32_t checksumOf(const std::string& header, std::string_view bytes) {
   return static_cast<std::uint32_t>(crc);
 }
 
-MapSection readSection(ByteReader& in, const std::string& path, std::uint32_t number) {
+// The bytes of a file, one part after the other, so that no more than a section is in memory twice.
+class FileBytes {
+ public:
+  explicit FileBytes(const std::string& path) : in_(base::openInput(path, "map file")), what_(path) {
+    in_.seekg(0, std::ios::end);
+    left_ = static_cast<std::uint64_t>(std::max<std::streamoff>(0, in_.tellg()));
+    in_.seekg(0);
+  }
+
+  std::string raw(std::uint64_t count) {
+    if (count > left_) {
+      throw base::Error(base::ExitCode::unreadable_input, what_ + ": truncated: something of " + std::to_string(count) +
+                                                              " bytes begins where only " + std::to_string(left_) +
+                                                              " are left. Take another copy of the file.");
+    }
+    std::string bytes(count, '\0');
+    in_.read(bytes.data(), static_cast<std::streamsize>(count));
+    if (!in_)
+      throw base::Error(base::ExitCode::damaged_input, what_ + ": cannot be read to its end; is the disk whole?");
+    left_ -= count;
+    return bytes;
+  }
+  std::uint64_t uint(int bytes) { return base::fromBytes(raw(static_cast<std::uint64_t>(bytes)).data(), bytes); }
+  bool atEnd() const { return left_ == 0; }
+  /// Names the place in messages from here on.
+  void setWhat(const std::string& what) { what_ = what; }
+
+ private:
+  std::ifstream in_;
+  std::string what_;
+  std::uint64_t left_;
+};
+
+MapSection readSection(FileBytes& in, const std::string& path, std::uint32_t number) {
   in.setWhat(path + ", section number " + std::to_string(number));
   const auto checksum = static_cast<std::uint32_t>(in.uint(4));
   MapSection section;
@@ -52,7 +85,7 @@ MapSection readSection(ByteReader& in, const std::string& path, std::uint32_t nu
   const std::string what = path + ", section \"" + section.name + "\"";
   in.setWhat(what);
   section.version = static_cast<std::uint32_t>(in.uint(4));
-  section.bytes = in.block();
+  section.bytes = in.raw(in.uint(8));
   if (checksumOf(headerOf(section), section.bytes) != checksum) {
     refuseFile(what, "its checksum does not fit: the file is damaged. Take another copy of it.");
   }
@@ -62,12 +95,13 @@ MapSection readSection(ByteReader& in, const std::string& path, std::uint32_t nu
 }  // namespace
 
 MapFile MapFile::read(const std::string& path) {
-  const std::string content = base::readInput(path, "map file");
-  if (content.compare(0, kMagic.size(), kMagic) != 0) {
-    refuseFile(path, "is no map file of OmniMapper: it does not begin with \"OMNIMAP\".");
+  FileBytes in(path);
+  std::string magic;
+  try {
+    magic = in.raw(kMagic.size());
+  } catch (const base::Error&) {
   }
-  ByteReader in(content, path);
-  in.raw(kMagic.size());
+  if (magic != kMagic) refuseFile(path, "is no map file of OmniMapper: it does not begin with \"OMNIMAP\".");
   const std::uint64_t format = in.uint(4);
   if (format != kFormatVersion) {
     refuseFile(path, "was written in format " + std::to_string(format) + ", and this program reads format " +

@@ -36,6 +36,11 @@ inline base::Stamp readStamp(ByteReader& in) {
   return base::Stamp(base::Duration(static_cast<std::int64_t>(in.uint(8))));
 }
 
+/// Appends `bytes`, compressed: their length in 8 bytes, then a block.
+void writeCompressed(ByteWriter& out, const std::string& bytes);
+/// Throws Error(unreadable_input) if what stands there is none of those.
+std::string readCompressed(ByteReader& in);
+
 inline std::string placeOf(const std::string& section) {
   return "map file, section \"" + section + "\"";
 }

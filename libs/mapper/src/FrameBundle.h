@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/Stamp.h>
+#include <omnimapper/map/CloudPoint.h>
 #include <omnimapper/plugin/MeasurementPlugin.h>
 
 #include <future>
@@ -20,8 +21,9 @@ struct Perceived {
 
 /// All that the pool made of one observation.
 struct PerceivedParts {
-  std::vector<Perceived> parts;  ///< the observation itself, then what the extractors made of it, in their order
-  ExtractionErrors errors;       ///< of extractors that could not take it
+  std::vector<Perceived> parts;        ///< the observation itself, then what the extractors made of it, in their order
+  std::vector<map::CloudPoint> cloud;  ///< of a depth image, in the base
+  ExtractionErrors errors;             ///< of extractors that could not take it
 };
 
 /// What the front end hands to the back end: the observations of one stamp that the trigger let through. Without any,

@@ -9,12 +9,17 @@ IMPLEMENTS_MRPT_OBJECT(MapOutputFactory, omnimapper::mapper::OutputPluginFactory
 namespace omnimapper::exports {
 
 const base::OptionTable<MapOutputOptions>& MapOutputOptions::table() {
-  static const base::OptionTable<MapOutputOptions> table;
+  using mapper::RawImages;
+  static const auto table = base::OptionTable<MapOutputOptions>().choice(
+      "keep_raw", &MapOutputOptions::keep_raw,
+      {{"none", RawImages::none}, {"depth", RawImages::depth}, {"all", RawImages::all}},
+      "What key frames keep of images in the log: nothing (a thinned coloured cloud stays), depth images, or all. What "
+      "is not kept cannot be had from the map later.");
   return table;
 }
 
-MapOutput::MapOutput(const MapOutputOptions&, const mapper::PluginContext& context)
-    : path_(outputPath(context, "map.omnimap")) {}
+MapOutput::MapOutput(const MapOutputOptions& options, const mapper::PluginContext& context)
+    : path_(outputPath(context, "map.omnimap")), keep_raw_(options.keep_raw) {}
 
 void MapOutput::finish(const mapper::View& view) {
   mapper::mapFileOf(view.map, view.graph, view.sections).write(path_);

@@ -8,6 +8,8 @@
 namespace omnimapper::exports {
 
 struct MapOutputOptions {
+  mapper::RawImages keep_raw = mapper::RawImages::none;
+
   static const base::OptionTable<MapOutputOptions>& table();
 };
 
@@ -16,10 +18,12 @@ class MapOutput : public mapper::OutputPlugin {
  public:
   MapOutput(const MapOutputOptions& options, const mapper::PluginContext& context);
   bool isOfMap() const override { return true; }
+  mapper::RawImages needsOfImages() const override { return keep_raw_; }
   void finish(const mapper::View& view) override;
 
  private:
   std::string path_;
+  mapper::RawImages keep_raw_;
 };
 
 class MapOutputFactory : public mapper::OutputPluginFactory {

@@ -104,6 +104,11 @@ bool hasClouds(const map::Map& map) {
                      [](const map::KeyFrame& frame) { return hasClouds(frame); });
 }
 
+bool hasDepthClouds(const map::Map& map) {
+  return std::any_of(map.key_frames.begin(), map.key_frames.end(),
+                     [](const map::KeyFrame& frame) { return !frame.cloud.empty(); });
+}
+
 std::vector<TPoint3Df> pointsInBase(const map::KeyFrame& frame, bool of_clouds, double max_range) {
   std::vector<TPoint3Df> points;
   if (of_clouds) {
@@ -120,17 +125,27 @@ std::vector<TPoint3Df> pointsInBase(const map::KeyFrame& frame, bool of_clouds, 
 std::vector<ColouredPoint> pointsOf(const map::Map& map, const PointsOptions& options) {
   std::vector<ColouredPoint> points;
   Thinner thinner(options.voxel);
-  const bool of_clouds = hasClouds(map);
+  const bool by_camera = options.colour == PointColour::automatic && hasDepthClouds(map);
+  const auto add = [&](const map::KeyFrame& frame, const mrpt::math::TPoint3D& in_base, const draw::Rgb& colour) {
+    const TPoint3Df in_map(frame.map_from_base.composePoint(in_base));
+    if (thinner.keeps(in_map)) points.push_back({in_map, colour});
+  };
+  const auto by_time = [&](std::size_t i) {
+    return spectrum(static_cast<double>(i) / std::max<double>(1, static_cast<double>(map.key_frames.size() - 1)));
+  };
   for (std::size_t i = 0; i < map.key_frames.size(); ++i) {
-    const map::KeyFrame& frame = map.key_frames[i];
-    const double age = static_cast<double>(i) / std::max<double>(1, static_cast<double>(map.key_frames.size() - 1));
-    for (const TPoint3Df& in_base : pointsInBase(frame, of_clouds, options.max_range)) {
-      const TPoint3Df in_map(frame.map_from_base.composePoint(mrpt::math::TPoint3D(in_base)));
-      if (thinner.keeps(in_map)) points.push_back({in_map, spectrum(age)});
-    }
+    for (const auto& point : map.key_frames[i].cloud)
+      add(map.key_frames[i], point.inBase(), by_camera ? draw::Rgb{point.red, point.green, point.blue} : by_time(i));
   }
-  const bool by_height = !points.empty() && (options.colour == PointColour::height ||
-                                             (options.colour == PointColour::automatic && !isFlat(points)));
+  const bool of_clouds = hasClouds(map);
+  constexpr draw::Rgb kGrey{128, 128, 128};
+  for (std::size_t i = 0; i < map.key_frames.size(); ++i) {
+    for (const TPoint3Df& in_base : pointsInBase(map.key_frames[i], of_clouds, options.max_range))
+      add(map.key_frames[i], mrpt::math::TPoint3D(in_base), by_camera ? kGrey : by_time(i));
+  }
+  const bool by_height =
+      !points.empty() && (options.colour == PointColour::height ||
+                          (options.colour == PointColour::automatic && !by_camera && !isFlat(points)));
   if (by_height) colourByHeight(points);
   return points;
 }

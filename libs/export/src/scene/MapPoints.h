@@ -22,7 +22,11 @@ bool hasClouds(const map::KeyFrame& frame);
 /// Whether any key frame has a point cloud: then those are the points of the map.
 bool hasClouds(const map::Map& map);
 
-/// The points of all key frames; of each cube the first is kept.
+/// Whether any key frame has points of depth images.
+bool hasDepthClouds(const map::Map& map);
+
+/// The points of all key frames, those of depth images first; of each cube the first is kept. Where these have the
+/// colours of the camera, the others are grey.
 std::vector<ColouredPoint> pointsOf(const map::Map& map, const PointsOptions& options);
 
 /// Colours from blue by green to red for 0 to 1.

@@ -17,7 +17,9 @@ const base::OptionTable<PointsOptions>& PointsOptions::table() {
           .number("max_range_m", &Options::max_range, {0.1, 1000}, "Points further from their sensor are left out.")
           .choice("colour", &Options::colour,
                   {{"auto", PointColour::automatic}, {"height", PointColour::height}, {"time", PointColour::time}},
-                  "What the colours mean; auto: height where the map has any, else time.");
+                  "What the colours mean; auto: those of the camera where there are depth images, else height where "
+                  "the map has "
+                  "any, else time.");
   return table;
 }
 

@@ -22,6 +22,12 @@ std::set<std::string> absoluteSections(const PluginSet& plugins) {
   return sections;
 }
 
+RawImages imagesThatOutputsNeed(const PluginSet& plugins) {
+  RawImages most = RawImages::none;
+  for (const auto& [section, plugin] : plugins.output) most = std::max(most, plugin->needsOfImages());
+  return most;
+}
+
 }  // namespace
 
 BackEnd::BackEnd(const EngineSettings& settings, PluginSet& plugins, base::WorkerPool& pool, RunState& state)
@@ -31,7 +37,8 @@ BackEnd::BackEnd(const EngineSettings& settings, PluginSet& plugins, base::Worke
       absolute_(absoluteSections(plugins)),
       chain_(settings.engine.motion, plugins.pose, state.map, state.graph),
       estimator_(settings, state),
-      applier_(plugins.measurement, state, estimator_, pool, static_cast<std::size_t>(settings.engine.job_delay)) {}
+      applier_(plugins.measurement, state, estimator_, pool, static_cast<std::size_t>(settings.engine.job_delay)),
+      kept_(settings.engine.cloud(), imagesThatOutputsNeed(plugins), state.map) {}
 
 void BackEnd::beginSession(const map::Session& session, const std::optional<SessionStart>& start) {
   chain_.beginSession(session, start, !absolute_.empty());
@@ -57,23 +64,27 @@ bool BackEnd::process(FrameBundle& bundle) {
       plugin->spliced(state_.map.keyFrame(place->id), place->before, place->after);
     }
   }
-  const auto perceived = gather(bundle, place->id);
-  measure(place->id, perceived);
+  const auto gathered = gather(bundle, place->id);
+  measure(place->id, gathered.perceived);
   commit(place->id);
+  if (!window_) kept_.addCloud(place->id, gathered.cloud);
+  kept_.dropImages(place->id);
   if (window_ && place->is_new && !place->after) addEstimate(place->id);
   return true;
 }
 
 // The raw observations, then what the workers made of them, without what the key frame has already: a perceived log
 // brings derived observations of its own, and a late one may repeat an old one.
-std::vector<Perceived> BackEnd::gather(FrameBundle& bundle, base::KeyFrameId id) {
+BackEnd::Gathered BackEnd::gather(FrameBundle& bundle, base::KeyFrameId id) {
   std::vector<Perceived> raw, derived;
+  std::vector<map::CloudPoint> cloud;
   for (auto& pending : bundle.observations) {
     const auto timer = state_.times.measure(Stage::perception_wait);
-    auto [parts, errors] = pending.get();
-    state_.extraction_errors.add(errors);
-    raw.push_back(std::move(parts.front()));
-    std::move(parts.begin() + 1, parts.end(), std::back_inserter(derived));
+    auto made = pending.get();
+    state_.extraction_errors.add(made.errors);
+    raw.push_back(std::move(made.parts.front()));
+    std::move(made.parts.begin() + 1, made.parts.end(), std::back_inserter(derived));
+    cloud.insert(cloud.end(), made.cloud.begin(), made.cloud.end());
   }
   map::KeyFrame& frame = state_.map.key_frames.edit(id);
   std::vector<Perceived> added;
@@ -90,7 +101,7 @@ std::vector<Perceived> BackEnd::gather(FrameBundle& bundle, base::KeyFrameId id)
       added.push_back(std::move(perceived));
     }
   }
-  return added;
+  return {std::move(added), std::move(cloud)};
 }
 
 void BackEnd::measure(base::KeyFrameId id, const std::vector<Perceived>& perceived) {
@@ -171,6 +182,7 @@ void BackEnd::judgeMap() {
 
 void BackEnd::resume() {
   estimator_.resume();
+  kept_.resume();
   for (auto& [section, plugin] : plugins_.measurement) {
     const auto found =
         std::find_if(state_.sections.begin(), state_.sections.end(),

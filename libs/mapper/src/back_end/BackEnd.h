@@ -14,6 +14,7 @@
 #include "RunState.h"
 #include "back_end/BatchApplier.h"
 #include "back_end/Estimator.h"
+#include "back_end/KeptObservations.h"
 #include "back_end/PoseChain.h"
 #include "back_end/SlidingWindow.h"
 
@@ -58,7 +59,11 @@ class BackEnd {
   PoseChain& chain() { return chain_; }
 
  private:
-  std::vector<Perceived> gather(FrameBundle& bundle, base::KeyFrameId id);
+  struct Gathered {
+    std::vector<Perceived> perceived;
+    std::vector<map::CloudPoint> cloud;
+  };
+  Gathered gather(FrameBundle& bundle, base::KeyFrameId id);
   void measure(base::KeyFrameId id, const std::vector<Perceived>& perceived);
   void commit(base::KeyFrameId id);
   void solve(const graph::SolveOptions& options);
@@ -72,6 +77,7 @@ class BackEnd {
   Estimator estimator_;
   std::optional<SlidingWindow> window_;  // of a run that localizes
   BatchApplier applier_;
+  KeptObservations kept_;
 };
 
 }  // namespace omnimapper::mapper

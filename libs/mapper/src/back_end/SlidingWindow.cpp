@@ -79,6 +79,7 @@ std::vector<base::KeyFrameId> SlidingWindow::retire(base::Stamp stamp) {
     const auto id = map_.key_frames[held_].id;
     retire(map_.keyFrame(id).pose, map_.key_frames[held_ + 1].pose);
     map_.key_frames.edit(id).observations.clear();
+    map_.key_frames.edit(id).cloud.clear();
     retired.push_back(id);
     ++held_;
   }

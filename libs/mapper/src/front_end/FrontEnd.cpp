@@ -34,7 +34,7 @@ FrontEnd::FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, Plu
       state_(state),
       queue_(base::durationFromSeconds(settings.engine.window)),
       trigger_(settings.trigger),
-      perception_(pointers(plugins.extractors), pointers(plugins.measurement), pool),
+      perception_(pointers(plugins.extractors), pointers(plugins.measurement), pool, settings.engine.cloud()),
       reference_sensor_(settings.engine.reference_sensor) {}
 
 void FrontEnd::add(const mrpt::obs::CObservation::Ptr& observation) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "front_end/DepthCloud.h"
+
 namespace omnimapper::mapper {
 
 using mrpt::obs::CObservation;
@@ -40,6 +42,7 @@ std::future<PerceivedParts> Perception::submit(CObservation::ConstPtr raw,
       }
       for (const auto& derived : made) all.parts.push_back(prepared(derived));
     }
+    all.cloud = depthCloud(*raw, cloud_);
     return all;
   });
 }

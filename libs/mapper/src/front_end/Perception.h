@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/WorkerPool.h>
+#include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/perception/Extractor.h>
 #include <omnimapper/plugin/MeasurementPlugin.h>
 
@@ -20,8 +21,8 @@ class Perception {
  public:
   /// All of them stay the caller's and must outlive this, and this the tasks in the pool.
   Perception(std::vector<const perception::Extractor*> extractors, std::vector<const MeasurementPlugin*> plugins,
-             base::WorkerPool& pool)
-      : extractors_(std::move(extractors)), plugins_(std::move(plugins)), pool_(pool) {}
+             base::WorkerPool& pool, const CloudOptions& cloud)
+      : extractors_(std::move(extractors)), plugins_(std::move(plugins)), pool_(pool), cloud_(cloud) {}
 
   /// Whether an extractor or a plugin takes it.
   bool wants(const mrpt::obs::CObservation& raw) const;
@@ -36,6 +37,7 @@ class Perception {
   std::vector<const perception::Extractor*> extractors_;
   std::vector<const MeasurementPlugin*> plugins_;
   base::WorkerPool& pool_;
+  CloudOptions cloud_;
 };
 
 }  // namespace omnimapper::mapper

@@ -32,7 +32,11 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
                    "Solve after a loop closure, but not before so many key frames have passed since the last solve.")
           .number("solve_growth", &Options::solve_growth, base::Range{0, 1},
                   "Solves are at least this share of the key frames apart, a quarter of it where a closure contradicts "
-                  "the estimate: a solve costs as much as the map is large, a key frame is to cost the same always.");
+                  "the estimate: a solve costs as much as the map is large, a key frame is to cost the same always.")
+          .number("cloud_voxel_m", &Options::cloud_voxel, base::Range{0, 10},
+                  "Of depth images the map keeps one coloured point in each cube of this side; 0: none.")
+          .number("cloud_max_range_m", &Options::cloud_max_range, base::Range::positive(),
+                  "Points of that cloud are at most so far from the camera.");
   return table;
 }
 

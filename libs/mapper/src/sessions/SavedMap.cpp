@@ -50,7 +50,7 @@ graph::Graph graphOf(const map::MapSection& section, const Kinds& kinds) {
 // MRPT's readers follow corrupt counts wherever they lead: a child process goes first. What observations hold is in the
 // section as it is, so they do not take many times its size.
 map::Map framesOf(const map::MapSection& section) {
-  const std::uint64_t memory = (std::uint64_t{256} << 20) + 4 * section.bytes.size();
+  const std::uint64_t memory = (std::uint64_t{256} << 20) + 4 * map::uncompressedSize(section);
   const auto end = base::tryInChild([&] { map::framesFromSection(section); }, memory);
   switch (end.how) {
     case base::TrialEnd::How::finished:

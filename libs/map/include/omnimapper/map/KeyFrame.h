@@ -4,6 +4,7 @@
 #include <mrpt/poses/CPose3D.h>
 #include <omnimapper/base/Id.h>
 #include <omnimapper/base/Stamp.h>
+#include <omnimapper/map/CloudPoint.h>
 
 #include <vector>
 
@@ -19,10 +20,12 @@ struct DependentFrame {
 struct KeyFrame {
   base::KeyFrameId id;
   base::Stamp stamp;
-  base::VariableId pose;                                        ///< its variable in the graph
-  mrpt::poses::CPose3D map_from_base;                           ///< latest estimate
-  std::vector<mrpt::obs::CObservation::ConstPtr> observations;  ///< raw and derived, all of `stamp`; sensor frames
-  std::vector<DependentFrame> dependents;                       ///< in order of stamp, before the next key frame
+  base::VariableId pose;               ///< its variable in the graph
+  mrpt::poses::CPose3D map_from_base;  ///< latest estimate
+  /// Raw and derived, all of `stamp`; sensor frames. Images are in them only as far as an output asks for them.
+  std::vector<mrpt::obs::CObservation::ConstPtr> observations;
+  std::vector<CloudPoint> cloud;           ///< of its depth images, where no earlier key frame had a point
+  std::vector<DependentFrame> dependents;  ///< in order of stamp, before the next key frame
   /// Motion to the next key frame by the source that gave `dependents`; identity for the newest.
   mrpt::poses::CPose3D keyframe_from_next;
   bool reference = true;  ///< the reference sensor saw something here: the trajectory has a line for it

@@ -36,6 +36,8 @@ class MapFile {
 
 /// The "frames" section: every key frame with its observations.
 MapSection framesToSection(const Map& map);
+/// How many bytes all its key frames have when they are not compressed; of damaged bytes any number.
+std::uint64_t uncompressedSize(const MapSection& frames);
 /// A map of nothing else. Throws Error(unreadable_input) if the bytes are not frames of a known version.
 Map framesFromSection(const MapSection& section);
 

@@ -12,6 +12,12 @@
 
 namespace omnimapper::mapper {
 
+/// The cloud that key frames keep of depth images.
+struct CloudOptions {
+  double voxel = 0.05;   ///< [m]; 0: none is kept
+  double max_range = 5;  ///< [m]
+};
+
 /// Section [mapper] of an INI.
 struct EngineOptions {
   Motion motion = Motion::planar;
@@ -26,6 +32,10 @@ struct EngineOptions {
   int solve_every = 100;         ///< key frames
   int solve_after_closure = 10;  ///< key frames
   double solve_growth = 0.1;     ///< share of the key frames
+  double cloud_voxel = 0.05;     ///< [m]
+  double cloud_max_range = 5;    ///< [m]
+
+  CloudOptions cloud() const { return {cloud_voxel, cloud_max_range}; }
 
   static const base::OptionTable<EngineOptions>& table();
 };

@@ -1,0 +1,97 @@
+#include "back_end/KeptObservations.h"
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationStereoImages.h>
+
+#include <memory>
+
+#include "CubeIndex.h"
+
+namespace omnimapper::mapper {
+
+namespace {
+
+using namespace mrpt::obs;
+
+template <class Observation>
+std::shared_ptr<Observation> withSameHead(const Observation& of) {
+  auto made = Observation::Create();
+  made->timestamp = of.timestamp;
+  made->sensorLabel = of.sensorLabel;
+  return made;
+}
+
+CObservation::ConstPtr stripped(const CObservation3DRangeScan& scan, RawImages kept) {
+  const bool has_more = scan.hasIntensityImage || scan.hasConfidenceImage || scan.hasPoints3D ||
+                        scan.hasPixelLabels() || !scan.rangeImageOtherLayers.empty();
+  if (kept == RawImages::depth ? !has_more : !has_more && !scan.hasRangeImage) return nullptr;
+  auto made = withSameHead(scan);
+  made->sensorPose = scan.sensorPose;
+  made->cameraParams = scan.cameraParams;
+  made->cameraParamsIntensity = scan.cameraParamsIntensity;
+  made->relativePoseIntensityWRTDepth = scan.relativePoseIntensityWRTDepth;
+  made->maxRange = scan.maxRange;
+  made->stdError = scan.stdError;
+  made->range_is_depth = scan.range_is_depth;
+  made->rangeUnits = scan.rangeUnits;
+  if (kept == RawImages::none) return made;
+  made->hasRangeImage = scan.hasRangeImage;
+  made->rangeImage = scan.rangeImage;
+  return made;
+}
+
+CObservation::ConstPtr stripped(const CObservationImage& image) {
+  if (image.image.isEmpty()) return nullptr;
+  auto made = withSameHead(image);
+  made->cameraPose = image.cameraPose;
+  made->cameraParams = image.cameraParams;
+  return made;
+}
+
+CObservation::ConstPtr stripped(const CObservationStereoImages& images) {
+  if (images.imageLeft.isEmpty() && !images.hasImageRight && !images.hasImageDisparity) return nullptr;
+  auto made = withSameHead(images);
+  made->leftCamera = images.leftCamera;
+  made->rightCamera = images.rightCamera;
+  made->cameraPose = images.cameraPose;
+  made->rightCameraPose = images.rightCameraPose;
+  made->hasImageRight = made->hasImageDisparity = false;
+  return made;
+}
+
+// Null where there is nothing to leave out.
+CObservation::ConstPtr stripped(const CObservation& observation, RawImages kept) {
+  if (const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation)) return stripped(*scan, kept);
+  if (const auto* image = dynamic_cast<const CObservationImage*>(&observation)) return stripped(*image);
+  if (const auto* images = dynamic_cast<const CObservationStereoImages*>(&observation)) return stripped(*images);
+  return nullptr;
+}
+
+}  // namespace
+
+void KeptObservations::resume() {
+  if (!(cloud_.voxel > 0)) return;
+  for (const auto& frame : map_.key_frames) {
+    for (const auto& point : frame.cloud)
+      taken_.insert(cubeOf(frame.map_from_base.composePoint(point.inBase()), cloud_.voxel));
+  }
+}
+
+void KeptObservations::addCloud(base::KeyFrameId id, const std::vector<map::CloudPoint>& points) {
+  if (points.empty()) return;
+  auto& frame = map_.key_frames.edit(id);
+  for (const auto& point : points) {
+    if (taken_.insert(cubeOf(frame.map_from_base.composePoint(point.inBase()), cloud_.voxel)).second)
+      frame.cloud.push_back(point);
+  }
+}
+
+void KeptObservations::dropImages(base::KeyFrameId id) {
+  if (images_ == RawImages::all) return;
+  for (auto& observation : map_.key_frames.edit(id).observations) {
+    if (auto kept = stripped(*observation, images_)) observation = std::move(kept);
+  }
+}
+
+}  // namespace omnimapper::mapper
