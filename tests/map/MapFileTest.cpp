@@ -5,6 +5,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/FramesBytes.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -82,6 +83,8 @@ map::Map awkwardMap() {
     auto fix = mrpt::obs::CObservationRobotPose::Create();
     fix->pose.mean = pose();
     frame.observations.push_back(fix);
+    for (int p = 0; p < 3; ++p)
+      frame.cloud.push_back({static_cast<std::int16_t>(-32000 + p), 0, 31000, 255, static_cast<std::uint8_t>(p), 7});
     map.key_frames.insert(frame);
   }
   return map;
@@ -120,6 +123,37 @@ TEST(MapFile, saveLoadSaveIsTheSameFile) {
   loaded.set(map::framesToSection(map::framesFromSection(*loaded.find("frames"))));
   loaded.write(folder / "b.omnimap");
   EXPECT_EQ(contentOf(folder / "a.omnimap"), contentOf(folder / "b.omnimap"));
+}
+
+TEST(MapFile, manyKeyFramesAreSeveralBlocksAndSmallerThanTheirBytes) {
+  map::Map map;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    map::KeyFrame frame;
+    frame.id = {0, i};
+    frame.stamp = base::stampFromUnix(1e9 + i);
+    auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+    scan->resizeScan(4000);
+    for (std::size_t beam = 0; beam < 4000; ++beam) scan->setScanRange(beam, static_cast<float>(i));
+    frame.observations.push_back(scan);
+    map.key_frames.insert(frame);
+  }
+  const auto section = map::framesToSection(map);
+  EXPECT_GT(map::uncompressedSize(section), 300U * 4000 * 4);
+  EXPECT_LT(section.bytes.size(), map::uncompressedSize(section) / 10);
+  const auto again = map::framesFromSection(section);
+  ASSERT_EQ(again.key_frames.size(), 300U);
+  EXPECT_EQ(dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(*again.key_frames[299].observations[0])
+                .getScanRange(3999),
+            299);
+}
+
+TEST(MapFile, aBlockThatClaimsWhatNoBytesHoldIsRefused) {
+  auto section = map::framesToSection(awkwardMap());
+  for (const std::size_t at : {4, 12, 40, 50}) {
+    auto damaged = section;
+    damaged.bytes[at + 2] = '\x7f';
+    EXPECT_THROW(map::framesFromSection(damaged), base::Error) << at;
+  }
 }
 
 TEST(MapFile, anyCutIsNoticed) {
@@ -203,6 +237,10 @@ TEST(FramesSection, keepsEveryBitOfPosesStampsAndObservations) {
     EXPECT_EQ(a.dependents[2].keyframe_from_base.getRotationMatrix(),
               b.dependents[2].keyframe_from_base.getRotationMatrix());
     ASSERT_EQ(b.observations.size(), 2u);
+    ASSERT_EQ(b.cloud.size(), 3u);
+    EXPECT_EQ(b.cloud[2].x, -31998);
+    EXPECT_EQ(b.cloud[2].z, 31000);
+    EXPECT_EQ(b.cloud[2].green, 2);
     const auto scan = std::dynamic_pointer_cast<const mrpt::obs::CObservation2DRangeScan>(b.observations[0]);
     ASSERT_TRUE(scan);
     const auto& original = dynamic_cast<const mrpt::obs::CObservation2DRangeScan&>(*a.observations[0]);
@@ -214,16 +252,17 @@ TEST(FramesSection, keepsEveryBitOfPosesStampsAndObservations) {
 
 TEST(FramesSection, laterVersionsAndStrangeBytesAreRefused) {
   map::MapSection section = map::framesToSection(awkwardMap());
-  section.version = 3;
+  section.version = 4;
   EXPECT_THROW(map::framesFromSection(section), base::Error);
-  section.version = 2;
+  section.version = 3;
   section.bytes.pop_back();
   EXPECT_THROW(map::framesFromSection(section), base::Error);
   EXPECT_THROW(map::framesFromSection({"frames", 1, "??"}), base::Error);
   EXPECT_THROW(map::framesFromSection({"graph", 1, ""}), base::Error);
   // An observation of a class that nobody registered.
-  section = map::framesToSection(awkwardMap());
-  section.bytes.replace(section.bytes.find("CObservationRobotPose"), 21, "CObservationRobotPast");
+  std::string bytes = omnimapper::testing::unpackedFrames(map::framesToSection(awkwardMap()));
+  bytes.replace(bytes.find("CObservationRobotPose"), 21, "CObservationRobotPast");
+  section = omnimapper::testing::packedFrames(3, bytes);
   try {
     map::framesFromSection(section);
     FAIL() << "no error";

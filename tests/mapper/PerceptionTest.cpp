@@ -57,7 +57,7 @@ class Pool : public ::testing::TestWithParam<int> {};
 TEST_P(Pool, GivesTheSameResultsInTheSameOrderWithAnyNumberOfThreads) {
   const Suffix one(".one"), two(".two");
   base::WorkerPool workers(GetParam());
-  const Perception perception({&one, &two}, {}, workers);
+  const Perception perception({&one, &two}, {}, workers, {});
   std::vector<std::future<Result>> results;
   for (int i = 0; i < 200; ++i) results.push_back(perception.submit(comment(std::to_string(i))));
   for (int i = 0; i < 200; ++i) {
@@ -70,7 +70,7 @@ TEST_P(Pool, GivesTheSameResultsInTheSameOrderWithAnyNumberOfThreads) {
 TEST_P(Pool, AnExceptionComesOutOfItsFutureAndOfNoOther) {
   const Suffix one(".one");
   base::WorkerPool workers(GetParam());
-  const Perception perception({&one}, {}, workers);
+  const Perception perception({&one}, {}, workers, {});
   auto before = perception.submit(comment("a")), bad = perception.submit(comment("bad")),
        after = perception.submit(comment("b"));
   EXPECT_EQ(texts(before.get()), std::vector<std::string>{"a.one"});
@@ -89,7 +89,7 @@ TEST_P(Pool, AnObservationThatAnExtractorCannotTakeIsCountedAndTheOthersTakeIt) 
   const Strict strict(".one");
   const Suffix two(".two");
   base::WorkerPool workers(GetParam());
-  const Perception perception({&strict, &two}, {}, workers);
+  const Perception perception({&strict, &two}, {}, workers, {});
   const auto result = perception.submit(comment("a")).get();
   EXPECT_EQ(texts(result), std::vector<std::string>{"a.two"});
   EXPECT_EQ(result.errors.count(), 1U);
@@ -107,7 +107,7 @@ TEST_P(Pool, WhatTheLogBringsIsNotMadeAnew) {
   };
   const Named named(".one");
   base::WorkerPool workers(GetParam());
-  const Perception perception({&named}, {}, workers);
+  const Perception perception({&named}, {}, workers, {});
   const auto labelled = [](const std::string& label) {
     auto made = comment("brought");
     made->sensorLabel = label;
@@ -125,7 +125,7 @@ TEST_P(Pool, WhatHasNotBegunAtTheEndIsLeftOutAndItsFutureSaysSo) {
   std::vector<std::future<Result>> results;
   const Suffix one(".one");
   auto workers = std::make_unique<base::WorkerPool>(GetParam());
-  const Perception perception({&one}, {}, *workers);
+  const Perception perception({&one}, {}, *workers, {});
   for (int i = 0; i < 200; ++i) results.push_back(perception.submit(comment(std::to_string(i))));
   workers.reset();  // before what its tasks use
   bool left_out = false;
@@ -160,7 +160,7 @@ TEST_P(Pool, PluginsPrepareWhatTheyWantOfTheRawAndTheDerived) {
   const Suffix one(".one");
   const Counter counter;
   base::WorkerPool workers(GetParam());
-  const Perception perception({&one}, {&counter}, workers);
+  const Perception perception({&one}, {&counter}, workers, {});
   const auto result = perception.submit(comment("abc")).get().parts;
   ASSERT_EQ(result.size(), 2U);
   const auto length = [&](std::size_t i) {
@@ -174,7 +174,7 @@ TEST_P(Pool, PluginsPrepareWhatTheyWantOfTheRawAndTheDerived) {
 TEST_P(Pool, WhatNoExtractorWantsGivesNothing) {
   const Suffix one(".one");
   base::WorkerPool workers(GetParam());
-  const Perception perception({&one}, {}, workers);
+  const Perception perception({&one}, {}, workers, {});
   const auto odometry = mrpt::obs::CObservationOdometry::Create();
   EXPECT_FALSE(perception.wants(*odometry));
   EXPECT_TRUE(perception.wants(*comment("a")));

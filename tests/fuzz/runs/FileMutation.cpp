@@ -1,5 +1,6 @@
 #include "FileMutation.h"
 
+#include <omnimapper/testing/FramesBytes.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -79,16 +80,25 @@ map::MapFile mutatedMap(const map::MapFile& map, const map::MapFile& other, Dice
   for (std::size_t i = 0; i < count && !sections.empty(); ++i) {
     const std::size_t chosen = below(dice, sections.size());
     auto& section = sections[chosen];
+    // What is compressed is damaged as it is, and more often as what it holds.
+    const bool is_unpacked = section.name == "frames" && section.version == 3 && !onceIn(dice, 8);
+    if (is_unpacked) {
+      try {
+        section.bytes = testing::unpackedFrames(section);
+      } catch (const base::Error&) {
+        continue;
+      }
+    }
     switch (below(dice, 16)) {
       case 0:
         sections.erase(sections.begin() + static_cast<std::ptrdiff_t>(chosen));
-        break;
+        continue;
       case 1:
         section.version = static_cast<std::uint32_t>(below(dice, 5));
         break;
       case 2:
         if (const auto* same = other.find(section.name)) section = *same;
-        break;
+        continue;
       case 3:
       case 4:
       case 5:
@@ -97,6 +107,7 @@ map::MapFile mutatedMap(const map::MapFile& map, const map::MapFile& other, Dice
       default:
         changeNumber(section.bytes, dice);
     }
+    if (is_unpacked && section.bytes.size() > 4) section.bytes = testing::packedFrames(3, section.bytes).bytes;
   }
   map::MapFile mutated;
   for (auto& section : sections) mutated.set(std::move(section));

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <SectionBytes.h>
+
+#include <string>
+
+namespace omnimapper::testing {
+
+/// What stands in the section of key frames, without its compression: their number, then one after the other. For tests
+/// that damage it; they need the private headers of `map`.
+inline std::string unpackedFrames(const map::MapSection& frames) {
+  base::ByteReader in(frames.bytes, "the section of a test");
+  std::string bytes(in.raw(4));
+  while (!in.atEnd()) bytes += map::readCompressed(in);
+  return bytes;
+}
+
+/// The section of such bytes.
+inline map::MapSection packedFrames(std::uint32_t version, const std::string& bytes) {
+  base::ByteWriter out;
+  out.raw(bytes.substr(0, 4));
+  if (bytes.size() > 4) map::writeCompressed(out, bytes.substr(4));
+  return {"frames", version, out.take()};
+}
+
+}  // namespace omnimapper::testing
