@@ -2,11 +2,13 @@
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/check/CheckRun.h>
 #include <omnimapper/export/registerOutputs.h>
+#include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
@@ -17,6 +19,14 @@
 namespace {
 
 using namespace omnimapper;
+
+// An output that the command line asks for, whether the INI knows it or not.
+void addOutput(const std::string& section, const std::string& name, base::Config& config, mapper::RunRequest& run) {
+  std::string there;
+  if (!config.section(section).find("class", there)) config.set(section + ".class=" + name);
+  const auto& listed = config.section("mapper").read<mapper::EngineOptions>().output_plugins;
+  if (std::find(listed.begin(), listed.end(), section) == listed.end()) run.more_outputs.push_back(section);
+}
 
 int run(Arguments& arguments) {
   exports::registerOutputs();
@@ -38,10 +48,8 @@ int run(Arguments& arguments) {
   if (arguments.inis.empty() || arguments.run.logs.empty() || arguments.run.output_folder.empty()) {
     throw base::Error(base::ExitCode::command_line, "-i INI, -r LOG and -o FOLDER are needed; see --help");
   }
-  if (arguments.gui) {
-    arguments.run.more_outputs.push_back("live_window");
-    if (!config.has("live_window")) config.set("live_window.class=LiveWindow");
-  }
+  if (arguments.gui) addOutput("live_window", "LiveWindow", config, arguments.run);
+  if (!arguments.run.localize_map.empty()) addOutput("localization", "LocalizationOutput", config, arguments.run);
   const auto result = mapper::runMapping(arguments.run, config, *progress, stop);
   progress.reset();
   if (arguments.verbose) std::cout << base::printableLines(result.source.text());

@@ -34,6 +34,7 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
   base::keepFreedMemory();
   try {
     app.parse(argc, argv);
+    base::requireAddressSpace();
     return body();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);

@@ -1,5 +1,4 @@
 // omnimapper-simulate: a world, a robot and its sensors of an INI become a rawlog and the truth beside it.
-#include <malloc.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/sim/SimulationHelp.h>
 #include <omnimapper/sim/SimulationRun.h>
@@ -60,18 +59,9 @@ int run(Arguments& arguments) {
   return static_cast<int>(result.code);
 }
 
-// Pictures are made and freed all the time: kept by the process, their memory need not be asked of the kernel each
-// time, which takes a seventh of the whole.
-void keepFreedMemory() {
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 512 << 20);
-  mallopt(M_TOP_PAD, 64 << 20);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  keepFreedMemory();
   Arguments arguments;
   CLI::App app("", "omnimapper-simulate");
   addOptions(app, arguments);

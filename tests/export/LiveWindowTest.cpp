@@ -97,7 +97,8 @@ TEST(LiveWindow, showsGridPointsTrajectoryAndClosures) {
   ScratchFolder folder;
   exports::LiveWindow window({}, "box");
   ASSERT_TRUE(window.isOpen());
-  window.update(boxRun().view());
+  EXPECT_TRUE(window.isLookedAt());
+  window.keyFrameAdded(boxRun().view());  // no solve is needed
   const std::string file = folder / "screen.png";
   mrpt::img::CImage screen;
   const auto shown = [&] {
@@ -116,12 +117,12 @@ TEST(LiveWindow, showsGridPointsTrajectoryAndClosures) {
 TEST(LiveWindow, mayBeClosedAtAnyTimeAndTheRunGoesOn) {
   RUN_UNDER_XVFB();
   exports::LiveWindowOptions options;
-  options.keep_open = true;  // so that finish() would hang if closing went unnoticed
   exports::LiveWindow window(options, "box");
   RunRecord run = boxRun();
   window.update(run.view());
   waitUntil([&] { return x11::closeWindows("OmniMapper"), !window.isOpen(); });
   ASSERT_FALSE(window.isOpen());
+  EXPECT_FALSE(window.isLookedAt());
   run.map.key_frames = {};
   window.update(run.view());
   window.finish(run.view());

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 
 namespace omnimapper::base {
 
@@ -28,11 +27,12 @@ std::ifstream openInput(const std::string& path, const std::string& kind) {
 
 std::string readInput(const std::string& path, const std::string& kind) {
   auto in = openInput(path, kind);
-  std::ostringstream content;
-  content << in.rdbuf();
+  std::string content;
+  char part[1 << 16];
+  while (in.read(part, sizeof part) || in.gcount() > 0) content.append(part, static_cast<std::size_t>(in.gcount()));
   if (in.bad())
     throw Error(ExitCode::damaged_input, path + ": this " + kind + " cannot be read to its end; is the disk whole?");
-  return std::move(content).str();
+  return content;
 }
 
 }  // namespace omnimapper::base

@@ -26,6 +26,7 @@ class Proposal {
         laser_odometry_(has(plugins.pose, kLaserOdometry)) {}
 
   std::vector<Setting> settings() {
+    proposeStamps();
     proposePlugins();
     proposeEngine();
     proposeSensorPoses();
@@ -68,6 +69,14 @@ class Proposal {
     if (!is_blind) return;
     proposeWithout({"loop_closure", "walls"}, plugins_.measurement, "mapper", "measurement_plugins", no_laser);
     proposeWithout({"laser_points", kLaserLines}, plugins_.extractors, "perception", "extractors", no_laser);
+  }
+
+  // How long a step really took nobody knows: what depends on it are speeds alone.
+  void proposeStamps() {
+    const bool stand_still = std::any_of(facts_.sensors.begin(), facts_.sensors.end(), [](const auto& sensor) {
+      return 2 * sensor.second.repeated > sensor.second.count;
+    });
+    if (stand_still) set("source", "step_s", "0.1", "the stamps stand still: a step each tenth of a second");
   }
 
   void proposeEngine() {

@@ -19,11 +19,9 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
       front_end_(settings_, std::move(sensor_poses), plugins_, back_end_.chain(), pool_, state_),
       sessions_(title, back_end_, state_),
       pool_(std::max(1, threads)) {
-  if (plugins_.pose.empty() || plugins_.measurement.empty()) {
+  if (plugins_.pose.empty()) {
     throw base::Error(base::ExitCode::unknown_plugin,
-                      "[mapper] names no " +
-                          std::string(plugins_.pose.empty() ? "pose_plugins" : "measurement_plugins") +
-                          ": a map needs at least one of each; see --list-plugins");
+                      "[mapper] names no pose_plugins: a map needs at least one; see --list-plugins");
   }
 }
 
@@ -119,6 +117,11 @@ std::vector<base::Error> Engine::writeOutputs() {
     }
   }
   return failures;
+}
+
+bool Engine::isLookedAt() const {
+  return std::any_of(plugins_.output.begin(), plugins_.output.end(),
+                     [](const auto& named) { return named.plugin->isLookedAt(); });
 }
 
 }  // namespace omnimapper::mapper

@@ -37,6 +37,8 @@ class Engine {
   void finish();
   /// Calls every output plugin's finish(), and gives the errors of those that could not write theirs.
   std::vector<base::Error> writeOutputs();
+  /// Whether somebody may still look at an output.
+  bool isLookedAt() const;
 
   /// Asked while a solve runs; true ends it with the best so far (Ctrl-C).
   void setStop(std::function<bool()> stop) { back_end_.setStop(std::move(stop)); }

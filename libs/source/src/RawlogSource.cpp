@@ -20,6 +20,7 @@
 #include "LogTrial.h"
 #include "ObjectReader.h"
 #include "Selection.h"
+#include "StepClock.h"
 
 namespace omnimapper::source {
 
@@ -75,6 +76,7 @@ class RawlogSource::Stream {
       : reader_(registeringClasses(path)),
         trial_(path, useOnce),
         spans_(options.action_span, options.action_label),
+        steps_(options.step),
         selection_(options),
         images_folder_(options.images_folder.empty() ? externalFolderOf(path) : options.images_folder) {
     bool stopped = false;
@@ -145,12 +147,15 @@ class RawlogSource::Stream {
     }
     ++rawlog_objects_;
     if (const auto actions = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
+      steps_.stamp(*actions);
       for (const auto& motion : spans_.addAction(*actions)) waiting_.push_back(motion);
     } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
+      steps_.stamp(*frame);
       addFrame(*frame);
     } else if (std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object)) {
       ++report_.other_objects[object->GetRuntimeClass()->className];
     } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
+      steps_.stamp(*observation);
       waiting_.push_back(observation);
     } else {
       --rawlog_objects_;
@@ -199,6 +204,7 @@ class RawlogSource::Stream {
   std::function<bool()> stop_waiting_;  // for the trial
   std::atomic<bool> interrupted_{false};
   ActionSpans spans_;
+  StepClock steps_;
   Selection selection_;
   std::string images_folder_;
   ObservationGate gate_;

@@ -3,9 +3,9 @@
 #include <dlfcn.h>
 #include <omnimapper/base/Error.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <thread>
 
 #include "scene/LiveScene.h"
 
@@ -24,7 +24,7 @@ const base::OptionTable<LiveWindowOptions>& LiveWindowOptions::table() {
           .flag("grid", &Options::grid, "Draw the occupancy grid of the 2D scans on the floor.")
           .number("grid_resolution_m", &Options::grid_resolution, {0.005, 10}, "Side of its cells.")
           .flag("follow", &Options::follow, "Keep the whole map in view; false leaves the camera to the mouse.")
-          .flag("keep_open", &Options::keep_open, "At the end wait until the window is closed.");
+          .flag("keep_open", &Options::keep_open, "At the end, when all is written, wait until the window is closed.");
   return table;
 }
 
@@ -61,13 +61,22 @@ bool LiveWindow::isOpen() const {
   return scene_->isOpen();
 }
 
+// A large map takes long to draw: then it is drawn seldom.
 void LiveWindow::update(const mapper::View& view) {
-  if (isOpen()) scene_->show(view);
+  constexpr auto kShortest = std::chrono::milliseconds(200);
+  constexpr int kShare = 10;  // of the time at most one part in so many is drawn
+  if (!isOpen()) return;
+  const auto begin = Clock::now();
+  scene_->show(view);
+  next_ = Clock::now() + std::max<Clock::duration>(kShortest, kShare * (Clock::now() - begin));
+}
+
+void LiveWindow::keyFrameAdded(const mapper::View& view) {
+  if (Clock::now() >= next_) update(view);
 }
 
 void LiveWindow::finish(const mapper::View& view) {
   update(view);
-  while (options_.keep_open && isOpen()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
 std::unique_ptr<mapper::OutputPlugin> LiveWindowFactory::make(const base::ConfigSection& section,

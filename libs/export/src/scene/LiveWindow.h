@@ -2,6 +2,7 @@
 
 #include <omnimapper/plugin/PluginFactory.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -14,7 +15,7 @@ struct LiveWindowOptions {
   bool grid = true;
   double grid_resolution = 0.1;  ///< [m]
   bool follow = true;
-  bool keep_open = false;
+  bool keep_open = true;
 
   static const base::OptionTable<LiveWindowOptions>& table();
 };
@@ -22,7 +23,8 @@ struct LiveWindowOptions {
 class LiveScene;
 
 /// A 3D window of MRPT that shows the map while it grows: occupancy grid, points, trajectory, closures,
-/// landmarks, the newest pose. Drawn anew after each solve. It may be closed at any time; the run goes on.
+/// landmarks, the newest pose. Drawn anew after each solve, and up to five times a second between. It may be closed at
+/// any time; the run goes on.
 class LiveWindow : public mapper::OutputPlugin {
  public:
   /// Throws Error(command_line) if there is no display to open a window on, Error(plugin_library) if
@@ -30,14 +32,19 @@ class LiveWindow : public mapper::OutputPlugin {
   LiveWindow(const LiveWindowOptions& options, const std::string& title);
   ~LiveWindow() override;
   void update(const mapper::View& view) override;
-  /// Shows the final map; waits until the window is closed if `keep_open` says so.
+  void keyFrameAdded(const mapper::View& view) override;
+  /// Shows the final map.
   void finish(const mapper::View& view) override;
+  /// Whether the window is open and to be kept so.
+  bool isLookedAt() const override { return options_.keep_open && isOpen(); }
 
   bool isOpen() const;
 
  private:
   LiveWindowOptions options_;
   std::unique_ptr<LiveScene> scene_;
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point next_ = Clock::now();  // before it nothing is drawn but what a solve has moved
 };
 
 class LiveWindowFactory : public mapper::OutputPluginFactory {

@@ -70,6 +70,7 @@ bool BackEnd::process(FrameBundle& bundle) {
   if (!window_) kept_.addCloud(place->id, gathered.cloud);
   kept_.dropImages(place->id);
   if (window_ && place->is_new && !place->after) addEstimate(place->id);
+  for (auto& [section, plugin] : plugins_.output) plugin->keyFrameAdded(state_.view());
   return true;
 }
 

@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "Engine.h"
+#include "run/MissingExtractors.h"
 #include "run/RunWarnings.h"
 #include "run/SensorLabels.h"
 #include "sessions/MapLoader.h"
@@ -74,7 +75,8 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
 
 // An empty map is not written: it would take the place of a good one.
 [[noreturn]] void failWithNothingToMap(const RunRequest& request, const std::string& ini, const RunResult& result,
-                                       const std::vector<std::string>& unknown_labels) {
+                                       const std::vector<std::string>& unknown_labels,
+                                       const std::string& missing_extractors) {
   std::string logs, labels;
   for (const auto& sentence : unknown_labels) labels += sentence + "\n";
   for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
@@ -84,7 +86,7 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
       is_whole ? base::ExitCode::nothing_to_map : result.code,
       logs + ": nothing to map: " + how + " observation that a measurement plugin of " + ini + " wants" +
           (is_whole ? " (see its [source], [perception] extractors and [mapper] measurement_plugins)" : "") +
-          "; nothing was written.\n" + labels + "What was read:\n" + result.source.text());
+          "; nothing was written.\n" + missing_extractors + labels + "What was read:\n" + result.source.text());
 }
 
 // What stands still in the map though it moved is wrong by as much.
@@ -154,7 +156,9 @@ class Run {
   void makeEngine();
   std::vector<std::string> warn(const RunResult& result);
   void publish(const std::vector<base::Error>& failures, RunResult& result);
+  void showToTheEnd(const RunResult& result);
   void complete(RunResult& result) const;
+  std::string missingFor(const std::string& section) const;
   bool isSuspicious() const { return engine_->view().verdict.answer == Verdict::Answer::suspicious; }
   bool localizes() const { return !request_.localize_map.empty(); }
 
@@ -170,6 +174,8 @@ class Run {
   std::set<std::string> measuring_;  // sections that measure
   std::vector<std::pair<std::string, const PosePlugin*>> pose_plugins_;
   std::vector<std::pair<std::string, const perception::Extractor*>> extractors_;
+  std::vector<std::pair<std::string, const MeasurementPlugin*>> measurement_plugins_;
+  SensorSamples samples_;
   std::optional<Engine> engine_;
   std::optional<source::ReadAhead> log_;
   std::optional<base::InputsKept> kept_;
@@ -214,6 +220,7 @@ void Run::makeEngine() {
     if (!plugin->isFallback()) measuring_.insert(section);
   }
   for (const auto& [section, plugin] : plugins.extractors) extractors_.emplace_back(section, plugin.get());
+  for (const auto& [section, plugin] : plugins.measurement) measurement_plugins_.emplace_back(section, plugin.get());
   engine_.emplace(settings_, context.title, std::move(sensor_poses), std::move(plugins), request_.threads);
 }
 
@@ -234,6 +241,7 @@ void Run::feed() {
       }
       pace.waitFor(observation->timestamp, stop_);
       if ((stopped_ = stop_())) break;
+      samples_.add(observation);
       engine_->add(observation);
       progress_.report(log_->progress(), std::to_string(engine_->view().map.key_frames.size()) + " key frames");
     }
@@ -259,13 +267,22 @@ std::vector<std::string> Run::warn(const RunResult& result) {
   };
   warn_of(pose_plugins_);
   warn_of(extractors_);
-  warnOfNothingMeasured(measuring_, *engine_);
+  warnOfNothingMeasured(
+      measuring_, [this](const std::string& section) { return missingFor(section); }, *engine_);
   warnOfCounts(engine_->view().counts, result.new_key_frames, *engine_);
   warnOfSession(result.sessions.back(), *engine_);
   if (localizes()) warnOfLocalization(result, *engine_);
   if (isSuspicious())
     engine_->warn(sentenceOf(engine_->view().verdict) + " Look at map.png and report.html before you use it");
   return unknown_labels;
+}
+
+// What would give a measurement plugin something to work on; empty if nobody knows.
+std::string Run::missingFor(const std::string& section) const {
+  for (const auto& [name, plugin] : measurement_plugins_) {
+    if (name == section && !plugin->worksOnLandmarks()) return samples_.extractorsFor(*plugin);
+  }
+  return "";
 }
 
 // What stands only after warn(), and how the run ended.
@@ -275,6 +292,8 @@ void Run::complete(RunResult& result) const {
   result.source = log_->report();
   result.code = stopped_ ? base::ExitCode::interrupted : result.source.exitCode();
   if (result.code == base::ExitCode::ok) result.code = engine_->extractionErrors().code();
+  if (result.code == base::ExitCode::ok && isMostlyLeftOut(engine_->view().counts))
+    result.code = base::ExitCode::mostly_left_out;
   if (result.code == base::ExitCode::ok && request_.strict && isSuspicious())
     result.code = base::ExitCode::suspicious_map;
 }
@@ -308,6 +327,13 @@ void Run::publish(const std::vector<base::Error>& failures, RunResult& result) {
   if (keeps_older) result.warnings.push_back(older);
 }
 
+// Until nobody looks at the map any more, or the user stops the run.
+void Run::showToTheEnd(const RunResult& result) {
+  if (!engine_->isLookedAt() || stop_()) return;
+  progress_.report(1.0, "the outputs are in " + result.output_folder + "; close the window to end");
+  while (engine_->isLookedAt() && !stop_()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
 // Writes the outputs. Throws where there is nothing worth writing, and at the end what broke the run off.
 RunResult Run::report() {
   auto outcome = resultOf(engine_->view());
@@ -317,11 +343,19 @@ RunResult Run::report() {
   const bool keep_old = outcome.new_key_frames == 0 || !request_.continue_map.empty();
   if (keep_old && failure_) std::rethrow_exception(failure_);
   if (keep_old && failure_at_end_) std::rethrow_exception(failure_at_end_);
-  if (outcome.new_key_frames == 0) failWithNothingToMap(request_, config_.file(), outcome, unknown_labels);
+  if (outcome.new_key_frames == 0) {
+    std::string missing;
+    for (const auto& [section, plugin] : measurement_plugins_) {
+      if (const auto sentence = missingFor(section); !sentence.empty())
+        missing += "[" + section + "]: " + sentence + ".\n";
+    }
+    failWithNothingToMap(request_, config_.file(), outcome, unknown_labels, missing);
+  }
   if (const auto idle = engine_->idleSources(); !idle.empty() && !localizes() && outcome.new_key_frames > 1)
     failWithNoMotion(request_, config_.file(), outcome, idle);
   progress_.report(1.0, "writing the outputs");
   publish(engine_->writeOutputs(), outcome);
+  showToTheEnd(outcome);
   if (failure_) std::rethrow_exception(failure_);
   if (failure_at_end_) std::rethrow_exception(failure_at_end_);
   if (localizes() && outcome.located == 0) failWithNoPlace(request_, outcome);

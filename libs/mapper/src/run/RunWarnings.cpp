@@ -39,7 +39,9 @@ void warnOfCounts(const RunCounts& counts, std::size_t key_frames, Engine& engin
     if (count > 0) engine.warn(std::to_string(count) + " observations " + what);
   };
   warn(counts.no_stamp, "have no stamp and were left out");
-  warn(counts.repeated_stamp, "repeat the stamp of the one before and were left out");
+  warn(counts.repeated_stamp,
+       "repeat the stamp of the one before and were left out; if the stamps stand still, [source] step_s stamps the "
+       "log anew");
   warn(counts.too_late, "came later than [mapper] horizon_s and were left out");
   warn(counts.hurried,
        "could not wait for [mapper] window_s, more than queue_limit waited: do the stamps stand still?");
@@ -48,11 +50,20 @@ void warnOfCounts(const RunCounts& counts, std::size_t key_frames, Engine& engin
   if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
 }
 
-void warnOfNothingMeasured(const std::set<std::string>& measuring, Engine& engine) {
+bool isMostlyLeftOut(const RunCounts& counts) {
+  return 2 * (counts.no_stamp + counts.repeated_stamp + counts.too_late + counts.unusable + counts.unconnected) >
+         counts.observations;
+}
+
+void warnOfNothingMeasured(const std::set<std::string>& measuring,
+                           const std::function<std::string(const std::string&)>& missing_for, Engine& engine) {
   const View view = engine.view();
   for (const auto& section : engine.idlePlugins()) {
-    engine.warn("[" + section + "] had nothing to work on: no observation of its kind came to a key frame. Is it in " +
-                "the log (omnimapper-graphslam --check LOG), are labels and extractors right?");
+    const std::string missing = missing_for(section);
+    engine.warn("[" + section + "] had nothing to work on: no observation of its kind came to a key frame. " +
+                (missing.empty()
+                     ? "Is it in the log (omnimapper-graphslam --check LOG), are labels and extractors right?"
+                     : "There may be a remedy: " + missing));
   }
   if (view.map_is_held || view.map.key_frames.size() < 3 || isMeasured(view, measuring)) return;
   engine.warn("nothing was measured: no plugin but the fallbacks made anything of any observation, the map is what " +

@@ -12,6 +12,7 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
+#include <new>
 #include <sstream>
 #include <unordered_map>
 
@@ -180,6 +181,8 @@ SavedMap readMap(const std::string& path, const Kinds& kinds) {
   const auto file = map::MapFile::read(name);
   try {
     return parse(file, kinds);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     refuse(name + ": " + error.what());
   }

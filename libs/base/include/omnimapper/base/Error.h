@@ -25,6 +25,7 @@ enum class ExitCode : int {
   doubtful_input = 15,      ///< --check: a log that is likely mapped wrong without the remedies it names
   not_located = 16,         ///< --localize: the log was found nowhere in the map
   suspicious_map = 17,      ///< --strict: the map is written, and contradicts itself
+  mostly_left_out = 18,     ///< the map is written, of less than half of the observations
   out_of_memory = 19,       ///< what was written until then is kept
   interrupted = 130,        ///< Ctrl-C: the map so far is written
 };

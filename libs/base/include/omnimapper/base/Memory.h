@@ -7,4 +7,8 @@ namespace omnimapper::base {
 /// at their start. Does nothing where the C library is not GNU's.
 void keepFreedMemory();
 
+/// Throws Error(out_of_memory) if a limit that the user has set (ulimit -v) leaves less than this process needs beside
+/// what it holds: OpenBLAS, whose threads take their memory when they first work, would wait for it for ever.
+void requireAddressSpace();
+
 }  // namespace omnimapper::base

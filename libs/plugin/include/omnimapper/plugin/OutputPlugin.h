@@ -17,8 +17,12 @@ class OutputPlugin {
   virtual RawImages needsOfImages() const { return RawImages::none; }
   /// After each solve, for what is shown live.
   virtual void update(const View& /*view*/) {}
+  /// After each key frame, for what is shown live between solves, too. It must not take long.
+  virtual void keyFrameAdded(const View& /*view*/) {}
   /// Once, at the end of the run. Throws base::Error if an output cannot be written.
   virtual void finish(const View& view) = 0;
+  /// Whether somebody may still look at it: the run ends when this says no, and all is written by then.
+  virtual bool isLookedAt() const { return false; }
 };
 
 }  // namespace omnimapper::mapper

@@ -26,6 +26,7 @@ struct SourceOptions {
   double start = 0;                 ///< [s] observations before it are left out
   double end = 0;                   ///< [s] observations after it are left out; 0: none
   TimeReference time_reference = TimeReference::log_start;
+  double step = 0;  ///< [s] between steps of a log whose stamps stand still; 0: its own stamps
   ActionSpan action_span = ActionSpan::automatic;
   std::string action_label = "odometry";  ///< label of the motions that actions become
   std::string images_folder;              ///< empty: <rawlog without extension>_Images beside the rawlog

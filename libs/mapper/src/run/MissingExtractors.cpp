@@ -1,0 +1,50 @@
+#include "run/MissingExtractors.h"
+
+#include <omnimapper/base/Config.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+
+#include <algorithm>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+// With its defaults; what it cannot be made or cannot take without its user's word gives nothing.
+bool givesSomething(const ExtractorFactory& factory, const mrpt::obs::CObservation& observation,
+                    const MeasurementPlugin& plugin) {
+  try {
+    const auto config = base::Config::fromText("[extractor]\nclass = " + factory.name() + "\n", "defaults");
+    PluginContext context;
+    context.section = "extractor";
+    const auto extractor = factory.make(config.section("extractor"), context);
+    if (!extractor->wants(observation)) return false;
+    const auto made = extractor->extract(observation);
+    return std::any_of(made.begin(), made.end(), [&](const auto& derived) { return plugin.wants(*derived); });
+  } catch (const base::Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+void SensorSamples::add(const mrpt::obs::CObservation::ConstPtr& observation) {
+  samples_.try_emplace({observation->sensorLabel, observation->GetRuntimeClass()}, observation);
+}
+
+std::string SensorSamples::extractorsFor(const MeasurementPlugin& plugin) const {
+  std::string names;
+  for (const auto& factory : registeredFactories()) {
+    const auto* extractors = dynamic_cast<const ExtractorFactory*>(factory.get());
+    if (!extractors) continue;
+    const bool helps = std::any_of(samples_.begin(), samples_.end(), [&](const auto& sample) {
+      return givesSomething(*extractors, *sample.second, plugin);
+    });
+    if (helps) names += (names.empty() ? "" : " or ") + extractors->name();
+  }
+  return names.empty() ? ""
+                       : "of what is in the log, " + names +
+                             " would give it something to work on: add a section "
+                             "with that class, and name it in [perception] extractors";
+}
+
+}  // namespace omnimapper::mapper
