@@ -8,3 +8,10 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/omnimapperConfig.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/omnimapperConfigVersion.cmake" DESTINATION "${package_dir}")
 install(EXPORT omnimapperTargets NAMESPACE omnimapper:: DESTINATION "${package_dir}")
 install(DIRECTORY ini/ DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/ini" FILES_MATCHING PATTERN "*.ini")
+# The simulator's INIs, and the pages that programs, INIs and README speak of, with the same paths between them.
+install(DIRECTORY rawlogs/ DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/rawlogs" FILES_MATCHING PATTERN "*.ini")
+install(FILES README.md LICENSE CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/omnimapper")
+install(DIRECTORY doc DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/omnimapper")
+foreach(folder ini rawlogs)
+  install(DIRECTORY ${folder} DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/omnimapper" FILES_MATCHING PATTERN "*.md")
+endforeach()

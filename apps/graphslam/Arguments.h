@@ -24,7 +24,8 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
       "Go on:   omnimapper-graphslam -i ini/laser2d.ini -r next_day.rawlog --continue out/office -o out/both\n"
       "Locate:  omnimapper-graphslam -i ini/laser2d.ini -r next_day.rawlog --localize out/office -o out/located");
   app.add_option("-i,--ini", arguments.inis,
-                 "INI file: which plugins, with which options; a further one counts over it");
+                 "INI file: which plugins, with which options; a further one counts over it. Without a folder also one "
+                 "that came with the program, such as laser2d.ini");
   app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
   app.add_option("-o,--output", arguments.run.output_folder, "folder for the outputs, made if missing");
   app.add_option("--check", arguments.checked_logs,

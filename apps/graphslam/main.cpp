@@ -31,7 +31,7 @@ void addOutput(const std::string& section, const std::string& name, base::Config
 int run(Arguments& arguments) {
   exports::registerOutputs();
   mapper::loadFeatures();
-  auto config = base::Config::fromFiles(arguments.inis);
+  auto config = base::Config::fromFiles(program::findInis(arguments.inis));
   for (const auto& setting : arguments.settings) config.set(setting);
   if (arguments.list_plugins || !arguments.print_ini.empty()) mapper::loadPluginLibraries(config);
   if (arguments.list_plugins) return std::cout << mapper::listPlugins(), 0;

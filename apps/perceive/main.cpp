@@ -58,7 +58,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
 int run(Arguments& arguments) {
   exports::registerOutputs();
   mapper::loadFeatures();
-  auto config = base::Config::fromFiles(arguments.inis);
+  auto config = base::Config::fromFiles(program::findInis(arguments.inis));
   for (const auto& setting : arguments.settings) config.set(setting);
   if (arguments.list_plugins || !arguments.print_ini.empty()) mapper::loadPluginLibraries(config);
   if (arguments.list_plugins) return std::cout << mapper::listPlugins(), 0;

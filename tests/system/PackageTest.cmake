@@ -36,10 +36,25 @@ build("${EXAMPLE}" "${SCRATCH}/beacons")
 file(GLOB programs "${prefix}/bin/*")
 foreach(program ${programs})
   run("${program}" --help)
+  execute_process(COMMAND "${program}" --version RESULT_VARIABLE result OUTPUT_VARIABLE version)
+  if(NOT result EQUAL 0 OR NOT version MATCHES "^omnimapper-[a-z]+ [0-9]+[.][0-9]+[.][0-9]+\n$")
+    message(FATAL_ERROR "${program} --version ended with ${result} and printed '${version}'")
+  endif()
 endforeach()
+# What the README and the programs speak of is there, and INIs are found by their names.
+foreach(file README.md LICENSE CHANGELOG.md doc/exit_codes.md doc/architecture.md ini/README.md rawlogs/README.md)
+  if(NOT EXISTS "${prefix}/share/doc/omnimapper/${file}")
+    message(FATAL_ERROR "${file} was not installed")
+  endif()
+endforeach()
+file(GLOB log "/usr/share/mrpt/datasets/*Telecom*one_loop_only.rawlog")
+file(MAKE_DIRECTORY "${SCRATCH}/nowhere")
+execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -q -i laser2d.ini -r "${log}" -o map
+  WORKING_DIRECTORY "${SCRATCH}/nowhere" COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${prefix}/bin/omnimapper-simulate" -q -i box.ini -o box --set simulation.duration_s=1
+  WORKING_DIRECTORY "${SCRATCH}/nowhere" COMMAND_ERROR_IS_FATAL ANY)
 
 # The live window is loaded when it is opened. Without a display it says so; without its library, too.
-file(GLOB log "/usr/share/mrpt/datasets/*Telecom*one_loop_only.rawlog")
 function(expect_gui_error text)
   execute_process(COMMAND "${CMAKE_COMMAND}" -E env --unset=DISPLAY --unset=WAYLAND_DISPLAY
     "${prefix}/bin/omnimapper-graphslam" -q --gui
