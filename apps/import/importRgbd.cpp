@@ -88,7 +88,8 @@ base::ExitCode importRgbd(const std::string& folder, const std::string& output,
         out << geometry::tumLine(stamp, world_from_base);
     });
   }
-  std::cout << images.report().text() << "depth images without a colour image of their time: " << images.unpaired()
+  std::cout << images.report().text()
+            << "depth images without a colour image of their time, imported without colour: " << images.unpaired()
             << "\n";
   printCamera(images);
   if (poses) std::cout << "images with a true pose in the rawlog: " << posed << "\n";

@@ -63,7 +63,8 @@ CLI::App* addTum(CLI::App& app, Arguments& arguments) {
 }
 
 CLI::App* addPcd(CLI::App& app, Arguments& arguments) {
-  auto* pcd = app.add_subcommand("pcd", "folder of PCD files: organised clouds of a range camera");
+  auto* pcd =
+      app.add_subcommand("pcd", "folder of PCD files: organised clouds become depth images, others stay clouds");
   pcd->add_option("DIR", arguments.input, "folder")->required();
   pcd->add_option("OUT", arguments.output, "rawlog to write")->required();
   pcd->add_option("--rate", arguments.pcd.rate, "of the clouds, which have no stamps [1/s]")

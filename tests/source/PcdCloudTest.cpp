@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/PcdCloud.h>
+#include <omnimapper/source/PcdFolder.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <sys/resource.h>
 
@@ -160,6 +162,22 @@ TEST_F(PcdCloudTest, whatIsNoCloudIsRefused) {
   EXPECT_NE(failure("FIELDS a b\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nWIDTH 1\nDATA binary\n12345678").find("lacks x"),
             std::string::npos);
   EXPECT_THROW(readPcd(folder_ / "none.pcd"), base::Error);
+}
+
+TEST(PcdFolderTest, aCloudWithoutRowsStaysACloudWithoutWhatIsNoPoint) {
+  const testing::ScratchFolder folder;
+  std::ofstream(folder / "scan.pcd")
+      << "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 1\n"
+         "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3\nDATA ascii\n1 2 3\nnan nan nan\n4 5 6\n";
+  PcdFolder source(folder.path());
+  const auto cloud = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(source.next());
+  ASSERT_TRUE(cloud);
+  ASSERT_EQ(cloud->pointcloud->size(), 2U);
+  float x, y, z;
+  cloud->pointcloud->getPoint(1, x, y, z);
+  EXPECT_EQ(x + 10 * y + 100 * z, 4 + 50 + 600);
+  EXPECT_FALSE(source.next());
+  EXPECT_EQ(source.report().ending, SourceReport::Ending::complete);
 }
 
 TEST(PcdRecording, tableTopScenesHaveLabels) {

@@ -1,3 +1,5 @@
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/PcdFolder.h>
 
@@ -91,6 +93,18 @@ mrpt::obs::CObservation3DRangeScan::Ptr depthImageOf(const PcdCloud& cloud, cons
   return scan;
 }
 
+mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud) {
+  auto made = mrpt::obs::CObservationPointCloud::Create();
+  auto points = mrpt::maps::CSimplePointsMap::Create();
+  points->reserve(cloud.x.size());
+  for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+    if (std::isfinite(cloud.x[i]) && std::isfinite(cloud.y[i]) && std::isfinite(cloud.z[i]))
+      points->insertPointFast(cloud.x[i], cloud.y[i], cloud.z[i]);
+  }
+  made->pointcloud = points;
+  return made;
+}
+
 PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options) : options_(options) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -106,7 +120,10 @@ mrpt::obs::CObservation::Ptr PcdFolder::next() {
     const std::string& file = files_[next_];
     const auto stamp = base::stampFromUnix(kFirstStamp + static_cast<double>(next_++) / options_.rate);
     try {
-      const auto scan = depthImageOf(readPcd(file), file);
+      const auto cloud = readPcd(file);
+      const bool is_organised = cloud.height > 1;
+      const mrpt::obs::CObservation::Ptr scan =
+          is_organised ? mrpt::obs::CObservation::Ptr(depthImageOf(cloud, file)) : cloudOf(cloud);
       scan->timestamp = stamp;
       scan->sensorLabel = options_.label;
       ++report_.objects;

@@ -101,7 +101,8 @@ RgbdFolder::RgbdFolder(const std::string& folder, const RgbdFolderOptions& optio
   camera_.setIntrinsicParamsFromValues(intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy);
   if (options_.depth_units <= 0) options_.depth_units = content.usual_depth_units;
   pairs_ = std::move(content.pairs);
-  unpaired_ = content.unpaired;
+  unpaired_ = static_cast<std::size_t>(
+      std::count_if(pairs_.begin(), pairs_.end(), [](const RgbdPair& pair) { return pair.colour.empty(); }));
   for (const auto& [stamp, world_from_optical] : content.world_from_optical)
     ground_truth_.emplace_back(stamp, world_from_optical * geometry::inverse(geometry::sensorFromOptical()));
 }
@@ -114,7 +115,8 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
     auto scan = CObservation3DRangeScan::Create();
     const bool has_depth =
         load(depth, pair.depth, kAsItIs) && depth.getPixelDepth() == mrpt::img::PixelDepth::D16U && !depth.isColor();
-    if (!has_depth || !load(scan->intensityImage, pair.colour, kColour)) {
+    const bool is_coloured = !pair.colour.empty();
+    if (!has_depth || (is_coloured && !load(scan->intensityImage, pair.colour, kColour))) {
       const std::string& missing = has_depth ? pair.colour : pair.depth;
       if (report_.missing_images++ == 0) report_.first_missing_image = missing;
       continue;
@@ -122,7 +124,7 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
     const int width = static_cast<int>(depth.getWidth()), height = static_cast<int>(depth.getHeight());
     scan->timestamp = pair.stamp;
     scan->sensorLabel = options_.label;
-    scan->hasIntensityImage = true;
+    scan->hasIntensityImage = is_coloured;
     scan->hasRangeImage = true;
     scan->range_is_depth = true;
     scan->rangeUnits = static_cast<float>(1 / options_.depth_units);
@@ -143,8 +145,10 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
       }
     }
     scan->cameraParamsIntensity = scan->cameraParams;
-    scan->cameraParamsIntensity.ncols = scan->intensityImage.getWidth();
-    scan->cameraParamsIntensity.nrows = scan->intensityImage.getHeight();
+    if (is_coloured) {
+      scan->cameraParamsIntensity.ncols = scan->intensityImage.getWidth();
+      scan->cameraParamsIntensity.nrows = scan->intensityImage.getHeight();
+    }
     ++report_.objects;
     report_.count(scan->sensorLabel, scan->GetRuntimeClass()->className, scan->timestamp);
     return scan;

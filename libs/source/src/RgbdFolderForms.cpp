@@ -55,7 +55,8 @@ std::vector<std::pair<base::Stamp, geometry::Se3>> readPoses(const fs::path& pat
 
 using Image = std::pair<base::Stamp, std::string>;
 
-/// Each depth image takes the nearest colour image; a colour image serves the nearest depth image alone.
+/// Each depth image takes the nearest colour image; a colour image serves the nearest depth image alone. What finds
+/// none stays without colour.
 std::vector<RgbdPair> pairImages(const fs::path& folder, const std::vector<Image>& depths,
                                  const std::vector<Image>& colours, double largest_difference) {
   struct Candidate {
@@ -79,9 +80,8 @@ std::vector<RgbdPair> pairImages(const fs::path& folder, const std::vector<Image
     colour_of[candidate.depth] = (folder / colours[candidate.colour].second).string();
   }
   std::vector<RgbdPair> pairs;
-  for (std::size_t d = 0; d < depths.size(); ++d) {
-    if (!colour_of[d].empty()) pairs.push_back({depths[d].first, (folder / depths[d].second).string(), colour_of[d]});
-  }
+  for (std::size_t d = 0; d < depths.size(); ++d)
+    pairs.push_back({depths[d].first, (folder / depths[d].second).string(), colour_of[d]});
   return pairs;
 }
 
@@ -126,7 +126,6 @@ RgbdFolderContent readTum(const fs::path& folder, const RgbdFolderOptions& optio
     for (std::size_t i = 0; i < known.size(); ++i) depths[i].first = colours[i].first = known[i].first;
   }
   content.pairs = pairImages(folder, depths, colours, options.largest_difference);
-  content.unpaired = depths.size() - content.pairs.size();
   content.usual_intrinsics = freiburgOf(folder);
   return content;
 }
@@ -170,17 +169,43 @@ RgbdFolderContent readEqualNames(const fs::path& folder, const RgbdFolderOptions
   std::size_t index = 0;
   for (const auto& [stem, depth] : depths) {
     const auto colour = colours.find(stem);
-    if (colour == colours.end())
-      ++content.unpaired;
-    else
-      content.pairs.push_back({stampOfImage(index, options), depth, colour->second});
-    ++index;
+    content.pairs.push_back({stampOfImage(index++, options), depth, colour == colours.end() ? "" : colour->second});
   }
-  if (content.pairs.empty()) {
+  if (std::all_of(content.pairs.begin(), content.pairs.end(), [](const auto& pair) { return pair.colour.empty(); })) {
     refuse(folder,
            "no image of depth/ has the name of one of rgb/ or image/; of a TUM RGB-D folder, whose images are named by "
            "their stamps, depth.txt and rgb.txt tell which belong together: are they missing?");
   }
+  if (hasWord(folder, "icl") || hasWord(folder, "ICL")) content.usual_intrinsics = "icl_nuim";
+  return content;
+}
+
+// A line of ICL-NUIM's own list: "1 depth/1.png 1 rgb/1.png", or the colour first; running numbers, or stamps.
+RgbdFolderContent readAssociations(const fs::path& path, const RgbdFolderOptions& options) {
+  RgbdFolderContent content;
+  auto in = base::openInput(path);
+  const fs::path folder = path.parent_path();
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::istringstream words(line);
+    std::string stamp, first, other_stamp, second;
+    if (!(words >> stamp) || stamp.front() == '#') continue;
+    if (!(words >> first >> other_stamp >> second))
+      refuse(path, "line " + std::to_string(number) + " is not of the form \"1 depth/1.png 1 rgb/1.png\"");
+    const bool depth_first = first.find("depth") != std::string::npos;
+    const bool is_number = std::all_of(stamp.begin(), stamp.end(), [](unsigned char c) { return std::isdigit(c); });
+    try {
+      const auto own = base::parseUnix(depth_first ? stamp : other_stamp);
+      content.pairs.push_back({is_number ? stampOfImage(content.pairs.size(), options) : own,
+                               (folder / (depth_first ? first : second)).string(),
+                               (folder / (depth_first ? second : first)).string()});
+    } catch (const base::Error&) {
+      refuse(path,
+             "line " + std::to_string(number) + " has '" + stamp + "', which is no number and no stamp in seconds");
+    }
+  }
+  if (content.pairs.empty()) refuse(path, "names no images");
+  content.usual_intrinsics = freiburgOf(folder);
   if (hasWord(folder, "icl") || hasWord(folder, "ICL")) content.usual_intrinsics = "icl_nuim";
   return content;
 }
@@ -206,11 +231,11 @@ RgbdFolderContent readSevenScenes(const fs::path& folder, const RgbdFolderOption
   }
   for (std::size_t i = 0; i < stems.size(); ++i) {
     const std::string stem = (folder / stems[i]).string();
-    if (!fs::exists(stem + ".color.png")) {
-      ++content.unpaired;
-      continue;
+    std::string colour;
+    for (const char* form : {".color.png", ".color.jpg"}) {
+      if (colour.empty() && fs::exists(stem + form)) colour = stem + form;
     }
-    content.pairs.push_back({stampOfImage(i, options), stem + ".depth.png", stem + ".color.png"});
+    content.pairs.push_back({stampOfImage(i, options), stem + ".depth.png", colour});
     if (fs::exists(stem + ".pose.txt"))
       content.world_from_optical.emplace_back(content.pairs.back().stamp, readMatrix(stem + ".pose.txt"));
   }
@@ -234,6 +259,8 @@ RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions
     content = readTum(folder, options);
   else if (fs::exists(folder / "rgb.txt"))
     refuse(folder, "has rgb.txt but no depth.txt: a TUM RGB-D folder needs both");
+  else if (fs::exists(folder / "associations.txt"))
+    content = readAssociations(folder / "associations.txt", options);
   else if (fs::is_directory(folder / "depth") &&
            (fs::is_directory(folder / "rgb") || fs::is_directory(folder / "image")))
     content = readEqualNames(folder, options);
@@ -241,7 +268,8 @@ RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions
     content = readSevenScenes(folder, options);
   else
     refuse(folder,
-           "is of no form that is known: depth.txt and rgb.txt (TUM), depth/ and rgb/ or image/ (ICL-NUIM), "
+           "is of no form that is known: depth.txt and rgb.txt (TUM), associations.txt, or depth/ and rgb/ or image/ "
+           "(ICL-NUIM), "
            "frame-*.depth.png (7-Scenes)");
   std::stable_sort(content.pairs.begin(), content.pairs.end(),
                    [](const RgbdPair& a, const RgbdPair& b) { return a.stamp < b.stamp; });

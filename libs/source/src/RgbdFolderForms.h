@@ -13,7 +13,6 @@ namespace omnimapper::source {
 struct RgbdFolderContent {
   std::vector<RgbdPair> pairs;  ///< in order of stamps
   std::vector<std::pair<base::Stamp, geometry::Se3>> world_from_optical;
-  std::size_t unpaired = 0;
   std::string usual_intrinsics;  ///< empty: unknown
   double usual_depth_units = 5000;
 };

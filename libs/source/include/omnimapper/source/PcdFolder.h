@@ -19,14 +19,18 @@ struct PcdFolderOptions {
 /// to 6.5 m. Throws Error(unreadable_input), with `name` in it, for a cloud that no pinhole camera has seen so.
 mrpt::obs::CObservation3DRangeScan::Ptr depthImageOf(const PcdCloud& cloud, const std::string& name);
 
-/// Streams the organised clouds of a folder of PCD files, in the order of their names, as depthImageOf() makes of them,
-/// sensorPose the base's own pose (x forward, z up).
+/// The points of any other cloud, without their colours, in the frame that they are in: a CObservationPointCloud.
+mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud);
+
+/// Streams the clouds of a folder of PCD files, in the order of their names: organised ones as depthImageOf() makes of
+/// them, others as cloudOf() does, sensorPose the base's own pose (x forward, z up).
 class PcdFolder : public ObservationSource {
  public:
   /// Throws Error(unreadable_input) for a folder without PCD files.
   explicit PcdFolder(const std::string& folder, const PcdFolderOptions& options = {});
 
-  /// Files that are no organised cloud are left out and counted as missing images.
+  /// Files that are no cloud, and organised ones that no camera has seen so, are left out and counted as missing
+  /// images.
   mrpt::obs::CObservation::Ptr next() override;
   double progress() const override;
   SourceReport report() const override { return report_; }

@@ -24,10 +24,10 @@ struct RgbdFolderOptions {
   std::string intrinsics;
 };
 
-/// A depth image with its colour image.
+/// A depth image with its colour image, if it has one.
 struct RgbdPair {
   base::Stamp stamp;          ///< of the depth image
-  std::string depth, colour;  ///< paths
+  std::string depth, colour;  ///< paths; no colour: empty
 };
 
 /// Streams a folder of depth and colour images, taken by a camera that sees both from one place, as
@@ -38,7 +38,9 @@ struct RgbdPair {
 ///    5000 values of depth in a metre;
 ///  - pairs of equal names without stamps, in the order of their numbers: depth/1.png with rgb/1.png (ICL-NUIM's own),
 ///    5000 in a metre; depth/00001.png with image/00001.jpg (ICL-NUIM as Open3D and Redwood have it), 1000;
-///  - 7-Scenes: frame-000001.depth.png, .color.png, .pose.txt (4 x 4 matrix); 1000 in a metre.
+///  - associations.txt with lines "1 depth/1.png 1 rgb/1.png", running numbers or stamps (ICL-NUIM's own); 5000;
+///  - 7-Scenes: frame-000001.depth.png, .color.png or .color.jpg, .pose.txt (4 x 4 matrix); 1000 in a metre.
+/// A depth image without a colour image of its time comes without colour.
 class RgbdFolder : public ObservationSource {
  public:
   /// Throws Error(unreadable_input) if the folder is of no known form, a list cannot be read or intrinsics are missing.
