@@ -158,6 +158,7 @@ TEST_F(RgbdFolderTest, imagesThatCannotBeReadAreLeftOutAndCounted) {
   std::filesystem::remove(folder_ / "rgb/a.png");
   writeText("depth/c.png", "no image");
   RgbdFolder source(folder_.path(), freiburg1());
+  EXPECT_TRUE(source.next()) << "that without colour";
   EXPECT_FALSE(source.next());
   EXPECT_EQ(source.report().missing_images, 2U);
   EXPECT_EQ(source.report().first_missing_image, folder_ / "rgb/a.png");
