@@ -106,7 +106,8 @@ class ImportTumTest : public ImportApp, protected RgbdImages {
 
 TEST_F(ImportTumTest, writesARawlogAndTheTruthBesideIt) {
   ASSERT_EQ(import("--intrinsics freiburg1 --label kinect"), ExitCode::ok) << output_;
-  EXPECT_TRUE(says("without a colour image of their time, imported without colour: 1") && says("x.truth.tum, 2 poses")) << output_;
+  EXPECT_TRUE(says("without a colour image of their time, imported without colour: 1") && says("x.truth.tum, 2 poses"))
+      << output_;
   const auto all = imported();
   ASSERT_EQ(all.size(), 3U);
   const auto& scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan&>(*all[2]);
@@ -245,7 +246,8 @@ TEST_F(ImportAppTest, cloudsThatNoCameraSawAreNamed) {
                    "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 2\nDATA "
                    "ascii\n1 2 3\n4 5 6\n7 8 9\n1 1 1\n");
   EXPECT_EQ(run("pcd '" + folder_.path() + "' '" + out_ + "'"), ExitCode::unreadable_input);
-  EXPECT_TRUE(says("odd.pcd: its points do not lie as a pinhole camera sees them") && says("nothing was written")) << output_;
+  EXPECT_TRUE(says("odd.pcd: its points do not lie as a pinhole camera sees them") && says("nothing was written"))
+      << output_;
   EXPECT_FALSE(std::filesystem::exists(out_));
   EXPECT_EQ(run("pcd '" + folder_.path() + "/none' '" + out_ + "'"), ExitCode::unreadable_input);
 }

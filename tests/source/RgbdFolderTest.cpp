@@ -147,7 +147,8 @@ TEST_F(RgbdFolderTest, theMedianDepthIsOfAllPixelsThatHaveOne) {
   // Three times the twelve values of 10000 + x + 10 y.
   EXPECT_DOUBLE_EQ(source.medianDepth().value(), 10011 / 5000.0);
 
-  for (const char* name : {"depth/a.png", "depth/b.png", "depth/c.png"}) writeDepth(name, 65535);  // wraps around to small values
+  for (const char* name : {"depth/a.png", "depth/b.png", "depth/c.png"})
+    writeDepth(name, 65535);  // wraps around to small values
   RgbdFolder wrapped(folder_.path(), freiburg1());
   while (wrapped.next()) continue;
   EXPECT_DOUBLE_EQ(wrapped.medianDepth().value(), 11 / 5000.0) << "65535 is no depth";

@@ -1,6 +1,8 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/geometry/Conversions.h>
 
+#include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <charconv>
 #include <ostream>
 #include <sstream>
@@ -8,6 +10,7 @@
 
 #include "omnimapper/graph/Between.h"
 #include "omnimapper/graph/G2o.h"
+#include "omnimapper/graph/Linearised.h"
 #include "omnimapper/graph/PointFactor.h"
 #include "omnimapper/graph/Prior.h"
 #include "omnimapper/graph/VariableKinds.h"
@@ -59,6 +62,7 @@ class G2oWriter {
 
   void write(std::ostream& out) const {
     for (const auto& [kind, count] : left_out_) out << "# left out: " << count << " of kind " << kind << '\n';
+    for (const auto& [kind, count] : linearised_) out << "# to first order: " << count << " of kind " << kind << '\n';
     if (losses_ > 0) out << "# losses left out: " << losses_ << '\n';
     if (needs_offset_) out << "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n";
     out << lines_.text() << '\n';
@@ -111,9 +115,41 @@ class G2oWriter {
       startEdge("EDGE_SE3_TRACKXYZ", record).add(std::int64_t{0}).addAll(spatial->measured());
       needs_offset_ = true;
     } else {
-      return false;
+      return addLinearisedPoint(record);
     }
     lines_.addUpperTriangle(information(record));
+    return true;
+  }
+
+  // Whatever measures a point from a pose, as by range and bearing, is a measurement of its coordinates in the base to
+  // first order: with the same residual and the same information at the values as they are.
+  bool addLinearisedPoint(const FactorRecord& record) {
+    const auto kinds = record.factor->variableKinds();
+    if (kinds.size() != 2) return false;
+    const bool is_planar = kinds[0] == se2()->kind() && kinds[1] == point2()->kind();
+    const bool is_spatial = kinds[0] == se3()->kind() && kinds[1] == point3()->kind();
+    if (!is_planar && !is_spatial) return false;
+    const Linearised factor(graph_, record);
+    const Eigen::VectorXd &pose = graph_.value(record.variables[0]), &point = graph_.value(record.variables[1]);
+    Eigen::MatrixXd map_from_base;
+    Eigen::VectorXd in_base;
+    if (is_planar) {
+      map_from_base = Eigen::Rotation2Dd(pose[2]).toRotationMatrix();
+      in_base = map_from_base.transpose() * (point - pose.head<2>());
+    } else {
+      const auto pose3 = se3FromValue(pose.data());
+      map_from_base = pose3.rotation.toRotationMatrix();
+      in_base = map_from_base.transpose() * (point - pose3.translation);
+    }
+    const Eigen::MatrixXd by_place = factor.jacobians[1] * map_from_base;
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(by_place);
+    if (solver.rank() < in_base.size()) return false;
+    const Eigen::VectorXd measured = in_base - solver.solve(factor.residual);
+    startEdge(is_planar ? "EDGE_SE2_XY" : "EDGE_SE3_TRACKXYZ", record);
+    if (is_spatial) lines_.add(std::int64_t{0});
+    needs_offset_ = needs_offset_ || is_spatial;
+    lines_.addAll(measured).addUpperTriangle(record.weight * by_place.transpose() * by_place);
+    ++linearised_[std::string(record.factor->kind())];
     return true;
   }
 
@@ -141,7 +177,7 @@ class G2oWriter {
 
   const Graph& graph_;
   std::unordered_map<base::VariableId, std::int64_t> numbers_;
-  std::map<std::string, int> left_out_;
+  std::map<std::string, int> left_out_, linearised_;
   int losses_ = 0;
   bool needs_offset_ = false;
   Lines lines_;

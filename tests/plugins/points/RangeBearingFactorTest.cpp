@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+#include <omnimapper/graph/G2o.h>
 #include <omnimapper/graph/GraphArchive.h>
+#include <omnimapper/graph/Linearised.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/testing/SimulatedLog.h>
@@ -150,6 +152,42 @@ TEST(RangeBearingFactors, ComeBackFromAFile) {
   const graph::Graph back = graph::readGraph(bytes, registry);
   for (const auto& [factor, record] : graph.factors())
     EXPECT_EQ(back.whitenedResidual(factor), graph.whitenedResidual(factor));
+}
+
+// A g2o file has the coordinates in the base that give the same residual and the same information.
+TEST(RangeBearingFactor, InAG2oFileItIsItsPointToFirstOrder) {
+  const Eigen::Vector3d sigmas(0.1, 0.02, 0.03);
+  graph::Graph planar, spatial;
+  const auto pose2 = planar.addVariable(graph::se2(), Eigen::Vector3d(1, 2, 0.7), true);
+  const auto point2 = planar.addVariable(graph::point2(), Eigen::Vector2d(4, 1));
+  planar.addFactor({{pose2, point2},
+                    std::make_shared<RangeBearingFactor2>(Eigen::Vector2d(0.2, 0.1), 3.3, -1.2),
+                    graph::SquareRootInformation::fromSigmas(sigmas.head<2>())});
+  const geometry::Se3 base{Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized())),
+                           {1, 2, 3}};
+  const auto pose3 = spatial.addVariable(graph::se3(), graph::toValue(base), true);
+  const auto point3 = spatial.addVariable(graph::point3(), Eigen::Vector3d(5, 3, 2));
+  spatial.addFactor({{pose3, point3},
+                     std::make_shared<RangeBearingFactor3>(geometry::Se3{base.rotation, {0.1, 0.2, 0.3}},
+                                                           Eigen::Vector3d(4.2, 0.1, 0.2)),
+                     graph::SquareRootInformation::fromSigmas(sigmas)});
+  for (const auto* graph : {&planar, &spatial}) {
+    std::stringstream text;
+    graph::writeG2o(*graph, text);
+    EXPECT_NE(text.str().find("# to first order: 1 of kind range_bearing"), std::string::npos) << text.str();
+    const auto read = graph::readG2o(text, "written").graph;
+    ASSERT_EQ(read.factors().size(), 1U);
+    const graph::Linearised ours(*graph, (*graph->factors().begin()).first),
+        theirs(read, (*read.factors().begin()).first);
+    EXPECT_NEAR(ours.residual.squaredNorm(), theirs.residual.squaredNorm(), 1e-9);
+    EXPECT_GT(ours.residual.squaredNorm(), 1);
+    const auto information = [](const graph::Linearised& factor, int of) -> Eigen::MatrixXd {
+      return factor.jacobians[of].transpose() * factor.jacobians[of];
+    };
+    EXPECT_LT((information(ours, 1) - information(theirs, 1)).norm(), 1e-9 * information(ours, 1).norm());
+    const Eigen::VectorXd gradient = ours.jacobians[1].transpose() * ours.residual;
+    EXPECT_LT((gradient - theirs.jacobians[1].transpose() * theirs.residual).norm(), 1e-9 * gradient.norm());
+  }
 }
 
 }  // namespace

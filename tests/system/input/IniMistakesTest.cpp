@@ -78,8 +78,8 @@ TEST_F(IniMistakes, UnknownPluginsAreRefusedWithTheNearest) {
                 {"[odometry]", "no pose plugin is called 'GridOutput'"});
   expectRefused(laser2d("odometry, no_motion", "odometry, no_motion, magic"), ExitCode::unknown_plugin,
                 {"[magic]", "class = ..."});
-  EXPECT_TRUE(endedWith(ExitCode::unknown_plugin, mapWith(laser2d("_plugins = loop_closure", "_plugins =")),
-                        {"[mapper] names no measurement_plugins", "--list-plugins"}));
+  EXPECT_TRUE(endedWith(ExitCode::unknown_plugin, mapWith(laser2d("= scan_odometry, odometry, no_motion", "=")),
+                        {"[mapper] names no pose_plugins", "--list-plugins"}));
 }
 
 TEST_F(IniMistakes, PluginLibrariesThatCannotBeLoadedAreRefusedByName) {

@@ -65,7 +65,7 @@ TEST_F(OutputFolder, OnAFullDiskKeepsTheOldMapAndNamesAllThatFailed) {
   if (!disk.mounted()) GTEST_SKIP() << "may not mount a small disk; FilesThatMayNotGrow... has run";
   const std::string old_map = "the map of before";
   writeFile(folder + "/map.omnimap", old_map);
-  writeFile(folder + "/filler", std::string(830'000, 'x'));
+  writeFile(folder + "/filler", std::string(930'000, 'x'));
   EXPECT_TRUE(endedWith(ExitCode::disk_full, map({log_path_}, folder),
                         {folder + "/map.omnimap: ", folder + "/map.png: ", "No space left on device", "Free some room",
                          "as an older run left it"}));

@@ -25,8 +25,10 @@ G2oContent readG2o(const std::string& path);
 G2oContent readG2o(std::istream& in, const std::string& name);
 
 /// Writes the poses, points, Between, Prior and Point factors of a graph; values and measurements keep every bit, and a
-/// factor's weight goes into its information (of weight 0: left out). What the format cannot hold (other kinds, factors
-/// of lifted poses, losses) is counted in comments at the top. Vertices are numbered from 0 in the order of ids.
+/// factor's weight goes into its information (of weight 0: left out). Other factors of a pose and a point, such as
+/// ranges and bearings, are written to first order at the values as they are. What the format cannot hold (planes and
+/// walls, other kinds, factors of lifted poses, losses) is counted in comments at the top. Vertices are numbered from 0
+/// in the order of ids.
 void writeG2o(const Graph& graph, std::ostream& out);
 /// The same into a file, whole or not at all. Throws as base::writeFile().
 void writeG2o(const Graph& graph, const std::string& path);
