@@ -107,7 +107,7 @@ TEST_F(PerceptionPicturesTest, planesLieWhereTheCameraSeesThem) {
 // Pixels of a row of the legend that have that colour.
 int inkIn(const draw::Image& picture, const mrpt::img::TColor& colour) {
   int count = 0;
-  for (int y = 0; y < 60; ++y) {
+  for (int y = picture.height - 60; y < picture.height; ++y) {
     for (int x = 0; x < 30; ++x) {
       const draw::Rgb& p = picture.at(x, y);
       count += p.r == colour.R && p.g == colour.G && p.b == colour.B;

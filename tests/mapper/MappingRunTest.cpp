@@ -152,7 +152,7 @@ TEST_F(MappingRun, WithoutAnyOdometryInTheLogTheUserIsTold) {
     return std::any_of(result.warnings.begin(), result.warnings.end(),
                        [&](const auto& w) { return w.find(part) != std::string::npos; });
   };
-  EXPECT_TRUE(told("have no pose"));
+  EXPECT_TRUE(told("without a pose"));
   EXPECT_TRUE(told("one key frame"));
 }
 

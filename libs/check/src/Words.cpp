@@ -17,10 +17,6 @@ std::string percent(double share) {
   return fixed(value, (value > 0 && value < 1) || (value > 99 && value < 100) ? 1 : 0) + " %";
 }
 
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 std::string quoted(const std::string& label) {
   return label.empty() ? "(no label)" : "'" + label + "'";
 }

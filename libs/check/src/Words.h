@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/OptionTable.h>
 
 #include <cstddef>
@@ -12,8 +13,7 @@ namespace omnimapper::check {
 std::string fixed(double value, int decimals);
 /// "37 %", or "0.4 %" where whole numbers would hide it.
 std::string percent(double share);
-/// "1 scan", "2 scans".
-std::string counted(std::size_t count, const std::string& noun);
+using base::counted;
 /// 'laser', or "(no label)".
 std::string quoted(const std::string& label);
 std::string joined(const std::vector<std::string>& words, const std::string& between);

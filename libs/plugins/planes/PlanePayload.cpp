@@ -101,7 +101,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
     shape.properties.emplace_back("length_m", number((*high - *low).norm()));
   }
   for (const auto& [label, seen] : seen_by) {
-    shape.properties.emplace_back("seen_by_" + label, std::to_string(seen.planes + seen.lines));
+    shape.properties.emplace_back(map::seenByKey(label), std::to_string(seen.planes + seen.lines));
   }
   return shape;
 }

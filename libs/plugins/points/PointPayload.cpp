@@ -45,7 +45,7 @@ map::LandmarkShape PointPayload::shape(const std::vector<Eigen::VectorXd>& value
   shape.points.emplace_back(value[0], value[1], value.size() > 2 ? value[2] : height);
   if (number >= 0) shape.properties.emplace_back("number", std::to_string(number));
   for (const auto& [label, sightings] : seen_by)
-    shape.properties.emplace_back("seen_by_" + label, std::to_string(sightings));
+    shape.properties.emplace_back(map::seenByKey(label), std::to_string(sightings));
   return shape;
 }
 

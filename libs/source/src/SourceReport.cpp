@@ -1,3 +1,4 @@
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/source/SourceReport.h>
 
 #include <algorithm>
@@ -68,7 +69,7 @@ base::ExitCode SourceReport::exitCode() const {
 std::string SourceReport::text() const {
   std::string text = toString(ending) + ": " + std::to_string(objects) + " objects, ";
   if (bytes > 0) text += std::to_string(bytes) + " bytes uncompressed, ";  // other programs' logs have none
-  text += std::to_string(observations()) + " observations\n";
+  text += base::counted(observations(), "observation") + "\n";
   if (!message.empty()) text += message + "\n";
   if (!sensors.empty()) {
     char row[400];
@@ -106,7 +107,7 @@ std::uint64_t SourceReport::unusableCount() const {
 std::vector<std::string> SourceReport::unusableText() const {
   std::vector<std::string> sentences;
   for (const auto& [key, left_out] : unusable) {
-    sentences.push_back(std::to_string(left_out.observations) + " observations of " +
+    sentences.push_back(base::counted(left_out.observations, "observation") + " of " +
                         (key.first.empty() ? "a sensor without a label" : "'" + key.first + "'") +
                         " were left out because " + key.second + ", the first at " + stampText(left_out.first_stamp) +
                         " s");

@@ -1,6 +1,7 @@
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/export/Findings.h>
 #include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
@@ -46,7 +47,7 @@ std::string Findings::text() const {
   for (const auto& [label, count] : of_label_) {
     text += "  " + label + ": ";
     if (!count.what.empty()) text += std::to_string(count.found) + " " + count.what + " in ";
-    text += std::to_string(count.observations) + " observations\n";
+    text += base::counted(count.observations, "observation") + "\n";
   }
   return text;
 }

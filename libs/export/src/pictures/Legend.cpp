@@ -35,10 +35,11 @@ void drawLegend(draw::Image& picture, const std::vector<LegendRow>& rows) {
   const int width = 3 * kLegendMargin + kSwatch + kLetter * static_cast<int>(longest);
   const int height = 2 * kLegendMargin + kRow * static_cast<int>(rows.size());
   if (width > picture.width || 2 * height > picture.height) return;
-  const double right = width, bottom = height;
-  fillAreas(picture, {{{0, 0}, {right, 0}, {right, bottom}, {0, bottom}}}, {kLegendGround, 0, 0.8});
+  const int below = picture.height;
+  picture.height += height;
+  picture.pixels.resize(static_cast<std::size_t>(picture.width) * picture.height, kLegendGround);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const int top = kLegendMargin + kRow * static_cast<int>(i);
+    const int top = below + kLegendMargin + kRow * static_cast<int>(i);
     const double line = top + 0.5 * kRow;
     drawLine(picture, {kLegendMargin, line}, {kLegendMargin + kSwatch, line}, {rows[i].colour, 6});
     drawText(picture, 2 * kLegendMargin + kSwatch, top, rows[i].text);

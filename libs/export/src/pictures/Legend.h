@@ -13,8 +13,7 @@ struct LegendRow {
   std::string text;
 };
 
-/// Draws what the colours mean into the upper left corner, on a light ground. A picture that is too small for it keeps
-/// what it shows.
+/// Adds what the colours mean below the picture, which grows by that. One that is too small for it stays as it is.
 void drawLegend(draw::Image& picture, const std::vector<LegendRow>& rows);
 
 /// Writes a word on a light ground, its upper left corner there [px], or as near as the picture has room for it; a

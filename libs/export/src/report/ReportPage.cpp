@@ -100,7 +100,7 @@ std::string drawReport(const ReportInput& input) {
   if (input.picture)
     html += drawReportMap(*input.picture, input.landmarks, input.trajectory, input.closures, kMostRefusedClosures);
   html += drawLandmarkTable(input.landmarks, startOf(view.map)) +
-          charts("Landmarks", drawSensorBars(input.landmarks) + drawFeatureCurves(view));
+          charts("Sightings", drawSensorBars(input.landmarks) + drawFeatureCurves(view));
   html += charts("Error", drawErrorCurves(view)) + charts("Time", drawTimeCurves(view));
   html += drawSessionTable(view.map) + drawReasonTable(view.decisions) +
           drawDecisionTable(view.map, view.decisions, input.max_rows);

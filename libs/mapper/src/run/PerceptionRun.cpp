@@ -1,3 +1,4 @@
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/PerceptionRun.h>
@@ -145,7 +146,8 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
 std::string toText(const PerceptionResult& result, const std::string& output) {
   std::ostringstream out;
   for (const auto& extractor : result.extractors) {
-    out << "  " << extractor.section << ": " << extractor.derived << " observations of " << extractor.taken;
+    out << "  " << extractor.section << ": " << base::counted(extractor.derived, "observation") << " of "
+        << extractor.taken;
     if (extractor.failed > 0) out << ", " << extractor.failed << " left out";
     out << "\n";
   }

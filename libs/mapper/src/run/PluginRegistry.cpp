@@ -83,6 +83,11 @@ void loadPluginLibraries(const base::Config& config) {
 
 namespace {
 
+std::string withArticle(PluginKind kind) {
+  const std::string name = toString(kind);
+  return (name.front() == 'o' || name.front() == 'e' ? "an " : "a ") + name;
+}
+
 template <class Factory, class Plugin>
 void makeAll(const std::vector<std::string>& names, PluginKind kind, const base::Config& config, PluginContext context,
              std::vector<Named<Plugin>>& plugins) {
@@ -97,7 +102,7 @@ void makeAll(const std::vector<std::string>& names, PluginKind kind, const base:
     const auto section = config.section(name);
     std::string class_name;
     if (!section.find("class", class_name)) {
-      throw base::Error(base::ExitCode::unknown_plugin, place + ": the section of a " + toString(kind) +
+      throw base::Error(base::ExitCode::unknown_plugin, place + ": the section of " + withArticle(kind) +
                                                             " needs a line 'class = ...'" +
                                                             (config.has(name) ? "" : "; the file has no such section"));
     }

@@ -1,5 +1,6 @@
 #include "run/RunWarnings.h"
 
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/mapper/SessionAlignment.h>
 
 #include "run/SourceWarnings.h"
@@ -36,17 +37,17 @@ void warnOfLog(const source::SourceReport& report, bool stopped, Engine& engine)
 
 void warnOfCounts(const RunCounts& counts, std::size_t key_frames, Engine& engine) {
   const auto warn = [&](std::size_t count, const std::string& what) {
-    if (count > 0) engine.warn(std::to_string(count) + " observations " + what);
+    if (count > 0) engine.warn(base::counted(count, "observation") + " " + what);
   };
-  warn(counts.no_stamp, "have no stamp and were left out");
+  warn(counts.no_stamp, "without a stamp: left out");
   warn(counts.repeated_stamp,
-       "repeat the stamp of the one before and were left out; if the stamps stand still, [source] step_s stamps the "
-       "log anew");
-  warn(counts.too_late, "came later than [mapper] horizon_s and were left out");
+       "with the stamp of the one before: left out; if the stamps stand still, [source] step_s stamps the log anew");
+  warn(counts.too_late, "later than [mapper] horizon_s: left out");
   warn(counts.hurried,
-       "could not wait for [mapper] window_s, more than queue_limit waited: do the stamps stand still?");
-  warn(counts.unusable, "(odometry or poses) run backwards in time or leap and were left out");
-  warn(counts.unconnected, "have no pose: no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
+       "worked on before [mapper] window_s was over, for more than queue_limit waited: do the stamps stand still?");
+  warn(counts.unusable, "of odometry or poses, backwards in time or leaping: left out");
+  warn(counts.unconnected,
+       "without a pose: left out, for no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
   if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
 }
 

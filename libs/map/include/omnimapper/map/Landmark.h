@@ -19,6 +19,11 @@ namespace omnimapper::map {
 
 class KeyFrames;
 
+/// The property that tells how often the sensor of that label saw a landmark.
+inline std::string seenByKey(const std::string& label) {
+  return "seen_by_" + (label.empty() ? "no_label" : label);
+}
+
 /// How a landmark looks in the map, for whoever draws or exports it. All in the frame of the map [m].
 struct LandmarkShape {
   std::string label;                                               ///< what a user calls it: "wall", "table"
@@ -28,7 +33,7 @@ struct LandmarkShape {
   std::vector<base::Stamp> point_stamps;  ///< when it was at each of `points`; empty: at all times
   std::optional<Eigen::Vector3d> normal;  ///< unit, to the free side
   std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value: for tables and exports
-  /// Of the properties, "seen_by_" and a sensor label tells how often that sensor saw it.
+  /// Of the properties, that of seenByKey() tells how often a sensor saw it.
 };
 
 /// What a landmark is beside what is optimised: a plane's extent, a sign's text, an object's model. Immutable; a plugin
