@@ -15,6 +15,7 @@
 
 #include "Arguments.h"
 #include "program/Program.h"
+#include "program/ShippedInis.h"
 
 namespace {
 

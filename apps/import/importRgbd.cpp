@@ -89,8 +89,7 @@ base::ExitCode importRgbd(const std::string& folder, const std::string& output,
     });
   }
   std::cout << images.report().text()
-            << "depth images without a colour image of their time, imported without colour: " << images.unpaired()
-            << "\n";
+            << "depth images without a colour image of their time, kept without colour: " << images.unpaired() << "\n";
   printCamera(images);
   if (poses) std::cout << "images with a true pose in the rawlog: " << posed << "\n";
   if (!images.groundTruth().empty())

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "program/Program.h"
+#include "program/ShippedInis.h"
 
 namespace {
 

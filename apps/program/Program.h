@@ -2,8 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace omnimapper::program {
 
@@ -11,11 +9,6 @@ namespace omnimapper::program {
 /// Returns the exit code: that of `body`, or that of the error that stopped it, which is then told on standard error
 /// (doc/exit_codes.md).
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
-
-/// The paths of INI files, where a name without a folder that is not in the current one is that of an INI that came
-/// with the program: `share/omnimapper/ini` and `share/omnimapper/rawlogs` beside `bin`, or `ini` and `rawlogs` of the
-/// checkout that it was built in.
-std::vector<std::string> findInis(const std::vector<std::string>& names);
 
 /// Validators of numbers, which must be finite: CLI11's own let "nan" pass.
 CLI::Validator notNegative();

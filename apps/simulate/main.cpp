@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "program/Program.h"
+#include "program/ShippedInis.h"
 
 namespace {
 

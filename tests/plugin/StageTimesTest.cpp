@@ -49,7 +49,7 @@ TEST(StageTimes, AKeyFramesWorkIsWhatPassedSinceTheMarkWithoutWaiting) {
   times.add(Stage::perception_wait, "", 0.25);
   times.addKeyFrameSince(begin);
   ASSERT_EQ(times.keyFrames().size(), 1U);
-  EXPECT_NEAR(times.keyFrames()[0].matching_ms, 5, 1e-9);
+  EXPECT_NEAR(times.keyFrames()[0].plugins_ms, 5, 1e-9);
   EXPECT_NEAR(times.keyFrames()[0].solve_ms, 4, 1e-9);
   EXPECT_LT(times.keyFrames()[0].engine_ms, -750) << "these times were not spent: the clock ran for less than they say";
 }

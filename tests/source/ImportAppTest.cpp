@@ -106,7 +106,7 @@ class ImportTumTest : public ImportApp, protected RgbdImages {
 
 TEST_F(ImportTumTest, writesARawlogAndTheTruthBesideIt) {
   ASSERT_EQ(import("--intrinsics freiburg1 --label kinect"), ExitCode::ok) << output_;
-  EXPECT_TRUE(says("without a colour image of their time, imported without colour: 1") && says("x.truth.tum, 2 poses"))
+  EXPECT_TRUE(says("without a colour image of their time, kept without colour: 1") && says("x.truth.tum, 2 poses"))
       << output_;
   const auto all = imported();
   ASSERT_EQ(all.size(), 3U);

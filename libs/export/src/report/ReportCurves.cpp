@@ -68,17 +68,17 @@ std::string drawErrorCurves(const mapper::View& view) {
 
 std::string drawTimeCurves(const mapper::View& view) {
   Chart chart{"Time per key frame", "key frame", "[ms]", false, {}};
-  ChartSeries matching{"matching", 1, ChartSeries::Form::line, {}, {}};
+  ChartSeries plugins{"plugins", 1, ChartSeries::Form::line, {}, {}};
   ChartSeries solve{"solving", 2, ChartSeries::Form::line, {}, {}};
   ChartSeries engine{"engine", 3, ChartSeries::Form::line, {}, {}};
   const auto& frames = view.times.keyFrames();
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    for (auto* series : {&matching, &solve, &engine}) series->x.push_back(static_cast<double>(i));
-    matching.y.push_back(frames[i].matching_ms);
+    for (auto* series : {&plugins, &solve, &engine}) series->x.push_back(static_cast<double>(i));
+    plugins.y.push_back(frames[i].plugins_ms);
     solve.y.push_back(frames[i].solve_ms);
     engine.y.push_back(frames[i].engine_ms);
   }
-  chart.series = {solve, matching, engine};
+  chart.series = {solve, plugins, engine};
   std::vector<Bar> bars;
   for (const auto& [stage, total] : view.times.totals()) {
     bars.push_back({stage, total.seconds, base::fixed(total.seconds, total.seconds < 1 ? 3 : 2) + " s"});

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "run/Closures.h"
-
 namespace omnimapper::exports {
 
 RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPose>& trajectory) {
@@ -28,9 +26,9 @@ RunFigures figuresOf(const mapper::View& view, const std::vector<map::StampedPos
     figures.min_z = first ? p.z : std::min(figures.min_z, p.z);
     figures.max_z = first ? p.z : std::max(figures.max_z, p.z);
   }
-  for (const Closure& closure : closuresOf(view.map, view.decisions)) {
-    ++(closure.decision->accepted ? figures.closures : figures.refused_closures);
-  }
+  const auto closures = mapper::countClosures(view.decisions);
+  figures.closures = closures.accepted;
+  figures.refused_closures = closures.refused;
   figures.localized = view.localization.size();
   for (const auto& estimate : view.localization) figures.located += estimate.located();
   for (const auto& [stage, total] : view.times.totals()) figures.wall_seconds += total.seconds;

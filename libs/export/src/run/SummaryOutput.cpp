@@ -68,13 +68,13 @@ Json costsOf(const std::vector<mapper::StageTimes::PerKeyFrame>& costs) {
     if (begin == end) continue;
     mapper::StageTimes::PerKeyFrame sum{0, 0, 0};
     for (std::size_t i = begin; i < end; ++i) {
-      sum.matching_ms += costs[i].matching_ms;
+      sum.plugins_ms += costs[i].plugins_ms;
       sum.solve_ms += costs[i].solve_ms;
       sum.engine_ms += costs[i].engine_ms;
     }
     const auto count = static_cast<double>(end - begin);
     list.push_back({{"until_key_frame", end},
-                    {"plugins_ms", sum.matching_ms / count},
+                    {"plugins_ms", sum.plugins_ms / count},
                     {"solve_ms", sum.solve_ms / count},
                     {"engine_ms", sum.engine_ms / count}});
   }

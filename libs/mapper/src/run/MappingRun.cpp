@@ -115,10 +115,9 @@ RunResult resultOf(const View& view) {
   result.key_frames = view.map.key_frames.size();
   result.factors = view.graph.factors().size();
   result.landmarks = countLandmarks(view);
-  for (const auto& decision : view.decisions) {
-    if (!decision.is_loop_closure) continue;
-    ++(decision.accepted ? result.closures : result.refused_closures);
-  }
+  const auto closures = countClosures(view.decisions);
+  result.closures = closures.accepted;
+  result.refused_closures = closures.refused;
   result.sessions = view.map.sessions;
   result.localized = view.localization.size();
   for (const auto& estimate : view.localization) result.located += estimate.located();
@@ -192,7 +191,11 @@ void Run::open() {
     engine_->warn(config_.file() + ": no list of [mapper] or [perception] names the plugins " +
                   base::option_text::format(off) + ": they are switched off");
   }
-  loadMapInto(request_, session_, config_.file(), settings_.engine.motion, *engine_);
+  if (request_.continue_map.empty() && !localizes() && config_.has("session"))
+    engine_->warn(config_.placeOf("session") +
+                  ": [session] says where a log begins in a map that it continues or is "
+                  "localized in; without --continue or --localize it counts for nothing");
+  loadMapInto(request_, session_, config_, settings_.engine.motion, *engine_);
   log_.emplace(source::openRawlogs(request_.logs, source_, stop_), stop_);
   kept_.emplace(request_.logs);
   outputs_.open();
@@ -270,6 +273,7 @@ std::vector<std::string> Run::warn(const RunResult& result) {
   warnOfNothingMeasured(
       measuring_, [this](const std::string& section) { return missingFor(section); }, *engine_);
   warnOfCounts(engine_->view().counts, result.new_key_frames, *engine_);
+  warnOfEarlierSessions(result.sessions, *engine_);
   warnOfSession(result.sessions.back(), *engine_);
   if (localizes()) warnOfLocalization(result, *engine_);
   if (isSuspicious())

@@ -71,6 +71,15 @@ void warnOfNothingMeasured(const std::set<std::string>& measuring,
               std::string("they say; are the sensors blind? omnimapper-graphslam --check LOG tells"));
 }
 
+// What an earlier run said of its session is still so.
+void warnOfEarlierSessions(const std::vector<map::Session>& sessions, Engine& engine) {
+  for (std::size_t i = 0; i + 1 < sessions.size(); ++i) {
+    if (!sessions[i].joined)
+      engine.warn(joinedText(sessions[i]) +
+                  " to the map, and still is not: it lies where its start says, which may be wrong");
+  }
+}
+
 void warnOfSession(const map::Session& session, Engine& engine) {
   if (session.joined) return warnOfDoubt(session, engine);
   if (engine.view().map_is_held) return;

@@ -21,6 +21,8 @@ bool isMostlyLeftOut(const RunCounts& counts);
 /// `missing_for` gives what a section lacks, or nothing.
 void warnOfNothingMeasured(const std::set<std::string>& measuring,
                            const std::function<std::string(const std::string& section)>& missing_for, Engine& engine);
+/// Of sessions before the last that nothing ties to the map.
+void warnOfEarlierSessions(const std::vector<map::Session>& sessions, Engine& engine);
 /// The place of a session in a map that was there before: known by nothing, or in doubt.
 void warnOfSession(const map::Session& session, Engine& engine);
 /// How much of a run that localizes was located.

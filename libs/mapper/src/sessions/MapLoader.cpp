@@ -12,7 +12,23 @@
 
 namespace omnimapper::mapper {
 
-void loadMapInto(const RunRequest& request, const SessionOptions& session, const std::string& ini, Motion motion,
+namespace {
+
+// Zeros that nobody wrote are no pose.
+void refuseStartWithoutPose(const SessionOptions& session, const base::Config& config) {
+  if (session.start != SessionOptions::Start::pose) return;
+  for (const char* key : {"start_x_m", "start_y_m", "start_yaw_deg"}) {
+    std::string there;
+    if (config.section("session").find(key, there)) return;
+  }
+  throw base::Error(base::ExitCode::out_of_range, config.placeOf("session", "start") +
+                                                      ": [session] start = pose needs start_x_m, start_y_m and "
+                                                      "start_yaw_deg; for the map's own origin say start = origin");
+}
+
+}  // namespace
+
+void loadMapInto(const RunRequest& request, const SessionOptions& session, const base::Config& config, Motion motion,
                  Engine& engine) {
   const std::string& path = request.localize_map.empty() ? request.continue_map : request.localize_map;
   if (path.empty()) return;
@@ -20,9 +36,10 @@ void loadMapInto(const RunRequest& request, const SessionOptions& session, const
   if (saved.motion() != motion) {
     const std::string of_map = saved.motion() == Motion::planar ? "planar" : "spatial";
     throw base::Error(base::ExitCode::unreadable_input,
-                      path + ": the map is " + of_map + ", which [mapper] motion of " + ini +
+                      path + ": the map is " + of_map + ", which [mapper] motion of " + config.file() +
                           " is not: go on from it with motion = " + of_map + ", or map its log again");
   }
+  refuseStartWithoutPose(session, config);
   const auto start = session.startOn(saved.map);
   try {
     if (request.localize_map.empty()) return engine.sessions().continueFrom(std::move(saved), start);

@@ -11,7 +11,7 @@ namespace omnimapper::mapper {
 
 /// Gives the engine the saved map that the request goes on from or localizes in, if it names one. `ini` names the INI
 /// in errors. Throws Error(unreadable_input) as readMap(), and if the map is not of that motion.
-void loadMapInto(const RunRequest& request, const SessionOptions& session, const std::string& ini, Motion motion,
+void loadMapInto(const RunRequest& request, const SessionOptions& session, const base::Config& config, Motion motion,
                  Engine& engine);
 
 /// Throws Error(command_line) if both are asked for, or if the outputs of a run that localizes would take the place of

@@ -3,6 +3,7 @@
 #include <omnimapper/base/Id.h>
 #include <omnimapper/base/Stamp.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,5 +27,12 @@ struct Decision {
 };
 
 using DecisionLog = std::vector<Decision>;
+
+/// Pairs of key frames that a loop closure was considered between, each once: accepted if any decision about it is, as
+/// one that was taken again after it had been refused.
+struct ClosureCounts {
+  std::size_t accepted = 0, refused = 0;
+};
+ClosureCounts countClosures(const DecisionLog& decisions);
 
 }  // namespace omnimapper::mapper

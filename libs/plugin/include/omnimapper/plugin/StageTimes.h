@@ -38,7 +38,7 @@ class StageTimes {
     std::size_t calls = 0;
   };
   struct PerKeyFrame {
-    double matching_ms = 0;  ///< plugins
+    double plugins_ms = 0;
     double solve_ms = 0;
     double engine_ms = 0;  ///< everything else but waiting; letting go of old data included
   };
