@@ -9,9 +9,11 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/omnimapperConfig.cmake"
 install(EXPORT omnimapperTargets NAMESPACE omnimapper:: DESTINATION "${package_dir}")
 install(DIRECTORY ini/ DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/ini" FILES_MATCHING PATTERN "*.ini")
 # The simulator's INIs, and the pages that programs, INIs and README speak of, with the same paths between them.
-install(DIRECTORY rawlogs/ DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/rawlogs" FILES_MATCHING PATTERN "*.ini")
+file(GLOB places CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/rawlogs/*.ini")
+install(FILES ${places} DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/rawlogs")
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/omnimapper")
 install(DIRECTORY doc DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/omnimapper")
 foreach(folder ini rawlogs)
-  install(DIRECTORY ${folder} DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/omnimapper" FILES_MATCHING PATTERN "*.md")
+  file(GLOB pages CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.md")
+  install(FILES ${pages} DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/omnimapper/${folder}")
 endforeach()
