@@ -103,6 +103,33 @@ TEST(OutputFolder, WhatSomebodyElsePutThereStaysAndIsNamed) {
   EXPECT_EQ(folder.foreignFiles(), (std::vector<std::string>{"edited", "notes.txt", "truth"}));
 }
 
+TEST(OutputFolder, NamesMayHaveBlanksButNoLineBreaks) {
+  ScratchFolder scratch;
+  const Contents odd{{" a b ", "1"}, {"c/ d", "2"}};
+  write(scratch / "out", odd);
+  EXPECT_EQ(contents(scratch / "out"), odd);
+  write(scratch / "out", kNew);
+  EXPECT_EQ(contents(scratch / "out"), kNew);
+  EXPECT_EQ(codeOf([&] { write(scratch / "out", {{"a\nb", "1"}}); }), ExitCode::unwritable_output);
+  EXPECT_EQ(contents(scratch / "out"), kNew);
+}
+
+TEST(OutputFolder, WhatIsToBeKeptStaysUnlessItIsReplaced) {
+  ScratchFolder scratch;
+  for (const bool is_replaced : {false, true}) {
+    const std::string path = scratch / (is_replaced ? "replaced" : "kept");
+    write(path, kOld);
+    OutputFolder folder(path);
+    folder.open();
+    folder.keep("map");
+    folder.keep("not_there");
+    stage(folder, is_replaced ? kNew : Contents{{"only_new", "2"}});
+    folder.commit();
+    EXPECT_EQ(contents(path), is_replaced ? kNew : (Contents{{"map", "old"}, {"only_new", "2"}}));
+    EXPECT_TRUE(folder.foreignFiles().empty());
+  }
+}
+
 TEST(OutputFolder, TwoRunsAtOnceAreRefused) {
   ScratchFolder scratch;
   OutputFolder first(scratch / "out");

@@ -138,15 +138,15 @@ TEST_F(Engine, CountsEverythingItWasGiven) {
   EXPECT_EQ(counts.solves, engine_->view().solves.size());
 }
 
-TEST(EngineOptions, WithoutPoseOrMeasurementPluginThereIsNoEngine) {
-  for (const std::string setting : {"mapper.pose_plugins=", "mapper.measurement_plugins="}) {
-    try {
-      makeEngine(kLaserIni, {setting});
-      ADD_FAILURE() << setting;
-    } catch (const base::Error& error) {
-      EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
-    }
+TEST(EngineOptions, WithoutAPosePluginThereIsNoEngine) {
+  try {
+    makeEngine(kLaserIni, {"mapper.pose_plugins="});
+    ADD_FAILURE();
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
   }
+  EXPECT_NO_THROW(makeEngine(kLaserIni, {"mapper.measurement_plugins="}))
+      << "what tells the motion makes the key frames";
 }
 
 TEST(EngineSensors, ScansOfOneStampShareOneKeyFrameAndOthersHaveTheirOwn) {

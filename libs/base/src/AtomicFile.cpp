@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -167,6 +168,14 @@ InputsKept::InputsKept(const std::vector<std::string>& inputs) {
 InputsKept::~InputsKept() {
   const std::lock_guard<std::mutex> lock(keptInputs().mutex);
   keptInputs().paths = before_;
+}
+
+bool isKeptInput(const std::string& path) {
+  const std::lock_guard<std::mutex> lock(keptInputs().mutex);
+  return std::any_of(keptInputs().paths.begin(), keptInputs().paths.end(), [&](const std::string& input) {
+    std::error_code none;
+    return fs::equivalent(input, path, none);
+  });
 }
 
 void refuseToReplaceKeptInput(const std::string& output) {

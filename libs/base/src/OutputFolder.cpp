@@ -47,7 +47,7 @@ FileList readList(const fs::path& path) {
     std::istringstream words(line);
     std::uint64_t size = 0;
     std::string name;
-    if (!(words >> size) || !std::getline(words >> std::ws, name)) continue;
+    if (!(words >> size) || words.get() != ' ' || !std::getline(words, name)) continue;
     const fs::path relative(name);
     const bool leaves = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
     if (!leaves) files.emplace(name, size);
@@ -83,13 +83,20 @@ void finishCommit(const fs::path& folder) {
   const fs::path hidden = folder / kHidden, staged = hidden / kStaged;
   if (!fs::exists(hidden / kCommit)) return;
   const FileList before = readList(hidden / kFiles), after = readList(hidden / kCommit);
+  const auto is_link = [&](const fs::path& name) {
+    fs::path at = folder;
+    for (const auto& part : name.parent_path()) {
+      if (fs::is_symlink(at /= part)) return true;
+    }
+    return false;
+  };
   for (const auto& [name, size] : after) {
-    if (!fs::exists(staged / name)) continue;
+    if (!fs::exists(staged / name) || is_link(name)) continue;
     fs::create_directories((folder / name).parent_path());
     fs::rename(staged / name, folder / name);
   }
   for (const auto& [name, size] : before) {
-    if (after.count(name) > 0 || !isAsWritten(folder / name, size, hidden / kFiles)) continue;
+    if (after.count(name) > 0 || is_link(name) || !isAsWritten(folder / name, size, hidden / kFiles)) continue;
     fs::remove(folder / name);
     removeEmptyFolders((folder / name).parent_path(), folder);
   }
@@ -145,7 +152,8 @@ void OutputFolder::open() {
 }
 
 void OutputFolder::lock() {
-  is_new_ = !fs::exists(folder_);
+  std::error_code error;
+  is_new_ = !fs::exists(folder_, error);
   makeWritableFolder(folder_);
   makeWritableFolder(hidden_);
   lock_ = takeLock(hidden_);
@@ -169,11 +177,18 @@ bool OutputFolder::holdsRun() const {
 void OutputFolder::commit() {
   try {
     fs::remove(fs::path(hidden_) / kReserve);
-    const FileList files = stagedFiles(staging_);
+    FileList files = stagedFiles(staging_);
     for (const auto& [name, size] : files) {
       const fs::path target = fs::path(folder_) / name;
+      if (name.find('\n') != std::string::npos) fail(target, "no file of a run may have a line break in its name");
       refuseToReplaceKeptInput(target);
       if (fs::is_directory(target)) fail(target, "is a folder, where a file of this run is to be; move it away");
+    }
+    // What the run read stays, too.
+    for (const auto& [name, size] : readList(fs::path(hidden_) / kFiles)) {
+      const fs::path file = fs::path(folder_) / name;
+      if ((kept_.count(name) > 0 || isKeptInput(file)) && fs::is_regular_file(file))
+        files.try_emplace(name, fs::file_size(file));
     }
     // This is the step: before it the old files count, after it the new ones.
     writeFile(hidden_ + "/" + kCommit, [&](std::ostream& out) {
@@ -219,12 +234,14 @@ void OutputFolder::removeInner(const std::string& name) {
 std::vector<std::string> OutputFolder::foreignFiles() const {
   std::vector<std::string> names;
   const FileList files = readList(fs::path(hidden_) / kFiles);
-  for (const auto& entry : fs::directory_iterator(folder_)) {
+  std::error_code error;
+  for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
+    const auto& entry = *it;
     const std::string name = entry.path().filename();
     const auto inside = files.lower_bound(name + "/");
     const bool is_of_run =
         files.count(name) > 0 || (inside != files.end() && inside->first.compare(0, name.size() + 1, name + "/") == 0);
-    if (name != kHidden && !is_of_run && !fs::exists(entry.path() / kHidden)) names.push_back(name);
+    if (name != kHidden && !is_of_run && !fs::exists(entry.path() / kHidden, error)) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -240,6 +257,9 @@ std::string committedPath(const std::string& path) {
   const fs::path file(path), folder = file.has_parent_path() ? file.parent_path() : ".", hidden = folder / kHidden;
   std::error_code error;
   // Whoever holds the lock is about to do it.
+  // Nobody else's note is followed.
+  struct stat note {};
+  if (::lstat((hidden / kCommit).c_str(), &note) != 0 || note.st_uid != ::geteuid()) return path;
   for (int tries = 0; tries < 1000 && fs::exists(hidden / kCommit, error); ++tries) {
     const int lock = takeLock(hidden);
     if (lock < 0 && errno != EWOULDBLOCK) {

@@ -135,7 +135,11 @@ std::uint64_t uncompressedSize(const MapSection& frames) {
   ByteReader in(frames.bytes, placeOf(kFramesName));
   std::uint64_t size = 0;
   try {
-    for (in.uint(4); !in.atEnd(); in.block()) size += in.uint(8);
+    in.uint(4);
+    while (!in.atEnd()) {
+      const std::uint64_t claimed = in.uint(8);
+      size += std::min(claimed, kMostPerByte * in.block().size());
+    }
   } catch (const base::Error&) {
   }
   return size;

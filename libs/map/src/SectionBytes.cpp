@@ -7,8 +7,6 @@ namespace omnimapper::map {
 namespace {
 
 constexpr int kLevel = 1;  // of zlib: the quickest
-// No deflated byte holds more than so many: what claims more is damaged.
-constexpr std::uint64_t kMostPerByte = 1032;
 
 }  // namespace
 

@@ -36,6 +36,9 @@ inline base::Stamp readStamp(ByteReader& in) {
   return base::Stamp(base::Duration(static_cast<std::int64_t>(in.uint(8))));
 }
 
+/// No compressed byte holds more than so many: what claims more is damaged.
+inline constexpr std::uint64_t kMostPerByte = 1032;
+
 /// Appends `bytes`, compressed: their length in 8 bytes, then a block.
 void writeCompressed(ByteWriter& out, const std::string& bytes);
 /// Throws Error(unreadable_input) if what stands there is none of those.

@@ -189,7 +189,10 @@ void writeLog(const Simulation& simulation, const SimulationRequest& request, co
 // What somebody else put there is not replaced. A folder of ours tells so by its page, too.
 void refuseForeignFolder(const std::string& folder) {
   namespace fs = std::filesystem;
-  if (!fs::is_directory(folder) || fs::is_empty(folder) || base::OutputFolder(folder).holdsRun()) return;
+  if (!fs::is_directory(folder)) return;
+  const bool is_empty = std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                                    [](const auto& entry) { return entry.path().filename() == ".omnimapper"; });
+  if (is_empty) return;
   std::ifstream page(fs::path(folder) / "README.md");
   std::string title;
   std::getline(page, title);
@@ -235,7 +238,13 @@ SimulationResult runSimulation(const Simulation& simulation, const SimulationReq
   writeText(folder + "/plan.svg", drawPlan(simulation.world(), plan));
   writeText(folder + "/" + request.name + ".ini", simulation.iniText());
   writeText(folder + "/README.md", folderReadme(simulation, request.name, result));
-  outputs.commit();
+  if (result.code != base::ExitCode::ok && outputs.holdsRun()) {
+    outputs.commitInto("interrupted");
+    result.warnings.push_back(request.folder + " is as an older run left it; what was simulated until now is in " +
+                              request.folder + "/interrupted");
+  } else {
+    outputs.commit();
+  }
   return result;
 }
 

@@ -102,7 +102,7 @@ TEST_F(OddObservations, ObservationsWithoutStampAreLeftOutAndCounted) {
   for (const std::size_t i : {10, 11, 70}) scan(i).timestamp = omnimapper::base::Stamp();
   odometry(30).timestamp = omnimapper::base::Stamp();
   for (const std::size_t i : {70, 11, 10}) stamps_.erase(stamps_.begin() + static_cast<std::ptrdiff_t>(i));
-  expectMap(stamps_, {"warning: 4 observations", "no stamp"});
+  expectMap(stamps_, {"warning: 4 observations", "without a stamp"});
   EXPECT_EQ(counts_["no_stamp"], 4);
 }
 
@@ -110,7 +110,7 @@ TEST_F(OddObservations, RepeatedStampsAreLeftOutAndCounted) {
   scan(21).timestamp = scan(20).timestamp;
   scan(22).timestamp = scan(20).timestamp;
   stamps_.erase(stamps_.begin() + 21, stamps_.begin() + 23);
-  expectMap(stamps_, {"warning: 2 observations", "repeat"});
+  expectMap(stamps_, {"warning: 2 observations", "with the stamp of the one before"});
   EXPECT_EQ(counts_["repeated_stamp"], 2);
 }
 

@@ -26,6 +26,7 @@ class Colours {
  public:
   explicit Colours(const CObservation3DRangeScan& scan) : scan_(scan) {
     if (!scan.hasIntensityImage || scan.intensityImage.isEmpty()) return;
+    if (scan.intensityImage.getPixelDepth() != mrpt::img::PixelDepth::D8U) return;
     width_ = static_cast<int>(scan.intensityImage.getWidth());
     height_ = static_cast<int>(scan.intensityImage.getHeight());
     is_colour_ = scan.intensityImage.isColor();

@@ -315,12 +315,18 @@ void Run::publish(const std::vector<base::Error>& failures, RunResult& result) {
     if (keeps_older) {
       outputs_.commitInto(kInterrupted);
     } else {
+      // A map that was gone on from, and that this INI does not write, is not another INI's.
+      std::error_code none;
+      const std::filesystem::path map = request_.continue_map;
+      const auto file = std::filesystem::is_directory(map, none) ? map / "map.omnimap" : map;
+      if (!map.empty() && std::filesystem::equivalent(file, outputs_.folder() + "/map.omnimap", none))
+        outputs_.keep("map.omnimap");
       outputs_.commit();
-      outputs_.removeInner(kInterrupted);
     }
   } catch (const base::Error& error) {
     throw base::Error(error.code(), sentences + error.what() + "\nNothing has changed in " + outputs_.folder() + ".");
   }
+  if (!keeps_older) outputs_.removeInner(kInterrupted);
   result.foreign_files = outputs_.foreignFiles();
   const std::string older = keeps_older ? outputs_.folder() +
                                               " is as an older run left it; what there is of this run, "

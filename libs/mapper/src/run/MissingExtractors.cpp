@@ -4,6 +4,7 @@
 #include <omnimapper/mapper/PluginRegistry.h>
 
 #include <algorithm>
+#include <exception>
 
 namespace omnimapper::mapper {
 
@@ -20,7 +21,7 @@ bool givesSomething(const ExtractorFactory& factory, const mrpt::obs::CObservati
     if (!extractor->wants(observation)) return false;
     const auto made = extractor->extract(observation);
     return std::any_of(made.begin(), made.end(), [&](const auto& derived) { return plugin.wants(*derived); });
-  } catch (const base::Error&) {
+  } catch (const std::exception&) {
     return false;
   }
 }

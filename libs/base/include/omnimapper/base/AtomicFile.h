@@ -36,6 +36,8 @@ class InputsKept {
   std::vector<std::string> before_;
 };
 
+/// Whether an InputsKept protects that file.
+bool isKeptInput(const std::string& path);
 /// Throws Error(command_line) if an InputsKept protects that file.
 void refuseToReplaceKeptInput(const std::string& output);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ class OutputFolder {
   /// Where the files are to be written; there from open() on. Folders in it become folders of the same name.
   const std::string& staging() const { return staging_; }
   const std::string& folder() const { return folder_; }
+  /// A file of the run before, by its path in the folder, that commit() is to leave there where no new one has its
+  /// name.
+  void keep(const std::string& name) { kept_.insert(name); }
   /// Whether a run's files are there already; of a folder from before there were lists, a map.
   bool holdsRun() const;
 
@@ -47,6 +51,7 @@ class OutputFolder {
   void lock();
 
   std::string folder_, hidden_, staging_;
+  std::set<std::string> kept_;
   int lock_ = -1;
   bool is_new_ = false;
 };
