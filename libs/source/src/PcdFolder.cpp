@@ -121,7 +121,7 @@ mrpt::obs::CObservation::Ptr PcdFolder::next() {
     const auto stamp = base::stampFromUnix(kFirstStamp + static_cast<double>(next_++) / options_.rate);
     try {
       const auto cloud = readPcd(file);
-      const bool is_organised = cloud.height > 1;
+      const bool is_organised = cloud.height > 1 && cloud.width > 1;
       const mrpt::obs::CObservation::Ptr scan =
           is_organised ? mrpt::obs::CObservation::Ptr(depthImageOf(cloud, file)) : cloudOf(cloud);
       scan->timestamp = stamp;

@@ -161,6 +161,7 @@ class Run {
   bool isSuspicious() const { return engine_->view().verdict.answer == Verdict::Answer::suspicious; }
   bool localizes() const { return !request_.localize_map.empty(); }
 
+  StopWatch watch_;
   const RunRequest& request_;
   const base::Config& config_;
   base::Progress& progress_;
@@ -365,6 +366,7 @@ RunResult Run::report() {
     failWithNoMotion(request_, config_.file(), outcome, idle);
   progress_.report(1.0, "writing the outputs");
   publish(engine_->writeOutputs(), outcome);
+  outcome.wall_seconds = watch_.seconds();
   showToTheEnd(outcome);
   if (failure_) std::rethrow_exception(failure_);
   if (failure_at_end_) std::rethrow_exception(failure_at_end_);
@@ -385,15 +387,12 @@ const FixedSections& fixedSections() {
 
 RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
                      const std::function<bool()>& stop) {
-  const StopWatch watch;
   checkRequest(request);
   Run run(request, config, progress, stop);
   run.open();
   run.feed();
   run.finish();
-  auto result = run.report();
-  result.wall_seconds = watch.seconds();
-  return result;
+  return run.report();
 }
 
 namespace {

@@ -29,7 +29,9 @@ bool givesSomething(const ExtractorFactory& factory, const mrpt::obs::CObservati
 }  // namespace
 
 void SensorSamples::add(const mrpt::obs::CObservation::ConstPtr& observation) {
-  samples_.try_emplace({observation->sensorLabel, observation->GetRuntimeClass()}, observation);
+  constexpr std::size_t kMost = 32;  // a log may give every observation a label of its own
+  if (samples_.size() < kMost)
+    samples_.try_emplace({observation->sensorLabel, observation->GetRuntimeClass()}, observation);
 }
 
 std::string SensorSamples::extractorsFor(const MeasurementPlugin& plugin) const {
