@@ -5,19 +5,30 @@
 
 namespace omnimapper::program {
 
-std::vector<std::string> findInis(const std::vector<std::string>& names) {
-  namespace fs = std::filesystem;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Folders of INIs that came with the program: of an installation, or of the checkout whose build this is.
+std::vector<fs::path> shippedFolders() {
   std::error_code error;
   const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
+  if (error || bin.empty()) return {};
+  if (fs::exists(bin.parent_path() / "CMakeCache.txt", error)) return {bin / "../../../ini", bin / "../../../rawlogs"};
+  return {bin / "../share/omnimapper/ini", bin / "../share/omnimapper/rawlogs"};
+}
+
+}  // namespace
+
+std::vector<std::string> findInis(const std::vector<std::string>& names) {
+  std::error_code error;
   std::vector<std::string> paths;
   for (const auto& name : names) {
     paths.push_back(name);
     if (fs::path(name).has_parent_path() || fs::exists(name, error)) continue;
-    for (const char* beside :
-         {"../share/omnimapper/ini", "../share/omnimapper/rawlogs", "../../../ini", "../../../rawlogs"}) {
-      const fs::path shipped = (bin / beside / name).lexically_normal();
-      if (!fs::is_regular_file(shipped, error)) continue;
-      paths.back() = shipped;
+    for (const auto& folder : shippedFolders()) {
+      if (!fs::is_regular_file(folder / name, error)) continue;
+      paths.back() = (folder / name).lexically_normal();
       break;
     }
   }

@@ -161,6 +161,42 @@ TEST(OutputFolder, AFullDiskAndAFolderInTheWayChangeNothing) {
   EXPECT_EQ(contents(scratch / "out"), kOld);
 }
 
+// Found before anything counts, so that the run's files are still there to be put elsewhere.
+TEST(OutputFolder, WhatIsInTheWayOfAFolderIsFoundBeforeAnythingChanges) {
+  ScratchFolder scratch;
+  fs::create_directory(scratch / "elsewhere");
+  for (const bool is_link : {false, true}) {
+    const std::string path = scratch / (is_link ? "link" : "file");
+    write(path, kOld);
+    if (is_link) fs::create_directory_symlink(scratch / "elsewhere", path + "/truth");
+    if (!is_link) put(path + "/truth", "mine");
+    OutputFolder folder(path);
+    folder.open();
+    stage(folder, kNew);
+    EXPECT_EQ(codeOf([&] { folder.commit(); }), ExitCode::unwritable_output);
+    EXPECT_FALSE(folder.isCommitted());
+    EXPECT_EQ(readInput(path + "/map"), "old");
+    folder.commitInto("interrupted");
+    EXPECT_EQ(readInput(path + "/interrupted/truth/b"), "new b");
+  }
+  EXPECT_TRUE(fs::is_empty(scratch / "elsewhere"));
+}
+
+// Of an archive from somebody else: reading a file in it must not write or remove anything behind a link.
+TEST(OutputFolder, AHostileNoteIsNotFollowedThroughALink) {
+  ScratchFolder scratch;
+  put(scratch / "home/.profile", "mine");
+  put(scratch / "home/other", "mine");
+  put(scratch / "out/map", "map");
+  put(scratch / "out/.omnimapper/staged/sub/.profile", "theirs");
+  put(scratch / "out/.omnimapper/commit", "files of a run of OmniMapper, 1\n6 sub/.profile\n");
+  put(scratch / "out/.omnimapper/files", "files of a run of OmniMapper, 1\n4 sub/.profile\n4 sub/other\n");
+  fs::create_directory_symlink(scratch / "home", scratch / "out/sub");
+  EXPECT_EQ(readInput(scratch / "out/map"), "map");
+  EXPECT_EQ(readInput(scratch / "home/.profile"), "mine");
+  EXPECT_EQ(readInput(scratch / "home/other"), "mine");
+}
+
 TEST(OutputFolder, AnInputIsNotReplaced) {
   ScratchFolder scratch;
   write(scratch / "out", kOld);
@@ -170,6 +206,16 @@ TEST(OutputFolder, AnInputIsNotReplaced) {
   stage(folder, kNew);
   EXPECT_EQ(codeOf([&] { folder.commit(); }), ExitCode::command_line);
   EXPECT_EQ(contents(scratch / "out"), kOld);
+}
+
+TEST(OutputFolder, AnInputThatNoNewFileReplacesStays) {
+  ScratchFolder scratch;
+  write(scratch / "out", kOld);
+  const InputsKept kept({scratch / "out/only_old"});
+  write(scratch / "out", kNew);
+  auto expected = kNew;
+  expected["only_old"] = "1";
+  EXPECT_EQ(contents(scratch / "out"), expected);
 }
 
 TEST(OutputFolder, AnInnerFolderTakesWhatIsNotWholeAndGoesWithIt) {

@@ -116,9 +116,22 @@ TEST_F(KeptImages, APlaceThatWasSeenBeforeAddsNoPoints) {
   keeping.addCloud(add(mrpt::poses::CPose3D(5, 0, 0, 0, 0, 0)), cloud);
   EXPECT_EQ(map_.key_frames[2].cloud.size(), cloud.size());
   KeptObservations next_session(CloudOptions(), RawImages::none, map_);
-  next_session.resume();
+  next_session.posesChanged();
   next_session.addCloud(add(mrpt::poses::CPose3D()), cloud);
   EXPECT_TRUE(map_.key_frames[3].cloud.empty());
+}
+
+// A closure has moved the only view of the wall by a metre: where it was is free again.
+TEST_F(KeptImages, WhatASolveHasMovedCountsWhereItIsNow) {
+  KeptObservations keeping(CloudOptions(), RawImages::none, map_);
+  const auto cloud = depthCloud(*wall(), CloudOptions());
+  keeping.addCloud({0, 0}, cloud);
+  map_.key_frames.edit({0, 0}).map_from_base = mrpt::poses::CPose3D(1, 0, 0, 0, 0, 0);
+  keeping.posesChanged();
+  keeping.addCloud(add(mrpt::poses::CPose3D(1, 0, 0, 0, 0, 0)), cloud);
+  EXPECT_TRUE(map_.key_frames[1].cloud.empty());
+  keeping.addCloud(add(mrpt::poses::CPose3D()), cloud);
+  EXPECT_EQ(map_.key_frames[2].cloud.size(), cloud.size());
 }
 
 TEST_F(KeptImages, NoneKeepsTheSensorWithoutItsImages) {

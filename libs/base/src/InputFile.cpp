@@ -17,7 +17,9 @@ std::ifstream openInput(const std::string& path, const std::string& kind) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     throw Error(ExitCode::unreadable_input, path + ": is a pipe or a device and no " + kind);
   }
-  std::ifstream in(committedPath(path), std::ios::binary);
+  const std::string place = committedPath(path);
+  errno = 0;
+  std::ifstream in(place, std::ios::binary);
   if (!in) {
     throw Error(ExitCode::unreadable_input,
                 path + ": this " + kind + " cannot be opened: " + std::strerror(errno) + "; is the path right?");

@@ -1,5 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Memory.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -20,6 +21,19 @@ void keepFreedMemory() {
 #endif
 }
 
+namespace {
+
+// One for each core that this process may use, unless its user says otherwise.
+rlim_t threadsOfOpenBlas() {
+  const char* said = std::getenv("OPENBLAS_NUM_THREADS");
+  if (const int threads = said ? std::atoi(said) : 0; threads > 0) return static_cast<rlim_t>(threads);
+  cpu_set_t cores;
+  if (::sched_getaffinity(0, sizeof cores, &cores) != 0) return 1;
+  return static_cast<rlim_t>(std::max(1, CPU_COUNT(&cores)));
+}
+
+}  // namespace
+
 void requireAddressSpace() {
   constexpr rlim_t kThread = rlim_t{48} << 20,
                    kRest = rlim_t{64} << 20;  // bytes, for a thread of OpenBLAS and beside them
@@ -28,13 +42,14 @@ void requireAddressSpace() {
   std::ifstream statm("/proc/self/statm");
   rlim_t pages = 0;
   statm >> pages;
-  const rlim_t needed = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) +
-                        kThread * static_cast<rlim_t>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN))) + kRest;
+  const rlim_t needed = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + kThread * threadsOfOpenBlas() + kRest;
   if (limit.rlim_cur >= needed) return;
-  throw Error(ExitCode::out_of_memory, "the limit of " + std::to_string(limit.rlim_cur >> 20) +
-                                           " MiB of address space (ulimit -v) is too low: on this machine the program "
-                                           "needs " +
-                                           std::to_string(needed >> 20) + " MiB to start");
+  throw Error(ExitCode::out_of_memory,
+              "the limit of " + std::to_string(limit.rlim_cur >> 20) +
+                  " MiB of address space (ulimit -v) is too low: on this machine the program "
+                  "needs " +
+                  std::to_string(needed >> 20) +
+                  " MiB to start; with fewer threads of OpenBLAS less (OPENBLAS_NUM_THREADS=1)");
 }
 
 }  // namespace omnimapper::base

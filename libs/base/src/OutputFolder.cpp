@@ -50,7 +50,7 @@ FileList readList(const fs::path& path) {
     if (!(words >> size) || words.get() != ' ' || !std::getline(words, name)) continue;
     const fs::path relative(name);
     const bool leaves = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
-    if (!leaves) files.emplace(name, size);
+    if (!leaves && *relative.begin() != kHidden) files.emplace(name, size);
   }
   return files;
 }
@@ -78,25 +78,45 @@ void removeEmptyFolders(fs::path folder, const fs::path& top) {
   for (; folder != top && fs::remove(folder, error); folder = folder.parent_path()) continue;
 }
 
+// Whether a folder on the way from `top` to a file in it is a link, by which the file would lie elsewhere.
+bool isBehindLink(const fs::path& top, const fs::path& name) {
+  fs::path at = top;
+  const fs::path folders = name.parent_path();
+  return std::any_of(folders.begin(), folders.end(), [&](const fs::path& part) { return fs::is_symlink(at /= part); });
+}
+
+// What keeps a file of a run from its place; empty if nothing does. A place that is not there yet is made.
+std::string whyNotAt(const fs::path& top, const fs::path& name) {
+  if (name.string().find('\n') != std::string::npos) return "no file of a run may have a line break in its name";
+  if (fs::is_directory(top / name)) return "is a folder, where a file of this run is to be; move it away";
+  struct stat here {
+  }, there{};
+  if (::stat(top.c_str(), &here) != 0) return std::strerror(errno);
+  fs::path at = top;
+  for (const fs::path& part : name.parent_path()) {
+    at /= part;
+    if (::lstat(at.c_str(), &there) != 0) break;
+    if (!S_ISDIR(there.st_mode))
+      return at.string() + " is in the way: a folder of this run is to be there; move it away";
+    if (here.st_dev != there.st_dev) return at.string() + " is on another file system; choose another folder with -o";
+    if (::access(at.c_str(), W_OK | X_OK) != 0) return at.string() + " may not be written; mend its permissions";
+  }
+  return "";
+}
+
 // Does what a commit has noted and not done. Can be broken off and done again at any point.
 void finishCommit(const fs::path& folder) {
   const fs::path hidden = folder / kHidden, staged = hidden / kStaged;
   if (!fs::exists(hidden / kCommit)) return;
   const FileList before = readList(hidden / kFiles), after = readList(hidden / kCommit);
-  const auto is_link = [&](const fs::path& name) {
-    fs::path at = folder;
-    for (const auto& part : name.parent_path()) {
-      if (fs::is_symlink(at /= part)) return true;
-    }
-    return false;
-  };
   for (const auto& [name, size] : after) {
-    if (!fs::exists(staged / name) || is_link(name)) continue;
+    if (!fs::exists(staged / name) || isBehindLink(folder, name)) continue;
     fs::create_directories((folder / name).parent_path());
     fs::rename(staged / name, folder / name);
   }
   for (const auto& [name, size] : before) {
-    if (after.count(name) > 0 || is_link(name) || !isAsWritten(folder / name, size, hidden / kFiles)) continue;
+    if (after.count(name) > 0 || isBehindLink(folder, name) || !isAsWritten(folder / name, size, hidden / kFiles))
+      continue;
     fs::remove(folder / name);
     removeEmptyFolders((folder / name).parent_path(), folder);
   }
@@ -145,10 +165,12 @@ void OutputFolder::open() {
   // A file system that reserves nothing, and a limit of the user's own, are no full disk.
   const int error = file < 0 ? errno : ::posix_fallocate(file, 0, kReservedBytes);
   if (file >= 0) ::close(file);
-  if (file >= 0 && error != ENOSPC && error != EDQUOT) return;
-  fail(folder_,
-       std::string("there is no room for outputs (") + std::strerror(error) + "). Free some or choose another folder.",
-       ExitCode::disk_full);
+  if (error == ENOSPC || error == EDQUOT)
+    fail(
+        folder_,
+        std::string("there is no room for outputs (") + std::strerror(error) + "). Free some or choose another folder.",
+        ExitCode::disk_full);
+  if (file < 0) fail(reserve, std::string("cannot be written (") + std::strerror(error) + ")");
 }
 
 void OutputFolder::lock() {
@@ -169,6 +191,11 @@ void OutputFolder::lock() {
   makeWritableFolder(staging_);
 }
 
+bool OutputFolder::isCommitted() const {
+  std::error_code error;
+  return fs::exists(fs::path(hidden_) / kCommit, error);
+}
+
 bool OutputFolder::holdsRun() const {
   std::error_code error;
   return fs::exists(fs::path(hidden_) / kFiles, error) || fs::exists(fs::path(folder_) / "map.omnimap", error);
@@ -180,9 +207,8 @@ void OutputFolder::commit() {
     FileList files = stagedFiles(staging_);
     for (const auto& [name, size] : files) {
       const fs::path target = fs::path(folder_) / name;
-      if (name.find('\n') != std::string::npos) fail(target, "no file of a run may have a line break in its name");
+      if (const auto reason = whyNotAt(folder_, name); !reason.empty()) fail(target, reason);
       refuseToReplaceKeptInput(target);
-      if (fs::is_directory(target)) fail(target, "is a folder, where a file of this run is to be; move it away");
     }
     // What the run read stays, too.
     for (const auto& [name, size] : readList(fs::path(hidden_) / kFiles)) {
@@ -195,9 +221,14 @@ void OutputFolder::commit() {
       out << kFirstLine << "\n";
       for (const auto& [name, size] : files) out << size << " " << name << "\n";
     });
+  } catch (const fs::filesystem_error& error) {
+    fail(folder_, std::string("the outputs cannot be put there (") + error.what() + ")");
+  }
+  try {
     finishCommit(folder_);
   } catch (const fs::filesystem_error& error) {
-    fail(folder_, std::string("the outputs cannot be put in their places (") + error.what() + ")");
+    fail(folder_, std::string("the new outputs count, but some are not in their places yet (") + error.what() +
+                      "); mend that, and the next run or reader moves them");
   }
 }
 
@@ -216,10 +247,13 @@ void OutputFolder::commitInto(const std::string& name) {
 
 void OutputFolder::removeInner(const std::string& name) {
   const fs::path folder = fs::path(folder_) / name;
-  if (!fs::exists(folder / kHidden / kFiles)) return;
+  std::error_code none;
+  if (!fs::exists(folder / kHidden, none)) return;
+  OutputFolder inner(folder);
+  inner.lock();
   try {
     for (const auto& [file, size] : readList(folder / kHidden / kFiles)) {
-      if (!isAsWritten(folder / file, size, folder / kHidden / kFiles)) continue;
+      if (isBehindLink(folder, file) || !isAsWritten(folder / file, size, folder / kHidden / kFiles)) continue;
       fs::remove(folder / file);
       removeEmptyFolders((folder / file).parent_path(), folder);
     }
@@ -256,10 +290,12 @@ std::string OutputFolder::asTheUserSees(std::string message) const {
 std::string committedPath(const std::string& path) {
   const fs::path file(path), folder = file.has_parent_path() ? file.parent_path() : ".", hidden = folder / kHidden;
   std::error_code error;
-  // Whoever holds the lock is about to do it.
-  // Nobody else's note is followed.
+  // What somebody else has noted is not done in this user's name.
   struct stat note {};
-  if (::lstat((hidden / kCommit).c_str(), &note) != 0 || note.st_uid != ::geteuid()) return path;
+  if (::lstat((hidden / kCommit).c_str(), &note) != 0 || note.st_uid != ::geteuid() || fs::is_symlink(hidden, error) ||
+      fs::is_symlink(hidden / kStaged, error))
+    return path;
+  // Whoever holds the lock is about to do it.
   for (int tries = 0; tries < 1000 && fs::exists(hidden / kCommit, error); ++tries) {
     const int lock = takeLock(hidden);
     if (lock < 0 && errno != EWOULDBLOCK) {

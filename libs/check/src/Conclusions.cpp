@@ -134,4 +134,15 @@ std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, cons
          reported;
 }
 
+bool clockStands(const LogFacts& facts) {
+  constexpr std::size_t kSome = 10;  // observations, by which a sensor is judged
+  bool stands = false;
+  for (const auto& [sensor, stamps] : facts.sensors) {
+    if (stamps.count < kSome) continue;
+    if (2 * stamps.repeated <= stamps.count) return false;
+    stands = true;
+  }
+  return stands;
+}
+
 }  // namespace omnimapper::check

@@ -19,6 +19,8 @@ bool isReversed(const LogFacts& facts, const std::string& odometry);
 bool isTilted(const ScanFacts& scans);
 /// Whether beams that met nothing are marked as valid, at one range.
 bool saturates(const ScanFacts& scans);
+/// Whether most stamps of every sensor that has some repeat the one before: the clock stood, not one sensor.
+bool clockStands(const LogFacts& facts);
 /// Of all usable lasers with that odometry, the best first.
 std::vector<const MotionFacts*> motionsWith(const LogFacts& facts, const std::string& odometry);
 

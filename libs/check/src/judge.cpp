@@ -63,11 +63,9 @@ class Judge {
                                       counted(stamps.count, "observation") + " without a stamp: left out");
     }
     if (stamps.repeated > 0) {
-      add(weigh(stamps.repeated), who + "the stamp of the one before is repeated " + counted(stamps.repeated, "time") +
-                                      ": left out" +
-                                      (weigh(stamps.repeated) == Weight::problem
-                                           ? "; the stamps stand still: [source] step_s stamps the log anew"
-                                           : ""));
+      add(weigh(stamps.repeated),
+          who + "the stamp of the one before is repeated " + counted(stamps.repeated, "time") + ": left out" +
+              (clockStands(facts_) ? "; the stamps stand still: [source] step_s stamps the log anew" : ""));
     }
     if (stamps.jumps > 0) {
       add(Weight::problem, who + "the clock jumps " + counted(stamps.jumps, "time") + ", by up to " +

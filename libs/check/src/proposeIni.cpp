@@ -73,10 +73,7 @@ class Proposal {
 
   // How long a step really took nobody knows: what depends on it are speeds alone.
   void proposeStamps() {
-    const bool stand_still = std::any_of(facts_.sensors.begin(), facts_.sensors.end(), [](const auto& sensor) {
-      return 2 * sensor.second.repeated > sensor.second.count;
-    });
-    if (stand_still) set("source", "step_s", "0.1", "the stamps stand still: a step each tenth of a second");
+    if (clockStands(facts_)) set("source", "step_s", "0.1", "the stamps stand still: a step each tenth of a second");
   }
 
   void proposeEngine() {

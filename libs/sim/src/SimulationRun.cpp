@@ -203,19 +203,9 @@ void refuseForeignFolder(const std::string& folder) {
                         "empty it");
 }
 
-}  // namespace
-
-SimulationResult runSimulation(const Simulation& simulation, const SimulationRequest& request, base::Progress& progress,
-                               const std::function<bool()>& stop) {
-  if (!isPlainFileName(request.name)) {
-    throw base::Error(
-        base::ExitCode::command_line,
-        "--name " + request.name + ": names files, so it has no '/', does not begin with '.' and is text");
-  }
-  refuseForeignFolder(request.folder);
-  base::OutputFolder outputs(request.folder);
-  outputs.open();
-  const std::string& folder = outputs.staging();
+// Log, truth and pictures, all in one folder.
+SimulationResult simulateInto(const std::string& folder, const Simulation& simulation, const SimulationRequest& request,
+                              base::Progress& progress, const std::function<bool()>& stop) {
   SimulationResult result;
   result.duration = simulation.duration();
   result.warnings = simulation.warnings();
@@ -238,10 +228,31 @@ SimulationResult runSimulation(const Simulation& simulation, const SimulationReq
   writeText(folder + "/plan.svg", drawPlan(simulation.world(), plan));
   writeText(folder + "/" + request.name + ".ini", simulation.iniText());
   writeText(folder + "/README.md", folderReadme(simulation, request.name, result));
+  return result;
+}
+
+}  // namespace
+
+SimulationResult runSimulation(const Simulation& simulation, const SimulationRequest& request, base::Progress& progress,
+                               const std::function<bool()>& stop) {
+  if (!isPlainFileName(request.name)) {
+    throw base::Error(
+        base::ExitCode::command_line,
+        "--name " + request.name + ": names files, so it has no '/', does not begin with '.' and is text");
+  }
+  refuseForeignFolder(request.folder);
+  base::OutputFolder outputs(request.folder);
+  outputs.open();
+  SimulationResult result;
+  try {
+    result = simulateInto(outputs.staging(), simulation, request, progress, stop);
+  } catch (const base::Error& error) {
+    throw base::Error(error.code(), outputs.asTheUserSees(error.what()));
+  }
   if (result.code != base::ExitCode::ok && outputs.holdsRun()) {
     outputs.commitInto("interrupted");
-    result.warnings.push_back(request.folder + " is as an older run left it; what was simulated until now is in " +
-                              request.folder + "/interrupted");
+    result.warnings.push_back(request.folder + " is as it was; what was simulated until now is in " + request.folder +
+                              "/interrupted");
   } else {
     outputs.commit();
   }

@@ -16,7 +16,8 @@ const base::OptionTable<SourceOptions>& SourceOptions::table() {
           .number(
               "step_s", &SourceOptions::step, base::Range{0, 1e6},
               "For a log whose stamps stand still: a step so long after the one before it, in the order of the log, "
-              "where a step ends when a sensor or an action comes again; 0 takes the log's own stamps.")
+              "where a step ends when a sensor or an action comes again, so that the fastest sets the pace; 0 takes "
+              "the log's own stamps.")
           .choice("action_span", &SourceOptions::action_span,
                   {{"automatic", ActionSpan::automatic}, {"frames", ActionSpan::frames}, {"own", ActionSpan::own}},
                   "Time an action of a rawlog spans: between the frames around it, or between stamps of actions; "

@@ -55,8 +55,7 @@ TEST_P(Interrupt, OverAnOlderMapLeavesThatAndKeepsItsOwnApart) {
   const auto program = started("4");
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   program->send(GetParam());
-  EXPECT_TRUE(
-      endedWith(ExitCode::interrupted, program->wait(), {"is as an older run left it", folder_ + "/interrupted"}));
+  EXPECT_TRUE(endedWith(ExitCode::interrupted, program->wait(), {"is as it was", folder_ + "/interrupted"}));
   EXPECT_EQ(filesIn(folder_ + "/interrupted"), allOutputs());
   EXPECT_LT(loadMap(folder_ + "/interrupted").map.key_frames.size(), loadMap(folder_).map.key_frames.size());
   EXPECT_EQ(contentsOf(folder_), before);

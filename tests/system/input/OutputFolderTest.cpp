@@ -66,9 +66,9 @@ TEST_F(OutputFolder, OnAFullDiskKeepsTheOldMapAndNamesAllThatFailed) {
   const std::string old_map = "the map of before";
   writeFile(folder + "/map.omnimap", old_map);
   writeFile(folder + "/filler", std::string(930'000, 'x'));
-  EXPECT_TRUE(endedWith(ExitCode::disk_full, map({log_path_}, folder),
-                        {folder + "/map.omnimap: ", folder + "/map.png: ", "No space left on device", "Free some room",
-                         "as an older run left it"}));
+  EXPECT_TRUE(endedWith(
+      ExitCode::disk_full, map({log_path_}, folder),
+      {folder + "/map.omnimap: ", folder + "/map.png: ", "No space left on device", "Free some room", "is as it was"}));
   EXPECT_EQ(readFile(folder + "/map.omnimap"), old_map);
   EXPECT_EQ(filesIn(folder), (std::set<std::string>{"map.omnimap", "filler", "interrupted"}));
   EXPECT_EQ(filesIn(folder + "/interrupted").count("trajectory.tum"), 1U) << "what fits is written";
@@ -90,7 +90,7 @@ TEST_F(OutputFolder, FilesThatMayNotGrowKeepTheOldMapAndTheOtherOutputsAreWritte
   ProgramOptions limited;
   limited.largest_file = before.at("map.omnimap").size() / 2;
   EXPECT_TRUE(endedWith(ExitCode::disk_full, map({log_path_}, folder, {}, limited),
-                        {folder + "/map.omnimap: cannot be written", "as an older run left it", "Free some room"}));
+                        {folder + "/map.omnimap: cannot be written", "is as it was", "Free some room"}));
   EXPECT_EQ(contentsOf(folder), before);
   auto written = allOutputs();
   written.erase("map.omnimap");

@@ -2,13 +2,13 @@
 
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/geometry/CubeSet.h>
 #include <omnimapper/grid/ScanBeams.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <unordered_set>
 
 #include "grid/forEachScan.h"
 
@@ -40,23 +40,6 @@ void addScan(const mrpt::obs::CObservation2DRangeScan& scan, double max_range, s
     if (ends.hits(i) && scan.getScanRange(i) <= max_range) points.emplace_back(ends.at(i, max_range));
   }
 }
-
-/// Keeps the first point of each cube.
-class Thinner {
- public:
-  explicit Thinner(double voxel) : voxel_(voxel) {}
-  bool keeps(const TPoint3Df& p) {
-    if (voxel_ <= 0) return true;
-    const auto cell = [&](float coordinate) {
-      return static_cast<std::uint64_t>(std::llround(std::floor(coordinate / voxel_)) + (1 << 20)) & 0x1FFFFF;
-    };
-    return taken_.insert(cell(p.x) << 42 | cell(p.y) << 21 | cell(p.z)).second;
-  }
-
- private:
-  double voxel_;
-  std::unordered_set<std::uint64_t> taken_;
-};
 
 bool isFlat(const std::vector<ColouredPoint>& points) {
   const auto [low, high] = std::minmax_element(points.begin(), points.end(),
@@ -124,11 +107,11 @@ std::vector<TPoint3Df> pointsInBase(const map::KeyFrame& frame, bool of_clouds, 
 
 std::vector<ColouredPoint> pointsOf(const map::Map& map, const PointsOptions& options) {
   std::vector<ColouredPoint> points;
-  Thinner thinner(options.voxel);
+  geometry::CubeSet cubes(options.voxel);
   const bool by_camera = options.colour == PointColour::automatic && hasDepthClouds(map);
   const auto add = [&](const map::KeyFrame& frame, const mrpt::math::TPoint3D& in_base, const draw::Rgb& colour) {
     const TPoint3Df in_map(frame.map_from_base.composePoint(in_base));
-    if (thinner.keeps(in_map)) points.push_back({in_map, colour});
+    if (cubes.insert(in_map.x, in_map.y, in_map.z)) points.push_back({in_map, colour});
   };
   const auto by_time = [&](std::size_t i) {
     return spectrum(static_cast<double>(i) / std::max<double>(1, static_cast<double>(map.key_frames.size() - 1)));

@@ -145,6 +145,7 @@ void BackEnd::solve(const graph::SolveOptions& options) {
       markLocated(state_.map, state_.graph, absolute_);
     }
   }
+  kept_.posesChanged();
   ++state_.counts.solves;
   for (auto& [section, plugin] : plugins_.output) {
     const auto timer = state_.times.measure(Stage::output, section);
@@ -183,7 +184,7 @@ void BackEnd::judgeMap() {
 
 void BackEnd::resume() {
   estimator_.resume();
-  kept_.resume();
+  kept_.posesChanged();
   for (auto& [section, plugin] : plugins_.measurement) {
     const auto found =
         std::find_if(state_.sections.begin(), state_.sections.end(),

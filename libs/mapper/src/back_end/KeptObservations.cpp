@@ -4,9 +4,8 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationStereoImages.h>
 
+#include <algorithm>
 #include <memory>
-
-#include "CubeIndex.h"
 
 namespace omnimapper::mapper {
 
@@ -70,20 +69,37 @@ CObservation::ConstPtr stripped(const CObservation& observation, RawImages kept)
 
 }  // namespace
 
-void KeptObservations::resume() {
-  if (!(cloud_.voxel > 0)) return;
+bool KeptObservations::takes(const map::KeyFrame& frame, const map::CloudPoint& point) {
+  const auto in_map = frame.map_from_base.composePoint(point.inBase());
+  return cubes_.insert(in_map.x, in_map.y, in_map.z);
+}
+
+void KeptObservations::posesChanged() {
+  const bool is_as_it_was = std::all_of(map_.key_frames.begin(), map_.key_frames.end(), [this](const auto& frame) {
+    const auto seen = seen_from_.find(frame.id);
+    if (seen == seen_from_.end()) return frame.cloud.empty();
+    constexpr double kLever = 3;  // [m] at which a turn moves points by as much as this
+    const auto far = [&](const mrpt::poses::CPose3D& pose) { return pose.composePoint({kLever, 0, 0}); };
+    const auto side = [&](const mrpt::poses::CPose3D& pose) { return pose.composePoint({0, kLever, 0}); };
+    return (far(frame.map_from_base) - far(seen->second)).norm() < cloud_.voxel &&
+           (side(frame.map_from_base) - side(seen->second)).norm() < cloud_.voxel;
+  });
+  if (is_as_it_was) return;
+  cubes_.clear();
+  seen_from_.clear();
   for (const auto& frame : map_.key_frames) {
-    for (const auto& point : frame.cloud)
-      taken_.insert(cubeOf(frame.map_from_base.composePoint(point.inBase()), cloud_.voxel));
+    if (frame.cloud.empty()) continue;
+    seen_from_[frame.id] = frame.map_from_base;
+    for (const auto& point : frame.cloud) takes(frame, point);
   }
 }
 
 void KeptObservations::addCloud(base::KeyFrameId id, const std::vector<map::CloudPoint>& points) {
   if (points.empty()) return;
   auto& frame = map_.key_frames.edit(id);
+  seen_from_[id] = frame.map_from_base;
   for (const auto& point : points) {
-    if (taken_.insert(cubeOf(frame.map_from_base.composePoint(point.inBase()), cloud_.voxel)).second)
-      frame.cloud.push_back(point);
+    if (takes(frame, point)) frame.cloud.push_back(point);
   }
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <omnimapper/geometry/CubeSet.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/plugin/OutputPlugin.h>
 
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
 namespace omnimapper::mapper {
@@ -15,20 +16,24 @@ class KeptObservations {
  public:
   /// `map` stays the caller's.
   KeptObservations(const CloudOptions& cloud, RawImages images, map::Map& map)
-      : cloud_(cloud), images_(images), map_(map) {}
+      : cloud_(cloud), images_(images), map_(map), cubes_(cloud.voxel) {}
 
-  /// Counts the points of a map that was loaded as seen.
-  void resume();
+  /// To be called when a map was loaded or a solve has moved poses: what counts as seen is where its points are now, if
+  /// that is another cube.
+  void posesChanged();
   /// Takes those of the points, in the base of the key frame, that lie where the map has none yet.
   void addCloud(base::KeyFrameId id, const std::vector<map::CloudPoint>& points);
   /// Replaces images that nobody keeps by observations of the same sensor and stamp without them.
   void dropImages(base::KeyFrameId id);
 
  private:
+  bool takes(const map::KeyFrame& frame, const map::CloudPoint& point);
+
   CloudOptions cloud_;
   RawImages images_;
   map::Map& map_;
-  std::unordered_set<std::uint64_t> taken_;  // cubes of the map that have a point
+  geometry::CubeSet cubes_;                                               // of the map that have a point
+  std::unordered_map<base::KeyFrameId, mrpt::poses::CPose3D> seen_from_;  // by which they are in these
 };
 
 }  // namespace omnimapper::mapper

@@ -1,13 +1,11 @@
 #include "front_end/DepthCloud.h"
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/geometry/CubeSet.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_set>
-
-#include "CubeIndex.h"
 
 namespace omnimapper::mapper {
 
@@ -79,7 +77,7 @@ std::vector<map::CloudPoint> depthCloud(const mrpt::obs::CObservation& observati
   if (!(camera.fx() > 0) || !(camera.fy() > 0)) return cloud;
   const auto& depth = scan->rangeImage;
   const Colours colours(*scan);
-  std::unordered_set<std::uint64_t> taken;
+  geometry::CubeSet cubes(options.voxel);
   for (int v = kStride / 2; v < static_cast<int>(depth.rows()); v += kStride) {
     for (int u = kStride / 2; u < static_cast<int>(depth.cols()); u += kStride) {
       const double range = depth(v, u) * static_cast<double>(scan->rangeUnits);
@@ -90,7 +88,7 @@ std::vector<map::CloudPoint> depthCloud(const mrpt::obs::CObservation& observati
       const TPoint3D in_base = scan->sensorPose.composePoint(in_sensor);
       constexpr double kReach = map::CloudPoint::kReach;
       if (!(std::abs(in_base.x) < kReach && std::abs(in_base.y) < kReach && std::abs(in_base.z) < kReach)) continue;
-      if (!taken.insert(cubeOf(in_base, options.voxel)).second) continue;
+      if (!cubes.insert(in_base.x, in_base.y, in_base.z)) continue;
       const auto [red, green, blue] = colours.at(u, v, in_sensor);
       const auto mm = [](double metres) { return map::CloudPoint::millimetres(static_cast<float>(metres)); };
       cloud.push_back({mm(in_base.x), mm(in_base.y), mm(in_base.z), red, green, blue});

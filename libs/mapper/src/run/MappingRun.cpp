@@ -139,6 +139,8 @@ std::string landmarkLine(const std::map<std::string, std::size_t>& counts) {
   return text.empty() ? "" : "landmarks         " + text + "\n";
 }
 
+constexpr char kInterrupted[] = "interrupted";  // folder of what is not whole
+
 // One run of an INI over its logs: open(), feed(), finish(), report(), in that order.
 class Run {
  public:
@@ -155,6 +157,7 @@ class Run {
   void makeEngine();
   std::vector<std::string> warn(const RunResult& result);
   void publish(const std::vector<base::Error>& failures, RunResult& result);
+  void keepContinuedMap();
   void showToTheEnd(const RunResult& result);
   void complete(RunResult& result) const;
   std::string missingFor(const std::string& section) const;
@@ -303,39 +306,48 @@ void Run::complete(RunResult& result) const {
     result.code = base::ExitCode::suspicious_map;
 }
 
-// Puts the outputs in the place of an older run's. Those of a run that is not whole never replace a whole one's: they
-// have a folder of their own. Throws what failed of the outputs, all of it.
+// Puts the outputs in the place of an older run's. Those of a run that is not whole, or that cannot have their places,
+// never replace a whole one's: they have a folder of their own. Throws what failed of the outputs, all of it.
 void Run::publish(const std::vector<base::Error>& failures, RunResult& result) {
-  constexpr char kInterrupted[] = "interrupted";
-  const bool is_whole = !stopped_ && !failure_ && !failure_at_end_ && failures.empty();
-  const bool keeps_older = !is_whole && outputs_.holdsRun();
-  std::string sentences;
-  for (const auto& error : failures) sentences += outputs_.asTheUserSees(error.what()) + "\n";
-  result.output_folder = outputs_.folder() + (keeps_older ? std::string("/") + kInterrupted : "");
-  try {
-    if (keeps_older) {
-      outputs_.commitInto(kInterrupted);
-    } else {
-      // A map that was gone on from, and that this INI does not write, is not another INI's.
-      std::error_code none;
-      const std::filesystem::path map = request_.continue_map;
-      const auto file = std::filesystem::is_directory(map, none) ? map / "map.omnimap" : map;
-      if (!map.empty() && std::filesystem::equivalent(file, outputs_.folder() + "/map.omnimap", none))
-        outputs_.keep("map.omnimap");
+  std::vector<base::Error> errors;
+  for (const auto& error : failures) errors.emplace_back(error.code(), outputs_.asTheUserSees(error.what()));
+  bool is_apart = outputs_.holdsRun() && (stopped_ || failure_ || failure_at_end_ || !errors.empty());
+  if (!is_apart) {
+    try {
+      keepContinuedMap();
       outputs_.commit();
+    } catch (const base::Error& error) {
+      errors.push_back(error);
+      is_apart = !outputs_.isCommitted();
     }
-  } catch (const base::Error& error) {
-    throw base::Error(error.code(), sentences + error.what() + "\nNothing has changed in " + outputs_.folder() + ".");
   }
-  if (!keeps_older) outputs_.removeInner(kInterrupted);
+  result.output_folder = outputs_.folder() + (is_apart ? std::string("/") + kInterrupted : "");
+  try {
+    is_apart ? outputs_.commitInto(kInterrupted) : outputs_.removeInner(kInterrupted);
+  } catch (const base::Error& error) {
+    is_apart ? errors.push_back(error) : result.warnings.push_back(error.what());
+  }
   result.foreign_files = outputs_.foreignFiles();
-  const std::string older = keeps_older ? outputs_.folder() +
-                                              " is as an older run left it; what there is of this run, "
-                                              "which is not whole, is in " +
-                                              result.output_folder
-                                        : "";
-  if (!failures.empty()) throw base::Error(failures.front().code(), sentences + older);
-  if (keeps_older) result.warnings.push_back(older);
+  const std::string older = is_apart ? outputs_.folder() +
+                                           " is as it was; what there is of this run, which is not whole, "
+                                           "is in " +
+                                           result.output_folder
+                                     : "";
+  if (!errors.empty()) {
+    std::string sentences;
+    for (const auto& error : errors) sentences += error.what() + std::string("\n");
+    throw base::Error(errors.front().code(), sentences + older);
+  }
+  if (is_apart) result.warnings.push_back(older);
+}
+
+// A map that was gone on from, and that this INI does not write, is not another INI's.
+void Run::keepContinuedMap() {
+  if (request_.continue_map.empty()) return;
+  std::error_code none;
+  const std::filesystem::path map = request_.continue_map;
+  const auto file = std::filesystem::is_directory(map, none) ? map / "map.omnimap" : map;
+  if (std::filesystem::equivalent(file, outputs_.folder() + "/map.omnimap", none)) outputs_.keep("map.omnimap");
 }
 
 // Until nobody looks at the map any more, or the user stops the run.

@@ -49,7 +49,8 @@ class ByteWriter {
     raw(bytes);
   }
   const std::string& bytes() const { return bytes_; }
-  std::string take() { return std::move(bytes_); }
+  /// What was written, and begins anew.
+  std::string take() { return std::exchange(bytes_, {}); }
 
  private:
   std::string bytes_;

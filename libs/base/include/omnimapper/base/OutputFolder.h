@@ -35,9 +35,12 @@ class OutputFolder {
   bool holdsRun() const;
 
   /// Replaces the files of the run before by those that were staged. A file of that run which somebody has changed
-  /// since stays, unless a new one has its name. Throws Error(unwritable_output), or Error(disk_full), and then nothing
-  /// has changed; also Error(command_line) if a file that InputsKept protects would be replaced.
+  /// since stays, unless a new one has its name, and so does what InputsKept protects. Throws Error(unwritable_output),
+  /// or Error(disk_full), and, if a protected file would be replaced, Error(command_line); isCommitted() tells whether
+  /// the new files count all the same.
   void commit();
+  /// Whether a commit has been noted and not wholly done.
+  bool isCommitted() const;
   /// Moves what is staged into a folder in this one, whose files it replaces as commit() does; these stay.
   void commitInto(const std::string& name);
   /// Removes what commitInto() left in that folder, if anything. What somebody else put there stays.
@@ -56,8 +59,8 @@ class OutputFolder {
   bool is_new_ = false;
 };
 
-/// Where the bytes of a file are that a run wrote: finishes the commit of its folder if that was killed. If the folder
-/// may not be written, that is the staged file. Any other path is given back.
+/// Where the bytes of a file are that a run wrote directly in its folder: finishes a commit there of the same user if
+/// that was killed. If the folder may not be written, that is the staged file. Any other path is given back.
 std::string committedPath(const std::string& path);
 
 }  // namespace omnimapper::base
