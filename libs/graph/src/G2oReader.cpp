@@ -3,6 +3,7 @@
 #include <omnimapper/geometry/Conversions.h>
 
 #include <istream>
+#include <set>
 
 #include "G2oTokens.h"
 #include "omnimapper/graph/Between.h"
@@ -24,12 +25,17 @@ class G2oReader {
     const std::string tag(line.word());
     if (tag.empty() || tag.front() == '#') return;
     if (!(readVertex(tag, line) || readPoseEdge(tag, line) || readPointEdge(tag, line) || readPrior(tag, line) ||
-          readOther(tag, line)))
+          readOther(tag, line) || skipHyperplane(tag, line)))
       line.fail("there is no reader for \"" + tag + "\"");
     if (!line.atEnd()) line.fail("there is more on the line than " + tag + " takes");
   }
 
   G2oContent finish() {
+    for (const std::int64_t sensor : sensors_of_planes_) {
+      vertices_.erase(sensor);
+      fixed_.erase(sensor);
+    }
+    for (const std::int64_t number : hyperplanes_) fixed_.erase(number);
     for (const auto& [number, line] : fixed_)
       if (vertices_.count(number) == 0) line.fail("there is no vertex " + std::to_string(number) + " to fix");
     G2oContent content;
@@ -39,6 +45,7 @@ class G2oReader {
       for (const std::int64_t number : edge.vertices) edge.record.variables.push_back(content.ids.at(number));
       content.graph.addFactor(std::move(edge.record));
     }
+    content.left_out = left_out_;
     fillValues(content);
     if (fixed_.empty() && !has_prior_) fixFirstPose(content);
     return content;
@@ -137,6 +144,22 @@ class G2oReader {
     return true;
   }
 
+  // Lines and planes are kinds of landmarks, which this library does not know.
+  bool skipHyperplane(const std::string& tag, G2oTokens& line) {
+    if (tag == "VERTEX_LINE2D" || tag == "VERTEX_PLANE") {
+      hyperplanes_.insert(line.id());
+    } else if (tag == "EDGE_SE3_PLANE_CALIB") {
+      line.id();
+      line.id();
+      sensors_of_planes_.insert(line.id());
+    } else if (tag != "EDGE_SE2_LINE2D") {
+      return false;
+    }
+    while (!line.atEnd()) line.number();
+    ++left_out_;
+    return true;
+  }
+
   static geometry::Se2 readSe2(G2oTokens& line) {
     const Eigen::Vector3d v = line.numbers<3>();
     return {v[0], v[1], geometry::wrapToPi(v[2])};
@@ -219,6 +242,8 @@ class G2oReader {
   std::vector<Edge> edges_;
   std::map<std::int64_t, geometry::Se3> offsets_;
   std::map<std::int64_t, G2oTokens> fixed_;  // and the lines that say so
+  std::set<std::int64_t> hyperplanes_, sensors_of_planes_;
+  std::size_t left_out_ = 0;
   bool has_prior_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "G2oHyperplanes.h"
 #include "omnimapper/graph/Between.h"
 #include "omnimapper/graph/G2o.h"
 #include "omnimapper/graph/Linearised.h"
@@ -55,7 +56,10 @@ class Lines {
 class G2oWriter {
  public:
   explicit G2oWriter(const Graph& graph) : graph_(graph) {
-    for (const auto& [id, record] : graph.variables()) addVertex(id, record);
+    for (const auto& [id, record] : graph.variables()) is_planar_ = is_planar_ || record.kind->kind() == se2()->kind();
+    for (const auto& [id, record] : graph.variables())
+      if (!(addVertex(id, record) || addHyperplane(id, record))) ++left_out_[std::string(record.kind->kind())];
+    if (has_planes_) addSensorOfPlanes();
     for (const auto& [id, record] : graph.factors())
       if (!addFactor(record)) ++left_out_[std::string(record.factor->kind())];
   }
@@ -69,30 +73,61 @@ class G2oWriter {
   }
 
  private:
-  void addVertex(base::VariableId id, const VariableRecord& record) {
+  bool addVertex(base::VariableId id, const VariableRecord& record) {
     static const std::map<std::string_view, std::string> tags = {
         {"se2", "VERTEX_SE2"}, {"se3", "VERTEX_SE3:QUAT"}, {"point2", "VERTEX_XY"}, {"point3", "VERTEX_TRACKXYZ"}};
     const auto tag = tags.find(record.kind->kind());
-    if (tag == tags.end()) {
-      ++left_out_[std::string(record.kind->kind())];
-      return;
+    if (tag == tags.end()) return false;
+    startVertex(tag->second, id).addAll(record.value);
+    if (record.fixed) lines_.start("FIX").add(numbers_.at(id));
+    return true;
+  }
+
+  // Poses on the floor see of an upright plane the line where it meets the floor.
+  bool addHyperplane(base::VariableId id, const VariableRecord& record) {
+    const Eigen::VectorXd hyperplane = record.kind->hyperplane(record.value.data());
+    if (hyperplane.size() == 0) return false;
+    if (is_planar_) {
+      if (!g2o::hasLine(hyperplane)) return false;
+      constexpr std::int64_t kNoEnd = -1;
+      startVertex("VERTEX_LINE2D", id).addAll(g2o::lineOf(hyperplane)).add(kNoEnd).add(kNoEnd);
+    } else {
+      if (hyperplane.size() != 4) return false;
+      startVertex("VERTEX_PLANE", id).addAll(hyperplane).addAll(kGrey);
+      has_planes_ = true;
     }
+    if (record.fixed) lines_.start("FIX").add(numbers_.at(id));
+    return true;
+  }
+
+  // Edges to planes have a third vertex, the sensor's pose in the base: ours is the base itself.
+  void addSensorOfPlanes() {
+    sensor_ = static_cast<std::int64_t>(numbers_.size());
+    lines_.start("VERTEX_SE3:QUAT").add(sensor_).addAll(toValue(geometry::Se3{}));
+    lines_.start("FIX").add(sensor_);
+  }
+
+  Lines& startVertex(const std::string& tag, base::VariableId id) {
     const auto number = static_cast<std::int64_t>(numbers_.size());
     numbers_[id] = number;
-    lines_.start(tag->second).add(number).addAll(record.value);
-    if (record.fixed) lines_.start("FIX").add(number);
+    return lines_.start(tag).add(number);
   }
 
   /// False if the format cannot hold it.
   bool addFactor(const FactorRecord& record) {
     if (record.weight == 0) return false;
-    for (std::size_t i = 0; i < record.variables.size(); ++i)
-      if (numbers_.count(record.variables[i]) == 0 ||
-          graph_.variable(record.variables[i]).kind->kind() != record.factor->variableKinds()[i])
-        return false;
-    if (!(addPoseEdge(record) || addPointEdge(record) || addPrior(record))) return false;
+    for (const auto id : record.variables)
+      if (numbers_.count(id) == 0) return false;
+    if (!(addHyperplaneEdge(record) || addEdgeOfKinds(record))) return false;
     if (record.loss.kind() != Loss::Kind::none) ++losses_;
     return true;
+  }
+
+  // Not of lifted poses, which are of another kind than the factor takes.
+  bool addEdgeOfKinds(const FactorRecord& record) {
+    for (std::size_t i = 0; i < record.variables.size(); ++i)
+      if (graph_.variable(record.variables[i]).kind->kind() != record.factor->variableKinds()[i]) return false;
+    return addPoseEdge(record) || addPointEdge(record) || addPrior(record);
   }
 
   bool addPoseEdge(const FactorRecord& record) {
@@ -153,6 +188,25 @@ class G2oWriter {
     return true;
   }
 
+  bool addHyperplaneEdge(const FactorRecord& record) {
+    if (record.variables.size() != 2) return false;
+    const auto& pose = *graph_.variable(record.variables[0]).kind;
+    const base::VariableId other = record.variables[1];
+    if (graph_.variable(other).kind->hyperplane(graph_.value(other).data()).size() == 0) return false;
+    if (pose.kind() == se2()->kind()) {
+      const auto edge = g2o::lineEdge(graph_, record);
+      startEdge("EDGE_SE2_LINE2D", record).addAll(edge.measured).addUpperTriangle(edge.information);
+    } else if (pose.kind() == se3()->kind()) {
+      const auto edge = g2o::planeEdge(graph_, record);
+      startEdge("EDGE_SE3_PLANE_CALIB", record).add(sensor_).addAll(edge.measured).addAll(kGrey);
+      lines_.addUpperTriangle(edge.information);
+    } else {
+      return false;
+    }
+    ++linearised_[std::string(record.factor->kind())];
+    return true;
+  }
+
   bool addPrior(const FactorRecord& record) {
     if (const auto* planar = dynamic_cast<const PriorSe2*>(record.factor.get())) {
       startEdge("EDGE_PRIOR_SE2", record).addAll(toValue(planar->measured()));
@@ -178,6 +232,9 @@ class G2oWriter {
   const Graph& graph_;
   std::unordered_map<base::VariableId, std::int64_t> numbers_;
   std::map<std::string, int> left_out_, linearised_;
+  const Eigen::Vector3d kGrey{0.5, 0.5, 0.5};  // planes have a color there
+  std::int64_t sensor_ = -1;
+  bool is_planar_ = false, has_planes_ = false;
   int losses_ = 0;
   bool needs_offset_ = false;
   Lines lines_;

@@ -16,6 +16,7 @@ class PlaneVariable : public graph::Variable {
   void minus(const double* y, const double* x, double* delta) const override {
     Eigen::Map<Eigen::Vector3d>{delta} = geometry::minus(planeFromValue(y), planeFromValue(x));
   }
+  Eigen::VectorXd hyperplane(const double* value) const override { return Eigen::Map<const Eigen::Vector4d>(value); }
 };
 
 }  // namespace

@@ -22,6 +22,11 @@ class WallVariable : public graph::Variable {
   void minus(const double* y, const double* x, double* delta) const override {
     Eigen::Map<Eigen::Vector2d>{delta} = wallChange(wallFromValue(x), wallFromValue(y));
   }
+  Eigen::VectorXd hyperplane(const double* value) const override {
+    const geometry::Segment2 wall = wallFromValue(value);
+    const Eigen::Vector2d normal = normalOf(wall);
+    return Eigen::Vector3d(normal.x(), normal.y(), -normal.dot(middle(wall)));
+  }
 };
 
 }  // namespace

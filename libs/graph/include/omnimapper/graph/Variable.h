@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string_view>
 
 namespace omnimapper::graph {
@@ -18,6 +19,9 @@ class Variable {
   virtual void plus(const double* x, const double* delta, double* y) const = 0;
   /// delta such that y = x plus delta.
   virtual void minus(const double* y, const double* x, double* delta) const = 0;
+  /// The line of the floor (nx ny d) or the plane of space (nx ny nz d) that a value is, of the points p of the map
+  /// with n . p + d = 0 and |n| = 1; empty for a kind that is neither. For files that other programs read.
+  virtual Eigen::VectorXd hyperplane(const double*) const { return {}; }
 };
 
 }  // namespace omnimapper::graph
