@@ -75,6 +75,29 @@ TEST(MergedSource, reportIsTheSumAndTheWorstEnding) {
   EXPECT_EQ(report.observations(), 3u);
 }
 
+bool hasLogsApart(const std::vector<std::pair<std::string, std::vector<double>>>& inputs) {
+  auto source = merged(inputs);
+  readAll(source);
+  return source.report().has_logs_apart;
+}
+
+TEST(MergedSource, tellsThatALogLiesInTimeFarFromAllOthers) {
+  EXPECT_FALSE(hasLogsApart({{"a", {1, 10}}, {"b", {5, 20}}}));
+  EXPECT_FALSE(hasLogsApart({{"a", {1, 10}}, {"b", {12, 20}}})) << "the next part of one log";
+  EXPECT_TRUE(hasLogsApart({{"a", {1, 10}}, {"b", {3600, 3610}}}));
+  EXPECT_TRUE(hasLogsApart({{"a", {3600, 3610}}, {"b", {1, 10}}, {"c", {2, 12}}}));
+  EXPECT_FALSE(hasLogsApart({{"a", {1, 1000}}, {"b", {500, 510}}})) << "one within the other";
+  EXPECT_FALSE(hasLogsApart({{"a", {1, 10}}, {"b", {}}})) << "a log without stamps tells nothing";
+  EXPECT_FALSE(hasLogsApart({{"a", {1, 10}}}));
+  std::vector<std::unique_ptr<ObservationSource>> sources;
+  for (const double start : {1.0, 3600.0}) {
+    auto source = std::make_unique<ListSource>("a", std::vector<double>{start, start + 9});
+    source->report_.ending = SourceReport::Ending::open;
+    sources.push_back(std::move(source));
+  }
+  EXPECT_FALSE(MergedSource(std::move(sources)).report().has_logs_apart) << "not read to its end, nothing is known";
+}
+
 TEST(MergedSource, readsNothingBeforeItIsAsked) {
   auto list = std::make_unique<ListSource>("a", std::vector<double>{1, 2});
   const auto& report = list->report_;

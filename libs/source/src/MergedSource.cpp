@@ -1,8 +1,40 @@
 #include <omnimapper/source/MergedSource.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace omnimapper::source {
+
+namespace {
+
+struct TimeSpan {
+  base::Stamp begin, end;
+};
+
+std::optional<TimeSpan> spanOf(const SourceReport& report) {
+  std::optional<TimeSpan> span;
+  for (const auto& [sensor, counts] : report.sensors) {
+    if (!base::isValid(counts.first_stamp)) continue;
+    if (!span) span = {counts.first_stamp, counts.last_stamp};
+    span->begin = std::min(span->begin, counts.first_stamp);
+    span->end = std::max(span->end, counts.last_stamp);
+  }
+  return span;
+}
+
+// Whether a log lies in time so far from all others that it is no part of the same drive.
+bool isOneApart(const std::vector<TimeSpan>& spans) {
+  constexpr double kNextPart = 60;  // [s] within which the next part of a log that was cut follows
+  const auto areNear = [](const TimeSpan& a, const TimeSpan& b) {
+    return base::secondsBetween(a.end, b.begin) < kNextPart && base::secondsBetween(b.end, a.begin) < kNextPart;
+  };
+  return std::any_of(spans.begin(), spans.end(), [&](const TimeSpan& one) {
+    return std::none_of(spans.begin(), spans.end(),
+                        [&](const TimeSpan& other) { return &other != &one && areNear(one, other); });
+  });
+}
+
+}  // namespace
 
 MergedSource::MergedSource(std::vector<std::unique_ptr<ObservationSource>> sources) {
   for (auto& source : sources) inputs_.push_back({std::move(source), nullptr, base::Stamp()});
@@ -36,7 +68,13 @@ double MergedSource::progress() const {
 SourceReport MergedSource::report() const {
   SourceReport sum;
   sum.ending = SourceReport::Ending::complete;
-  for (const auto& input : inputs_) sum.add(input.source->report());
+  std::vector<TimeSpan> spans;
+  for (const auto& input : inputs_) {
+    const auto report = input.source->report();
+    sum.add(report);
+    if (const auto span = spanOf(report)) spans.push_back(*span);
+  }
+  sum.has_logs_apart = sum.ending != SourceReport::Ending::open && spans.size() > 1 && isOneApart(spans);
   return sum;
 }
 

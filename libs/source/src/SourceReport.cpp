@@ -162,6 +162,7 @@ void SourceReport::add(const SourceReport& other) {
   }
   missing_images += other.missing_images;
   if (first_missing_image.empty()) first_missing_image = other.first_missing_image;
+  has_logs_apart = has_logs_apart || other.has_logs_apart;
 }
 
 }  // namespace omnimapper::source

@@ -16,7 +16,7 @@ class MergedSource : public ObservationSource {
   mrpt::obs::CObservation::Ptr next() override;
   /// Of all sources together, each weighing the same.
   double progress() const override;
-  /// The sum; the worst ending.
+  /// The sum; the worst ending. has_logs_apart if one lies a minute or more from all others, once all have ended.
   SourceReport report() const override;
   void interrupt() override;
 

@@ -53,6 +53,7 @@ struct SourceReport {
   std::map<std::pair<std::string, std::string>, LeftOut> unusable;
   std::uint64_t missing_images = 0;  ///< observations left out because an external file cannot be read
   std::string first_missing_image;   ///< the first such file
+  bool has_logs_apart = false;       ///< of merged logs, one lies in time far from all others
 
   /// Observations handed out.
   std::uint64_t observations() const;
