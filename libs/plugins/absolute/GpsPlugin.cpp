@@ -149,6 +149,7 @@ graph::FactorRecord GpsPlugin::factor(const Fix& fix, const mapper::View& view) 
 }
 
 // Heading and place of the east-north-up frame that lay the fixes on the trajectory, by least squares in the plane.
+// Where the fixes move and the trajectory does not, nothing but them tells the motion: x of the map points east.
 std::optional<mrpt::poses::CPose3D> GpsPlugin::alignment(const mapper::View& view) const {
   Eigen::Vector3d mean_map = Eigen::Vector3d::Zero(), mean_enu = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> in_map;
@@ -160,15 +161,21 @@ std::optional<mrpt::poses::CPose3D> GpsPlugin::alignment(const mapper::View& vie
     mean_map += in_map.back() / static_cast<double>(waiting_.size());
     mean_enu += fix.antenna_in_enu / static_cast<double>(waiting_.size());
   }
-  double along = 0, across = 0, spread = 0;
+  constexpr double kStands = 0.1;      // of the fixes' spread: a trajectory of less does not follow them
+  constexpr double kBeyondNoise = 10;  // standard deviations of a fix: a spread of more is no noise
+  double along = 0, across = 0, spread = 0, spread_of_fixes = 0, sigma = 0;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const Eigen::Vector3d m = in_map[i] - mean_map, e = waiting_[i].antenna_in_enu - mean_enu;
     along += e.x() * m.x() + e.y() * m.y();
     across += e.x() * m.y() - e.y() * m.x();
     spread = std::max(spread, m.head<2>().norm());
+    spread_of_fixes = std::max(spread_of_fixes, e.head<2>().norm());
+    sigma = std::max(sigma, waiting_[i].sigma);
   }
-  if (2 * spread < options_.min_spread) return std::nullopt;
-  const double yaw = std::atan2(across, along);
+  const bool only_fixes_move =
+      2 * spread_of_fixes >= std::max(options_.min_spread, kBeyondNoise * sigma) && spread < kStands * spread_of_fixes;
+  if (2 * spread < options_.min_spread && !only_fixes_move) return std::nullopt;
+  const double yaw = only_fixes_move ? 0 : std::atan2(across, along);
   const Eigen::Vector3d turned(std::cos(yaw) * mean_enu.x() - std::sin(yaw) * mean_enu.y(),
                                std::sin(yaw) * mean_enu.x() + std::cos(yaw) * mean_enu.y(), mean_enu.z());
   const Eigen::Vector3d offset = mean_map - turned;

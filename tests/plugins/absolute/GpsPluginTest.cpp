@@ -124,6 +124,38 @@ TEST(GpsPlugin, TheLeverArmOfTheAntennaCounts) {
   EXPECT_GT(errors[false], 0.5);
 }
 
+// The antenna stands over the base's middle: nothing tells the heading of the base.
+TEST(GpsPlugin, MapsWithoutOdometryWithTheMapsXToTheEast) {
+  auto options = ringWithGps();
+  options.gps.antenna = CPose3D(0, 0, 1, 0, 0, 0);
+  const testing::SimulatedLog log(options);
+  const auto engine =
+      testing::makeEngine(kGpsIni + "[no_motion]\nclass = NoMotionPlugin\n", {"mapper.pose_plugins=no_motion"});
+  testing::run(*engine, log.observations());
+  EXPECT_GT(engine->view().map.key_frames.size(), 20U);
+  EXPECT_NEAR(foundAlignment(engine->view()).yaw(), 0, 0.2);
+  EXPECT_LT(errorOnEarth(engine->view(), log, options), 0.1);
+}
+
+TEST(GpsPlugin, NoiseOfARobotThatStandsTellsNoHeading) {
+  const auto engine =
+      testing::makeEngine(kGpsIni + "[no_motion]\nclass = NoMotionPlugin\n",
+                          {"mapper.pose_plugins=no_motion", "trigger.every_observation=true", "gps.sigma_m=3"});
+  auto options = ringWithGps();
+  const auto first = fixes(testing::SimulatedLog(options).observations()).front();
+  testing::Dice dice(5);
+  std::vector<mrpt::obs::CObservation::Ptr> log;
+  for (int i = 0; i < 50; ++i) {
+    auto fix = std::make_shared<CObservationGPS>(*first);
+    fix->timestamp = first->timestamp + base::durationFromSeconds(i);
+    gga(*fix).fields.fix_quality = 1;
+    gga(*fix).fields.latitude_degrees += dice.normal(3 / 111'000.0);
+    log.push_back(fix);
+  }
+  testing::run(*engine, log);
+  EXPECT_EQ(engine->view().graph.factors().size(), engine->view().map.key_frames.size() - 1) << "links alone";
+}
+
 TEST(GpsPlugin, AMapInSpaceFindsHeightAndTiltToo) {
   auto options = ringWithGps();
   options.gps.enu_from_map = CPose3D(40, -25, 0, 0.7, 0.02, -0.03);
