@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/geometry/Angle.h>
+#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <algorithm>
@@ -100,6 +101,25 @@ TEST(EngineSimulated, TwoLasersAtOnceMapAsWellAsOne) {
   EXPECT_EQ(owners.size(), 2U) << "no other factors";
   EXPECT_GT(closures(engine->view(), true), 4U);
   EXPECT_TRUE(closed.count("laser.points") == 1 && closed.count("rear.points") == 1) << "both find loops";
+}
+
+// The trajectory has a line for each scan of the laser that came first, and none for key frames of the other one.
+TEST(EngineSimulated, ASecondLaserAddsNoLinesToTheTrajectory) {
+  auto options = ring(0.3);
+  options.lasers.resize(2);
+  options.lasers[1].label = "second";
+  options.lasers[1].phase = 0.057;
+  const SimulatedLog log(options);
+  const auto engine = makeEngine(kLaserIni);
+  testing::run(*engine, log.observations());
+  std::set<base::Stamp> first, lines;
+  for (const auto& observation : log.observations())
+    if (observation->sensorLabel == "laser") first.insert(observation->timestamp);
+  for (const auto& pose : map::denseTrajectory(engine->view().map)) lines.insert(pose.stamp);
+  std::size_t frames_of_second = 0;
+  for (const auto& frame : engine->view().map.key_frames) frames_of_second += first.count(frame.stamp) == 0;
+  EXPECT_GT(frames_of_second, 10U);
+  EXPECT_EQ(lines, first);
 }
 
 TEST(EngineSimulated, ALaserUpsideDownSeesTheSamePlace) {

@@ -60,7 +60,7 @@ struct PerceptionOptions {
 
 /// Section [solver] of an INI.
 struct SolverOptions {
-  graph::SolveOptions::Method method = graph::SolveOptions::Method::levenberg_marquardt;
+  graph::SolveOptions::Method method = graph::SolveOptions().method;
   int max_iterations = 20;
   double tolerance = 1e-4;
   int final_max_iterations = 100;
