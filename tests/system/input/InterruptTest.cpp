@@ -25,7 +25,8 @@ class Interrupt : public ::testing::TestWithParam<int> {
   /// The program replaying the log at that pace, once it has come to reading it.
   std::unique_ptr<Program> started(const std::string& speed) {
     auto program = std::make_unique<Program>(mappingCommand({log_path_}, folder_, {"--speed", speed}));
-    while (!fs::exists(folder_) && program->isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const std::string staged = folder_ + "/.omnimapper/staged";
+    while (!fs::exists(staged) && program->isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return program;
   }
 
