@@ -19,10 +19,10 @@ struct Arguments {
 inline void addOptions(CLI::App& app, Arguments& arguments) {
   app.description(
       "Maps a robot's log: reads rawlogs, configured by an INI file, and leaves map, pictures and report in a folder.\n"
-      "Example: omnimapper-graphslam -i ini/laser2d.ini -r office.rawlog -o out/office\n"
+      "Example: omnimapper-graphslam -i laser2d.ini -r office.rawlog -o out/office\n"
       "Check:   omnimapper-graphslam --check office.rawlog\n"
-      "Go on:   omnimapper-graphslam -i ini/laser2d.ini -r next_day.rawlog --continue out/office -o out/both\n"
-      "Locate:  omnimapper-graphslam -i ini/laser2d.ini -r next_day.rawlog --localize out/office -o out/located");
+      "Go on:   omnimapper-graphslam -i laser2d.ini -r next_day.rawlog --continue out/office -o out/both\n"
+      "Locate:  omnimapper-graphslam -i laser2d.ini -r next_day.rawlog --localize out/office -o out/located");
   app.add_option("-i,--ini", arguments.inis,
                  "INI file: which plugins, with which options; a further one counts over it. Without a folder also one "
                  "that came with the program, such as laser2d.ini");

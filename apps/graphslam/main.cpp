@@ -46,9 +46,9 @@ int run(Arguments& arguments) {
     progress.reset();  // its line is free for the summary
     return std::cout << base::printableLines(checked.text), static_cast<int>(checked.code);
   }
-  if (arguments.inis.empty() || arguments.run.logs.empty() || arguments.run.output_folder.empty()) {
-    throw base::Error(base::ExitCode::command_line, "-i INI, -r LOG and -o FOLDER are needed; see --help");
-  }
+  program::require({{"-i INI", !arguments.inis.empty()},
+                    {"-r LOG", !arguments.run.logs.empty()},
+                    {"-o FOLDER", !arguments.run.output_folder.empty()}});
   if (arguments.gui) addOutput("live_window", "LiveWindow", config, arguments.run);
   if (!arguments.run.localize_map.empty()) addOutput("localization", "LocalizationOutput", config, arguments.run);
   const auto result = mapper::runMapping(arguments.run, config, *progress, stop);

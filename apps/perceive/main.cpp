@@ -34,7 +34,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       "Runs perception alone: reads rawlogs and leaves a rawlog of what the extractors named by [perception] of an "
       "INI\n"
       "derive. omnimapper-graphslam takes it beside the raw one: -r raw.rawlog -r derived.rawlog\n"
-      "Example: omnimapper-perceive -i ini/laser2d.ini -r office.rawlog -o derived.rawlog");
+      "Example: omnimapper-perceive -i laser2d.ini -r office.rawlog -o derived.rawlog");
   app.add_option("-i,--ini", arguments.inis, "INI file: which extractors; a further one counts over it");
   app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
   app.add_option("-o,--output", arguments.run.output, "rawlog to write");
@@ -64,8 +64,9 @@ int run(Arguments& arguments) {
   if (arguments.list_plugins || !arguments.print_ini.empty()) mapper::loadPluginLibraries(config);
   if (arguments.list_plugins) return std::cout << mapper::listPlugins(), 0;
   if (!arguments.print_ini.empty()) return std::cout << mapper::printIni(arguments.print_ini), 0;
-  if (arguments.inis.empty() || arguments.run.logs.empty() || arguments.run.output.empty())
-    throw base::Error(base::ExitCode::command_line, "-i INI, -r LOG and -o RAWLOG are needed; see --help");
+  program::require({{"-i INI", !arguments.inis.empty()},
+                    {"-r LOG", !arguments.run.logs.empty()},
+                    {"-o RAWLOG", !arguments.run.output.empty()}});
   for (const auto& inputs : {arguments.run.logs, arguments.inis}) {
     base::refuseToReplaceInput(arguments.run.output, inputs);
   }

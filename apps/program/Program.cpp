@@ -1,5 +1,6 @@
 #include "Program.h"
 
+#include <omnimapper/base/Config.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Memory.h>
 #include <omnimapper/base/Names.h>
@@ -28,7 +29,27 @@ void answer(int signal, void (*handler)(int)) {
   action.sa_handler = handler;
   sigaction(signal, &action, nullptr);  // without SA_RESTART: what waits for a file or a pipe ends its wait
 }
+
+// Of options that nobody knows.
+void sayNearest(const CLI::App& app) {
+  std::vector<std::string> known;
+  for (const auto* option : app.get_options())
+    for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+  for (const auto& argument : app.remaining(true)) {
+    const auto near = argument.rfind("--", 0) == 0 ? base::nearestName(argument, known) : "";
+    if (!near.empty())
+      std::cerr << "There is no " << base::printableLines(argument) << "; did you mean " << near << "?\n";
+  }
+}
 }  // namespace
+
+void require(const std::vector<std::pair<std::string, bool>>& arguments) {
+  std::string missing;
+  for (const auto& [name, is_given] : arguments)
+    if (!is_given) missing += (missing.empty() ? "" : ", ") + name;
+  if (!missing.empty())
+    throw base::Error(base::ExitCode::command_line, "this is missing: " + missing + "; --help has an example");
+}
 
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
   base::keepFreedMemory();
@@ -37,6 +58,10 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
     app.parse(argc, argv);
     base::requireAddressSpace();
     return body();
+  } catch (const CLI::ExtrasError& error) {
+    app.exit(error);
+    sayNearest(app);
+    return static_cast<int>(base::ExitCode::command_line);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);
   } catch (const base::Error& error) {

@@ -2,6 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace omnimapper::program {
 
@@ -9,6 +12,9 @@ namespace omnimapper::program {
 /// Returns the exit code: that of `body`, or that of the error that stopped it, which is then told on standard error
 /// (doc/exit_codes.md).
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+
+/// Throws Error(command_line) that names the arguments which are needed and were not given.
+void require(const std::vector<std::pair<std::string, bool>>& arguments);
 
 /// Validators of numbers, which must be finite: CLI11's own let "nan" pass.
 CLI::Validator notNegative();

@@ -1,6 +1,12 @@
 #include "ShippedInis.h"
 
+#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/OptionTable.h>
+
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 namespace omnimapper::program {
@@ -18,19 +24,47 @@ std::vector<fs::path> shippedFolders() {
   return {bin / "../share/omnimapper/ini", bin / "../share/omnimapper/rawlogs"};
 }
 
+/// Names of all of them, sorted.
+std::vector<std::string> shippedNames() {
+  std::error_code error;
+  std::vector<std::string> names;
+  for (const auto& folder : shippedFolders())
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == ".ini") names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+// Of a name, or of one with the folder that it has in a checkout.
+std::optional<std::string> shippedPath(const fs::path& name) {
+  const fs::path folder_of_name = name.parent_path();
+  if (!folder_of_name.empty() && folder_of_name != "ini" && folder_of_name != "rawlogs") return std::nullopt;
+  std::error_code error;
+  for (const auto& folder : shippedFolders()) {
+    if (!folder_of_name.empty() && folder.filename() != folder_of_name) continue;
+    const fs::path path = folder / name.filename();
+    if (fs::is_regular_file(path, error)) return path.lexically_normal().string();
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<std::string> findInis(const std::vector<std::string>& names) {
   std::error_code error;
   std::vector<std::string> paths;
   for (const auto& name : names) {
-    paths.push_back(name);
-    if (fs::path(name).has_parent_path() || fs::exists(name, error)) continue;
-    for (const auto& folder : shippedFolders()) {
-      if (!fs::is_regular_file(folder / name, error)) continue;
-      paths.back() = (folder / name).lexically_normal();
-      break;
-    }
+    const auto shipped = fs::exists(name, error) ? std::nullopt : shippedPath(name);
+    paths.push_back(shipped.value_or(name));
+    if (shipped || fs::path(name).has_parent_path() || fs::exists(name, error)) continue;
+    const auto known = shippedNames();
+    if (known.empty()) continue;
+    const auto near = base::nearestName(name, known);
+    throw base::Error(base::ExitCode::unreadable_input,
+                      name + ": there is no such INI file here, and none of that name came with the program" +
+                          (near.empty() ? "" : "; did you mean " + near + "?") + " It has " +
+                          base::option_text::format(known));
   }
   return paths;
 }

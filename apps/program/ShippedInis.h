@@ -5,9 +5,10 @@
 
 namespace omnimapper::program {
 
-/// The paths of INI files, where a name without a folder that is not in the current one is that of an INI that came
-/// with the program: `share/omnimapper/ini` and `share/omnimapper/rawlogs` beside `bin`, or `ini` and `rawlogs` of the
-/// checkout that it was built in.
+/// The paths of INI files, where a name without a folder, or in `ini` or `rawlogs`, that is not in the current one is
+/// that of an INI that came with the program: `share/omnimapper/ini` and `share/omnimapper/rawlogs` beside `bin`, or
+/// `ini` and `rawlogs` of the checkout that it was built in. Throws Error(unreadable_input), with the names that there
+/// are, for a name without a folder that is neither here nor came with it.
 std::vector<std::string> findInis(const std::vector<std::string>& names);
 
 }  // namespace omnimapper::program

@@ -26,7 +26,7 @@ struct Arguments {
 void addOptions(CLI::App& app, Arguments& arguments) {
   app.description(
       "Simulates a robot's log with its truth: rawlog, trajectory, landmarks, labels.\n"
-      "Example: omnimapper-simulate -i rawlogs/home.ini -o out/home");
+      "Example: omnimapper-simulate -i home.ini -o out/home --set simulation.duration_s=60");
   app.add_option("-i,--ini", arguments.inis, "INI file: world, robot, sensors; a further one counts over it");
   app.add_option("-o,--output", arguments.run.folder, "folder for log and truth, made if missing");
   app.add_option("--name", arguments.run.name, "of the rawlog (the INI's)");

@@ -22,6 +22,8 @@ TEST(Poses, ThatStandOnTheirSideAreAProblem) {
             std::string::npos)
       << textOf(-1.5);
   EXPECT_EQ(textOf(0.3).find("level"), std::string::npos) << textOf(0.3);
+  EXPECT_EQ(textOf(0.9).find("problem: 'tracker'"), std::string::npos) << "a camera in the hand that looks down";
+  EXPECT_NE(textOf(0.9).find("right for a camera in the hand"), std::string::npos) << textOf(0.9);
 }
 
 }  // namespace

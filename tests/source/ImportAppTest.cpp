@@ -123,7 +123,11 @@ TEST_F(ImportTumTest, writesARawlogAndTheTruthBesideIt) {
 }
 
 TEST_F(ImportTumTest, tellsCameraAndDepthAndWarnsOfUnlikelyUnits) {
-  ASSERT_EQ(import("--intrinsics freiburg1"), ExitCode::ok) << output_;
+  ASSERT_EQ(import(""), ExitCode::unreadable_input) << output_;
+  EXPECT_TRUE(says("does not tell which camera took its images")) << output_;
+  const std::string list = logs::readFile(folder_ / "depth.txt");
+  std::ofstream(folder_ / "depth.txt") << "# depth maps\n# file: 'rgbd_dataset_freiburg1_rpy.bag'\n" << list;
+  ASSERT_EQ(import(""), ExitCode::ok) << output_;
   EXPECT_TRUE(says("camera: freiburg1, fx 517.3 fy 516.5 cx 318.6 cy 255.3 pixels")) << output_;
   EXPECT_TRUE(says("depth: 5000 units in a metre, median 1.00 m")) << output_;
   EXPECT_FALSE(says("warning")) << output_;

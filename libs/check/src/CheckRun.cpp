@@ -55,7 +55,8 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   if (output_folder.empty()) return result;
   base::makeWritableFolder(output_folder);
   base::writeFile(output_folder + "/check.txt", [&](std::ostream& out) { out << result.text; });
-  base::writeFile(output_folder + "/check.ini", [&](std::ostream& out) { out << toIni(settings); });
+  if (!settings.empty())
+    base::writeFile(output_folder + "/check.ini", [&](std::ostream& out) { out << toIni(settings); });
   return result;
 }
 

@@ -235,9 +235,17 @@ class Judge {
   }
 
   void judgePoses() {
-    constexpr double kOnItsSide = 45 * base::option_text::kRadiansPerDegree;
+    // Frames whose y or x points up are 90 deg off; a camera in the hand often looks down by half of that.
+    constexpr double kTilted = 45 * base::option_text::kRadiansPerDegree;
+    constexpr double kOnItsSide = 70 * base::option_text::kRadiansPerDegree;
     for (const auto& [label, poses] : facts_.poses) {
-      if (poses.tilt < kOnItsSide) continue;
+      if (poses.tilt < kTilted) continue;
+      if (poses.tilt < kOnItsSide) {
+        add(Weight::note, quoted(label) + ": on average the base is tilted by " + fixed(degrees(poses.tilt), 0) +
+                              " deg, which is right for a camera in the hand; if a robot drove on a floor, the poses "
+                              "are not level");
+        continue;
+      }
       add(Weight::problem, quoted(label) + ": the poses are not level: on average the base is tilted by " +
                                fixed(degrees(poses.tilt), 0) +
                                " deg against the z axis of their frame, by which floors and walls are told apart; turn "

@@ -45,11 +45,11 @@ bool has(const Simulation& simulation) {
 std::string usesOf(const Simulation& simulation, const std::string& log) {
   std::string text = "See what is in it: `omnimapper-graphslam --check " + log + "`.\n";
   if (has<Laser2d>(simulation)) {
-    text = "Map it: `omnimapper-graphslam -i ini/laser2d.ini -r " + log +
+    text = "Map it: `omnimapper-graphslam -i laser2d.ini -r " + log +
            " -o OUT`, then\n`omnimapper-eval ate OUT/trajectory.tum truth.tum --align yaw -o OUT/eval`.\n";
   }
   if (has<RgbdCamera>(simulation))
-    text += "Find its planes: `omnimapper-perceive -i ini/perceive.ini -r " + log + " -o OUT/perceived.rawlog`.\n";
+    text += "Find its planes: `omnimapper-perceive -i perceive.ini -r " + log + " -o OUT/perceived.rawlog`.\n";
   return text;
 }
 

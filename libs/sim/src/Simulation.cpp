@@ -98,7 +98,8 @@ Simulation::Simulation(const base::Config& config)
   for (const std::string& seen : seenMoves(world_, map_from_base_, duration_))
     warnings_.push_back(config.file() + ": " + seen);
   config.refuseUnreadSections();
-  if (const auto off = config.switchedOffPlugins(); !off.empty()) {
+  const bool is_meant = config.placeOf("simulation", "sensors").rfind("--set", 0) == 0;
+  if (const auto off = config.switchedOffPlugins(); !off.empty() && !is_meant) {
     warnings_.push_back(config.file() + ": no list of [simulation] or [world] names the sections " +
                         base::option_text::format(off) + ": they are switched off");
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -108,6 +109,16 @@ std::string freiburgOf(const fs::path& folder) {
     for (const char* word : {"freiburg", "fr"}) {
       if (hasWord(folder, word + std::string(1, number))) return std::string("freiburg") + number;
     }
+  }
+  // Renamed, it still says so in the first lines of its lists: "# file: 'rgbd_dataset_freiburg1_rpy.bag'".
+  std::ifstream list(folder / "depth.txt");
+  constexpr int kHeading = 3;
+  std::string line;
+  for (int i = 0; i < kHeading && std::getline(list, line); ++i) {
+    const std::size_t at = line.find("freiburg");
+    if (line.rfind('#', 0) != 0 || at == std::string::npos || at + 8 >= line.size()) continue;
+    const char number = line[at + 8];
+    if (number >= '1' && number <= '3') return std::string("freiburg") + number;
   }
   return "";
 }

@@ -75,6 +75,17 @@ TEST_F(CommandLine, MistakesAreRefusedWithTheirCode) {
                         {"--set window_s=2", "section.key=value"}));
 }
 
+TEST_F(CommandLine, MistakesAreAnsweredWithWhatWasMeant) {
+  const std::string log = file("x.rawlog"), out = file("x");
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, graphslam({"-i", "laser.ini", "-r", log, "-o", out}),
+                        {"laser.ini", "did you mean laser2d.ini?", "home_planes.ini"}));
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, graphslam({"-i", "ini/laser2d.ini", "-r", log, "-o", out}), {log}))
+      << "with the folder that it has in a checkout, an INI that came with the program is found, too";
+  EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({"--ouput", out}), {"did you mean --output?"}));
+  EXPECT_TRUE(
+      endedWith(ExitCode::command_line, graphslam({"-i", "laser2d.ini", "-o", out}), {"this is missing: -r LOG;"}));
+}
+
 TEST_F(CommandLine, EveryListedPluginPrintsASectionThatRuns) {
   auto plugins = listedPlugins();
   ASSERT_EQ(plugins.size(), 4U) << "pose, measurement and output plugins, and extractors";

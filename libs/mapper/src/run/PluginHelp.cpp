@@ -35,9 +35,10 @@ std::string printIni(const std::string& class_name) {
   }
   if (const auto why = whyUnavailable(class_name); !why.empty())
     throw base::Error(base::ExitCode::unknown_plugin, "--print-ini: no '" + class_name + "' here: " + why);
-  const std::string near = base::nearestName(class_name, known);
+  std::string near = base::nearestName(class_name, known);
+  if (near.empty()) near = base::nearestName(class_name + "Plugin", known);
   throw base::Error(base::ExitCode::unknown_plugin, "--print-ini: no plugin class is called '" + class_name + "'" +
-                                                        (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                                        (near.empty() ? "." : "; did you mean '" + near + "'?") +
                                                         " See --list-plugins.");
 }
 

@@ -22,9 +22,11 @@ bool isMeasured(const View& view, const std::set<std::string>& measuring) {
 void warnOfDoubt(const map::Session& session, Engine& engine) {
   const TestedTies ties = testedTies(engine.view().graph, session.number);
   if (!ties.areInDoubt()) return;
-  engine.warn(joinedText(session) + ", but of what ties it to the map " + std::to_string(ties.refused) + " of " +
-              std::to_string(ties.refused + ties.accepted) + " contradict the rest: it may lie in a wrong place " +
-              "that looks alike. See map.png, and give a better start (origin, pose, or anywhere)");
+  engine.warn(joinedText(session) + ", but " + std::to_string(ties.refused) + " of the " +
+              std::to_string(ties.refused + ties.accepted) +
+              " measurements that tie it to the map do not fit: it may " +
+              "lie in a wrong place that looks alike, or the map is bent there. See map.png; against a wrong place " +
+              "another [session] start helps (origin, pose, anywhere)");
 }
 
 }  // namespace
