@@ -25,9 +25,9 @@ bool isSet(const char* variable) {
   return value && *value;
 }
 
-/// What is nearer than this is not drawn, and this far apart things must be that are drawn over one another; both as
-/// parts of the camera's distance. Depths have 16 bits, which are spread from the nearest on.
-constexpr double kNearest = 1.0 / 30, kDepthStep = 4 / kNearest / (1 << 16);
+/// What is nearer or farther than this is not drawn, and this far apart things must be that are drawn over one another;
+/// all as parts of the camera's distance. Depths have 16 bits, which are spread from the nearest on.
+constexpr double kNearest = 1.0 / 30, kFarthest = 10, kDepthStep = 12 / kNearest / (1 << 16);
 
 ScanGridOptions gridOptions(const LiveWindowOptions& options) {
   constexpr double kMostCells = 4e6;  // what a window can show; a larger map gets coarser cells
@@ -77,7 +77,8 @@ class MrptScene : public LiveScene {
       placePoints(view.map);
       const auto ground = groundOf(view.map);
       if (options_.grid) placeGrid(view.map, ground->getPlaneZcoord() - kDepthStep * sight.distance);
-      scene->getViewport()->setViewportClipDistances(static_cast<float>(kNearest * sight.distance), 10000);
+      scene->getViewport()->setViewportClipDistances(static_cast<float>(kNearest * sight.distance),
+                                                     static_cast<float>(kFarthest * sight.distance));
       replace(*ground_, ground);
       replace(*trajectory_, trajectoryLines(keyFramePoses(view.map)));
       const auto closures = closuresOf(view.map, view.decisions);
@@ -125,9 +126,10 @@ class MrptScene : public LiveScene {
   }
 
   void placeGrid(const map::Map& map, double z) {
+    grid_->setPose(mrpt::poses::CPose3D(0, 0, z, 0, 0, 0));
     if (!grid_mapper_.update(map)) return;
     grid_->clear();
-    if (const auto grid = grid_mapper_.scanGrid()) grid_->insert(gridFloor(*grid, z));
+    if (const auto grid = grid_mapper_.scanGrid()) grid_->insert(gridFloor(*grid, 0));
   }
 
   mrpt::opengl::CPointCloud::Ptr cloudInBase(const map::KeyFrame& frame) const {

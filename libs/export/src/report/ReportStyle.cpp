@@ -73,7 +73,7 @@ th { position: sticky; top: 0; background: var(--card); color: var(--soft); font
 #shown { color: var(--soft); }
 details summary { cursor: pointer; font-weight: 600; }
 pre { overflow-x: auto; font: 12.5px/1.5 ui-monospace, Menlo, Consolas, monospace; margin: 12px 0 0; }
-@media (max-width: 560px) { main { padding: 18px 12px 40px; } .legend { float: none; display: block; } .key { margin: 0 12px 0 0; } .zoom { margin-left: 0; } .scroll td, .scroll th { white-space: nowrap; } }
+@media (max-width: 560px) { main { padding: 18px 12px 40px; } .legend { float: none; display: block; } .key { margin: 0 12px 0 0; } .zoom { margin-left: 0; } .scroll th, .scroll .num { white-space: nowrap; } .scroll td { min-width: 90px; } }
 )css";
 
 const std::string_view kReportScript = R"js(
