@@ -18,6 +18,7 @@ struct RgbdFrame {
   int width = 0, height = 0;
   double metres_per_unit = 1;
   perception::Pinhole camera;
+  double stamp = 0, colour_stamp = 0;  ///< [s] Unix time
   std::vector<std::uint16_t> units;
   std::vector<std::uint8_t> rgb;
 };
@@ -29,9 +30,13 @@ inline std::vector<std::string> filesOf(const std::string& folder) {
   return files;
 }
 
+/// What a file's name says [s].
+inline double timeOf(const std::string& file) {
+  return std::stod(std::filesystem::path(file).stem());
+}
+
 /// The file whose name, a time, is nearest.
 inline std::string nearest(const std::vector<std::string>& files, const std::string& to) {
-  const auto timeOf = [](const std::string& file) { return std::stod(std::filesystem::path(file).stem()); };
   return *std::min_element(files.begin(), files.end(), [&](const auto& a, const auto& b) {
     return std::abs(timeOf(a) - timeOf(to)) < std::abs(timeOf(b) - timeOf(to));
   });
@@ -44,9 +49,10 @@ inline std::vector<RgbdFrame> readRgbd(const std::string& folder, int every, con
   for (std::size_t i = 0; i < depths.size(); i += static_cast<std::size_t>(every)) {
     const cv::Mat depth = cv::imread(depths[i], cv::IMREAD_UNCHANGED);
     cv::Mat rgb;
-    cv::cvtColor(cv::imread(nearest(pictures, depths[i])), rgb, cv::COLOR_BGR2RGB);
+    const std::string picture = nearest(pictures, depths[i]);
+    cv::cvtColor(cv::imread(picture), rgb, cv::COLOR_BGR2RGB);
     if (depth.type() != CV_16U || depth.size() != rgb.size()) throw std::runtime_error("cannot use " + depths[i]);
-    RgbdFrame frame{depth.cols, depth.rows, 1.0 / 5000, camera, {}, {}};
+    RgbdFrame frame{depth.cols, depth.rows, 1.0 / 5000, camera, timeOf(depths[i]), timeOf(picture), {}, {}};
     frame.units.assign(depth.begin<std::uint16_t>(), depth.end<std::uint16_t>());
     frame.rgb.assign(rgb.data, rgb.data + 3 * frame.units.size());
     frames.push_back(std::move(frame));

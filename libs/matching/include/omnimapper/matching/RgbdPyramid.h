@@ -1,0 +1,46 @@
+#pragma once
+
+#include <omnimapper/perception/ColourImage.h>
+#include <omnimapper/perception/DepthImage.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace omnimapper::matching {
+
+struct RgbdPyramidOptions {
+  int levels = 4;          ///< at most; each has half the columns and rows of the one before
+  double min_depth = 0.2;  ///< [m]
+  double max_depth = 12;   ///< [m]
+};
+
+/// One level of an image pyramid, in the order of pixels, row by row.
+struct RgbdLevel {
+  int width = 0, height = 0;
+  perception::Pinhole camera;
+  std::vector<float> inverse_depth;  ///< 1/z [1/m] in the optical frame; 0 where nothing was measured
+  std::vector<float> grey;           ///< 0 to 255; empty without a picture
+
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+};
+
+/// A depth image and the picture of the same view, in coarser and coarser levels. Depths are averaged as inverse
+/// depths, in which a plane is linear, over what is one surface: across a jump the nearer one is kept.
+class RgbdPyramid {
+ public:
+  /// `colour` null: without a picture. Throws Error(unreadable_input) if it is not of the depth image's size.
+  RgbdPyramid(const perception::DepthImage& depth, const perception::ColourImage* colour,
+              const RgbdPyramidOptions& options = {});
+
+  /// From the finest to the coarsest; the coarsest has at least 20 columns and rows, unless the image has fewer.
+  const std::vector<RgbdLevel>& levels() const { return levels_; }
+  const RgbdLevel& finest() const { return levels_.front(); }
+  bool hasPicture() const { return !levels_.front().grey.empty(); }
+
+ private:
+  std::vector<RgbdLevel> levels_;
+};
+
+}  // namespace omnimapper::matching

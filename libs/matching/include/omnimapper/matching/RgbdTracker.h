@@ -1,0 +1,100 @@
+#pragma once
+
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/base/Stamp.h>
+#include <omnimapper/matching/DenseMatcher.h>
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace omnimapper::matching {
+
+struct RgbdTrackerOptions {
+  double key_angle = 7 * base::option_text::kRadiansPerDegree;  ///< [rad] of the camera from its key frame
+  double key_distance = 0.065;                                  ///< of it, in parts of the median depth there
+  double key_overlap = 0.75;                                    ///< least share of its points that are still seen
+  int key_frames = 80;                                          ///< that are kept; the oldest go
+  double acceleration = 9;             ///< [m/s2] standard deviation of what the motion may change by
+  double turn_acceleration = 54;       ///< [rad/s2]
+  double depth_readout = 0.02;         ///< [s] from the first row of depths to the last
+  double picture_readout = 0.025;      ///< [s] from the first row of the picture to the last
+  double picture_delay = 0.006;        ///< [s] of the picture's middle after that of the depths
+  double picture_delay_sigma = 0.012;  ///< [s]
+  double longest_loss = 2;             ///< [s] after which a lost camera begins anew
+};
+
+/// An image, prepared to be tracked.
+struct RgbdImage {
+  base::Stamp stamp;
+  RgbdPyramid pyramid;
+  std::function<perception::NormalImage()>
+      normals;  ///< of the finest level; asked for if the image becomes a key frame
+};
+
+/// Follows a camera from image to image. Each image is registered with a key frame, an earlier image whose pose is
+/// known: the nearest, so that drift grows with the way and not with the frame rate. Where the camera comes back to the
+/// view of an older key frame, that one is taken again. The motion of late says where to look, and tells the shutters'
+/// motion.
+class RgbdTracker {
+ public:
+  RgbdTracker(const RgbdTrackerOptions& options, const DenseMatcherOptions& matching);
+
+  struct Tracked {
+    enum class How {
+      begun,    ///< the first image, or the first after a loss: nothing is known of the motion to it
+      tracked,  ///< registered
+      found,    ///< registered with a key frame after it was lost
+      lost,     ///< no key frame fits: pose and motion are not told
+    };
+    How how = How::begun;
+    geometry::Se3 map_from_camera;   ///< optical frame; the map's is the camera's at the beginning
+    geometry::Se3 last_from_camera;  ///< motion since the image that was tracked before
+    base::Stamp last;                ///< of that image
+    DenseMatch match;                ///< with the key frame
+    bool is_key_frame = false;       ///< whether it has become one
+  };
+  /// Images in order of stamps. `prediction`: motion since the image tracked before, of the camera, from wheels or
+  /// inertia; none: it goes on as it did.
+  Tracked track(const RgbdImage& image, const std::optional<DenseGuess>& prediction = {});
+
+  std::size_t keyFrames() const { return keys_.size(); }
+
+ private:
+  struct KeyFrame {
+    std::shared_ptr<const DenseReference> reference;
+    geometry::Se3 map_from_camera;
+    double depth;  // [m] median
+  };
+  struct Found {
+    std::size_t key;
+    DenseMatch match;
+  };
+  Tracked begin(const RgbdImage& image, const geometry::Se3& map_from_camera);
+  void makeKeyFrame(const RgbdImage& image, const geometry::Se3& map_from_camera, double picture_delay);
+  CameraMotion motion() const;
+  /// How far off the view of a key frame is: 1 where another one is due.
+  double farness(const KeyFrame& key, const geometry::Se3& map_from_camera) const;
+  std::optional<std::size_t> nearest(const geometry::Se3& map_from_camera, double farthest,
+                                     std::optional<std::size_t> but) const;
+  DenseMatch match(std::size_t key, const RgbdImage& image, const geometry::Se3& map_from_camera,
+                   const geometry::Matrix6d& information, const CameraMotion& motion) const;
+  std::optional<Found> follow(const RgbdImage& image, const geometry::Se3& predicted,
+                              const geometry::Matrix6d& information, double seconds) const;
+  std::optional<Found> seek(const RgbdImage& image) const;
+  Tracked take(const RgbdImage& image, Found found, Tracked::How how, double seconds);
+
+  RgbdTrackerOptions options_;
+  DenseMatcher matcher_;
+  std::deque<KeyFrame> keys_;
+  std::size_t current_ = 0;  // of keys_
+  std::optional<base::Stamp> last_;
+  geometry::Se3 map_from_last_;
+  geometry::Vector6d velocity_ = geometry::Vector6d::Zero();  // [m/s] [rad/s] in the camera's frame
+  double picture_delay_;
+  bool is_lost_ = false;
+};
+
+}  // namespace omnimapper::matching

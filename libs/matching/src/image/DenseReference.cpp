@@ -1,0 +1,153 @@
+#include "image/DenseReference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "image/Shutter.h"
+
+namespace omnimapper::matching {
+
+using geometry::Se3;
+
+namespace {
+
+struct Candidate {
+  int x, y;
+  float gradient_x, gradient_y;  // [1/px]
+};
+
+// Central differences; none at the border.
+Candidate candidateAt(const RgbdLevel& level, int x, int y) {
+  Candidate candidate{x, y, 0, 0};
+  if (level.grey.empty()) return candidate;
+  const float* at = level.grey.data() + level.at(x, y);
+  candidate.gradient_x = 0.5F * (at[1] - at[-1]);
+  candidate.gradient_y = 0.5F * (at[level.width] - at[-level.width]);
+  return candidate;
+}
+
+// On a regular grid, and besides where the picture changes most: as many of each.
+std::vector<Candidate> choose(const RgbdLevel& level, std::size_t most) {
+  std::vector<Candidate> all;
+  for (int y = 1; y + 1 < level.height; ++y)
+    for (int x = 1; x + 1 < level.width; ++x)
+      if (level.inverse_depth[level.at(x, y)] > 0) all.push_back(candidateAt(level, x, y));
+  if (all.size() <= most) return all;
+  const std::size_t half = level.grey.empty() ? most : most / 2;
+  const int step = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(all.size()) / static_cast<double>(half))));
+  const auto isOnGrid = [step](const Candidate& c) { return c.x % step == 0 && c.y % step == 0; };
+  const auto strength = [](const Candidate& c) { return c.gradient_x * c.gradient_x + c.gradient_y * c.gradient_y; };
+  std::vector<Candidate> chosen;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(chosen), isOnGrid);
+  if (chosen.size() >= most || level.grey.empty()) return chosen;
+  std::vector<float> strengths;
+  for (const auto& candidate : all)
+    if (!isOnGrid(candidate)) strengths.push_back(strength(candidate));
+  const std::size_t rest = most - chosen.size();
+  if (rest < strengths.size()) {
+    std::nth_element(strengths.begin(), strengths.begin() + static_cast<std::ptrdiff_t>(rest), strengths.end(),
+                     std::greater<>());
+    const float least = strengths[rest];
+    for (const auto& candidate : all)
+      if (!isOnGrid(candidate) && strength(candidate) > least) chosen.push_back(candidate);
+  }
+  return chosen;
+}
+
+/// What the picture shows of a point, and how that changes with the point's place.
+struct Shown {
+  float grey;
+  Eigen::Vector3f by_place;  // [1/m]
+};
+
+// None outside the picture. `point` in the frame of the depths.
+std::optional<Shown> changeOf(const RgbdLevel& level, const Shutter& shutter, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d p = shutter.seen(point, level);
+  const auto& camera = level.camera;
+  if (!(p.z() > 0.05)) return std::nullopt;
+  const double u = camera.fx * p.x() / p.z() + camera.cx, v = camera.fy * p.y() / p.z() + camera.cy;
+  if (!(u >= 1 && v >= 1 && u < level.width - 2 && v < level.height - 2)) return std::nullopt;
+  const int x = static_cast<int>(u), y = static_cast<int>(v);
+  const auto right = static_cast<float>(u - x), down = static_cast<float>(v - y);
+  const auto width = static_cast<std::ptrdiff_t>(level.width);
+  const float* at = level.grey.data() + level.at(x, y);
+  const auto between = [&](const auto& value) {
+    return (1 - down) * ((1 - right) * value(at) + right * value(at + 1)) +
+           down * ((1 - right) * value(at + width) + right * value(at + width + 1));
+  };
+  const float gx = between([](const float* g) { return 0.5F * (g[1] - g[-1]); });
+  const float gy = between([width](const float* g) { return 0.5F * (g[width] - g[-width]); });
+  const double ax = camera.fx * static_cast<double>(gx) / p.z(), ay = camera.fy * static_cast<double>(gy) / p.z();
+  const Eigen::Vector3d in_picture(ax, ay, -(ax * p.x() + ay * p.y()) / p.z());
+  return Shown{between([](const float* g) { return *g; }), in_picture.cast<float>()};
+}
+
+}  // namespace
+
+std::shared_ptr<const DenseReference> DenseMatcher::prepare(const RgbdPyramid& image,
+                                                            const perception::NormalImage& normals,
+                                                            const CameraMotion& motion) const {
+  const Shutter depth_shutter(motion, 0, motion.depth_readout);
+  const Shutter picture_shutter(motion, motion.picture_delay, motion.picture_readout);
+  auto reference = std::make_shared<DenseReference>();
+  reference->has_picture = image.hasPicture();
+  const auto& levels = image.levels();
+  reference->levels.resize(levels.size());
+  const std::size_t first = std::min(static_cast<std::size_t>(std::max(0, options_.finest_level)), levels.size() - 1);
+  for (std::size_t l = first; l < levels.size(); ++l) {
+    const RgbdLevel& level = levels[l];
+    const auto& camera = level.camera;
+    const auto chosen = choose(level, static_cast<std::size_t>(options_.max_points));
+    auto& to = reference->levels[l];
+    to.count = chosen.size();
+    to.points.resize((chosen.size() + kLanes - 1) / kLanes);
+    for (auto& eight : to.points) {
+      for (Lanes* lanes : {&eight.x, &eight.y, &eight.nx, &eight.ny, &eight.nz, &eight.gx, &eight.gy, &eight.gz,
+                           &eight.grey, &eight.is_point})
+        lanes->setZero();
+      eight.z.setOnes();
+      eight.grey.setConstant(kNoGrey);
+    }
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const Candidate& c = chosen[i];
+      auto& eight = to.points[i / kLanes];
+      const auto lane = static_cast<Eigen::Index>(i % kLanes);
+      const std::size_t pixel = level.at(c.x, c.y);
+      const float z = 1 / level.inverse_depth[pixel];
+      const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+      const float x = z * (static_cast<float>(c.x) - static_cast<float>(camera.cx)) / fx;
+      const float y = z * (static_cast<float>(c.y) - static_cast<float>(camera.cy)) / fy;
+      // Where the camera would have seen it when it took the middle row.
+      const double after = depth_shutter.after(c.y, level.height);
+      const Eigen::Vector3d point = depth_shutter.back(Eigen::Vector3d(x, y, z), after);
+      eight.x[lane] = static_cast<float>(point.x());
+      eight.y[lane] = static_cast<float>(point.y());
+      eight.z[lane] = static_cast<float>(point.z());
+      eight.is_point[lane] = 1;
+      const int scale = 1 << l;
+      const int fine_x = std::min(c.x * scale + scale / 2, normals.width - 1);
+      const int fine_y = std::min(c.y * scale + scale / 2, normals.height - 1);
+      const auto fine =
+          static_cast<std::size_t>(fine_y) * static_cast<std::size_t>(normals.width) + static_cast<std::size_t>(fine_x);
+      if (!std::isnan(normals.z()[fine])) {
+        const Eigen::Vector3d normal = depth_shutter.turnedBack(
+            Eigen::Vector3f(normals.x()[fine], normals.y()[fine], normals.z()[fine]).cast<double>(), after);
+        eight.nx[lane] = static_cast<float>(normal.x());
+        eight.ny[lane] = static_cast<float>(normal.y());
+        eight.nz[lane] = static_cast<float>(normal.z());
+      }
+      if (level.grey.empty()) continue;
+      const auto change = changeOf(level, picture_shutter, point);
+      if (!change) continue;
+      eight.gx[lane] = change->by_place.x();
+      eight.gy[lane] = change->by_place.y();
+      eight.gz[lane] = change->by_place.z();
+      eight.grey[lane] = change->grey;
+    }
+  }
+  return reference;
+}
+
+}  // namespace omnimapper::matching

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <omnimapper/matching/DenseMatcher.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace omnimapper::matching {
+
+/// So many points side by side.
+constexpr int kLanes = 8;
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+constexpr float kNoGrey = -1;
+
+/// Eight points of a reference, in its optical frame [m].
+struct DensePoints {
+  Lanes x, y, z;
+  Lanes nx, ny, nz;  ///< unit normal towards the camera; 0 where none is known
+  Lanes gx, gy, gz;  ///< change of brightness with the point's place [1/m]; 0 where it is not to be used
+  Lanes grey;        ///< 0 to 255, or kNoGrey
+  Lanes is_point;    ///< 1, or 0 for the filling of the last eight
+};
+
+struct DenseReferenceLevel {
+  std::vector<DensePoints> points;
+  std::size_t count = 0;  ///< of points
+};
+
+class DenseReference {
+ public:
+  std::vector<DenseReferenceLevel> levels;  ///< by pyramid level; empty ones are not matched
+  bool has_picture = false;
+};
+
+}  // namespace omnimapper::matching

@@ -1,0 +1,184 @@
+#include <omnimapper/matching/RgbdTracker.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace omnimapper::matching {
+
+namespace {
+
+using geometry::Matrix6d;
+using geometry::Se3;
+using geometry::Vector6d;
+using How = RgbdTracker::Tracked::How;
+
+// Of the depths there are; a metre of an image without any.
+double medianDepth(const RgbdPyramid& pyramid) {
+  std::vector<float> inverse;
+  for (const float one : pyramid.levels().back().inverse_depth)
+    if (one > 0) inverse.push_back(one);
+  if (inverse.empty()) return 1;
+  const auto middle = inverse.begin() + static_cast<std::ptrdiff_t>(inverse.size() / 2);
+  std::nth_element(inverse.begin(), middle, inverse.end());
+  return 1 / static_cast<double>(*middle);
+}
+
+double angleOf(const Se3& pose) {
+  return geometry::logSo3(pose.rotation).norm();
+}
+
+}  // namespace
+
+RgbdTracker::RgbdTracker(const RgbdTrackerOptions& options, const DenseMatcherOptions& matching)
+    : options_(options), matcher_(matching), picture_delay_(options.picture_delay) {}
+
+CameraMotion RgbdTracker::motion() const {
+  return {velocity_, options_.depth_readout, options_.picture_delay, options_.picture_readout,
+          options_.picture_delay_sigma};
+}
+
+double RgbdTracker::farness(const KeyFrame& key, const Se3& map_from_camera) const {
+  const Se3 off = inverse(key.map_from_camera) * map_from_camera;
+  return std::max(angleOf(off) / options_.key_angle, off.translation.norm() / (options_.key_distance * key.depth));
+}
+
+std::optional<std::size_t> RgbdTracker::nearest(const Se3& map_from_camera, double farthest,
+                                                std::optional<std::size_t> but) const {
+  std::optional<std::size_t> best;
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    if (k == but) continue;
+    const double far = farness(keys_[k], map_from_camera);
+    if (far >= farthest) continue;
+    farthest = far;
+    best = k;
+  }
+  return best;
+}
+
+DenseMatch RgbdTracker::match(std::size_t key, const RgbdImage& image, const Se3& map_from_camera,
+                              const Matrix6d& information, const CameraMotion& motion) const {
+  return matcher_.match(*keys_[key].reference, image.pyramid,
+                        {inverse(keys_[key].map_from_camera) * map_from_camera, information}, motion);
+}
+
+RgbdTracker::Tracked RgbdTracker::begin(const RgbdImage& image, const Se3& map_from_camera) {
+  velocity_.setZero();
+  makeKeyFrame(image, map_from_camera, options_.picture_delay);
+  last_ = image.stamp;
+  map_from_last_ = map_from_camera;
+  is_lost_ = false;
+  Tracked tracked;
+  tracked.map_from_camera = map_from_camera;
+  tracked.last = image.stamp;
+  tracked.is_key_frame = true;
+  return tracked;
+}
+
+void RgbdTracker::makeKeyFrame(const RgbdImage& image, const Se3& map_from_camera, double picture_delay) {
+  CameraMotion moved = motion();
+  moved.picture_delay = picture_delay;
+  keys_.push_back(
+      {matcher_.prepare(image.pyramid, image.normals(), moved), map_from_camera, medianDepth(image.pyramid)});
+  if (keys_.size() > static_cast<std::size_t>(options_.key_frames)) keys_.pop_front();
+  current_ = keys_.size() - 1;
+}
+
+// With the key frame of the image before, from where the camera should be, else from where it was; else with the key
+// frame that is nearest to either. The motion that is found tells the shutters' motion better than that of before did:
+// the match is made once more with the mean of both.
+std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdImage& image, const Se3& predicted,
+                                                      const Matrix6d& information, double seconds) const {
+  const Matrix6d nothing = Matrix6d::Zero();
+  std::vector<std::pair<std::size_t, Se3>> tries{{current_, predicted}, {current_, map_from_last_}};
+  for (const auto& [key, pose] : std::vector(tries)) {
+    constexpr double kFarthest = 3;
+    const auto other = nearest(pose, kFarthest, key);
+    if (other) tries.emplace_back(*other, pose);
+  }
+  for (std::size_t i = 0; i < tries.size(); ++i) {
+    const auto& [key, pose] = tries[i];
+    const Matrix6d& known = i == 0 ? information : nothing;
+    const auto first = match(key, image, pose, known, motion());
+    if (!first.succeeded) continue;
+    const Se3 map_from_camera = keys_[key].map_from_camera * first.reference_from_image;
+    CameraMotion moved = motion();
+    moved.velocity = 0.5 * (velocity_ + minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds);
+    const auto second = match(key, image, i == 0 ? pose : map_from_camera, known, moved);
+    return Found{key, second.succeeded ? second : first};
+  }
+  return std::nullopt;
+}
+
+// With every key frame, as if the camera were there again; the one that fits best.
+std::optional<RgbdTracker::Found> RgbdTracker::seek(const RgbdImage& image) const {
+  CameraMotion unknown = motion();
+  unknown.velocity.setZero();
+  std::optional<Found> best;
+  constexpr double kSurely = 0.5, kSurprise = 0.1;  // it could be anywhere: only what fits well is believed
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    const auto found = match(k, image, keys_[k].map_from_camera, Matrix6d::Zero(), unknown);
+    if (!found.succeeded || found.overlap < kSurely || found.surprise > kSurprise) continue;
+    if (!best || found.surprise < best->match.surprise) best = Found{k, found};
+  }
+  return best;
+}
+
+RgbdTracker::Tracked RgbdTracker::take(const RgbdImage& image, Found found, How how, double seconds) {
+  current_ = found.key;
+  Se3 map_from_camera = keys_[current_].map_from_camera * found.match.reference_from_image;
+  const bool is_far = farness(keys_[current_], map_from_camera) > 1 || found.match.overlap < options_.key_overlap;
+  Tracked tracked;
+  if (is_far) {
+    // Whether a frame of before sees it better: much nearer than where a new one is due.
+    constexpr double kMuchNearer = 0.8;
+    const auto other = nearest(map_from_camera, kMuchNearer, current_);
+    std::optional<DenseMatch> again;
+    if (other) again = match(*other, image, map_from_camera, Matrix6d::Zero(), motion());
+    if (again && again->succeeded && again->overlap > options_.key_overlap) {
+      current_ = *other;
+      found.match = *again;
+      map_from_camera = keys_[current_].map_from_camera * again->reference_from_image;
+    } else {
+      tracked.is_key_frame = true;
+    }
+  }
+  tracked.how = how;
+  tracked.match = found.match;
+  tracked.map_from_camera = map_from_camera;
+  tracked.last_from_camera = inverse(map_from_last_) * map_from_camera;
+  tracked.last = *last_;
+  velocity_ = how == How::found ? Vector6d::Zero().eval() : (minus(tracked.last_from_camera, Se3{}) / seconds).eval();
+  map_from_last_ = map_from_camera;
+  last_ = image.stamp;
+  is_lost_ = false;
+  if (tracked.is_key_frame) makeKeyFrame(image, map_from_camera, found.match.delay);
+  return tracked;
+}
+
+RgbdTracker::Tracked RgbdTracker::track(const RgbdImage& image, const std::optional<DenseGuess>& prediction) {
+  if (!last_) return begin(image, Se3{});
+  const double seconds = base::secondsBetween(*last_, image.stamp);
+  Se3 predicted = map_from_last_ * geometry::plus(Se3{}, seconds * velocity_);
+  Matrix6d information = Matrix6d::Zero();
+  const double change = 0.5 * seconds * seconds;
+  information.diagonal().head<3>().setConstant(1 / std::pow(change * options_.acceleration, 2));
+  information.diagonal().tail<3>().setConstant(1 / std::pow(change * options_.turn_acceleration, 2));
+  if (prediction) {
+    predicted = map_from_last_ * prediction->reference_from_image;
+    information = prediction->information;
+  }
+  if (!is_lost_)
+    if (auto found = follow(image, predicted, information, seconds)) return take(image, *found, How::tracked, seconds);
+  if (auto found = seek(image)) return take(image, *found, How::found, seconds);
+  is_lost_ = true;
+  velocity_.setZero();
+  if (seconds > options_.longest_loss) return begin(image, predicted);
+  Tracked lost;
+  lost.how = How::lost;
+  lost.map_from_camera = map_from_last_;
+  lost.last = *last_;
+  return lost;
+}
+
+}  // namespace omnimapper::matching

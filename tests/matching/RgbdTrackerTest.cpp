@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include "RenderedRoom.h"
+
+namespace omnimapper::matching::rgbd_tracker_test {
+namespace {
+
+using geometry::Se3;
+using How = RgbdTracker::Tracked::How;
+
+base::Stamp at(double seconds) {
+  return base::stampFromUnix(1.6e9) + base::durationFromSeconds(seconds);
+}
+
+/// To and fro, back at the start after 2 pi seconds.
+Se3 swing(double seconds) {
+  geometry::Vector6d delta;
+  delta << 0.2 * std::sin(seconds), 0.05 * std::sin(2 * seconds), 0.1 * (1 - std::cos(seconds)),
+      0.1 * std::sin(2 * seconds), 0.5 * std::sin(seconds), 0.1 * std::sin(seconds);
+  return geometry::plus(Se3{}, delta);
+}
+
+/// Without shutters that roll: the room is rendered at once.
+RgbdTrackerOptions atOnce() {
+  RgbdTrackerOptions options;
+  options.depth_readout = options.picture_readout = options.picture_delay = options.picture_delay_sigma = 0;
+  return options;
+}
+
+class Camera {
+ public:
+  explicit Camera(const RgbdTrackerOptions& options = atOnce()) : tracker_(options, {}) {}
+
+  RgbdTracker::Tracked add(double seconds, const Se3& pose, bool is_covered = false) {
+    auto image = room_.render(pose);
+    if (is_covered) {
+      std::fill(image.depth.begin(), image.depth.end(), 0.0F);
+      std::fill(image.grey.begin(), image.grey.end(), std::uint8_t{3});
+    }
+    return tracker_.track({at(seconds), room_.pyramid(image), [&] { return room_.normals(image); }});
+  }
+  std::size_t keyFrames() const { return tracker_.keyFrames(); }
+
+ private:
+  RenderedRoom room_;
+  RgbdTracker tracker_;
+};
+
+TEST(RgbdTracker, FollowsTheCameraAndTakesOldKeyFramesOnTheWayBack) {
+  Camera run;
+  std::size_t halfway = 0;
+  double farthest = 0;
+  for (int i = 0; i <= 62; ++i) {
+    const double seconds = 0.1 * i;
+    const auto tracked = run.add(seconds, swing(seconds));
+    EXPECT_EQ(tracked.how, i == 0 ? How::begun : How::tracked) << i;
+    const geometry::Vector6d off = minus(tracked.map_from_camera, inverse(swing(0)) * swing(seconds));
+    farthest = std::max(farthest, off.head<3>().norm());
+    EXPECT_LT(off.tail<3>().norm(), 0.01) << i;
+    if (i == 16) halfway = run.keyFrames();
+  }
+  EXPECT_LT(farthest, 0.015);
+  EXPECT_GT(halfway, 3U);
+  EXPECT_LT(run.keyFrames(), 4 * halfway) << "the same views need no more of them";
+}
+
+TEST(RgbdTracker, ALensThatIsCoveredIsToldAndTheViewFoundAgain) {
+  Camera run;
+  for (int i = 0; i < 5; ++i) run.add(0.1 * i, swing(0.1 * i));
+  run.add(0.5, swing(0.5));
+  for (int i = 6; i < 10; ++i) EXPECT_EQ(run.add(0.1 * i, swing(0.5), true).how, How::lost) << i;
+  const auto after = run.add(1.0, swing(0.3));
+  EXPECT_EQ(after.how, How::found);
+  EXPECT_EQ(after.last, at(0.5)) << "the motion is told across the gap";
+  const Se3 truth = inverse(swing(0.5)) * swing(0.3);
+  EXPECT_LT(minus(after.last_from_camera, truth).head<3>().norm(), 0.01);
+  EXPECT_EQ(run.add(1.1, swing(0.4)).how, How::tracked);
+}
+
+TEST(RgbdTracker, AfterALongLossItBeginsAnewAndTellsNoMotion) {
+  Camera run;
+  run.add(0, swing(0));
+  for (int i = 1; i <= 19; ++i) EXPECT_EQ(run.add(0.1 * i, swing(0), true).how, How::lost);
+  geometry::Vector6d away;
+  away << 0, 0, 0, 0, 2.5, 0;
+  const Se3 elsewhere = geometry::plus(Se3{}, away);
+  EXPECT_EQ(run.add(2.5, elsewhere).how, How::begun);
+  EXPECT_EQ(run.add(2.6, elsewhere).how, How::tracked);
+}
+
+TEST(RgbdTracker, TheSameImagesGiveTheSameBits) {
+  Camera a, b;
+  for (int i = 0; i < 8; ++i) {
+    const auto one = a.add(0.1 * i, swing(0.1 * i)), other = b.add(0.1 * i, swing(0.1 * i));
+    EXPECT_EQ(one.map_from_camera.translation, other.map_from_camera.translation);
+  }
+}
+
+TEST(RgbdTracker, KeepsAsManyKeyFramesAsAsked) {
+  auto options = atOnce();
+  options.key_frames = 3;
+  Camera run(options);
+  for (int i = 0; i < 16; ++i) run.add(0.1 * i, swing(0.1 * i));
+  EXPECT_EQ(run.keyFrames(), 3U);
+}
+
+}  // namespace
+}  // namespace omnimapper::matching::rgbd_tracker_test
