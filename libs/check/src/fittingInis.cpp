@@ -42,6 +42,11 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
                     "walls, tables and floors of a range camera on given poses",
                     {{"given_motion", "no_motion"}, {"planes"}, {"poses", "plane_landmarks"}, false}});
   }
+  if (holds<mrpt::obs::CObservation3DRangeScan>(facts) && !has_laser && !has_odometry) {
+    inis.push_back({"ini/rgbd_handheld.ini",
+                    "the way and the points of a range camera by its images alone",
+                    {{"visual_odometry", "no_motion"}, {}, {}, false}});
+  }
   if (has_odometry && holds<mrpt::obs::CObservationBearingRange>(facts)) {
     inis.push_back({"ini/landmarks.ini",
                     "points and markers by their ranges and bearings",

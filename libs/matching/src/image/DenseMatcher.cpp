@@ -256,6 +256,25 @@ float scaleOf(const DenseSums& sums, float before, float least) {
 
 }  // namespace
 
+const base::OptionTable<DenseMatcherOptions>& DenseMatcherOptions::table() {
+  using Options = DenseMatcherOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .flag("use_depth", &Options::use_depth, "Register by depths.")
+          .flag("use_brightness", &Options::use_grey, "Register by the brightness of the picture.")
+          .integer("finest_level", &Options::finest_level, base::Range{0, 5},
+                   "Images are halved so many times where a match ends.")
+          .integer("max_points", &Options::max_points, base::Range{50, 400000}, "Points of a key frame, on each level.")
+          .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000}, "Steps of a match, on each level.")
+          .number("brightness_noise", &Options::grey_noise, base::Range::positive(),
+                  "Standard deviation of brightness, of 255, at least.")
+          .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
+                  "Least share of a key frame's points that an image must show.")
+          .number("max_surprise", &Options::max_surprise, base::Range{0, 1},
+                  "Largest share of them whose depth is far off.");
+  return table;
+}
+
 DenseMatcher::DenseMatcher(const DenseMatcherOptions& options) : options_(options) {
   const bool are_counts = options.max_points > 0 && options.max_iterations > 0 && options.finest_level >= 0;
   if (!are_counts || !(options.noise.sigma > 0) || !(options.grey_noise > 0))

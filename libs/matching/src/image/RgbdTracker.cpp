@@ -13,12 +13,13 @@ using geometry::Se3;
 using geometry::Vector6d;
 using How = RgbdTracker::Tracked::How;
 
-// Of the depths there are; a metre of an image without any.
-double medianDepth(const RgbdPyramid& pyramid) {
+// None of an image that has too few depths to be a key frame.
+std::optional<double> medianDepth(const RgbdPyramid& pyramid) {
+  constexpr double kLeast = 0.1;  // share of the pixels
+  const auto& all = pyramid.levels().back().inverse_depth;
   std::vector<float> inverse;
-  for (const float one : pyramid.levels().back().inverse_depth)
-    if (one > 0) inverse.push_back(one);
-  if (inverse.empty()) return 1;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(inverse), [](float one) { return one > 0; });
+  if (static_cast<double>(inverse.size()) <= kLeast * static_cast<double>(all.size())) return std::nullopt;
   const auto middle = inverse.begin() + static_cast<std::ptrdiff_t>(inverse.size() / 2);
   std::nth_element(inverse.begin(), middle, inverse.end());
   return 1 / static_cast<double>(*middle);
@@ -29,6 +30,35 @@ double angleOf(const Se3& pose) {
 }
 
 }  // namespace
+
+const base::OptionTable<RgbdTrackerOptions>& RgbdTrackerOptions::table() {
+  using Options = RgbdTrackerOptions;
+  const auto any = base::Range{-0.1, 0.1};
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("key_angle_deg", &Options::key_angle, base::Range{0.5, 90},
+                  "A new key frame where the camera has turned so far from the last.")
+          .number("key_distance_share", &Options::key_distance, base::Range{0.005, 1},
+                  "A new one where it has moved so far, in parts of the median depth.")
+          .number("key_overlap", &Options::key_overlap, base::Range{0.3, 1},
+                  "A new one where less of the last is still seen.")
+          .integer("key_frames", &Options::key_frames, base::Range{1, 10000},
+                   "Key frames that are kept for coming back.")
+          .number("acceleration_m_per_s2", &Options::acceleration, base::Range::positive(),
+                  "Standard deviation of what the motion may change by.")
+          .number("turn_acceleration_rad_per_s2", &Options::turn_acceleration, base::Range::positive(),
+                  "Standard deviation of what the turning may change by.")
+          .number("depth_readout_s", &Options::depth_readout, any,
+                  "Time from the first row of depths to the last; 0: all at once.")
+          .number("picture_readout_s", &Options::picture_readout, any,
+                  "Time from the first row of the picture to the last; 0: all at once.")
+          .number("picture_delay_s", &Options::picture_delay, any, "Time of the picture after the depths.")
+          .number("picture_delay_sigma_s", &Options::picture_delay_sigma, base::Range{0, 0.1},
+                  "Standard deviation of that; the delay of each image is found by its match. 0: it is exact.")
+          .number("longest_loss_s", &Options::longest_loss, base::Range::positive(),
+                  "After a longer time without a view it knows the camera begins anew.");
+  return table;
+}
 
 RgbdTracker::RgbdTracker(const RgbdTrackerOptions& options, const DenseMatcherOptions& matching)
     : options_(options), matcher_(matching), picture_delay_(options.picture_delay) {}
@@ -79,7 +109,7 @@ void RgbdTracker::makeKeyFrame(const RgbdImage& image, const Se3& map_from_camer
   CameraMotion moved = motion();
   moved.picture_delay = picture_delay;
   keys_.push_back(
-      {matcher_.prepare(image.pyramid, image.normals(), moved), map_from_camera, medianDepth(image.pyramid)});
+      {matcher_.prepare(image.pyramid, image.normals(), moved), map_from_camera, medianDepth(image.pyramid).value()});
   if (keys_.size() > static_cast<std::size_t>(options_.key_frames)) keys_.pop_front();
   current_ = keys_.size() - 1;
 }
@@ -129,13 +159,15 @@ RgbdTracker::Tracked RgbdTracker::take(const RgbdImage& image, Found found, How 
   Se3 map_from_camera = keys_[current_].map_from_camera * found.match.reference_from_image;
   const bool is_far = farness(keys_[current_], map_from_camera) > 1 || found.match.overlap < options_.key_overlap;
   Tracked tracked;
-  if (is_far) {
+  if (is_far && medianDepth(image.pyramid)) {
     // Whether a frame of before sees it better: much nearer than where a new one is due.
     constexpr double kMuchNearer = 0.8;
     const auto other = nearest(map_from_camera, kMuchNearer, current_);
     std::optional<DenseMatch> again;
     if (other) again = match(*other, image, map_from_camera, Matrix6d::Zero(), motion());
     if (again && again->succeeded && again->overlap > options_.key_overlap) {
+      constexpr std::size_t kLongBefore = 5;  // key frames
+      tracked.has_returned = keys_.size() - *other > kLongBefore;
       current_ = *other;
       found.match = *again;
       map_from_camera = keys_[current_].map_from_camera * again->reference_from_image;
@@ -156,8 +188,18 @@ RgbdTracker::Tracked RgbdTracker::take(const RgbdImage& image, Found found, How 
   return tracked;
 }
 
+RgbdTracker::Tracked RgbdTracker::lostAt(base::Stamp last) const {
+  Tracked lost;
+  lost.how = How::lost;
+  lost.map_from_camera = map_from_last_;
+  lost.last = last;
+  return lost;
+}
+
 RgbdTracker::Tracked RgbdTracker::track(const RgbdImage& image, const std::optional<DenseGuess>& prediction) {
-  if (!last_) return begin(image, Se3{});
+  const bool can_begin = medianDepth(image.pyramid).has_value();
+  if (!last_ && can_begin) return begin(image, Se3{});
+  if (!last_) return lostAt(image.stamp);
   const double seconds = base::secondsBetween(*last_, image.stamp);
   Se3 predicted = map_from_last_ * geometry::plus(Se3{}, seconds * velocity_);
   Matrix6d information = Matrix6d::Zero();
@@ -173,12 +215,8 @@ RgbdTracker::Tracked RgbdTracker::track(const RgbdImage& image, const std::optio
   if (auto found = seek(image)) return take(image, *found, How::found, seconds);
   is_lost_ = true;
   velocity_.setZero();
-  if (seconds > options_.longest_loss) return begin(image, predicted);
-  Tracked lost;
-  lost.how = How::lost;
-  lost.map_from_camera = map_from_last_;
-  lost.last = *last_;
-  return lost;
+  if (seconds > options_.longest_loss && can_begin) return begin(image, map_from_last_);
+  return lostAt(*last_);
 }
 
 }  // namespace omnimapper::matching

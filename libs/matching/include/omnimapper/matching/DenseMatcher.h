@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/base/OptionTable.h>
 #include <omnimapper/geometry/Se3.h>
 #include <omnimapper/matching/RgbdPyramid.h>
 #include <omnimapper/perception/DepthNoise.h>
@@ -19,7 +20,9 @@ struct DenseMatcherOptions {
   perception::DepthNoise noise;  ///< of the depth camera
   double grey_noise = 3;         ///< standard deviation of brightness, of 255, at least
   double min_overlap = 0.2;      ///< least share of the reference's points that the image shows
-  double max_surprise = 0.35;    ///< largest share of them that are more than `kSurprise` off
+  double max_surprise = 0.35;    ///< largest share of them that are more than 8 % of their depth off
+
+  static const base::OptionTable<DenseMatcherOptions>& table();
 };
 
 /// Where an image is thought to be.

@@ -24,6 +24,8 @@ struct RgbdTrackerOptions {
   double picture_delay = 0.006;        ///< [s] of the picture's middle after that of the depths
   double picture_delay_sigma = 0.012;  ///< [s]
   double longest_loss = 2;             ///< [s] after which a lost camera begins anew
+
+  static const base::OptionTable<RgbdTrackerOptions>& table();
 };
 
 /// An image, prepared to be tracked.
@@ -55,6 +57,7 @@ class RgbdTracker {
     base::Stamp last;                ///< of that image
     DenseMatch match;                ///< with the key frame
     bool is_key_frame = false;       ///< whether it has become one
+    bool has_returned = false;       ///< whether it shows again what a key frame of long before does
   };
   /// Images in order of stamps. `prediction`: motion since the image tracked before, of the camera, from wheels or
   /// inertia; none: it goes on as it did.
@@ -73,6 +76,7 @@ class RgbdTracker {
     DenseMatch match;
   };
   Tracked begin(const RgbdImage& image, const geometry::Se3& map_from_camera);
+  Tracked lostAt(base::Stamp last) const;
   void makeKeyFrame(const RgbdImage& image, const geometry::Se3& map_from_camera, double picture_delay);
   CameraMotion motion() const;
   /// How far off the view of a key frame is: 1 where another one is due.

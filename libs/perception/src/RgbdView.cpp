@@ -1,0 +1,39 @@
+#include <omnimapper/perception/RgbdView.h>
+
+#include "RangeScan.h"
+
+namespace omnimapper::perception {
+
+struct RgbdView::Parts {
+  explicit Parts(const mrpt::obs::CObservation3DRangeScan& scan) : depth(scan), colours(scan) {}
+
+  ScanDepth depth;
+  ScanColours colours;
+  std::vector<obs::Rgb> turned;  // a picture of another view
+  ColourImage picture;
+};
+
+RgbdView::RgbdView(const mrpt::obs::CObservation3DRangeScan& scan) : parts_(std::make_unique<Parts>(scan)) {
+  if (!parts_->colours.exist()) return;
+  if (parts_->colours.areOfDepthView()) {
+    parts_->picture = parts_->colours.picture();
+    return;
+  }
+  static_assert(sizeof(obs::Rgb) == 3, "pixels lie one behind the other");
+  const auto& image = parts_->depth.image();
+  parts_->turned = parts_->colours.inDepthView(parts_->depth);
+  parts_->picture = {&parts_->turned.data()->red, image.width(), image.height(), 3 * image.width(),
+                     ColourImage::Order::rgb};
+}
+
+RgbdView::~RgbdView() = default;
+
+const DepthImage& RgbdView::depth() const {
+  return parts_->depth.image();
+}
+
+const ColourImage* RgbdView::colour() const {
+  return parts_->picture.pixels == nullptr ? nullptr : &parts_->picture;
+}
+
+}  // namespace omnimapper::perception

@@ -1,0 +1,156 @@
+#include "VisualOdometryPlugin.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Names.h>
+#include <omnimapper/base/Numbers.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
+#include <omnimapper/perception/RgbdView.h>
+#include <omnimapper/plugin/SharedSection.h>
+
+#include <cmath>
+#include <cstdio>
+
+IMPLEMENTS_MRPT_OBJECT(VisualOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+using mrpt::obs::CObservation3DRangeScan;
+using How = matching::RgbdTracker::Tracked::How;
+
+const base::OptionTable<VisualOdometryOptions>& VisualOdometryOptions::table() {
+  using Options = VisualOdometryOptions;
+  const auto zero_or_more = base::Range::notNegative();
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("label", &Options::label, "Sensor label of the camera; empty for the first that comes.")
+          .number("position_noise_m", &Options::position_noise, base::Range::positive(),
+                  "Standard deviation of each coordinate from one image to the next, at rest.")
+          .number("angle_noise_deg", &Options::angle_noise, base::Range::positive(),
+                  "Standard deviation of each angle from one image to the next, at rest.")
+          .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
+                  "Standard deviation of each coordinate after 1 m of way [m] beside that.")
+          .number("position_noise_per_root_turn", &Options::position_noise_per_root_turn, zero_or_more,
+                  "Standard deviation of each coordinate after 1 rad of turning [m] beside that.")
+          .number("angle_noise_per_root_m_deg", &Options::angle_noise_per_root_m, zero_or_more,
+                  "Standard deviation of each angle after 1 m of way beside that.")
+          .number("angle_noise_per_root_turn", &Options::angle_noise_per_root_turn, zero_or_more,
+                  "Standard deviation of each angle after 1 rad of turning [rad] beside that.");
+  return table;
+}
+
+VisualOdometryPlugin::VisualOdometryPlugin(const VisualOdometryOptions& options,
+                                           const matching::RgbdTrackerOptions& tracking,
+                                           const matching::DenseMatcherOptions& matching)
+    : options_(options), tracker_(tracking, matching) {}
+
+VisualOdometryPlugin::Taken VisualOdometryPlugin::add(const mrpt::obs::CObservation::ConstPtr& observation) {
+  const auto scan = std::dynamic_pointer_cast<const CObservation3DRangeScan>(observation);
+  if (!scan || !scan->hasRangeImage) return Taken::not_mine;
+  if (!options_.label.empty() && scan->sensorLabel != options_.label) return Taken::not_mine;
+  if (label_ && scan->sensorLabel != *label_) return Taken::not_mine;
+  label_ = scan->sensorLabel;
+  if (!reached_ || scan->timestamp > *reached_) wait_.emplace(scan->timestamp, scan);
+  return Taken::taken;
+}
+
+std::optional<base::Stamp> VisualOdometryPlugin::coveredUntil() const {
+  if (!wait_.empty()) return wait_.rbegin()->first;
+  return reached_;
+}
+
+// One image beyond it, so that the motion to between two images is known.
+void VisualOdometryPlugin::processUntil(base::Stamp stamp) {
+  while (!wait_.empty() && (!reached_ || *reached_ < stamp)) {
+    const auto next = wait_.extract(wait_.begin());
+    reached_ = next.key();
+    follow(*next.mapped());
+  }
+}
+
+void VisualOdometryPlugin::follow(const CObservation3DRangeScan& scan) {
+  std::optional<perception::RgbdView> view;
+  try {
+    view.emplace(scan);
+  } catch (const base::Error& error) {
+    if (unreadable_++ == 0) why_unreadable_ = error.what();
+    return;
+  }
+  if (!begun_) begun_ = scan.timestamp;
+  ++images_;
+  static const perception::NormalEstimator estimator{perception::NormalOptions{}};
+  const auto tracked = tracker_.track({scan.timestamp, matching::RgbdPyramid(view->depth(), view->colour()),
+                                       [&] { return estimator.estimate(view->depth()); }});
+  returns_ += tracked.has_returned;
+  if (tracked.how == How::lost) {
+    ++lost_;
+  } else if (tracked.how == How::begun) {
+    if (images_ > 1 && gaps_++ == 0) first_gap_ = base::secondsBetween(*begun_, scan.timestamp);
+  } else {
+    timeline_.insert(tracked.last, scan.timestamp, motionOf(tracked, scan.sensorPose));
+  }
+}
+
+// Variances grow with the way and the turn so that spans add up: what a key frame is off by counts once for all images
+// that were registered with it.
+mapper::RelativeMotion VisualOdometryPlugin::motionOf(const matching::RgbdTracker::Tracked& tracked,
+                                                      const mrpt::poses::CPose3D& base_from_sensor) const {
+  const geometry::Se3 base_from_camera = geometry::fromMrpt(base_from_sensor) * geometry::sensorFromOptical();
+  const geometry::Se3& moved = tracked.last_from_camera;
+  const double way = moved.translation.norm(), turn = geometry::logSo3(moved.rotation).norm();
+  const auto variance = [&](double at_rest, double per_root_m, double per_root_turn) {
+    return at_rest * at_rest + per_root_m * per_root_m * way + per_root_turn * per_root_turn * turn;
+  };
+  geometry::Matrix6d of_camera = geometry::Matrix6d::Zero();
+  of_camera.diagonal().head<3>().setConstant(
+      variance(options_.position_noise, options_.position_noise_per_root_m, options_.position_noise_per_root_turn));
+  of_camera.diagonal().tail<3>().setConstant(
+      variance(options_.angle_noise, options_.angle_noise_per_root_m, options_.angle_noise_per_root_turn));
+  const geometry::Matrix6d ad = adjoint(base_from_camera);
+  return {geometry::toMrpt(base_from_camera * moved * inverse(base_from_camera)), ad * of_camera * ad.transpose()};
+}
+
+std::vector<std::string> VisualOdometryPlugin::warnings() const {
+  if (unreadable_ == 0) return {};
+  return {base::counted(unreadable_, "image") + " of the camera " + base::sensorName(*label_) +
+          " told visual odometry nothing: " + why_unreadable_};
+}
+
+std::vector<mapper::Evidence> VisualOdometryPlugin::evidence() const {
+  constexpr double kMuch = 10;  // [%]
+  const double percent = images_ == 0 ? 0 : 100.0 * static_cast<double>(lost_) / static_cast<double>(images_);
+  std::vector<mapper::Evidence> all;
+  char text[200];
+  if (gaps_ > 0) {
+    std::snprintf(text, sizeof text, "the camera was lost and began anew %zu times, the first %.0f s after its start",
+                  gaps_, first_gap_);
+    all.push_back({"camera_begun_anew", static_cast<double>(gaps_), mapper::Evidence::Says::against_it, text});
+  }
+  if (images_ == 0) return all;
+  using Says = mapper::Evidence::Says;
+  std::snprintf(text, sizeof text, "visual odometry was lost in %.0f %% of the images", percent);
+  all.push_back(
+      {"camera_lost_percent", percent, percent > kMuch ? Says::too_little : Says::good, percent > kMuch ? text : ""});
+  std::snprintf(text, sizeof text,
+                returns_ > 0 ? "the camera came back to a view of before %zu times, and it fitted"
+                             : "the camera never came back to a view of before, where drift would be seen",
+                returns_);
+  all.push_back({"camera_returns", static_cast<double>(returns_), returns_ > 0 ? Says::good : Says::too_little, text});
+  return all;
+}
+
+using VisualOdometrySection =
+    mapper::SharedSection<VisualOdometryOptions, matching::RgbdTrackerOptions, matching::DenseMatcherOptions>;
+
+const std::vector<base::OptionSpec>& VisualOdometryPluginFactory::options() const {
+  return VisualOdometrySection::options();
+}
+
+std::unique_ptr<mapper::PosePlugin> VisualOdometryPluginFactory::make(const base::ConfigSection& section,
+                                                                      const mapper::PluginContext&) const {
+  return std::make_unique<VisualOdometryPlugin>(VisualOdometrySection::read<VisualOdometryOptions>(section),
+                                                VisualOdometrySection::read<matching::RgbdTrackerOptions>(section),
+                                                VisualOdometrySection::read<matching::DenseMatcherOptions>(section));
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,13 @@
+#include <omnimapper/base/AtLoad.h>
+
+#include "VisualOdometryPlugin.h"
+
+namespace omnimapper::plugins {
+
+// The build links this file last: the ids of the classes are made before.
+const base::AtLoad kRegister([] {
+  mapper::registerFactoryBases();
+  mrpt::rtti::registerClass(CLASS_ID(VisualOdometryPluginFactory));
+});
+
+}  // namespace omnimapper::plugins

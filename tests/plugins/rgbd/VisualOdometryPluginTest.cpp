@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
+
+#include "../../matching/RenderedRoom.h"
+#include "rgbd/VisualOdometryPlugin.h"
+
+namespace omnimapper::plugins::visual_odometry_plugin_test {
+namespace {
+
+using geometry::Se3;
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::poses::CPose3D;
+using Says = mapper::Evidence::Says;
+using Taken = mapper::PosePlugin::Taken;
+
+base::Stamp at(double seconds) {
+  return base::stampFromUnix(1.6e9) + base::durationFromSeconds(seconds);
+}
+
+const CPose3D kBaseFromCamera(0.1, 0.05, 0.2, 0.1, 0.2, 0);
+
+/// Of the base, in the room's frame, whose z is forward and y down.
+Se3 truth(double seconds) {
+  geometry::Vector6d delta;
+  delta << 0.15 * std::sin(seconds), 0.1 * (1 - std::cos(seconds)), 0.02 * seconds, 0.05 * std::sin(seconds),
+      0.03 * seconds, 0.25 * std::sin(seconds);
+  const Se3 room_from_level{Eigen::Quaterniond(geometry::sensorFromOptical().rotation.conjugate()), {0, 0.1, -0.3}};
+  return room_from_level * geometry::plus(Se3{}, delta);
+}
+
+class VisualOdometry : public ::testing::Test {
+ protected:
+  VisualOdometry() {
+    matching::RgbdTrackerOptions tracking;
+    tracking.depth_readout = tracking.picture_readout = tracking.picture_delay = tracking.picture_delay_sigma = 0;
+    plugin_ =
+        std::make_unique<VisualOdometryPlugin>(VisualOdometryOptions{}, tracking, matching::DenseMatcherOptions{});
+  }
+
+  CObservation3DRangeScan::Ptr scan(double seconds, bool is_covered = false) const {
+    const Se3 room_from_camera = truth(seconds) * geometry::fromMrpt(kBaseFromCamera) * geometry::sensorFromOptical();
+    const auto image = room_.render(room_from_camera);
+    auto scan = CObservation3DRangeScan::Create();
+    scan->timestamp = at(seconds);
+    scan->sensorLabel = "camera";
+    scan->sensorPose = kBaseFromCamera;
+    scan->hasRangeImage = scan->hasIntensityImage = true;
+    scan->range_is_depth = true;
+    scan->rangeUnits = 1e-4F;
+    scan->rangeImage_setSize(room_.height, room_.width);
+    scan->intensityImage.resize(room_.width, room_.height, mrpt::img::CH_GRAY);
+    for (int y = 0; y < room_.height; ++y) {
+      for (int x = 0; x < room_.width; ++x) {
+        const auto pixel = static_cast<std::size_t>(y * room_.width + x);
+        scan->rangeImage(y, x) = is_covered ? 0 : static_cast<std::uint16_t>(std::lround(1e4 * image.depth[pixel]));
+        *scan->intensityImage.ptr<std::uint8_t>(static_cast<unsigned>(x), static_cast<unsigned>(y)) =
+            is_covered ? 0 : image.grey[pixel];
+      }
+    }
+    for (auto* camera : {&scan->cameraParams, &scan->cameraParamsIntensity}) {
+      camera->ncols = static_cast<std::uint32_t>(room_.width);
+      camera->nrows = static_cast<std::uint32_t>(room_.height);
+      camera->setIntrinsicParamsFromValues(room_.camera.fx, room_.camera.fy, room_.camera.cx, room_.camera.cy);
+    }
+    return scan;
+  }
+
+  void add(double seconds, bool is_covered = false) {
+    EXPECT_EQ(plugin_->add(scan(seconds, is_covered)), Taken::taken);
+    plugin_->processUntil(at(seconds));
+  }
+
+  /// Errors of the motion of the base [m] [rad].
+  void expectMotion(double begin, double end) const {
+    const auto motion = plugin_->between(at(begin), at(end));
+    ASSERT_TRUE(motion) << begin << " to " << end;
+    const auto off = minus(geometry::fromMrpt(motion->begin_from_end), inverse(truth(begin)) * truth(end));
+    EXPECT_LT(off.head<3>().norm(), 0.012) << begin << " to " << end;
+    EXPECT_LT(off.tail<3>().norm(), 0.008) << begin << " to " << end;
+  }
+
+  mapper::Evidence evidence(const std::string& name) const {
+    for (const auto& one : plugin_->evidence())
+      if (one.name == name) return one;
+    return {};
+  }
+
+  matching::RenderedRoom room_;
+  std::unique_ptr<VisualOdometryPlugin> plugin_;
+};
+
+TEST_F(VisualOdometry, TellsTheMotionOfTheBaseNotOfTheCamera) {
+  for (int i = 0; i <= 20; ++i) add(0.1 * i);
+  expectMotion(0, 1);
+  expectMotion(0.5, 1.5);
+  expectMotion(0, 2);
+  EXPECT_EQ(plugin_->coveredUntil(), at(2));
+  const auto covariance = plugin_->between(at(0), at(2))->covariance;
+  EXPECT_GT(covariance(0, 0), 1e-6);
+  EXPECT_LT(covariance(0, 0), 1e-2);
+}
+
+TEST_F(VisualOdometry, AcrossACoveredLensTheMotionIsToldWhenTheViewIsFoundAgain) {
+  for (int i = 0; i <= 5; ++i) add(0.1 * i);
+  for (int i = 6; i <= 9; ++i) add(0.1 * i, true);
+  EXPECT_FALSE(plugin_->between(at(0), at(0.9))) << "lost is said, not guessed";
+  add(1.0);
+  expectMotion(0, 1);
+  EXPECT_EQ(evidence("camera_lost_percent").says, Says::too_little);
+  EXPECT_EQ(evidence("camera_begun_anew").value, 0);
+}
+
+TEST_F(VisualOdometry, AfterALongLossTheMapIsSuspicious) {
+  add(0);
+  add(0.1);
+  for (int i = 2; i <= 22; ++i) add(0.1 * i, true);
+  room_.half[0] = 3;  // another room
+  room_.half[2] = 2.5;
+  add(2.5);
+  add(2.6);
+  EXPECT_FALSE(plugin_->between(at(0.1), at(2.5)));
+  expectMotion(2.5, 2.6);
+  EXPECT_EQ(evidence("camera_begun_anew").says, Says::against_it);
+}
+
+TEST_F(VisualOdometry, OfOtherCamerasAndLateImagesNothingIsTaken) {
+  add(0);
+  add(0.2);
+  auto other = scan(0.3);
+  other->sensorLabel = "other";
+  EXPECT_EQ(plugin_->add(other), Taken::not_mine);
+  EXPECT_EQ(plugin_->add(scan(0.1)), Taken::taken) << "left out, for its time is over";
+  plugin_->processUntil(at(0.2));
+  expectMotion(0, 0.2);
+}
+
+TEST_F(VisualOdometry, ACameraWithoutCalibrationIsToldByAWarning) {
+  auto image = scan(0);
+  image->cameraParams.setIntrinsicParamsFromValues(0, 0, 0, 0);
+  EXPECT_EQ(plugin_->add(image), Taken::taken);
+  plugin_->processUntil(at(0));
+  ASSERT_EQ(plugin_->warnings().size(), 1U);
+  EXPECT_NE(plugin_->warnings()[0].find("camera"), std::string::npos);
+  EXPECT_TRUE(plugin_->evidence().empty());
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins::visual_odometry_plugin_test
