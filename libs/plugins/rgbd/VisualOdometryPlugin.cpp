@@ -8,6 +8,7 @@
 #include <omnimapper/perception/RgbdView.h>
 #include <omnimapper/plugin/SharedSection.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdio>
 
@@ -24,6 +25,8 @@ const base::OptionTable<VisualOdometryOptions>& VisualOdometryOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .text("label", &Options::label, "Sensor label of the camera; empty for the first that comes.")
+          .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
+                  "More than a hand or a robot moves the camera: a map with such motions is suspicious.")
           .number("position_noise_m", &Options::position_noise, base::Range::positive(),
                   "Standard deviation of each coordinate from one image to the next, at rest.")
           .number("angle_noise_deg", &Options::angle_noise, base::Range::positive(),
@@ -76,6 +79,8 @@ void VisualOdometryPlugin::follow(const CObservation3DRangeScan& scan) {
     if (unreadable_++ == 0) why_unreadable_ = error.what();
     return;
   }
+  constexpr std::size_t kRunaway = 3;  // images in a row: one alone is where another key frame is taken
+  constexpr double kShortest = 0.03;   // [s] of stamps that nearly coincide the noise would be a speed
   if (!begun_) begun_ = scan.timestamp;
   ++images_;
   static const perception::NormalEstimator estimator{perception::NormalOptions{}};
@@ -87,13 +92,34 @@ void VisualOdometryPlugin::follow(const CObservation3DRangeScan& scan) {
   } else if (tracked.how == How::begun) {
     if (images_ > 1 && gaps_++ == 0) first_gap_ = base::secondsBetween(*begun_, scan.timestamp);
   } else {
-    timeline_.insert(tracked.last, scan.timestamp, motionOf(tracked, scan.sensorPose));
+    const double seconds = base::secondsBetween(tracked.last, scan.timestamp);
+    const bool is_hasty =
+        tracked.last_from_camera.translation.norm() > options_.max_speed * std::max(seconds, kShortest);
+    hasty_in_a_row_ = is_hasty ? hasty_in_a_row_ + 1 : 0;
+    runaways_ += hasty_in_a_row_ == kRunaway;
+    bridged_ += tracked.match.open_directions > 0;
+    timeline_.insert(tracked.last, scan.timestamp, motionOf(tracked, scan.timestamp, scan.sensorPose));
   }
 }
 
+namespace {
+
+// Of a motion that the images left open: however the hand moved last, it may go another way. That it does so for a
+// while, and not anew at each image, makes the spans' errors alike: they add up as those of such a while do.
+geometry::Matrix6d openVariance(const matching::DenseMatch& match, double seconds) {
+  constexpr double kUsualSpeed = 0.5, kWhile = 1;  // [m/s] and [rad/s]; [s]
+  const Eigen::SelfAdjointEigenSolver<geometry::Matrix6d> axes(match.covariance);
+  const geometry::Vector6d variances = axes.eigenvalues().unaryExpr([&](double value) {
+    return value > 0.5 * matching::DenseMatch::kOpen ? kUsualSpeed * kUsualSpeed * kWhile * seconds : 0.0;
+  });
+  return axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
+}
+
+}  // namespace
+
 // Variances grow with the way and the turn so that spans add up: what a key frame is off by counts once for all images
 // that were registered with it.
-mapper::RelativeMotion VisualOdometryPlugin::motionOf(const matching::RgbdTracker::Tracked& tracked,
+mapper::RelativeMotion VisualOdometryPlugin::motionOf(const matching::RgbdTracker::Tracked& tracked, base::Stamp stamp,
                                                       const mrpt::poses::CPose3D& base_from_sensor) const {
   const geometry::Se3 base_from_camera = geometry::fromMrpt(base_from_sensor) * geometry::sensorFromOptical();
   const geometry::Se3& moved = tracked.last_from_camera;
@@ -106,6 +132,8 @@ mapper::RelativeMotion VisualOdometryPlugin::motionOf(const matching::RgbdTracke
       variance(options_.position_noise, options_.position_noise_per_root_m, options_.position_noise_per_root_turn));
   of_camera.diagonal().tail<3>().setConstant(
       variance(options_.angle_noise, options_.angle_noise_per_root_m, options_.angle_noise_per_root_turn));
+  if (tracked.match.open_directions > 0)
+    of_camera += openVariance(tracked.match, base::secondsBetween(tracked.last, stamp));
   const geometry::Matrix6d ad = adjoint(base_from_camera);
   return {geometry::toMrpt(base_from_camera * moved * inverse(base_from_camera)), ad * of_camera * ad.transpose()};
 }
@@ -122,8 +150,8 @@ std::vector<mapper::Evidence> VisualOdometryPlugin::evidence() const {
   std::vector<mapper::Evidence> all;
   char text[200];
   if (gaps_ > 0) {
-    std::snprintf(text, sizeof text, "the camera was lost and began anew %zu times, the first %.0f s after its start",
-                  gaps_, first_gap_);
+    std::snprintf(text, sizeof text, "the camera was lost and began anew (%s, first %.0f s after its start)",
+                  base::counted(gaps_, "time").c_str(), first_gap_);
     all.push_back({"camera_begun_anew", static_cast<double>(gaps_), mapper::Evidence::Says::against_it, text});
   }
   if (images_ == 0) return all;
@@ -131,6 +159,16 @@ std::vector<mapper::Evidence> VisualOdometryPlugin::evidence() const {
   std::snprintf(text, sizeof text, "visual odometry was lost in %.0f %% of the images", percent);
   all.push_back(
       {"camera_lost_percent", percent, percent > kMuch ? Says::too_little : Says::good, percent > kMuch ? text : ""});
+  if (runaways_ > 0) {
+    std::snprintf(text, sizeof text,
+                  "the camera seems to have moved at more than %.1f m/s (%s): it was tracked wrong there",
+                  options_.max_speed, base::counted(runaways_, "time").c_str());
+    all.push_back({"camera_runaways", static_cast<double>(runaways_), Says::against_it, text});
+  }
+  const double open = 100.0 * static_cast<double>(bridged_) / static_cast<double>(images_);
+  std::snprintf(text, sizeof text, "in %.0f %% of the images the camera saw nothing that tells all of its motion",
+                open);
+  all.push_back({"camera_blind_percent", open, open > kMuch ? Says::too_little : Says::good, open > kMuch ? text : ""});
   std::snprintf(text, sizeof text,
                 returns_ > 0 ? "the camera came back to a view of before %zu times, and it fitted"
                              : "the camera never came back to a view of before, where drift would be seen",

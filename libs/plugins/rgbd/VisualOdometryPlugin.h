@@ -14,11 +14,12 @@
 namespace omnimapper::plugins {
 
 struct VisualOdometryOptions {
-  std::string label;                                                 ///< of the camera; empty: the first that comes
-  double position_noise = 0.001;                                     ///< [m] between two images
-  double angle_noise = 0.05 * base::option_text::kRadiansPerDegree;  ///< [rad] between two images
-  double position_noise_per_root_m = 0.01;                           ///< [m / sqrt(m)]
-  double position_noise_per_root_turn = 0.01;                        ///< [m / sqrt(rad)]
+  std::string label;              ///< of the camera; empty: the first that comes
+  double max_speed = 1.5;         ///< [m/s] of a camera; what seems faster is an error
+  double position_noise = 0.001;  ///< [m] between two images
+  double angle_noise = 0.05 * base::option_text::kRadiansPerDegree;            ///< [rad] between two images
+  double position_noise_per_root_m = 0.01;                                     ///< [m / sqrt(m)]
+  double position_noise_per_root_turn = 0.01;                                  ///< [m / sqrt(rad)]
   double angle_noise_per_root_m = 0.5 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(m)]
   double angle_noise_per_root_turn = 0.013;                                    ///< [rad / sqrt(rad)]
 
@@ -49,7 +50,7 @@ class VisualOdometryPlugin : public mapper::PosePlugin {
 
  private:
   void follow(const mrpt::obs::CObservation3DRangeScan& scan);
-  mapper::RelativeMotion motionOf(const matching::RgbdTracker::Tracked& tracked,
+  mapper::RelativeMotion motionOf(const matching::RgbdTracker::Tracked& tracked, base::Stamp stamp,
                                   const mrpt::poses::CPose3D& base_from_sensor) const;
 
   VisualOdometryOptions options_;
@@ -57,7 +58,8 @@ class VisualOdometryPlugin : public mapper::PosePlugin {
   std::optional<std::string> label_;                                          // of the first that came
   std::map<base::Stamp, mrpt::obs::CObservation3DRangeScan::ConstPtr> wait_;  // for their time
   std::optional<base::Stamp> reached_, begun_;  // image that was worked on last, first image of all
-  std::size_t images_ = 0, lost_ = 0, gaps_ = 0, returns_ = 0, unreadable_ = 0;
+  std::size_t images_ = 0, lost_ = 0, gaps_ = 0, returns_ = 0, bridged_ = 0, hasty_in_a_row_ = 0, runaways_ = 0,
+              unreadable_ = 0;
   double first_gap_ = 0;        // [s] after the first image
   std::string why_unreadable_;  // of the first image that was
   matching::PoseTimeline timeline_;

@@ -248,6 +248,14 @@ Evaluation evaluate(const DenseReferenceLevel& reference, const ImageView& view)
           exposure_sums.correlation()};
 }
 
+// Takes out of what depths tell what the planes leave open.
+void withoutOpen(const DenseReferenceLevel& reference, Evaluation& evaluation) {
+  if (reference.open.cols() == 0) return;
+  const Matrix6d kept = Matrix6d::Identity() - reference.open * reference.open.transpose();
+  evaluation.depth.information = kept * evaluation.depth.information * kept;
+  evaluation.depth.gradient = kept * evaluation.depth.gradient;
+}
+
 // What the residuals say of their own scale, with the one they were weighed by.
 float scaleOf(const DenseSums& sums, float before, float least) {
   if (sums.count < 20) return before;
@@ -362,6 +370,7 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
            Shutter(motion, search.delay, motion.picture_readout), scales, exposure, options_.use_depth, use_grey});
       scales = {scaleOf(last.depth, scales.depth, least_depth), scaleOf(last.grey, scales.grey, least_grey)};
       exposure = last.exposure;
+      withoutOpen(reference.levels[l], last);
       constexpr double kStill = 2e-5;  // [m], [rad]
       if (search.step(last.depth, last.grey) < kStill * static_cast<double>(1 << l)) break;
     }
@@ -378,10 +387,15 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
   match.grey_sigma = use_grey ? scales.grey : 0;
   // What is left of the pose when the delay is found from the same residuals.
   const Vector6d with_delay = search.information.block<6, 1>(0, 6);
+  // Brightness that does not follow the reference's says nothing.
+  constexpr double kLeastAlike = 0.7, kUnlike = 0.5;
   const Matrix6d information =
-      search.information.topLeftCorner<6, 6>() - with_delay * with_delay.transpose() / search.information(6, 6);
-  // A direction is open that many residuals together fix by less than this.
-  constexpr double kWeakest = 1e2;  // [1/m2], [1/rad2]: 10 cm, 6 deg
+      use_grey && last.correlation < kUnlike
+          ? last.depth.information
+          : search.information.topLeftCorner<6, 6>() - with_delay * with_delay.transpose() / search.information(6, 6);
+  // A direction is open that all residuals together fix by less than this; they are not as independent as they are
+  // many.
+  constexpr double kWeakest = 1e5;  // [1/m2], [1/rad2]
   const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(information);
   match.open_directions = static_cast<int>((axes.eigenvalues().array() < kWeakest).count());
   const Vector6d variances =
@@ -395,11 +409,11 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
         std::min(motion.delay_sigma, 1 / std::sqrt(std::max(1e-12, search.information(6, 6) - by_pose)));
   }
   // A lens that is covered has neither depths nor anything of the reference's pattern.
-  constexpr double kLeastMeasured = 0.3, kLeastAlike = 0.7;
+  constexpr double kLeastMeasured = 0.3;
   const bool is_alike = (options_.use_depth && last.measured >= kLeastMeasured * last.shown) ||
                         (use_grey && last.correlation >= kLeastAlike);
-  match.succeeded = match.overlap >= options_.min_overlap && match.surprise <= options_.max_surprise &&
-                    match.open_directions == 0 && is_alike;
+  match.fits = match.overlap >= options_.min_overlap && match.surprise <= options_.max_surprise && is_alike;
+  match.succeeded = match.fits && match.open_directions == 0;
   return match;
 }
 

@@ -1,5 +1,7 @@
 #include "image/DenseReference.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -56,6 +58,46 @@ std::vector<Candidate> choose(const RgbdLevel& level, std::size_t most) {
   return chosen;
 }
 
+/// What is known of a point's place and of the plane it lies on.
+struct PlanePoint {
+  Eigen::Vector3d point, normal;
+};
+
+// Along a direction into which no normals point that are more than noise, nothing is told; and where all normals are
+// one, nor is a turn about it.
+Eigen::Matrix<double, 6, Eigen::Dynamic> openMotions(const std::vector<PlanePoint>& points) {
+  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  const double count = std::max(1.0, static_cast<double>(points.size()));
+  for (const auto& one : points) {
+    normals += one.normal * one.normal.transpose() / count;
+    middle += one.point / count;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(normals);
+  std::vector<geometry::Vector6d> open;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = axes.eigenvectors().col(i);
+    constexpr double kNoise = 0.045, kSigmas = 3, kLeast = 0.1;  // [rad/m] of a Kinect's normals; [rad]
+    constexpr double kFew = 0.003;                               // share of the points
+    const auto telling = std::count_if(points.begin(), points.end(), [&](const PlanePoint& one) {
+      return std::abs(one.normal.dot(axis)) > std::max(kLeast, kSigmas * kNoise * one.point.z());
+    });
+    if (static_cast<double>(telling) > kFew * count) continue;
+    open.push_back(geometry::Vector6d::Zero());
+    open.back().head<3>() = axis;
+  }
+  if (open.size() == 2) {
+    const Eigen::Vector3d normal = axes.eigenvectors().col(2);
+    open.push_back(geometry::Vector6d::Zero());
+    open.back() << middle.cross(normal), normal;
+    for (std::size_t i = 0; i < 2; ++i) open[2] -= open[i].dot(open[2]) * open[i];
+    open[2].normalize();
+  }
+  Eigen::Matrix<double, 6, Eigen::Dynamic> columns(6, static_cast<Eigen::Index>(open.size()));
+  for (std::size_t i = 0; i < open.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = open[i];
+  return columns;
+}
+
 /// What the picture shows of a point, and how that changes with the point's place.
 struct Shown {
   float grey;
@@ -110,6 +152,7 @@ std::shared_ptr<const DenseReference> DenseMatcher::prepare(const RgbdPyramid& i
       eight.z.setOnes();
       eight.grey.setConstant(kNoGrey);
     }
+    std::vector<PlanePoint> planes;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       const Candidate& c = chosen[i];
       auto& eight = to.points[i / kLanes];
@@ -137,15 +180,22 @@ std::shared_ptr<const DenseReference> DenseMatcher::prepare(const RgbdPyramid& i
         eight.nx[lane] = static_cast<float>(normal.x());
         eight.ny[lane] = static_cast<float>(normal.y());
         eight.nz[lane] = static_cast<float>(normal.z());
+        planes.push_back({point, normal});
       }
       if (level.grey.empty()) continue;
       const auto change = changeOf(level, picture_shutter, point);
       if (!change) continue;
+      eight.grey[lane] = change->grey;
+      // Where the picture is plain its gradients are noise, and noise must not tell a motion.
+      constexpr float kLeastGradient = 2;  // [1/px] of 255
+      const Eigen::Vector3f& by_place = change->by_place;
+      const float per_pixel = by_place.norm() * z / fx;
+      if (per_pixel < kLeastGradient) continue;
       eight.gx[lane] = change->by_place.x();
       eight.gy[lane] = change->by_place.y();
       eight.gz[lane] = change->by_place.z();
-      eight.grey[lane] = change->grey;
     }
+    to.open = openMotions(planes);
   }
   return reference;
 }

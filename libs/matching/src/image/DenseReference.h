@@ -25,6 +25,9 @@ struct DensePoints {
 struct DenseReferenceLevel {
   std::vector<DensePoints> points;
   std::size_t count = 0;  ///< of points
+  /// Orthonormal columns: motions that the planes the points lie on leave open, as a bare wall leaves three. The noise
+  /// of the normals would seem to tell them.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> open;
 };
 
 class DenseReference {

@@ -95,7 +95,7 @@ DenseMatch RgbdTracker::match(std::size_t key, const RgbdImage& image, const Se3
 RgbdTracker::Tracked RgbdTracker::begin(const RgbdImage& image, const Se3& map_from_camera) {
   velocity_.setZero();
   makeKeyFrame(image, map_from_camera, options_.picture_delay);
-  last_ = image.stamp;
+  last_ = told_ = image.stamp;
   map_from_last_ = map_from_camera;
   is_lost_ = false;
   Tracked tracked;
@@ -120,6 +120,8 @@ void RgbdTracker::makeKeyFrame(const RgbdImage& image, const Se3& map_from_camer
 std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdImage& image, const Se3& predicted,
                                                       const Matrix6d& information, double seconds) const {
   const Matrix6d nothing = Matrix6d::Zero();
+  std::optional<Found> bridged;         // what fits, but leaves a direction open: there, the camera goes on as it did
+  constexpr std::size_t kFollowed = 1;  // tries that are told where the camera should be
   std::vector<std::pair<std::size_t, Se3>> tries{{current_, predicted}, {current_, map_from_last_}};
   for (const auto& [key, pose] : std::vector(tries)) {
     constexpr double kFarthest = 3;
@@ -130,14 +132,18 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdImage& image, co
     const auto& [key, pose] = tries[i];
     const Matrix6d& known = i == 0 ? information : nothing;
     const auto first = match(key, image, pose, known, motion());
-    if (!first.succeeded) continue;
+    if (!first.succeeded) {
+      if (first.fits && !bridged && i < kFollowed) bridged = Found{key, first};
+      continue;
+    }
     const Se3 map_from_camera = keys_[key].map_from_camera * first.reference_from_image;
     CameraMotion moved = motion();
-    moved.velocity = 0.5 * (velocity_ + minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds);
+    if (first.open_directions == 0)
+      moved.velocity = 0.5 * (velocity_ + minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds);
     const auto second = match(key, image, i == 0 ? pose : map_from_camera, known, moved);
     return Found{key, second.succeeded ? second : first};
   }
-  return std::nullopt;
+  return bridged;
 }
 
 // With every key frame, as if the camera were there again; the one that fits best.
@@ -181,6 +187,7 @@ RgbdTracker::Tracked RgbdTracker::take(const RgbdImage& image, Found found, How 
   tracked.last_from_camera = inverse(map_from_last_) * map_from_camera;
   tracked.last = *last_;
   velocity_ = how == How::found ? Vector6d::Zero().eval() : (minus(tracked.last_from_camera, Se3{}) / seconds).eval();
+  if (found.match.open_directions == 0) told_ = image.stamp;
   map_from_last_ = map_from_camera;
   last_ = image.stamp;
   is_lost_ = false;
@@ -201,7 +208,9 @@ RgbdTracker::Tracked RgbdTracker::track(const RgbdImage& image, const std::optio
   if (!last_ && can_begin) return begin(image, Se3{});
   if (!last_) return lostAt(image.stamp);
   const double seconds = base::secondsBetween(*last_, image.stamp);
-  Se3 predicted = map_from_last_ * geometry::plus(Se3{}, seconds * velocity_);
+  // A hand soon does something else: what images tell little of would go on and on.
+  constexpr double kGoesOn = 0.4;  // [s]
+  Se3 predicted = map_from_last_ * geometry::plus(Se3{}, kGoesOn * (1 - std::exp(-seconds / kGoesOn)) * velocity_);
   Matrix6d information = Matrix6d::Zero();
   const double change = 0.5 * seconds * seconds;
   information.diagonal().head<3>().setConstant(1 / std::pow(change * options_.acceleration, 2));
@@ -210,8 +219,12 @@ RgbdTracker::Tracked RgbdTracker::track(const RgbdImage& image, const std::optio
     predicted = map_from_last_ * prediction->reference_from_image;
     information = prediction->information;
   }
-  if (!is_lost_)
-    if (auto found = follow(image, predicted, information, seconds)) return take(image, *found, How::tracked, seconds);
+  if (!is_lost_) {
+    const auto found = follow(image, predicted, information, seconds);
+    const bool is_told = found && (found->match.open_directions == 0 ||
+                                   base::secondsBetween(*told_, image.stamp) <= options_.longest_loss);
+    if (is_told) return take(image, *found, How::tracked, seconds);
+  }
   if (auto found = seek(image)) return take(image, *found, How::found, seconds);
   is_lost_ = true;
   velocity_.setZero();

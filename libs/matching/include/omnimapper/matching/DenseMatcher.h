@@ -57,7 +57,8 @@ struct DenseMatch {
   double correlation = 0;   ///< of the brightness in both, [-1, 1]; 0 without contrast
   double grey_sigma = 0;    ///< standard deviation of brightness, of 255
   int open_directions = 6;  ///< how many the residuals do not fix
-  bool succeeded = false;   ///< enough overlap, few surprises, no open direction; depths or brightness are alike
+  bool fits = false;        ///< enough overlap, few surprises; depths or brightness are alike
+  bool succeeded = false;   ///< it fits and leaves no direction open
 
   static constexpr double kOpen = 1e4;  ///< [m2], [rad2]
 };

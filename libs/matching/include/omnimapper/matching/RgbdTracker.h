@@ -93,8 +93,8 @@ class RgbdTracker {
   RgbdTrackerOptions options_;
   DenseMatcher matcher_;
   std::deque<KeyFrame> keys_;
-  std::size_t current_ = 0;  // of keys_
-  std::optional<base::Stamp> last_;
+  std::size_t current_ = 0;                 // of keys_
+  std::optional<base::Stamp> last_, told_;  // image that was tracked last, and that left no direction open
   geometry::Se3 map_from_last_;
   geometry::Vector6d velocity_ = geometry::Vector6d::Zero();  // [m/s] [rad/s] in the camera's frame
   double picture_delay_;
