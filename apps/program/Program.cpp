@@ -7,7 +7,6 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <csignal>
 #include <iostream>
 #include <new>
@@ -74,28 +73,6 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
     std::cerr << app.get_name() << ": " << base::printableLines(error.what()) << " (a defect: please report it)\n";
     return static_cast<int>(base::ExitCode::internal);
   }
-}
-
-namespace {
-
-CLI::Validator number(const std::string& description, const std::function<bool(double)>& fits) {
-  return CLI::Validator(
-      [=](const std::string& text) {
-        double value = 0;
-        const bool is_number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-        return is_number && fits(value) ? std::string() : "'" + text + "' is not a number " + description;
-      },
-      description);
-}
-
-}  // namespace
-
-CLI::Validator notNegative() {
-  return number(">= 0", [](double value) { return value >= 0; });
-}
-
-CLI::Validator positive() {
-  return number("> 0", [](double value) { return value > 0; });
 }
 
 void listenForInterrupts() {
