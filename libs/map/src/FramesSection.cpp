@@ -1,9 +1,12 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <omnimapper/base/Exceptions.h>
+#include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/map/MapFile.h>
 
 #include <algorithm>
+#include <deque>
+#include <future>
 
 #include "SectionBytes.h"
 
@@ -122,11 +125,25 @@ Map mapOf(std::vector<KeyFrame> frames) {
 MapSection framesToSection(const Map& map) {
   ByteWriter out, frames;
   out.uint(map.key_frames.size(), 4);
+  // Compressing takes most of the time: it is done beside, a few blocks behind, and the order stays.
+  constexpr int kThreads = 2;
+  constexpr std::size_t kBehind = 4;
+  std::deque<std::future<std::string>> waiting;
+  base::WorkerPool workers(kThreads);
+  const auto compress = [&] {
+    waiting.push_back(workers.submit<std::string>([bytes = frames.take()] { return compressed(bytes); }));
+  };
+  const auto take = [&] {
+    out.raw(waiting.front().get());
+    waiting.pop_front();
+  };
   for (const KeyFrame& frame : map.key_frames) {
     writeFrame(frames, frame);
-    if (frames.bytes().size() >= kBlock) writeCompressed(out, frames.take());
+    if (frames.bytes().size() >= kBlock) compress();
+    if (waiting.size() > kBehind) take();
   }
-  if (!frames.bytes().empty()) writeCompressed(out, frames.take());
+  if (!frames.bytes().empty()) compress();
+  while (!waiting.empty()) take();
   return {kFramesName, kFramesVersion, out.take()};
 }
 

@@ -10,7 +10,7 @@ constexpr int kLevel = 1;  // of zlib: the quickest
 
 }  // namespace
 
-void writeCompressed(ByteWriter& out, const std::string& bytes) {
+std::string compressed(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string packed(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
@@ -18,8 +18,10 @@ void writeCompressed(ByteWriter& out, const std::string& bytes) {
     throw std::bad_alloc();
   }
   packed.resize(size);
+  ByteWriter out;
   out.uint(bytes.size(), 8);
   out.block(packed);
+  return out.take();
 }
 
 std::string readCompressed(ByteReader& in) {

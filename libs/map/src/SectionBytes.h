@@ -39,8 +39,8 @@ inline base::Stamp readStamp(ByteReader& in) {
 /// No compressed byte holds more than so many: what claims more is damaged.
 inline constexpr std::uint64_t kMostPerByte = 1032;
 
-/// Appends `bytes`, compressed: their length in 8 bytes, then a block.
-void writeCompressed(ByteWriter& out, const std::string& bytes);
+/// `bytes` as readCompressed() takes them: their length in 8 bytes, then a block of them compressed. Thread-safe.
+std::string compressed(const std::string& bytes);
 /// Throws Error(unreadable_input) if what stands there is none of those.
 std::string readCompressed(ByteReader& in);
 

@@ -19,7 +19,7 @@ inline std::string unpackedFrames(const map::MapSection& frames) {
 inline map::MapSection packedFrames(std::uint32_t version, const std::string& bytes) {
   base::ByteWriter out;
   out.raw(bytes.substr(0, 4));
-  if (bytes.size() > 4) map::writeCompressed(out, bytes.substr(4));
+  if (bytes.size() > 4) out.raw(map::compressed(bytes.substr(4)));
   return {"frames", version, out.take()};
 }
 
