@@ -59,7 +59,15 @@ int run(const std::string& verb, const Arguments& arguments) {
   const auto reference = eval::readTrajectory(arguments.reference);
   const eval::PairingOptions pairing{tolerance, base::durationFromSeconds(arguments.interpolate),
                                      eval::alignmentNamed(arguments.alignment)};
-  if (verb == "ate") return report(arguments, eval::absoluteTrajectoryError(estimate, reference, pairing), reference);
+  if (verb == "ate") {
+    const auto error = eval::absoluteTrajectoryError(estimate, reference, pairing);
+    const auto& first = error.paired.pairs.front();
+    if (pairing.alignment == eval::Alignment::none &&
+        (first.reference.translation - first.estimate.translation).norm() > 1)
+      std::cerr << "The first poses lie more than 1 m apart. If each trajectory has a frame of its own: --align yaw, "
+                   "or se3\n";
+    return report(arguments, error, reference);
+  }
   return report(arguments, eval::relativePoseError(estimate, reference, pairing,
                                                    {arguments.delta, eval::deltaUnitNamed(arguments.unit)}));
 }

@@ -1,6 +1,7 @@
 #include "MapConsistency.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/grid/LikelihoodPyramid.h>
 #include <omnimapper/matching/WallCrossings.h>
 
@@ -241,7 +242,8 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
     }
   }
   Evidence again_m{"revisited_m", revisited, Evidence::Says::good,
-                   format("%zu closures tie %.0f m that were driven again", closures, revisited - untied - fitting)};
+                   format("%s %s %.0f m that were driven again", base::counted(closures, "closure").c_str(),
+                          closures == 1 ? "ties" : "tie", std::max(0.0, revisited - untied - fitting))};
   if (fitting > kLong)
     again_m.reason += format(", and on %.0f m more the scans fit what was seen there before", fitting);
   if (revisited == 0) {
