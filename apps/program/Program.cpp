@@ -35,7 +35,8 @@ void sayNearest(const CLI::App& app) {
   for (const auto* option : app.get_options())
     for (const auto& name : option->get_lnames()) known.push_back("--" + name);
   for (const auto& argument : app.remaining(true)) {
-    const auto near = argument.rfind("--", 0) == 0 ? base::nearestName(argument, known) : "";
+    const auto near =
+        argument.rfind("--", 0) == 0 ? base::nearestName(argument.substr(0, argument.find('=')), known) : "";
     if (!near.empty())
       std::cerr << "There is no " << base::printableLines(argument) << "; did you mean " << near << "?\n";
   }

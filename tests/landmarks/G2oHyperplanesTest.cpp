@@ -9,6 +9,7 @@
 #include <omnimapper/landmarks/WallVariable.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
+#include <functional>
 #include <sstream>
 
 namespace omnimapper::landmarks::g2o_hyperplanes_test {

@@ -177,8 +177,31 @@ TEST(DenseMatcher, NothingIsFoundInNothing) {
   EXPECT_EQ(match.open_directions, 6);
   EXPECT_EQ(match.reference_from_image.translation.norm(), 0) << "it stays where it was guessed";
   auto spoiled = image;
-  for (std::size_t i = 0; i < spoiled.depth.size(); i += 2) spoiled.depth[i] = std::nanf("");
-  EXPECT_TRUE(matcher.match(*reference, room.pyramid(spoiled)).reference_from_image.translation.allFinite());
+  for (std::size_t i = 0; i < spoiled.depth.size(); i += 37) spoiled.depth[i] = std::nanf("");
+  EXPECT_LT(matcher.match(*reference, room.pyramid(spoiled)).reference_from_image.translation.norm(), 1e-3);
+}
+
+// A camera that changes its resolution, and images that are hardly any.
+TEST(DenseMatcher, TakesImagesOfAnySize) {
+  const RenderedRoom room;
+  RenderedRoom smaller = room;
+  smaller.width = 240;
+  smaller.height = 180;
+  smaller.camera = {195, 195, 119.5, 89.5};
+  EXPECT_TRUE(matched(room, smaller, {}).succeeded);
+  EXPECT_LT(offOf(matched(room, smaller, {}), kMotion).position, 0.004);
+  const auto image = room.render(kStart);
+  const DenseMatcher matcher;
+  const auto reference = matcher.prepare(room.pyramid(image), room.normals(image));
+  for (const int size : {1, 2, 3, 8}) {
+    RenderedRoom tiny = room;
+    tiny.width = tiny.height = size;
+    tiny.camera = {4, 4, 0.5 * size, 0.5 * size};
+    const auto other = tiny.render(kStart);
+    EXPECT_TRUE(matcher.match(*reference, tiny.pyramid(other)).reference_from_image.translation.allFinite()) << size;
+    const auto as_reference = matcher.prepare(tiny.pyramid(other), tiny.normals(other));
+    EXPECT_TRUE(matcher.match(*as_reference, room.pyramid(image)).reference_from_image.translation.allFinite()) << size;
+  }
 }
 
 TEST(DenseMatcher, RefusesOptionsThatMeanNothing) {

@@ -8,6 +8,7 @@
 #include <omnimapper/source/RawlogSource.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <ostream>
 
 #include "Words.h"
@@ -55,6 +56,8 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   if (output_folder.empty()) return result;
   base::makeWritableFolder(output_folder);
   base::writeFile(output_folder + "/check.txt", [&](std::ostream& out) { out << result.text; });
+  std::error_code error;
+  std::filesystem::remove(output_folder + "/check.ini", error);
   if (!settings.empty())
     base::writeFile(output_folder + "/check.ini", [&](std::ostream& out) { out << toIni(settings); });
   return result;

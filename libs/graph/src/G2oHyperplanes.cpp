@@ -33,7 +33,7 @@ struct FirstOrder {
 }  // namespace
 
 bool hasLine(const Eigen::VectorXd& hyperplane) {
-  constexpr double kMostLean = 0.17;  // sine of 10 deg
+  constexpr double kMostLean = 0.1736;  // sine of 10 deg
   return hyperplane.size() == 3 || std::abs(hyperplane[2]) < kMostLean;
 }
 

@@ -2,6 +2,7 @@
 #include <omnimapper/base/InputFile.h>
 #include <omnimapper/geometry/Conversions.h>
 
+#include <algorithm>
 #include <istream>
 #include <set>
 
@@ -32,6 +33,10 @@ class G2oReader {
 
   G2oContent finish() {
     for (const std::int64_t sensor : sensors_of_planes_) {
+      const bool is_bound = std::any_of(edges_.begin(), edges_.end(), [sensor](const Edge& edge) {
+        return std::find(edge.vertices.begin(), edge.vertices.end(), sensor) != edge.vertices.end();
+      });
+      if (is_bound) continue;
       vertices_.erase(sensor);
       fixed_.erase(sensor);
     }

@@ -196,7 +196,7 @@ class G2oWriter {
     if (pose.kind() == se2()->kind()) {
       const auto edge = g2o::lineEdge(graph_, record);
       startEdge("EDGE_SE2_LINE2D", record).addAll(edge.measured).addUpperTriangle(edge.information);
-    } else if (pose.kind() == se3()->kind()) {
+    } else if (pose.kind() == se3()->kind() && has_planes_) {
       const auto edge = g2o::planeEdge(graph_, record);
       startEdge("EDGE_SE3_PLANE_CALIB", record).add(sensor_).addAll(edge.measured).addAll(kGrey);
       lines_.addUpperTriangle(edge.information);

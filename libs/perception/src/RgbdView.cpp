@@ -22,6 +22,7 @@ RgbdView::RgbdView(const mrpt::obs::CObservation3DRangeScan& scan) : parts_(std:
   static_assert(sizeof(obs::Rgb) == 3, "pixels lie one behind the other");
   const auto& image = parts_->depth.image();
   parts_->turned = parts_->colours.inDepthView(parts_->depth);
+  if (parts_->turned.empty()) return;
   parts_->picture = {&parts_->turned.data()->red, image.width(), image.height(), 3 * image.width(),
                      ColourImage::Order::rgb};
 }

@@ -5,6 +5,7 @@
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugin/SavedVariable.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -148,6 +149,16 @@ graph::FactorRecord GpsPlugin::factor(const Fix& fix, const mapper::View& view) 
   return record;
 }
 
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
 // Heading and place of the east-north-up frame that lay the fixes on the trajectory, by least squares in the plane.
 // Where the fixes move and the trajectory does not, nothing but them tells the motion: x of the map points east.
 std::optional<mrpt::poses::CPose3D> GpsPlugin::alignment(const mapper::View& view) const {
@@ -161,19 +172,29 @@ std::optional<mrpt::poses::CPose3D> GpsPlugin::alignment(const mapper::View& vie
     mean_map += in_map.back() / static_cast<double>(waiting_.size());
     mean_enu += fix.antenna_in_enu / static_cast<double>(waiting_.size());
   }
+  constexpr std::size_t kFew = 5;
   constexpr double kStands = 0.1;      // of the fixes' spread: a trajectory of less does not follow them
   constexpr double kBeyondNoise = 10;  // standard deviations of a fix: a spread of more is no noise
-  double along = 0, across = 0, spread = 0, spread_of_fixes = 0, sigma = 0;
+  double along = 0, across = 0, spread = 0, sigma = 0;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const Eigen::Vector3d m = in_map[i] - mean_map, e = waiting_[i].antenna_in_enu - mean_enu;
     along += e.x() * m.x() + e.y() * m.y();
     across += e.x() * m.y() - e.y() * m.x();
     spread = std::max(spread, m.head<2>().norm());
-    spread_of_fixes = std::max(spread_of_fixes, e.head<2>().norm());
     sigma = std::max(sigma, waiting_[i].sigma);
   }
-  const bool only_fixes_move =
-      2 * spread_of_fixes >= std::max(options_.min_spread, kBeyondNoise * sigma) && spread < kStands * spread_of_fixes;
+  // Half of them are farther from the middle: a few that are far off change nothing.
+  std::vector<double> east, north, far;
+  for (const auto& fix : waiting_) {
+    east.push_back(fix.antenna_in_enu.x());
+    north.push_back(fix.antenna_in_enu.y());
+  }
+  const Eigen::Vector2d middle(median(east), median(north));
+  for (const auto& fix : waiting_) far.push_back((fix.antenna_in_enu.head<2>() - middle).norm());
+  const double spread_of_fixes = median(far);
+  const bool only_fixes_move = waiting_.size() >= kFew &&
+                               2 * spread_of_fixes >= std::max(options_.min_spread, kBeyondNoise * sigma) &&
+                               spread < kStands * spread_of_fixes;
   if (2 * spread < options_.min_spread && !only_fixes_move) return std::nullopt;
   const double yaw = only_fixes_move ? 0 : std::atan2(across, along);
   const Eigen::Vector3d turned(std::cos(yaw) * mean_enu.x() - std::sin(yaw) * mean_enu.y(),

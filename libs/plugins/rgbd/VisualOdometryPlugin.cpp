@@ -90,7 +90,8 @@ void VisualOdometryPlugin::follow(const CObservation3DRangeScan& scan) {
   if (tracked.how == How::lost) {
     ++lost_;
   } else if (tracked.how == How::begun) {
-    if (images_ > 1 && gaps_++ == 0) first_gap_ = base::secondsBetween(*begun_, scan.timestamp);
+    if (has_begun_ && gaps_++ == 0) first_gap_ = base::secondsBetween(*begun_, scan.timestamp);
+    has_begun_ = true;
   } else {
     const double seconds = base::secondsBetween(tracked.last, scan.timestamp);
     const bool is_hasty =

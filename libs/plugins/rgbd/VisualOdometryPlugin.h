@@ -60,6 +60,7 @@ class VisualOdometryPlugin : public mapper::PosePlugin {
   std::optional<base::Stamp> reached_, begun_;  // image that was worked on last, first image of all
   std::size_t images_ = 0, lost_ = 0, gaps_ = 0, returns_ = 0, bridged_ = 0, hasty_in_a_row_ = 0, runaways_ = 0,
               unreadable_ = 0;
+  bool has_begun_ = false;
   double first_gap_ = 0;        // [s] after the first image
   std::string why_unreadable_;  // of the first image that was
   matching::PoseTimeline timeline_;

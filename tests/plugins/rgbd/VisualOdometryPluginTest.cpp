@@ -124,6 +124,14 @@ TEST_F(VisualOdometry, AfterALongLossTheMapIsSuspicious) {
   EXPECT_EQ(evidence("camera_begun_anew").says, Says::against_it);
 }
 
+TEST_F(VisualOdometry, ACoveredLensAtTheStartIsNoGap) {
+  add(0, true);
+  add(0.1);
+  add(0.2);
+  expectMotion(0.1, 0.2);
+  EXPECT_EQ(evidence("camera_begun_anew").value, 0);
+}
+
 TEST_F(VisualOdometry, OfOtherCamerasAndLateImagesNothingIsTaken) {
   add(0);
   add(0.2);

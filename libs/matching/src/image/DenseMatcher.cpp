@@ -25,7 +25,7 @@ constexpr float kSurprise = 0.08F;
 // Of neighbours of one surface, in parts of the inverse depth: between them the image is interpolated.
 constexpr float kGap = 0.05F;
 
-/// What one kind of residuals says: sums of J^T w J and J^T w r, both times the residuals' variance.
+/// What one kind of residuals says: sums of J^T w J and J^T w r, of residuals in their standard deviations.
 struct DenseSums {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
@@ -85,7 +85,7 @@ struct ExposureSums {
     const double of_reference = squares.cast<double>().sum() / n - r * r;
     const double of_image = image_squares.cast<double>().sum() / n - i * i;
     const double product = products.cast<double>().sum() / n - r * i;
-    constexpr double kLeast = 1e-3;
+    constexpr double kLeast = 0.25;  // above what rounding leaves
     return of_reference > kLeast && of_image > kLeast ? product / std::sqrt(of_reference * of_image) : 0;
   }
 
@@ -270,7 +270,7 @@ const base::OptionTable<DenseMatcherOptions>& DenseMatcherOptions::table() {
       base::OptionTable<Options>()
           .flag("use_depth", &Options::use_depth, "Register by depths.")
           .flag("use_brightness", &Options::use_grey, "Register by the brightness of the picture.")
-          .integer("finest_level", &Options::finest_level, base::Range{0, 5},
+          .integer("finest_level", &Options::finest_level, base::Range{0, 3},
                    "Images are halved so many times where a match ends.")
           .integer("max_points", &Options::max_points, base::Range{50, 400000}, "Points of a key frame, on each level.")
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000}, "Steps of a match, on each level.")
@@ -382,7 +382,7 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
   match.delay_sigma = motion.delay_sigma;
   if (points == 0) return match;
   match.overlap = last.shown / static_cast<double>(points);
-  match.surprise = last.shown > 0 ? last.surprising / last.shown : 1;
+  match.surprise = last.measured > 0 ? last.surprising / last.measured : 0;
   match.depth_sigma = scales.depth / std::sqrt(options_.noise.pixelVariance());
   match.grey_sigma = use_grey ? scales.grey : 0;
   // What is left of the pose when the delay is found from the same residuals.
@@ -412,7 +412,8 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
   constexpr double kLeastMeasured = 0.3;
   const bool is_alike = (options_.use_depth && last.measured >= kLeastMeasured * last.shown) ||
                         (use_grey && last.correlation >= kLeastAlike);
-  match.fits = match.overlap >= options_.min_overlap && match.surprise <= options_.max_surprise && is_alike;
+  match.fits =
+      last.shown > 0 && match.overlap >= options_.min_overlap && match.surprise <= options_.max_surprise && is_alike;
   match.succeeded = match.fits && match.open_directions == 0;
   return match;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 
 #include "image/Shutter.h"
@@ -37,7 +38,7 @@ std::vector<Candidate> choose(const RgbdLevel& level, std::size_t most) {
     for (int x = 1; x + 1 < level.width; ++x)
       if (level.inverse_depth[level.at(x, y)] > 0) all.push_back(candidateAt(level, x, y));
   if (all.size() <= most) return all;
-  const std::size_t half = level.grey.empty() ? most : most / 2;
+  const std::size_t half = level.grey.empty() ? most : std::max<std::size_t>(1, most / 2);
   const int step = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(all.size()) / static_cast<double>(half))));
   const auto isOnGrid = [step](const Candidate& c) { return c.x % step == 0 && c.y % step == 0; };
   const auto strength = [](const Candidate& c) { return c.gradient_x * c.gradient_x + c.gradient_y * c.gradient_y; };
@@ -86,12 +87,14 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> openMotions(const std::vector<PlanePoin
     open.push_back(geometry::Vector6d::Zero());
     open.back().head<3>() = axis;
   }
-  if (open.size() == 2) {
+  // Where all normals are one: the two others are the least.
+  constexpr double kOne = 0.9;  // of their mean square
+  if (open.size() >= 2 && axes.eigenvalues()[2] > kOne) {
     const Eigen::Vector3d normal = axes.eigenvectors().col(2);
     open.push_back(geometry::Vector6d::Zero());
     open.back() << middle.cross(normal), normal;
-    for (std::size_t i = 0; i < 2; ++i) open[2] -= open[i].dot(open[2]) * open[i];
-    open[2].normalize();
+    for (std::size_t i = 0; i + 1 < open.size(); ++i) open.back() -= open[i].dot(open.back()) * open[i];
+    open.back().normalize();
   }
   Eigen::Matrix<double, 6, Eigen::Dynamic> columns(6, static_cast<Eigen::Index>(open.size()));
   for (std::size_t i = 0; i < open.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = open[i];

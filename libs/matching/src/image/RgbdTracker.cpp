@@ -61,7 +61,7 @@ const base::OptionTable<RgbdTrackerOptions>& RgbdTrackerOptions::table() {
 }
 
 RgbdTracker::RgbdTracker(const RgbdTrackerOptions& options, const DenseMatcherOptions& matching)
-    : options_(options), matcher_(matching), picture_delay_(options.picture_delay) {}
+    : options_(options), matcher_(matching) {}
 
 CameraMotion RgbdTracker::motion() const {
   return {velocity_, options_.depth_readout, options_.picture_delay, options_.picture_readout,
@@ -94,6 +94,7 @@ DenseMatch RgbdTracker::match(std::size_t key, const RgbdImage& image, const Se3
 
 RgbdTracker::Tracked RgbdTracker::begin(const RgbdImage& image, const Se3& map_from_camera) {
   velocity_.setZero();
+  keys_.clear();  // where they lie from here is not known
   makeKeyFrame(image, map_from_camera, options_.picture_delay);
   last_ = told_ = image.stamp;
   map_from_last_ = map_from_camera;
@@ -138,8 +139,7 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdImage& image, co
     }
     const Se3 map_from_camera = keys_[key].map_from_camera * first.reference_from_image;
     CameraMotion moved = motion();
-    if (first.open_directions == 0)
-      moved.velocity = 0.5 * (velocity_ + minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds);
+    moved.velocity = 0.5 * (velocity_ + minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds);
     const auto second = match(key, image, i == 0 ? pose : map_from_camera, known, moved);
     return Found{key, second.succeeded ? second : first};
   }
@@ -151,6 +151,7 @@ std::optional<RgbdTracker::Found> RgbdTracker::seek(const RgbdImage& image) cons
   CameraMotion unknown = motion();
   unknown.velocity.setZero();
   std::optional<Found> best;
+  if (!medianDepth(image.pyramid)) return best;
   constexpr double kSurely = 0.5, kSurprise = 0.1;  // it could be anywhere: only what fits well is believed
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     const auto found = match(k, image, keys_[k].map_from_camera, Matrix6d::Zero(), unknown);
@@ -207,7 +208,9 @@ RgbdTracker::Tracked RgbdTracker::track(const RgbdImage& image, const std::optio
   const bool can_begin = medianDepth(image.pyramid).has_value();
   if (!last_ && can_begin) return begin(image, Se3{});
   if (!last_) return lostAt(image.stamp);
-  const double seconds = base::secondsBetween(*last_, image.stamp);
+  // Of stamps that nearly coincide the noise would be a speed.
+  constexpr double kShortest = 0.01;  // [s]
+  const double seconds = std::max(kShortest, base::secondsBetween(*last_, image.stamp));
   // A hand soon does something else: what images tell little of would go on and on.
   constexpr double kGoesOn = 0.4;  // [s]
   Se3 predicted = map_from_last_ * geometry::plus(Se3{}, kGoesOn * (1 - std::exp(-seconds / kGoesOn)) * velocity_);

@@ -49,10 +49,10 @@ struct DenseMatch {
   double delay = 0;                    ///< [s] of the image's picture, as CameraMotion::picture_delay
   double delay_sigma = 0;              ///< [s] that is left of the guess's
   /// Of that, in the image's frame, by the residuals alone, without what the guess knew. A direction that they leave
-  /// open has a variance of kOpen and stays where it was guessed.
+  /// open has a variance of kOpen, and is as good as the guess.
   geometry::Matrix6d covariance = kOpen * geometry::Matrix6d::Identity();
   double overlap = 0;       ///< share of the reference's points that the image shows, [0, 1]
-  double surprise = 1;      ///< share of these that are far nearer or farther than they should be, [0, 1]
+  double surprise = 1;      ///< share of those with a depth that are far nearer or farther than they should be
   double depth_sigma = 0;   ///< standard deviation of the depths' residuals, in those of the camera's noise
   double correlation = 0;   ///< of the brightness in both, [-1, 1]; 0 without contrast
   double grey_sigma = 0;    ///< standard deviation of brightness, of 255

@@ -59,7 +59,7 @@ class RgbdTracker {
     bool is_key_frame = false;       ///< whether it has become one
     bool has_returned = false;       ///< whether it shows again what a key frame of long before does
   };
-  /// Images in order of stamps. `prediction`: motion since the image tracked before, of the camera, from wheels or
+  /// Images by rising stamps. `prediction`: motion since the image tracked before, of the camera, from wheels or
   /// inertia; none: it goes on as it did.
   Tracked track(const RgbdImage& image, const std::optional<DenseGuess>& prediction = {});
 
@@ -97,7 +97,6 @@ class RgbdTracker {
   std::optional<base::Stamp> last_, told_;  // image that was tracked last, and that left no direction open
   geometry::Se3 map_from_last_;
   geometry::Vector6d velocity_ = geometry::Vector6d::Zero();  // [m/s] [rad/s] in the camera's frame
-  double picture_delay_;
   bool is_lost_ = false;
 };
 
