@@ -1,7 +1,6 @@
 #pragma once
 
 #include <omnimapper/matching/RgbdTracker.h>
-#include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <cmath>

@@ -140,8 +140,12 @@ TEST_F(Simulate, ExternalImagesAreTheSameDepths) {
 
 TEST_F(Simulate, AnotherSensorChangesNothingForTheOthers) {
   ASSERT_TRUE(endedWith(ExitCode::ok, run("three")));
-  ASSERT_TRUE(endedWith(ExitCode::ok, run("two", {"--set", "simulation.sensors=odometry, laser"}),
-                        {"warning", "camera", "switched off"}));
+  const auto two = run("two", {"--set", "simulation.sensors=odometry, laser"});
+  ASSERT_TRUE(endedWith(ExitCode::ok, two));
+  const std::string less = scratch_ / "less.ini";
+  std::ofstream(less) << "[simulation]\nsensors = odometry, laser\n";
+  EXPECT_TRUE(endedWith(ExitCode::ok, run("less", {"-i", less}), {"warning", "camera", "switched off"}));
+  EXPECT_EQ(two.err.find("switched off"), std::string::npos) << "who shortens the list by --set means it: " << two.err;
   const auto rangesOf = [&](const std::string& folder) {
     std::vector<float> ranges;
     readLog(scratch_ / folder + "/small.rawlog", [&](const mrpt::obs::CObservation& observation) {
@@ -189,8 +193,8 @@ TEST_F(Simulate, ThePageOfTheFolderSaysWhatItsSensorsAreGoodFor) {
   const auto says = [](const std::string& page, const std::string& ini) { return page.find(ini) != std::string::npos; };
   const std::string laser = pageWith("laser, odometry"), camera = pageWith("camera, odometry"),
                     neither = pageWith("odometry");
-  EXPECT_TRUE(says(laser, "ini/laser2d.ini") && !says(laser, "ini/perceive.ini")) << laser;
-  EXPECT_TRUE(!says(camera, "ini/laser2d.ini") && says(camera, "ini/perceive.ini")) << camera;
+  EXPECT_TRUE(says(laser, "-i laser2d.ini") && !says(laser, "perceive.ini")) << laser;
+  EXPECT_TRUE(!says(camera, "laser2d.ini") && says(camera, "-i perceive.ini")) << camera;
   EXPECT_TRUE(!says(neither, "ini/") && says(neither, "--check")) << neither;
 }
 
