@@ -63,7 +63,7 @@ std::vector<std::string> findInis(const std::vector<std::string>& names) {
     const auto near = base::nearestName(name, known);
     throw base::Error(base::ExitCode::unreadable_input,
                       name + ": there is no such INI file here, and none of that name came with the program" +
-                          (near.empty() ? "" : "; did you mean " + near + "?") + " It has " +
+                          (near.empty() ? "." : "; did you mean " + near + "?") + " It has " +
                           base::option_text::format(known));
   }
   return paths;

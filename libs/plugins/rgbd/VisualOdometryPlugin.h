@@ -43,7 +43,8 @@ class VisualOdometryPlugin : public mapper::PosePlugin {
   }
   std::optional<base::Stamp> coveredUntil() const override;
   std::vector<std::string> warnings() const override;
-  /// Gaps across which the camera did not tell the motion, how much of the time it was lost, and how often it came back
+  /// Gaps across which the camera did not tell the motion, how much of the time it was lost or saw too
+  /// little, speeds that cannot be, and how often it came back
   /// to a view of before, where what drifts would be seen.
   std::vector<mapper::Evidence> evidence() const override;
   void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }

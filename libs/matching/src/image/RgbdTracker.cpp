@@ -121,8 +121,7 @@ void RgbdTracker::makeKeyFrame(const RgbdImage& image, const Se3& map_from_camer
 std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdImage& image, const Se3& predicted,
                                                       const Matrix6d& information, double seconds) const {
   const Matrix6d nothing = Matrix6d::Zero();
-  std::optional<Found> bridged;         // what fits, but leaves a direction open: there, the camera goes on as it did
-  constexpr std::size_t kFollowed = 1;  // tries that are told where the camera should be
+  std::optional<Found> bridged;  // fits, but leaves a direction open: there, the camera goes on as it did
   std::vector<std::pair<std::size_t, Se3>> tries{{current_, predicted}, {current_, map_from_last_}};
   for (const auto& [key, pose] : std::vector(tries)) {
     constexpr double kFarthest = 3;
@@ -134,7 +133,7 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdImage& image, co
     const Matrix6d& known = i == 0 ? information : nothing;
     const auto first = match(key, image, pose, known, motion());
     if (!first.succeeded) {
-      if (first.fits && !bridged && i < kFollowed) bridged = Found{key, first};
+      if (first.fits && i == 0) bridged = Found{key, first};
       continue;
     }
     const Se3 map_from_camera = keys_[key].map_from_camera * first.reference_from_image;
