@@ -11,7 +11,8 @@ install(DIRECTORY ini/ DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/ini" FIL
 # The simulator's INIs, and the pages that programs, INIs and README speak of, with the same paths between them.
 file(GLOB places CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/rawlogs/*.ini")
 install(FILES ${places} DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/rawlogs")
-install(FILES README.md LICENSE CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/omnimapper")
+install(DIRECTORY rawlogs/box rawlogs/home_30s DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/rawlogs")
+install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/omnimapper")
 install(DIRECTORY doc DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/omnimapper")
 foreach(folder ini rawlogs)
   file(GLOB pages CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.md")

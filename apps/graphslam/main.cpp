@@ -29,6 +29,15 @@ void addOutput(const std::string& section, const std::string& name, base::Config
   if (std::find(listed.begin(), listed.end(), section) == listed.end()) run.more_outputs.push_back(section);
 }
 
+void tell(const mapper::RunResult& result, const Arguments& arguments) {
+  if (arguments.verbose) std::cout << base::printableLines(result.source.text());
+  if (!arguments.quiet) std::cout << base::printableLines(mapper::toText(result));
+  for (const auto& warning : result.warnings) {
+    if (arguments.quiet && result.code == base::ExitCode::ok) break;
+    std::cerr << "omnimapper-graphslam: warning: " << base::printableLines(warning) << "\n";
+  }
+}
+
 int run(Arguments& arguments) {
   exports::registerOutputs();
   mapper::loadFeatures();
@@ -51,14 +60,17 @@ int run(Arguments& arguments) {
                     {"-o FOLDER", !arguments.run.output_folder.empty()}});
   if (arguments.gui) addOutput("live_window", "LiveWindow", config, arguments.run);
   if (!arguments.run.localize_map.empty()) addOutput("localization", "LocalizationOutput", config, arguments.run);
+  bool told = false;
+  arguments.run.before_window_closes = [&](const mapper::RunResult& result) {
+    program::nothingIsLeftToDo();
+    progress.reset();
+    tell(result, arguments);
+    if (!arguments.quiet) std::cout << "The window shows the map; close it to end.\n" << std::flush;
+    told = true;
+  };
   const auto result = mapper::runMapping(arguments.run, config, *progress, stop);
   progress.reset();
-  if (arguments.verbose) std::cout << base::printableLines(result.source.text());
-  if (!arguments.quiet) std::cout << base::printableLines(mapper::toText(result));
-  for (const auto& warning : result.warnings) {
-    if (arguments.quiet && result.code == base::ExitCode::ok) break;
-    std::cerr << "omnimapper-graphslam: warning: " << base::printableLines(warning) << "\n";
-  }
+  if (!told) tell(result, arguments);
   const int code = static_cast<int>(result.code);
   if (!arguments.gui) return code;
   // MRPT's window thread may still paint, and cannot be waited for: what it uses must not go before it does.

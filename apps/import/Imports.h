@@ -10,6 +10,9 @@
 /// Throws Error(unreadable_input) if nothing was read, so that no empty rawlog is left or takes the place of another.
 void refuseNothing(const std::string& input, const omnimapper::source::SourceReport& report);
 
+/// Says on standard output what to do with a rawlog that was written.
+void sayNext(const std::string& output);
+
 /// The kinds of logs that omnimapper-import takes: each writes a rawlog and prints a summary.
 
 omnimapper::base::ExitCode importCarmen(const std::string& input, const std::string& output,

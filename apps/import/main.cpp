@@ -90,10 +90,11 @@ int main(int argc, char** argv) {
   return program::run(app, argc, argv, [&] {
     const auto& [input, output] = std::tie(arguments.input, arguments.output);
     base::refuseToReplaceInput(output, {input});
-    if (carmen->parsed()) return static_cast<int>(importCarmen(input, output, kOdometryNames.at(arguments.odometry)));
-    if (tum->parsed())
-      return static_cast<int>(
-          importRgbd(input, output, arguments.rgbd, arguments.images == "external", arguments.poses));
-    return static_cast<int>(importPcd(input, output, arguments.pcd));
+    const auto code = carmen->parsed() ? importCarmen(input, output, kOdometryNames.at(arguments.odometry))
+                      : tum->parsed()
+                          ? importRgbd(input, output, arguments.rgbd, arguments.images == "external", arguments.poses)
+                          : importPcd(input, output, arguments.pcd);
+    sayNext(output);
+    return static_cast<int>(code);
   });
 }

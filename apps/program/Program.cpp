@@ -14,11 +14,12 @@
 namespace omnimapper::program {
 
 namespace {
-volatile std::sig_atomic_t g_interrupted = 0;
+volatile std::sig_atomic_t g_interrupted = 0, g_all_is_done = 0;
 // The first is heard by whoever asks isInterrupted(); the second does not wait for that.
 void onInterrupt(int) {
   if (g_interrupted != 0) _exit(static_cast<int>(base::ExitCode::interrupted));
   g_interrupted = 1;
+  if (g_all_is_done != 0) return;
   constexpr char kAnswer[] = "\ninterrupted: ending with what there is; once more ends at once\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, kAnswer, sizeof kAnswer - 1);
 }
@@ -84,6 +85,10 @@ void listenForInterrupts() {
 
 bool isInterrupted() {
   return g_interrupted != 0;
+}
+
+void nothingIsLeftToDo() {
+  g_all_is_done = 1;
 }
 
 }  // namespace omnimapper::program

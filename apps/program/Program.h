@@ -24,5 +24,7 @@ CLI::Validator positive();
 /// at the limit of its size fails as on a full disk: a run can end its files properly.
 void listenForInterrupts();
 bool isInterrupted();
+/// From now on an interrupt finds everything written, and is no longer answered as one that cuts something short.
+void nothingIsLeftToDo();
 
 }  // namespace omnimapper::program

@@ -262,18 +262,19 @@ class Judge {
     }
     const auto better = betterSensorPose(facts_, laser);
     const std::string who = quoted(laser) + ": ";
-    if (scans.isAtOrigin()) {
-      add(Weight::warning, who + "its sensor pose is missing: at the origin of the base, nothing said" +
-                               (better ? "" : "; if it is elsewhere, tell [mapper] sensors"));
+    const std::string missing = "its sensor pose is missing: at the origin of the base, nothing said";
+    if (!better) {
+      if (scans.isAtOrigin()) add(Weight::warning, who + missing + "; if it is elsewhere, tell [mapper] sensors");
+      return;
     }
-    if (!better) return;
     const auto change = *better - scans.base_from_sensor;
     const bool upside_down = change.getRotationMatrix()(2, 2) < 0;
     const bool backwards = !upside_down && std::abs(degrees(change.yaw())) > 150;
     const bool little = !upside_down && !backwards && std::abs(degrees(change.yaw())) < 10;
-    const std::string verdict = upside_down ? "is mounted upside down, which its sensor pose does not say"
-                                : backwards ? "looks backwards, which its sensor pose does not say"
-                                            : "is mounted otherwise than its sensor pose says";
+    const std::string verdict = upside_down          ? "is mounted upside down, which its sensor pose does not say"
+                                : backwards          ? "looks backwards, which its sensor pose does not say"
+                                : scans.isAtOrigin() ? missing
+                                                     : "is mounted otherwise than its sensor pose says";
     add(little ? Weight::warning : Weight::problem,
         who + verdict + ": by its motion x " + fixed(better->x(), 2) + " m, y " + fixed(better->y(), 2) + " m, yaw " +
             fixed(degrees(better->yaw()), 0) + " deg, roll " + fixed(degrees(better->roll()), 0) + " deg");

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "PlanarMotion.h"
@@ -149,16 +150,19 @@ class Squares {
  public:
   explicit Squares(double side) : side_(side) {}
   void add(const Stop& stop, std::size_t index) { squares_[{cell(stop.pose.x), cell(stop.pose.y)}].push_back(index); }
-  // Whether that holds for one of those in the same square or the eight around it.
+  // The first that was added of those in the same square or the eight around it for which that holds.
   template <class Condition>
-  bool anyNear(const Stop& stop, const Condition& holds) const {
+  std::optional<std::size_t> firstNear(const Stop& stop, const Condition& holds) const {
+    std::optional<std::size_t> first;
     for (const double dx : {-1, 0, 1}) {
       for (const double dy : {-1, 0, 1}) {
-        const auto found = squares_.find({cell(stop.pose.x) + dx, cell(stop.pose.y) + dy});
-        if (found != squares_.end() && std::any_of(found->second.begin(), found->second.end(), holds)) return true;
+        const auto square = squares_.find({cell(stop.pose.x) + dx, cell(stop.pose.y) + dy});
+        if (square == squares_.end()) continue;
+        const auto found = std::find_if(square->second.begin(), square->second.end(), holds);
+        if (found != square->second.end()) first = std::min(*found, first.value_or(*found));
       }
     }
-    return false;
+    return first;
   }
 
  private:
@@ -198,22 +202,43 @@ double shareSeenBefore(const map::Map& map, const std::vector<std::string>& labe
   return shareOnWalls(before, seen);
 }
 
-// Which stops lie where the robot has been, at least `min_travel` [m] before.
-std::vector<bool> revisiting(const std::vector<Stop>& stops, double min_travel) {
+// For each stop the first one that it lies near to and that was passed at least `min_travel` [m] before.
+std::vector<std::optional<std::size_t>> revisiting(const std::vector<Stop>& stops, double min_travel) {
   constexpr double kNear = 2.0, kAngle = 0.8;  // [m] [rad] within which two scans of 180 deg see much the same
   Squares squares(kNear);
-  std::vector<bool> again(stops.size());
+  std::vector<std::optional<std::size_t>> again(stops.size());
   std::size_t entered = 0;
   for (std::size_t i = 0; i < stops.size(); ++i) {
     for (; entered < i && stops[i].travelled - stops[entered].travelled >= min_travel; ++entered)
       squares.add(stops[entered], entered);
-    again[i] = squares.anyNear(stops[i], [&](std::size_t other) {
+    again[i] = squares.firstNear(stops[i], [&](std::size_t other) {
       const TPose2D &here = stops[i].pose, &there = stops[other].pose;
       return std::hypot(here.x - there.x, here.y - there.y) < kNear &&
              std::abs(mrpt::math::wrapToPi(here.phi - there.phi)) < kAngle;
     });
   }
   return again;
+}
+
+// An error of the way is seen only where a later visit of a place spans it. `begins` holds for each stop the first of
+// the stops that it is known to have come back to.
+Evidence spannedWay(const std::vector<Stop>& stops, const std::vector<std::optional<std::size_t>>& begins) {
+  constexpr double kEnough = 50;  // percent
+  const double way = stops.empty() ? 0 : stops.back().travelled;
+  double spanned = 0;
+  std::size_t begin = stops.size();
+  for (std::size_t i = stops.size(); i-- > 1;) {
+    begin = std::min(begin, begins[i].value_or(begin));
+    if (begin < i) spanned += stops[i].travelled - stops[i - 1].travelled;
+  }
+  Evidence evidence{"way_between_visits_percent", way > 0 ? 100 * spanned / way : 0, Evidence::Says::good, ""};
+  if (spanned > 0 && evidence.value < kEnough) {
+    evidence.says = Evidence::Says::too_little;
+    evidence.reason =
+        format("only %.0f m of the %.0f m driven lie between two visits of a place, and nothing confirms the rest",
+               spanned, way);
+  }
+  return evidence;
 }
 
 }  // namespace
@@ -226,6 +251,7 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
   auto stops = stopsOf(state.map, 2 * min_travel);
   const std::size_t closures = markTied(state, section, kTied, stops);
   const auto again = revisiting(stops, min_travel);
+  std::vector<std::optional<std::size_t>> known(stops.size());
   double revisited = 0, untied = 0, fitting = 0, stretch = 0, longest = 0;
   base::Stamp longest_until{};
   for (std::size_t i = 1; i < stops.size(); ++i) {
@@ -233,6 +259,7 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
     revisited += step;
     const bool is_known =
         !again[i] || stops[i].is_tied || shareSeenBefore(state.map, labels, stops, i, min_travel) > kFits;
+    if (is_known) known[i] = again[i];
     stretch = is_known ? 0 : stretch + step;
     if (stretch > 0) untied += step;
     if (is_known && !stops[i].is_tied) fitting += step;
@@ -241,11 +268,18 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
       longest_until = stops[i].stamp;
     }
   }
-  Evidence again_m{"revisited_m", revisited, Evidence::Says::good,
-                   format("%s %s %.0f m that were driven again", base::counted(closures, "closure").c_str(),
-                          closures == 1 ? "ties" : "tie", std::max(0.0, revisited - untied - fitting))};
-  if (fitting > kLong)
-    again_m.reason += format(", and on %.0f m more the scans fit what was seen there before", fitting);
+  Evidence again_m{"revisited_m", revisited, Evidence::Says::good, ""};
+  const double tied = std::max(0.0, revisited - untied - fitting);
+  if (tied > 0) {
+    again_m.reason =
+        format("%s%s %s %.1f m that were driven again", base::counted(closures, "closure").c_str(),
+               state.map.sessions.size() > 1 ? " of all sessions" : "", closures == 1 ? "ties" : "tie", tied);
+  }
+  if (fitting > 0) {
+    again_m.reason += format(tied > 0 ? ", and on %.1f m more the scans fit what was seen there before"
+                                      : "on %.1f m that were driven again the scans fit what was seen there before",
+                             fitting);
+  }
   if (revisited == 0) {
     again_m.says = Evidence::Says::too_little;
     again_m.reason = "the robot never came back to a place that it had seen before";
@@ -257,7 +291,7 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
         "for %.0f m, until %.0f s after the start, the robot drives where it has been before and sees something else",
         longest, base::secondsBetween(stops.front().stamp, longest_until));
   }
-  return {again_m, untied_m};
+  return {again_m, untied_m, spannedWay(stops, known)};
 }
 
 std::vector<Evidence> slips(const mapper::State& state, const std::string& section,

@@ -18,7 +18,8 @@ double shareOnWalls(const std::vector<Eigen::Vector2f>& map, const std::vector<E
 mapper::Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& labels);
 
 /// How far the robot drove where it had been before, after at least `min_travel` [m], and how much of that no closure
-/// of the plugin `section` ties to what was seen there and where the scans do not fit what was seen there either.
+/// of the plugin `section` ties to what was seen there and where the scans do not fit what was seen there either. Last
+/// comes how much of the way lies between two visits of a place: the rest may be bent without anybody seeing it.
 /// `labels` as above.
 std::vector<mapper::Evidence> revisits(const mapper::State& state, const std::string& section,
                                        const std::vector<std::string>& labels, double min_travel);

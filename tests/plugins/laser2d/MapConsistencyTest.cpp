@@ -70,9 +70,29 @@ TEST(MapConsistency, AWayAgainOnWhichTheScansFitIsNotAgainstTheMap) {
   const auto fits = revisits(thereAgainBetweenWalls(0).view(), "loops", {"laser_points"}, 8);
   EXPECT_EQ(fits[1].says, Says::good);
   EXPECT_EQ(fits[1].value, 0);
-  EXPECT_NE(fits[0].reason.find("60 m more"), std::string::npos) << fits[0].reason;
+  EXPECT_NE(fits[0].reason.find("on 60.0 m that were driven again the scans fit"), std::string::npos) << fits[0].reason;
   const auto doubled = revisits(thereAgainBetweenWalls(0.5).view(), "loops", {"laser_points"}, 8);
   EXPECT_EQ(doubled[1].says, Says::against_it);
+}
+
+// 100 m along a line, then again from `from` [m] on, where every fifth key frame closes a loop.
+Evidence spannedFrom(std::size_t from, bool closures) {
+  testing::HandMadeRun run;
+  for (int i = 0; i <= 100; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
+  for (std::size_t i = from; i <= 100; ++i) run.addFrame({static_cast<double>(i), 0.5, 0, 0, 0, 0});
+  for (std::size_t i = from; closures && i <= 100; i += 5) close(run, i, i - from + 101);
+  return revisits(run.view(), "loops", {}, 8).at(2);
+}
+
+TEST(MapConsistency, AWayOfWhichLittleLiesBetweenTwoVisitsCannotBeTold) {
+  EXPECT_EQ(spannedFrom(80, false).value, 0) << "without a closure or fitting scans";
+  // From 78 m on, the jump back, and the way again: 22 + 20 + 20 m of 140.
+  const auto end = spannedFrom(80, true), all = spannedFrom(10, true);
+  EXPECT_NEAR(end.value, 100.0 * 62 / 140, 2);
+  EXPECT_EQ(end.says, Says::too_little);
+  EXPECT_NE(end.reason.find("m of the 140 m driven lie between two visits"), std::string::npos) << end.reason;
+  EXPECT_NEAR(all.value, 100.0 * 272 / 280, 2);
+  EXPECT_EQ(all.says, Says::good);
 }
 
 // Whatever run they are of: a session that goes on has the closures of those before it in the graph alone.

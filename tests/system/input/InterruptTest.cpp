@@ -11,6 +11,7 @@ namespace {
 
 using namespace runs;
 using omnimapper::testing::Program;
+using omnimapper::testing::runProgram;
 using omnimapper::testing::ScratchFolder;
 using omnimapper::testing::SimulatedLogOptions;
 
@@ -89,6 +90,30 @@ TEST_P(Interrupt, WhileTheLogIsCheckedEndsAndLeavesNothing) {
   program.send(GetParam());
   EXPECT_TRUE(endedWith(ExitCode::interrupted, program.wait(), {"interrupted", log_path_}));
   EXPECT_FALSE(fs::exists(folder_));
+}
+
+// What is written is whole, and told, while the window still shows it.
+TEST_P(Interrupt, OfAWindowThatShowsAWholeMapCutsNothingShort) {
+  if (!endedWith(ExitCode::ok, runProgram({"which", "xvfb-run"})))
+    GTEST_SKIP() << "there is no xvfb-run (package xvfb)";
+  const std::string said = scratch_ / "said";
+  const std::string script = R"(said=$1 signal=$2; shift 2
+"$@" >"$said" 2>&1 & program=$!
+for try in $(seq 600); do
+  if grep -q 'close it to end' "$said"; then break; fi
+  sleep 0.1
+done
+kill -"$signal" $program
+wait $program)";
+  Words command = {"xvfb-run", "-a", "bash", "-c", script, "bash", said, std::to_string(GetParam())};
+  for (const auto& word : mappingCommand({log_path_}, folder_, {"--gui"})) command.push_back(word);
+  EXPECT_TRUE(endedWith(ExitCode::ok, runProgram(command)));
+  const std::string text = readFile(said);
+  const auto verdict = text.find("verdict "), outputs = text.find("outputs "), window = text.find("close it to end");
+  EXPECT_TRUE(verdict < outputs && outputs < window && window != std::string::npos) << text;
+  EXPECT_EQ(text.find("interrupted"), std::string::npos) << text;
+  EXPECT_EQ(text.find("outputs ", window), std::string::npos) << "told once:\n" << text;
+  EXPECT_EQ(filesIn(folder_), allOutputs());
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM),

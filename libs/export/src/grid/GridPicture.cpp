@@ -111,19 +111,22 @@ ScanGrid focused(const ScanGrid& grid, const std::vector<mrpt::math::TPoint3D>& 
     left = std::min(left, column), right = std::max(right, column);
     low = std::min(low, row), high = std::max(high, row);
   }
-  const int margin = static_cast<int>(std::ceil(0.03 * std::max(right - left, high - low)));
-  left = std::max(0, left - margin), right = std::min(grid.columns - 1, right + margin);
-  low = std::max(0, low - margin), high = std::min(grid.rows - 1, high + margin);
+  const int longer = std::max(right - left, high - low);
+  const int margin = static_cast<int>(std::ceil(0.03 * longer)), below = static_cast<int>(std::ceil(0.06 * longer));
+  left -= margin, right += margin;
+  low -= below, high += margin;
   ScanGrid part;
   part.columns = right - left + 1;
   part.rows = high - low + 1;
   part.resolution = grid.resolution;
   part.min_x = grid.min_x + left * grid.resolution;
   part.min_y = grid.min_y + low * grid.resolution;
-  part.cells.reserve(static_cast<std::size_t>(part.columns) * part.rows);
-  for (int row = low; row <= high; ++row) {
-    const auto begin = grid.cells.begin() + static_cast<std::ptrdiff_t>(row) * grid.columns;
-    part.cells.insert(part.cells.end(), begin + left, begin + right + 1);
+  part.cells.assign(static_cast<std::size_t>(part.columns) * part.rows, Cell::unknown);
+  const int first = std::max(left, 0), end = std::min(right + 1, grid.columns);
+  for (int row = std::max(low, 0); row < std::min(high + 1, grid.rows); ++row) {
+    const auto line = grid.cells.begin() + static_cast<std::ptrdiff_t>(row) * grid.columns;
+    std::copy(line + first, line + end,
+              part.cells.begin() + static_cast<std::ptrdiff_t>(row - low) * part.columns + (first - left));
   }
   return part;
 }

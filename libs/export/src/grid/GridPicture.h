@@ -31,7 +31,8 @@ GridPicture drawGrid(const ScanGrid& grid);
 GridPicture drawGridToSize(const ScanGrid& grid, int side);
 
 /// The part of a grid that holds all but the outermost 0.5 % of what is known, to each of the four sides, and the given
-/// places [m] too: a few beams through windows do not make a picture of a building small.
+/// places [m] too: a few beams through windows do not make a picture of a building small. Around it lies a margin,
+/// unknown where the grid ends, wide enough at the lower side that the scale bar covers nothing.
 ScanGrid focused(const ScanGrid& grid, const std::vector<mrpt::math::TPoint3D>& places);
 
 }  // namespace omnimapper::exports

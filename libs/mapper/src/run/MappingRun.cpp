@@ -353,7 +353,7 @@ void Run::keepContinuedMap() {
 // Until nobody looks at the map any more, or the user stops the run.
 void Run::showToTheEnd(const RunResult& result) {
   if (!engine_->isLookedAt() || stop_()) return;
-  progress_.report(1.0, "the outputs are in " + result.output_folder + "; close the window to end");
+  if (request_.before_window_closes) request_.before_window_closes(result);
   while (engine_->isLookedAt() && !stop_()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
@@ -434,15 +434,17 @@ std::string toText(const RunResult& result) {
     sessions = "sessions          " + std::to_string(result.sessions.size()) + ", of " +
                std::to_string(result.new_key_frames) + " key frames the new one; " + joinedText(session) + "\n";
   }
+  const std::size_t of_map = result.localized > 0 ? result.key_frames - result.new_key_frames : 0;
+  const std::string held = of_map > 0 ? " (and " + std::to_string(of_map) + " of the map, which stays as it is)" : "";
   char text[512];
   std::snprintf(text, sizeof text,
-                "key frames        %zu\n"
+                "key frames        %zu%s\n"
                 "factors           %zu\n"
                 "loop closures     %zu accepted, %zu refused (reasons: report.html)\n"
                 "way               %.1f m in %.1f s\n"
                 "wall time         %.2f s (%.0f times the log's own pace)\n",
-                result.key_frames, result.factors, result.closures, result.refused_closures, result.way,
-                result.log_seconds, result.wall_seconds,
+                result.key_frames - of_map, held.c_str(), result.factors, result.closures, result.refused_closures,
+                result.way, result.log_seconds, result.wall_seconds,
                 result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
   const std::string verdict =
       result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";

@@ -17,19 +17,6 @@
 
 namespace omnimapper::mapper {
 
-/// What a user asks of one run.
-struct RunRequest {
-  std::vector<std::string> logs;  ///< rawlogs, merged by stamp
-  std::string output_folder;
-  std::vector<std::string> more_outputs;  ///< sections of outputs beside those of the INI, such as the live window
-  std::string continue_map;               ///< map file that the logs are a new session of; empty: a new map
-  std::string localize_map;               ///< map file that the logs are only localized in, which stays as it is
-  /// Workers for perception and jobs; the map does not depend on their number.
-  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  double speed = 0;     ///< times the log's own pace; 0: as fast as possible
-  bool strict = false;  ///< a map that the run itself finds suspicious ends with its own code
-};
-
 /// How a run went.
 struct RunResult {
   base::ExitCode code = base::ExitCode::ok;
@@ -46,6 +33,21 @@ struct RunResult {
   double log_seconds = 0;                        ///< from first to last stamp
   double wall_seconds = 0;                       ///< of the whole run
   double way = 0;                                ///< [m] of this run's trajectory
+};
+
+/// What a user asks of one run.
+struct RunRequest {
+  std::vector<std::string> logs;  ///< rawlogs, merged by stamp
+  std::string output_folder;
+  std::vector<std::string> more_outputs;  ///< sections of outputs beside those of the INI, such as the live window
+  std::string continue_map;               ///< map file that the logs are a new session of; empty: a new map
+  std::string localize_map;               ///< map file that the logs are only localized in, which stays as it is
+  /// Workers for perception and jobs; the map does not depend on their number.
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  double speed = 0;     ///< times the log's own pace; 0: as fast as possible
+  bool strict = false;  ///< a map that the run itself finds suspicious ends with its own code
+  /// Told the result when all is written and a window still shows the map, before it is waited for; may be empty.
+  std::function<void(const RunResult&)> before_window_closes;
 };
 
 /// Log in, map out: opens the logs, makes the plugins, feeds the engine, writes the outputs. Damaged input and `stop`
