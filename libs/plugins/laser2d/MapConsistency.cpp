@@ -223,7 +223,7 @@ std::vector<std::optional<std::size_t>> revisiting(const std::vector<Stop>& stop
 // An error of the way is seen only where a later visit of a place spans it. `begins` holds for each stop the first of
 // the stops that it is known to have come back to.
 Evidence spannedWay(const std::vector<Stop>& stops, const std::vector<std::optional<std::size_t>>& begins) {
-  constexpr double kEnough = 50;  // percent
+  constexpr double kEnough = 25;  // percent
   const double way = stops.empty() ? 0 : stops.back().travelled;
   double spanned = 0;
   std::size_t begin = stops.size();
