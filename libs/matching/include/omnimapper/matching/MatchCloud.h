@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace omnimapper::matching {
+
+/// Points of one view, in its sensor's frame.
+struct CloudPoints {
+  std::vector<Eigen::Vector3f> points;   ///< [m]
+  std::vector<Eigen::Vector3f> normals;  ///< unit, of the surfaces they lie on; empty: not known
+  /// [m2] How far from a point the same thing may lie when it is seen again: noise, and along surfaces and lines the
+  /// distance to the next point. Empty: not known.
+  std::vector<Eigen::Matrix3f> covariances;
+};
+
+/// The same with covariances of what the `neighbours` nearest points make of each: thin across surfaces and lines. With
+/// `noise` [m] in each direction. Clouds of fewer points than that stay as they are.
+CloudPoints withShapes(CloudPoints cloud, int neighbours, double noise);
+
+/// Points with a KD-tree over them. Immutable; functions may be called from several threads.
+class MatchCloud {
+ public:
+  /// Throws Error(out_of_range) for points or covariances that are not finite, and for normals or covariances that are
+  /// not as many as the points.
+  explicit MatchCloud(CloudPoints cloud);
+  ~MatchCloud();
+  MatchCloud(const MatchCloud&) = delete;
+  MatchCloud& operator=(const MatchCloud&) = delete;
+
+  std::size_t size() const { return cloud_.points.size(); }
+  const CloudPoints& cloud() const { return cloud_; }
+
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  /// Index of the nearest point within `max_distance` [m], or kNone.
+  std::size_t nearest(const Eigen::Vector3f& to, float max_distance) const;
+  /// Indices of the `count` nearest points, the nearest first; fewer if there are not as many.
+  std::vector<std::size_t> nearest(const Eigen::Vector3f& to, int count) const;
+
+ private:
+  struct Tree;
+  CloudPoints cloud_;
+  std::unique_ptr<const Tree> tree_;
+};
+
+}  // namespace omnimapper::matching

@@ -1,0 +1,216 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/matching/CloudMatcher.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace omnimapper::matching {
+
+using geometry::Matrix6d;
+using geometry::Se3;
+using geometry::Vector6d;
+
+const base::OptionTable<CloudMatcherOptions>& CloudMatcherOptions::table() {
+  using Options = CloudMatcherOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .choice("method", &Options::method,
+                  {{"point_to_point", CloudMethod::point_to_point},
+                   {"point_to_plane", CloudMethod::point_to_plane},
+                   {"gicp", CloudMethod::gicp}},
+                  "What is made small: distances of points, those across surfaces, or those in standard deviations.")
+          .number("max_distance_m", &Options::max_distance, base::Range::positive(), "Of points that may be the same.")
+          .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000}, "Steps of a match, on each level.")
+          .number("tolerance", &Options::tolerance, base::Range::positive(),
+                  "Steps that are shorter [m] [rad] end a level.")
+          .integer("coarse_points", &Options::coarse_points, base::Range{10, 1000000},
+                   "Points that are matched first; each further level has four times as many.")
+          .integer("max_points", &Options::max_points, base::Range{10, 1000000}, "Points that are matched last.")
+          .number("alike", &Options::alike, base::Range{1, 10000}, "So many points err alike and count as one.")
+          .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
+                  "Least share of a cloud's points that must have one of the other near.");
+  return table;
+}
+
+IteratedClosestPoints::IteratedClosestPoints(const CloudMatcherOptions& options) : options_(options) {
+  const bool are_counts = options.max_iterations > 0 && options.coarse_points > 0 && options.max_points > 0;
+  if (!are_counts || !(options.max_distance > 0) || !(options.tolerance > 0) || !(options.alike >= 1))
+    throw base::Error(base::ExitCode::out_of_range,
+                      "registration of clouds: counts, distances and tolerance must be positive");
+}
+
+namespace {
+
+// A point of the source and the target's nearest, in the source's frame.
+struct Pair {
+  Eigen::Vector3f point;        // of the target
+  Eigen::Vector3f off;          // from the source's point to it
+  Eigen::Matrix3f information;  // of that
+  float square;                 // off' information off
+};
+
+class CloudSearch {
+ public:
+  CloudSearch(const CloudMatcherOptions& options, const MatchCloud& target, const MatchCloud& source, const Se3& guess)
+      : options_(options), target_(target), source_(source), target_from_source_(guess) {}
+
+  // Pairs every so manieth point of the source.
+  void associate(std::size_t stride);
+  // One step of Gauss-Newton. Gives its length [m] [rad].
+  double step();
+  double scale() const { return std::sqrt(scale_square_); }
+  double overlap() const { return asked_ == 0 ? 0 : static_cast<double>(pairs_.size()) / static_cast<double>(asked_); }
+  double medianDistance() const;
+  const Se3& targetFromSource() const { return target_from_source_; }
+  const Matrix6d& information() const { return information_; }
+
+ private:
+  double dimensions() const { return options_.method == CloudMethod::point_to_plane ? 1 : 3; }
+  void findScale();
+
+  const CloudMatcherOptions& options_;
+  const MatchCloud& target_;
+  const MatchCloud& source_;
+  Se3 target_from_source_;
+  std::vector<Pair> pairs_;
+  std::size_t asked_ = 0;
+  double scale_square_ = 1;
+  Matrix6d information_ = Matrix6d::Zero();  // in the source's frame
+};
+
+void CloudSearch::associate(std::size_t stride) {
+  const Eigen::Matrix3f rotation = target_from_source_.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f translation = target_from_source_.translation.cast<float>();
+  const auto max_distance = static_cast<float>(options_.max_distance);
+  pairs_.clear();
+  asked_ = 0;
+  for (std::size_t i = 0; i < source_.size(); i += stride) {
+    ++asked_;
+    const Eigen::Vector3f& point = source_.cloud().points[i];
+    const std::size_t j = target_.nearest(rotation * point + translation, max_distance);
+    if (j == MatchCloud::kNone) continue;
+    Pair pair;
+    pair.point = rotation.transpose() * (target_.cloud().points[j] - translation);
+    pair.off = pair.point - point;
+    if (options_.method == CloudMethod::point_to_point) {
+      pair.information.setIdentity();
+    } else if (options_.method == CloudMethod::point_to_plane) {
+      const Eigen::Vector3f normal = rotation.transpose() * target_.cloud().normals[j];
+      if (!normal.allFinite()) continue;
+      pair.information = normal * normal.transpose();
+    } else {
+      const Eigen::Matrix3f covariance =
+          source_.cloud().covariances[i] + rotation.transpose() * target_.cloud().covariances[j] * rotation;
+      pair.information = covariance.inverse();
+    }
+    pair.square = pair.off.dot(pair.information * pair.off);
+    if (std::isfinite(pair.square)) pairs_.push_back(pair);
+  }
+  findScale();
+}
+
+// By the median, which a half of wrong pairs leaves alone.
+void CloudSearch::findScale() {
+  if (pairs_.empty()) return;
+  std::vector<float> squares;
+  squares.reserve(pairs_.size());
+  for (const Pair& pair : pairs_) squares.push_back(pair.square);
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  const double median_of_chi_square = dimensions() == 1 ? 0.455 : 2.366;
+  // [m] in the first two methods, in standard deviations in the third: below that nothing is measured better.
+  const double least = options_.method == CloudMethod::gicp ? 1e-2 : 1e-4;
+  scale_square_ = std::max(least * least, *middle / median_of_chi_square);
+}
+
+double CloudSearch::step() {
+  constexpr double kDegrees = 5;  // of freedom of Student's t
+  Eigen::Matrix3d tt = Eigen::Matrix3d::Zero(), tw = tt, ww = tt;
+  Eigen::Vector3d t = Eigen::Vector3d::Zero(), w = t;
+  const double inverse_scale = 1 / scale_square_;
+  for (const Pair& pair : pairs_) {
+    const auto weight =
+        static_cast<float>((kDegrees + dimensions()) / (kDegrees + pair.square * inverse_scale) * inverse_scale);
+    const Eigen::Matrix3f information = weight * pair.information;
+    Eigen::Matrix3f turn;  // of the point of the target
+    turn << 0, -pair.point.z(), pair.point.y(), pair.point.z(), 0, -pair.point.x(), -pair.point.y(), pair.point.x(), 0;
+    const Eigen::Matrix3f turned = information * turn;
+    const Eigen::Vector3f force = information * pair.off;
+    tt += information.cast<double>();
+    tw -= turned.cast<double>();
+    ww += (turn.transpose() * turned).cast<double>();
+    t -= force.cast<double>();
+    w += (turn.transpose() * force).cast<double>();
+  }
+  information_ << tt, tw, tw.transpose(), ww;
+  Vector6d gradient;
+  gradient << t, w;
+  // What the pairs leave open stays as it is.
+  const Matrix6d held = information_ + 1e-9 * information_.trace() * Matrix6d::Identity();
+  const Vector6d step = -held.ldlt().solve(gradient);
+  if (!step.allFinite()) return 0;
+  target_from_source_ = plus(target_from_source_, step);
+  return std::max(step.head<3>().norm(), step.tail<3>().norm());
+}
+
+double CloudSearch::medianDistance() const {
+  if (pairs_.empty()) return 0;
+  std::vector<float> distances;
+  for (const Pair& pair : pairs_) distances.push_back(pair.off.norm());
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+void requireWhatIsNeeded(CloudMethod method, const MatchCloud& target, const MatchCloud& source) {
+  if (method == CloudMethod::point_to_plane && target.size() > 0 && target.cloud().normals.empty())
+    throw base::Error(base::ExitCode::out_of_range, "registration by planes needs the normals of the target's points");
+  const bool are_shaped = (target.size() == 0 || !target.cloud().covariances.empty()) &&
+                          (source.size() == 0 || !source.cloud().covariances.empty());
+  if (method == CloudMethod::gicp && !are_shaped)
+    throw base::Error(base::ExitCode::out_of_range,
+                      "registration by GICP needs the covariances of both clouds' points");
+}
+
+}  // namespace
+
+CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchCloud& source, const Se3& guess) const {
+  requireWhatIsNeeded(options_.method, target, source);
+  constexpr std::size_t kFewest = 6;  // points: fewer fix no motion
+  CloudMatch match;
+  match.target_from_source = guess;
+  if (target.size() < kFewest || source.size() < kFewest) return match;
+  const auto stride_of = [&](double points) {
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(source.size()) / points)));
+  };
+  const std::size_t finest = stride_of(options_.max_points);
+  CloudSearch search(options_, target, source, guess);
+  for (std::size_t stride = std::max(finest, stride_of(options_.coarse_points));;
+       stride = std::max(finest, stride / 4)) {
+    // What a coarse level finds is found better by the next.
+    const double enough = stride == finest ? options_.tolerance : 10 * options_.tolerance;
+    for (int i = 0; i < options_.max_iterations; ++i) {
+      search.associate(stride);
+      ++match.iterations;
+      if (search.step() < enough) break;
+    }
+    if (stride == finest) break;
+  }
+  match.target_from_source = search.targetFromSource();
+  match.overlap = search.overlap();
+  match.residual = search.medianDistance();
+  // A direction is open that all pairs together fix by less than this.
+  constexpr double kWeakest = 1e4;  // [1/m2], [1/rad2]
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(search.information() / options_.alike);
+  match.open_directions = static_cast<int>((axes.eigenvalues().array() < kWeakest).count());
+  const Vector6d variances =
+      axes.eigenvalues().unaryExpr([](double value) { return value < kWeakest ? CloudMatch::kOpen : 1 / value; });
+  match.covariance = axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
+  match.succeeded = match.overlap >= options_.min_overlap && match.open_directions == 0;
+  return match;
+}
+
+}  // namespace omnimapper::matching

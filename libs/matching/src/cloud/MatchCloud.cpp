@@ -1,0 +1,108 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/matching/MatchCloud.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <nanoflann.hpp>
+
+namespace omnimapper::matching {
+
+namespace {
+
+// The nearest one nearer than a distance, which keeps the search short from its beginning.
+class NearestWithin {
+ public:
+  using DistanceType = float;
+  explicit NearestWithin(float square) : square_(square) {}
+  bool full() const { return true; }
+  float worstDist() const { return square_; }
+  bool addPoint(float square, std::uint32_t index) {
+    if (square < square_) {
+      square_ = square;
+      index_ = index;
+    }
+    return true;
+  }
+  std::size_t index() const { return index_; }
+
+ private:
+  float square_;
+  std::size_t index_ = MatchCloud::kNone;
+};
+
+}  // namespace
+
+struct MatchCloud::Tree {
+  // As nanoflann asks for points.
+  struct Rows {
+    const std::vector<Eigen::Vector3f>& points;
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    float kdtree_get_pt(std::size_t i, std::size_t dimension) const {
+      return points[i][static_cast<Eigen::Index>(dimension)];
+    }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+
+  explicit Tree(const std::vector<Eigen::Vector3f>& points)
+      : rows{points}, tree(3, rows, nanoflann::KDTreeSingleIndexAdaptorParams(8)) {}
+  Rows rows;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Rows>, Rows, 3, std::uint32_t> tree;
+};
+
+MatchCloud::MatchCloud(CloudPoints cloud) : cloud_(std::move(cloud)) {
+  const std::size_t size = cloud_.points.size();
+  const auto fits = [size](std::size_t count) { return count == 0 || count == size; };
+  if (!fits(cloud_.normals.size()) || !fits(cloud_.covariances.size()))
+    throw base::Error(base::ExitCode::out_of_range, "a cloud needs as many normals and covariances as points, or none");
+  const auto is_finite = [](const auto& value) { return value.allFinite(); };
+  if (!std::all_of(cloud_.points.begin(), cloud_.points.end(), is_finite) ||
+      !std::all_of(cloud_.covariances.begin(), cloud_.covariances.end(), is_finite))
+    throw base::Error(base::ExitCode::out_of_range, "a cloud's points and covariances must be finite");
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    throw base::Error(base::ExitCode::out_of_range, "a cloud has too many points");
+  if (size > 0) tree_ = std::make_unique<Tree>(cloud_.points);
+}
+
+MatchCloud::~MatchCloud() = default;
+
+std::size_t MatchCloud::nearest(const Eigen::Vector3f& to, float max_distance) const {
+  if (!tree_) return kNone;
+  NearestWithin result(max_distance * max_distance);
+  tree_->tree.findNeighbors(result, to.data(), nanoflann::SearchParams());
+  return result.index();
+}
+
+std::vector<std::size_t> MatchCloud::nearest(const Eigen::Vector3f& to, int count) const {
+  if (!tree_ || count <= 0) return {};
+  const auto most = std::min(static_cast<std::size_t>(count), size());
+  std::vector<std::uint32_t> indices(most);
+  std::vector<float> squares(most);
+  indices.resize(tree_->tree.knnSearch(to.data(), most, indices.data(), squares.data()));
+  return {indices.begin(), indices.end()};
+}
+
+CloudPoints withShapes(CloudPoints cloud, int neighbours, double noise) {
+  if (neighbours < 3 || cloud.points.size() < static_cast<std::size_t>(neighbours)) return cloud;
+  const MatchCloud index(CloudPoints{cloud.points, {}, {}});
+  const auto variance = static_cast<float>(noise * noise);
+  cloud.covariances.clear();
+  for (const auto& point : cloud.points) {
+    const auto near = index.nearest(point, neighbours);
+    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+    for (const auto i : near) mean += cloud.points[i] - point;
+    mean /= static_cast<float>(near.size());
+    Eigen::Matrix3f covariance = variance * Eigen::Matrix3f::Identity();
+    for (const auto i : near) {
+      const Eigen::Vector3f off = cloud.points[i] - point - mean;
+      covariance += off * off.transpose() / static_cast<float>(near.size());
+    }
+    cloud.covariances.push_back(covariance);
+  }
+  return cloud;
+}
+
+}  // namespace omnimapper::matching

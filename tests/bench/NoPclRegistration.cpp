@@ -1,0 +1,10 @@
+// Stands for RegistrationPcl.cpp where PCL is not installed.
+#include "RegistrationPeers.h"
+
+namespace omnimapper::bench {
+
+std::vector<RegistrationPeer> pclRegistrations() {
+  return {};
+}
+
+}  // namespace omnimapper::bench

@@ -1,0 +1,263 @@
+// Motion between consecutive images of a depth camera by every kind of registration, against motion capture: the
+// thesis's Table 8, with PCL's methods (where bench-registration was built with it) and OpenCV's in the same run.
+// Prints a Markdown table. Times are those of the processor, of one thread, from the images on, without reading files.
+// The guess of a pair is the motion that the same method found for the pair before.
+//
+// Example: bench-registration --tum tum_fr1_rpy
+#include <omnimapper/base/Memory.h>
+#include <omnimapper/eval/TumFile.h>
+#include <omnimapper/matching/CloudMatcher.h>
+#include <omnimapper/matching/CloudSource.h>
+#include <omnimapper/matching/DenseMatcher.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
+#include <opencv2/rgbd.hpp>
+
+#include "RegistrationPeers.h"
+#include "Timing.h"
+
+namespace {
+
+using namespace omnimapper;
+using namespace omnimapper::bench;
+using geometry::Se3;
+using matching::CloudMethod;
+using matching::CloudSource;
+
+perception::DepthImage depthOf(const RgbdFrame& frame) {
+  return {frame.units.data(), frame.metres_per_unit, frame.width, frame.height, frame.camera};
+}
+
+perception::ColourImage colourOf(const RgbdFrame& frame) {
+  return {frame.rgb.data(), frame.width, frame.height, 3 * frame.width, perception::ColourImage::Order::rgb};
+}
+
+RegistrationPeer clouds(const std::string& name, const std::string& row, CloudSource source, double voxel,
+                        CloudMethod method) {
+  matching::CloudSourceOptions from;
+  from.source = source;
+  from.voxel = voxel;
+  matching::CloudMatcherOptions by;
+  by.method = method;
+  return {name, row, 1,
+          [from, matcher = matching::IteratedClosestPoints(by)](const RgbdFrame& first, const RgbdFrame& second,
+                                                                const Se3& guess) {
+            const auto cloud = [&from](const RgbdFrame& frame) {
+              const auto colour = colourOf(frame);
+              return matching::cloudOf(depthOf(frame), &colour, from);
+            };
+            const matching::MatchCloud target(cloud(first)), moved(cloud(second));
+            return matcher.match(target, moved, guess).target_from_source;
+          }};
+}
+
+RegistrationPeer dense(const std::string& name, bool depth, bool grey) {
+  matching::DenseMatcherOptions options;
+  options.use_depth = depth;
+  options.use_grey = grey;
+  return {
+      name, "dense", 1,
+      [matcher = matching::DenseMatcher(options)](const RgbdFrame& first, const RgbdFrame& second, const Se3& guess) {
+        static const perception::NormalEstimator estimator{perception::NormalOptions{}};
+        const auto first_colour = colourOf(first), second_colour = colourOf(second);
+        const matching::RgbdPyramid a(depthOf(first), &first_colour), b(depthOf(second), &second_colour);
+        const auto reference = matcher.prepare(a, estimator.estimate(depthOf(first)));
+        return matcher.match(*reference, b, {guess}).reference_from_image;
+      }};
+}
+
+cv::Mat greyOf(const RgbdFrame& frame) {
+  const cv::Mat rgb(frame.height, frame.width, CV_8UC3, const_cast<std::uint8_t*>(frame.rgb.data()));
+  cv::Mat grey;
+  cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
+  return grey;
+}
+
+cv::Mat metresOf(const RgbdFrame& frame) {
+  const cv::Mat units(frame.height, frame.width, CV_16UC1, const_cast<std::uint16_t*>(frame.units.data()));
+  cv::Mat metres;
+  units.convertTo(metres, CV_32F, frame.metres_per_unit);
+  metres.setTo(std::numeric_limits<float>::quiet_NaN(), units == 0);
+  return metres;
+}
+
+Se3 toSe3(const cv::Mat& matrix) {
+  Eigen::Matrix4d values;
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 4; ++c) values(r, c) = matrix.at<double>(r, c);
+  }
+  return {Eigen::Quaterniond(Eigen::Matrix3d(values.topLeftCorner<3, 3>())).normalized(),
+          values.topRightCorner<3, 1>()};
+}
+
+RegistrationPeer openCvDense() {
+  return {"OpenCV RgbdICPOdometry", "dense", 1, [](const RgbdFrame& first, const RgbdFrame& second, const Se3& guess) {
+            const auto& c = first.camera;
+            const cv::Mat camera = (cv::Mat_<float>(3, 3) << c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1);
+            auto odometry = cv::rgbd::RgbdICPOdometry::create(camera);
+            const auto frame = [](const RgbdFrame& given) {
+              return cv::rgbd::OdometryFrame::create(greyOf(given), metresOf(given));
+            };
+            cv::Mat start = cv::Mat::eye(4, 4, CV_64F), found;
+            const Eigen::Matrix3d rotation = guess.rotation.toRotationMatrix();
+            for (int r = 0; r < 3; ++r) {
+              for (int k = 0; k < 3; ++k) start.at<double>(r, k) = rotation(r, k);
+              start.at<double>(r, 3) = guess.translation(r);
+            }
+            // It moves the first frame given onto the second.
+            auto from = frame(second), to = frame(first);
+            return odometry->compute(from, to, found, start) && !found.empty() ? toSe3(found) : guess;
+          }};
+}
+
+// The rigid motion of pairs of points, by least squares (Kabsch).
+Se3 rigid(const std::vector<Eigen::Vector3d>& to, const std::vector<Eigen::Vector3d>& from) {
+  Eigen::Map<const Eigen::Matrix3Xd> a(from.front().data(), 3, static_cast<Eigen::Index>(from.size())),
+      b(to.front().data(), 3, static_cast<Eigen::Index>(to.size()));
+  const Eigen::Matrix4d found = Eigen::umeyama(a, b, false);
+  return {Eigen::Quaterniond(Eigen::Matrix3d(found.topLeftCorner<3, 3>())).normalized(), found.topRightCorner<3, 1>()};
+}
+
+// SIFT by OpenCV, the nearest descriptor with Lowe's ratio, the motion by RANSAC over three pairs of points (3 cm).
+Se3 bySift(const RgbdFrame& first, const RgbdFrame& second, const Se3& guess) {
+  auto sift = cv::SIFT::create();
+  std::vector<cv::KeyPoint> keys_a, keys_b;
+  cv::Mat of_a, of_b;
+  sift->detectAndCompute(greyOf(first), {}, keys_a, of_a);
+  sift->detectAndCompute(greyOf(second), {}, keys_b, of_b);
+  if (of_a.rows < 3 || of_b.rows < 3) return guess;
+  std::vector<std::vector<cv::DMatch>> matches;
+  cv::FlannBasedMatcher().knnMatch(of_b, of_a, matches, 2);
+  const auto point = [](const RgbdFrame& frame, const cv::Point2f& at) {
+    const int u = cvRound(at.x), v = cvRound(at.y);
+    const double z = frame.units[static_cast<std::size_t>(v) * frame.width + u] * frame.metres_per_unit;
+    return Eigen::Vector3d((at.x - frame.camera.cx) / frame.camera.fx * z,
+                           (at.y - frame.camera.cy) / frame.camera.fy * z, z);
+  };
+  std::vector<Eigen::Vector3d> to, from;
+  for (const auto& match : matches) {
+    if (match.size() < 2 || match[0].distance > 0.8F * match[1].distance) continue;
+    const auto a = point(first, keys_a[match[0].trainIdx].pt), b = point(second, keys_b[match[0].queryIdx].pt);
+    if (a.z() <= 0 || b.z() <= 0) continue;
+    to.push_back(a);
+    from.push_back(b);
+  }
+  if (to.size() < 3) return guess;
+  cv::RNG random(1);
+  std::vector<std::size_t> best;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<Eigen::Vector3d> some_to, some_from;
+    for (int k = 0; k < 3; ++k) {
+      const auto j = static_cast<std::size_t>(random.uniform(0, static_cast<int>(to.size())));
+      some_to.push_back(to[j]);
+      some_from.push_back(from[j]);
+    }
+    const Se3 motion = rigid(some_to, some_from);
+    std::vector<std::size_t> inliers;
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      if ((motion * from[j] - to[j]).norm() < 0.03) inliers.push_back(j);
+    }
+    if (inliers.size() > best.size()) best = std::move(inliers);
+  }
+  if (best.size() < 3) return guess;
+  std::vector<Eigen::Vector3d> best_to, best_from;
+  for (const auto j : best) best_to.push_back(to[j]), best_from.push_back(from[j]);
+  return rigid(best_to, best_from);
+}
+
+std::vector<RegistrationPeer> methods() {
+  const auto edges = [](const std::string& row, CloudSource source) {
+    return std::vector{clouds("ours, point to point", row, source, 0, CloudMethod::point_to_point),
+                       clouds("ours, GICP", row, source, 0, CloudMethod::gicp)};
+  };
+  const auto points = [](const std::string& row, CloudSource source, double voxel) {
+    return std::vector{clouds("ours, point to point", row, source, voxel, CloudMethod::point_to_point),
+                       clouds("ours, point to plane", row, source, voxel, CloudMethod::point_to_plane),
+                       clouds("ours, GICP", row, source, voxel, CloudMethod::gicp)};
+  };
+  std::vector<std::vector<RegistrationPeer>> rows{
+      edges("occluding edges", CloudSource::occluding_edges),
+      edges("RGB edges", CloudSource::rgb_edges),
+      edges("high-curvature edges", CloudSource::high_curvature_edges),
+      points("points, voxels of 2 cm", CloudSource::voxels, 0.02),
+      points("points, voxels of 1 cm", CloudSource::voxels, 0.01),
+      points("all points", CloudSource::all_points, 0),
+      {{"OpenCV SIFT, RANSAC", "SIFT", 4, bySift}},
+      {dense("ours, depth and brightness", true, true), dense("ours, depth", true, false),
+       dense("ours, brightness", false, true), openCvDense()}};
+  std::vector<RegistrationPeer> all;
+  const auto pcl = pclRegistrations();
+  for (auto& row : rows) {
+    for (const auto& peer : pcl) {
+      if (peer.row == row.front().row) row.push_back(peer);
+    }
+    all.insert(all.end(), row.begin(), row.end());
+  }
+  return all;
+}
+
+struct Errors {
+  std::vector<double> position, angle, time;  // [mm] [deg] [ms]
+  void add(const Se3& estimate, const Se3& truth) {
+    const auto off = geometry::minus(estimate, truth);
+    position.push_back(1e3 * off.head<3>().norm());
+    angle.push_back(off.tail<3>().norm() * 180 / M_PI);
+  }
+};
+
+double rms(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v * v;
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string tum, only;
+  std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
+  int every = 1;
+  bool all_pairs = false;
+  CLI::App app("Motion between consecutive depth images, by every kind of registration.");
+  app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth, rgb and groundtruth.txt")->required();
+  app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
+  app.add_option("--every", every, "only every n-th of its frames")->check(CLI::PositiveNumber);
+  app.add_option("--only", only, "only methods with this in their row or name");
+  app.add_flag("--all-pairs", all_pairs, "slow methods try all pairs, too");
+  CLI11_PARSE(app, argc, argv);
+  base::keepFreedMemory();  // as our programs do
+  cv::setNumThreads(1);
+  const auto frames = readRgbd(tum, every, {camera[0], camera[1], camera[2], camera[3]});
+  const auto truth = eval::readTum(tum + "/groundtruth.txt");
+  std::vector<std::optional<Se3>> poses;
+  for (const auto& frame : frames)
+    poses.push_back(eval::interpolatedPose(truth, base::stampFromUnix(frame.stamp), base::durationFromSeconds(0.1)));
+  std::printf(
+      "%zu frames\n\n| points | method | pairs | position RMSE [mm] | mean ± s.d. | angle RMSE [deg] | mean ± s.d. | "
+      "median [ms] | 95 %% |\n|---|---|---|---|---|---|---|---|---|\n",
+      frames.size());
+  for (const auto& method : methods()) {
+    if (!only.empty() && (method.row + " " + method.name).find(only) == std::string::npos) continue;
+    const auto step = static_cast<std::size_t>(all_pairs ? 1 : method.every);
+    Errors errors;
+    Se3 guess;
+    for (std::size_t i = 1; i < frames.size(); i += step) {
+      const bool is_known = poses[i] && poses[i - 1];
+      // A method that leaves pairs out has no pair before: its guess is the true one of then, which is as good.
+      if (step > 1 && i > 1 && poses[i - 2] && poses[i - 1]) guess = inverse(*poses[i - 2]) * *poses[i - 1];
+      const double begin = processorTime();
+      const Se3 found = method.run(frames[i - 1], frames[i], guess);
+      errors.time.push_back(processorTime() - begin);
+      guess = found;
+      if (is_known) errors.add(found, inverse(*poses[i - 1]) * *poses[i]);
+    }
+    const auto p = spreadOf(errors.position), a = spreadOf(errors.angle);
+    std::printf("| %s | %s | %zu | %.2f | %.2f ± %.2f | %.3f | %.3f ± %.3f | %.2f | %.2f |\n", method.row.c_str(),
+                method.name.c_str(), errors.position.size(), rms(errors.position), p.mean, p.deviation,
+                rms(errors.angle), a.mean, a.deviation, quantile(errors.time, 0.5), quantile(errors.time, 0.95));
+    std::fflush(stdout);
+  }
+}
