@@ -74,9 +74,9 @@ Cloud::Ptr voxels(const Cloud::Ptr& cloud, float side) {
 
 // The settings of all rows: 0.1 m, 50 iterations, 1e-4.
 template <class Registration>
-geometry::Se3 align(Registration& registration, const Cloud::Ptr& first, const Cloud::Ptr& second,
-                    const geometry::Se3& guess) {
-  if (first->size() < 30 || second->size() < 30) return guess;
+std::optional<geometry::Se3> align(Registration& registration, const Cloud::Ptr& first, const Cloud::Ptr& second,
+                                   const geometry::Se3& guess) {
+  if (first->size() < 30 || second->size() < 30) return std::nullopt;
   registration.setInputTarget(first);
   registration.setInputSource(second);
   registration.setMaxCorrespondenceDistance(0.1);
@@ -87,8 +87,10 @@ geometry::Se3 align(Registration& registration, const Cloud::Ptr& first, const C
   start.topRightCorner<3, 1>() = guess.translation.cast<float>();
   Cloud aligned;
   registration.align(aligned, start);
+  if (!registration.hasConverged()) return std::nullopt;
   const Eigen::Matrix4d found = registration.getFinalTransformation().template cast<double>();
-  return {Eigen::Quaterniond(Eigen::Matrix3d(found.topLeftCorner<3, 3>())).normalized(), found.topRightCorner<3, 1>()};
+  return geometry::Se3{Eigen::Quaterniond(Eigen::Matrix3d(found.topLeftCorner<3, 3>())).normalized(),
+                       found.topRightCorner<3, 1>()};
 }
 
 using Source = std::function<Cloud::Ptr(const Cloud::Ptr&)>;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,10 @@ struct RegistrationPeer {
   std::string name;
   std::string row;  ///< of the thesis's Table 8 that it belongs to
   int every = 1;    ///< only every n-th pair is tried: the method is slow
-  /// first_from_second, optical frames, from a guess of it.
-  std::function<geometry::Se3(const RgbdFrame& first, const RgbdFrame& second, const geometry::Se3& guess)> run;
+  /// first_from_second, optical frames, from a guess of it; nothing where the method itself says that it failed.
+  std::function<std::optional<geometry::Se3>(const RgbdFrame& first, const RgbdFrame& second,
+                                             const geometry::Se3& guess)>
+      run;
 };
 
 /// PCL's edges, voxels, ICP and GICP; none where bench-registration was built without PCL.

@@ -44,13 +44,14 @@ RegistrationPeer clouds(const std::string& name, const std::string& row, CloudSo
   by.method = method;
   return {name, row, 1,
           [from, matcher = matching::IteratedClosestPoints(by)](const RgbdFrame& first, const RgbdFrame& second,
-                                                                const Se3& guess) {
+                                                                const Se3& guess) -> std::optional<Se3> {
             const auto cloud = [&from](const RgbdFrame& frame) {
               const auto colour = colourOf(frame);
               return matching::cloudOf(depthOf(frame), &colour, from);
             };
             const matching::MatchCloud target(cloud(first)), moved(cloud(second));
-            return matcher.match(target, moved, guess).target_from_source;
+            const auto match = matcher.match(target, moved, guess);
+            return match.succeeded ? std::optional(match.target_from_source) : std::nullopt;
           }};
 }
 
@@ -109,7 +110,8 @@ RegistrationPeer openCvDense() {
             }
             // It moves the first frame given onto the second.
             auto from = frame(second), to = frame(first);
-            return odometry->compute(from, to, found, start) && !found.empty() ? toSe3(found) : guess;
+            return odometry->compute(from, to, found, start) && !found.empty() ? std::optional(toSe3(found))
+                                                                               : std::nullopt;
           }};
 }
 
@@ -122,13 +124,13 @@ Se3 rigid(const std::vector<Eigen::Vector3d>& to, const std::vector<Eigen::Vecto
 }
 
 // SIFT by OpenCV, the nearest descriptor with Lowe's ratio, the motion by RANSAC over three pairs of points (3 cm).
-Se3 bySift(const RgbdFrame& first, const RgbdFrame& second, const Se3& guess) {
+std::optional<Se3> bySift(const RgbdFrame& first, const RgbdFrame& second, const Se3&) {
   auto sift = cv::SIFT::create();
   std::vector<cv::KeyPoint> keys_a, keys_b;
   cv::Mat of_a, of_b;
   sift->detectAndCompute(greyOf(first), {}, keys_a, of_a);
   sift->detectAndCompute(greyOf(second), {}, keys_b, of_b);
-  if (of_a.rows < 3 || of_b.rows < 3) return guess;
+  if (of_a.rows < 3 || of_b.rows < 3) return std::nullopt;
   std::vector<std::vector<cv::DMatch>> matches;
   cv::FlannBasedMatcher().knnMatch(of_b, of_a, matches, 2);
   const auto point = [](const RgbdFrame& frame, const cv::Point2f& at) {
@@ -145,7 +147,7 @@ Se3 bySift(const RgbdFrame& first, const RgbdFrame& second, const Se3& guess) {
     to.push_back(a);
     from.push_back(b);
   }
-  if (to.size() < 3) return guess;
+  if (to.size() < 3) return std::nullopt;
   cv::RNG random(1);
   std::vector<std::size_t> best;
   for (int i = 0; i < 300; ++i) {
@@ -162,7 +164,7 @@ Se3 bySift(const RgbdFrame& first, const RgbdFrame& second, const Se3& guess) {
     }
     if (inliers.size() > best.size()) best = std::move(inliers);
   }
-  if (best.size() < 3) return guess;
+  if (best.size() < 3) return std::nullopt;
   std::vector<Eigen::Vector3d> best_to, best_from;
   for (const auto j : best) best_to.push_back(to[j]), best_from.push_back(from[j]);
   return rigid(best_to, best_from);
@@ -201,6 +203,7 @@ std::vector<RegistrationPeer> methods() {
 
 struct Errors {
   std::vector<double> position, angle, time;  // [mm] [deg] [ms]
+  std::size_t failed = 0;
   void add(const Se3& estimate, const Se3& truth) {
     const auto off = geometry::minus(estimate, truth);
     position.push_back(1e3 * off.head<3>().norm());
@@ -236,7 +239,8 @@ int main(int argc, char** argv) {
   for (const auto& frame : frames)
     poses.push_back(eval::interpolatedPose(truth, base::stampFromUnix(frame.stamp), base::durationFromSeconds(0.1)));
   std::printf(
-      "%zu frames\n\n| points | method | pairs | position RMSE [mm] | mean ± s.d. | angle RMSE [deg] | mean ± s.d. | "
+      "%zu frames\n\n| points | method | pairs (failed) | position RMSE [mm] | mean ± s.d. | angle RMSE [deg] | mean ± "
+      "s.d. | "
       "median [ms] | 95 %% |\n|---|---|---|---|---|---|---|---|---|\n",
       frames.size());
   for (const auto& method : methods()) {
@@ -249,14 +253,16 @@ int main(int argc, char** argv) {
       // A method that leaves pairs out has no pair before: its guess is the true one of then, which is as good.
       if (step > 1 && i > 1 && poses[i - 2] && poses[i - 1]) guess = inverse(*poses[i - 2]) * *poses[i - 1];
       const double begin = processorTime();
-      const Se3 found = method.run(frames[i - 1], frames[i], guess);
+      const auto found = method.run(frames[i - 1], frames[i], guess);
       errors.time.push_back(processorTime() - begin);
-      guess = found;
-      if (is_known) errors.add(found, inverse(*poses[i - 1]) * *poses[i]);
+      errors.failed += !found;
+      // Who fails is taken at the guess, and begins anew.
+      if (is_known) errors.add(found.value_or(guess), inverse(*poses[i - 1]) * *poses[i]);
+      guess = found.value_or(Se3{});
     }
     const auto p = spreadOf(errors.position), a = spreadOf(errors.angle);
-    std::printf("| %s | %s | %zu | %.2f | %.2f ± %.2f | %.3f | %.3f ± %.3f | %.2f | %.2f |\n", method.row.c_str(),
-                method.name.c_str(), errors.position.size(), rms(errors.position), p.mean, p.deviation,
+    std::printf("| %s | %s | %zu (%zu) | %.2f | %.2f ± %.2f | %.3f | %.3f ± %.3f | %.2f | %.2f |\n", method.row.c_str(),
+                method.name.c_str(), errors.position.size(), errors.failed, rms(errors.position), p.mean, p.deviation,
                 rms(errors.angle), a.mean, a.deviation, quantile(errors.time, 0.5), quantile(errors.time, 0.95));
     std::fflush(stdout);
   }

@@ -23,6 +23,8 @@ const base::OptionTable<CloudMatcherOptions>& CloudMatcherOptions::table() {
                    {"gicp", CloudMethod::gicp}},
                   "What is made small: distances of points, those across surfaces, or those in standard deviations.")
           .number("max_distance_m", &Options::max_distance, base::Range::positive(), "Of points that may be the same.")
+          .number("coarse_distance_m", &Options::coarse_distance, base::Range::positive(),
+                  "The same, when few points are matched first.")
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000}, "Steps of a match, on each level.")
           .number("tolerance", &Options::tolerance, base::Range::positive(),
                   "Steps that are shorter [m] [rad] end a level.")
@@ -57,8 +59,8 @@ class CloudSearch {
   CloudSearch(const CloudMatcherOptions& options, const MatchCloud& target, const MatchCloud& source, const Se3& guess)
       : options_(options), target_(target), source_(source), target_from_source_(guess) {}
 
-  // Pairs every so manieth point of the source.
-  void associate(std::size_t stride);
+  // Pairs every so manieth point of the source with what is nearest within `max_distance` [m].
+  void associate(std::size_t stride, double max_distance);
   // One step of Gauss-Newton. Gives its length [m] [rad].
   double step();
   double scale() const { return std::sqrt(scale_square_); }
@@ -81,16 +83,16 @@ class CloudSearch {
   Matrix6d information_ = Matrix6d::Zero();  // in the source's frame
 };
 
-void CloudSearch::associate(std::size_t stride) {
+void CloudSearch::associate(std::size_t stride, double max_distance) {
   const Eigen::Matrix3f rotation = target_from_source_.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f translation = target_from_source_.translation.cast<float>();
-  const auto max_distance = static_cast<float>(options_.max_distance);
+  const auto farthest = static_cast<float>(max_distance);
   pairs_.clear();
   asked_ = 0;
   for (std::size_t i = 0; i < source_.size(); i += stride) {
     ++asked_;
     const Eigen::Vector3f& point = source_.cloud().points[i];
-    const std::size_t j = target_.nearest(rotation * point + translation, max_distance);
+    const std::size_t j = target_.nearest(rotation * point + translation, farthest);
     if (j == MatchCloud::kNone) continue;
     Pair pair;
     pair.point = rotation.transpose() * (target_.cloud().points[j] - translation);
@@ -188,19 +190,23 @@ CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchClo
   };
   const std::size_t finest = stride_of(options_.max_points);
   CloudSearch search(options_, target, source, guess);
-  for (std::size_t stride = std::max(finest, stride_of(options_.coarse_points));;
-       stride = std::max(finest, stride / 4)) {
+  double distance = std::max(options_.coarse_distance, options_.max_distance);
+  for (std::size_t stride = std::max(finest, stride_of(options_.coarse_points));;) {
+    const bool is_last = stride == finest && distance <= options_.max_distance;
     // What a coarse level finds is found better by the next.
-    const double enough = stride == finest ? options_.tolerance : 10 * options_.tolerance;
+    const double enough = is_last ? options_.tolerance : 10 * options_.tolerance;
     for (int i = 0; i < options_.max_iterations; ++i) {
-      search.associate(stride);
+      search.associate(stride, distance);
       ++match.iterations;
+      match.overlap = search.overlap();
+      if (match.overlap < options_.min_overlap) return match;
       if (search.step() < enough) break;
     }
-    if (stride == finest) break;
+    if (is_last) break;
+    stride = std::max(finest, stride / 4);
+    distance = std::max(options_.max_distance, distance / 2);
   }
   match.target_from_source = search.targetFromSource();
-  match.overlap = search.overlap();
   match.residual = search.medianDistance();
   // A direction is open that all pairs together fix by less than this.
   constexpr double kWeakest = 1e4;  // [1/m2], [1/rad2]
@@ -209,7 +215,7 @@ CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchClo
   const Vector6d variances =
       axes.eigenvalues().unaryExpr([](double value) { return value < kWeakest ? CloudMatch::kOpen : 1 / value; });
   match.covariance = axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
-  match.succeeded = match.overlap >= options_.min_overlap && match.open_directions == 0;
+  match.succeeded = match.open_directions == 0;
   return match;
 }
 

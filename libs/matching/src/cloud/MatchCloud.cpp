@@ -64,24 +64,28 @@ MatchCloud::MatchCloud(CloudPoints cloud) : cloud_(std::move(cloud)) {
     throw base::Error(base::ExitCode::out_of_range, "a cloud's points and covariances must be finite");
   if (size > std::numeric_limits<std::uint32_t>::max())
     throw base::Error(base::ExitCode::out_of_range, "a cloud has too many points");
-  if (size > 0) tree_ = std::make_unique<Tree>(cloud_.points);
 }
 
 MatchCloud::~MatchCloud() = default;
 
+const MatchCloud::Tree& MatchCloud::tree() const {
+  std::call_once(made_, [this] { tree_ = std::make_unique<Tree>(cloud_.points); });
+  return *tree_;
+}
+
 std::size_t MatchCloud::nearest(const Eigen::Vector3f& to, float max_distance) const {
-  if (!tree_) return kNone;
+  if (size() == 0) return kNone;
   NearestWithin result(max_distance * max_distance);
-  tree_->tree.findNeighbors(result, to.data(), nanoflann::SearchParams());
+  tree().tree.findNeighbors(result, to.data(), nanoflann::SearchParams());
   return result.index();
 }
 
 std::vector<std::size_t> MatchCloud::nearest(const Eigen::Vector3f& to, int count) const {
-  if (!tree_ || count <= 0) return {};
+  if (size() == 0 || count <= 0) return {};
   const auto most = std::min(static_cast<std::size_t>(count), size());
   std::vector<std::uint32_t> indices(most);
   std::vector<float> squares(most);
-  indices.resize(tree_->tree.knnSearch(to.data(), most, indices.data(), squares.data()));
+  indices.resize(tree().tree.knnSearch(to.data(), most, indices.data(), squares.data()));
   return {indices.begin(), indices.end()};
 }
 

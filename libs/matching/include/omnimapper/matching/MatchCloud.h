@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace omnimapper::matching {
@@ -20,7 +21,8 @@ struct CloudPoints {
 /// `noise` [m] in each direction. Clouds of fewer points than that stay as they are.
 CloudPoints withShapes(CloudPoints cloud, int neighbours, double noise);
 
-/// Points with a KD-tree over them. Immutable; functions may be called from several threads.
+/// Points with a KD-tree over them, which is made when it is first asked. Immutable; functions may be called from
+/// several threads.
 class MatchCloud {
  public:
   /// Throws Error(out_of_range) for points or covariances that are not finite, and for normals or covariances that are
@@ -41,8 +43,10 @@ class MatchCloud {
 
  private:
   struct Tree;
+  const Tree& tree() const;
   CloudPoints cloud_;
-  std::unique_ptr<const Tree> tree_;
+  mutable std::once_flag made_;
+  mutable std::unique_ptr<const Tree> tree_;
 };
 
 }  // namespace omnimapper::matching
