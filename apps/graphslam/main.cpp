@@ -51,6 +51,8 @@ int run(Arguments& arguments) {
   std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
   const auto stop = program::isInterrupted;
   if (!arguments.checked_logs.empty()) {
+    if (!arguments.run.logs.empty())
+      throw base::Error(base::ExitCode::command_line, "--check names the logs itself: --check A --check B, without -r");
     const auto checked = check::runCheck(arguments.checked_logs, config, arguments.run.output_folder, *progress, stop);
     progress.reset();  // its line is free for the summary
     return std::cout << base::printableLines(checked.text), static_cast<int>(checked.code);

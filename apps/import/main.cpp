@@ -38,7 +38,8 @@ CLI::App* addCarmen(CLI::App& app, Arguments& arguments) {
 CLI::App* addTum(CLI::App& app, Arguments& arguments) {
   auto* tum = app.add_subcommand("tum", "folder of depth and colour images: TUM RGB-D, ICL-NUIM, 7-Scenes");
   tum->add_option("DIR", arguments.input, "folder")->required();
-  tum->add_option("OUT", arguments.output, "rawlog to write; ground truth goes beside it as OUT.truth.tum")->required();
+  tum->add_option("OUT", arguments.output, "rawlog to write; its truth goes beside it: out.rawlog, out.truth.tum")
+      ->required();
   tum->add_option(
       "--intrinsics", arguments.rgbd.intrinsics,
       "freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file with fx, fy, cx, cy; default: "
@@ -94,7 +95,6 @@ int main(int argc, char** argv) {
                       : tum->parsed()
                           ? importRgbd(input, output, arguments.rgbd, arguments.images == "external", arguments.poses)
                           : importPcd(input, output, arguments.pcd);
-    sayNext(output);
-    return static_cast<int>(code);
+    return sayNext(output), static_cast<int>(code);
   });
 }

@@ -37,11 +37,14 @@ std::vector<std::string> shippedNames() {
 }
 
 // Of a name, or of one with the folder that it has in a checkout.
-std::optional<std::string> shippedPath(const fs::path& name) {
+std::optional<std::string> shippedPath(const fs::path& name, const std::string& first_folder) {
   const fs::path folder_of_name = name.parent_path();
   if (!folder_of_name.empty() && folder_of_name != "ini" && folder_of_name != "rawlogs") return std::nullopt;
   std::error_code error;
-  for (const auto& folder : shippedFolders()) {
+  auto folders = shippedFolders();
+  std::stable_partition(folders.begin(), folders.end(),
+                        [&](const fs::path& folder) { return folder.filename() == first_folder; });
+  for (const auto& folder : folders) {
     if (!folder_of_name.empty() && folder.filename() != folder_of_name) continue;
     const fs::path path = folder / name.filename();
     if (fs::is_regular_file(path, error)) return path.lexically_normal().string();
@@ -51,11 +54,11 @@ std::optional<std::string> shippedPath(const fs::path& name) {
 
 }  // namespace
 
-std::vector<std::string> findInis(const std::vector<std::string>& names) {
+std::vector<std::string> findInis(const std::vector<std::string>& names, const std::string& first_folder) {
   std::error_code error;
   std::vector<std::string> paths;
   for (const auto& name : names) {
-    const auto shipped = fs::exists(name, error) ? std::nullopt : shippedPath(name);
+    const auto shipped = fs::exists(name, error) ? std::nullopt : shippedPath(name, first_folder);
     paths.push_back(shipped.value_or(name));
     if (shipped || fs::path(name).has_parent_path() || fs::exists(name, error)) continue;
     const auto known = shippedNames();

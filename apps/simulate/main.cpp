@@ -47,7 +47,7 @@ int run(Arguments& arguments) {
   if (!arguments.print_ini.empty()) return std::cout << sim::printIni(arguments.print_ini), 0;
   if (arguments.inis.empty() || arguments.run.folder.empty())
     throw base::Error(base::ExitCode::command_line, "-i INI and -o FOLDER are needed; see --help");
-  auto config = base::Config::fromFiles(program::findInis(arguments.inis));
+  auto config = base::Config::fromFiles(program::findInis(arguments.inis, "rawlogs"));
   for (const auto& setting : arguments.settings) config.set(setting);
   if (arguments.run.name.empty()) arguments.run.name = std::filesystem::path(arguments.inis.front()).stem().string();
   program::listenForInterrupts();

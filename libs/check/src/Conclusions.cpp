@@ -84,9 +84,30 @@ std::vector<std::string> usableLasers(const LogFacts& facts) {
   return labels;
 }
 
+namespace {
+
+// [s] The longest pause of an odometry while the robot drove.
+double longestDrive(const LogFacts& facts, const std::string& label) {
+  double longest = 0;
+  for (const auto& [sensor, stamps] : facts.sensors) {
+    if (sensor.first == label) longest = std::max(longest, stamps.longest_drive);
+  }
+  return longest;
+}
+
+struct Candidate {
+  std::string label;
+  double noise, pause;  // [m] after 1 m of way; [s] without a reading while the robot drove
+  std::size_t readings;
+};
+
+}  // namespace
+
+// Of those that are about as near to the scans the one that has no pauses, and then the one that tells most.
 std::optional<std::string> usableOdometry(const LogFacts& facts) {
+  constexpr double kAboutAsNear = 1.25, kFewMillimetres = 0.005, kPause = 2;  // [1] [m] [s]
   const auto lasers = usableLasers(facts);
-  std::optional<std::string> best;
+  std::vector<Candidate> candidates;
   double least_noise = std::numeric_limits<double>::infinity();
   for (const auto& [label, odometry] : facts.odometry) {
     if (odometry.readings < 2 + odometry.not_finite) continue;
@@ -94,11 +115,17 @@ std::optional<std::string> usableOdometry(const LogFacts& facts) {
     if (motion && (facts.covered.at({motion->laser, label}) < 0.5 || isFrozen(*motion))) continue;
     if (isReversed(facts, label)) continue;
     const double noise = motion && motion->position_noise_per_root_m ? *motion->position_noise_per_root_m : 1e3;
-    if (noise >= least_noise) continue;
-    least_noise = noise;
-    best = label;
+    candidates.push_back({label, noise, longestDrive(facts, label), odometry.readings});
+    least_noise = std::min(least_noise, noise);
   }
-  return best;
+  const Candidate* best = nullptr;
+  for (const auto& one : candidates) {
+    if (one.noise > kAboutAsNear * least_noise + kFewMillimetres) continue;
+    const bool is_better = !best || one.pause + kPause < best->pause ||
+                           (one.pause < best->pause + kPause && one.readings > best->readings);
+    if (is_better) best = &one;
+  }
+  return best ? std::optional(best->label) : std::nullopt;
 }
 
 std::optional<double> betterAperture(const LogFacts& facts, const std::string& laser) {
@@ -111,8 +138,8 @@ std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, cons
   using mrpt::poses::CPose3D;
   constexpr double kSureYaw = 3 * base::option_text::kRadiansPerDegree;
   constexpr double kWrongYaw = 10 * base::option_text::kRadiansPerDegree;
-  constexpr double kSurePosition = 0.05, kWrongPosition = 0.2, kMissingPosition = 0.05;  // [m]
-  constexpr double kTrust = 5;                                                           // standard deviations
+  constexpr double kSurePosition = 0.05, kWrongPosition = 0.2;  // [m]
+  constexpr double kTrust = 5;                                  // standard deviations
   const auto odometry = usableOdometry(facts);
   if (!odometry) return std::nullopt;
   const auto* motion = motionOf(facts, laser, *odometry);
@@ -125,9 +152,8 @@ std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, cons
   const double offset = std::hypot(found.x, found.y);
   const bool wrong_yaw =
       found.yaw_sigma < kSureYaw && std::abs(found.yaw) > std::max(kWrongYaw, kTrust * found.yaw_sigma);
-  const double least = scans.isAtOrigin() ? kMissingPosition : kWrongPosition;
   const bool sure_position = found.position_sigma < kSurePosition;
-  const bool wrong_position = sure_position && offset > std::max(least, kTrust * found.position_sigma);
+  const bool wrong_position = sure_position && offset > std::max(kWrongPosition, kTrust * found.position_sigma);
   if (!wrong_yaw && !wrong_position) return std::nullopt;
   // A small angle would be as much the odometry's as the sensor's.
   return CPose3D(sure_position ? found.x : 0, sure_position ? found.y : 0, 0, wrong_yaw ? found.yaw : 0, 0, 0) +

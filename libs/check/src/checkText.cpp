@@ -112,7 +112,7 @@ std::string checkText(const std::string& title, const source::SourceReport& repo
   text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + findingLines(findings);
   if (inis.empty()) return text;
   text += "\nSettings for what it holds:\n" + iniLines(inis);
-  if (settings.empty()) return text + ini + " fits as it is.\n";
+  if (settings.empty()) return text + "Nothing in " + ini + " need be set anew for it.\n";
   return text + "\nTo go over " + ini + " (-i " + ini + " -i THIS):\n\n" + toIni(settings);
 }
 

@@ -1,6 +1,9 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
 #include <omnimapper/check/fittingInis.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/obs/CObservationPlanes.h>
@@ -50,6 +53,18 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   if (has_odometry && holds<mrpt::obs::CObservationBearingRange>(facts)) {
     inis.push_back({"ini/landmarks.ini",
                     "points and markers by their ranges and bearings",
+                    {{"odometry", "no_motion"}, {}, {"points"}, false}});
+  }
+  const bool sees_clouds =
+      holds<mrpt::obs::CObservationPointCloud>(facts) || holds<mrpt::obs::CObservationVelodyneScan>(facts);
+  if (has_odometry && sees_clouds && !sees_depth) {
+    inis.push_back({"ini/home_planes.ini",
+                    "planes of point clouds: --set planes.class=CloudPlaneExtractor",
+                    {{"odometry", "no_motion"}, {"planes"}, {"plane_landmarks"}, true}});
+  }
+  if (has_odometry && holds<mrpt::obs::CObservationImage>(facts)) {
+    inis.push_back({"ini/landmarks.ini",
+                    "ArUco markers, if its pictures show some: README, \"Landmarks\", has the settings",
                     {{"odometry", "no_motion"}, {}, {"points"}, false}});
   }
   return inis;

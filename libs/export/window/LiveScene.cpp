@@ -2,6 +2,7 @@
 
 #include <mrpt/gui/CDisplayWindow3D.h>
 #include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/stock_objects.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/map/Trajectory.h>
@@ -132,13 +133,27 @@ class MrptScene : public LiveScene {
     if (const auto grid = grid_mapper_.scanGrid()) grid_->insert(gridFloor(*grid, 0));
   }
 
-  mrpt::opengl::CPointCloud::Ptr cloudInBase(const map::KeyFrame& frame) const {
+  mrpt::opengl::CRenderizable::Ptr cloudInBase(const map::KeyFrame& frame) const {
+    if (!frame.cloud.empty()) return colouredCloud(frame);
     const auto points = pointsInBase(frame, hasClouds(frame), options_.max_range);
     const std::size_t stride = 1 + points.size() / static_cast<std::size_t>(options_.points_per_key_frame);
     auto cloud = mrpt::opengl::CPointCloud::Create();
     cloud->setColor_u8(mrpt::img::TColor(24, 33, 47));
     cloud->setPointSize(2);
     for (std::size_t i = 0; i < points.size(); i += stride) cloud->insertPoint(points[i].x, points[i].y, points[i].z);
+    return cloud;
+  }
+
+  mrpt::opengl::CRenderizable::Ptr colouredCloud(const map::KeyFrame& frame) const {
+    const std::size_t stride = 1 + frame.cloud.size() / static_cast<std::size_t>(options_.points_per_key_frame);
+    auto cloud = mrpt::opengl::CPointCloudColoured::Create();
+    cloud->setPointSize(3);
+    for (std::size_t i = 0; i < frame.cloud.size(); i += stride) {
+      const auto& point = frame.cloud[i];
+      const auto at = point.inBase();
+      cloud->insertPoint({mrpt::math::TPointXYZfRGBAu8(static_cast<float>(at.x), static_cast<float>(at.y),
+                                                       static_cast<float>(at.z), point.red, point.green, point.blue)});
+    }
     return cloud;
   }
 
@@ -168,7 +183,7 @@ class MrptScene : public LiveScene {
   Group::Ptr grid_ = Group::Create(), ground_ = Group::Create(), points_ = Group::Create(),
              trajectory_ = Group::Create(), refused_ = Group::Create(), accepted_ = Group::Create(),
              pose_ = Group::Create(), landmarks_ = Group::Create();
-  std::unordered_map<base::KeyFrameId, mrpt::opengl::CPointCloud::Ptr> clouds_;
+  std::unordered_map<base::KeyFrameId, mrpt::opengl::CRenderizable::Ptr> clouds_;
   std::unique_ptr<mrpt::gui::CDisplayWindow3D> window_;
 };
 

@@ -20,8 +20,10 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
       sessions_(title, back_end_, state_),
       pool_(std::max(1, threads)) {
   if (plugins_.pose.empty()) {
-    throw base::Error(base::ExitCode::unknown_plugin,
-                      "[mapper] names no pose_plugins: a map needs at least one; see --list-plugins");
+    throw base::Error(
+        base::ExitCode::unknown_plugin,
+        "[mapper] names no pose_plugins: a map needs at least one; see --list-plugins. An INI of extractors "
+        "alone, such as objects.ini, is for omnimapper-perceive");
   }
 }
 

@@ -30,6 +30,14 @@ std::string format(const char* pattern, Numbers... numbers) {
   return text;
 }
 
+// "12 s after the start", of the session that is named where there are several.
+std::string afterStart(const map::Map& map, const map::KeyFrame& frame) {
+  const auto first = std::find_if(map.key_frames.begin(), map.key_frames.end(),
+                                  [&](const map::KeyFrame& one) { return one.id.session == frame.id.session; });
+  const std::string of_session = map.sessions.size() > 1 ? " of session " + std::to_string(frame.id.session) : "";
+  return format("%.0f s after the start", base::secondsBetween(first->stamp, frame.stamp)) + of_session;
+}
+
 }  // namespace
 
 double shareOnWalls(const std::vector<Eigen::Vector2f>& map, const std::vector<Eigen::Vector2f>& seen) {
@@ -48,13 +56,13 @@ Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& 
   Evidence evidence{"scans_through_walls_percent", 0, Evidence::Says::too_little,
                     "there are no 2D scans to judge it by"};
   std::vector<matching::MapScan> scans;
-  std::vector<base::Stamp> stamps;
+  std::vector<const map::KeyFrame*> frames;
   for (const auto& frame : map.key_frames) {
     for (const auto& label : labels) {
       auto seen = beamsInBase(frame, label);
       if (seen.scan.hits.size() < kFewBeams) continue;
       scans.push_back({planar(frame.map_from_base) + seen.local_from_sensor, std::move(seen.scan)});
-      stamps.push_back(frame.stamp);
+      frames.push_back(&frame);
     }
   }
   if (scans.empty()) return evidence;
@@ -82,10 +90,9 @@ Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& 
   evidence.value = 100.0 * static_cast<double>(bad) / static_cast<double>(scans.size());
   if (evidence.value > kMostPercent) {
     evidence.says = Evidence::Says::against_it;
-    evidence.reason = format(
-        "in %zu of %zu scans a fifth of the beams or more pass through walls of the map, most of all %.0f s after the "
-        "start",
-        bad, scans.size(), base::secondsBetween(map.key_frames.begin()->stamp, stamps[worst]));
+    evidence.reason =
+        format("in %zu of %zu scans a fifth of the beams or more pass through walls of the map, most of all %s", bad,
+               scans.size(), afterStart(map, *frames[worst]).c_str());
   } else {
     evidence.says = Evidence::Says::good;
     evidence.reason = bad == 0 ? "no scan looks through walls of the map"
@@ -253,7 +260,7 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
   const auto again = revisiting(stops, min_travel);
   std::vector<std::optional<std::size_t>> known(stops.size());
   double revisited = 0, untied = 0, fitting = 0, stretch = 0, longest = 0;
-  base::Stamp longest_until{};
+  std::size_t longest_until = 0;
   for (std::size_t i = 1; i < stops.size(); ++i) {
     const double step = again[i] ? stops[i].travelled - stops[i - 1].travelled : 0;
     revisited += step;
@@ -265,7 +272,7 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
     if (is_known && !stops[i].is_tied) fitting += step;
     if (stretch > longest) {
       longest = stretch;
-      longest_until = stops[i].stamp;
+      longest_until = i;
     }
   }
   Evidence again_m{"revisited_m", revisited, Evidence::Says::good, ""};
@@ -287,9 +294,8 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
   Evidence untied_m{"revisited_without_closure_m", untied, Evidence::Says::good, ""};
   if (longest > kLong) {
     untied_m.says = Evidence::Says::against_it;
-    untied_m.reason = format(
-        "for %.0f m, until %.0f s after the start, the robot drives where it has been before and sees something else",
-        longest, base::secondsBetween(stops.front().stamp, longest_until));
+    untied_m.reason = format("for %.0f m, until %s, the robot drives where it has been before and sees something else",
+                             longest, afterStart(state.map, state.map.key_frames[longest_until]).c_str());
   }
   return {again_m, untied_m, spannedWay(stops, known)};
 }
@@ -298,9 +304,6 @@ std::vector<Evidence> slips(const mapper::State& state, const std::string& secti
                             const mapper::DecisionLog& decisions) {
   std::vector<Evidence> all;
   const auto stampOf = [&](base::KeyFrameId id) { return state.map.keyFrame(id).stamp; };
-  const auto secondsOf = [&](base::Stamp stamp) {
-    return base::secondsBetween(state.map.key_frames.begin()->stamp, stamp);
-  };
   const mapper::Decision* contradiction = nullptr;
   Evidence undone{"slips_undone", 0, Evidence::Says::good, ""};
   for (const auto& decision : decisions) {
@@ -315,9 +318,9 @@ std::vector<Evidence> slips(const mapper::State& state, const std::string& secti
       if (name == kSlippedByAngle) degrees = value;
     }
     ++undone.value;
-    undone.reason += (undone.reason.empty() ? "" : "; ") +
-                     format("a slip of %.1f m and %.0f deg, %.0f s after the start, was undone", metres, degrees,
-                            secondsOf(decision.stamp));
+    undone.reason +=
+        (undone.reason.empty() ? "" : "; ") + format("a slip of %.1f m and %.0f deg, %s, was undone", metres, degrees,
+                                                     afterStart(state.map, state.map.keyFrame(decision.from)).c_str());
   }
   if (undone.value > 0) all.push_back(undone);
   if (!contradiction) return all;
@@ -327,10 +330,11 @@ std::vector<Evidence> slips(const mapper::State& state, const std::string& secti
            stampOf(decision.from) >= contradiction->stamp && stampOf(*decision.to) <= stampOf(*contradiction->to);
   });
   if (is_resolved) return all;
-  const double seconds = secondsOf(contradiction->stamp);
-  all.push_back(
-      {"contradicted_after_s", seconds, Evidence::Says::against_it,
-       format("closures that agree with one another, from %.0f s after the start on, contradict the map", seconds)});
+  const auto& frame = state.map.keyFrame(contradiction->from);
+  all.push_back({"contradicted_after_s", base::secondsBetween(state.map.key_frames.begin()->stamp, frame.stamp),
+                 Evidence::Says::against_it,
+                 format("closures that agree with one another, from %s on, contradict the map",
+                        afterStart(state.map, frame).c_str())});
   return all;
 }
 

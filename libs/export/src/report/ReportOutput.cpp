@@ -1,6 +1,7 @@
 #include "report/ReportOutput.h"
 
 #include "grid/ScanGrid.h"
+#include "plan/CloudPicture.h"
 #include "plan/MapPicture.h"
 #include "report/ReportPage.h"
 #include "run/OutputFile.h"
@@ -48,10 +49,15 @@ void ReportOutput::finish(const mapper::View& view) {
   grid_options.resolution = options_.resolution;
   grid_options.max_range = options_.max_range;
   grid_options.margin = 0.5;  // walls lie on the border of what scans have seen
-  const auto grid = buildScanGrid(mapOnly(view), grid_options);
-  const auto picture =
-      grid ? std::optional(drawGridToSize(focused(*grid, placesOf(trajectory, landmarks)), options_.picture_side))
-           : emptyPicture(trajectory, landmarks, 1.0, options_.picture_side);
+  const auto map = mapOnly(view);
+  const auto places = placesOf(trajectory, landmarks);
+  std::optional<GridPicture> picture;
+  if (const auto grid = buildScanGrid(map, grid_options)) {
+    picture = drawGridToSize(focused(*grid, places), options_.picture_side);
+  } else {
+    picture = cloudPicture(map, places, options_.picture_side);
+  }
+  if (!picture) picture = emptyPicture(trajectory, landmarks, 1.0, options_.picture_side);
   if (picture)
     writeBytes(outputPath(context_, "map.png"), draw::encodePng(drawMap(*picture, landmarks, trajectory, closures)));
   const ReportInput input{view,

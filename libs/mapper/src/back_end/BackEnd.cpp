@@ -179,6 +179,13 @@ void BackEnd::judgeMap() {
   };
   collect(plugins_.pose, [](const PosePlugin& plugin) { return plugin.evidence(); });
   collect(plugins_.measurement, [this](const MeasurementPlugin& plugin) { return plugin.evidence(state_.view()); });
+  if (!state_.map_is_held) {
+    for (const auto& session : state_.map.sessions) {
+      if (session.joined) continue;
+      evidence.push_back({"session_" + std::to_string(session.number) + "_not_joined", 1, Evidence::Says::against_it,
+                          joinedText(session) + " to the map, and lies where its start says"});
+    }
+  }
   state_.verdict = mapper::conclude(std::move(evidence));
 }
 

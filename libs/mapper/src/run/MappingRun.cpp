@@ -102,12 +102,13 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
 }
 
 // The trajectory is written all the same: in the map's frame only by what [session] start says.
-[[noreturn]] void failWithNoPlace(const RunRequest& request, const RunResult& result) {
-  throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code,
-                    request.localize_map +
-                        ": the log was located nowhere in the map: is it of another place? If not, " +
-                        "say [session] start = anywhere, which seeks the whole map, or where it begins. Why: the " +
-                        "refused closures in " + result.output_folder + "/report.html");
+[[noreturn]] void failWithNoPlace(const RunRequest& request, const RunResult& result, SessionOptions::Start start) {
+  const bool was_sought = start == SessionOptions::Start::anywhere;
+  throw base::Error(
+      result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code,
+      request.localize_map + ": the log was located nowhere in the map: is it of another place? If not, say " +
+          (was_sought ? "" : "[session] start = anywhere, which seeks the whole map, or ") +
+          "where it begins (origin, pose). Why: the refused closures in " + result.output_folder + "/report.html");
 }
 
 RunResult resultOf(const View& view) {
@@ -199,6 +200,12 @@ void Run::open() {
     engine_->warn(config_.placeOf("session") +
                   ": [session] says where a log begins in a map that it continues or is "
                   "localized in; without --continue or --localize it counts for nothing");
+  if (measurement_plugins_.empty() && (localizes() || !request_.continue_map.empty())) {
+    throw base::Error(base::ExitCode::command_line,
+                      config_.file() +
+                          ": nothing in it can tie a log to a map: --continue and --localize need one of " +
+                          "[mapper] measurement_plugins, such as loop_closure for a laser, or landmarks");
+  }
   loadMapInto(request_, session_, config_, settings_.engine.motion, *engine_);
   log_.emplace(source::openRawlogs(request_.logs, source_, stop_), stop_);
   kept_.emplace(request_.logs);
@@ -382,7 +389,7 @@ RunResult Run::report() {
   showToTheEnd(outcome);
   if (failure_) std::rethrow_exception(failure_);
   if (failure_at_end_) std::rethrow_exception(failure_at_end_);
-  if (localizes() && outcome.located == 0) failWithNoPlace(request_, outcome);
+  if (localizes() && outcome.located == 0) failWithNoPlace(request_, outcome, session_.start);
   return outcome;
 }
 

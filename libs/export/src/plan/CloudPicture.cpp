@@ -1,0 +1,105 @@
+#include "plan/CloudPicture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/MapPoints.h"
+
+namespace omnimapper::exports {
+
+namespace {
+
+// Six steps of red and blue, seven of green, and paper.
+constexpr int kRedSteps = 6, kGreenSteps = 7, kBlueSteps = 6;
+constexpr std::uint8_t kPaperIndex = kRedSteps * kGreenSteps * kBlueSteps;
+
+std::vector<draw::Rgb> colourCube() {
+  const auto level = [](int i, int steps) { return static_cast<std::uint8_t>(255 * i / (steps - 1)); };
+  std::vector<draw::Rgb> colours;
+  for (int r = 0; r < kRedSteps; ++r) {
+    for (int g = 0; g < kGreenSteps; ++g) {
+      for (int b = 0; b < kBlueSteps; ++b)
+        colours.push_back({level(r, kRedSteps), level(g, kGreenSteps), level(b, kBlueSteps)});
+    }
+  }
+  colours.push_back({226, 231, 237});
+  return colours;
+}
+
+std::uint8_t indexOf(const draw::Rgb& colour) {
+  const auto step = [](int value, int steps) { return (value * (steps - 1) + 127) / 255; };
+  return static_cast<std::uint8_t>((step(colour.r, kRedSteps) * kGreenSteps + step(colour.g, kGreenSteps)) *
+                                       kBlueSteps +
+                                   step(colour.b, kBlueSteps));
+}
+
+double quantileOf(std::vector<double> values, double part) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+std::vector<ColouredPoint> belowCeilings(const map::Map& map, double cube) {
+  constexpr double kAbove = 0.5;  // [m]
+  PointsOptions options;
+  options.voxel = cube;
+  auto points = pointsOf(map, options);
+  std::vector<double> eyes, heights;
+  for (const auto& frame : map.key_frames) eyes.push_back(frame.map_from_base.z());
+  for (const auto& point : points) heights.push_back(point.in_map.z);
+  const double highest = std::max(quantileOf(eyes, 0.5), quantileOf(heights, 0.5)) + kAbove;
+  points.erase(std::remove_if(points.begin(), points.end(), [&](const auto& p) { return p.in_map.z > highest; }),
+               points.end());
+  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.in_map.z < b.in_map.z; });
+  return points;
+}
+
+}  // namespace
+
+std::optional<GridPicture> cloudPicture(const map::Map& map, const std::vector<mrpt::math::TPoint3D>& places,
+                                        int side) {
+  constexpr double kCube = 0.05, kCut = 0.005;  // [m], part
+  if (!hasDepthClouds(map)) return std::nullopt;
+  const auto points = belowCeilings(map, kCube);
+  if (points.empty()) return std::nullopt;
+  std::vector<double> xs, ys;
+  for (const auto& point : points) {
+    xs.push_back(point.in_map.x);
+    ys.push_back(point.in_map.y);
+  }
+  double left = quantileOf(xs, kCut), right = quantileOf(xs, 1 - kCut);
+  double low = quantileOf(ys, kCut), high = quantileOf(ys, 1 - kCut);
+  for (const auto& place : places) {
+    left = std::min(left, place.x), right = std::max(right, place.x);
+    low = std::min(low, place.y), high = std::max(high, place.y);
+  }
+  const double longer = std::max({right - left, high - low, 0.5});
+  const double margin = 0.03 * longer, below = 0.06 * longer;  // wider below, where the scale bar lies
+  GridPicture picture;
+  picture.metres_per_pixel = longer / side;
+  picture.min_x = left - margin;
+  picture.max_y = high + margin;
+  draw::PaletteImage& image = picture.image;
+  const auto pixels = [&](double metres) { return static_cast<int>(std::ceil(metres / picture.metres_per_pixel)); };
+  image.width = pixels(right - left + 2 * margin);
+  image.height = pixels(high - low + margin + below);
+  image.palette = colourCube();
+  image.pixels.assign(static_cast<std::size_t>(image.width) * image.height, kPaperIndex);
+  const double half =
+      0.7 * kCube / picture.metres_per_pixel;  // squares that meet, though points lie anywhere in a cube
+  for (const auto& point : points) {
+    const auto at = picture.pixelOf(point.in_map.x, point.in_map.y);
+    const auto index = indexOf(point.colour);
+    const auto first = [&](double centre) { return std::max(0, static_cast<int>(std::floor(centre - half))); };
+    const auto end = [&](double centre, int size) {
+      return std::min(size, static_cast<int>(std::ceil(centre + half)));
+    };
+    for (int y = first(at.y); y < end(at.y, image.height); ++y) {
+      const auto row = image.pixels.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
+      for (int x = first(at.x); x < end(at.x, image.width); ++x) row[x] = index;
+    }
+  }
+  return picture;
+}
+
+}  // namespace omnimapper::exports
