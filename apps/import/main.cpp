@@ -2,7 +2,6 @@
 #include <omnimapper/base/AtomicFile.h>
 
 #include <map>
-#include <tuple>
 
 #include "Imports.h"
 #include "program/Program.h"
@@ -89,7 +88,7 @@ int main(int argc, char** argv) {
   const auto* tum = addTum(app, arguments);
   addPcd(app, arguments);
   return program::run(app, argc, argv, [&] {
-    const auto& [input, output] = std::tie(arguments.input, arguments.output);
+    const std::string &input = arguments.input, &output = arguments.output;
     base::refuseToReplaceInput(output, {input});
     const auto code = carmen->parsed() ? importCarmen(input, output, kOdometryNames.at(arguments.odometry))
                       : tum->parsed()

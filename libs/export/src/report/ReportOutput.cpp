@@ -1,11 +1,11 @@
 #include "report/ReportOutput.h"
 
 #include "grid/ScanGrid.h"
-#include "plan/CloudPicture.h"
 #include "plan/MapPicture.h"
 #include "report/ReportPage.h"
 #include "run/OutputFile.h"
 #include "run/RunFigures.h"
+#include "scene/CloudPicture.h"
 
 IMPLEMENTS_MRPT_OBJECT(ReportOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
 

@@ -1,4 +1,4 @@
-#include "plan/CloudPicture.h"
+#include "scene/CloudPicture.h"
 
 #include <algorithm>
 #include <cmath>
