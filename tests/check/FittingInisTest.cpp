@@ -1,6 +1,8 @@
 // Which of the project's INIs are named for which sensors.
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/check/fittingInis.h>
 #include <omnimapper/mapper/EngineOptions.h>
@@ -60,6 +62,12 @@ TEST(FittingInis, OfARangeCameraDependOnWhatTellsItsMotion) {
   EXPECT_EQ(namesFor(alone), (Names{"ini/rgbd_planes.ini", "ini/rgbd_handheld.ini"}));
   EXPECT_EQ(Checked(alone).text().find("problem"), std::string::npos) << Checked(alone).text();
   EXPECT_EQ(fittingInis(Checked(alone).facts).front().plugins.pose, (Names{"given_motion", "no_motion"}));
+}
+
+TEST(FittingInis, OfCloudsAndPicturesWithOdometryAreNamed) {
+  EXPECT_EQ(namesFor(without(with<mrpt::obs::CObservationPointCloud>(), "laser")), Names{"ini/home_planes.ini"});
+  EXPECT_EQ(namesFor(without(with<mrpt::obs::CObservationImage>(), "laser")), Names{"ini/landmarks.ini"});
+  EXPECT_EQ(namesFor(without(without(with<mrpt::obs::CObservationImage>(), "laser"), "odometry")), Names{});
 }
 
 TEST(FittingInis, GoWithoutTheLaserThatIsNotThere) {

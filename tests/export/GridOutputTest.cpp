@@ -10,6 +10,7 @@
 #include "grid/MapServer.h"
 #include "grid/ScaleBar.h"
 #include "grid/ScanGrid.h"
+#include "scene/CloudPicture.h"
 
 namespace grid_output_test {
 namespace {
@@ -277,6 +278,37 @@ TEST(GridPicture, aStrayBeamDoesNotMakeTheBuildingSmall) {
   EXPECT_EQ(cellAt(room, -5.05, 5.05), Cell::free);
   const auto with_place = exports::focused(grid, {{39.95, 5, 0}});
   EXPECT_NEAR(with_place.maxX(), 40 + 1.5, 0.15);
+}
+
+// Two red points, one over the other with a blue one between, a green one beside them, and a ceiling over all.
+TEST(CloudPicture, showsTheHighestPointBelowTheCeilingInItsColour) {
+  map::Map map;
+  map::KeyFrame frame;
+  const auto point = [](double x, double y, double z, draw::Rgb colour) {
+    using map::CloudPoint;
+    return CloudPoint{CloudPoint::millimetres(static_cast<float>(x)),
+                      CloudPoint::millimetres(static_cast<float>(y)),
+                      CloudPoint::millimetres(static_cast<float>(z)),
+                      colour.r,
+                      colour.g,
+                      colour.b};
+  };
+  constexpr draw::Rgb kRed{255, 0, 0}, kGreen{0, 255, 0}, kBlue{0, 0, 255}, kWhite{255, 255, 255};
+  frame.cloud = {point(2, 1, -1, kRed), point(2, 1, -0.5, kBlue), point(4, 1, -0.2, kGreen), point(2, 1, 1.5, kWhite),
+                 point(4, 1, 1.5, kWhite)};
+  map.key_frames.insert(frame);
+  const auto picture = exports::cloudPicture(map, {{0, 0, 0}}, 400);
+  ASSERT_TRUE(picture);
+  const auto colourAt = [&](double x, double y) {
+    const auto at = picture->pixelOf(x, y);
+    return picture->image.palette[picture->image.pixels[static_cast<std::size_t>(at.y) * picture->image.width +
+                                                        static_cast<std::size_t>(at.x)]];
+  };
+  EXPECT_EQ(colourAt(2, 1).b, 255) << "the blue one is over the red one";
+  EXPECT_EQ(colourAt(2, 1).r, 0);
+  EXPECT_EQ(colourAt(4, 1).g, 255);
+  EXPECT_EQ(colourAt(3, 1).r, colourAt(0, 0).r) << "paper";
+  EXPECT_FALSE(exports::cloudPicture(map::Map(), {}, 400)) << "nothing to show";
 }
 
 }  // namespace

@@ -121,11 +121,19 @@ TEST_F(Continue, ALogOfAnotherBuildingStaysApartWithAWarning) {
   EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"session 1 was never joined", "[session] start", "of another place"}));
   EXPECT_NE(ended.out.find("session 1 was never joined"), std::string::npos);
   EXPECT_FALSE(loadSummary(file("apart"))["sessions"][1]["joined"]);
+  EXPECT_EQ(loadSummary(file("apart"))["verdict"]["verdict"], "suspicious");
   const auto before = loadMap(file("first")), after = loadMap(file("apart"));
   for (const auto& frame : before.map.key_frames) {
     const auto moved = after.map.keyFrame(frame.id).map_from_base - frame.map_from_base;
     EXPECT_LT(moved.translation().norm(), 1e-3) << frame.id;
   }
+}
+
+TEST_F(Continue, AnIniThatCanTieNothingToAMapIsRefused) {
+  const Words alone{"--set", "mapper.measurement_plugins="};
+  const auto ended = map({file("box.rawlog")}, file("none"), {"--continue", file("first"), alone[0], alone[1]});
+  EXPECT_TRUE(endedWith(ExitCode::command_line, ended, {"nothing in it can tie a log to a map", "loop_closure"}));
+  EXPECT_FALSE(fs::exists(file("none")));
 }
 
 TEST_F(Continue, WhatCannotBeContinuedIsRefusedAndNothingIsWritten) {
