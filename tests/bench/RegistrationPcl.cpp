@@ -74,8 +74,8 @@ Cloud::Ptr voxels(const Cloud::Ptr& cloud, float side) {
 
 // The settings of all rows: 0.1 m, 50 iterations, 1e-4.
 template <class Registration>
-std::optional<geometry::Se3> align(Registration& registration, const Cloud::Ptr& first, const Cloud::Ptr& second,
-                                   const geometry::Se3& guess) {
+std::optional<Registered> align(Registration& registration, const Cloud::Ptr& first, const Cloud::Ptr& second,
+                                const geometry::Se3& guess) {
   if (first->size() < 30 || second->size() < 30) return std::nullopt;
   registration.setInputTarget(first);
   registration.setInputSource(second);
@@ -89,8 +89,8 @@ std::optional<geometry::Se3> align(Registration& registration, const Cloud::Ptr&
   registration.align(aligned, start);
   if (!registration.hasConverged()) return std::nullopt;
   const Eigen::Matrix4d found = registration.getFinalTransformation().template cast<double>();
-  return geometry::Se3{Eigen::Quaterniond(Eigen::Matrix3d(found.topLeftCorner<3, 3>())).normalized(),
-                       found.topRightCorner<3, 1>()};
+  const Eigen::Quaterniond rotation(Eigen::Matrix3d(found.topLeftCorner<3, 3>()));
+  return Registered{{rotation.normalized(), found.topRightCorner<3, 1>()}, {}};
 }
 
 using Source = std::function<Cloud::Ptr(const Cloud::Ptr&)>;

@@ -12,14 +12,18 @@
 
 namespace omnimapper::bench {
 
+struct Registered {
+  geometry::Se3 first_from_second;
+  std::optional<geometry::Matrix6d> covariance;  ///< of that, where the method tells
+};
+
 /// Somebody's way to the motion between two images; everything from the images on is timed.
 struct RegistrationPeer {
   std::string name;
   std::string row;  ///< of the thesis's Table 8 that it belongs to
   int every = 1;    ///< only every n-th pair is tried: the method is slow
   /// first_from_second, optical frames, from a guess of it; nothing where the method itself says that it failed.
-  std::function<std::optional<geometry::Se3>(const RgbdFrame& first, const RgbdFrame& second,
-                                             const geometry::Se3& guess)>
+  std::function<std::optional<Registered>(const RgbdFrame& first, const RgbdFrame& second, const geometry::Se3& guess)>
       run;
 };
 

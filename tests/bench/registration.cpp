@@ -4,7 +4,9 @@
 // The guess of a pair is the motion that the same method found for the pair before.
 //
 // Example: bench-registration --tum tum_fr1_rpy
+//          bench-registration --rawlog out/home/home.rawlog --truth out/home/truth.tum
 #include <omnimapper/base/Memory.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/matching/CloudMatcher.h>
 #include <omnimapper/matching/CloudSource.h>
@@ -16,6 +18,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/rgbd.hpp>
 
+#include "RawlogFrames.h"
 #include "RegistrationPeers.h"
 #include "Timing.h"
 
@@ -42,17 +45,18 @@ RegistrationPeer clouds(const std::string& name, const std::string& row, CloudSo
   from.voxel = voxel;
   matching::CloudMatcherOptions by;
   by.method = method;
-  return {name, row, 1,
-          [from, matcher = matching::IteratedClosestPoints(by)](const RgbdFrame& first, const RgbdFrame& second,
-                                                                const Se3& guess) -> std::optional<Se3> {
-            const auto cloud = [&from](const RgbdFrame& frame) {
-              const auto colour = colourOf(frame);
-              return matching::cloudOf(depthOf(frame), &colour, from);
-            };
-            const matching::MatchCloud target(cloud(first)), moved(cloud(second));
-            const auto match = matcher.match(target, moved, guess);
-            return match.succeeded ? std::optional(match.target_from_source) : std::nullopt;
-          }};
+  return {
+      name, row, 1,
+      [from, matcher = matching::IteratedClosestPoints(by)](const RgbdFrame& first, const RgbdFrame& second,
+                                                            const Se3& guess) -> std::optional<Registered> {
+        const auto cloud = [&from](const RgbdFrame& frame) {
+          const auto colour = colourOf(frame);
+          return matching::cloudOf(depthOf(frame), &colour, from);
+        };
+        const matching::MatchCloud target(cloud(first)), moved(cloud(second));
+        const auto match = matcher.match(target, moved, guess);
+        return match.succeeded ? std::optional(Registered{match.target_from_source, match.covariance}) : std::nullopt;
+      }};
 }
 
 RegistrationPeer dense(const std::string& name, bool depth, bool grey) {
@@ -61,12 +65,14 @@ RegistrationPeer dense(const std::string& name, bool depth, bool grey) {
   options.use_grey = grey;
   return {
       name, "dense", 1,
-      [matcher = matching::DenseMatcher(options)](const RgbdFrame& first, const RgbdFrame& second, const Se3& guess) {
+      [matcher = matching::DenseMatcher(options)](const RgbdFrame& first, const RgbdFrame& second,
+                                                  const Se3& guess) -> std::optional<Registered> {
         static const perception::NormalEstimator estimator{perception::NormalOptions{}};
         const auto first_colour = colourOf(first), second_colour = colourOf(second);
         const matching::RgbdPyramid a(depthOf(first), &first_colour), b(depthOf(second), &second_colour);
         const auto reference = matcher.prepare(a, estimator.estimate(depthOf(first)));
-        return matcher.match(*reference, b, {guess}).reference_from_image;
+        const auto match = matcher.match(*reference, b, {guess});
+        return match.succeeded ? std::optional(Registered{match.reference_from_image, match.covariance}) : std::nullopt;
       }};
 }
 
@@ -110,8 +116,9 @@ RegistrationPeer openCvDense() {
             }
             // It moves the first frame given onto the second.
             auto from = frame(second), to = frame(first);
-            return odometry->compute(from, to, found, start) && !found.empty() ? std::optional(toSe3(found))
-                                                                               : std::nullopt;
+            return odometry->compute(from, to, found, start) && !found.empty()
+                       ? std::optional(Registered{toSe3(found), {}})
+                       : std::nullopt;
           }};
 }
 
@@ -124,7 +131,7 @@ Se3 rigid(const std::vector<Eigen::Vector3d>& to, const std::vector<Eigen::Vecto
 }
 
 // SIFT by OpenCV, the nearest descriptor with Lowe's ratio, the motion by RANSAC over three pairs of points (3 cm).
-std::optional<Se3> bySift(const RgbdFrame& first, const RgbdFrame& second, const Se3&) {
+std::optional<Registered> bySift(const RgbdFrame& first, const RgbdFrame& second, const Se3&) {
   auto sift = cv::SIFT::create();
   std::vector<cv::KeyPoint> keys_a, keys_b;
   cv::Mat of_a, of_b;
@@ -167,7 +174,7 @@ std::optional<Se3> bySift(const RgbdFrame& first, const RgbdFrame& second, const
   if (best.size() < 3) return std::nullopt;
   std::vector<Eigen::Vector3d> best_to, best_from;
   for (const auto j : best) best_to.push_back(to[j]), best_from.push_back(from[j]);
-  return rigid(best_to, best_from);
+  return Registered{rigid(best_to, best_from), {}};
 }
 
 std::vector<RegistrationPeer> methods() {
@@ -204,8 +211,10 @@ std::vector<RegistrationPeer> methods() {
 struct Errors {
   std::vector<double> position, angle, time;  // [mm] [deg] [ms]
   std::size_t failed = 0;
-  void add(const Se3& estimate, const Se3& truth) {
-    const auto off = geometry::minus(estimate, truth);
+  std::vector<double> normalised;  // squared error in standard deviations, by degree of freedom
+  void add(const Registered& estimate, const Se3& truth) {
+    const auto off = geometry::minus(estimate.first_from_second, truth);
+    if (estimate.covariance) normalised.push_back(off.dot(estimate.covariance->ldlt().solve(off)) / 6);
     position.push_back(1e3 * off.head<3>().norm());
     angle.push_back(off.tail<3>().norm() * 180 / M_PI);
   }
@@ -217,31 +226,50 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
 }
 
+PosedFrames readTumPosed(const std::string& folder, const perception::Pinhole& camera) {
+  PosedFrames posed{readRgbd(folder, 1, camera), {}};
+  const auto truth = eval::readTum(folder + "/groundtruth.txt");
+  for (const auto& frame : posed.frames) {
+    posed.poses.push_back(
+        eval::interpolatedPose(truth, base::stampFromUnix(frame.stamp), base::durationFromSeconds(0.1)));
+  }
+  return posed;
+}
+
+PosedFrames thinned(const PosedFrames& all, std::size_t every) {
+  PosedFrames some;
+  for (std::size_t i = 0; i < all.frames.size(); i += every) {
+    some.frames.push_back(all.frames[i]);
+    some.poses.push_back(all.poses[i]);
+  }
+  return some;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string tum, only;
+  std::string tum, rawlog, truth, only;
   std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
   int every = 1;
   bool all_pairs = false;
   CLI::App app("Motion between consecutive depth images, by every kind of registration.");
-  app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth, rgb and groundtruth.txt")->required();
-  app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
-  app.add_option("--every", every, "only every n-th of its frames")->check(CLI::PositiveNumber);
+  app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth, rgb and groundtruth.txt");
+  app.add_option("--camera", camera, "its fx fy cx cy [px]; the default is freiburg1's")->expected(4);
+  app.add_option("--rawlog", rawlog, "a rawlog in its place");
+  app.add_option("--truth", truth, "true poses of its base, a TUM file");
+  app.add_option("--every", every, "only every n-th of the frames")->check(CLI::PositiveNumber);
   app.add_option("--only", only, "only methods with this in their row or name");
   app.add_flag("--all-pairs", all_pairs, "slow methods try all pairs, too");
   CLI11_PARSE(app, argc, argv);
   base::keepFreedMemory();  // as our programs do
   cv::setNumThreads(1);
-  const auto frames = readRgbd(tum, every, {camera[0], camera[1], camera[2], camera[3]});
-  const auto truth = eval::readTum(tum + "/groundtruth.txt");
-  std::vector<std::optional<Se3>> poses;
-  for (const auto& frame : frames)
-    poses.push_back(eval::interpolatedPose(truth, base::stampFromUnix(frame.stamp), base::durationFromSeconds(0.1)));
+  const auto posed = thinned(
+      rawlog.empty() ? readTumPosed(tum, {camera[0], camera[1], camera[2], camera[3]}) : readRawlog(rawlog, truth),
+      static_cast<std::size_t>(every));
+  const auto& [frames, poses] = posed;
   std::printf(
       "%zu frames\n\n| points | method | pairs (failed) | position RMSE [mm] | mean ± s.d. | angle RMSE [deg] | mean ± "
-      "s.d. | "
-      "median [ms] | 95 %% |\n|---|---|---|---|---|---|---|---|---|\n",
+      "s.d. | median [ms] | 95 %% | normalised error |\n|---|---|---|---|---|---|---|---|---|---|\n",
       frames.size());
   for (const auto& method : methods()) {
     if (!only.empty() && (method.row + " " + method.name).find(only) == std::string::npos) continue;
@@ -257,13 +285,16 @@ int main(int argc, char** argv) {
       errors.time.push_back(processorTime() - begin);
       errors.failed += !found;
       // Who fails is taken at the guess, and begins anew.
-      if (is_known) errors.add(found.value_or(guess), inverse(*poses[i - 1]) * *poses[i]);
-      guess = found.value_or(Se3{});
+      const Registered taken = found.value_or(Registered{guess, {}});
+      if (is_known) errors.add(taken, inverse(*poses[i - 1]) * *poses[i]);
+      guess = found ? found->first_from_second : Se3{};
     }
     const auto p = spreadOf(errors.position), a = spreadOf(errors.angle);
-    std::printf("| %s | %s | %zu (%zu) | %.2f | %.2f ± %.2f | %.3f | %.3f ± %.3f | %.2f | %.2f |\n", method.row.c_str(),
-                method.name.c_str(), errors.position.size(), errors.failed, rms(errors.position), p.mean, p.deviation,
-                rms(errors.angle), a.mean, a.deviation, quantile(errors.time, 0.5), quantile(errors.time, 0.95));
+    std::printf("| %s | %s | %zu (%zu) | %.2f | %.2f ± %.2f | %.3f | %.3f ± %.3f | %.2f | %.2f | %s |\n",
+                method.row.c_str(), method.name.c_str(), errors.position.size(), errors.failed, rms(errors.position),
+                p.mean, p.deviation, rms(errors.angle), a.mean, a.deviation, quantile(errors.time, 0.5),
+                quantile(errors.time, 0.95),
+                errors.normalised.empty() ? "" : base::fixed(std::sqrt(spreadOf(errors.normalised).mean), 2).c_str());
     std::fflush(stdout);
   }
 }

@@ -30,6 +30,14 @@ const base::OptionTable<CloudSourceOptions>& CloudSourceOptions::table() {
   return table;
 }
 
+perception::EdgeOptions CloudSourceOptions::easilyFound() {
+  perception::EdgeOptions edges;
+  edges.min_turn = 15 * base::option_text::kRadiansPerDegree;
+  edges.turn_sigmas = 1.2;
+  edges.min_turn_pixels = 2;
+  return edges;
+}
+
 namespace {
 
 // How far off the point of a pixel may be.
@@ -54,7 +62,7 @@ unsigned kindOf(CloudSource source) {
 }
 
 perception::EdgeOptions edgeOptions(const CloudSourceOptions& options) {
-  perception::EdgeOptions edges;
+  perception::EdgeOptions edges = options.edges;
   edges.jumps = options.source == CloudSource::occluding_edges;
   edges.rgb = options.source == CloudSource::rgb_edges;
   edges.high_curvature = options.source == CloudSource::high_curvature_edges;

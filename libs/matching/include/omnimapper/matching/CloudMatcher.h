@@ -16,11 +16,11 @@ enum class CloudMethod {
 struct CloudMatcherOptions {
   CloudMethod method = CloudMethod::gicp;
   double max_distance = 0.1;     ///< [m] of points that may be the same, on the finest level
-  double coarse_distance = 0.1;  ///< [m] on the coarsest
+  double coarse_distance = 0.4;  ///< [m] on the coarsest
   int max_iterations = 50;       ///< on each level
   double tolerance = 1e-4;       ///< [m] [rad] steps below which a level ends
   int coarse_points = 300;       ///< of the source, on the coarsest level; each further one has four times as many
-  int max_points = 5000;         ///< on the finest
+  int max_points = 2000;         ///< on the finest
   double alike = 10;             ///< points whose errors are alike: so many count as one
   double min_overlap = 0.3;      ///< least share of the source's points that have one of the target's near
 

@@ -5,6 +5,7 @@
 #include <omnimapper/perception/ColourImage.h>
 #include <omnimapper/perception/DepthImage.h>
 #include <omnimapper/perception/DepthNoise.h>
+#include <omnimapper/perception/EdgeDetector.h>
 
 namespace omnimapper::matching {
 
@@ -19,10 +20,14 @@ enum class CloudSource {
 
 struct CloudSourceOptions {
   CloudSource source = CloudSource::rgb_edges;
-  double voxel = 0.02;           ///< [m] side of the cubes
-  double max_depth = 5;          ///< [m] what is farther is too noisy
-  double pixel_noise = 1;        ///< [px] across the rays
-  perception::DepthNoise noise;  ///< along them
+  double voxel = 0.02;                            ///< [m] side of the cubes
+  double max_depth = 5;                           ///< [m] what is farther is too noisy
+  double pixel_noise = 1;                         ///< [px] across the rays
+  perception::DepthNoise noise;                   ///< along them
+  perception::EdgeOptions edges = easilyFound();  ///< which kinds are sought is said by `source`
+
+  /// Edges that are found again in most images rather than those that are surely some.
+  static perception::EdgeOptions easilyFound();
 
   static const base::OptionTable<CloudSourceOptions>& table();
 };
