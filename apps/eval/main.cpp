@@ -66,6 +66,9 @@ int run(const std::string& verb, const Arguments& arguments) {
         (first.reference.translation - first.estimate.translation).norm() > 1)
       std::cerr << "The first poses lie more than 1 m apart. If each trajectory has a frame of its own: --align yaw, "
                    "or se3\n";
+    if (pairing.alignment != eval::Alignment::se3 && error.rotation.rmse > 10 * geometry::kPi / 180)
+      std::cerr << "The poses are turned by a lot. If the trajectories' frames are not level alike, as of a camera in "
+                   "the hand: --align se3\n";
     return report(arguments, error, reference);
   }
   return report(arguments, eval::relativePoseError(estimate, reference, pairing,

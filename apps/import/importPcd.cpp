@@ -1,3 +1,4 @@
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <unistd.h>
@@ -23,5 +24,10 @@ base::ExitCode importPcd(const std::string& folder, const std::string& output,
       },
       source::ColourImages::jpeg);
   std::cout << clouds.report().text();
+  if (clouds.unorganised() > 0) {
+    std::cout << base::counted(clouds.unorganised(), "cloud")
+              << " without rows and columns (HEIGHT 1): they stay clouds, which are mapped only with odometry or poses "
+                 "beside them\n";
+  }
   return clouds.report().exitCode();
 }

@@ -86,46 +86,40 @@ std::vector<std::string> usableLasers(const LogFacts& facts) {
 
 namespace {
 
-// [s] The longest pause of an odometry while the robot drove.
-double longestDrive(const LogFacts& facts, const std::string& label) {
-  double longest = 0;
-  for (const auto& [sensor, stamps] : facts.sensors) {
-    if (sensor.first == label) longest = std::max(longest, stamps.longest_drive);
-  }
-  return longest;
-}
-
 struct Candidate {
   std::string label;
-  double noise, pause;  // [m] after 1 m of way; [s] without a reading while the robot drove
-  std::size_t readings;
+  double noise;  // [m] after 1 m of way
 };
 
-}  // namespace
-
-// Of those that are about as near to the scans the one that has no pauses, and then the one that tells most.
-std::optional<std::string> usableOdometry(const LogFacts& facts) {
-  constexpr double kAboutAsNear = 1.25, kFewMillimetres = 0.005, kPause = 2;  // [1] [m] [s]
+// The odometries that tell the motion, the one nearest to the scans first.
+std::vector<Candidate> usableOdometries(const LogFacts& facts) {
   const auto lasers = usableLasers(facts);
   std::vector<Candidate> candidates;
-  double least_noise = std::numeric_limits<double>::infinity();
   for (const auto& [label, odometry] : facts.odometry) {
     if (odometry.readings < 2 + odometry.not_finite) continue;
     const auto* motion = lasers.empty() ? nullptr : motionOf(facts, lasers.front(), label);
     if (motion && (facts.covered.at({motion->laser, label}) < 0.5 || isFrozen(*motion))) continue;
     if (isReversed(facts, label)) continue;
-    const double noise = motion && motion->position_noise_per_root_m ? *motion->position_noise_per_root_m : 1e3;
-    candidates.push_back({label, noise, longestDrive(facts, label), odometry.readings});
-    least_noise = std::min(least_noise, noise);
+    candidates.push_back(
+        {label, motion && motion->position_noise_per_root_m ? *motion->position_noise_per_root_m : 1e3});
   }
-  const Candidate* best = nullptr;
-  for (const auto& one : candidates) {
-    if (one.noise > kAboutAsNear * least_noise + kFewMillimetres) continue;
-    const bool is_better = !best || one.pause + kPause < best->pause ||
-                           (one.pause < best->pause + kPause && one.readings > best->readings);
-    if (is_better) best = &one;
-  }
-  return best ? std::optional(best->label) : std::nullopt;
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.noise < b.noise; });
+  return candidates;
+}
+
+}  // namespace
+
+std::optional<std::string> usableOdometry(const LogFacts& facts) {
+  const auto candidates = usableOdometries(facts);
+  return candidates.empty() ? std::nullopt : std::optional(candidates.front().label);
+}
+
+bool isOneOdometryBest(const LogFacts& facts) {
+  constexpr double kMuchWorse = 1.5, kFewMillimetres = 0.005;  // [1] [m]
+  const auto candidates = usableOdometries(facts);
+  return facts.odometry.size() > 1 && !candidates.empty() &&
+         (candidates.size() == 1 || candidates[1].noise > kMuchWorse * candidates[0].noise + kFewMillimetres);
 }
 
 std::optional<double> betterAperture(const LogFacts& facts, const std::string& laser) {

@@ -15,6 +15,9 @@ Contradiction contradictionOf(const MotionFacts& motion);
 bool isFrozen(const MotionFacts& motion);
 /// Whether the odometry runs backwards, rather than a laser being mounted otherwise than said.
 bool isReversed(const LogFacts& facts, const std::string& odometry);
+/// Whether the log has several odometries, of which usableOdometry() is nearer to the scans than the others by far, or
+/// the only one that tells the motion.
+bool isOneOdometryBest(const LogFacts& facts);
 /// Whether the scans are not of a plane like the floor's.
 bool isTilted(const ScanFacts& scans);
 /// Whether beams that met nothing are marked as valid, at one range.

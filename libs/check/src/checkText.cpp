@@ -16,7 +16,7 @@ std::string shortName(const std::string& class_name) {
 
 std::string sensorTable(const LogFacts& facts) {
   char row[300];
-  std::snprintf(row, sizeof row, "%-16s %-26s %8s %9s %10s %11s %9s\n", "sensor", "class", "count", "rate 1/s",
+  std::snprintf(row, sizeof row, "%-16s %-26s %8s %9s %10s %11s %9s\n", "sensor", "class", "count", "median/s",
                 "longest s", "out of order", "no stamp");
   std::string text = row;
   for (const auto& [sensor, stamps] : facts.sensors) {
@@ -112,7 +112,9 @@ std::string checkText(const std::string& title, const source::SourceReport& repo
   text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + findingLines(findings);
   if (inis.empty()) return text;
   text += "\nSettings for what it holds:\n" + iniLines(inis);
-  if (settings.empty()) return text + "Nothing in " + ini + " need be set anew for it.\n";
+  if (settings.empty())
+    return text + "Nothing in " + ini + " need be set anew for it" +
+           (findings.empty() ? "" : ": it copes with what is said above") + ".\n";
   return text + "\nTo go over " + ini + " (-i " + ini + " -i THIS):\n\n" + toIni(settings);
 }
 

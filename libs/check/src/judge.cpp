@@ -50,8 +50,8 @@ class Judge {
       add(is_mappable ? Weight::warning : Weight::problem, "no laser has scans that can be matched");
     } else if (!is_mappable) {
       add(Weight::problem,
-          "there is nothing to map: no 2D scans, no depth images; planes need odometry or poses beside them, "
-          "ranges and bearings need odometry");
+          "there is nothing to map: no 2D scans, no depth images; planes, point clouds and pictures of markers need "
+          "odometry or poses beside them, ranges and bearings need odometry");
     }
   }
 

@@ -165,7 +165,8 @@ class Proposal {
       }
       return;
     }
-    if (facts_.odometry.size() > 1 && canBeNamed(*label)) {
+    // Left alone the mapper chooses as it goes, also where one of them pauses: only who is much worse is shut out.
+    if (isOneOdometryBest(facts_) && canBeNamed(*label)) {
       set("odometry", "label", *label, "of several the one nearest to the scans");
       if (laser_odometry_) set(kLaserOdometry, "odometry_label", *label, "the same");
     }

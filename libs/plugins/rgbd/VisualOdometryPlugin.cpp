@@ -171,7 +171,7 @@ std::vector<mapper::Evidence> VisualOdometryPlugin::evidence() const {
                 open);
   all.push_back({"camera_blind_percent", open, open > kMuch ? Says::too_little : Says::good, open > kMuch ? text : ""});
   std::snprintf(text, sizeof text,
-                returns_ > 0 ? "the camera came back to a view of before %zu times, and it fitted"
+                returns_ > 0 ? "views of long before came back %zu times, and the images fitted them"
                              : "the camera never came back to a view of before, where drift would be seen",
                 returns_);
   all.push_back({"camera_returns", static_cast<double>(returns_), returns_ > 0 ? Says::good : Says::too_little, text});

@@ -124,6 +124,7 @@ mrpt::obs::CObservation::Ptr PcdFolder::next() {
       const bool is_organised = cloud.height > 1 && cloud.width > 1;
       const mrpt::obs::CObservation::Ptr scan =
           is_organised ? mrpt::obs::CObservation::Ptr(depthImageOf(cloud, file)) : cloudOf(cloud);
+      unorganised_ += !is_organised;
       scan->timestamp = stamp;
       scan->sensorLabel = options_.label;
       ++report_.objects;

@@ -124,7 +124,7 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   if (view.map_is_held) summary["localization"] = {{"key_frames", figures.localized}, {"located", figures.located}};
   summary["landmarks"] = mapper::countLandmarks(view);
   summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
-  summary["verdict"] = verdictOf(view.verdict);
+  if (!view.map_is_held) summary["verdict"] = verdictOf(view.verdict);
   summary["counts"] = counts;
   summary["graph"] = graphOf(view);
   summary["decisions"] = decisionsOf(view.decisions);

@@ -34,11 +34,13 @@ class PcdFolder : public ObservationSource {
   mrpt::obs::CObservation::Ptr next() override;
   double progress() const override;
   SourceReport report() const override { return report_; }
+  /// How many of those that were handed out have no rows and columns.
+  std::size_t unorganised() const { return unorganised_; }
 
  private:
   PcdFolderOptions options_;
   std::vector<std::string> files_;
-  std::size_t next_ = 0;
+  std::size_t next_ = 0, unorganised_ = 0;
   SourceReport report_;
 };
 
