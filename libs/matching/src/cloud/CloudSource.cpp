@@ -109,7 +109,8 @@ CloudPoints edgesOf(const DepthImage& depth, const perception::ColourImage* colo
         ++count;
       }
     }
-    cloud.covariances.push_back(noise.of(here) + squares / count - sum * sum.transpose() / (count * count));
+    cloud.covariances.push_back(noise.of(here) + static_cast<float>(options.edge_slide * options.edge_slide) *
+                                                     (squares / count - sum * sum.transpose() / (count * count)));
   }
   return cloud;
 }
@@ -141,8 +142,7 @@ CloudPoints allOf(const DepthImage& depth, const CloudSourceOptions& options) {
     const Eigen::Vector3f point = surface.point(i), normal = surface.normal(i);
     cloud.points.push_back(point);
     cloud.normals.push_back(normal);
-    cloud.covariances.push_back(
-        onSurface(normal, static_cast<float>(2 / depth.camera().fx) * point.z(), noise.of(point)));
+    cloud.covariances.push_back(onSurface(normal, static_cast<float>(options.slide), noise.of(point)));
   }
   return cloud;
 }
@@ -194,7 +194,7 @@ CloudPoints voxelsOf(const DepthImage& depth, const CloudSourceOptions& options)
     ++sum.with_normal;
   }
   const PointNoise noise(depth.camera(), options);
-  const auto spacing = static_cast<float>(0.5 * options.voxel);
+  const auto spacing = static_cast<float>(options.slide);
   CloudPoints cloud;
   for (const auto& sum : voxels.sums()) {
     const Eigen::Vector3f point = sum.points / sum.count;

@@ -31,6 +31,8 @@ const base::OptionTable<CloudMatcherOptions>& CloudMatcherOptions::table() {
           .integer("coarse_points", &Options::coarse_points, base::Range{10, 1000000},
                    "Points that are matched first; each further level has four times as many.")
           .integer("max_points", &Options::max_points, base::Range{10, 1000000}, "Points that are matched last.")
+          .number("normal_noise_deg", &Options::normal_noise, base::Range::notNegative(),
+                  "Standard deviation of normals: what these alone seem to fix is left open.")
           .number("alike", &Options::alike, base::Range{1, 10000}, "So many points err alike and count as one.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
                   "Least share of a cloud's points that must have one of the other near.");
@@ -68,8 +70,11 @@ class CloudSearch {
   double medianDistance() const;
   const Se3& targetFromSource() const { return target_from_source_; }
   const Matrix6d& information() const { return information_; }
+  // What normals seem to tell that are off by `noise` [rad]: sideways, where they tell nothing.
+  Matrix6d informationOfNoise(double noise) const;
 
  private:
+  double weightOf(const Pair& pair) const;
   double dimensions() const { return options_.method == CloudMethod::point_to_plane ? 1 : 3; }
   void findScale();
 
@@ -128,17 +133,35 @@ void CloudSearch::findScale() {
   scale_square_ = std::max(least * least, *middle / median_of_chi_square);
 }
 
-double CloudSearch::step() {
+// The matrix that takes a turn about the source's origin to what it moves the point of the target by.
+Eigen::Matrix3f turnOf(const Pair& pair) {
+  Eigen::Matrix3f turn;
+  turn << 0, -pair.point.z(), pair.point.y(), pair.point.z(), 0, -pair.point.x(), -pair.point.y(), pair.point.x(), 0;
+  return turn;
+}
+
+double CloudSearch::weightOf(const Pair& pair) const {
   constexpr double kDegrees = 5;  // of freedom of Student's t
+  return (kDegrees + dimensions()) / (kDegrees + pair.square / scale_square_) / scale_square_;
+}
+
+Matrix6d CloudSearch::informationOfNoise(double noise) const {
+  Matrix6d sum = Matrix6d::Zero();
+  for (const Pair& pair : pairs_) {
+    const Eigen::Matrix3d sideways =
+        (pair.information.trace() * Eigen::Matrix3f::Identity() - pair.information).cast<double>();
+    Eigen::Matrix<double, 3, 6> jacobian;
+    jacobian << -Eigen::Matrix3d::Identity(), turnOf(pair).cast<double>();
+    sum += noise * noise * weightOf(pair) * jacobian.transpose() * sideways * jacobian;
+  }
+  return sum;
+}
+
+double CloudSearch::step() {
   Eigen::Matrix3d tt = Eigen::Matrix3d::Zero(), tw = tt, ww = tt;
   Eigen::Vector3d t = Eigen::Vector3d::Zero(), w = t;
-  const double inverse_scale = 1 / scale_square_;
   for (const Pair& pair : pairs_) {
-    const auto weight =
-        static_cast<float>((kDegrees + dimensions()) / (kDegrees + pair.square * inverse_scale) * inverse_scale);
-    const Eigen::Matrix3f information = weight * pair.information;
-    Eigen::Matrix3f turn;  // of the point of the target
-    turn << 0, -pair.point.z(), pair.point.y(), pair.point.z(), 0, -pair.point.x(), -pair.point.y(), pair.point.x(), 0;
+    const Eigen::Matrix3f information = static_cast<float>(weightOf(pair)) * pair.information, turn = turnOf(pair);
     const Eigen::Matrix3f turned = information * turn;
     const Eigen::Vector3f force = information * pair.off;
     tt += information.cast<double>();
@@ -210,7 +233,9 @@ CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchClo
   match.residual = search.medianDistance();
   // A direction is open that all pairs together fix by less than this.
   constexpr double kWeakest = 1e4;  // [1/m2], [1/rad2]
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(search.information() / options_.alike);
+  const bool by_surfaces = options_.method != CloudMethod::point_to_point;
+  const Matrix6d noise = by_surfaces ? search.informationOfNoise(options_.normal_noise) : Matrix6d(Matrix6d::Zero());
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes((search.information() - noise) / options_.alike);
   match.open_directions = static_cast<int>((axes.eigenvalues().array() < kWeakest).count());
   const Vector6d variances =
       axes.eigenvalues().unaryExpr([](double value) { return value < kWeakest ? CloudMatch::kOpen : 1 / value; });

@@ -21,7 +21,8 @@ struct CloudMatcherOptions {
   double tolerance = 1e-4;       ///< [m] [rad] steps below which a level ends
   int coarse_points = 300;       ///< of the source, on the coarsest level; each further one has four times as many
   int max_points = 2000;         ///< on the finest
-  double alike = 10;             ///< points whose errors are alike: so many count as one
+  double normal_noise = 0.045;   ///< [rad] of surfaces' normals: what these alone seem to fix is left open
+  double alike = 30;             ///< points whose errors are alike: so many count as one
   double min_overlap = 0.3;      ///< least share of the source's points that have one of the target's near
 
   static const base::OptionTable<CloudMatcherOptions>& table();

@@ -24,6 +24,8 @@ struct CloudSourceOptions {
   double max_depth = 5;                           ///< [m] what is farther is too noisy
   double pixel_noise = 1;                         ///< [px] across the rays
   perception::DepthNoise noise;                   ///< along them
+  double slide = 0.03;                            ///< [m] by which points on surfaces may lie elsewhere on them
+  double edge_slide = 3;                          ///< the same along edges, in spreads of the pixels around
   perception::EdgeOptions edges = easilyFound();  ///< which kinds are sought is said by `source`
 
   /// Edges that are found again in most images rather than those that are surely some.
