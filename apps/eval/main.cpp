@@ -64,11 +64,11 @@ int run(const std::string& verb, const Arguments& arguments) {
     const auto& first = error.paired.pairs.front();
     if (pairing.alignment == eval::Alignment::none &&
         (first.reference.translation - first.estimate.translation).norm() > 1)
-      std::cerr << "The first poses lie more than 1 m apart. If each trajectory has a frame of its own: --align yaw, "
-                   "or se3\n";
-    if (pairing.alignment != eval::Alignment::se3 && error.rotation.rmse > 10 * geometry::kPi / 180)
-      std::cerr << "The poses are turned by a lot. If the trajectories' frames are not level alike, as of a camera in "
-                   "the hand: --align se3\n";
+      std::cerr
+          << "The first poses lie more than 1 m apart. Trajectories with frames of their own: --align yaw or se3\n";
+    if (error.rotation.rmse > 10 * geometry::kPi / 180)
+      std::cerr << "The poses are turned by a lot. Frames that are not level alike, as of a camera: --align se3. A "
+                   "camera that looks along z: take OUT.truth.tum of omnimapper-import\n";
     return report(arguments, error, reference);
   }
   return report(arguments, eval::relativePoseError(estimate, reference, pairing,

@@ -23,7 +23,9 @@ base::ExitCode importPcd(const std::string& folder, const std::string& output,
         refuseNothing(folder, clouds.report());
       },
       source::ColourImages::jpeg);
-  std::cout << clouds.report().text();
+  std::cout << clouds.report().text()
+            << (clouds.areNamesTimes() ? "stamps: the names of the files\n"
+                                       : "stamps: made up by --rate, for the files' names are no Unix times\n");
   if (clouds.unorganised() > 0) {
     std::cout << base::counted(clouds.unorganised(), "cloud")
               << " without rows and columns (HEIGHT 1): they stay clouds, which are mapped only with odometry or poses "

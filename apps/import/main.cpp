@@ -67,7 +67,7 @@ CLI::App* addPcd(CLI::App& app, Arguments& arguments) {
       app.add_subcommand("pcd", "folder of PCD files: organised clouds become depth images, others stay clouds");
   pcd->add_option("DIR", arguments.input, "folder")->required();
   pcd->add_option("OUT", arguments.output, "rawlog to write")->required();
-  pcd->add_option("--rate", arguments.pcd.rate, "of the clouds, which have no stamps [1/s]")
+  pcd->add_option("--rate", arguments.pcd.rate, "of clouds whose names are no Unix times [1/s]")
       ->check(omnimapper::program::positive())
       ->capture_default_str();
   pcd->add_option("--label", arguments.pcd.label, "sensor label")->capture_default_str();

@@ -67,6 +67,12 @@ TEST(FittingInis, OfARangeCameraDependOnWhatTellsItsMotion) {
 TEST(FittingInis, OfCloudsAndPicturesWithOdometryAreNamed) {
   EXPECT_EQ(namesFor(without(with<mrpt::obs::CObservationPointCloud>(), "laser")), Names{"ini/home_planes.ini"});
   EXPECT_EQ(namesFor(without(with<mrpt::obs::CObservationImage>(), "laser")), Names{"ini/landmarks.ini"});
+  auto posed = without(without(with<mrpt::obs::CObservationPointCloud>(), "laser"), "odometry");
+  EXPECT_EQ(namesFor(posed), Names{});
+  auto pose = mrpt::obs::CObservationRobotPose::Create();
+  pose->timestamp = posed.front()->timestamp;
+  posed.push_back(pose);
+  EXPECT_EQ(namesFor(posed), Names{"ini/rgbd_planes.ini"});
   EXPECT_EQ(namesFor(without(without(with<mrpt::obs::CObservationImage>(), "laser"), "odometry")), Names{});
 }
 

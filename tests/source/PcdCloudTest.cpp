@@ -164,6 +164,25 @@ TEST_F(PcdCloudTest, whatIsNoCloudIsRefused) {
   EXPECT_THROW(readPcd(folder_ / "none.pcd"), base::Error);
 }
 
+TEST(PcdFolderTest, namesThatAreTimesAreTheStamps) {
+  const std::string cloud =
+      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3\n";
+  const auto stamps = [&](const std::vector<std::string>& names) {
+    testing::ScratchFolder folder;
+    for (const auto& name : names) std::ofstream(folder / name) << cloud;
+    PcdFolder source(folder.path());
+    std::vector<double> found;
+    while (const auto scan = source.next()) found.push_back(mrpt::Clock::toDouble(scan->timestamp));
+    return found;
+  };
+  const auto seconds = stamps({"1305031232.5.pcd", "1305031233.25.pcd"});
+  EXPECT_NEAR(seconds[0], 1305031232.5, 1e-6);
+  EXPECT_NEAR(seconds[1], 1305031233.25, 1e-6);
+  EXPECT_NEAR(stamps({"1305031232500000000.pcd"})[0], 1305031232.5, 1e-6) << "nanoseconds";
+  EXPECT_NEAR(stamps({"1305031232.5.pcd", "cloud.pcd"})[0], 1e9, 1) << "not all are times";
+  EXPECT_NEAR(stamps({"000017.pcd"})[0], 1e9, 1) << "a number of a file";
+}
+
 TEST(PcdFolderTest, aCloudWithoutRowsStaysACloudWithoutWhatIsNoPoint) {
   const testing::ScratchFolder folder;
   std::ofstream(folder / "scan.pcd")

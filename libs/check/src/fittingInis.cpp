@@ -62,6 +62,11 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
                     "planes of point clouds: --set planes.class=CloudPlaneExtractor",
                     {{"odometry", "no_motion"}, {"planes"}, {"plane_landmarks"}, true}});
   }
+  if (sees_clouds && !sees_depth && holds<mrpt::obs::CObservationRobotPose>(facts)) {
+    inis.push_back({"ini/rgbd_planes.ini",
+                    "planes of point clouds on given poses: --set planes.class=CloudPlaneExtractor",
+                    {{"given_motion", "no_motion"}, {"planes"}, {"poses", "plane_landmarks"}, false}});
+  }
   if (has_odometry && holds<mrpt::obs::CObservationImage>(facts)) {
     inis.push_back({"ini/landmarks.ini",
                     "ArUco markers, if its pictures show some: README, \"Landmarks\", has the settings",

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "refuse.h"
 
@@ -105,6 +107,20 @@ mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud) {
   return made;
 }
 
+namespace {
+
+// [s] What a file is called, in seconds or nanoseconds since 1970; none if that is no time after 1973.
+std::optional<double> timeOf(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  char* end = nullptr;
+  const double value = std::strtod(stem.c_str(), &end);
+  if (stem.empty() || *end != 0 || !(value >= 1e8)) return std::nullopt;
+  constexpr double kNanoseconds = 1e17;  // no seconds are as many
+  return value < kNanoseconds ? value : 1e-9 * value;
+}
+
+}  // namespace
+
 PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options) : options_(options) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -113,12 +129,22 @@ PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options)
   if (error) refuse(folder, error.message());
   if (files_.empty()) refuse(folder, "holds no .pcd files");
   std::sort(files_.begin(), files_.end());
+  for (const auto& file : files_) {
+    const auto time = timeOf(file);
+    if (!time || (!times_.empty() && *time <= times_.back())) {
+      times_.clear();
+      break;
+    }
+    times_.push_back(*time);
+  }
 }
 
 mrpt::obs::CObservation::Ptr PcdFolder::next() {
   while (next_ < files_.size()) {
     const std::string& file = files_[next_];
-    const auto stamp = base::stampFromUnix(kFirstStamp + static_cast<double>(next_++) / options_.rate);
+    const auto stamp =
+        base::stampFromUnix(times_.empty() ? kFirstStamp + static_cast<double>(next_) / options_.rate : times_[next_]);
+    ++next_;
     try {
       const auto cloud = readPcd(file);
       const bool is_organised = cloud.height > 1 && cloud.width > 1;
