@@ -35,7 +35,7 @@ class VisualOdometry : public ::testing::Test {
     matching::RgbdTrackerOptions tracking;
     tracking.depth_readout = tracking.picture_readout = tracking.picture_delay = tracking.picture_delay_sigma = 0;
     plugin_ =
-        std::make_unique<VisualOdometryPlugin>(VisualOdometryOptions{}, tracking, matching::DenseMatcherOptions{});
+        std::make_unique<VisualOdometryPlugin>(CameraOdometryOptions{}, tracking, matching::DenseMatcherOptions{});
   }
 
   CObservation3DRangeScan::Ptr scan(double seconds, bool is_covered = false) const {

@@ -1,0 +1,156 @@
+#include "CameraOdometry.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Names.h>
+#include <omnimapper/base/Numbers.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace omnimapper::plugins {
+
+using mrpt::obs::CObservation3DRangeScan;
+using How = ImageMotion::How;
+
+const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
+  using Options = CameraOdometryOptions;
+  const auto zero_or_more = base::Range::notNegative();
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("label", &Options::label, "Sensor label of the camera; empty for the first that comes.")
+          .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
+                  "More than a hand or a robot moves the camera: a map with such motions is suspicious.")
+          .number("position_noise_m", &Options::position_noise, base::Range::positive(),
+                  "Standard deviation of each coordinate from one image to the next, at rest.")
+          .number("angle_noise_deg", &Options::angle_noise, base::Range::positive(),
+                  "Standard deviation of each angle from one image to the next, at rest.")
+          .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
+                  "Standard deviation of each coordinate after 1 m of way [m] beside that.")
+          .number("position_noise_per_root_turn", &Options::position_noise_per_root_turn, zero_or_more,
+                  "Standard deviation of each coordinate after 1 rad of turning [m] beside that.")
+          .number("angle_noise_per_root_m_deg", &Options::angle_noise_per_root_m, zero_or_more,
+                  "Standard deviation of each angle after 1 m of way beside that.")
+          .number("angle_noise_per_root_turn", &Options::angle_noise_per_root_turn, zero_or_more,
+                  "Standard deviation of each angle after 1 rad of turning [rad] beside that.");
+  return table;
+}
+
+CameraOdometry::Taken CameraOdometry::add(const mrpt::obs::CObservation::ConstPtr& observation) {
+  const auto scan = std::dynamic_pointer_cast<const CObservation3DRangeScan>(observation);
+  if (!scan || !scan->hasRangeImage) return Taken::not_mine;
+  if (!options_.label.empty() && scan->sensorLabel != options_.label) return Taken::not_mine;
+  if (label_ && scan->sensorLabel != *label_) return Taken::not_mine;
+  label_ = scan->sensorLabel;
+  if (!reached_ || scan->timestamp > *reached_) wait_.emplace(scan->timestamp, scan);
+  return Taken::taken;
+}
+
+std::optional<base::Stamp> CameraOdometry::coveredUntil() const {
+  if (!wait_.empty()) return wait_.rbegin()->first;
+  return reached_;
+}
+
+// One image beyond it, so that the motion to between two images is known.
+void CameraOdometry::processUntil(base::Stamp stamp) {
+  while (!wait_.empty() && (!reached_ || *reached_ < stamp)) {
+    const auto next = wait_.extract(wait_.begin());
+    reached_ = next.key();
+    follow(*next.mapped());
+  }
+}
+
+void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
+  std::optional<perception::RgbdView> view;
+  try {
+    view.emplace(scan);
+  } catch (const base::Error& error) {
+    if (unreadable_++ == 0) why_unreadable_ = error.what();
+    return;
+  }
+  constexpr std::size_t kRunaway = 3;  // images in a row: one alone is where another key frame is taken
+  constexpr double kShortest = 0.03;   // [s] of stamps that nearly coincide the noise would be a speed
+  if (!begun_) begun_ = scan.timestamp;
+  ++images_;
+  const auto tracked = track(*view, scan.timestamp);
+  returns_ += tracked.has_returned;
+  if (tracked.how == How::lost) {
+    ++lost_;
+  } else if (tracked.how == How::begun) {
+    if (has_begun_ && gaps_++ == 0) first_gap_ = base::secondsBetween(*begun_, scan.timestamp);
+    has_begun_ = true;
+  } else {
+    const double seconds = base::secondsBetween(tracked.last, scan.timestamp);
+    const bool is_hasty =
+        tracked.last_from_camera.translation.norm() > options_.max_speed * std::max(seconds, kShortest);
+    hasty_in_a_row_ = is_hasty ? hasty_in_a_row_ + 1 : 0;
+    runaways_ += hasty_in_a_row_ == kRunaway;
+    bridged_ += !tracked.open.isZero();
+    timeline_.insert(tracked.last, scan.timestamp, motionOf(tracked, scan.timestamp, scan.sensorPose));
+  }
+}
+
+// Variances grow with the way and the turn so that spans add up: what a key frame is off by counts once for all images
+// that were registered with it.
+mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base::Stamp stamp,
+                                                const mrpt::poses::CPose3D& base_from_sensor) const {
+  const geometry::Se3 base_from_camera = geometry::fromMrpt(base_from_sensor) * geometry::sensorFromOptical();
+  const geometry::Se3& moved = tracked.last_from_camera;
+  const double way = moved.translation.norm(), turn = geometry::logSo3(moved.rotation).norm();
+  const auto variance = [&](double at_rest, double per_root_m, double per_root_turn) {
+    return at_rest * at_rest + per_root_m * per_root_m * way + per_root_turn * per_root_turn * turn;
+  };
+  geometry::Matrix6d of_camera = geometry::Matrix6d::Zero();
+  of_camera.diagonal().head<3>().setConstant(
+      variance(options_.position_noise, options_.position_noise_per_root_m, options_.position_noise_per_root_turn));
+  of_camera.diagonal().tail<3>().setConstant(
+      variance(options_.angle_noise, options_.angle_noise_per_root_m, options_.angle_noise_per_root_turn));
+  // However the hand moved last in directions that the image left open, it may go another way. That it does so for a
+  // while, and not anew at each image, makes the spans' errors alike: they add up as those of such a while do.
+  constexpr double kUsualSpeed = 0.5, kWhile = 1;  // [m/s] and [rad/s]; [s]
+  of_camera += kUsualSpeed * kUsualSpeed * kWhile * base::secondsBetween(tracked.last, stamp) * tracked.open;
+  const geometry::Matrix6d ad = adjoint(base_from_camera);
+  return {geometry::toMrpt(base_from_camera * moved * inverse(base_from_camera)), ad * of_camera * ad.transpose()};
+}
+
+std::vector<std::string> CameraOdometry::warnings() const {
+  if (unreadable_ == 0) return {};
+  return {base::counted(unreadable_, "image") + " of the camera " + base::sensorName(*label_) + " told " + what_ +
+          " nothing: " + why_unreadable_};
+}
+
+std::vector<mapper::Evidence> CameraOdometry::evidence() const {
+  constexpr double kMuch = 10;  // [%]
+  const double percent = images_ == 0 ? 0 : 100.0 * static_cast<double>(lost_) / static_cast<double>(images_);
+  std::vector<mapper::Evidence> all;
+  char text[200];
+  if (gaps_ > 0) {
+    std::snprintf(text, sizeof text, "the camera was lost and began anew (%s, first %.0f s after its start)",
+                  base::counted(gaps_, "time").c_str(), first_gap_);
+    all.push_back({"camera_begun_anew", static_cast<double>(gaps_), mapper::Evidence::Says::against_it, text});
+  }
+  if (images_ == 0) return all;
+  using Says = mapper::Evidence::Says;
+  std::snprintf(text, sizeof text, "%s was lost in %.0f %% of the images", what_.c_str(), percent);
+  all.push_back(
+      {"camera_lost_percent", percent, percent > kMuch ? Says::too_little : Says::good, percent > kMuch ? text : ""});
+  if (runaways_ > 0) {
+    std::snprintf(text, sizeof text,
+                  "the camera seems to have moved at more than %.1f m/s (%s): it was tracked wrong there",
+                  options_.max_speed, base::counted(runaways_, "time").c_str());
+    all.push_back({"camera_runaways", static_cast<double>(runaways_), Says::against_it, text});
+  }
+  const double open = 100.0 * static_cast<double>(bridged_) / static_cast<double>(images_);
+  std::snprintf(text, sizeof text, "in %.0f %% of the images the camera saw nothing that tells all of its motion",
+                open);
+  all.push_back({"camera_blind_percent", open, open > kMuch ? Says::too_little : Says::good, open > kMuch ? text : ""});
+  std::snprintf(text, sizeof text,
+                returns_ > 0 ? "views of long before came back %zu times, and the images fitted them"
+                             : "the camera never came back to a view of before, where drift would be seen",
+                returns_);
+  all.push_back({"camera_returns", static_cast<double>(returns_), returns_ > 0 ? Says::good : Says::too_little, text});
+  return all;
+}
+
+}  // namespace omnimapper::plugins
