@@ -62,9 +62,9 @@ void CameraOdometry::processUntil(base::Stamp stamp) {
 }
 
 void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
-  std::optional<perception::RgbdView> view;
+  ImageMotion tracked;
   try {
-    view.emplace(scan);
+    tracked = track(perception::RgbdView(scan), scan.timestamp);
   } catch (const base::Error& error) {
     if (unreadable_++ == 0) why_unreadable_ = error.what();
     return;
@@ -73,7 +73,6 @@ void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
   constexpr double kShortest = 0.03;   // [s] of stamps that nearly coincide the noise would be a speed
   if (!begun_) begun_ = scan.timestamp;
   ++images_;
-  const auto tracked = track(*view, scan.timestamp);
   returns_ += tracked.has_returned;
   if (tracked.how == How::lost) {
     ++lost_;

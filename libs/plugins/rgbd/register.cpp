@@ -1,5 +1,6 @@
 #include <omnimapper/base/AtLoad.h>
 
+#include "CloudOdometryPlugin.h"
 #include "VisualOdometryPlugin.h"
 
 namespace omnimapper::plugins {
@@ -8,6 +9,7 @@ namespace omnimapper::plugins {
 const base::AtLoad kRegister([] {
   mapper::registerFactoryBases();
   mrpt::rtti::registerClass(CLASS_ID(VisualOdometryPluginFactory));
+  mrpt::rtti::registerClass(CLASS_ID(CloudOdometryPluginFactory));
 });
 
 }  // namespace omnimapper::plugins

@@ -240,6 +240,7 @@ CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchClo
   const Vector6d variances =
       axes.eigenvalues().unaryExpr([](double value) { return value < kWeakest ? CloudMatch::kOpen : 1 / value; });
   match.covariance = axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
+  match.fits = true;
   match.succeeded = match.open_directions == 0;
   return match;
 }

@@ -38,7 +38,8 @@ struct CloudMatch {
   double residual = 0;      ///< [m] median distance of those
   int iterations = 0;       ///< on all levels
   int open_directions = 6;  ///< how many the residuals do not fix
-  bool succeeded = false;   ///< enough overlap, and no direction is open
+  bool fits = false;        ///< enough overlap
+  bool succeeded = false;   ///< it fits, and no direction is open
 
   static constexpr double kOpen = 1e4;  ///< [m2], [rad2]
 };

@@ -1,0 +1,69 @@
+#include <omnimapper/matching/CloudTracker.h>
+
+#include <utility>
+
+namespace omnimapper::matching {
+
+using geometry::Se3;
+
+const base::OptionTable<CloudTrackerOptions>& CloudTrackerOptions::table() {
+  using Options = CloudTrackerOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("key_angle_deg", &Options::key_angle, base::Range::positive(),
+                  "Turn of the camera after which an image becomes a key frame.")
+          .number("key_distance_m", &Options::key_distance, base::Range::positive(), "Way after which it does.")
+          .number("key_overlap", &Options::key_overlap, base::Range{0, 1},
+                  "Share of points that are still near those of the key frame, below which it does.")
+          .number("longest_loss_s", &Options::longest_loss, base::Range::positive(),
+                  "A camera that is lost for longer begins anew.");
+  return table;
+}
+
+CloudTracker::CloudTracker(const CloudTrackerOptions& options, std::unique_ptr<const CloudMatcher> matcher)
+    : options_(options), matcher_(std::move(matcher)) {}
+
+CloudTracker::Tracked CloudTracker::begin(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud) {
+  key_ = cloud;
+  last_ = Image{std::move(cloud), {}, stamp};
+  velocity_.setZero();
+  Tracked tracked;
+  tracked.last = stamp;
+  return tracked;
+}
+
+bool CloudTracker::isFarFromKey(const CloudMatch& match, const Se3& key_from_camera) const {
+  return match.overlap < options_.key_overlap || key_from_camera.translation.norm() > options_.key_distance ||
+         geometry::logSo3(key_from_camera.rotation).norm() > options_.key_angle;
+}
+
+CloudTracker::Tracked CloudTracker::track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud) {
+  if (!last_) return begin(stamp, std::move(cloud));
+  const double seconds = base::secondsBetween(last_->stamp, stamp);
+  const Se3 last_from_predicted = geometry::plus(Se3{}, seconds * velocity_);
+  Tracked tracked;
+  tracked.last = last_->stamp;
+  tracked.match = matcher_->match(*key_, *cloud, last_->key_from_camera * last_from_predicted);
+  if (!tracked.match.fits && last_->cloud != key_) {
+    key_ = last_->cloud;
+    last_->key_from_camera = {};
+    tracked.match = matcher_->match(*key_, *cloud, last_from_predicted);
+  }
+  if (!tracked.match.fits) {
+    if (seconds > options_.longest_loss) return begin(stamp, std::move(cloud));
+    tracked.how = Tracked::How::lost;
+    return tracked;
+  }
+  tracked.how = Tracked::How::tracked;
+  const Se3 key_from_camera = tracked.match.target_from_source;
+  tracked.last_from_camera = inverse(last_->key_from_camera) * key_from_camera;
+  if (seconds > 0) velocity_ = minus(tracked.last_from_camera, Se3{}) / seconds;
+  last_ = Image{cloud, key_from_camera, stamp};
+  if (isFarFromKey(tracked.match, key_from_camera)) {
+    key_ = std::move(cloud);
+    last_->key_from_camera = {};
+  }
+  return tracked;
+}
+
+}  // namespace omnimapper::matching

@@ -1,0 +1,49 @@
+#include "CloudOdometryPlugin.h"
+
+#include <omnimapper/plugin/SharedSection.h>
+
+#include "openDirections.h"
+
+IMPLEMENTS_MRPT_OBJECT(CloudOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+CloudOdometryPlugin::CloudOdometryPlugin(const CameraOdometryOptions& options,
+                                         const matching::CloudTrackerOptions& tracking,
+                                         const matching::CloudSourceOptions& source,
+                                         const matching::CloudMatcherOptions& matching)
+    : CameraOdometry(options, "odometry by clouds"),
+      source_(source),
+      tracker_(tracking, std::make_unique<matching::IteratedClosestPoints>(matching)) {}
+
+ImageMotion CloudOdometryPlugin::track(const perception::RgbdView& view, base::Stamp stamp) {
+  using How = matching::CloudTracker::Tracked::How;
+  auto cloud = std::make_shared<const matching::MatchCloud>(matching::cloudOf(view.depth(), view.colour(), source_));
+  const auto tracked = tracker_.track(stamp, std::move(cloud));
+  ImageMotion motion;
+  motion.how = tracked.how == How::lost    ? ImageMotion::How::lost
+               : tracked.how == How::begun ? ImageMotion::How::begun
+                                           : ImageMotion::How::tracked;
+  motion.last_from_camera = tracked.last_from_camera;
+  motion.last = tracked.last;
+  if (tracked.match.open_directions > 0)
+    motion.open = openDirections(tracked.match.covariance, matching::CloudMatch::kOpen);
+  return motion;
+}
+
+using CloudOdometrySection = mapper::SharedSection<CameraOdometryOptions, matching::CloudTrackerOptions,
+                                                   matching::CloudSourceOptions, matching::CloudMatcherOptions>;
+
+const std::vector<base::OptionSpec>& CloudOdometryPluginFactory::options() const {
+  return CloudOdometrySection::options();
+}
+
+std::unique_ptr<mapper::PosePlugin> CloudOdometryPluginFactory::make(const base::ConfigSection& section,
+                                                                     const mapper::PluginContext&) const {
+  return std::make_unique<CloudOdometryPlugin>(CloudOdometrySection::read<CameraOdometryOptions>(section),
+                                               CloudOdometrySection::read<matching::CloudTrackerOptions>(section),
+                                               CloudOdometrySection::read<matching::CloudSourceOptions>(section),
+                                               CloudOdometrySection::read<matching::CloudMatcherOptions>(section));
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <omnimapper/matching/CloudSource.h>
+#include <omnimapper/matching/CloudTracker.h>
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include "CameraOdometry.h"
+
+namespace omnimapper::plugins {
+
+/// Odometry by clouds (thesis 4.1.1, 5.3.3.1): edges, voxels or all points of every image of one depth camera are
+/// registered with those of a key frame (matching/CloudTracker.h).
+class CloudOdometryPlugin : public CameraOdometry {
+ public:
+  CloudOdometryPlugin(const CameraOdometryOptions& options, const matching::CloudTrackerOptions& tracking,
+                      const matching::CloudSourceOptions& source, const matching::CloudMatcherOptions& matching);
+
+ private:
+  ImageMotion track(const perception::RgbdView& view, base::Stamp stamp) override;
+
+  matching::CloudSourceOptions source_;
+  matching::CloudTracker tracker_;
+};
+
+class CloudOdometryPluginFactory : public mapper::PosePluginFactory {
+  DEFINE_MRPT_OBJECT(CloudOdometryPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "CloudOdometryPlugin"; }
+  std::string summary() const override {
+    return "Odometry of a depth camera by edges, voxels or points of its images.";
+  }
+  const std::vector<base::OptionSpec>& options() const override;
+  std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
+                                           const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins
