@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/geometry/OpticalFrame.h>
 
-#include "../../matching/RenderedRoom.h"
+#include "RenderedScan.h"
 #include "rgbd/VisualOdometryPlugin.h"
 
 namespace omnimapper::plugins::visual_odometry_plugin_test {
@@ -39,31 +38,7 @@ class VisualOdometry : public ::testing::Test {
   }
 
   CObservation3DRangeScan::Ptr scan(double seconds, bool is_covered = false) const {
-    const Se3 room_from_camera = truth(seconds) * geometry::fromMrpt(kBaseFromCamera) * geometry::sensorFromOptical();
-    const auto image = room_.render(room_from_camera);
-    auto scan = CObservation3DRangeScan::Create();
-    scan->timestamp = at(seconds);
-    scan->sensorLabel = "camera";
-    scan->sensorPose = kBaseFromCamera;
-    scan->hasRangeImage = scan->hasIntensityImage = true;
-    scan->range_is_depth = true;
-    scan->rangeUnits = 1e-4F;
-    scan->rangeImage_setSize(room_.height, room_.width);
-    scan->intensityImage.resize(room_.width, room_.height, mrpt::img::CH_GRAY);
-    for (int y = 0; y < room_.height; ++y) {
-      for (int x = 0; x < room_.width; ++x) {
-        const auto pixel = static_cast<std::size_t>(y * room_.width + x);
-        scan->rangeImage(y, x) = is_covered ? 0 : static_cast<std::uint16_t>(std::lround(1e4 * image.depth[pixel]));
-        *scan->intensityImage.ptr<std::uint8_t>(static_cast<unsigned>(x), static_cast<unsigned>(y)) =
-            is_covered ? 0 : image.grey[pixel];
-      }
-    }
-    for (auto* camera : {&scan->cameraParams, &scan->cameraParamsIntensity}) {
-      camera->ncols = static_cast<std::uint32_t>(room_.width);
-      camera->nrows = static_cast<std::uint32_t>(room_.height);
-      camera->setIntrinsicParamsFromValues(room_.camera.fx, room_.camera.fy, room_.camera.cx, room_.camera.cy);
-    }
-    return scan;
+    return renderedScan(room_, truth(seconds), kBaseFromCamera, at(seconds), is_covered);
   }
 
   void add(double seconds, bool is_covered = false) {
