@@ -61,6 +61,25 @@ void CameraOdometry::processUntil(base::Stamp stamp) {
   }
 }
 
+namespace {
+
+// [px] By how much the lens moves the corners of the image, by the model of OpenCV and MRPT: k1, k2, p1, p2, k3.
+double bendOf(const mrpt::img::TCamera& camera) {
+  double most = 0;
+  for (const double u : {0.0, camera.ncols - 1.0}) {
+    for (const double v : {0.0, camera.nrows - 1.0}) {
+      const double x = (u - camera.cx()) / camera.fx(), y = (v - camera.cy()) / camera.fy(), r2 = x * x + y * y;
+      const double radial = r2 * (camera.k1() + r2 * (camera.k2() + r2 * camera.k3()));
+      const double dx = x * radial + 2 * camera.p1() * x * y + camera.p2() * (r2 + 2 * x * x);
+      const double dy = y * radial + camera.p1() * (r2 + 2 * y * y) + 2 * camera.p2() * x * y;
+      most = std::max(most, std::hypot(dx * camera.fx(), dy * camera.fy()));
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
 void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
   ImageMotion tracked;
   try {
@@ -69,6 +88,7 @@ void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
     if (unreadable_++ == 0) why_unreadable_ = error.what();
     return;
   }
+  if (!bend_) bend_ = bendOf(scan.cameraParams);
   constexpr std::size_t kRunaway = 3;  // images in a row: one alone is where another key frame is taken
   constexpr double kShortest = 0.03;   // [s] of stamps that nearly coincide the noise would be a speed
   if (!begun_) begun_ = scan.timestamp;
@@ -114,9 +134,18 @@ mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base
 }
 
 std::vector<std::string> CameraOdometry::warnings() const {
-  if (unreadable_ == 0) return {};
-  return {base::counted(unreadable_, "image") + " of the camera " + base::sensorName(*label_) + " told " + what_ +
-          " nothing: " + why_unreadable_};
+  constexpr double kBent = 2;  // [px]
+  std::vector<std::string> all;
+  if (unreadable_ > 0) {
+    all.push_back(base::counted(unreadable_, "image") + " of the camera " + base::sensorName(*label_) + " told " +
+                  what_ + " nothing: " + why_unreadable_);
+  }
+  if (bend_ && *bend_ > kBent) {
+    all.push_back("the lens of the camera " + base::sensorName(*label_) + " bends its images by " +
+                  base::fixed(*bend_, 0) + " pixels in the corners, which " + what_ +
+                  " does not take out: it drifts more than with images that were straightened before");
+  }
+  return all;
 }
 
 std::vector<mapper::Evidence> CameraOdometry::evidence() const {

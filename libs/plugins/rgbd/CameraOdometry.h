@@ -77,6 +77,7 @@ class CameraOdometry : public mapper::PosePlugin {
   bool has_begun_ = false;
   double first_gap_ = 0;        // [s] after the first image
   std::string why_unreadable_;  // of the first image that was
+  std::optional<double> bend_;  // [px] of the first image's corners by the lens
   matching::PoseTimeline timeline_;
 };
 

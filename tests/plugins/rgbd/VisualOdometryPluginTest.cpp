@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Conversions.h>
 
+#include <functional>
+
 #include "RenderedScan.h"
 #include "rgbd/VisualOdometryPlugin.h"
 
@@ -53,6 +55,26 @@ class VisualOdometry : public ::testing::Test {
     const auto off = minus(geometry::fromMrpt(motion->begin_from_end), inverse(truth(begin)) * truth(end));
     EXPECT_LT(off.head<3>().norm(), 0.012) << begin << " to " << end;
     EXPECT_LT(off.tail<3>().norm(), 0.008) << begin << " to " << end;
+  }
+
+  /// Images of 0.1 s apart up to 2 s, those from 0.6 to 1 s changed.
+  template <class Change>
+  void addWith(const Change& change) {
+    for (int i = 0; i <= 20; ++i) {
+      auto image = scan(0.1 * i);
+      if (i >= 6 && i <= 10) change(*image, 0.1 * i);
+      plugin_->add(image);
+      plugin_->processUntil(at(0.1 * i));
+    }
+  }
+
+  /// What is told lies within four standard deviations; of a motion that is not told nothing is asked.
+  void expectHonest(double begin, double end) const {
+    const auto motion = plugin_->between(at(begin), at(end));
+    if (!motion) return;
+    const auto off = minus(geometry::fromMrpt(motion->begin_from_end), inverse(truth(begin)) * truth(end));
+    const geometry::Matrix6d covariance = motion->covariance;
+    EXPECT_LT(off.dot(covariance.ldlt().solve(off)) / 6, 16) << begin << " to " << end << ": " << off.transpose();
   }
 
   mapper::Evidence evidence(const std::string& name) const {
@@ -126,6 +148,70 @@ TEST_F(VisualOdometry, ACameraWithoutCalibrationIsToldByAWarning) {
   ASSERT_EQ(plugin_->warnings().size(), 1U);
   EXPECT_NE(plugin_->warnings()[0].find("camera"), std::string::npos);
   EXPECT_TRUE(plugin_->evidence().empty());
+}
+
+void paint(CObservation3DRangeScan& scan, const std::function<double(int x, int y)>& brightness) {
+  for (unsigned y = 0; y < scan.intensityImage.getHeight(); ++y) {
+    for (unsigned x = 0; x < scan.intensityImage.getWidth(); ++x)
+      *scan.intensityImage.ptr<std::uint8_t>(x, y) =
+          static_cast<std::uint8_t>(brightness(static_cast<int>(x), static_cast<int>(y)));
+  }
+}
+
+TEST_F(VisualOdometry, WithTheLightsOffItIsNotWrong) {
+  addWith([](auto& scan, double) { paint(scan, [](int, int) { return 0; }); });
+  for (const double end : {0.8, 1.0, 1.2, 2.0}) expectHonest(0.5, end);
+  expectMotion(1.4, 2);
+}
+
+TEST_F(VisualOdometry, WithoutDepthsItIsNotWrong) {
+  addWith([](auto& scan, double) { scan.rangeImage.setZero(); });
+  for (const double end : {0.8, 1.0, 1.2, 2.0}) expectHonest(0.5, end);
+  expectMotion(1.4, 2);
+}
+
+TEST_F(VisualOdometry, WithoutAPictureItIsNotWrong) {
+  addWith([](auto& scan, double) { scan.hasIntensityImage = false; });
+  for (const double end : {0.8, 1.0, 1.2, 2.0}) expectHonest(0.5, end);
+  expectMotion(1.4, 2);
+}
+
+TEST_F(VisualOdometry, SomebodyWhoFillsTheViewIsNotFollowed) {
+  addWith([](auto& scan, double seconds) {
+    scan.rangeImage.setConstant(6000);  // 0.6 m away, walking by at 0.5 m/s
+    paint(scan, [&](int x, int y) { return 128 + 60 * std::sin(0.1 * x - 22 * seconds) + 40 * std::sin(0.15 * y); });
+  });
+  for (const double end : {0.8, 1.0, 1.2, 2.0}) expectHonest(0.5, end);
+  expectMotion(1.4, 2);
+  EXPECT_GT(evidence("camera_lost_percent").value, 10);
+}
+
+TEST_F(VisualOdometry, ImagesOfAnotherSizeAreTrackedOrRefused) {
+  matching::RenderedRoom half = room_;
+  half.width /= 2;
+  half.height /= 2;
+  half.camera = {130, 130, 79.5, 59.5};
+  addWith(
+      [&](auto& scan, double seconds) { scan = *renderedScan(half, truth(seconds), kBaseFromCamera, at(seconds)); });
+  for (const double end : {0.8, 1.0, 1.2, 2.0}) expectHonest(0.5, end);
+  expectMotion(1.4, 2);
+}
+
+TEST_F(VisualOdometry, AcrossASecondWithoutImagesItIsNotWrong) {
+  for (const double seconds : {0.0, 0.1, 0.2, 0.3, 1.5, 1.6, 1.7}) add(seconds);
+  expectHonest(0.3, 1.5);
+  expectMotion(1.5, 1.7);
+}
+
+TEST_F(VisualOdometry, ALensThatBendsTheImageIsToldByAWarning) {
+  auto image = scan(0);
+  image->cameraParams.dist[0] = 0.2624;  // freiburg1's, as the TUM benchmark calibrated it
+  image->cameraParams.dist[1] = -0.9531;
+  image->cameraParams.dist[4] = 1.1633;
+  plugin_->add(image);
+  plugin_->processUntil(at(0));
+  ASSERT_EQ(plugin_->warnings().size(), 1U);
+  EXPECT_NE(plugin_->warnings()[0].find("lens"), std::string::npos) << plugin_->warnings()[0];
 }
 
 }  // namespace
