@@ -1,12 +1,9 @@
 // PCL's edges of organised clouds, the thesis's own.
-#include <pcl/features/integral_image_normal.h>
-#include <pcl/features/organized_edge_detection.h>
-#include <pcl/point_types.h>
-
 #include <memory>
 
 #include "EdgePeers.h"
 #include "PclClouds.h"
+#include "PclEdges.h"
 
 namespace omnimapper::bench {
 
@@ -14,28 +11,10 @@ namespace {
 
 using Point = pcl::PointXYZRGB;
 using Cloud = pcl::PointCloud<Point>;
-using Normals = pcl::PointCloud<pcl::Normal>;
-
-Normals::Ptr normalsOf(const Cloud::Ptr& cloud) {
-  auto normals = pcl::make_shared<Normals>();
-  pcl::IntegralImageNormalEstimation<Point, pcl::Normal> estimation;
-  estimation.setNormalEstimationMethod(estimation.AVERAGE_3D_GRADIENT);
-  estimation.setNormalSmoothingSize(10.0F);
-  estimation.setBorderPolicy(estimation.BORDER_POLICY_MIRROR);
-  estimation.setInputCloud(cloud);
-  estimation.compute(*normals);
-  return normals;
-}
 
 template <class Detector>
 std::vector<std::uint8_t> labelsOf(Detector& detector, const Cloud::Ptr& cloud, int kinds) {
-  detector.setInputCloud(cloud);
-  detector.setDepthDisconThreshold(0.02F);
-  detector.setMaxSearchNeighbors(50);
-  detector.setEdgeType(kinds);
-  pcl::PointCloud<pcl::Label> labels;
-  std::vector<pcl::PointIndices> of_kinds;
-  detector.compute(labels, of_kinds);
+  const auto labels = pclEdgeLabels(detector, cloud, kinds);
   std::vector<std::uint8_t> image;
   image.reserve(labels.size());
   for (const pcl::Label& label : labels) image.push_back(static_cast<std::uint8_t>(label.label));
@@ -62,7 +41,7 @@ std::vector<EdgePeer> pclEdges() {
           peer("PCL OrganizedEdgeFromNormals: high curvature, with normals",
                [](const Cloud::Ptr& cloud) {
                  pcl::OrganizedEdgeFromNormals<Point, pcl::Normal, Label> detector;
-                 detector.setInputNormals(normalsOf(cloud));
+                 detector.setInputNormals(pclNormals<Point>(cloud));
                  return labelsOf(detector, cloud, kHighCurvature);
                }),
           peer("PCL OrganizedEdgeFromRGB: RGB",
@@ -72,7 +51,7 @@ std::vector<EdgePeer> pclEdges() {
                }),
           peer("PCL OrganizedEdgeFromRGBNormals: all five, with normals", [](const Cloud::Ptr& cloud) {
             pcl::OrganizedEdgeFromRGBNormals<Point, pcl::Normal, Label> detector;
-            detector.setInputNormals(normalsOf(cloud));
+            detector.setInputNormals(pclNormals<Point>(cloud));
             return labelsOf(detector, cloud, kJumps + kHighCurvature + kRgb);
           })};
 }

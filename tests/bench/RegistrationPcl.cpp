@@ -1,12 +1,11 @@
 // PCL's registration as the thesis used it: ICP of edges, of voxels and of all points; and its GICP.
-#include <pcl/features/integral_image_normal.h>
-#include <pcl/features/organized_edge_detection.h>
 #include <pcl/filters/filter.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>
 
 #include "PclClouds.h"
+#include "PclEdges.h"
 #include "RegistrationPeers.h"
 
 namespace omnimapper::bench {
@@ -18,13 +17,7 @@ using Cloud = pcl::PointCloud<Point>;
 
 template <class Detector>
 Cloud::Ptr edgesBy(Detector& detector, const Cloud::Ptr& cloud, int kind) {
-  detector.setInputCloud(cloud);
-  detector.setDepthDisconThreshold(0.02F);
-  detector.setMaxSearchNeighbors(50);
-  detector.setEdgeType(kind);
-  pcl::PointCloud<pcl::Label> labels;
-  std::vector<pcl::PointIndices> of_kinds;
-  detector.compute(labels, of_kinds);
+  const auto labels = pclEdgeLabels(detector, cloud, kind);
   auto edges = pcl::make_shared<Cloud>();
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if ((labels[i].label & static_cast<unsigned>(kind)) != 0 && std::isfinite((*cloud)[i].z))
@@ -44,15 +37,8 @@ Cloud::Ptr rgbEdges(const Cloud::Ptr& cloud) {
 }
 
 Cloud::Ptr highCurvature(const Cloud::Ptr& cloud) {
-  auto normals = pcl::make_shared<pcl::PointCloud<pcl::Normal>>();
-  pcl::IntegralImageNormalEstimation<Point, pcl::Normal> estimation;
-  estimation.setNormalEstimationMethod(estimation.AVERAGE_3D_GRADIENT);
-  estimation.setNormalSmoothingSize(10.0F);
-  estimation.setBorderPolicy(estimation.BORDER_POLICY_MIRROR);
-  estimation.setInputCloud(cloud);
-  estimation.compute(*normals);
   pcl::OrganizedEdgeFromNormals<Point, pcl::Normal, pcl::Label> detector;
-  detector.setInputNormals(normals);
+  detector.setInputNormals(pclNormals<Point>(cloud));
   return edgesBy(detector, cloud, 8);
 }
 

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <pcl/features/integral_image_normal.h>
+#include <pcl/features/organized_edge_detection.h>
+#include <pcl/point_types.h>
+
+namespace omnimapper::bench {
+
+/// PCL's normals of an organised cloud, as its edges of high curvature want them.
+template <class Point>
+pcl::PointCloud<pcl::Normal>::Ptr pclNormals(const typename pcl::PointCloud<Point>::Ptr& cloud) {
+  auto normals = pcl::make_shared<pcl::PointCloud<pcl::Normal>>();
+  pcl::IntegralImageNormalEstimation<Point, pcl::Normal> estimation;
+  estimation.setNormalEstimationMethod(estimation.AVERAGE_3D_GRADIENT);
+  estimation.setNormalSmoothingSize(10.0F);
+  estimation.setBorderPolicy(estimation.BORDER_POLICY_MIRROR);
+  estimation.setInputCloud(cloud);
+  estimation.compute(*normals);
+  return normals;
+}
+
+/// What kinds of edges each point is on, as bits; with the settings that the thesis had.
+template <class Detector, class CloudPtr>
+pcl::PointCloud<pcl::Label> pclEdgeLabels(Detector& detector, const CloudPtr& cloud, int kinds) {
+  detector.setInputCloud(cloud);
+  detector.setDepthDisconThreshold(0.02F);
+  detector.setMaxSearchNeighbors(50);
+  detector.setEdgeType(kinds);
+  pcl::PointCloud<pcl::Label> labels;
+  std::vector<pcl::PointIndices> of_kinds;
+  detector.compute(labels, of_kinds);
+  return labels;
+}
+
+}  // namespace omnimapper::bench
