@@ -75,6 +75,8 @@ class EdgeTruth {
                     static_cast<int>(c.nrows),
                     scan.rangeUnits,
                     {c.fx(), c.fy(), c.cx(), c.cy()},
+                    0,
+                    0,
                     {},
                     {}};
     for (int y = 0; y < frame.height; ++y) {
