@@ -67,8 +67,9 @@ int run(const std::string& verb, const Arguments& arguments) {
       std::cerr
           << "The first poses lie more than 1 m apart. Trajectories with frames of their own: --align yaw or se3\n";
     if (error.rotation.rmse > 10 * geometry::kPi / 180)
-      std::cerr << "The poses are turned by a lot. Frames that are not level alike, as of a camera: --align se3. A "
-                   "camera that looks along z: take OUT.truth.tum of omnimapper-import\n";
+      std::cerr
+          << "The poses are turned by a lot. Frames that are not level alike, as of a camera, need --align se3; a "
+             "camera's that look along z, OUT.truth.tum of omnimapper-import in their place\n";
     return report(arguments, error, reference);
   }
   return report(arguments, eval::relativePoseError(estimate, reference, pairing,

@@ -17,7 +17,7 @@ using geometry::Se3;
 
 constexpr double kDegree = M_PI / 180;
 
-// Points on three walls that meet in a corner, a centimetre apart but for chance, with normals and covariances.
+// Points on walls of 1 m that meet in a corner, some 3 cm apart, with normals and covariances.
 CloudPoints corner(int walls, std::uint64_t seed, double noise = 0) {
   testing::Dice dice(seed);
   CloudPoints cloud;
@@ -84,24 +84,23 @@ TEST(CloudMatcher, WallsAreFoundThoughNoPointIsSeenTwice) {
   EXPECT_LT(off(CloudMethod::point_to_point), 0.01) << "the nearest points hold it back";
 }
 
-TEST(CloudMatcher, OneWallLeavesThreeDirectionsOpenAndTwoLeaveOne) {
+// By planes; GICP's nearest points seem to tell what slides along a wall, too.
+TEST(CloudMatcher, OneWallLeavesThreeDirectionsOpenAndTwoLeaveOneAndThereItIsAsGuessed) {
   const Se3 target_from_source = motion(0.01, 0.01, 0.01, 0.5);
-  for (const auto method : {CloudMethod::point_to_plane, CloudMethod::gicp}) {
-    const auto open = [&](int walls) {
-      const MatchCloud target(corner(walls, 1, 0.001));
-      const MatchCloud source(moved(corner(walls, 2, 0.001), inverse(target_from_source)));
-      auto options = by(method);
-      if (method == CloudMethod::gicp) options.alike = 1000;  // what nearest points seem to tell sideways
-      const auto match = IteratedClosestPoints(options).match(target, source, {});
-      EXPECT_EQ(match.succeeded, match.open_directions == 0);
-      return match.open_directions;
-    };
-    if (method == CloudMethod::point_to_plane) {
-      EXPECT_EQ(open(1), 3);
-      EXPECT_EQ(open(2), 1);
-    }
-    EXPECT_EQ(open(3), 0);
-  }
+  const auto matched = [&](int walls) {
+    const MatchCloud target(corner(walls, 1, 0.001));
+    const MatchCloud source(moved(corner(walls, 2, 0.001), inverse(target_from_source)));
+    const auto match = IteratedClosestPoints(by(CloudMethod::point_to_plane)).match(target, source, {});
+    EXPECT_TRUE(match.fits);
+    EXPECT_EQ(match.succeeded, match.open_directions == 0);
+    return match;
+  };
+  const auto one = matched(1);
+  EXPECT_EQ(one.open_directions, 3);
+  EXPECT_LT(std::abs(one.target_from_source.translation.y()), 0.001) << "along the wall nobody knows";
+  EXPECT_LT(std::abs(one.target_from_source.translation.z()), 0.001);
+  EXPECT_EQ(matched(2).open_directions, 1);
+  EXPECT_EQ(matched(3).open_directions, 0);
 }
 
 TEST(CloudMatcher, ItsCovarianceIsOfTheErrorsSize) {
@@ -141,7 +140,6 @@ TEST(CloudMatcher, NothingIsFoundInNothing) {
   for (const auto& [target, source] : {std::pair{&empty, &full}, {&full, &empty}, {&empty, &empty}, {&full, &three}})
     EXPECT_FALSE(matcher.match(*target, *source, {}).succeeded);
   EXPECT_EQ(empty.nearest(Eigen::Vector3f::Zero(), 1.0F), MatchCloud::kNone);
-  EXPECT_TRUE(empty.nearest(Eigen::Vector3f::Zero(), 3).empty());
 }
 
 TEST(CloudMatcher, RefusesWhatAMethodCannotUse) {
@@ -175,19 +173,7 @@ TEST(MatchCloud, FindsTheNearestAsASearchThroughAllDoes) {
       if (square < least) least = square, best = j;
     }
     EXPECT_EQ(index.nearest(to, 0.1F), best);
-    const auto four = index.nearest(to, 4);
-    ASSERT_EQ(four.size(), 4U);
-    EXPECT_LE((cloud.points[four[0]] - to).norm(), (cloud.points[four[3]] - to).norm());
   }
-}
-
-TEST(MatchCloud, ShapesAreThinAcrossAWall) {
-  CloudPoints wall;
-  wall.points = corner(1, 5).points;
-  const auto shaped = withShapes(wall, 10, 0.001);
-  ASSERT_EQ(shaped.covariances.size(), wall.points.size());
-  EXPECT_NEAR(shaped.covariances[7](0, 0), 1e-6, 1e-7) << "noise alone";
-  EXPECT_GT(shaped.covariances[7](1, 1), 1e-5);
 }
 
 // What a camera sees in a room without any step in depth or brightness: surfaces and pictures alone.

@@ -180,7 +180,8 @@ TEST(PcdFolderTest, namesThatAreTimesAreTheStamps) {
   EXPECT_NEAR(seconds[1], 1305031233.25, 1e-6);
   EXPECT_NEAR(stamps({"1305031232500000000.pcd"})[0], 1305031232.5, 1e-6) << "nanoseconds";
   EXPECT_NEAR(stamps({"1305031232.5.pcd", "cloud.pcd"})[0], 1e9, 1) << "not all are times";
-  EXPECT_NEAR(stamps({"000017.pcd"})[0], 1e9, 1) << "a number of a file";
+  for (const char* name : {"000017.pcd", "inf.pcd", "0x1p40.pcd", "20240131120000.pcd", "1305031232500.pcd", "1e9.pcd"})
+    EXPECT_NEAR(stamps({name})[0], 1e9, 1) << name << " is no such time";
 }
 
 TEST(PcdFolderTest, aCloudWithoutRowsStaysACloudWithoutWhatIsNoPoint) {

@@ -86,6 +86,8 @@ std::vector<std::string> usableLasers(const LogFacts& facts) {
 
 namespace {
 
+constexpr double kNotMeasured = 1e3;  // [m]
+
 struct Candidate {
   std::string label;
   double noise;  // [m] after 1 m of way
@@ -101,7 +103,7 @@ std::vector<Candidate> usableOdometries(const LogFacts& facts) {
     if (motion && (facts.covered.at({motion->laser, label}) < 0.5 || isFrozen(*motion))) continue;
     if (isReversed(facts, label)) continue;
     candidates.push_back(
-        {label, motion && motion->position_noise_per_root_m ? *motion->position_noise_per_root_m : 1e3});
+        {label, motion && motion->position_noise_per_root_m ? *motion->position_noise_per_root_m : kNotMeasured});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.noise < b.noise; });
@@ -118,7 +120,9 @@ std::optional<std::string> usableOdometry(const LogFacts& facts) {
 bool isOneOdometryBest(const LogFacts& facts) {
   constexpr double kMuchWorse = 1.5, kFewMillimetres = 0.005;  // [1] [m]
   const auto candidates = usableOdometries(facts);
-  return facts.odometry.size() > 1 && !candidates.empty() &&
+  const bool are_measured =
+      std::all_of(candidates.begin(), candidates.end(), [](const Candidate& one) { return one.noise < kNotMeasured; });
+  return facts.odometry.size() > 1 && !candidates.empty() && are_measured &&
          (candidates.size() == 1 || candidates[1].noise > kMuchWorse * candidates[0].noise + kFewMillimetres);
 }
 

@@ -112,6 +112,7 @@ std::string checkText(const std::string& title, const source::SourceReport& repo
   text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + findingLines(findings);
   if (inis.empty()) return text;
   text += "\nSettings for what it holds:\n" + iniLines(inis);
+  if (settings.empty() && inis.front().file == ini && inis.front().needs_settings) return text;
   if (settings.empty())
     return text + "Nothing in " + ini + " need be set anew for it" +
            (findings.empty() ? "" : ": it copes with what is said above") + ".\n";

@@ -60,17 +60,22 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   if (has_odometry && sees_clouds && !sees_depth) {
     inis.push_back({"ini/home_planes.ini",
                     "planes of point clouds: --set planes.class=CloudPlaneExtractor",
-                    {{"odometry", "no_motion"}, {"planes"}, {"plane_landmarks"}, true}});
+                    {{"odometry", "no_motion"}, {"planes"}, {"plane_landmarks"}, true},
+                    true});
   }
   if (sees_clouds && !sees_depth && holds<mrpt::obs::CObservationRobotPose>(facts)) {
     inis.push_back({"ini/rgbd_planes.ini",
                     "planes of point clouds on given poses: --set planes.class=CloudPlaneExtractor",
-                    {{"given_motion", "no_motion"}, {"planes"}, {"poses", "plane_landmarks"}, false}});
+                    {{"given_motion", "no_motion"}, {"planes"}, {"poses", "plane_landmarks"}, false},
+                    true});
   }
-  if (has_odometry && holds<mrpt::obs::CObservationImage>(facts)) {
+  if (has_odometry && holds<mrpt::obs::CObservationImage>(facts) &&
+      !holds<mrpt::obs::CObservationBearingRange>(facts)) {
     inis.push_back({"ini/landmarks.ini",
                     "ArUco markers, if its pictures show some: README, \"Landmarks\", has the settings",
-                    {{"odometry", "no_motion"}, {}, {"points"}, false}});
+                    {{"odometry", "no_motion"}, {}, {"points"}, false},
+                    true,
+                    true});
   }
   return inis;
 }

@@ -45,13 +45,18 @@ class Judge {
   }
 
   void judgeContent() {
-    const bool is_mappable = !fittingInis(facts_).empty();
+    const auto inis = fittingInis(facts_);
+    const auto is_sure = [](const FittingIni& ini) { return !ini.is_a_guess; };
+    const bool is_mappable = std::any_of(inis.begin(), inis.end(), is_sure);
     if (!facts_.scans.empty() && usableLasers(facts_).empty()) {
       add(is_mappable ? Weight::warning : Weight::problem, "no laser has scans that can be matched");
-    } else if (!is_mappable) {
+    } else if (!is_mappable && inis.empty()) {
       add(Weight::problem,
-          "there is nothing to map: no 2D scans, no depth images; planes, point clouds and pictures of markers need "
-          "odometry or poses beside them, ranges and bearings need odometry");
+          "there is nothing to map: no 2D scans, no depth images; planes and point clouds need odometry or poses "
+          "beside "
+          "them, ranges and bearings and pictures of markers need odometry");
+    } else if (!is_mappable) {
+      add(Weight::warning, "there may be nothing to map: pictures tell something only where they show ArUco markers");
     }
   }
 

@@ -108,6 +108,7 @@ struct Stop {
   TPose2D pose;
   double travelled;
   base::Stamp stamp;
+  std::uint16_t session;
   bool is_tied = false;  // a closure leads from it to an earlier one, or from one that is near in travel
 };
 
@@ -115,7 +116,7 @@ std::vector<Stop> stopsOf(const map::Map& map, double between_sessions) {
   std::vector<Stop> stops;
   const map::KeyFrame* before = nullptr;
   for (const auto& frame : map.key_frames) {
-    Stop stop{planar(frame.map_from_base), 0, frame.stamp};
+    Stop stop{planar(frame.map_from_base), 0, frame.stamp, frame.id.session};
     if (before) {
       const TPose2D& last = stops.back().pose;
       const bool same = before->id.session == frame.id.session;
@@ -231,15 +232,17 @@ std::vector<std::optional<std::size_t>> revisiting(const std::vector<Stop>& stop
 // the stops that it is known to have come back to.
 Evidence spannedWay(const std::vector<Stop>& stops, const std::vector<std::optional<std::size_t>>& begins) {
   constexpr double kEnough = 25;  // percent
-  const double way = stops.empty() ? 0 : stops.back().travelled;
-  double spanned = 0;
+  double way = 0, spanned = 0;
   std::size_t begin = stops.size();
   for (std::size_t i = stops.size(); i-- > 1;) {
     begin = std::min(begin, begins[i].value_or(begin));
-    if (begin < i) spanned += stops[i].travelled - stops[i - 1].travelled;
+    if (stops[i].session != stops[i - 1].session) continue;  // nobody drove from one to the next
+    const double step = stops[i].travelled - stops[i - 1].travelled;
+    way += step;
+    if (begin < i) spanned += step;
   }
   Evidence evidence{"way_between_visits_percent", way > 0 ? 100 * spanned / way : 0, Evidence::Says::good, ""};
-  if (spanned > 0 && evidence.value < kEnough) {
+  if (evidence.value < kEnough) {
     evidence.says = Evidence::Says::too_little;
     evidence.reason =
         format("only %.0f m of the %.0f m driven lie between two visits of a place, and nothing confirms the rest",
@@ -297,7 +300,9 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
     untied_m.reason = format("for %.0f m, until %s, the robot drives where it has been before and sees something else",
                              longest, afterStart(state.map, state.map.key_frames[longest_until]).c_str());
   }
-  return {again_m, untied_m, spannedWay(stops, known)};
+  Evidence spanned = spannedWay(stops, known);
+  if (revisited == 0) spanned.reason.clear();  // it is said already
+  return {again_m, untied_m, spanned};
 }
 
 std::vector<Evidence> slips(const mapper::State& state, const std::string& section,

@@ -6,6 +6,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -174,8 +175,9 @@ std::vector<mapper::Evidence> CameraOdometry::evidence() const {
                 open);
   all.push_back({"camera_blind_percent", open, open > kMuch ? Says::too_little : Says::good, open > kMuch ? text : ""});
   std::snprintf(text, sizeof text,
-                returns_ > 0 ? "views of long before came back %zu times, and the images fitted them"
-                             : "the camera never came back to a view of before, where drift would be seen",
+                returns_ > 0     ? "views of long before came back %zu times, and the images fitted them"
+                : seeksReturns() ? "the camera never came back to a view of before, where drift would be seen"
+                                 : "odometry by clouds does not look for views of before, where drift would be seen",
                 returns_);
   all.push_back({"camera_returns", static_cast<double>(returns_), returns_ > 0 ? Says::good : Says::too_little, text});
   return all;

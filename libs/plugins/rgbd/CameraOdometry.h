@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace omnimapper::plugins {
@@ -57,11 +58,14 @@ class CameraOdometry : public mapper::PosePlugin {
   std::optional<base::Stamp> coveredUntil() const override;
   std::vector<std::string> warnings() const override;
   /// Gaps across which the camera did not tell the motion, how much of the time it was lost or saw too little, speeds
-  /// that cannot be, and how often it came back to a view of before, where what drifts would be seen.
+  /// that cannot be, and, where the method looks for that, how often it came back to a view of before, where what
+  /// drifts would be seen.
   std::vector<mapper::Evidence> evidence() const override;
   void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }
 
  private:
+  /// Whether track() looks for views of before.
+  virtual bool seeksReturns() const { return true; }
   virtual ImageMotion track(const perception::RgbdView& view, base::Stamp stamp) = 0;
   void follow(const mrpt::obs::CObservation3DRangeScan& scan);
   mapper::RelativeMotion motionOf(const ImageMotion& tracked, base::Stamp stamp,

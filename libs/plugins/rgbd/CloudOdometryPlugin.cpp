@@ -1,5 +1,6 @@
 #include "CloudOdometryPlugin.h"
 
+#include <omnimapper/base/Error.h>
 #include <omnimapper/plugin/SharedSection.h>
 
 #include "openDirections.h"
@@ -14,7 +15,15 @@ CloudOdometryPlugin::CloudOdometryPlugin(const CameraOdometryOptions& options,
                                          const matching::CloudMatcherOptions& matching)
     : CameraOdometry(options, "odometry by clouds"),
       source_(source),
-      tracker_(tracking, std::make_unique<matching::IteratedClosestPoints>(matching)) {}
+      tracker_(tracking, std::make_unique<matching::IteratedClosestPoints>(matching)) {
+  const bool has_normals =
+      source.source == matching::CloudSource::voxels || source.source == matching::CloudSource::all_points;
+  if (matching.method == matching::CloudMethod::point_to_plane && !has_normals) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      "edges have no planes to be registered by: method = point_to_plane needs source = voxels or "
+                      "all_points; edges are registered by gicp or point_to_point");
+  }
+}
 
 ImageMotion CloudOdometryPlugin::track(const perception::RgbdView& view, base::Stamp stamp) {
   using How = matching::CloudTracker::Tracked::How;

@@ -12,10 +12,12 @@ namespace omnimapper::plugins {
 /// registered with those of a key frame (matching/CloudTracker.h).
 class CloudOdometryPlugin : public CameraOdometry {
  public:
+  /// Throws Error(out_of_range) for edges that are to be registered by planes.
   CloudOdometryPlugin(const CameraOdometryOptions& options, const matching::CloudTrackerOptions& tracking,
                       const matching::CloudSourceOptions& source, const matching::CloudMatcherOptions& matching);
 
  private:
+  bool seeksReturns() const override { return false; }
   ImageMotion track(const perception::RgbdView& view, base::Stamp stamp) override;
 
   matching::CloudSourceOptions source_;

@@ -109,14 +109,19 @@ mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud) {
 
 namespace {
 
-// [s] What a file is called, in seconds or nanoseconds since 1970; none if that is no time after 1973.
+// [s] What a file is called, in seconds, with decimals or without, or in nanoseconds since 1970; none if it is no such
+// number, or a time before 1973 or after 2286.
 std::optional<double> timeOf(const fs::path& file) {
+  constexpr double kFirst = 1e8, kLast = 1e10, kNanosecond = 1e-9;
   const std::string stem = file.stem().string();
-  char* end = nullptr;
-  const double value = std::strtod(stem.c_str(), &end);
-  if (stem.empty() || *end != 0 || !(value >= 1e8)) return std::nullopt;
-  constexpr double kNanoseconds = 1e17;  // no seconds are as many
-  return value < kNanoseconds ? value : 1e-9 * value;
+  const bool is_number = !stem.empty() && stem.size() < 24 && std::count(stem.begin(), stem.end(), '.') <= 1 &&
+                         stem.find_first_not_of("0123456789.") == std::string::npos && stem != ".";
+  if (!is_number) return std::nullopt;
+  const double value = std::strtod(stem.c_str(), nullptr);
+  for (const double seconds : {value, kNanosecond * value}) {
+    if (seconds >= kFirst && seconds < kLast) return seconds;
+  }
+  return std::nullopt;
 }
 
 }  // namespace

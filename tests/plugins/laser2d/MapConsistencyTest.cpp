@@ -85,7 +85,10 @@ Evidence spannedFrom(std::size_t from, bool closures) {
 }
 
 TEST(MapConsistency, AWayOfWhichLittleLiesBetweenTwoVisitsCannotBeTold) {
-  EXPECT_EQ(spannedFrom(80, false).value, 0) << "without a closure or fitting scans";
+  const auto none = spannedFrom(95, false);
+  EXPECT_EQ(none.value, 0) << "without a closure or fitting scans";
+  EXPECT_EQ(none.says, Says::too_little);
+  EXPECT_NE(none.reason.find("only 0 m of the 110 m"), std::string::npos) << none.reason;
   // From 93 m on, the jump back, and the way again: 7 + 5 + 5 m of 110.
   const auto end = spannedFrom(95, true), all = spannedFrom(10, true);
   EXPECT_NEAR(end.value, 100.0 * 17 / 110, 2);

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
 
 #include "RenderedScan.h"
 #include "rgbd/CloudOdometryPlugin.h"
@@ -85,13 +86,33 @@ TEST_F(CloudOdometry, AcrossACoveredLensTheMotionIsToldWhenTheViewIsFoundAgain) 
   EXPECT_EQ(evidence("camera_begun_anew").value, 0);
 }
 
-TEST_F(CloudOdometry, AfterALongLossTheMapIsSuspicious) {
+TEST_F(CloudOdometry, AfterALongLossItBeginsAnewAtTheFirstImageThatShowsSomething) {
   add(0);
   add(0.1);
-  for (int i = 2; i <= 22; ++i) add(0.1 * i, true);
+  for (int i = 2; i <= 24; ++i) add(0.1 * i, true);
+  EXPECT_EQ(evidence("camera_begun_anew").value, 0) << "a covered lens is no view to begin with";
+  room_.half[0] = 3;  // another room
+  room_.half[2] = 2.5;
   add(2.5);
+  add(2.6);
+  EXPECT_FALSE(plugin_->between(at(0.1), at(2.5)));
+  expectMotion(2.5, 2.6);
   EXPECT_EQ(evidence("camera_begun_anew").value, 1);
   EXPECT_EQ(evidence("camera_begun_anew").says, mapper::Evidence::Says::against_it);
+}
+
+TEST_F(CloudOdometry, ACoveredLensAtTheStartIsNoGap) {
+  add(0, true);
+  add(0.1);
+  add(0.2);
+  expectMotion(0.1, 0.2);
+  EXPECT_EQ(evidence("camera_begun_anew").value, 0);
+}
+
+TEST_F(CloudOdometry, EdgesThatAreToBeRegisteredByPlanesAreRefused) {
+  source_.source = matching::CloudSource::rgb_edges;
+  matching_.method = matching::CloudMethod::point_to_plane;
+  EXPECT_THROW(make(), base::Error);
 }
 
 TEST_F(CloudOdometry, WhatAnImageCannotGiveIsAWarning) {

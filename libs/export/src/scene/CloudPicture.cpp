@@ -44,10 +44,11 @@ std::vector<ColouredPoint> belowCeilings(const map::Map& map, double cube) {
   PointsOptions options;
   options.voxel = cube;
   auto points = pointsOf(map, options);
-  std::vector<double> eyes, heights;
-  for (const auto& frame : map.key_frames) eyes.push_back(frame.map_from_base.z());
+  if (points.empty()) return points;
+  std::vector<double> bases, heights;
+  for (const auto& frame : map.key_frames) bases.push_back(frame.map_from_base.z());
   for (const auto& point : points) heights.push_back(point.in_map.z);
-  const double highest = std::max(quantileOf(eyes, 0.5), quantileOf(heights, 0.5)) + kAbove;
+  const double highest = std::max(quantileOf(bases, 0.5), quantileOf(heights, 0.5)) + kAbove;
   points.erase(std::remove_if(points.begin(), points.end(), [&](const auto& p) { return p.in_map.z > highest; }),
                points.end());
   std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.in_map.z < b.in_map.z; });

@@ -360,7 +360,8 @@ void Run::keepContinuedMap() {
 // Until nobody looks at the map any more, or the user stops the run.
 void Run::showToTheEnd(const RunResult& result) {
   if (!engine_->isLookedAt() || stop_()) return;
-  if (request_.before_window_closes) request_.before_window_closes(result);
+  const bool is_broken = failure_ || failure_at_end_ || (localizes() && result.located == 0);
+  if (request_.before_window_closes && !is_broken) request_.before_window_closes(result);
   while (engine_->isLookedAt() && !stop_()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 

@@ -23,8 +23,8 @@ const base::OptionTable<CloudSourceOptions>& CloudSourceOptions::table() {
                    {"voxels", CloudSource::voxels},
                    {"all_points", CloudSource::all_points}},
                   "Which points of an image are registered.")
-          .number("voxel_m", &Options::voxel, base::Range::positive(), "Side of the cubes of voxels.")
-          .number("max_depth_m", &Options::max_depth, base::Range::positive(), "What is farther is left out.")
+          .number("voxel_m", &Options::voxel, base::Range{0.001, 10}, "Side of the cubes of voxels.")
+          .number("max_depth_m", &Options::max_depth, base::Range{0.3, 100}, "What is farther is left out.")
           .number("pixel_noise", &Options::pixel_noise, base::Range::positive(),
                   "Standard deviation of points across their rays [px].");
   return table;

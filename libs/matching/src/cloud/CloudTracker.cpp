@@ -24,11 +24,16 @@ CloudTracker::CloudTracker(const CloudTrackerOptions& options, std::unique_ptr<c
     : options_(options), matcher_(std::move(matcher)) {}
 
 CloudTracker::Tracked CloudTracker::begin(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud) {
-  key_ = cloud;
-  last_ = Image{std::move(cloud), {}, stamp};
-  velocity_.setZero();
+  constexpr std::size_t kFewest = 50;  // points: what shows fewer is no view to begin with
   Tracked tracked;
   tracked.last = stamp;
+  velocity_.setZero();
+  if (cloud->size() < kFewest) {
+    tracked.how = Tracked::How::lost;
+    return tracked;
+  }
+  key_ = cloud;
+  last_ = Image{std::move(cloud), {}, stamp, stamp};
   return tracked;
 }
 
@@ -37,20 +42,27 @@ bool CloudTracker::isFarFromKey(const CloudMatch& match, const Se3& key_from_cam
          geometry::logSo3(key_from_camera.rotation).norm() > options_.key_angle;
 }
 
+CloudMatch CloudTracker::matchFrom(const MatchCloud& target, const MatchCloud& cloud, const Se3& target_from_last,
+                                   double seconds) const {
+  const auto moving = matcher_->match(target, cloud, target_from_last * geometry::plus(Se3{}, seconds * velocity_));
+  return moving.fits || velocity_.isZero() ? moving : matcher_->match(target, cloud, target_from_last);
+}
+
 CloudTracker::Tracked CloudTracker::track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud) {
   if (!last_) return begin(stamp, std::move(cloud));
   const double seconds = base::secondsBetween(last_->stamp, stamp);
-  const Se3 last_from_predicted = geometry::plus(Se3{}, seconds * velocity_);
   Tracked tracked;
   tracked.last = last_->stamp;
-  tracked.match = matcher_->match(*key_, *cloud, last_->key_from_camera * last_from_predicted);
+  tracked.match = matchFrom(*key_, *cloud, last_->key_from_camera, seconds);
   if (!tracked.match.fits && last_->cloud != key_) {
     key_ = last_->cloud;
     last_->key_from_camera = {};
-    tracked.match = matcher_->match(*key_, *cloud, last_from_predicted);
+    tracked.match = matchFrom(*key_, *cloud, {}, seconds);
   }
-  if (!tracked.match.fits) {
+  const bool is_blind = tracked.match.open_directions > 0;
+  if (!tracked.match.fits || (is_blind && base::secondsBetween(last_->told, stamp) > options_.longest_loss)) {
     if (seconds > options_.longest_loss) return begin(stamp, std::move(cloud));
+    velocity_.setZero();
     tracked.how = Tracked::How::lost;
     return tracked;
   }
@@ -58,7 +70,7 @@ CloudTracker::Tracked CloudTracker::track(base::Stamp stamp, std::shared_ptr<con
   const Se3 key_from_camera = tracked.match.target_from_source;
   tracked.last_from_camera = inverse(last_->key_from_camera) * key_from_camera;
   if (seconds > 0) velocity_ = minus(tracked.last_from_camera, Se3{}) / seconds;
-  last_ = Image{cloud, key_from_camera, stamp};
+  last_ = Image{cloud, key_from_camera, stamp, is_blind ? last_->told : stamp};
   if (isFarFromKey(tracked.match, key_from_camera)) {
     key_ = std::move(cloud);
     last_->key_from_camera = {};

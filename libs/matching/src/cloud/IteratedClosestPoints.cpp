@@ -27,7 +27,7 @@ const base::OptionTable<CloudMatcherOptions>& CloudMatcherOptions::table() {
                   "The same, when few points are matched first.")
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000}, "Steps of a match, on each level.")
           .number("tolerance", &Options::tolerance, base::Range::positive(),
-                  "Steps that are shorter [m] [rad] end a level.")
+                  "Steps that are shorter [m] [rad] end the last level; ten times as long ones the others.")
           .integer("coarse_points", &Options::coarse_points, base::Range{10, 1000000},
                    "Points that are matched first; each further level has four times as many.")
           .integer("max_points", &Options::max_points, base::Range{10, 1000000}, "Points that are matched last.")
@@ -41,9 +41,10 @@ const base::OptionTable<CloudMatcherOptions>& CloudMatcherOptions::table() {
 
 IteratedClosestPoints::IteratedClosestPoints(const CloudMatcherOptions& options) : options_(options) {
   const bool are_counts = options.max_iterations > 0 && options.coarse_points > 0 && options.max_points > 0;
-  if (!are_counts || !(options.max_distance > 0) || !(options.tolerance > 0) || !(options.alike >= 1))
+  const bool are_lengths = options.max_distance > 0 && options.coarse_distance > 0 && options.tolerance > 0;
+  if (!are_counts || !are_lengths || !(options.alike >= 1))
     throw base::Error(base::ExitCode::out_of_range,
-                      "registration of clouds: counts, distances and tolerance must be positive");
+                      "registration of clouds: counts, distances and tolerance must be positive, alike at least 1");
 }
 
 namespace {
@@ -66,7 +67,8 @@ class CloudSearch {
   // One step of Gauss-Newton. Gives its length [m] [rad].
   double step();
   double scale() const { return std::sqrt(scale_square_); }
-  double overlap() const { return asked_ == 0 ? 0 : static_cast<double>(pairs_.size()) / static_cast<double>(asked_); }
+  double overlap() const { return asked_ == 0 ? 0 : static_cast<double>(near_) / static_cast<double>(asked_); }
+  std::size_t pairs() const { return pairs_.size(); }
   double medianDistance() const;
   const Se3& targetFromSource() const { return target_from_source_; }
   const Matrix6d& information() const { return information_; }
@@ -83,7 +85,7 @@ class CloudSearch {
   const MatchCloud& source_;
   Se3 target_from_source_;
   std::vector<Pair> pairs_;
-  std::size_t asked_ = 0;
+  std::size_t asked_ = 0, near_ = 0;
   double scale_square_ = 1;
   Matrix6d information_ = Matrix6d::Zero();  // in the source's frame
 };
@@ -93,12 +95,13 @@ void CloudSearch::associate(std::size_t stride, double max_distance) {
   const Eigen::Vector3f translation = target_from_source_.translation.cast<float>();
   const auto farthest = static_cast<float>(max_distance);
   pairs_.clear();
-  asked_ = 0;
+  asked_ = near_ = 0;
   for (std::size_t i = 0; i < source_.size(); i += stride) {
     ++asked_;
     const Eigen::Vector3f& point = source_.cloud().points[i];
     const std::size_t j = target_.nearest(rotation * point + translation, farthest);
     if (j == MatchCloud::kNone) continue;
+    ++near_;
     Pair pair;
     pair.point = rotation.transpose() * (target_.cloud().points[j] - translation);
     pair.off = pair.point - point;
@@ -208,8 +211,9 @@ CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchClo
   CloudMatch match;
   match.target_from_source = guess;
   if (target.size() < kFewest || source.size() < kFewest) return match;
+  // Odd: an even one meets rows of an image, which are as wide as powers of two have factors, at the same few columns.
   const auto stride_of = [&](double points) {
-    return static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(source.size()) / points)));
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(source.size()) / points))) | 1U;
   };
   const std::size_t finest = stride_of(options_.max_points);
   CloudSearch search(options_, target, source, guess);
@@ -222,11 +226,11 @@ CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchClo
       search.associate(stride, distance);
       ++match.iterations;
       match.overlap = search.overlap();
-      if (match.overlap < options_.min_overlap) return match;
+      if (match.overlap < options_.min_overlap || search.pairs() < kFewest) return match;
       if (search.step() < enough) break;
     }
     if (is_last) break;
-    stride = std::max(finest, stride / 4);
+    stride = std::max(finest, (stride / 4) | 1U);
     distance = std::max(options_.max_distance, distance / 2);
   }
   match.target_from_source = search.targetFromSource();
@@ -241,6 +245,12 @@ CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchClo
       axes.eigenvalues().unaryExpr([](double value) { return value < kWeakest ? CloudMatch::kOpen : 1 / value; });
   match.covariance = axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
   match.fits = true;
+  if (match.open_directions > 0) {
+    // There the pairs told nothing: it is as it was guessed.
+    Vector6d moved = axes.eigenvectors().transpose() * minus(match.target_from_source, guess);
+    for (int i = 0; i < 6; ++i) moved(i) = axes.eigenvalues()(i) < kWeakest ? 0 : moved(i);
+    match.target_from_source = plus(guess, axes.eigenvectors() * moved);
+  }
   match.succeeded = match.open_directions == 0;
   return match;
 }

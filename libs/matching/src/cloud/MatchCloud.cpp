@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <nanoflann.hpp>
+#include <utility>
 
 namespace omnimapper::matching {
 
@@ -78,35 +79,6 @@ std::size_t MatchCloud::nearest(const Eigen::Vector3f& to, float max_distance) c
   NearestWithin result(max_distance * max_distance);
   tree().tree.findNeighbors(result, to.data(), nanoflann::SearchParams());
   return result.index();
-}
-
-std::vector<std::size_t> MatchCloud::nearest(const Eigen::Vector3f& to, int count) const {
-  if (size() == 0 || count <= 0) return {};
-  const auto most = std::min(static_cast<std::size_t>(count), size());
-  std::vector<std::uint32_t> indices(most);
-  std::vector<float> squares(most);
-  indices.resize(tree().tree.knnSearch(to.data(), most, indices.data(), squares.data()));
-  return {indices.begin(), indices.end()};
-}
-
-CloudPoints withShapes(CloudPoints cloud, int neighbours, double noise) {
-  if (neighbours < 3 || cloud.points.size() < static_cast<std::size_t>(neighbours)) return cloud;
-  const MatchCloud index(CloudPoints{cloud.points, {}, {}});
-  const auto variance = static_cast<float>(noise * noise);
-  cloud.covariances.clear();
-  for (const auto& point : cloud.points) {
-    const auto near = index.nearest(point, neighbours);
-    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-    for (const auto i : near) mean += cloud.points[i] - point;
-    mean /= static_cast<float>(near.size());
-    Eigen::Matrix3f covariance = variance * Eigen::Matrix3f::Identity();
-    for (const auto i : near) {
-      const Eigen::Vector3f off = cloud.points[i] - point - mean;
-      covariance += off * off.transpose() / static_cast<float>(near.size());
-    }
-    cloud.covariances.push_back(covariance);
-  }
-  return cloud;
 }
 
 }  // namespace omnimapper::matching

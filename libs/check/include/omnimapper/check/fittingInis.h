@@ -18,6 +18,8 @@ struct FittingIni {
   std::string file;  ///< "ini/laser2d.ini"
   std::string what;  ///< that it maps
   PluginLists plugins;
+  bool needs_settings = false;  ///< those that `what` names
+  bool is_a_guess = false;      ///< whether the sensors saw what it maps nobody knows
 };
 
 /// The INIs that can map what the log's sensors saw, that which uses most of them first; none if nothing can.

@@ -46,7 +46,8 @@ struct RunRequest {
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   double speed = 0;     ///< times the log's own pace; 0: as fast as possible
   bool strict = false;  ///< a map that the run itself finds suspicious ends with its own code
-  /// Told the result when all is written and a window still shows the map, before it is waited for; may be empty.
+  /// Told the result when all of a run that did not break off is written and a window still shows the map, before it is
+  /// waited for; may be empty. The progress is not reported to after that.
   std::function<void(const RunResult&)> before_window_closes;
 };
 

@@ -18,12 +18,12 @@ struct CloudMatcherOptions {
   double max_distance = 0.1;     ///< [m] of points that may be the same, on the finest level
   double coarse_distance = 0.4;  ///< [m] on the coarsest
   int max_iterations = 50;       ///< on each level
-  double tolerance = 1e-4;       ///< [m] [rad] steps below which a level ends
-  int coarse_points = 300;       ///< of the source, on the coarsest level; each further one has four times as many
-  int max_points = 2000;         ///< on the finest
-  double normal_noise = 0.045;   ///< [rad] of surfaces' normals: what these alone seem to fix is left open
-  double alike = 30;             ///< points whose errors are alike: so many count as one
-  double min_overlap = 0.3;      ///< least share of the source's points that have one of the target's near
+  double tolerance = 1e-4;  ///< [m] [rad] steps below which the last level ends, and a tenth of those that end others
+  int coarse_points = 300;  ///< of the source, on the coarsest level; each further one has four times as many
+  int max_points = 2000;    ///< on the finest
+  double normal_noise = 0.045;  ///< [rad] of surfaces' normals: what these alone seem to fix is left open
+  double alike = 30;            ///< points whose errors are alike: so many count as one
+  double min_overlap = 0.3;     ///< least share of the source's points that have one of the target's near
 
   static const base::OptionTable<CloudMatcherOptions>& table();
 };
@@ -38,7 +38,7 @@ struct CloudMatch {
   double residual = 0;      ///< [m] median distance of those
   int iterations = 0;       ///< on all levels
   int open_directions = 6;  ///< how many the residuals do not fix
-  bool fits = false;        ///< enough overlap
+  bool fits = false;        ///< enough overlap, of enough points
   bool succeeded = false;   ///< it fits, and no direction is open
 
   static constexpr double kOpen = 1e4;  ///< [m2], [rad2]
@@ -57,7 +57,7 @@ class CloudMatcher {
 /// weights of Student's t, whose scale is found from the residuals.
 class IteratedClosestPoints : public CloudMatcher {
  public:
-  /// Throws Error(out_of_range) for counts or lengths that are not positive.
+  /// Throws Error(out_of_range) for counts, distances or a tolerance that are not positive, and for `alike` below 1.
   explicit IteratedClosestPoints(const CloudMatcherOptions& options);
   CloudMatch match(const MatchCloud& target, const MatchCloud& source, const geometry::Se3& guess) const override;
 

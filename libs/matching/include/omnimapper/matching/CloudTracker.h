@@ -20,7 +20,7 @@ struct CloudTrackerOptions {
 
 /// Follows a camera by clouds of its images (thesis 5.3.3.1): each is registered with that of a key frame, so that
 /// drift grows with the way and not with the frame rate, and where this fails with the last image's. Where the points
-/// leave directions open, it goes on there as it did, and match.open_directions tells.
+/// leave directions open, it goes on there as it did, at most for `longest_loss`, and match.open_directions tells.
 class CloudTracker {
  public:
   CloudTracker(const CloudTrackerOptions& options, std::unique_ptr<const CloudMatcher> matcher);
@@ -45,8 +45,12 @@ class CloudTracker {
     std::shared_ptr<const MatchCloud> cloud;
     geometry::Se3 key_from_camera;
     base::Stamp stamp;
+    base::Stamp told;  ///< of the last image that left no direction open
   };
   Tracked begin(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud);
+  /// From where the motion goes on to, and if that does not fit, from where it was.
+  CloudMatch matchFrom(const MatchCloud& target, const MatchCloud& cloud, const geometry::Se3& target_from_last,
+                       double seconds) const;
   bool isFarFromKey(const CloudMatch& match, const geometry::Se3& key_from_camera) const;
 
   CloudTrackerOptions options_;

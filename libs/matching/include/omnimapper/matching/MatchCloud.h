@@ -10,16 +10,13 @@ namespace omnimapper::matching {
 
 /// Points of one view, in its sensor's frame.
 struct CloudPoints {
-  std::vector<Eigen::Vector3f> points;   ///< [m]
-  std::vector<Eigen::Vector3f> normals;  ///< unit, of the surfaces they lie on; empty: not known
+  std::vector<Eigen::Vector3f> points;  ///< [m]
+  std::vector<Eigen::Vector3f>
+      normals;  ///< unit, of the surfaces they lie on; NaN where there is none; empty: not known
   /// [m2] How far from a point the same thing may lie when it is seen again: noise, and along surfaces and lines the
   /// distance to the next point. Empty: not known.
   std::vector<Eigen::Matrix3f> covariances;
 };
-
-/// The same with covariances of what the `neighbours` nearest points make of each: thin across surfaces and lines. With
-/// `noise` [m] in each direction. Clouds of fewer points than that stay as they are.
-CloudPoints withShapes(CloudPoints cloud, int neighbours, double noise);
 
 /// Points with a KD-tree over them, which is made when it is first asked. Immutable; functions may be called from
 /// several threads.
@@ -38,8 +35,6 @@ class MatchCloud {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   /// Index of the nearest point within `max_distance` [m], or kNone.
   std::size_t nearest(const Eigen::Vector3f& to, float max_distance) const;
-  /// Indices of the `count` nearest points, the nearest first; fewer if there are not as many.
-  std::vector<std::size_t> nearest(const Eigen::Vector3f& to, int count) const;
 
  private:
   struct Tree;
