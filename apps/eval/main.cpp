@@ -61,15 +61,7 @@ int run(const std::string& verb, const Arguments& arguments) {
                                      eval::alignmentNamed(arguments.alignment)};
   if (verb == "ate") {
     const auto error = eval::absoluteTrajectoryError(estimate, reference, pairing);
-    const auto& first = error.paired.pairs.front();
-    if (pairing.alignment == eval::Alignment::none &&
-        (first.reference.translation - first.estimate.translation).norm() > 1)
-      std::cerr
-          << "The first poses lie more than 1 m apart: if each trajectory has its own frame, --align yaw or se3\n";
-    if (error.rotation.rmse > 10 * geometry::kPi / 180)
-      std::cerr
-          << "The poses are turned by a lot: frames that are not level alike, as of a camera, need --align se3; for "
-             "one that looks along z take OUT.truth.tum of omnimapper-import\n";
+    std::cerr << eval::hintsOn(error, pairing.alignment);
     return report(arguments, error, reference);
   }
   return report(arguments, eval::relativePoseError(estimate, reference, pairing,

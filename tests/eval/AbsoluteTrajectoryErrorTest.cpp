@@ -55,6 +55,21 @@ TEST(AbsoluteTrajectoryError, WithoutAlignmentIsTheDistanceAndAngleOfEachPair) {
   EXPECT_EQ(error.paired.unpaired, 1u);
 }
 
+TEST(AbsoluteTrajectoryError, HintsAtFramesThatAreNotTheSame) {
+  const Trajectory straight = {planar(0, 0, 0), planar(1, 1, 0)};
+  const Trajectory apart = {planar(0, 5, 0), planar(1, 6, 0)}, turned = {planar(0, 0, 0, 1), planar(1, 1, 0, 1)};
+  const auto hints = [&](const Trajectory& reference, Alignment alignment) {
+    return hintsOn(ate(straight, reference, alignment), alignment);
+  };
+  EXPECT_EQ(hints(straight, Alignment::none), "");
+  EXPECT_NE(hints(apart, Alignment::none).find("--align yaw"), std::string::npos);
+  EXPECT_EQ(hints(apart, Alignment::yaw), "");
+  EXPECT_NE(hints(turned, Alignment::none).find("--align se3"), std::string::npos);
+  const auto of_axes = hints(turned, Alignment::se3);
+  EXPECT_EQ(of_axes.find("--align se3"), std::string::npos) << of_axes;
+  EXPECT_NE(of_axes.find("OUT.truth.tum"), std::string::npos) << of_axes;
+}
+
 TEST(AbsoluteTrajectoryError, AlignedByTheFirstPoseStartsWithoutError) {
   // The estimate starts at (5, 5) looking along +y; its step of 1 m ahead is then 1 m along x, the reference's is 1.5.
   const Trajectory estimate = {planar(0, 5, 5, 90 * kDegree), planar(1, 5, 6, 90 * kDegree)};

@@ -16,4 +16,18 @@ AbsoluteTrajectoryError absoluteTrajectoryError(const Trajectory& estimate, cons
   return result;
 }
 
+std::string hintsOn(const AbsoluteTrajectoryError& error, Alignment alignment) {
+  constexpr double kFar = 1, kTurned = 10 * geometry::kPi / 180;  // [m] [rad]
+  std::string hints;
+  const auto& first = error.paired.pairs.front();
+  if (alignment == Alignment::none && (first.reference.translation - first.estimate.translation).norm() > kFar)
+    hints +=
+        "The first poses lie more than 1 m apart. If each trajectory has a frame of its own: --align yaw, or se3\n";
+  if (error.rotation.rmse <= kTurned) return hints;
+  hints += "The poses are turned by a lot.";
+  if (alignment == Alignment::none || alignment == Alignment::first || alignment == Alignment::yaw)
+    hints += " Frames that are not level alike, as of a camera in the hand, need --align se3.";
+  return hints + " Where the truth is that of a camera which looks along z, take OUT.truth.tum of omnimapper-import.\n";
+}
+
 }  // namespace omnimapper::eval

@@ -3,6 +3,9 @@
 #include <omnimapper/eval/Pairing.h>
 #include <omnimapper/eval/Statistics.h>
 
+#include <string>
+#include <vector>
+
 namespace omnimapper::eval {
 
 struct AbsoluteTrajectoryError {
@@ -18,5 +21,8 @@ struct AbsoluteTrajectoryError {
 /// Throws as pairTrajectories().
 AbsoluteTrajectoryError absoluteTrajectoryError(const Trajectory& estimate, const Trajectory& reference,
                                                 const PairingOptions& options = {});
+
+/// What may be wrong with the comparison rather than with the estimate, as sentences; empty if nothing seems to be.
+std::string hintsOn(const AbsoluteTrajectoryError& error, Alignment alignment);
 
 }  // namespace omnimapper::eval
