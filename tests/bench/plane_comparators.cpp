@@ -92,7 +92,11 @@ void printRooms(int count) {
     const auto room = rooms::colouredRoom(dice);
     const auto view = rooms::render(room.scene);
     const int width = room.scene.width, height = room.scene.height;
-    RgbdFrame frame{width, height, 1e-4, room.scene.camera, {}, {}};
+    RgbdFrame frame;
+    frame.width = width;
+    frame.height = height;
+    frame.metres_per_unit = 1e-4;
+    frame.camera = room.scene.camera;
     for (const float z : rooms::withNoise(view, width, height, {}, dice))
       frame.units.push_back(static_cast<std::uint16_t>(std::min(65534.0, 1e4 * static_cast<double>(z) + 0.5)));
     for (const obs::Rgb& c : rooms::picture(room, view, dice))

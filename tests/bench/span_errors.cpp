@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
       if (std::find(variant_names.begin(), variant_names.end(), name) == variant_names.end()) continue;
       plugins::ScanOdometryPlugin odometry({}, {}, {});
       const auto heard = omnimapper::testing::variantOf(observations, variant);
-      for (const auto& observation : heard) odometry.add(*observation);
+      for (const auto& observation : heard) odometry.add(observation);
       odometry.processUntil(heard.back()->timestamp);
       const auto reference = untuned::truthOf(log, observations, variant);
       Eigen::Vector3d sigmas = Eigen::Vector3d::Zero();

@@ -93,6 +93,7 @@ TEST(ScanTracker, WhatIsImpossibleIsNoMatch) {
   EXPECT_TRUE(tracker.track(scan, kOrigin, {{TPose2D(), 0.1, 0.1}})) << "0.28 m";
   tracker.restart(scanFrom(plan, wayAt(0)), kOrigin);
   EXPECT_FALSE(tracker.track(scan, kOrigin, {{TPose2D(), 0.01, 0.01, 0.1, 0.2}}));
+  EXPECT_FALSE(tracker.track(scan, kOrigin, {{TPose2D(), 0.2, 0.1, 0.1, 0.2}})) << "however often it was off of late";
 }
 
 TEST(ScanTracker, MatchesBeyondItsLimitsAreRefused) {

@@ -41,7 +41,8 @@ double logPrior(const TPose2D& motion, const std::vector<MotionPrediction>& pred
   bool is_possible = false;
   for (const auto& prediction : predictions) {
     const TPose2D off = motion - prediction.guess.reference_from_scan;
-    is_possible = is_possible || !isBeyond(off, prediction.most_position, prediction.most_angle);
+    if (isBeyond(off, prediction.most_position, prediction.most_angle)) continue;
+    is_possible = true;
     const double position = std::hypot(off.x, off.y) / prediction.position_sigma,
                  turn = turnOf(off) / prediction.angle_sigma;
     density += std::exp(-0.5 * (position * position + turn * turn)) /
