@@ -67,10 +67,9 @@ RegistrationPeer dense(const std::string& name, bool depth, bool grey) {
       name, "dense", 1,
       [matcher = matching::DenseMatcher(options)](const RgbdFrame& first, const RgbdFrame& second,
                                                   const Se3& guess) -> std::optional<Registered> {
-        static const perception::NormalEstimator estimator{perception::NormalOptions{}};
         const auto first_colour = colourOf(first), second_colour = colourOf(second);
         const matching::RgbdPyramid a(depthOf(first), &first_colour), b(depthOf(second), &second_colour);
-        const auto reference = matcher.prepare(a, estimator.estimate(depthOf(first)));
+        const auto reference = matcher.prepare(a);
         const auto match = matcher.match(*reference, b, {guess});
         return match.succeeded ? std::optional(Registered{match.reference_from_image, match.covariance}) : std::nullopt;
       }};

@@ -67,13 +67,12 @@ struct Errors {
 
 void pairs(const Recording& recording, const std::string& name, const matching::DenseMatcherOptions& options) {
   const matching::DenseMatcher matcher(options);
-  const perception::NormalEstimator estimator{perception::NormalOptions{}};
   Errors errors;
   geometry::Se3 velocity;
   for (std::size_t i = 1; i < recording.frames.size(); ++i) {
     const double begin = processorTime();
     const auto a = pyramidOf(recording.frames[i - 1]), b = pyramidOf(recording.frames[i]);
-    const auto reference = matcher.prepare(a, estimator.estimate(depthOf(recording.frames[i - 1])));
+    const auto reference = matcher.prepare(a);
     const auto match = matcher.match(*reference, b, {velocity});
     velocity = match.reference_from_image;
     errors.time.push_back(processorTime() - begin);
@@ -84,15 +83,13 @@ void pairs(const Recording& recording, const std::string& name, const matching::
 }
 
 void track(const Recording& recording, const std::string& output) {
-  const perception::NormalEstimator estimator{perception::NormalOptions{}};
   matching::RgbdTracker tracker({}, {});
   std::vector<double> times;
   std::size_t key_frames = 0, lost = 0;
   std::string trajectory;
   for (const auto& frame : recording.frames) {
     const double begin = processorTime();
-    const auto tracked = tracker.track(
-        {base::stampFromUnix(frame.stamp), pyramidOf(frame), [&] { return estimator.estimate(depthOf(frame)); }});
+    const auto tracked = tracker.track(base::stampFromUnix(frame.stamp), pyramidOf(frame));
     times.push_back(processorTime() - begin);
     key_frames += tracked.is_key_frame;
     lost += tracked.how == matching::RgbdTracker::Tracked::How::lost;

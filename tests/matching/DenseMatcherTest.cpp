@@ -33,7 +33,7 @@ DenseMatch matched(const RenderedRoom& room, const RenderedRoom& later, const De
                    const Se3& motion = kMotion, std::uint64_t seed = 1) {
   const DenseMatcher matcher(options);
   const auto first = room.render(kStart, seed), second = later.render(kStart * motion, seed + 1000);
-  return matcher.match(*matcher.prepare(room.pyramid(first), room.normals(first)), later.pyramid(second));
+  return matcher.match(*matcher.prepare(room.pyramid(first)), later.pyramid(second));
 }
 
 TEST(DenseMatcher, FindsTheMotionByDepthsByBrightnessAndByBoth) {
@@ -76,15 +76,13 @@ TEST(DenseMatcher, ABareWallLeavesThreeDirectionsOpen) {
   wall.only_far_wall = true;
   const DenseMatcher matcher;
   const auto first = wall.render(Se3{}), second = wall.render(posed(0.02, 0.01, 0.03, 0, 0, 0.02));
-  const auto bare =
-      matcher.match(*matcher.prepare(wall.pyramid(first, false), wall.normals(first)), wall.pyramid(second, false));
+  const auto bare = matcher.match(*matcher.prepare(wall.pyramid(first, false)), wall.pyramid(second, false));
   EXPECT_EQ(bare.open_directions, 3);
   EXPECT_FALSE(bare.succeeded);
   EXPECT_NEAR(bare.reference_from_image.translation.z(), 0.03, 1e-3) << "towards it, the motion is known";
   EXPECT_LT(bare.reference_from_image.translation.head<2>().norm(), 2e-3);
   EXPECT_GT(bare.covariance(0, 0), 100);
-  const auto with_pattern =
-      matcher.match(*matcher.prepare(wall.pyramid(first), wall.normals(first)), wall.pyramid(second));
+  const auto with_pattern = matcher.match(*matcher.prepare(wall.pyramid(first)), wall.pyramid(second));
   EXPECT_EQ(with_pattern.open_directions, 0);
   EXPECT_NEAR(with_pattern.reference_from_image.translation.x(), 0.02, 2e-3);
 }
@@ -95,8 +93,7 @@ TEST(DenseMatcher, WhatIsGuessedHoldsWhereNothingElseDoes) {
   const DenseMatcher matcher;
   const auto image = wall.render(Se3{});
   DenseGuess guess{posed(0.1, 0, 0.01, 0, 0, 0), 1e4 * Matrix6d::Identity()};
-  const auto match = matcher.match(*matcher.prepare(wall.pyramid(image, false), wall.normals(image)),
-                                   wall.pyramid(image, false), guess);
+  const auto match = matcher.match(*matcher.prepare(wall.pyramid(image, false)), wall.pyramid(image, false), guess);
   EXPECT_NEAR(match.reference_from_image.translation.x(), 0.1, 1e-3);
   EXPECT_NEAR(match.reference_from_image.translation.z(), 0, 1e-3);
 }
@@ -120,7 +117,7 @@ TEST(DenseMatcher, AShutterThatRollsBendsNothingIfTheMotionIsTold) {
   const auto second =
       room.render(rowsOf(end, 0, motion.depth_readout), rowsOf(end, motion.picture_delay, motion.picture_readout));
   const DenseMatcher matcher;
-  const auto reference = matcher.prepare(room.pyramid(first), room.normals(first));
+  const auto reference = matcher.prepare(room.pyramid(first));
   const auto told = matcher.match(*reference, room.pyramid(second), {}, motion);
   EXPECT_LT(offOf(told, kMotion).position, 0.004);
   EXPECT_LT(offOf(told, kMotion).angle, 0.002);
@@ -133,8 +130,7 @@ TEST(DenseMatcher, AShutterThatRollsBendsNothingIfTheMotionIsTold) {
   EXPECT_NEAR(found.delay, 0.01, 0.0015);
   EXPECT_LT(found.delay_sigma, 0.002);
   // As a reference, the bent image does as well.
-  const auto back =
-      matcher.match(*matcher.prepare(room.pyramid(second), room.normals(second), motion), room.pyramid(first));
+  const auto back = matcher.match(*matcher.prepare(room.pyramid(second), motion), room.pyramid(first));
   EXPECT_LT(offOf(back, inverse(kMotion)).angle, 0.002);
 }
 
@@ -169,9 +165,8 @@ TEST(DenseMatcher, NothingIsFoundInNothing) {
   auto empty = image;
   for (float& depth : empty.depth) depth = 0;
   const DenseMatcher matcher;
-  const auto reference = matcher.prepare(room.pyramid(image), room.normals(image));
-  EXPECT_FALSE(
-      matcher.match(*matcher.prepare(room.pyramid(empty), room.normals(empty)), room.pyramid(image)).succeeded);
+  const auto reference = matcher.prepare(room.pyramid(image));
+  EXPECT_FALSE(matcher.match(*matcher.prepare(room.pyramid(empty)), room.pyramid(image)).succeeded);
   const auto match = matcher.match(*reference, room.pyramid(empty, false));
   EXPECT_FALSE(match.succeeded);
   EXPECT_EQ(match.open_directions, 6);
@@ -192,14 +187,14 @@ TEST(DenseMatcher, TakesImagesOfAnySize) {
   EXPECT_LT(offOf(matched(room, smaller, {}), kMotion).position, 0.004);
   const auto image = room.render(kStart);
   const DenseMatcher matcher;
-  const auto reference = matcher.prepare(room.pyramid(image), room.normals(image));
+  const auto reference = matcher.prepare(room.pyramid(image));
   for (const int size : {1, 2, 3, 8}) {
     RenderedRoom tiny = room;
     tiny.width = tiny.height = size;
     tiny.camera = {4, 4, 0.5 * size, 0.5 * size};
     const auto other = tiny.render(kStart);
     EXPECT_TRUE(matcher.match(*reference, tiny.pyramid(other)).reference_from_image.translation.allFinite()) << size;
-    const auto as_reference = matcher.prepare(tiny.pyramid(other), tiny.normals(other));
+    const auto as_reference = matcher.prepare(tiny.pyramid(other));
     EXPECT_TRUE(matcher.match(*as_reference, room.pyramid(image)).reference_from_image.translation.allFinite()) << size;
   }
 }

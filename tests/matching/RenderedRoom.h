@@ -53,9 +53,6 @@ struct RenderedRoom {
     const perception::ColourImage colour{image.grey.data(), width, height, width, perception::ColourImage::Order::grey};
     return {depthImage(image), with_picture ? &colour : nullptr};
   }
-  perception::NormalImage normals(const Image& image) const {
-    return perception::NormalEstimator(perception::NormalOptions{}).estimate(depthImage(image));
-  }
 
  private:
   // In plain numbers: tests are not optimized.

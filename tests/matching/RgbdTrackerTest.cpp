@@ -37,7 +37,7 @@ class Camera {
       std::fill(image.depth.begin(), image.depth.end(), 0.0F);
       std::fill(image.grey.begin(), image.grey.end(), std::uint8_t{3});
     }
-    return tracker_.track({at(seconds), room_.pyramid(image), [&] { return room_.normals(image); }});
+    return tracker_.track(at(seconds), room_.pyramid(image));
   }
   std::size_t keyFrames() const { return tracker_.keyFrames(); }
 

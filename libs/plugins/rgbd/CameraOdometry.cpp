@@ -21,6 +21,8 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .text("label", &Options::label, "Sensor label of the camera; empty for the first that comes.")
+          .text("odometry_label", &Options::odometry_label,
+                "Sensor label of the wheels' odometry that predicts; empty for the first that comes, if any does.")
           .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
                   "More than a hand or a robot moves the camera: a map with such motions is suspicious.")
           .number("position_noise_m", &Options::position_noise, base::Range::positive(),
@@ -38,8 +40,22 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
   return table;
 }
 
+namespace {
+
+matching::WheelOdometryOptions wheelsOf(const std::string& label) {
+  matching::WheelOdometryOptions wheels;
+  wheels.label = label;
+  return wheels;
+}
+
+}  // namespace
+
+CameraOdometry::CameraOdometry(const CameraOdometryOptions& options, std::string what)
+    : options_(options), what_(std::move(what)), wheels_(wheelsOf(options.odometry_label)) {}
+
 CameraOdometry::Taken CameraOdometry::add(const mrpt::obs::CObservation::ConstPtr& observation) {
   const auto scan = std::dynamic_pointer_cast<const CObservation3DRangeScan>(observation);
+  if (!scan) wheels_.add(*observation);
   if (!scan || !scan->hasRangeImage) return Taken::not_mine;
   if (!options_.label.empty() && scan->sensorLabel != options_.label) return Taken::not_mine;
   if (label_ && scan->sensorLabel != *label_) return Taken::not_mine;
@@ -60,6 +76,7 @@ void CameraOdometry::processUntil(base::Stamp stamp) {
     reached_ = next.key();
     follow(*next.mapped());
   }
+  wheels_.forgetBefore(last_.value_or(stamp));
 }
 
 namespace {
@@ -81,10 +98,29 @@ double bendOf(const mrpt::img::TCamera& camera) {
 
 }  // namespace
 
+std::optional<PredictedMotion> CameraOdometry::predictionOf(const geometry::Se3& base_from_camera,
+                                                            base::Stamp stamp) const {
+  constexpr double kStampError = 0.02;                 // [s] between the clocks of wheels and images
+  constexpr double kPosition = 0.002, kAngle = 0.002;  // [m] [rad] a base nods and sways, too
+  const auto told = last_ ? wheels_.between(*last_, stamp) : std::nullopt;
+  if (!told) return std::nullopt;
+  const geometry::Se3 motion = geometry::fromMrpt(told->begin_from_end);
+  const geometry::Vector6d shifted =
+      minus(motion, geometry::Se3{}) * (kStampError / std::max(kStampError, base::secondsBetween(*last_, stamp)));
+  geometry::Matrix6d covariance = told->covariance + shifted * shifted.transpose();
+  covariance.diagonal().head<3>().array() += kPosition * kPosition;
+  covariance.diagonal().tail<3>().array() += kAngle * kAngle;
+  const geometry::Se3 camera_from_base = inverse(base_from_camera);
+  const geometry::Matrix6d ad = adjoint(camera_from_base);
+  return PredictedMotion{camera_from_base * motion * base_from_camera, ad * covariance * ad.transpose()};
+}
+
 void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
+  const geometry::Se3 base_from_camera = geometry::fromMrpt(scan.sensorPose) * geometry::sensorFromOptical();
+  const auto prediction = predictionOf(base_from_camera, scan.timestamp);
   ImageMotion tracked;
   try {
-    tracked = track(perception::RgbdView(scan), scan.timestamp);
+    tracked = track(perception::RgbdView(scan), scan.timestamp, prediction);
   } catch (const base::Error& error) {
     if (unreadable_++ == 0) why_unreadable_ = error.what();
     return;
@@ -96,9 +132,12 @@ void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
   ++images_;
   returns_ += tracked.has_returned;
   if (tracked.how == How::lost) {
-    ++lost_;
-  } else if (tracked.how == How::begun) {
-    if (has_begun_ && gaps_++ == 0) first_gap_ = base::secondsBetween(*begun_, scan.timestamp);
+    lost_ += !prediction;
+    return;
+  }
+  if (tracked.how == How::begun) {
+    const bool is_gap = has_begun_ && !prediction;
+    if (is_gap && gaps_++ == 0) first_gap_ = base::secondsBetween(*begun_, scan.timestamp);
     has_begun_ = true;
   } else {
     const double seconds = base::secondsBetween(tracked.last, scan.timestamp);
@@ -106,16 +145,17 @@ void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
         tracked.last_from_camera.translation.norm() > options_.max_speed * std::max(seconds, kShortest);
     hasty_in_a_row_ = is_hasty ? hasty_in_a_row_ + 1 : 0;
     runaways_ += hasty_in_a_row_ == kRunaway;
-    bridged_ += !tracked.open.isZero();
-    timeline_.insert(tracked.last, scan.timestamp, motionOf(tracked, scan.timestamp, scan.sensorPose));
+    bridged_ += !prediction && !tracked.open.isZero();
+    timeline_.insert(tracked.last, scan.timestamp, motionOf(tracked, scan.timestamp, base_from_camera, prediction));
   }
+  last_ = scan.timestamp;
 }
 
 // Variances grow with the way and the turn so that spans add up: what a key frame is off by counts once for all images
 // that were registered with it.
 mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base::Stamp stamp,
-                                                const mrpt::poses::CPose3D& base_from_sensor) const {
-  const geometry::Se3 base_from_camera = geometry::fromMrpt(base_from_sensor) * geometry::sensorFromOptical();
+                                                const geometry::Se3& base_from_camera,
+                                                const std::optional<PredictedMotion>& prediction) const {
   const geometry::Se3& moved = tracked.last_from_camera;
   const double way = moved.translation.norm(), turn = geometry::logSo3(moved.rotation).norm();
   const auto variance = [&](double at_rest, double per_root_m, double per_root_turn) {
@@ -126,10 +166,14 @@ mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base
       variance(options_.position_noise, options_.position_noise_per_root_m, options_.position_noise_per_root_turn));
   of_camera.diagonal().tail<3>().setConstant(
       variance(options_.angle_noise, options_.angle_noise_per_root_m, options_.angle_noise_per_root_turn));
-  // However the hand moved last in directions that the image left open, it may go another way. That it does so for a
-  // while, and not anew at each image, makes the spans' errors alike: they add up as those of such a while do.
-  constexpr double kUsualSpeed = 0.5, kWhile = 1;  // [m/s] and [rad/s]; [s]
-  of_camera += kUsualSpeed * kUsualSpeed * kWhile * base::secondsBetween(tracked.last, stamp) * tracked.open;
+  if (prediction) {
+    of_camera += tracked.open * prediction->covariance * tracked.open;
+  } else {
+    // However the hand moved last in directions that the image left open, it may go another way. That it does so for a
+    // while, and not anew at each image, makes the spans' errors alike: they add up as those of such a while do.
+    constexpr double kUsualSpeed = 0.5, kWhile = 1;  // [m/s] and [rad/s]; [s]
+    of_camera += kUsualSpeed * kUsualSpeed * kWhile * base::secondsBetween(tracked.last, stamp) * tracked.open;
+  }
   const geometry::Matrix6d ad = adjoint(base_from_camera);
   return {geometry::toMrpt(base_from_camera * moved * inverse(base_from_camera)), ad * of_camera * ad.transpose()};
 }

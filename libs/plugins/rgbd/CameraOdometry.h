@@ -4,6 +4,7 @@
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/geometry/Se3.h>
 #include <omnimapper/matching/PoseTimeline.h>
+#include <omnimapper/matching/WheelOdometry.h>
 #include <omnimapper/perception/RgbdView.h>
 #include <omnimapper/plugin/PosePlugin.h>
 
@@ -18,6 +19,7 @@ namespace omnimapper::plugins {
 
 struct CameraOdometryOptions {
   std::string label;              ///< of the camera; empty: the first that comes
+  std::string odometry_label;     ///< of the wheels that predict; empty: the first that come
   double max_speed = 1.5;         ///< [m/s] of a camera; what seems faster is an error
   double position_noise = 0.001;  ///< [m] between two images
   double angle_noise = 0.05 * base::option_text::kRadiansPerDegree;            ///< [rad] between two images
@@ -27,6 +29,12 @@ struct CameraOdometryOptions {
   double angle_noise_per_root_turn = 0.013;                                    ///< [rad / sqrt(rad)]
 
   static const base::OptionTable<CameraOdometryOptions>& table();
+};
+
+/// The motion since the image that was tracked before, as wheels tell it: of the camera, optical frames.
+struct PredictedMotion {
+  geometry::Se3 last_from_camera;
+  geometry::Matrix6d covariance;  ///< in the camera's frame now, tangent as in geometry::Se3
 };
 
 /// What a tracker made of an image.
@@ -45,10 +53,13 @@ struct ImageMotion {
 /// the order of their stamps. One that comes after its time was worked on is left out. A lens that is covered, a view
 /// that shows nothing: then the motion is not told until the view is found again, and it is told across the gap; after
 /// a long gap the camera begins anew, and what happened meanwhile is left to others.
+///
+/// Where the base has wheels, their odometry says where a match begins, and counts where an image leaves a direction
+/// open: beside this it should be a fallback.
 class CameraOdometry : public mapper::PosePlugin {
  public:
   /// `what`: the name of the method, as evidence and warnings say it.
-  CameraOdometry(const CameraOdometryOptions& options, std::string what) : options_(options), what_(std::move(what)) {}
+  CameraOdometry(const CameraOdometryOptions& options, std::string what);
 
   Taken add(const mrpt::obs::CObservation::ConstPtr& observation) override;
   void processUntil(base::Stamp stamp) override;
@@ -66,16 +77,20 @@ class CameraOdometry : public mapper::PosePlugin {
  private:
   /// Whether track() looks for views of before.
   virtual bool seeksReturns() const { return true; }
-  virtual ImageMotion track(const perception::RgbdView& view, base::Stamp stamp) = 0;
+  virtual ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
+                            const std::optional<PredictedMotion>& prediction) = 0;
   void follow(const mrpt::obs::CObservation3DRangeScan& scan);
-  mapper::RelativeMotion motionOf(const ImageMotion& tracked, base::Stamp stamp,
-                                  const mrpt::poses::CPose3D& base_from_sensor) const;
+  std::optional<PredictedMotion> predictionOf(const geometry::Se3& base_from_camera, base::Stamp stamp) const;
+  mapper::RelativeMotion motionOf(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera,
+                                  const std::optional<PredictedMotion>& prediction) const;
 
   CameraOdometryOptions options_;
   std::string what_;
   std::optional<std::string> label_;                                          // of the first that came
   std::map<base::Stamp, mrpt::obs::CObservation3DRangeScan::ConstPtr> wait_;  // for their time
   std::optional<base::Stamp> reached_, begun_;  // image that was worked on last, first image of all
+  std::optional<base::Stamp> last_;             // image that was tracked last
+  matching::WheelOdometry wheels_;
   std::size_t images_ = 0, lost_ = 0, gaps_ = 0, returns_ = 0, bridged_ = 0, hasty_in_a_row_ = 0, runaways_ = 0,
               unreadable_ = 0;
   bool has_begun_ = false;

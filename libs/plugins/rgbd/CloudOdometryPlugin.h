@@ -18,7 +18,8 @@ class CloudOdometryPlugin : public CameraOdometry {
 
  private:
   bool seeksReturns() const override { return false; }
-  ImageMotion track(const perception::RgbdView& view, base::Stamp stamp) override;
+  ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
+                    const std::optional<PredictedMotion>& prediction) override;
 
   matching::CloudSourceOptions source_;
   matching::CloudTracker tracker_;

@@ -2,6 +2,8 @@
 
 #include <omnimapper/plugin/SharedSection.h>
 
+#include <Eigen/LU>
+
 #include "openDirections.h"
 
 IMPLEMENTS_MRPT_OBJECT(VisualOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
@@ -13,11 +15,12 @@ VisualOdometryPlugin::VisualOdometryPlugin(const CameraOdometryOptions& options,
                                            const matching::DenseMatcherOptions& matching)
     : CameraOdometry(options, "visual odometry"), tracker_(tracking, matching) {}
 
-ImageMotion VisualOdometryPlugin::track(const perception::RgbdView& view, base::Stamp stamp) {
+ImageMotion VisualOdometryPlugin::track(const perception::RgbdView& view, base::Stamp stamp,
+                                        const std::optional<PredictedMotion>& prediction) {
   using How = matching::RgbdTracker::Tracked::How;
-  static const perception::NormalEstimator estimator{perception::NormalOptions{}};
-  const auto tracked = tracker_.track(
-      {stamp, matching::RgbdPyramid(view.depth(), view.colour()), [&] { return estimator.estimate(view.depth()); }});
+  std::optional<matching::DenseGuess> guess;
+  if (prediction) guess = matching::DenseGuess{prediction->last_from_camera, prediction->covariance.inverse()};
+  const auto tracked = tracker_.track(stamp, matching::RgbdPyramid(view.depth(), view.colour()), guess);
   ImageMotion motion;
   motion.how = tracked.how == How::lost    ? ImageMotion::How::lost
                : tracked.how == How::begun ? ImageMotion::How::begun

@@ -15,7 +15,8 @@ class VisualOdometryPlugin : public CameraOdometry {
                        const matching::DenseMatcherOptions& matching);
 
  private:
-  ImageMotion track(const perception::RgbdView& view, base::Stamp stamp) override;
+  ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
+                    const std::optional<PredictedMotion>& prediction) override;
 
   matching::RgbdTracker tracker_;
 };

@@ -43,23 +43,29 @@ bool CloudTracker::isFarFromKey(const CloudMatch& match, const Se3& key_from_cam
 }
 
 CloudMatch CloudTracker::matchFrom(const MatchCloud& target, const MatchCloud& cloud, const Se3& target_from_last,
-                                   double seconds) const {
-  const auto moving = matcher_->match(target, cloud, target_from_last * geometry::plus(Se3{}, seconds * velocity_));
-  return moving.fits || velocity_.isZero() ? moving : matcher_->match(target, cloud, target_from_last);
+                                   const std::optional<Se3>& predicted) const {
+  if (predicted) {
+    auto moving = matcher_->match(target, cloud, target_from_last * *predicted);
+    if (moving.fits) return moving;
+  }
+  return matcher_->match(target, cloud, target_from_last);
 }
 
-CloudTracker::Tracked CloudTracker::track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud) {
+CloudTracker::Tracked CloudTracker::track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud,
+                                          const std::optional<Se3>& prediction) {
   if (!last_) return begin(stamp, std::move(cloud));
   const double seconds = base::secondsBetween(last_->stamp, stamp);
   Tracked tracked;
   tracked.last = last_->stamp;
-  tracked.match = matchFrom(*key_, *cloud, last_->key_from_camera, seconds);
+  auto predicted = prediction;
+  if (!predicted && !velocity_.isZero()) predicted = geometry::plus(Se3{}, seconds * velocity_);
+  tracked.match = matchFrom(*key_, *cloud, last_->key_from_camera, predicted);
   if (!tracked.match.fits && last_->cloud != key_) {
     key_ = last_->cloud;
     last_->key_from_camera = {};
-    tracked.match = matchFrom(*key_, *cloud, {}, seconds);
+    tracked.match = matchFrom(*key_, *cloud, {}, predicted);
   }
-  const bool is_blind = tracked.match.open_directions > 0;
+  const bool is_blind = tracked.match.open_directions > 0 && !prediction;
   if (!tracked.match.fits || (is_blind && base::secondsBetween(last_->told, stamp) > options_.longest_loss)) {
     if (seconds > options_.longest_loss) return begin(stamp, std::move(cloud));
     velocity_.setZero();

@@ -322,10 +322,11 @@ class PoseSearch {
     addDelay(gradient);
     Matrix7d known = information;
     if (!guess_.information.isZero(0)) {
-      // In the reference's frame, where the step is taken.
+      // In the reference's frame, where the step is taken. Residuals beside each other err alike: so many count as one.
+      constexpr double kDependence = 25;
       const Vector6d off = minus(inverse(image_from_reference), guess_.reference_from_image);
-      known.topLeftCorner<6, 6>() += ad.transpose() * guess_.information * ad;
-      gradient.head<6>() -= ad.transpose() * guess_.information * off;
+      known.topLeftCorner<6, 6>() += kDependence * ad.transpose() * guess_.information * ad;
+      gradient.head<6>() -= kDependence * ad.transpose() * guess_.information * off;
     }
     constexpr double kDamping = 1e-6;
     known.diagonal() += kDamping * known.diagonal() + Vector7d::Constant(1e-6);

@@ -59,9 +59,49 @@ std::vector<Candidate> choose(const RgbdLevel& level, std::size_t most) {
   return chosen;
 }
 
+/// The plane that the surface around a pixel lies on.
+struct SurfacePlane {
+  Eigen::Vector3d normal;  // unit, towards the camera
+  double sigma;            // [rad] of it, by how far the pixels around are off the plane
+};
+
+// Inverse depth is linear in an image of a plane, 1/z = (n/d) . (x/z, y/z, 1): a plane through some pixels of this
+// level. Normals of the finest level are six times as rough, and rough ones seem to tell motions along a bare wall.
+// None where less than half of the pixels are of one surface.
+std::optional<SurfacePlane> planeAround(const RgbdLevel& level, int x, int y) {
+  constexpr int kCoarse = 120;  // [px] columns below which 5 x 5 pixels are too large a part of the view
+  const int radius = level.width < kCoarse ? 1 : 2, pixels = (2 * radius + 1) * (2 * radius + 1);
+  constexpr float kOneSurface = 0.05F;  // in parts of the inverse depth
+  const float middle = level.inverse_depth[level.at(x, y)];
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d products = Eigen::Vector3d::Zero();
+  double sum = 0, count = 0;
+  for (int v = std::max(-radius, -y); v <= radius && y + v < level.height; ++v) {
+    for (int u = std::max(-radius, -x); u <= radius && x + u < level.width; ++u) {
+      const float off = level.inverse_depth[level.at(x + u, y + v)] - middle;
+      if (!(std::abs(off) <= kOneSurface * middle)) continue;
+      const Eigen::Vector3d place(u, v, 1);
+      squares += place * place.transpose();
+      products += off * place;
+      sum += static_cast<double>(off) * static_cast<double>(off);
+      ++count;
+    }
+  }
+  if (2 * count < pixels) return std::nullopt;
+  const Eigen::Vector3d slope = squares.ldlt().solve(products);
+  const auto& camera = level.camera;
+  const double a = slope.x() * camera.fx, b = slope.y() * camera.fy;
+  const double c = static_cast<double>(middle) + slope.z() - slope.x() * (x - camera.cx) - slope.y() * (y - camera.cy);
+  const double length = std::sqrt(a * a + b * b + c * c);
+  const double variance = std::max(0.0, sum - slope.dot(products)) / (count - 3);
+  const double spread = std::min(squares(0, 0), squares(1, 1));
+  return SurfacePlane{-Eigen::Vector3d(a, b, c) / length, camera.fx * std::sqrt(variance / spread) / length};
+}
+
 /// What is known of a point's place and of the plane it lies on.
 struct PlanePoint {
   Eigen::Vector3d point, normal;
+  double sigma;  // [rad] of the normal
 };
 
 // Along a direction into which no normals point that are more than noise, nothing is told; and where all normals are
@@ -78,10 +118,10 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> openMotions(const std::vector<PlanePoin
   std::vector<geometry::Vector6d> open;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = axes.eigenvectors().col(i);
-    constexpr double kNoise = 0.045, kSigmas = 3, kLeast = 0.1;  // [rad/m] of a Kinect's normals; [rad]
-    constexpr double kFew = 0.003;                               // share of the points
+    constexpr double kSigmas = 4, kLeast = 0.1;  // [rad]
+    constexpr double kFew = 0.003;               // share of the points
     const auto telling = std::count_if(points.begin(), points.end(), [&](const PlanePoint& one) {
-      return std::abs(one.normal.dot(axis)) > std::max(kLeast, kSigmas * kNoise * one.point.z());
+      return std::abs(one.normal.dot(axis)) > std::max(kLeast, kSigmas * one.sigma);
     });
     if (static_cast<double>(telling) > kFew * count) continue;
     open.push_back(geometry::Vector6d::Zero());
@@ -132,7 +172,6 @@ std::optional<Shown> changeOf(const RgbdLevel& level, const Shutter& shutter, co
 }  // namespace
 
 std::shared_ptr<const DenseReference> DenseMatcher::prepare(const RgbdPyramid& image,
-                                                            const perception::NormalImage& normals,
                                                             const CameraMotion& motion) const {
   const Shutter depth_shutter(motion, 0, motion.depth_readout);
   const Shutter picture_shutter(motion, motion.picture_delay, motion.picture_readout);
@@ -172,18 +211,12 @@ std::shared_ptr<const DenseReference> DenseMatcher::prepare(const RgbdPyramid& i
       eight.y[lane] = static_cast<float>(point.y());
       eight.z[lane] = static_cast<float>(point.z());
       eight.is_point[lane] = 1;
-      const int scale = 1 << l;
-      const int fine_x = std::min(c.x * scale + scale / 2, normals.width - 1);
-      const int fine_y = std::min(c.y * scale + scale / 2, normals.height - 1);
-      const auto fine =
-          static_cast<std::size_t>(fine_y) * static_cast<std::size_t>(normals.width) + static_cast<std::size_t>(fine_x);
-      if (!std::isnan(normals.z()[fine])) {
-        const Eigen::Vector3d normal = depth_shutter.turnedBack(
-            Eigen::Vector3f(normals.x()[fine], normals.y()[fine], normals.z()[fine]).cast<double>(), after);
+      if (const auto plane = planeAround(level, c.x, c.y)) {
+        const Eigen::Vector3d normal = depth_shutter.turnedBack(plane->normal, after);
         eight.nx[lane] = static_cast<float>(normal.x());
         eight.ny[lane] = static_cast<float>(normal.y());
         eight.nz[lane] = static_cast<float>(normal.z());
-        planes.push_back({point, normal});
+        planes.push_back({point, normal, plane->sigma});
       }
       if (level.grey.empty()) continue;
       const auto change = changeOf(level, picture_shutter, point);

@@ -25,6 +25,9 @@ std::optional<double> medianDepth(const RgbdPyramid& pyramid) {
   return 1 / static_cast<double>(*middle);
 }
 
+// What neither hand nor robot does: [m] [rad] off what wheels tell, and besides [m/s] [rad/s] where nothing tells it.
+constexpr double kSlack = 0.3, kSlackTurn = 0.3, kFastest = 3, kFastestTurn = 8;
+
 double angleOf(const Se3& pose) {
   return geometry::logSo3(pose.rotation).norm();
 }
@@ -86,71 +89,71 @@ std::optional<std::size_t> RgbdTracker::nearest(const Se3& map_from_camera, doub
   return best;
 }
 
-DenseMatch RgbdTracker::match(std::size_t key, const RgbdImage& image, const Se3& map_from_camera,
+DenseMatch RgbdTracker::match(std::size_t key, const RgbdPyramid& image, const Se3& map_from_camera,
                               const Matrix6d& information, const CameraMotion& motion) const {
-  return matcher_.match(*keys_[key].reference, image.pyramid,
+  return matcher_.match(*keys_[key].reference, image,
                         {inverse(keys_[key].map_from_camera) * map_from_camera, information}, motion);
 }
 
-RgbdTracker::Tracked RgbdTracker::begin(const RgbdImage& image, const Se3& map_from_camera) {
+RgbdTracker::Tracked RgbdTracker::begin(base::Stamp stamp, const RgbdPyramid& image, const Se3& map_from_camera) {
   velocity_.setZero();
   keys_.clear();  // where they lie from here is not known
   makeKeyFrame(image, map_from_camera, options_.picture_delay);
-  last_ = told_ = image.stamp;
+  last_ = told_ = stamp;
   map_from_last_ = map_from_camera;
   is_lost_ = false;
   Tracked tracked;
   tracked.map_from_camera = map_from_camera;
-  tracked.last = image.stamp;
+  tracked.last = stamp;
   tracked.is_key_frame = true;
   return tracked;
 }
 
-void RgbdTracker::makeKeyFrame(const RgbdImage& image, const Se3& map_from_camera, double picture_delay) {
+void RgbdTracker::makeKeyFrame(const RgbdPyramid& image, const Se3& map_from_camera, double picture_delay) {
   CameraMotion moved = motion();
   moved.picture_delay = picture_delay;
-  keys_.push_back(
-      {matcher_.prepare(image.pyramid, image.normals(), moved), map_from_camera, medianDepth(image.pyramid).value()});
+  keys_.push_back({matcher_.prepare(image, moved), map_from_camera, medianDepth(image).value()});
   if (keys_.size() > static_cast<std::size_t>(options_.key_frames)) keys_.pop_front();
   current_ = keys_.size() - 1;
 }
 
-// With the key frame of the image before, from where the camera should be, else from where it was; else with the key
-// frame that is nearest to either. The motion that is found tells the shutters' motion better than that of before did:
-// the match is made once more with the mean of both.
-std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdImage& image, const Se3& predicted,
+// With the key frame of the image before, from where the camera should be. Where that does not fit, or many depths are
+// not what they should be, from where it was, too, and with the key frame that is nearest to either; what surprises
+// least is taken. What fits but leaves a direction open goes on there as it did. The motion that is found tells the
+// shutters' motion better than that of before did: the match is made once more with the mean of both.
+std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdPyramid& image, const Se3& predicted,
                                                       const Matrix6d& information, double seconds) const {
+  constexpr double kFarthest = 3, kDoubtful = 0.1;
   const Matrix6d nothing = Matrix6d::Zero();
-  std::optional<Found> bridged;  // fits, but leaves a direction open: there, the camera goes on as it did
   std::vector<std::pair<std::size_t, Se3>> tries{{current_, predicted}, {current_, map_from_last_}};
   for (const auto& [key, pose] : std::vector(tries)) {
-    constexpr double kFarthest = 3;
     const auto other = nearest(pose, kFarthest, key);
     if (other) tries.emplace_back(*other, pose);
   }
+  std::optional<Found> best;
   for (std::size_t i = 0; i < tries.size(); ++i) {
     const auto& [key, pose] = tries[i];
     const Matrix6d& known = i == 0 ? information : nothing;
     const auto first = match(key, image, pose, known, motion());
-    if (!first.succeeded) {
-      if (first.fits && i == 0) bridged = Found{key, first};
-      continue;
-    }
+    if (i == 0 && first.fits && first.open_directions > 0) return Found{key, first};
+    if (!first.succeeded) continue;
     const Se3 map_from_camera = keys_[key].map_from_camera * first.reference_from_image;
     CameraMotion moved = motion();
     moved.velocity = 0.5 * (velocity_ + minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds);
     const auto second = match(key, image, i == 0 ? pose : map_from_camera, known, moved);
-    return Found{key, second.succeeded ? second : first};
+    const Found found{key, second.succeeded ? second : first};
+    if (!best || found.match.surprise < best->match.surprise) best = found;
+    if (best->match.surprise < kDoubtful) break;
   }
-  return bridged;
+  return best;
 }
 
 // With every key frame, as if the camera were there again; the one that fits best.
-std::optional<RgbdTracker::Found> RgbdTracker::seek(const RgbdImage& image) const {
+std::optional<RgbdTracker::Found> RgbdTracker::seek(const RgbdPyramid& image) const {
   CameraMotion unknown = motion();
   unknown.velocity.setZero();
   std::optional<Found> best;
-  if (!medianDepth(image.pyramid)) return best;
+  if (!medianDepth(image)) return best;
   constexpr double kSurely = 0.5, kSurprise = 0.1;  // it could be anywhere: only what fits well is believed
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     const auto found = match(k, image, keys_[k].map_from_camera, Matrix6d::Zero(), unknown);
@@ -160,12 +163,13 @@ std::optional<RgbdTracker::Found> RgbdTracker::seek(const RgbdImage& image) cons
   return best;
 }
 
-RgbdTracker::Tracked RgbdTracker::take(const RgbdImage& image, Found found, How how, double seconds) {
+RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const RgbdPyramid& image, Found found, How how,
+                                       double seconds) {
   current_ = found.key;
   Se3 map_from_camera = keys_[current_].map_from_camera * found.match.reference_from_image;
   const bool is_far = farness(keys_[current_], map_from_camera) > 1 || found.match.overlap < options_.key_overlap;
   Tracked tracked;
-  if (is_far && medianDepth(image.pyramid)) {
+  if (is_far && medianDepth(image)) {
     // Whether a frame of before sees it better: much nearer than where a new one is due.
     constexpr double kMuchNearer = 0.8;
     const auto other = nearest(map_from_camera, kMuchNearer, current_);
@@ -187,9 +191,9 @@ RgbdTracker::Tracked RgbdTracker::take(const RgbdImage& image, Found found, How 
   tracked.last_from_camera = inverse(map_from_last_) * map_from_camera;
   tracked.last = *last_;
   velocity_ = how == How::found ? Vector6d::Zero().eval() : (minus(tracked.last_from_camera, Se3{}) / seconds).eval();
-  if (found.match.open_directions == 0) told_ = image.stamp;
+  if (found.match.open_directions == 0) told_ = stamp;
   map_from_last_ = map_from_camera;
-  last_ = image.stamp;
+  last_ = stamp;
   is_lost_ = false;
   if (tracked.is_key_frame) makeKeyFrame(image, map_from_camera, found.match.delay);
   return tracked;
@@ -203,13 +207,14 @@ RgbdTracker::Tracked RgbdTracker::lostAt(base::Stamp last) const {
   return lost;
 }
 
-RgbdTracker::Tracked RgbdTracker::track(const RgbdImage& image, const std::optional<DenseGuess>& prediction) {
-  const bool can_begin = medianDepth(image.pyramid).has_value();
-  if (!last_ && can_begin) return begin(image, Se3{});
-  if (!last_) return lostAt(image.stamp);
+RgbdTracker::Tracked RgbdTracker::track(base::Stamp stamp, const RgbdPyramid& image,
+                                        const std::optional<DenseGuess>& prediction) {
+  const bool can_begin = medianDepth(image).has_value();
+  if (!last_ && can_begin) return begin(stamp, image, Se3{});
+  if (!last_) return lostAt(stamp);
   // Of stamps that nearly coincide the noise would be a speed.
   constexpr double kShortest = 0.01;  // [s]
-  const double seconds = std::max(kShortest, base::secondsBetween(*last_, image.stamp));
+  const double seconds = std::max(kShortest, base::secondsBetween(*last_, stamp));
   // A hand soon does something else: what images tell little of would go on and on.
   constexpr double kGoesOn = 0.4;  // [s]
   Se3 predicted = map_from_last_ * geometry::plus(Se3{}, kGoesOn * (1 - std::exp(-seconds / kGoesOn)) * velocity_);
@@ -221,16 +226,24 @@ RgbdTracker::Tracked RgbdTracker::track(const RgbdImage& image, const std::optio
     predicted = map_from_last_ * prediction->reference_from_image;
     information = prediction->information;
   }
+  const auto isPossible = [&](const Found& found) {
+    const Se3 off = inverse(prediction ? predicted : map_from_last_) * keys_[found.key].map_from_camera *
+                    found.match.reference_from_image;
+    const double much = prediction ? 0 : seconds;
+    return off.translation.norm() < kSlack + kFastest * much && angleOf(off) < kSlackTurn + kFastestTurn * much;
+  };
   if (!is_lost_) {
     const auto found = follow(image, predicted, information, seconds);
-    const bool is_told = found && (found->match.open_directions == 0 ||
-                                   base::secondsBetween(*told_, image.stamp) <= options_.longest_loss);
-    if (is_told) return take(image, *found, How::tracked, seconds);
+    const bool is_told = found && isPossible(*found) &&
+                         (found->match.open_directions == 0 || prediction ||
+                          base::secondsBetween(*told_, stamp) <= options_.longest_loss);
+    if (is_told) return take(stamp, image, *found, How::tracked, seconds);
   }
-  if (auto found = seek(image)) return take(image, *found, How::found, seconds);
+  const auto found = seek(image);
+  if (found && isPossible(*found)) return take(stamp, image, *found, How::found, seconds);
   is_lost_ = true;
   velocity_.setZero();
-  if (seconds > options_.longest_loss && can_begin) return begin(image, map_from_last_);
+  if (seconds > options_.longest_loss && can_begin) return begin(stamp, image, prediction ? predicted : map_from_last_);
   return lostAt(*last_);
 }
 

@@ -36,8 +36,10 @@ class CloudTracker {
     base::Stamp last;                ///< of that image
     CloudMatch match;                ///< with the key frame, or the last image
   };
-  /// Images by rising stamps.
-  Tracked track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud);
+  /// Images by rising stamps. `prediction`: motion since the image tracked before, of the camera, from wheels; none: it
+  /// goes on as it did. Where the image leaves a direction open the prediction is taken.
+  Tracked track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud,
+                const std::optional<geometry::Se3>& prediction = {});
 
  private:
   /// An image, and its pose in the frame of the key frame.
@@ -48,9 +50,9 @@ class CloudTracker {
     base::Stamp told;  ///< of the last image that left no direction open
   };
   Tracked begin(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud);
-  /// From where the motion goes on to, and if that does not fit, from where it was.
+  /// From where it is predicted, and if that does not fit, from where it was.
   CloudMatch matchFrom(const MatchCloud& target, const MatchCloud& cloud, const geometry::Se3& target_from_last,
-                       double seconds) const;
+                       const std::optional<geometry::Se3>& predicted) const;
   bool isFarFromKey(const CloudMatch& match, const geometry::Se3& key_from_camera) const;
 
   CloudTrackerOptions options_;

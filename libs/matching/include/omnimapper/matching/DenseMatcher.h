@@ -4,7 +4,6 @@
 #include <omnimapper/geometry/Se3.h>
 #include <omnimapper/matching/RgbdPyramid.h>
 #include <omnimapper/perception/DepthNoise.h>
-#include <omnimapper/perception/Normals.h>
 
 #include <memory>
 #include <vector>
@@ -77,9 +76,7 @@ class DenseMatcher {
   /// Throws Error(out_of_range) for counts or noises that are not positive.
   explicit DenseMatcher(const DenseMatcherOptions& options = {});
 
-  /// `normals` are of the pyramid's finest level.
-  std::shared_ptr<const DenseReference> prepare(const RgbdPyramid& image, const perception::NormalImage& normals,
-                                                const CameraMotion& motion = {}) const;
+  std::shared_ptr<const DenseReference> prepare(const RgbdPyramid& image, const CameraMotion& motion = {}) const;
   /// `motion` is the image's; a delay that is not known is found by the match.
   DenseMatch match(const DenseReference& reference, const RgbdPyramid& image, const DenseGuess& guess = {},
                    const CameraMotion& motion = {}) const;

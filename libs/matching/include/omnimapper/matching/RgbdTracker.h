@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -26,14 +25,6 @@ struct RgbdTrackerOptions {
   double longest_loss = 2;             ///< [s] after which a lost camera begins anew
 
   static const base::OptionTable<RgbdTrackerOptions>& table();
-};
-
-/// An image, prepared to be tracked.
-struct RgbdImage {
-  base::Stamp stamp;
-  RgbdPyramid pyramid;
-  std::function<perception::NormalImage()>
-      normals;  ///< of the finest level; asked for if the image becomes a key frame
 };
 
 /// Follows a camera from image to image. Each image is registered with a key frame, an earlier image whose pose is
@@ -62,7 +53,7 @@ class RgbdTracker {
   };
   /// Images by rising stamps. `prediction`: motion since the image tracked before, of the camera, from wheels or
   /// inertia; none: it goes on as it did.
-  Tracked track(const RgbdImage& image, const std::optional<DenseGuess>& prediction = {});
+  Tracked track(base::Stamp stamp, const RgbdPyramid& image, const std::optional<DenseGuess>& prediction = {});
 
   std::size_t keyFrames() const { return keys_.size(); }
 
@@ -76,20 +67,20 @@ class RgbdTracker {
     std::size_t key;
     DenseMatch match;
   };
-  Tracked begin(const RgbdImage& image, const geometry::Se3& map_from_camera);
+  Tracked begin(base::Stamp stamp, const RgbdPyramid& image, const geometry::Se3& map_from_camera);
   Tracked lostAt(base::Stamp last) const;
-  void makeKeyFrame(const RgbdImage& image, const geometry::Se3& map_from_camera, double picture_delay);
+  void makeKeyFrame(const RgbdPyramid& image, const geometry::Se3& map_from_camera, double picture_delay);
   CameraMotion motion() const;
   /// How far off the view of a key frame is: 1 where another one is due.
   double farness(const KeyFrame& key, const geometry::Se3& map_from_camera) const;
   std::optional<std::size_t> nearest(const geometry::Se3& map_from_camera, double farthest,
                                      std::optional<std::size_t> but) const;
-  DenseMatch match(std::size_t key, const RgbdImage& image, const geometry::Se3& map_from_camera,
+  DenseMatch match(std::size_t key, const RgbdPyramid& image, const geometry::Se3& map_from_camera,
                    const geometry::Matrix6d& information, const CameraMotion& motion) const;
-  std::optional<Found> follow(const RgbdImage& image, const geometry::Se3& predicted,
+  std::optional<Found> follow(const RgbdPyramid& image, const geometry::Se3& predicted,
                               const geometry::Matrix6d& information, double seconds) const;
-  std::optional<Found> seek(const RgbdImage& image) const;
-  Tracked take(const RgbdImage& image, Found found, Tracked::How how, double seconds);
+  std::optional<Found> seek(const RgbdPyramid& image) const;
+  Tracked take(base::Stamp stamp, const RgbdPyramid& image, Found found, Tracked::How how, double seconds);
 
   RgbdTrackerOptions options_;
   DenseMatcher matcher_;
