@@ -378,9 +378,9 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
   }
   DenseMatch match;
   match.correlation = last.correlation;
-  match.reference_from_image = inverse(search.image_from_reference);
   match.delay = search.delay;
   match.delay_sigma = motion.delay_sigma;
+  match.reference_from_image = inverse(search.image_from_reference);
   if (points == 0) return match;
   match.overlap = last.shown / static_cast<double>(points);
   match.surprise = last.measured > 0 ? last.surprising / last.measured : 0;
@@ -399,6 +399,10 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
   constexpr double kWeakest = 1e5;  // [1/m2], [1/rad2]
   const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(information);
   match.open_directions = static_cast<int>((axes.eigenvalues().array() < kWeakest).count());
+  const Vector6d is_open = (axes.eigenvalues().array() < kWeakest).cast<double>();
+  const Vector6d to_guess = minus(inverse(guess.reference_from_image), search.image_from_reference);
+  const Vector6d back = axes.eigenvectors() * is_open.asDiagonal() * axes.eigenvectors().transpose() * to_guess;
+  match.reference_from_image = inverse(plus(search.image_from_reference, back));
   const Vector6d variances =
       axes.eigenvalues().unaryExpr([](double value) { return value < kWeakest ? DenseMatch::kOpen : 1 / value; });
   const Matrix6d ad = adjoint(search.image_from_reference);

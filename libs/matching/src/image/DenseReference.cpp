@@ -118,8 +118,9 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> openMotions(const std::vector<PlanePoin
   std::vector<geometry::Vector6d> open;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = axes.eigenvectors().col(i);
-    constexpr double kSigmas = 4, kLeast = 0.1;  // [rad]
-    constexpr double kFew = 0.003;               // share of the points
+    // Neighbours of one image share their errors: normals are twice as rough as what is left of the planes tells.
+    constexpr double kSigmas = 4 * 2, kLeast = 0.1;  // [rad]
+    constexpr double kFew = 0.003;                   // share of the points
     const auto telling = std::count_if(points.begin(), points.end(), [&](const PlanePoint& one) {
       return std::abs(one.normal.dot(axis)) > std::max(kLeast, kSigmas * one.sigma);
     });
