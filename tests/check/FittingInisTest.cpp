@@ -52,7 +52,7 @@ TEST(FittingInis, OfALaserAreThoseOfLasers) {
 TEST(FittingInis, OfARangeCameraDependOnWhatTellsItsMotion) {
   const auto log = with<mrpt::obs::CObservation3DRangeScan>();
   EXPECT_EQ(namesFor(log), (Names{"ini/home_planes.ini", "ini/laser2d.ini", "ini/laser_walls.ini"}));
-  EXPECT_EQ(namesFor(without(log, "laser")), (Names{"ini/home_planes.ini"}));
+  EXPECT_EQ(namesFor(without(log, "laser")), (Names{"ini/rgbd_robot.ini", "ini/home_planes.ini"}));
   auto alone = without(without(log, "laser"), "odometry");
   EXPECT_EQ(namesFor(alone), Names{"ini/rgbd_handheld.ini"});
   EXPECT_EQ(Checked(alone).text().find("problem"), std::string::npos) << Checked(alone).text();
@@ -78,7 +78,7 @@ TEST(FittingInis, OfCloudsAndPicturesWithOdometryAreNamed) {
 
 TEST(FittingInis, GoWithoutTheLaserThatIsNotThere) {
   const Checked checked(without(with<mrpt::obs::CObservation3DRangeScan>(), "laser"));
-  EXPECT_EQ(toIni(proposeIni(checked.facts, fittingInis(checked.facts).front().plugins)),
+  EXPECT_EQ(toIni(proposeIni(checked.facts, fittingInis(checked.facts).back().plugins)),
             "; Written from a log by omnimapper-graphslam --check.\n"
             "[mapper]\npose_plugins = odometry, no_motion  ; there is no laser\n"
             "measurement_plugins = plane_landmarks  ; there is no laser\n\n"
@@ -92,6 +92,8 @@ TEST(FittingInis, HaveThePluginsThatTheyAreSaidToHave) {
   EXPECT_EQ(inis.size(), 5U);
   const auto camera = without(without(with<CObservation3DRangeScan>(), "laser"), "odometry");
   inis.push_back(fittingInis(Checked(camera).facts).front());
+  const auto robot = without(with<CObservation3DRangeScan>(), "laser");
+  inis.push_back(fittingInis(Checked(robot).facts).front());
   for (const auto& ini : inis) {
     const auto config = base::Config::fromFile(omnimapper::testing::sourceFile(ini.file));
     const auto options = config.section("mapper").read<mapper::EngineOptions>();

@@ -28,6 +28,11 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   const bool sees_depth = holds<mrpt::obs::CObservation3DRangeScan>(facts) || holds<obs::CObservationPlanes>(facts);
   const std::vector<std::string> of_lasers{"scan_odometry", "odometry", "no_motion"};  // pose plugins
   std::vector<FittingIni> inis;
+  if (holds<mrpt::obs::CObservation3DRangeScan>(facts) && has_odometry && !has_laser) {
+    inis.push_back({"ini/rgbd_robot.ini",
+                    "walls, tables and floors of the range camera, its way by images and wheels",
+                    {{"visual_odometry", "odometry", "no_motion"}, {"planes"}, {"plane_landmarks"}, true}});
+  }
   if (sees_depth && (has_laser || has_odometry)) {
     inis.push_back({"ini/home_planes.ini",
                     std::string("walls, tables and floors of the range camera") + (has_laser ? " and the laser" : ""),

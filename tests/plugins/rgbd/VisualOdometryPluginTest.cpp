@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/geometry/Conversions.h>
 
 #include <functional>
@@ -119,6 +120,49 @@ TEST_F(VisualOdometry, AfterALongLossTheMapIsSuspicious) {
   EXPECT_FALSE(plugin_->between(at(0.1), at(2.5)));
   expectMotion(2.5, 2.6);
   EXPECT_EQ(evidence("camera_begun_anew").says, Says::against_it);
+}
+
+// The base drives along a bare wall: depths tell nothing of that.
+TEST_F(VisualOdometry, WheelsTellWhatABareWallDoesNot) {
+  room_.half[0] = 50;
+  room_.half[1] = 50;
+  const auto wallOnly = [&](double seconds) {
+    const Se3 moved{Eigen::Quaterniond(geometry::sensorFromOptical().rotation.conjugate()), {0.4 * seconds, 0.1, -0.3}};
+    auto image = renderedScan(room_, moved, CPose3D(), at(seconds), false);
+    image->hasIntensityImage = false;
+    return image;
+  };
+  for (int i = 0; i <= 30; ++i) {
+    const double seconds = 0.1 * i;
+    const auto wheels = mrpt::obs::CObservationOdometry::Create();
+    wheels->timestamp = at(seconds);
+    wheels->sensorLabel = "wheels";
+    wheels->odometry = mrpt::poses::CPose2D(0, -0.4 * seconds, 0);  // to the right, where the room's x is
+    EXPECT_EQ(plugin_->add(wheels), Taken::not_mine) << "others may take them, too";
+    plugin_->add(wallOnly(seconds));
+    plugin_->processUntil(at(seconds));
+  }
+  const auto motion = plugin_->between(at(0), at(3));
+  ASSERT_TRUE(motion) << "longer than a camera alone is believed";
+  EXPECT_NEAR(motion->begin_from_end.y(), -1.2, 0.02);
+  EXPECT_GT(std::sqrt(motion->covariance(1, 1)), 0.03) << "as the wheels tell it";
+  EXPECT_EQ(evidence("camera_blind_percent").says, Says::good);
+}
+
+TEST_F(VisualOdometry, ASpinThatIsTooFastIsSaidNotGuessed) {
+  add(0);
+  add(0.1);
+  const auto spun = [&](double seconds) {  // by 115 deg from image to image
+    geometry::Vector6d turn = geometry::Vector6d::Zero();
+    turn[5] = 20 * (seconds - 0.1);
+    return renderedScan(room_, geometry::plus(truth(0.1), turn), kBaseFromCamera, at(seconds), false);
+  };
+  for (int i = 2; i <= 8; ++i) {
+    plugin_->add(spun(0.1 * i));
+    plugin_->processUntil(at(0.1 * i));
+  }
+  EXPECT_FALSE(plugin_->between(at(0.1), at(0.7)));
+  EXPECT_EQ(evidence("camera_lost_percent").says, Says::too_little);
 }
 
 TEST_F(VisualOdometry, ACoveredLensAtTheStartIsNoGap) {
