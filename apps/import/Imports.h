@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/Progress.h>
 #include <omnimapper/source/CarmenLog.h>
 #include <omnimapper/source/PcdFolder.h>
 #include <omnimapper/source/RgbdFolder.h>
@@ -9,6 +10,19 @@
 
 /// Throws Error(unreadable_input) if nothing was read, so that no empty rawlog is left or takes the place of another.
 void refuseNothing(const std::string& input, const omnimapper::source::SourceReport& report);
+
+/// How far an import has come, shown on a terminal.
+class ImportProgress {
+ public:
+  /// From now on Ctrl-C is heard by report().
+  explicit ImportProgress(const std::string& input);
+  /// `share` in [0, 1]. Throws Error(interrupted) after Ctrl-C: half a log is not left for a whole one.
+  void report(double share);
+
+ private:
+  std::string what_;
+  omnimapper::base::TerminalProgress terminal_;
+};
 
 /// Says on standard output what to do with a rawlog that was written.
 void sayNext(const std::string& output);

@@ -1,6 +1,4 @@
-#include <omnimapper/base/Progress.h>
 #include <omnimapper/source/RawlogWriter.h>
-#include <unistd.h>
 
 #include <iostream>
 
@@ -26,11 +24,11 @@ void printSummary(const source::CarmenLog& log) {
 
 base::ExitCode importCarmen(const std::string& input, const std::string& output, CarmenOdometry odometry) {
   source::CarmenLog log(input, odometry);
-  base::TerminalProgress progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  ImportProgress progress(input);
   source::writeRawlog(output, [&](source::RawlogWriter& rawlog) {
     while (const auto observation = log.next()) {
       rawlog.add(*observation);
-      progress.report(log.progress(), "importing " + input);
+      progress.report(log.progress());
     }
     refuseNothing(input, log.report());
   });

@@ -1,7 +1,5 @@
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/base/Progress.h>
 #include <omnimapper/source/RawlogWriter.h>
-#include <unistd.h>
 
 #include <iostream>
 
@@ -12,13 +10,13 @@ using namespace omnimapper;
 base::ExitCode importPcd(const std::string& folder, const std::string& output,
                          const source::PcdFolderOptions& options) {
   source::PcdFolder clouds(folder, options);
-  base::TerminalProgress progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  ImportProgress progress(folder);
   source::writeRawlog(
       output,
       [&](source::RawlogWriter& rawlog) {
         while (const auto observation = clouds.next()) {
           rawlog.add(*observation);
-          progress.report(clouds.progress(), "importing " + folder);
+          progress.report(clouds.progress());
         }
         refuseNothing(folder, clouds.report());
       },

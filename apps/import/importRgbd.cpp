@@ -1,12 +1,10 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/base/Progress.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/TumLine.h>
 #include <omnimapper/source/ExternalImages.h>
 #include <omnimapper/source/RawlogWriter.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -63,7 +61,7 @@ base::ExitCode importRgbd(const std::string& folder, const std::string& output,
   if (poses) refuseWithoutPoses(images, folder, options.largest_difference);
   const std::string stem = std::filesystem::path(output).replace_extension().string(), truth = stem + ".truth.tum";
   std::size_t posed = 0;
-  base::TerminalProgress progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  ImportProgress progress(folder);
   const auto fill = [&](source::RawlogWriter& rawlog) {
     while (const auto observation = images.next()) {
       if (external_images) {
@@ -77,7 +75,7 @@ base::ExitCode importRgbd(const std::string& folder, const std::string& output,
         ++posed;
       }
       rawlog.add(*observation);
-      progress.report(images.progress(), "importing " + folder);
+      progress.report(images.progress());
     }
     refuseNothing(folder, images.report());
   };

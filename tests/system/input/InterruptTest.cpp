@@ -116,6 +116,24 @@ wait $program)";
   EXPECT_EQ(filesIn(folder_), allOutputs());
 }
 
+TEST_P(Interrupt, OfAnImportLeavesNoRawlog) {
+  const std::string input = scratch_ / "long.clf", folder = scratch_ / "out";
+  fs::create_directory(folder);
+  std::string line = "FLASER 180";
+  for (int i = 0; i < 180; ++i) line += " 2.55";
+  std::string lines;
+  for (int i = 0; i < 40'000; ++i) {
+    const std::string stamp = std::to_string(1e9 + 0.1 * i);
+    lines += line + " 0 0 0 0 0 0 " + stamp + " host " + stamp + "\n";
+  }
+  writeFile(input, lines);
+  Program program({omnimapper::testing::ownProgram("omnimapper-import"), "carmen", input, folder + "/long.rawlog"});
+  while (filesIn(folder).empty() && program.isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  program.send(GetParam());
+  EXPECT_TRUE(endedWith(ExitCode::interrupted, program.wait(), {"no rawlog was written"}));
+  EXPECT_TRUE(filesIn(folder).empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM),
                          [](const auto& signal) { return signal.param == SIGINT ? "CtrlC" : "Terminate"; });
 
