@@ -104,6 +104,8 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
 // The trajectory is written all the same: in the map's frame only by what [session] start says.
 [[noreturn]] void failWithNoPlace(const RunRequest& request, const RunResult& result, SessionOptions::Start start) {
   const bool was_sought = start == SessionOptions::Start::anywhere;
+  if (result.code == base::ExitCode::interrupted)
+    throw base::Error(result.code, request.localize_map + ": interrupted before the log was located in the map");
   throw base::Error(
       result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code,
       request.localize_map + ": the log was located nowhere in the map: is it of another place? If not, say " +
