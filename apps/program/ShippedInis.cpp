@@ -63,7 +63,7 @@ std::vector<std::string> findInis(const std::vector<std::string>& names, const s
     if (shipped || fs::path(name).has_parent_path() || fs::exists(name, error)) continue;
     const auto known = shippedNames();
     if (known.empty()) continue;
-    const auto near = base::nearestName(name, known);
+    const auto near = base::nearestName(fs::path(name).has_extension() ? name : name + ".ini", known);
     throw base::Error(base::ExitCode::unreadable_input,
                       name + ": there is no such INI file here, and none of that name came with the program" +
                           (near.empty() ? "." : "; did you mean " + near + "?") + " It has " +
