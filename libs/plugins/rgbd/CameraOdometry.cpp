@@ -133,6 +133,7 @@ void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
   returns_ += tracked.has_returned;
   if (tracked.how == How::lost) {
     lost_ += !prediction;
+    is_lost_ = true;
     return;
   }
   if (tracked.how == How::begun) {
@@ -145,10 +146,14 @@ void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
         tracked.last_from_camera.translation.norm() > options_.max_speed * std::max(seconds, kShortest);
     hasty_in_a_row_ = is_hasty ? hasty_in_a_row_ + 1 : 0;
     runaways_ += hasty_in_a_row_ == kRunaway;
+    // However well a view fits, another place may look like it, as one bare wall looks like another.
+    constexpr double kLong = 0.4;  // [s]
+    found_ += !prediction && is_lost_ && seconds > kLong;
     bridged_ += !prediction && !tracked.open.isZero();
     timeline_.insert(tracked.last, scan.timestamp, motionOf(tracked, scan.timestamp, base_from_camera, prediction));
   }
   last_ = scan.timestamp;
+  is_lost_ = false;
 }
 
 // Variances grow with the way and the turn so that spans add up: what a key frame is off by counts once for all images
@@ -208,6 +213,12 @@ std::vector<mapper::Evidence> CameraOdometry::evidence() const {
   std::snprintf(text, sizeof text, "%s was lost in %.0f %% of the images", what_.c_str(), percent);
   all.push_back(
       {"camera_lost_percent", percent, percent > kMuch ? Says::too_little : Says::good, percent > kMuch ? text : ""});
+  if (found_ > 0) {
+    std::snprintf(text, sizeof text,
+                  "the camera was lost and only a view that looked like one of before told where it was (%s)",
+                  base::counted(found_, "time").c_str());
+    all.push_back({"camera_found_again", static_cast<double>(found_), Says::too_little, text});
+  }
   if (runaways_ > 0) {
     std::snprintf(text, sizeof text,
                   "the camera seems to have moved at more than %.1f m/s (%s): it was tracked wrong there",

@@ -92,8 +92,8 @@ class CameraOdometry : public mapper::PosePlugin {
   std::optional<base::Stamp> last_;             // image that was tracked last
   matching::WheelOdometry wheels_;
   std::size_t images_ = 0, lost_ = 0, gaps_ = 0, returns_ = 0, bridged_ = 0, hasty_in_a_row_ = 0, runaways_ = 0,
-              unreadable_ = 0;
-  bool has_begun_ = false;
+              found_ = 0, unreadable_ = 0;
+  bool has_begun_ = false, is_lost_ = false;
   double first_gap_ = 0;        // [s] after the first image
   std::string why_unreadable_;  // of the first image that was
   std::optional<double> bend_;  // [px] of the first image's corners by the lens

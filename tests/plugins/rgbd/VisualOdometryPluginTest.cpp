@@ -105,6 +105,7 @@ TEST_F(VisualOdometry, AcrossACoveredLensTheMotionIsToldWhenTheViewIsFoundAgain)
   EXPECT_FALSE(plugin_->between(at(0), at(0.9))) << "lost is said, not guessed";
   add(1.0);
   expectMotion(0, 1);
+  EXPECT_EQ(evidence("camera_found_again").says, Says::too_little);
   EXPECT_EQ(evidence("camera_lost_percent").says, Says::too_little);
   EXPECT_EQ(evidence("camera_begun_anew").value, 0);
 }

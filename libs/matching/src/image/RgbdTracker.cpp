@@ -26,7 +26,7 @@ std::optional<double> medianDepth(const RgbdPyramid& pyramid) {
 }
 
 // What neither hand nor robot does: [m] [rad] off what wheels tell, and besides [m/s] [rad/s] where nothing tells it.
-constexpr double kSlack = 0.3, kSlackTurn = 0.3, kFastest = 3, kFastestTurn = 8;
+constexpr double kSlack = 0.3, kSlackTurn = 0.3, kFastest = 1.5, kFastestTurn = 4;
 
 double angleOf(const Se3& pose) {
   return geometry::logSo3(pose.rotation).norm();
