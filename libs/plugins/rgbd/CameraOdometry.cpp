@@ -132,7 +132,7 @@ void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
   ++images_;
   returns_ += tracked.has_returned;
   if (tracked.how == How::lost) {
-    lost_ += !prediction;
+    ++lost_;
     is_lost_ = true;
     return;
   }

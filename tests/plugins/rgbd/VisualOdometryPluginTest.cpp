@@ -150,6 +150,16 @@ TEST_F(VisualOdometry, WheelsTellWhatABareWallDoesNot) {
   EXPECT_EQ(evidence("camera_blind_percent").says, Says::good);
 }
 
+TEST_F(VisualOdometry, LossesAreSaidWithWheelsToo) {
+  for (int i = 0; i <= 10; ++i) {
+    const auto wheels = mrpt::obs::CObservationOdometry::Create();
+    wheels->timestamp = at(0.1 * i);
+    plugin_->add(wheels);
+    add(0.1 * i, i >= 2);
+  }
+  EXPECT_EQ(evidence("camera_lost_percent").says, Says::too_little);
+}
+
 TEST_F(VisualOdometry, ASpinThatIsTooFastIsSaidNotGuessed) {
   add(0);
   add(0.1);
