@@ -22,7 +22,8 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
       base::OptionTable<Options>()
           .text("label", &Options::label, "Sensor label of the camera; empty for the first that comes.")
           .text("odometry_label", &Options::odometry_label,
-                "Sensor label of the wheels' odometry that predicts; empty for the first that comes, if any does.")
+                "Sensor label of the wheels' odometry that predicts; empty for the first that comes, if any does. An "
+                "odometry plugin beside this one needs fallback = true.")
           .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
                   "More than a hand or a robot moves the camera: a map with such motions is suspicious.")
           .number("position_noise_m", &Options::position_noise, base::Range::positive(),

@@ -69,8 +69,8 @@ class CameraOdometry : public mapper::PosePlugin {
   std::optional<base::Stamp> coveredUntil() const override;
   std::vector<std::string> warnings() const override;
   /// Gaps across which the camera did not tell the motion, how much of the time it was lost or saw too little, speeds
-  /// that cannot be, and, where the method looks for that, how often it came back to a view of before, where what
-  /// drifts would be seen.
+  /// that cannot be, how often only its view told where it was after a loss without wheels, and, where the method looks
+  /// for that, how often it came back to a view of before, where what drifts would be seen.
   std::vector<mapper::Evidence> evidence() const override;
   void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }
 

@@ -1,4 +1,4 @@
-// ini/rgbd_robot.ini and ini/rgbd_handheld.ini as their first lines say to run them: a real log, and simulated ones.
+// ini/rgbd_robot.ini and ini/rgbd_handheld.ini on a real log and on simulated ones.
 #include "../MapFolder.h"
 
 namespace {
@@ -12,10 +12,8 @@ using omnimapper::testing::sourceFile;
 
 class Cameras : public ::testing::Test {
  protected:
-  void mapIt(const std::string& ini, const std::string& log, const Words& more = {}) {
-    Words words{"-i", sourceFile("ini/" + ini), "-r", log, "-o", folder_};
-    words.insert(words.end(), more.begin(), more.end());
-    ASSERT_TRUE(endedWith(ExitCode::ok, graphslam(words)));
+  void mapIt(const std::string& ini, const std::string& log) {
+    ASSERT_TRUE(endedWith(ExitCode::ok, graphslam({"-i", sourceFile("ini/" + ini), "-r", log, "-o", folder_})));
   }
   omnimapper::eval::AbsoluteTrajectoryError errorFrom(const std::string& truth) const {
     omnimapper::eval::PairingOptions pairing;
