@@ -13,7 +13,7 @@ struct Arguments {
   omnimapper::mapper::RunRequest run;
   std::string print_ini;
   std::vector<std::string> inis, settings, checked_logs;
-  bool list_plugins = false, ini_reference = false, gui = false, quiet = false, verbose = false;
+  bool is_check = false, list_plugins = false, ini_reference = false, gui = false, quiet = false, verbose = false;
 };
 
 inline void addOptions(CLI::App& app, Arguments& arguments) {
@@ -28,8 +28,16 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
                  "that came with the program, such as laser2d.ini");
   app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
   app.add_option("-o,--output", arguments.run.output_folder, "folder for the outputs, made if missing");
-  app.add_option("--check", arguments.checked_logs,
-                 "judge a log, map nothing: what is wrong, what to set; -o keeps it");
+  app.add_option_function<std::vector<std::string>>(
+         "--check",
+         [&arguments](const std::vector<std::string>& logs) {
+           arguments.is_check = true;
+           for (const auto& log : logs)
+             if (!log.empty()) arguments.checked_logs.push_back(log);
+         },
+         "judge a log (or those of -r), map nothing: what is wrong, what to set; -o keeps it")
+      ->expected(0, CLI::detail::expected_max_vector_size)
+      ->type_name("LOG");
   app.add_option("--continue", arguments.run.continue_map, "map (or its folder) that the logs go on from: [session]");
   app.add_option("--localize", arguments.run.localize_map,
                  "map (or its folder) that stays as it is: only where the robot is in it is sought: [session]");

@@ -39,6 +39,7 @@ void tell(const mapper::RunResult& result, const Arguments& arguments) {
 }
 
 int run(Arguments& arguments) {
+  program::listenForInterrupts();
   exports::registerOutputs();
   mapper::loadFeatures();
   auto config = base::Config::fromFiles(program::findInis(arguments.inis));
@@ -47,13 +48,13 @@ int run(Arguments& arguments) {
   if (arguments.list_plugins) return std::cout << mapper::listPlugins(), 0;
   if (arguments.ini_reference) return std::cout << mapper::iniReference(mapper::fixedSections()), 0;
   if (!arguments.print_ini.empty()) return std::cout << mapper::printIni(arguments.print_ini), 0;
-  program::listenForInterrupts();
   std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
   const auto stop = program::isInterrupted;
-  if (!arguments.checked_logs.empty()) {
-    if (!arguments.run.logs.empty())
-      throw base::Error(base::ExitCode::command_line, "--check names the logs itself: --check A --check B, without -r");
-    const auto checked = check::runCheck(arguments.checked_logs, config, arguments.run.output_folder, *progress, stop);
+  if (arguments.is_check) {
+    auto logs = arguments.checked_logs;
+    logs.insert(logs.end(), arguments.run.logs.begin(), arguments.run.logs.end());
+    program::require({{"--check LOG", !logs.empty()}});
+    const auto checked = check::runCheck(logs, config, arguments.run.output_folder, *progress, stop);
     progress.reset();  // its line is free for the summary
     return std::cout << base::printableLines(checked.text), static_cast<int>(checked.code);
   }

@@ -11,6 +11,8 @@
 #include <iostream>
 #include <new>
 
+#include "CommandLineHints.h"
+
 namespace omnimapper::program {
 
 namespace {
@@ -28,19 +30,6 @@ void answer(int signal, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
   sigaction(signal, &action, nullptr);  // without SA_RESTART: what waits for a file or a pipe ends its wait
-}
-
-// Of options that nobody knows.
-void sayNearest(const CLI::App& app) {
-  std::vector<std::string> known;
-  for (const auto* option : app.get_options())
-    for (const auto& name : option->get_lnames()) known.push_back("--" + name);
-  for (const auto& argument : app.remaining(true)) {
-    const auto near =
-        argument.rfind("--", 0) == 0 ? base::nearestName(argument.substr(0, argument.find('=')), known) : "";
-    if (!near.empty())
-      std::cerr << "There is no " << base::printableLines(argument) << "; did you mean " << near << "?\n";
-  }
 }
 }  // namespace
 
@@ -64,7 +53,9 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
     sayNearest(app);
     return static_cast<int>(base::ExitCode::command_line);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::command_line);
+    if (app.exit(error) == 0) return 0;
+    sayTasks(app);
+    return static_cast<int>(base::ExitCode::command_line);
   } catch (const base::Error& error) {
     std::cerr << app.get_name() << ": " << base::printableLines(error.what()) << "\n";
     return static_cast<int>(error.code());

@@ -70,6 +70,19 @@ TEST(AbsoluteTrajectoryError, HintsAtFramesThatAreNotTheSame) {
   EXPECT_NE(of_axes.find("OUT.truth.tum"), std::string::npos) << of_axes;
 }
 
+TEST(AbsoluteTrajectoryError, ATurnThatAllPosesShareIsSaidToBeOfTheAlignment) {
+  // All look 5 degrees aside of the way they go.
+  const Trajectory truth = {planar(0, 0, 0), planar(1, 1, 0), planar(2, 1, 1)};
+  const Trajectory aside = {planar(0, 0, 0, 5 * kDegree), planar(1, 1, 0, 5 * kDegree), planar(2, 1, 1, 5 * kDegree)};
+  const Trajectory mixed = {planar(0, 0, 0, 5 * kDegree), planar(1, 1, 0, -5 * kDegree), planar(2, 1, 1)};
+  const auto hints = [&](const Trajectory& estimate, Alignment alignment) {
+    return hintsOn(ate(estimate, truth, alignment), alignment);
+  };
+  EXPECT_NE(hints(aside, Alignment::se3).find("--align first"), std::string::npos);
+  EXPECT_EQ(hints(aside, Alignment::none), "") << "nothing was aligned";
+  EXPECT_EQ(hints(mixed, Alignment::se3), "");
+}
+
 TEST(AbsoluteTrajectoryError, AlignedByTheFirstPoseStartsWithoutError) {
   // The estimate starts at (5, 5) looking along +y; its step of 1 m ahead is then 1 m along x, the reference's is 1.5.
   const Trajectory estimate = {planar(0, 5, 5, 90 * kDegree), planar(1, 5, 6, 90 * kDegree)};

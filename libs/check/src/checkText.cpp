@@ -47,9 +47,14 @@ std::string scanLines(const LogFacts& facts) {
   return text;
 }
 
+std::string millimetres(double metres) {
+  constexpr double kLeast = 0.001;  // [m] less than this no scan matching measures
+  return metres < kLeast ? "less than 1 mm" : fixed(1000 * metres, 0) + " mm";
+}
+
 std::string noiseText(const MotionFacts& motion) {
   std::vector<std::string> parts;
-  if (motion.position_noise_per_root_m) parts.push_back(fixed(*motion.position_noise_per_root_m, 3) + " m after 1 m");
+  if (motion.position_noise_per_root_m) parts.push_back(millimetres(*motion.position_noise_per_root_m) + " after 1 m");
   if (motion.yaw_noise_per_root_m) parts.push_back(fixed(degrees(*motion.yaw_noise_per_root_m), 2) + " deg after 1 m");
   if (motion.yaw_noise_per_root_turn) {
     parts.push_back(fixed(degrees(*motion.yaw_noise_per_root_turn), 2) + " deg after a turn of 1 rad");

@@ -16,6 +16,17 @@ AbsoluteTrajectoryError absoluteTrajectoryError(const Trajectory& estimate, cons
   return result;
 }
 
+namespace {
+
+// The turn that all poses share, the mean over them [rad].
+double commonTurn(const std::vector<PosePair>& pairs) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& pair : pairs) mean += geometry::logSo3(pair.reference.rotation * pair.estimate.rotation.conjugate());
+  return (mean / static_cast<double>(pairs.size())).norm();
+}
+
+}  // namespace
+
 std::string hintsOn(const AbsoluteTrajectoryError& error, Alignment alignment) {
   constexpr double kFar = 1, kTurned = 10 * geometry::kPi / 180;  // [m] [rad]
   std::string hints;
@@ -23,6 +34,14 @@ std::string hintsOn(const AbsoluteTrajectoryError& error, Alignment alignment) {
   if (alignment == Alignment::none && (first.reference.translation - first.estimate.translation).norm() > kFar)
     hints +=
         "The first poses lie more than 1 m apart. If each trajectory has a frame of its own: --align yaw, or se3\n";
+  const bool is_fitted = alignment == Alignment::yaw || alignment == Alignment::se3 || alignment == Alignment::sim3;
+  constexpr double kNotable = geometry::kPi / 180;  // [rad]
+  const double common = commonTurn(error.paired.pairs);
+  if (is_fitted && error.rotation.rmse <= kTurned && common > kNotable &&
+      2 * common * common > error.rotation.rmse * error.rotation.rmse)
+    hints +=
+        "Most of the rotation error is the same at all poses: alignment turns the estimate by its positions alone, and "
+        "these tell the turn loosely where they lie close together. --align first takes it from the first pose\n";
   if (error.rotation.rmse <= kTurned) return hints;
   hints += "The poses are turned by a lot.";
   if (alignment == Alignment::none || alignment == Alignment::first || alignment == Alignment::yaw)

@@ -19,10 +19,11 @@ std::string drawCost(const std::vector<mapper::SolveRecord>& solves) {
   Chart chart{"Cost of the graph", "key frames at the solve", "half the weighted square error", true, {}};
   ChartSeries before{"before the solve", 2, ChartSeries::Form::dots, {}, {}};
   ChartSeries after{"after the solve", 1, ChartSeries::Form::line, {}, {}};
+  constexpr double kNone = 1e-3;  // less is rounding, and would stretch the axis
   for (const mapper::SolveRecord& solve : solves) {
     const auto at = static_cast<double>(solve.key_frames);
-    before.x.push_back(at), before.y.push_back(solve.initial_cost);
-    after.x.push_back(at), after.y.push_back(solve.final_cost);
+    before.x.push_back(at), before.y.push_back(std::max(solve.initial_cost, kNone));
+    after.x.push_back(at), after.y.push_back(std::max(solve.final_cost, kNone));
   }
   chart.series = {before, after};
   return drawChart(chart);

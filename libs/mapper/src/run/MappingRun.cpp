@@ -86,7 +86,8 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
       is_whole ? base::ExitCode::nothing_to_map : result.code,
       logs + ": nothing to map: " + how + " observation that a measurement plugin of " + ini + " wants" +
           (is_whole ? " (see its [source], [perception] extractors and [mapper] measurement_plugins)" : "") +
-          "; nothing was written.\n" + missing_extractors + labels + "What was read:\n" + result.source.text());
+          "; nothing was written. omnimapper-graphslam --check names the INIs that fit this log.\n" +
+          missing_extractors + labels + "What was read:\n" + result.source.text());
 }
 
 // What stands still in the map though it moved is wrong by as much.
@@ -446,14 +447,17 @@ std::string toText(const RunResult& result) {
   }
   const std::size_t of_map = result.localized > 0 ? result.key_frames - result.new_key_frames : 0;
   const std::string held = of_map > 0 ? " (and " + std::to_string(of_map) + " of the map, which stays as it is)" : "";
+  // A key frame that was located takes its factors with it when it leaves the window: their count would tell nothing.
+  const std::string factors = result.localized > 0 ? "" : "factors           " + std::to_string(result.factors) + "\n";
   char text[512];
   std::snprintf(text, sizeof text,
                 "key frames        %zu%s\n"
-                "factors           %zu\n"
-                "loop closures     %zu accepted, %zu refused (reasons: report.html)\n"
+                "%s"
+                "%-17s %zu accepted, %zu refused (reasons: report.html)\n"
                 "way               %.1f m in %.1f s\n"
                 "wall time         %.2f s (%.0f times the log's own pace)\n",
-                result.key_frames - of_map, held.c_str(), result.factors, result.closures, result.refused_closures,
+                result.key_frames - of_map, held.c_str(), factors.c_str(),
+                result.localized > 0 ? "matches with map" : "loop closures", result.closures, result.refused_closures,
                 result.way, result.log_seconds, result.wall_seconds,
                 result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
   const std::string verdict =

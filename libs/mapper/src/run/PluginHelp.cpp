@@ -36,7 +36,8 @@ std::string printIni(const std::string& class_name) {
   if (const auto why = whyUnavailable(class_name); !why.empty())
     throw base::Error(base::ExitCode::unknown_plugin, "--print-ini: no '" + class_name + "' here: " + why);
   std::string near = base::nearestName(class_name, known);
-  if (near.empty()) near = base::nearestName(class_name + "Plugin", known);
+  for (const char* ending : {"Plugin", "Extractor", "Output"})
+    if (near.empty()) near = base::nearestName(class_name + ending, known);
   throw base::Error(base::ExitCode::unknown_plugin, "--print-ini: no plugin class is called '" + class_name + "'" +
                                                         (near.empty() ? "." : "; did you mean '" + near + "'?") +
                                                         " See --list-plugins.");
