@@ -60,6 +60,7 @@ TEST_F(RgbdFolderTest, truthIsOfTheBaseThatLooksAlongX) {
   writeText("groundtruth.txt", "# truth\n10.0 1 2 3 -0.70710678 0 0 0.70710678\n");
   const RgbdFolder source(folder_.path(), freiburg1());
   ASSERT_EQ(source.groundTruth().size(), 1U);
+  EXPECT_EQ(source.camera().dist[4], 1.1633) << "the lens as the benchmark calibrated it";
   const geometry::Se3& world_from_base = source.groundTruth().front().second;
   const auto stamp = source.groundTruth().front().first;
   EXPECT_FALSE(source.truthAt(stamp + base::durationFromSeconds(0.3), 0.2));
@@ -76,10 +77,13 @@ TEST_F(RgbdFolderTest, pairsOfEqualNamesAndSevenScenesAreForms) {
   writeColour("image/0001.png", 9);
   RgbdFolderOptions options;
   options.intrinsics = folder_ / "camera.yaml";
-  writeText("camera.yaml", "%YAML:1.0\nCamera.fx: 500.5\nCamera.fy: 501\nCamera.cx: 1.5\nCamera.cy: 1\n");
+  writeText("camera.yaml",
+            "%YAML:1.0\nCamera.fx: 500.5\nCamera.fy: 501\nCamera.cx: 1.5\nCamera.cy: 1\nCamera.k1: -0.1\n");
   RgbdFolder equal_names(folder_.path(), options);
   EXPECT_EQ(equal_names.pairs().size(), 2U);
   EXPECT_EQ(equal_names.unpaired(), 1U);
+  EXPECT_EQ(equal_names.camera().distortion, mrpt::img::DistortionModel::plumb_bob);
+  EXPECT_EQ(equal_names.camera().dist[0], -0.1);
   const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(equal_names.next());
   ASSERT_TRUE(scan);
   EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 500.5);

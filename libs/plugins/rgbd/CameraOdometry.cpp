@@ -75,35 +75,32 @@ void CameraOdometry::processUntil(base::Stamp stamp) {
   while (!wait_.empty() && (!reached_ || *reached_ < stamp)) {
     const auto next = wait_.extract(wait_.begin());
     reached_ = next.key();
-    follow(*next.mapped());
+    follow(next.mapped());
   }
-  wheels_.forgetBefore(last_.value_or(stamp));
+  constexpr double kRemembered = 1;  // [s]
+  wheels_.forgetBefore(last_.value_or(stamp) - base::durationFromSeconds(kRemembered));
 }
 
-namespace {
-
-// [px] By how much the lens moves the corners of the image, by the model of OpenCV and MRPT: k1, k2, p1, p2, k3.
-double bendOf(const mrpt::img::TCamera& camera) {
-  double most = 0;
-  for (const double u : {0.0, camera.ncols - 1.0}) {
-    for (const double v : {0.0, camera.nrows - 1.0}) {
-      const double x = (u - camera.cx()) / camera.fx(), y = (v - camera.cy()) / camera.fy(), r2 = x * x + y * y;
-      const double radial = r2 * (camera.k1() + r2 * (camera.k2() + r2 * camera.k3()));
-      const double dx = x * radial + 2 * camera.p1() * x * y + camera.p2() * (r2 + 2 * x * x);
-      const double dy = y * radial + camera.p1() * (r2 + 2 * y * y) + 2 * camera.p2() * x * y;
-      most = std::max(most, std::hypot(dx * camera.fx(), dy * camera.fy()));
-    }
-  }
-  return most;
+// An image may come before the wheels' next reading: then they go on as they did just before.
+std::optional<mapper::RelativeMotion> CameraOdometry::wheelsBetween(base::Stamp begin, base::Stamp end) const {
+  constexpr double kLongestLag = 0.2, kAcceleration = 1, kTurnAcceleration = 2;  // [s] [m/s2] [rad/s2]
+  if (auto told = wheels_.between(begin, end)) return told;
+  const auto covered = wheels_.coveredUntil();
+  if (!covered || *covered >= end) return std::nullopt;
+  const double lag = base::secondsBetween(*covered, end), seconds = base::secondsBetween(begin, end);
+  if (lag > kLongestLag || seconds > kLongestLag) return std::nullopt;
+  auto told = wheels_.between(*covered - base::durationFromSeconds(seconds), *covered);
+  if (!told) return std::nullopt;
+  told->covariance.diagonal().head<3>().array() += std::pow(kAcceleration * lag * seconds, 2);
+  told->covariance.diagonal().tail<3>().array() += std::pow(kTurnAcceleration * lag * seconds, 2);
+  return told;
 }
-
-}  // namespace
 
 std::optional<PredictedMotion> CameraOdometry::predictionOf(const geometry::Se3& base_from_camera,
                                                             base::Stamp stamp) const {
   constexpr double kStampError = 0.02;                 // [s] between the clocks of wheels and images
   constexpr double kPosition = 0.002, kAngle = 0.002;  // [m] [rad] a base nods and sways, too
-  const auto told = last_ ? wheels_.between(*last_, stamp) : std::nullopt;
+  const auto told = last_ ? wheelsBetween(*last_, stamp) : std::nullopt;
   if (!told) return std::nullopt;
   const geometry::Se3 motion = geometry::fromMrpt(told->begin_from_end);
   const geometry::Vector6d shifted =
@@ -116,7 +113,9 @@ std::optional<PredictedMotion> CameraOdometry::predictionOf(const geometry::Se3&
   return PredictedMotion{camera_from_base * motion * base_from_camera, ad * covariance * ad.transpose()};
 }
 
-void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
+void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
+  const auto straight = lens_.straightened(image);
+  const auto& scan = *straight;
   const geometry::Se3 base_from_camera = geometry::fromMrpt(scan.sensorPose) * geometry::sensorFromOptical();
   const auto prediction = predictionOf(base_from_camera, scan.timestamp);
   ImageMotion tracked;
@@ -126,7 +125,6 @@ void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
     if (unreadable_++ == 0) why_unreadable_ = error.what();
     return;
   }
-  if (!bend_) bend_ = bendOf(scan.cameraParams);
   constexpr std::size_t kRunaway = 3;  // images in a row: one alone is where another key frame is taken
   constexpr double kShortest = 0.03;   // [s] of stamps that nearly coincide the noise would be a speed
   if (!begun_) begun_ = scan.timestamp;
@@ -135,10 +133,11 @@ void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
   if (tracked.how == How::lost) {
     ++lost_;
     is_lost_ = true;
+    if (last_) lost_images_.push_back(scan.timestamp);
     return;
   }
   if (tracked.how == How::begun) {
-    const bool is_gap = has_begun_ && !prediction;
+    const bool is_gap = has_begun_ && !bridgeByWheels(scan.timestamp);
     if (is_gap && gaps_++ == 0) first_gap_ = base::secondsBetween(*begun_, scan.timestamp);
     has_begun_ = true;
   } else {
@@ -155,6 +154,23 @@ void CameraOdometry::follow(const CObservation3DRangeScan& scan) {
   }
   last_ = scan.timestamp;
   is_lost_ = false;
+  lost_images_.clear();
+}
+
+// From image to image, for a robot does not go straight on while its camera sees nothing. False where they do not tell
+// all of it.
+bool CameraOdometry::bridgeByWheels(base::Stamp stamp) {
+  if (!last_) return false;
+  std::vector<std::pair<base::Stamp, mapper::RelativeMotion>> told;
+  auto from = *last_;
+  lost_images_.push_back(stamp);
+  for (const auto& to : lost_images_) {
+    const auto motion = wheelsBetween(from, to);
+    if (!motion) return false;
+    told.emplace_back(std::exchange(from, to), *motion);
+  }
+  for (std::size_t i = 0; i < told.size(); ++i) timeline_.insert(told[i].first, lost_images_[i], told[i].second);
+  return true;
 }
 
 // Variances grow with the way and the turn so that spans add up: what a key frame is off by counts once for all images
@@ -185,16 +201,10 @@ mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base
 }
 
 std::vector<std::string> CameraOdometry::warnings() const {
-  constexpr double kBent = 2;  // [px]
   std::vector<std::string> all;
   if (unreadable_ > 0) {
     all.push_back(base::counted(unreadable_, "image") + " of the camera " + base::sensorName(*label_) + " told " +
                   what_ + " nothing: " + why_unreadable_);
-  }
-  if (bend_ && *bend_ > kBent) {
-    all.push_back("the lens of the camera " + base::sensorName(*label_) + " bends its images by " +
-                  base::fixed(*bend_, 0) + " pixels in the corners, which " + what_ +
-                  " does not take out: it drifts more than with images that were straightened before");
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <omnimapper/geometry/Se3.h>
 #include <omnimapper/matching/PoseTimeline.h>
 #include <omnimapper/matching/WheelOdometry.h>
+#include <omnimapper/perception/LensStraightener.h>
 #include <omnimapper/perception/RgbdView.h>
 #include <omnimapper/plugin/PosePlugin.h>
 
@@ -52,7 +53,7 @@ struct ImageMotion {
 /// A depth camera's motion from its images as a continuous pose source (thesis 5.3.3.1, 5.3.4.2): they are tracked in
 /// the order of their stamps. One that comes after its time was worked on is left out. A lens that is covered, a view
 /// that shows nothing: then the motion is not told until the view is found again, and it is told across the gap; after
-/// a long gap the camera begins anew, and what happened meanwhile is left to others.
+/// a long gap the camera begins anew, and what happened meanwhile is told by the wheels or left to others.
 ///
 /// Where the base has wheels, their odometry says where a match begins, and counts where an image leaves a direction
 /// open: beside this it should be a fallback.
@@ -79,7 +80,9 @@ class CameraOdometry : public mapper::PosePlugin {
   virtual bool seeksReturns() const { return true; }
   virtual ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
                             const std::optional<PredictedMotion>& prediction) = 0;
-  void follow(const mrpt::obs::CObservation3DRangeScan& scan);
+  void follow(const mrpt::obs::CObservation3DRangeScan::ConstPtr& image);
+  std::optional<mapper::RelativeMotion> wheelsBetween(base::Stamp begin, base::Stamp end) const;
+  bool bridgeByWheels(base::Stamp stamp);
   std::optional<PredictedMotion> predictionOf(const geometry::Se3& base_from_camera, base::Stamp stamp) const;
   mapper::RelativeMotion motionOf(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera,
                                   const std::optional<PredictedMotion>& prediction) const;
@@ -91,12 +94,13 @@ class CameraOdometry : public mapper::PosePlugin {
   std::optional<base::Stamp> reached_, begun_;  // image that was worked on last, first image of all
   std::optional<base::Stamp> last_;             // image that was tracked last
   matching::WheelOdometry wheels_;
+  perception::LensStraightener lens_;
+  std::vector<base::Stamp> lost_images_;  // since then
   std::size_t images_ = 0, lost_ = 0, gaps_ = 0, returns_ = 0, bridged_ = 0, hasty_in_a_row_ = 0, runaways_ = 0,
               found_ = 0, unreadable_ = 0;
   bool has_begun_ = false, is_lost_ = false;
   double first_gap_ = 0;        // [s] after the first image
   std::string why_unreadable_;  // of the first image that was
-  std::optional<double> bend_;  // [px] of the first image's corners by the lens
   matching::PoseTimeline timeline_;
 };
 

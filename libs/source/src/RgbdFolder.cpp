@@ -4,6 +4,7 @@
 #include <omnimapper/source/RgbdFolder.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -26,16 +27,21 @@ using mrpt::obs::CObservation3DRangeScan;
 constexpr std::size_t kDepthValues = 65536;  // of a depth image of 16 bits
 
 struct Intrinsics {
-  double fx, fy, cx, cy;  // [pixel]
+  double fx, fy, cx, cy;            // [pixel]
+  std::array<double, 5> lens = {};  // k1, k2, p1, p2, k3 of OpenCV's and MRPT's model
 };
 
-// Freiburg: the TUM RGB-D benchmark's own calibration of its three cameras. ICL-NUIM tells fy = -480 for an image whose
-// y runs up; its files run down as all others. 7-Scenes: as its authors tell. OpenNI's default.
+// Freiburg: the TUM RGB-D benchmark's own calibration of its three cameras; the third's images are straightened.
+// ICL-NUIM tells fy = -480 for an image whose y runs up; its files run down as all others. 7-Scenes: as its authors
+// tell. OpenNI's default.
 const std::map<std::string, Intrinsics>& knownIntrinsics() {
   static const std::map<std::string, Intrinsics> known{
-      {"freiburg1", {517.3, 516.5, 318.6, 255.3}}, {"freiburg2", {520.9, 521.0, 325.1, 249.7}},
-      {"freiburg3", {535.4, 539.2, 320.1, 247.6}}, {"icl_nuim", {481.2, 480.0, 319.5, 239.5}},
-      {"7_scenes", {585.0, 585.0, 320.0, 240.0}},  {"openni", {525.0, 525.0, 319.5, 239.5}}};
+      {"freiburg1", {517.3, 516.5, 318.6, 255.3, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}}},
+      {"freiburg2", {520.9, 521.0, 325.1, 249.7, {0.2312, -0.7849, -0.0033, -0.0001, 0.9172}}},
+      {"freiburg3", {535.4, 539.2, 320.1, 247.6}},
+      {"icl_nuim", {481.2, 480.0, 319.5, 239.5}},
+      {"7_scenes", {585.0, 585.0, 320.0, 240.0}},
+      {"openni", {525.0, 525.0, 319.5, 239.5}}};
   return known;
 }
 
@@ -64,7 +70,12 @@ Intrinsics readIntrinsics(const std::string& path) {
   std::istringstream text(base::readInput(path));
   const auto fx = numberNamed("fx", text.str()), fy = numberNamed("fy", text.str()), cx = numberNamed("cx", text.str()),
              cy = numberNamed("cy", text.str());
-  if (fx && fy && cx && cy) return {*fx, *fy, *cx, *cy};
+  if (fx && fy && cx && cy) {
+    Intrinsics named{*fx, *fy, *cx, *cy};
+    const char* names[] = {"k1", "k2", "p1", "p2", "k3"};
+    for (std::size_t i = 0; i < named.lens.size(); ++i) named.lens[i] = numberNamed(names[i], text.str()).value_or(0);
+    return named;
+  }
   double values[4];
   for (double& value : values) {
     if (!(text >> value)) refuse(path, "holds neither fx, fy, cx, cy by name nor four numbers");
@@ -99,6 +110,10 @@ RgbdFolder::RgbdFolder(const std::string& folder, const RgbdFolderOptions& optio
   camera_name_ = options.intrinsics.empty() ? content.usual_intrinsics : options.intrinsics;
   const Intrinsics intrinsics = intrinsicsOf(folder, camera_name_);
   camera_.setIntrinsicParamsFromValues(intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy);
+  if (intrinsics.lens != std::array<double, 5>{}) {
+    camera_.distortion = mrpt::img::DistortionModel::plumb_bob;
+    std::copy(intrinsics.lens.begin(), intrinsics.lens.end(), camera_.dist.begin());
+  }
   if (options_.depth_units <= 0) options_.depth_units = content.usual_depth_units;
   pairs_ = std::move(content.pairs);
   unpaired_ = static_cast<std::size_t>(
