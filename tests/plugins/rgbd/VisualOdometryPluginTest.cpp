@@ -258,15 +258,85 @@ TEST_F(VisualOdometry, AcrossASecondWithoutImagesItIsNotWrong) {
   expectMotion(1.5, 1.7);
 }
 
-TEST_F(VisualOdometry, ALensThatBendsTheImageIsToldByAWarning) {
-  auto image = scan(0);
-  image->cameraParams.dist[0] = 0.2624;  // freiburg1's, as the TUM benchmark calibrated it
-  image->cameraParams.dist[1] = -0.9531;
-  image->cameraParams.dist[4] = 1.1633;
-  plugin_->add(image);
-  plugin_->processUntil(at(0));
-  ASSERT_EQ(plugin_->warnings().size(), 1U);
-  EXPECT_NE(plugin_->warnings()[0].find("lens"), std::string::npos) << plugin_->warnings()[0];
+/// The images as a lens with that radial distortion shows them.
+void bend(CObservation3DRangeScan& scan, double k1) {
+  auto& camera = scan.cameraParams;
+  const auto depths = scan.rangeImage;
+  const auto picture = scan.intensityImage.makeDeepCopy();
+  for (int y = 0; y < depths.rows(); ++y) {
+    for (int x = 0; x < depths.cols(); ++x) {
+      // Of the ray whose image, bent, is this pixel.
+      const double u = (x - camera.cx()) / camera.fx(), v = (y - camera.cy()) / camera.fy();
+      double stretch = 1;
+      for (int i = 0; i < 30; ++i) stretch = 1 / (1 + k1 * (u * u + v * v) * stretch * stretch);
+      const long column = std::lround(camera.fx() * u * stretch + camera.cx());
+      const long row = std::lround(camera.fy() * v * stretch + camera.cy());
+      const bool is_inside = column >= 0 && row >= 0 && column < depths.cols() && row < depths.rows();
+      scan.rangeImage(y, x) = is_inside ? depths(row, column) : std::uint16_t{0};
+      *scan.intensityImage.ptr<std::uint8_t>(static_cast<unsigned>(x), static_cast<unsigned>(y)) =
+          is_inside ? *picture.ptr<std::uint8_t>(static_cast<unsigned>(column), static_cast<unsigned>(row))
+                    : std::uint8_t{0};
+    }
+  }
+  for (auto* one : {&scan.cameraParams, &scan.cameraParamsIntensity}) {
+    one->distortion = mrpt::img::DistortionModel::plumb_bob;
+    one->dist[0] = k1;
+  }
+}
+
+TEST_F(VisualOdometry, ALensThatBendsTheImagesIsTakenOut) {
+  for (int i = 0; i <= 20; ++i) {
+    auto image = scan(0.1 * i);
+    bend(*image, -0.25);  // 12 px in the corners
+    plugin_->add(image);
+    plugin_->processUntil(at(0.1 * i));
+  }
+  expectMotion(0, 1);
+  expectMotion(0, 2);
+  EXPECT_TRUE(plugin_->warnings().empty());
+}
+
+TEST_F(VisualOdometry, AnImageBeforeTheWheelsNextReadingIsPredictedToo) {
+  room_.half[0] = room_.half[1] = 50;
+  const auto wheels = [&](double seconds) {
+    const auto reading = mrpt::obs::CObservationOdometry::Create();
+    reading->timestamp = at(seconds);
+    reading->odometry = mrpt::poses::CPose2D(0, -0.4 * seconds, 0);
+    plugin_->add(reading);
+  };
+  for (int i = 0; i <= 30; ++i) {
+    const double seconds = 0.1 * i;
+    const Se3 moved{Eigen::Quaterniond(geometry::sensorFromOptical().rotation.conjugate()), {0.4 * seconds, 0.1, -0.3}};
+    auto image = renderedScan(room_, moved, CPose3D(), at(seconds), false);
+    image->hasIntensityImage = false;
+    plugin_->add(image);
+    plugin_->processUntil(at(seconds));
+    wheels(seconds + 0.05);
+  }
+  const auto motion = plugin_->between(at(0.3), at(3));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->begin_from_end.y(), -1.08, 0.02);
+}
+
+TEST_F(VisualOdometry, ALongLossIsBridgedByTheWheelsOnTheirCurve) {
+  const auto room = room_;
+  auto other = room_;
+  other.half[0] = 3;  // another room, so that no view is found again
+  other.half[2] = 2.5;
+  for (int i = 0; i <= 27; ++i) {
+    const double seconds = 0.1 * i;
+    const auto wheels = mrpt::obs::CObservationOdometry::Create();
+    wheels->timestamp = at(seconds);
+    wheels->odometry = mrpt::poses::CPose2D(0.3 * std::sin(seconds), 0.3 * (1 - std::cos(seconds)), seconds);
+    plugin_->add(wheels);
+    room_ = i <= 1 ? room : other;
+    add(seconds, i > 1 && i < 25);
+  }
+  EXPECT_EQ(evidence("camera_begun_anew").value, 0) << "the wheels tell what happened meanwhile";
+  const auto motion = plugin_->between(at(0.1), at(1.1));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->begin_from_end.yaw(), 1, 1e-6);
+  EXPECT_NEAR(motion->begin_from_end.x(), 0.3 * std::sin(1.0), 1e-3) << "on its curve, not straight on";
 }
 
 }  // namespace

@@ -48,7 +48,10 @@ CloudMatch CloudTracker::matchFrom(const MatchCloud& target, const MatchCloud& c
     auto moving = matcher_->match(target, cloud, target_from_last * *predicted);
     if (moving.fits) return moving;
   }
-  return matcher_->match(target, cloud, target_from_last);
+  auto still = matcher_->match(target, cloud, target_from_last);
+  // What it leaves open would stay as if the camera had not moved, which is not what was predicted.
+  if (predicted && still.open_directions > 0) still.fits = false;
+  return still;
 }
 
 CloudTracker::Tracked CloudTracker::track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud,

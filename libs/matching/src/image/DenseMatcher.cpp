@@ -405,7 +405,7 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
   match.reference_from_image = inverse(plus(search.image_from_reference, back));
   const Vector6d variances =
       axes.eigenvalues().unaryExpr([](double value) { return value < kWeakest ? DenseMatch::kOpen : 1 / value; });
-  const Matrix6d ad = adjoint(search.image_from_reference);
+  const Matrix6d ad = adjoint(inverse(match.reference_from_image));
   const Matrix6d in_reference = axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
   match.covariance = ad * in_reference * ad.transpose();
   if (match.open_directions == 0) {

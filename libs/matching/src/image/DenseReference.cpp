@@ -94,8 +94,10 @@ std::optional<SurfacePlane> planeAround(const RgbdLevel& level, int x, int y) {
   const double c = static_cast<double>(middle) + slope.z() - slope.x() * (x - camera.cx) - slope.y() * (y - camera.cy);
   const double length = std::sqrt(a * a + b * b + c * c);
   const double variance = std::max(0.0, sum - slope.dot(products)) / (count - 3);
-  const double spread = std::min(squares(0, 0), squares(1, 1));
-  return SurfacePlane{-Eigen::Vector3d(a, b, c) / length, camera.fx * std::sqrt(variance / spread) / length};
+  const Eigen::Matrix3d of_slope = variance * squares.inverse();
+  const double rough =
+      std::sqrt(std::max(camera.fx * camera.fx * of_slope(0, 0), camera.fy * camera.fy * of_slope(1, 1)));
+  return SurfacePlane{-Eigen::Vector3d(a, b, c) / length, rough / length};
 }
 
 /// What is known of a point's place and of the plane it lies on.

@@ -119,13 +119,13 @@ void RgbdTracker::makeKeyFrame(const RgbdPyramid& image, const Se3& map_from_cam
 
 // With the key frame of the image before, from where the camera should be. Where that does not fit, or many depths are
 // not what they should be, from where it was, too, and with the key frame that is nearest to either; what surprises
-// least is taken. What fits but leaves a direction open goes on there as it did. The motion that is found tells the
+// least is taken. What fits but leaves a direction open goes on there as expected. The motion that is found tells the
 // shutters' motion better than that of before did: the match is made once more with the mean of both.
-std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdPyramid& image, const Se3& predicted,
-                                                      const Matrix6d& information, double seconds) const {
+std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdPyramid& image, const Expected& expected,
+                                                      double seconds) const {
   constexpr double kFarthest = 3, kDoubtful = 0.1;
   const Matrix6d nothing = Matrix6d::Zero();
-  std::vector<std::pair<std::size_t, Se3>> tries{{current_, predicted}, {current_, map_from_last_}};
+  std::vector<std::pair<std::size_t, Se3>> tries{{current_, expected.map_from_camera}, {current_, map_from_last_}};
   for (const auto& [key, pose] : std::vector(tries)) {
     const auto other = nearest(pose, kFarthest, key);
     if (other) tries.emplace_back(*other, pose);
@@ -133,15 +133,19 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdPyramid& image, 
   std::optional<Found> best;
   for (std::size_t i = 0; i < tries.size(); ++i) {
     const auto& [key, pose] = tries[i];
-    const Matrix6d& known = i == 0 ? information : nothing;
+    const Matrix6d& known = i == 0 ? expected.information : nothing;
     const auto first = match(key, image, pose, known, motion());
-    if (i == 0 && first.fits && first.open_directions > 0) return Found{key, first};
-    if (!first.succeeded) continue;
     const Se3 map_from_camera = keys_[key].map_from_camera * first.reference_from_image;
+    if (!first.fits || !expected.allows(map_from_camera)) continue;
+    // Other key frames that seem to tell all of it are wrong more often than not: a bare wall looks like any other.
+    if (i == 0 && first.open_directions > 0) return Found{key, first};
+    if (!first.succeeded) continue;
     CameraMotion moved = motion();
     moved.velocity = 0.5 * (velocity_ + minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds);
     const auto second = match(key, image, i == 0 ? pose : map_from_camera, known, moved);
-    const Found found{key, second.succeeded ? second : first};
+    const bool is_better =
+        second.succeeded && expected.allows(keys_[key].map_from_camera * second.reference_from_image);
+    const Found found{key, is_better ? second : first};
     if (!best || found.match.surprise < best->match.surprise) best = found;
     if (best->match.surprise < kDoubtful) break;
   }
@@ -149,7 +153,7 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdPyramid& image, 
 }
 
 // With every key frame, as if the camera were there again; the one that fits best.
-std::optional<RgbdTracker::Found> RgbdTracker::seek(const RgbdPyramid& image) const {
+std::optional<RgbdTracker::Found> RgbdTracker::seek(const RgbdPyramid& image, const Expected& expected) const {
   CameraMotion unknown = motion();
   unknown.velocity.setZero();
   std::optional<Found> best;
@@ -158,13 +162,14 @@ std::optional<RgbdTracker::Found> RgbdTracker::seek(const RgbdPyramid& image) co
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     const auto found = match(k, image, keys_[k].map_from_camera, Matrix6d::Zero(), unknown);
     if (!found.succeeded || found.overlap < kSurely || found.surprise > kSurprise) continue;
+    if (!expected.allows(keys_[k].map_from_camera * found.reference_from_image)) continue;
     if (!best || found.surprise < best->match.surprise) best = Found{k, found};
   }
   return best;
 }
 
-RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const RgbdPyramid& image, Found found, How how,
-                                       double seconds) {
+RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const RgbdPyramid& image, Found found,
+                                       const Expected& expected, How how, double seconds) {
   current_ = found.key;
   Se3 map_from_camera = keys_[current_].map_from_camera * found.match.reference_from_image;
   const bool is_far = farness(keys_[current_], map_from_camera) > 1 || found.match.overlap < options_.key_overlap;
@@ -175,7 +180,8 @@ RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const RgbdPyramid& ima
     const auto other = nearest(map_from_camera, kMuchNearer, current_);
     std::optional<DenseMatch> again;
     if (other) again = match(*other, image, map_from_camera, Matrix6d::Zero(), motion());
-    if (again && again->succeeded && again->overlap > options_.key_overlap) {
+    const auto isThere = [&] { return expected.allows(keys_[*other].map_from_camera * again->reference_from_image); };
+    if (again && again->succeeded && again->overlap > options_.key_overlap && isThere()) {
       constexpr std::size_t kLongBefore = 5;  // key frames
       tracked.has_returned = keys_.size() - *other > kLongBefore;
       current_ = *other;
@@ -191,12 +197,42 @@ RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const RgbdPyramid& ima
   tracked.last_from_camera = inverse(map_from_last_) * map_from_camera;
   tracked.last = *last_;
   velocity_ = how == How::found ? Vector6d::Zero().eval() : (minus(tracked.last_from_camera, Se3{}) / seconds).eval();
-  if (found.match.open_directions == 0) told_ = stamp;
+  if (found.match.open_directions == 0 || expected.is_measured) told_ = stamp;
   map_from_last_ = map_from_camera;
   last_ = stamp;
   is_lost_ = false;
   if (tracked.is_key_frame) makeKeyFrame(image, map_from_camera, found.match.delay);
   return tracked;
+}
+
+bool RgbdTracker::Expected::allows(const Se3& found) const {
+  const Se3 off = inverse(about) * found;
+  return off.translation.norm() < most && angleOf(off) < most_turn;
+}
+
+RgbdTracker::Expected RgbdTracker::expectedAfter(double seconds, const std::optional<DenseGuess>& prediction) const {
+  Expected expected;
+  if (prediction) {
+    constexpr double kSigmas = 5;
+    const Matrix6d covariance = prediction->information.inverse();
+    expected.map_from_camera = expected.about = map_from_last_ * prediction->reference_from_image;
+    expected.information = prediction->information;
+    expected.most = kSlack + kSigmas * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+    expected.most_turn = kSlackTurn + kSigmas * std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+    expected.is_measured = true;
+    return expected;
+  }
+  // A hand soon does something else: what images tell little of would go on and on.
+  constexpr double kGoesOn = 0.4;  // [s]
+  expected.map_from_camera =
+      map_from_last_ * geometry::plus(Se3{}, kGoesOn * (1 - std::exp(-seconds / kGoesOn)) * velocity_);
+  const double change = 0.5 * seconds * seconds;
+  expected.information.diagonal().head<3>().setConstant(1 / std::pow(change * options_.acceleration, 2));
+  expected.information.diagonal().tail<3>().setConstant(1 / std::pow(change * options_.turn_acceleration, 2));
+  expected.about = map_from_last_;
+  expected.most = kSlack + kFastest * seconds;
+  expected.most_turn = kSlackTurn + kFastestTurn * seconds;
+  return expected;
 }
 
 RgbdTracker::Tracked RgbdTracker::lostAt(base::Stamp last) const {
@@ -215,35 +251,18 @@ RgbdTracker::Tracked RgbdTracker::track(base::Stamp stamp, const RgbdPyramid& im
   // Of stamps that nearly coincide the noise would be a speed.
   constexpr double kShortest = 0.01;  // [s]
   const double seconds = std::max(kShortest, base::secondsBetween(*last_, stamp));
-  // A hand soon does something else: what images tell little of would go on and on.
-  constexpr double kGoesOn = 0.4;  // [s]
-  Se3 predicted = map_from_last_ * geometry::plus(Se3{}, kGoesOn * (1 - std::exp(-seconds / kGoesOn)) * velocity_);
-  Matrix6d information = Matrix6d::Zero();
-  const double change = 0.5 * seconds * seconds;
-  information.diagonal().head<3>().setConstant(1 / std::pow(change * options_.acceleration, 2));
-  information.diagonal().tail<3>().setConstant(1 / std::pow(change * options_.turn_acceleration, 2));
-  if (prediction) {
-    predicted = map_from_last_ * prediction->reference_from_image;
-    information = prediction->information;
-  }
-  const auto isPossible = [&](const Found& found) {
-    const Se3 off = inverse(prediction ? predicted : map_from_last_) * keys_[found.key].map_from_camera *
-                    found.match.reference_from_image;
-    const double much = prediction ? 0 : seconds;
-    return off.translation.norm() < kSlack + kFastest * much && angleOf(off) < kSlackTurn + kFastestTurn * much;
-  };
+  const Expected expected = expectedAfter(seconds, prediction);
   if (!is_lost_) {
-    const auto found = follow(image, predicted, information, seconds);
-    const bool is_told = found && isPossible(*found) &&
-                         (found->match.open_directions == 0 || prediction ||
-                          base::secondsBetween(*told_, stamp) <= options_.longest_loss);
-    if (is_told) return take(stamp, image, *found, How::tracked, seconds);
+    const auto found = follow(image, expected, seconds);
+    const bool is_told = found && (found->match.open_directions == 0 || expected.is_measured ||
+                                   base::secondsBetween(*told_, stamp) <= options_.longest_loss);
+    if (is_told) return take(stamp, image, *found, expected, How::tracked, seconds);
   }
-  const auto found = seek(image);
-  if (found && isPossible(*found)) return take(stamp, image, *found, How::found, seconds);
+  if (const auto found = seek(image, expected)) return take(stamp, image, *found, expected, How::found, seconds);
   is_lost_ = true;
   velocity_.setZero();
-  if (seconds > options_.longest_loss && can_begin) return begin(stamp, image, prediction ? predicted : map_from_last_);
+  if (seconds > options_.longest_loss && can_begin)
+    return begin(stamp, image, expected.is_measured ? expected.map_from_camera : map_from_last_);
   return lostAt(*last_);
 }
 

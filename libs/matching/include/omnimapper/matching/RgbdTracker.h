@@ -67,6 +67,16 @@ class RgbdTracker {
     std::size_t key;
     DenseMatch match;
   };
+  /// Where the camera should be, and where it can be.
+  struct Expected {
+    geometry::Se3 map_from_camera;
+    geometry::Matrix6d information = geometry::Matrix6d::Zero();
+    geometry::Se3 about;             // it is no farther than this from here:
+    double most = 0, most_turn = 0;  // [m] [rad]
+    bool is_measured = false;        // by wheels or inertia
+
+    bool allows(const geometry::Se3& map_from_camera) const;
+  };
   Tracked begin(base::Stamp stamp, const RgbdPyramid& image, const geometry::Se3& map_from_camera);
   Tracked lostAt(base::Stamp last) const;
   void makeKeyFrame(const RgbdPyramid& image, const geometry::Se3& map_from_camera, double picture_delay);
@@ -77,10 +87,11 @@ class RgbdTracker {
                                      std::optional<std::size_t> but) const;
   DenseMatch match(std::size_t key, const RgbdPyramid& image, const geometry::Se3& map_from_camera,
                    const geometry::Matrix6d& information, const CameraMotion& motion) const;
-  std::optional<Found> follow(const RgbdPyramid& image, const geometry::Se3& predicted,
-                              const geometry::Matrix6d& information, double seconds) const;
-  std::optional<Found> seek(const RgbdPyramid& image) const;
-  Tracked take(base::Stamp stamp, const RgbdPyramid& image, Found found, Tracked::How how, double seconds);
+  Expected expectedAfter(double seconds, const std::optional<DenseGuess>& prediction) const;
+  std::optional<Found> follow(const RgbdPyramid& image, const Expected& expected, double seconds) const;
+  std::optional<Found> seek(const RgbdPyramid& image, const Expected& expected) const;
+  Tracked take(base::Stamp stamp, const RgbdPyramid& image, Found found, const Expected& expected, Tracked::How how,
+               double seconds);
 
   RgbdTrackerOptions options_;
   DenseMatcher matcher_;
