@@ -41,8 +41,7 @@ CLI::App* addTum(CLI::App& app, Arguments& arguments) {
       ->required();
   tum->add_option("--intrinsics", arguments.rgbd.intrinsics,
                   "freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file with fx, fy, cx, cy and the "
-                  "lens (k1, k2, p1, p2, k3); default: "
-                  "as the folder's name tells");
+                  "lens (k1, k2, p1, p2, k3); default: as the folder's name tells");
   tum->add_option("--tolerance", arguments.rgbd.largest_difference, "between stamps of depth and colour [s]")
       ->capture_default_str()
       ->check(omnimapper::program::notNegative());

@@ -14,14 +14,17 @@ void sayNearest(const CLI::App& app) {
   std::vector<std::string> known;
   for (const auto* option : app.get_options())
     for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+  bool is_misspelt = false;  // then a value may stand alone because of that
   for (const auto& argument : app.remaining(true)) {
     const auto near =
         argument.rfind("--", 0) == 0 ? base::nearestName(argument.substr(0, argument.find('=')), known) : "";
+    is_misspelt = is_misspelt || argument.rfind("-", 0) == 0;
     if (!near.empty())
       std::cerr << "There is no " << base::printableLines(argument) << "; did you mean " << near << "?\n";
-    if (argument.rfind("-", 0) != 0)
-      std::cerr << "No option takes '" << base::printableLines(argument) << "'; --help has an example.\n";
   }
+  for (const auto& argument : app.remaining(true))
+    if (!is_misspelt)
+      std::cerr << "No option takes '" << base::printableLines(argument) << "'; --help has an example.\n";
 }
 
 void sayTasks(const CLI::App& app) {

@@ -33,8 +33,9 @@ void refuseMaps(const std::vector<std::string>& logs) {
   for (const auto& log : logs)
     if (std::filesystem::exists(std::filesystem::path(log) / "map.omnimap", error))
       throw base::Error(base::ExitCode::unreadable_input,
-                        log + ": is the folder of a map; --check judges logs. What the map is worth is in report.html "
-                              "and summary.json");
+                        log +
+                            ": is the folder of a map; --check judges logs. What the map is worth is in report.html "
+                            "and summary.json");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "RangeScan.h"
+
 namespace omnimapper::perception {
 
 using mrpt::obs::CObservation3DRangeScan;
@@ -45,6 +47,16 @@ std::uint16_t depthAt(const mrpt::math::CMatrix_u16& depths, float column, float
   return static_cast<std::uint16_t>(std::lround(1 / inverse));
 }
 
+// Of 8 bits; one that is in a file is read.
+bool hasPicture(const CObservation3DRangeScan& scan) {
+  if (!scan.hasIntensityImage) return false;
+  try {
+    return !scan.intensityImage.isEmpty() && scan.intensityImage.getPixelDepth() == mrpt::img::PixelDepth::D8U;
+  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
+    refuseMissing(scan.sensorLabel, "colour", scan.intensityImage.getExternalStorageFile());
+  }
+}
+
 mrpt::img::TCamera withoutLens(mrpt::img::TCamera camera) {
   camera.dist.fill(0);
   camera.distortion = mrpt::img::DistortionModel::none;
@@ -55,10 +67,6 @@ mrpt::img::TCamera withoutLens(mrpt::img::TCamera camera) {
 
 LensStraightener::LensStraightener() = default;
 LensStraightener::~LensStraightener() = default;
-
-double LensStraightener::bend() const {
-  return depth_ ? depth_->bend : 0;
-}
 
 const LensStraightener::Map* LensStraightener::mapOf(const mrpt::img::TCamera& camera, int width, int height,
                                                      std::unique_ptr<Map>& kept) {
@@ -92,12 +100,10 @@ const LensStraightener::Map* LensStraightener::mapOf(const mrpt::img::TCamera& c
 
 CObservation3DRangeScan::ConstPtr LensStraightener::straightened(const CObservation3DRangeScan::ConstPtr& scan) {
   const auto& depths = scan->rangeImage;
-  const bool has_picture = scan->hasIntensityImage && !scan->intensityImage.isExternallyStored() &&
-                           scan->intensityImage.getPixelDepth() == mrpt::img::PixelDepth::D8U;
   const Map* of_depths = scan->hasRangeImage ? mapOf(scan->cameraParams, static_cast<int>(depths.cols()),
                                                      static_cast<int>(depths.rows()), depth_)
                                              : nullptr;
-  const Map* of_picture = has_picture
+  const Map* of_picture = hasPicture(*scan)
                               ? mapOf(scan->cameraParamsIntensity, static_cast<int>(scan->intensityImage.getWidth()),
                                       static_cast<int>(scan->intensityImage.getHeight()), picture_)
                               : nullptr;

@@ -114,13 +114,12 @@ std::optional<PredictedMotion> CameraOdometry::predictionOf(const geometry::Se3&
 }
 
 void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
-  const auto straight = lens_.straightened(image);
-  const auto& scan = *straight;
+  const auto& scan = *image;
   const geometry::Se3 base_from_camera = geometry::fromMrpt(scan.sensorPose) * geometry::sensorFromOptical();
   const auto prediction = predictionOf(base_from_camera, scan.timestamp);
   ImageMotion tracked;
   try {
-    tracked = track(perception::RgbdView(scan), scan.timestamp, prediction);
+    tracked = track(perception::RgbdView(*lens_.straightened(image)), scan.timestamp, prediction);
   } catch (const base::Error& error) {
     if (unreadable_++ == 0) why_unreadable_ = error.what();
     return;

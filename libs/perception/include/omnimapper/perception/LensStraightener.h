@@ -21,10 +21,8 @@ class LensStraightener {
   /// The images of `scan`, straight, with cameras without distortion, or `scan` itself where its lenses move nothing by
   /// a third of a pixel or its calibration is no calibration. Beside the images only times, names and poses are kept:
   /// no points and no confidences. What the lens did not show has no depth and is black.
+  /// Throws Error(missing_images) where the picture is in a file that cannot be read.
   mrpt::obs::CObservation3DRangeScan::ConstPtr straightened(const mrpt::obs::CObservation3DRangeScan::ConstPtr& scan);
-
-  /// [px] By how much the lens of the depths moves what it moves most.
-  double bend() const;
 
  private:
   struct Map;
