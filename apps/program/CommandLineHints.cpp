@@ -4,34 +4,67 @@
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/OptionTable.h>
 
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
 
 namespace omnimapper::program {
 
-void sayNearest(const CLI::App& app) {
+namespace {
+
+bool isOption(const std::string& argument) {
+  return argument.rfind("-", 0) == 0;
+}
+
+std::string didYouMean(const std::string& name, const std::vector<std::string>& known) {
+  const auto near = base::nearestName(name, known);
+  return near.empty() ? "" : "; did you mean " + near + "?";
+}
+
+// The option that takes such a file, or "".
+std::string optionFor(const std::string& argument, const CLI::App& app) {
+  std::error_code error;
+  if (!std::filesystem::exists(argument, error)) return "";
+  const bool is_ini = std::filesystem::path(argument).extension() == ".ini";
+  const auto* option = app.get_option_no_throw(is_ini ? "--ini" : "--rawlog");
+  return !option ? "" : is_ini ? "-i" : "-r";
+}
+
+}  // namespace
+
+void sayUnknown(const CLI::App& app) {
   std::vector<std::string> known;
   for (const auto* option : app.get_options())
     for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+  const auto unknown = app.remaining(true);
   bool is_misspelt = false;  // then a value may stand alone because of that
-  for (const auto& argument : app.remaining(true)) {
-    const auto near =
-        argument.rfind("--", 0) == 0 ? base::nearestName(argument.substr(0, argument.find('=')), known) : "";
-    is_misspelt = is_misspelt || argument.rfind("-", 0) == 0;
-    if (!near.empty())
-      std::cerr << "There is no " << base::printableLines(argument) << "; did you mean " << near << "?\n";
+  for (const auto& argument : unknown) {
+    if (!isOption(argument)) continue;
+    is_misspelt = true;
+    const auto name = argument.substr(0, argument.find('='));
+    std::cerr << app.get_name() << ": there is no option " << base::printableLines(name)
+              << (argument.rfind("--", 0) == 0 ? didYouMean(name, known) : "; --help lists them") << "\n";
   }
-  for (const auto& argument : app.remaining(true))
-    if (!is_misspelt)
-      std::cerr << "No option takes '" << base::printableLines(argument) << "'; --help has an example.\n";
+  for (const auto& argument : unknown) {
+    if (is_misspelt) break;
+    const auto option = optionFor(argument, app), text = base::printableLines(argument);
+    std::cerr << app.get_name() << ": '" << text << "' stands without an option"
+              << (option.empty() ? "; " : "; did you mean " + option + " " + text + "? ") << "--help has an example\n";
+  }
 }
 
-void sayTasks(const CLI::App& app) {
-  if (app.get_require_subcommand_min() == 0 || !app.get_subcommands().empty()) return;
+bool saidTasks(const CLI::App& app) {
+  if (app.get_require_subcommand_min() == 0 || !app.get_subcommands().empty()) return false;
   std::vector<std::string> names;
   for (const auto* task : app.get_subcommands({})) names.push_back(task->get_name());
-  std::cerr << "The first argument is one of " << base::option_text::format(names) << ".\n";
+  const auto unknown = app.remaining(true);
+  if (!unknown.empty() && !isOption(unknown.front()))
+    std::cerr << app.get_name() << ": there is no task '" << base::printableLines(unknown.front()) << "'"
+              << didYouMean(unknown.front(), names) << "\n";
+  std::cerr << app.get_name() << ": the first argument is one of " << base::option_text::format(names)
+            << "; --help has an example\n";
+  return true;
 }
 
 }  // namespace omnimapper::program

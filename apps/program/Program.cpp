@@ -48,14 +48,12 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
     app.parse(argc, argv);
     base::requireAddressSpace();
     return body();
-  } catch (const CLI::ExtrasError& error) {
-    app.exit(error);
-    sayNearest(app);
-    return static_cast<int>(base::ExitCode::command_line);
+  } catch (const CLI::ExtrasError&) {
+    return sayUnknown(app), static_cast<int>(base::ExitCode::command_line);
   } catch (const CLI::ParseError& error) {
-    if (app.exit(error) == 0) return 0;
-    sayTasks(app);
-    return static_cast<int>(base::ExitCode::command_line);
+    const bool is_help = error.get_exit_code() == 0;
+    if (is_help || !saidTasks(app)) app.exit(error);
+    return is_help ? 0 : static_cast<int>(base::ExitCode::command_line);
   } catch (const base::Error& error) {
     std::cerr << app.get_name() << ": " << base::printableLines(error.what()) << "\n";
     return static_cast<int>(error.code());

@@ -184,6 +184,11 @@ TEST(Config, ADoubledSectionIsRefusedWithItsLineInWhateverCase) {
               {"test.ini:3:", "twice"});
 }
 
+TEST(Config, WhatIsNoTextIsProbablyALog) {
+  for (const std::string& bytes : {std::string("\x1f\x8b\x08"), std::string("BZh91"), std::string("\x9fmrpt\0", 6)})
+    expectError([&] { parsed(bytes); }, ExitCode::unknown_key, {"test.ini: is no text", "a log is named by -r"});
+}
+
 TEST(Config, ALineThatIsNeitherSectionNorKeyIsRefusedWithItsLine) {
   expectError([] { parsed("[trigger]\nevery 3\n"); }, ExitCode::unknown_key, {"test.ini:2:", "every 3"});
   expectError([] { parsed("every = 3\n[trigger]\n"); }, ExitCode::unknown_key, {"test.ini:1:"});

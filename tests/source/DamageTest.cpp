@@ -219,10 +219,26 @@ TEST_F(DamageTest, whatIsNoRawlogIsRefusedWithAWayOut) {
   says("\x89PNG\r\n\x1a\n" + std::string(100, '\1'), "is an image");
   says(std::string("PK\x03\x04") + std::string(100, '\1'), "ZIP");
   says(std::string(1000, '\xee'), "no rawlog");
+  says("# .PCD v0.7\nVERSION 0.7\n", "omnimapper-import pcd");
+  says("OMNIMAP\n\1", "--continue and --localize take it");
   says("\x1f\x8b and no more gzip than that", "decompress");
   says((Bytes() << mrpt::maps::CSimplePointsMap()).string(), "mrpt::maps::CSimplePointsMap");
   EXPECT_NE(refusal(folder_ / "nowhere.rawlog").find("No such file"), std::string::npos);
-  EXPECT_NE(refusal(folder_.path()).find("is a folder"), std::string::npos);
+}
+
+TEST_F(DamageTest, aFolderIsRefusedWithWhatItIsFor) {
+  const auto says = [&](const std::string& folder, const std::string& file, const std::string& expected) {
+    std::filesystem::create_directories(folder_ / folder);
+    writePlain(folder_ / folder + "/" + file, "text");
+    const auto message = refusal(folder_ / folder);
+    EXPECT_NE(message.find(expected), std::string::npos) << message;
+  };
+  says("nothing", "notes.txt", "is a folder, in which there is nothing that can be read");
+  says("map", "map.omnimap", "is the folder of a map, no log");
+  says("logs", "b.rawlog", "a log in it is b.rawlog");
+  says("tum", "depth.txt", "omnimapper-import tum " + (folder_ / "tum"));
+  says("scenes", "frame-000000.depth.png", "omnimapper-import tum " + (folder_ / "scenes"));
+  says("clouds", "1.pcd", "omnimapper-import pcd " + (folder_ / "clouds"));
 }
 
 }  // namespace

@@ -69,12 +69,26 @@ TEST_F(ImportAppTest, exitCodesTellWhatWentWrong) {
   EXPECT_EQ(run("--help"), ExitCode::ok);
   EXPECT_TRUE(says("Example: omnimapper-import carmen")) << output_;
   EXPECT_EQ(run(""), ExitCode::command_line);
+  EXPECT_TRUE(says("the first argument is one of carmen, tum, pcd")) << output_;
+  EXPECT_EQ(run("tmu a b"), ExitCode::command_line);
+  EXPECT_TRUE(says("there is no task 'tmu'; did you mean tum?")) << output_;
   EXPECT_EQ(run("carmen " + in_), ExitCode::command_line);
   EXPECT_EQ(run("carmen a b --odometry wheels"), ExitCode::command_line);
   EXPECT_EQ(run("carmen " + in_ + " " + out_), ExitCode::unreadable_input);
   EXPECT_TRUE(says(in_ + ": No such file")) << output_;
   logs::writePlain(in_, log_);
   EXPECT_EQ(run("carmen " + in_ + " " + folder_.path() + "/no/x.rawlog"), ExitCode::unwritable_output);
+}
+
+TEST_F(ImportAppTest, whatAnotherTaskTakesIsToldSo) {
+  logs::writePlain(in_, log_);
+  EXPECT_EQ(run("tum " + in_ + " " + out_), ExitCode::unreadable_input);
+  EXPECT_TRUE(says("is no folder: it is a CARMEN log")) << output_;
+  EXPECT_EQ(run("carmen " + in_ + " " + out_), ExitCode::ok);
+  EXPECT_EQ(run("carmen " + out_ + " " + in_), ExitCode::unreadable_input);
+  EXPECT_TRUE(says("it is a rawlog, or")) << output_;
+  EXPECT_EQ(run("pcd " + out_ + " " + in_), ExitCode::unreadable_input);
+  EXPECT_TRUE(says("is no folder: it is a rawlog, or")) << output_;
 }
 
 TEST_F(ImportAppTest, aLogOfNothingLeavesWhatIsThere) {

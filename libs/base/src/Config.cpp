@@ -39,6 +39,10 @@ std::pair<std::string, std::string> placeKey(const std::string& section, const s
 // The INI reduced to "[section]" and "key = value", each still on its line. MRPT's reader keeps the last of two equal
 // keys in silence and takes a line without '=' for nothing: both are refused here, with their line.
 std::string checkedText(const std::string& text, const std::string& file, Places& places) {
+  const bool is_compressed = text.compare(0, 2, "\x1f\x8b") == 0 || text.compare(0, 3, "BZh") == 0;
+  if (is_compressed || text.find('\0') != std::string::npos)
+    throw Error(ExitCode::unknown_key,
+                file + ": is no text, and so no INI file; a log is named by -r, as in -i INI -r LOG");
   const bool has_byte_order_mark = text.compare(0, 3, "\xEF\xBB\xBF") == 0;
   std::istringstream in(has_byte_order_mark ? text.substr(3) : text);
   std::ostringstream out;

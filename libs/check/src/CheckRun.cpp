@@ -27,22 +27,10 @@ base::ExitCode codeOf(const source::SourceReport& report, const std::vector<Fitt
   return has_problem ? base::ExitCode::doubtful_input : base::ExitCode::ok;
 }
 
-// A map may be checked by mistake: it has its verdict.
-void refuseMaps(const std::vector<std::string>& logs) {
-  std::error_code error;
-  for (const auto& log : logs)
-    if (std::filesystem::exists(std::filesystem::path(log) / "map.omnimap", error))
-      throw base::Error(base::ExitCode::unreadable_input,
-                        log +
-                            ": is the folder of a map; --check judges logs. What the map is worth is in report.html "
-                            "and summary.json");
-}
-
 }  // namespace
 
 CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& config, const std::string& output_folder,
                      base::Progress& progress, const std::function<bool()>& stop) {
-  refuseMaps(logs);
   const auto options = config.section("mapper").read<mapper::EngineOptions>();
   const auto extractors = config.section("perception").read<mapper::PerceptionOptions>().extractors;
   const mapper::SensorPoses sensor_poses(options.sensors, config);

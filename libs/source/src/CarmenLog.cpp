@@ -9,6 +9,7 @@
 #include "CarmenLasers.h"
 #include "CarmenLine.h"
 #include "LineReader.h"
+#include "describeInput.h"
 #include "refuse.h"
 
 namespace omnimapper::source {
@@ -30,7 +31,8 @@ void checkKind(const std::string& path) {
     if (isCarmenWord(line.substr(0, line.find(' ')))) return;
   }
   if (!lines.file().problem().empty()) refuse(path, "cannot be decompressed (" + lines.file().problem() + ").");
-  refuse(path, "is no CARMEN log: none of its first lines begins with ODOM, FLASER or another word of CARMEN.");
+  refuse(path, "is no CARMEN log, for none of its first lines begins with ODOM, FLASER or another word of CARMEN: it " +
+                   describeInput(path));
 }
 
 // Reads the log once for its clock: lines if there are ODOM lines and no label's stamps run backwards.

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <vector>
 
+#include "describeInput.h"
 #include "refuse.h"
 
 namespace omnimapper::source {
@@ -168,7 +169,7 @@ CompressedFile::CompressedFile(const std::string& path) : state_(std::make_uniqu
   s.path = path;
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) refuse(path, std::string(std::strerror(errno)) + ".");
-  if (S_ISDIR(status.st_mode)) refuse(path, "is a folder; name the file in it.");
+  if (S_ISDIR(status.st_mode)) refuse(path, describeInput(path));
   if (!S_ISREG(status.st_mode)) refuse(path, "is a pipe, a socket or a device; save what it gives in a file.");
   s.size = static_cast<std::uint64_t>(status.st_size);
   s.file = std::fopen(path.c_str(), "rb");

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "describeInput.h"
 #include "refuse.h"
 
 namespace omnimapper::source {
@@ -128,11 +129,12 @@ std::optional<double> timeOf(const fs::path& file) {
 
 PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options) : options_(options) {
   std::error_code error;
+  if (fs::is_regular_file(folder, error)) refuse(folder, "is no folder: it " + describeInput(folder));
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() == ".pcd") files_.push_back(entry.path());
   }
   if (error) refuse(folder, error.message());
-  if (files_.empty()) refuse(folder, "holds no .pcd files");
+  if (files_.empty()) refuse(folder, "holds no .pcd files: it " + describeInput(folder));
   std::sort(files_.begin(), files_.end());
   for (const auto& file : files_) {
     const auto time = timeOf(file);

@@ -16,11 +16,11 @@
 
 #include "ActionSpans.h"
 #include "ExternalFiles.h"
-#include "ForeignFile.h"
 #include "LogTrial.h"
 #include "ObjectReader.h"
 #include "Selection.h"
 #include "StepClock.h"
+#include "describeInput.h"
 
 namespace omnimapper::source {
 
@@ -89,7 +89,7 @@ class RawlogSource::Stream {
     if (stopped) throw base::Error(base::ExitCode::interrupted, path + ": interrupted while the log was being opened.");
     stop_waiting_ = [this] { return interrupted_.load(); };
     if (reader_.objects() == 0 && !reader_.sawHeader() && reader_.ending() != ObjectReader::Ending::complete)
-      refuse(describeForeignFile(path));
+      refuse(describeInput(path));
     if (waiting_.empty() && reader_.objects() > 0 && rawlog_objects_ == 0)
       refuse("holds an object of class " + report_.other_objects.begin()->first + " and nothing a rawlog is made of.");
   }

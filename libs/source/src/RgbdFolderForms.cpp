@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "describeInput.h"
 #include "refuse.h"
 
 namespace omnimapper::source {
@@ -274,7 +275,9 @@ std::string sequenceIn(const fs::path& folder) {
 }  // namespace
 
 RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions& options) {
-  if (!fs::is_directory(folder)) refuse(folder, "is no folder");
+  std::error_code error;
+  if (fs::is_regular_file(folder, error)) refuse(folder, "is no folder: it " + describeInput(folder));
+  if (!fs::is_directory(folder, error)) refuse(folder, "there is no such folder");
   RgbdFolderContent content;
   if (fs::exists(folder / "depth.txt"))
     content = readTum(folder, options);
@@ -293,7 +296,7 @@ RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions
         std::string(
             "is of no form that is known: depth.txt and rgb.txt (TUM), associations.txt, or depth/ and rgb/ or image/ "
             "(ICL-NUIM), frame-*.depth.png (7-Scenes)") +
-            sequenceIn(folder));
+            sequenceIn(folder) + "; it " + describeInput(folder));
   std::stable_sort(content.pairs.begin(), content.pairs.end(),
                    [](const RgbdPair& a, const RgbdPair& b) { return a.stamp < b.stamp; });
   return content;

@@ -118,12 +118,14 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   }
   summary["log_s"] = figures.log_seconds;
   summary["way_m"] = figures.way;
-  summary["extent_m"] = {{"min", {figures.min_x, figures.min_y, figures.min_z}},
-                         {"max", {figures.max_x, figures.max_y, figures.max_z}}};
+  summary["trajectory_extent_m"] = {{"min", {figures.min_x, figures.min_y, figures.min_z}},
+                                    {"max", {figures.max_x, figures.max_y, figures.max_z}}};
   summary["sessions"] = sessionsOf(view.map);
   if (view.map_is_held) summary["localization"] = {{"key_frames", figures.localized}, {"located", figures.located}};
   summary["landmarks"] = mapper::countLandmarks(view);
-  summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
+  summary["closures"] = {{"session", view.map.sessions.back().number},
+                         {"accepted", figures.closures},
+                         {"refused", figures.refused_closures}};
   if (!view.map_is_held) summary["verdict"] = verdictOf(view.verdict);
   summary["counts"] = counts;
   summary["graph"] = graphOf(view);

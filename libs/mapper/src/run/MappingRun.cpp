@@ -288,7 +288,7 @@ std::vector<std::string> Run::warn(const RunResult& result) {
       measuring_, [this](const std::string& section) { return missingFor(section); }, *engine_);
   warnOfCounts(engine_->view().counts, result.new_key_frames, *engine_);
   warnOfEarlierSessions(result.sessions, *engine_);
-  warnOfSession(result.sessions.back(), *engine_);
+  warnOfSession(result.sessions.back(), stopped_, *engine_);
   if (localizes()) warnOfLocalization(result, *engine_);
   if (isSuspicious())
     engine_->warn(sentenceOf(engine_->view().verdict) + " Look at map.png and report.html before you use it");
@@ -449,16 +449,17 @@ std::string toText(const RunResult& result) {
   const std::string held = of_map > 0 ? " (and " + std::to_string(of_map) + " of the map, which stays as it is)" : "";
   // A key frame that was located takes its factors with it when it leaves the window: their count would tell nothing.
   const std::string factors = result.localized > 0 ? "" : "factors           " + std::to_string(result.factors) + "\n";
+  const char* scope = result.localized == 0 && result.sessions.size() > 1 ? " in the new session" : "";
   char text[512];
   std::snprintf(text, sizeof text,
                 "key frames        %zu%s\n"
                 "%s"
-                "%-17s %zu accepted, %zu refused (reasons: report.html)\n"
-                "way               %.1f m in %.1f s\n"
+                "%-17s %zu accepted, %zu refused%s (reasons: report.html)\n"
+                "way               %.1f m in %.1f s%s\n"
                 "wall time         %.2f s (%.0f times the log's own pace)\n",
                 result.key_frames - of_map, held.c_str(), factors.c_str(),
                 result.localized > 0 ? "matches with map" : "loop closures", result.closures, result.refused_closures,
-                result.way, result.log_seconds, result.wall_seconds,
+                scope, result.way, result.log_seconds, scope, result.wall_seconds,
                 result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
   const std::string verdict =
       result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";

@@ -19,14 +19,14 @@ bool isMeasured(const View& view, const std::set<std::string>& measuring) {
 }
 
 // A wrong start may look right where rooms are alike.
-void warnOfDoubt(const map::Session& session, Engine& engine) {
+void warnOfDoubt(const map::Session& session, bool stopped, Engine& engine) {
   const TestedTies ties = testedTies(engine.view().graph, session.number);
   if (!ties.areInDoubt()) return;
   engine.warn(joinedText(session) + ", but " + std::to_string(ties.refused) + " of the " +
-              std::to_string(ties.refused + ties.accepted) +
-              " measurements that tie it to the map do not fit: it may " +
-              "lie in a wrong place that looks alike, or the map is bent there. See map.png; against a wrong place " +
-              "another [session] start helps (origin, pose, anywhere)");
+              std::to_string(ties.refused + ties.accepted) + " measurements that tie it to the map " +
+              (stopped ? "do not fit, or would still have been borne out had the run not been interrupted"
+                       : "do not fit: it may lie in a wrong place that looks alike, or the map is bent there. See "
+                         "map.png; against a wrong place another [session] start helps (origin, pose, anywhere)"));
 }
 
 }  // namespace
@@ -82,8 +82,8 @@ void warnOfEarlierSessions(const std::vector<map::Session>& sessions, Engine& en
   }
 }
 
-void warnOfSession(const map::Session& session, Engine& engine) {
-  if (session.joined) return warnOfDoubt(session, engine);
+void warnOfSession(const map::Session& session, bool stopped, Engine& engine) {
+  if (session.joined) return warnOfDoubt(session, stopped, engine);
   if (engine.view().map_is_held) return;
   engine.warn(
       joinedText(session) + " to the map: it lies where [session] start or a single " +

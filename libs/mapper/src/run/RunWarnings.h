@@ -24,7 +24,7 @@ void warnOfNothingMeasured(const std::set<std::string>& measuring,
 /// Of sessions before the last that nothing ties to the map.
 void warnOfEarlierSessions(const std::vector<map::Session>& sessions, Engine& engine);
 /// The place of a session in a map that was there before: known by nothing, or in doubt.
-void warnOfSession(const map::Session& session, Engine& engine);
+void warnOfSession(const map::Session& session, bool stopped, Engine& engine);
 /// How much of a run that localizes was located.
 void warnOfLocalization(const RunResult& result, Engine& engine);
 
