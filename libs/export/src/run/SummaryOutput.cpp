@@ -123,9 +123,8 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   summary["sessions"] = sessionsOf(view.map);
   if (view.map_is_held) summary["localization"] = {{"key_frames", figures.localized}, {"located", figures.located}};
   summary["landmarks"] = mapper::countLandmarks(view);
-  summary["closures"] = {{"session", view.map.sessions.back().number},
-                         {"accepted", figures.closures},
-                         {"refused", figures.refused_closures}};
+  summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
+  if (!view.map.sessions.empty()) summary["closures"]["session"] = view.map.sessions.back().number;
   if (!view.map_is_held) summary["verdict"] = verdictOf(view.verdict);
   summary["counts"] = counts;
   summary["graph"] = graphOf(view);
