@@ -27,9 +27,9 @@ bool isSet(const char* variable) {
 }
 
 /// What is nearer or farther than this is not drawn, and this far apart things must be that are drawn over one another
-/// (lines over landmarks over the grid); all as parts of the camera's distance. Depths have 16 bits, which are spread
-/// from the nearest on; Mesa's software renderer still hid lines behind the grid where the nearest was 1/30, not at
-/// 1/20.
+/// (closures over the trajectory over landmarks over the grid); all as parts of the camera's distance. Depths have 16
+/// bits, which are spread from the nearest on; Mesa's software renderer still hid lines behind the grid where the
+/// nearest was 1/30, not at 1/20.
 constexpr double kNearest = 1.0 / 16, kFarthest = 10, kDepthStep = 12 / kNearest / (1 << 16);
 
 ScanGridOptions gridOptions(const LiveWindowOptions& options) {
@@ -82,8 +82,12 @@ class MrptScene : public LiveScene {
       if (options_.grid) placeGrid(view.map, ground->getPlaneZcoord() - kDepthStep * sight.distance);
       scene->getViewport()->setViewportClipDistances(static_cast<float>(kNearest * sight.distance),
                                                      static_cast<float>(kFarthest * sight.distance));
-      const mrpt::poses::CPose3D over_landmarks(0, 0, kDepthStep * sight.distance, 0, 0, 0);
-      for (const auto& lines : {trajectory_, refused_, accepted_}) lines->setPose(over_landmarks);
+      const auto lifted = [&](int steps) {
+        return mrpt::poses::CPose3D(0, 0, steps * kDepthStep * sight.distance, 0, 0, 0);
+      };
+      trajectory_->setPose(lifted(1));
+      refused_->setPose(lifted(2));
+      accepted_->setPose(lifted(3));
       replace(*ground_, ground);
       replace(*trajectory_, trajectoryLines(keyFramePoses(view.map)));
       const auto closures = closuresOf(view.map, view.decisions);
