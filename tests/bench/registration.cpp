@@ -11,6 +11,7 @@
 #include <omnimapper/matching/CloudMatcher.h>
 #include <omnimapper/matching/CloudSource.h>
 #include <omnimapper/matching/DenseMatcher.h>
+#include <omnimapper/matching/FeatureMatcher.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -72,6 +73,26 @@ RegistrationPeer dense(const std::string& name, bool depth, bool grey) {
         const auto reference = matcher.prepare(a);
         const auto match = matcher.match(*reference, b, {guess});
         return match.succeeded ? std::optional(Registered{match.reference_from_image, match.covariance}) : std::nullopt;
+      }};
+}
+
+matching::RgbdPyramid pyramidOf(const RgbdFrame& frame) {
+  const auto colour = colourOf(frame);
+  return {depthOf(frame), &colour};
+}
+
+// Corners alone, or corners and then the whole images, from where the corners say.
+RegistrationPeer features(const std::string& name, bool then_dense) {
+  return {
+      name, "SIFT", 1,
+      [then_dense, by_corners = matching::FeatureMatcher(), by_all = matching::DenseMatcher()](
+          const RgbdFrame& first, const RgbdFrame& second, const Se3&) -> std::optional<Registered> {
+        const auto a = pyramidOf(first), b = pyramidOf(second);
+        const auto coarse = by_corners.match(*by_corners.prepare(a), *by_corners.prepare(b));
+        if (!coarse.succeeded) return std::nullopt;
+        if (!then_dense) return Registered{coarse.reference_from_image, coarse.covariance};
+        const auto fine = by_all.match(*by_all.prepare(a), b, {coarse.reference_from_image});
+        return fine.succeeded ? std::optional(Registered{fine.reference_from_image, fine.covariance}) : std::nullopt;
       }};
 }
 
@@ -193,7 +214,9 @@ std::vector<RegistrationPeer> methods() {
       points("points, voxels of 2 cm", CloudSource::voxels, 0.02),
       points("points, voxels of 1 cm", CloudSource::voxels, 0.01),
       points("all points", CloudSource::all_points, 0),
-      {{"OpenCV SIFT, RANSAC", "SIFT", 4, bySift}},
+      {features("ours, ORB", false),
+       features("ours, ORB, then depth and brightness", true),
+       {"OpenCV SIFT, RANSAC", "SIFT", 4, bySift}},
       {dense("ours, depth and brightness", true, true), dense("ours, depth", true, false),
        dense("ours, brightness", false, true), openCvDense()}};
   std::vector<RegistrationPeer> all;

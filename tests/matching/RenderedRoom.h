@@ -19,6 +19,8 @@ struct RenderedRoom {
   double grey_noise = 0;
   double gain = 1, offset = 0;
   bool only_far_wall = false;
+  unsigned tiles =
+      0;  ///< which of many sets of tiles of 7 cm, grey and black, is on the walls, so that there are corners; 0: none
 
   struct Image {
     std::vector<float> depth;
@@ -81,11 +83,24 @@ struct RenderedRoom {
     return nearest;
   }
 
+  double tileAt(const double (&p)[3]) const {
+    if (tiles == 0) return 0;
+    std::uint64_t number = tiles;
+    for (const double one : p) {
+      constexpr double kSide = 0.07, kOnTheWall = 1e-6;  // [m]
+      number = 6364136223846793005U *
+               (number +
+                static_cast<std::uint64_t>(std::lround(std::floor(one / kSide + 0.37 * tiles + kOnTheWall)) + 1000));
+      number ^= number >> 29;
+    }
+    return number % 2 == 0 ? 0 : -45;
+  }
+
   double patternAt(const Pose& pose, double across, double down) const {
     const double depth = depthOf(pose, across, down);
     double p[3];
     for (int axis = 0; axis < 3; ++axis) p[axis] = pose.at[axis] + depth * pose.along(axis, across, down);
-    return 128 + 30 * std::sin(7 * p[0] + 3 * p[2]) + 30 * std::sin(9 * p[1] - 5 * p[0]) +
+    return tileAt(p) + 128 + 30 * std::sin(7 * p[0] + 3 * p[2]) + 30 * std::sin(9 * p[1] - 5 * p[0]) +
            20 * std::sin(13 * p[2] + 4 * p[1]);
   }
 };

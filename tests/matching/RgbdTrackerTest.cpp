@@ -29,7 +29,9 @@ RgbdTrackerOptions atOnce() {
 
 class Camera {
  public:
-  explicit Camera(const RgbdTrackerOptions& options = atOnce()) : tracker_(options, {}) {}
+  explicit Camera(const RgbdTrackerOptions& options = atOnce(), unsigned tiles = 0) : tracker_(options, {}) {
+    room_.tiles = tiles;
+  }
 
   RgbdTracker::Tracked add(double seconds, const Se3& pose, bool is_covered = false) {
     auto image = room_.render(pose);
@@ -75,6 +77,42 @@ TEST(RgbdTracker, ALensThatIsCoveredIsToldAndTheViewFoundAgain) {
   const Se3 truth = inverse(swing(0.5)) * swing(0.3);
   EXPECT_LT(minus(after.last_from_camera, truth).head<3>().norm(), 0.01);
   EXPECT_EQ(run.add(1.1, swing(0.4)).how, How::tracked);
+}
+
+/// Turned about the vertical.
+Se3 turned(double angle) {
+  geometry::Vector6d delta;
+  delta << 0.1 * angle, 0, 0, 0, angle, 0;
+  return geometry::plus(Se3{}, delta);
+}
+
+TEST(RgbdTracker, CornersTellAMotionThatNobodyExpects) {
+  for (const bool use_features : {true, false}) {
+    auto options = atOnce();
+    options.use_features = use_features;
+    Camera run(options, 1);
+    // To the right as fast as it can, then 25 deg to the left within one image.
+    const double angles[] = {0, 0.15, 0.3, 0.45, 0};
+    RgbdTracker::Tracked last;
+    for (int i = 0; i < 5; ++i) last = run.add(0.15 * i, turned(angles[i]));
+    const double off = minus(last.map_from_camera, inverse(turned(0)) * turned(0)).norm();
+    if (use_features) {
+      EXPECT_EQ(last.how, How::tracked);
+      EXPECT_LT(off, 0.02);
+    } else {
+      EXPECT_TRUE(last.how != How::tracked || off > 0.02) << "then corners would not be needed for it";
+    }
+  }
+}
+
+TEST(RgbdTracker, ALostCameraIsFoundByCornersFarFromAllKeyFrames) {
+  Camera run(atOnce(), 1);
+  run.add(0, turned(0));
+  run.add(0.1, turned(0.02));
+  EXPECT_EQ(run.add(0.2, turned(0.02), true).how, How::lost);
+  const auto after = run.add(0.4, turned(0.45));
+  EXPECT_EQ(after.how, How::found);
+  EXPECT_LT(minus(after.map_from_camera, inverse(turned(0)) * turned(0.45)).norm(), 0.02);
 }
 
 TEST(RgbdTracker, AfterALongLossItBeginsAnewAndTellsNoMotion) {

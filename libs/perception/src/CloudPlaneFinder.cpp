@@ -66,7 +66,7 @@ CloudPlaneFinder::CloudPlaneFinder(const CloudPlaneOptions& options) : options_(
 CloudPlanes CloudPlaneFinder::find(const std::vector<Eigen::Vector3f>& points) const {
   const auto voxels = clouds::averaged(points, options_.voxel, options_.min_range, options_.max_range);
   clouds::LoosePoints left = clouds::loosen(voxels, options_);
-  SplitMix random(static_cast<std::uint64_t>(options_.seed));
+  base::SplitMix random(static_cast<std::uint64_t>(options_.seed));
   CloudPlanes result;
   std::vector<std::uint16_t> of_voxel(voxels.means.size(), 0);
   for (int vain = 0; vain < kMostVain && result.planes.size() < kMostPlanes;) {

@@ -12,8 +12,9 @@ namespace omnimapper::plugins {
 
 VisualOdometryPlugin::VisualOdometryPlugin(const CameraOdometryOptions& options,
                                            const matching::RgbdTrackerOptions& tracking,
-                                           const matching::DenseMatcherOptions& matching)
-    : CameraOdometry(options, "visual odometry"), tracker_(tracking, matching) {}
+                                           const matching::DenseMatcherOptions& matching,
+                                           const matching::FeatureMatcherOptions& features)
+    : CameraOdometry(options, "visual odometry"), tracker_(tracking, matching, features) {}
 
 ImageMotion VisualOdometryPlugin::track(const perception::RgbdView& view, base::Stamp stamp,
                                         const std::optional<PredictedMotion>& prediction) {
@@ -33,8 +34,8 @@ ImageMotion VisualOdometryPlugin::track(const perception::RgbdView& view, base::
   return motion;
 }
 
-using VisualOdometrySection =
-    mapper::SharedSection<CameraOdometryOptions, matching::RgbdTrackerOptions, matching::DenseMatcherOptions>;
+using VisualOdometrySection = mapper::SharedSection<CameraOdometryOptions, matching::RgbdTrackerOptions,
+                                                    matching::DenseMatcherOptions, matching::FeatureMatcherOptions>;
 
 const std::vector<base::OptionSpec>& VisualOdometryPluginFactory::options() const {
   return VisualOdometrySection::options();
@@ -44,7 +45,8 @@ std::unique_ptr<mapper::PosePlugin> VisualOdometryPluginFactory::make(const base
                                                                       const mapper::PluginContext&) const {
   return std::make_unique<VisualOdometryPlugin>(VisualOdometrySection::read<CameraOdometryOptions>(section),
                                                 VisualOdometrySection::read<matching::RgbdTrackerOptions>(section),
-                                                VisualOdometrySection::read<matching::DenseMatcherOptions>(section));
+                                                VisualOdometrySection::read<matching::DenseMatcherOptions>(section),
+                                                VisualOdometrySection::read<matching::FeatureMatcherOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

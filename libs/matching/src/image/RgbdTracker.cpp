@@ -25,7 +25,9 @@ std::optional<double> medianDepth(const RgbdPyramid& pyramid) {
   return 1 / static_cast<double>(*middle);
 }
 
-// What neither hand nor robot does: [m] [rad] off what wheels tell, and besides [m/s] [rad/s] where nothing tells it.
+// What neither hand nor robot does: [m] [rad] off what wheels or inertia tell, beyond what they may err by; and where
+// nothing tells the motion, [m] [rad] and besides [m/s] [rad/s].
+constexpr double kToldSlack = 0.1, kToldSlackTurn = 0.15;
 constexpr double kSlack = 0.3, kSlackTurn = 0.3, kFastest = 1.5, kFastestTurn = 4;
 
 double angleOf(const Se3& pose) {
@@ -59,12 +61,15 @@ const base::OptionTable<RgbdTrackerOptions>& RgbdTrackerOptions::table() {
           .number("picture_delay_sigma_s", &Options::picture_delay_sigma, base::Range{0, 0.1},
                   "Standard deviation of that; the delay of each image is found by its match. 0: it is exact.")
           .number("longest_loss_s", &Options::longest_loss, base::Range::positive(),
-                  "After a longer time without a view it knows the camera begins anew.");
+                  "After a longer time without a view it knows the camera begins anew.")
+          .flag("use_features", &Options::use_features,
+                "Where depths and brightness do not tell a fast motion, corners that look alike do.");
   return table;
 }
 
-RgbdTracker::RgbdTracker(const RgbdTrackerOptions& options, const DenseMatcherOptions& matching)
-    : options_(options), matcher_(matching) {}
+RgbdTracker::RgbdTracker(const RgbdTrackerOptions& options, const DenseMatcherOptions& matching,
+                         const FeatureMatcherOptions& features)
+    : options_(options), matcher_(matching), feature_matcher_(features) {}
 
 CameraMotion RgbdTracker::motion() const {
   return {velocity_, options_.depth_readout, options_.picture_delay, options_.picture_readout,
@@ -89,13 +94,13 @@ std::optional<std::size_t> RgbdTracker::nearest(const Se3& map_from_camera, doub
   return best;
 }
 
-DenseMatch RgbdTracker::match(std::size_t key, const RgbdPyramid& image, const Se3& map_from_camera,
+DenseMatch RgbdTracker::match(std::size_t key, const Image& image, const Se3& map_from_camera,
                               const Matrix6d& information, const CameraMotion& motion) const {
-  return matcher_.match(*keys_[key].reference, image,
+  return matcher_.match(*keys_[key].reference, image.pyramid,
                         {inverse(keys_[key].map_from_camera) * map_from_camera, information}, motion);
 }
 
-RgbdTracker::Tracked RgbdTracker::begin(base::Stamp stamp, const RgbdPyramid& image, const Se3& map_from_camera) {
+RgbdTracker::Tracked RgbdTracker::begin(base::Stamp stamp, const Image& image, const Se3& map_from_camera) {
   velocity_.setZero();
   keys_.clear();  // where they lie from here is not known
   makeKeyFrame(image, map_from_camera, options_.picture_delay);
@@ -109,10 +114,16 @@ RgbdTracker::Tracked RgbdTracker::begin(base::Stamp stamp, const RgbdPyramid& im
   return tracked;
 }
 
-void RgbdTracker::makeKeyFrame(const RgbdPyramid& image, const Se3& map_from_camera, double picture_delay) {
+void RgbdTracker::makeKeyFrame(const Image& image, const Se3& map_from_camera, double picture_delay) {
   CameraMotion moved = motion();
   moved.picture_delay = picture_delay;
-  keys_.push_back({matcher_.prepare(image, moved), map_from_camera, medianDepth(image).value()});
+  std::shared_ptr<const FeatureSet> features;
+  if (options_.use_features) {
+    featuresOf(image);
+    features = image.features;
+  }
+  keys_.push_back(
+      {matcher_.prepare(image.pyramid, moved), features, map_from_camera, medianDepth(image.pyramid).value()});
   if (keys_.size() > static_cast<std::size_t>(options_.key_frames)) keys_.pop_front();
   current_ = keys_.size() - 1;
 }
@@ -121,7 +132,7 @@ void RgbdTracker::makeKeyFrame(const RgbdPyramid& image, const Se3& map_from_cam
 // not what they should be, from where it was, too, and with the key frame that is nearest to either; what surprises
 // least is taken. What fits but leaves a direction open goes on there as expected. The motion that is found tells the
 // shutters' motion better than that of before did: the match is made once more with the mean of both.
-std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdPyramid& image, const Expected& expected,
+std::optional<RgbdTracker::Found> RgbdTracker::follow(const Image& image, const Expected& expected,
                                                       double seconds) const {
   constexpr double kFarthest = 3, kDoubtful = 0.1;
   const Matrix6d nothing = Matrix6d::Zero();
@@ -130,15 +141,15 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdPyramid& image, 
     const auto other = nearest(pose, kFarthest, key);
     if (other) tries.emplace_back(*other, pose);
   }
-  std::optional<Found> best;
-  for (std::size_t i = 0; i < tries.size(); ++i) {
+  std::optional<Found> best, blind;
+  for (std::size_t i = 0; i < tries.size() && !blind; ++i) {
     const auto& [key, pose] = tries[i];
     const Matrix6d& known = i == 0 ? expected.information : nothing;
     const auto first = match(key, image, pose, known, motion());
     const Se3 map_from_camera = keys_[key].map_from_camera * first.reference_from_image;
     if (!first.fits || !expected.allows(map_from_camera)) continue;
     // Other key frames that seem to tell all of it are wrong more often than not: a bare wall looks like any other.
-    if (i == 0 && first.open_directions > 0) return Found{key, first};
+    if (i == 0 && first.open_directions > 0 && first.surprise < kDoubtful) blind = Found{key, first};
     if (!first.succeeded) continue;
     CameraMotion moved = motion();
     moved.velocity = 0.5 * (velocity_ + minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds);
@@ -149,32 +160,86 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const RgbdPyramid& image, 
     if (!best || found.match.surprise < best->match.surprise) best = found;
     if (best->match.surprise < kDoubtful) break;
   }
-  return best;
+  // What wheels or inertia tell is a better beginning than corners.
+  if (options_.use_features && !expected.is_measured && (!best || best->match.surprise >= kDoubtful)) {
+    std::vector<std::size_t> keys;
+    for (const auto& [key, pose] : tries)
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+    const auto other = followByFeatures(keys, image, expected, seconds);
+    if (other && (!best || other->match.surprise < best->match.surprise)) best = other;
+  }
+  return best ? best : blind;
 }
 
-// With every key frame, as if the camera were there again; the one that fits best.
-std::optional<RgbdTracker::Found> RgbdTracker::seek(const RgbdPyramid& image, const Expected& expected) const {
-  CameraMotion unknown = motion();
-  unknown.velocity.setZero();
+const FeatureSet& RgbdTracker::featuresOf(const Image& image) const {
+  if (!image.features) image.features = feature_matcher_.prepare(image.pyramid);
+  return *image.features;
+}
+
+// From where the corners say it is.
+std::optional<RgbdTracker::Found> RgbdTracker::followByFeatures(const std::vector<std::size_t>& keys,
+                                                                const Image& image, const Expected& expected,
+                                                                double seconds) const {
   std::optional<Found> best;
-  if (!medianDepth(image)) return best;
-  constexpr double kSurely = 0.5, kSurprise = 0.1;  // it could be anywhere: only what fits well is believed
-  for (std::size_t k = 0; k < keys_.size(); ++k) {
-    const auto found = match(k, image, keys_[k].map_from_camera, Matrix6d::Zero(), unknown);
-    if (!found.succeeded || found.overlap < kSurely || found.surprise > kSurprise) continue;
-    if (!expected.allows(keys_[k].map_from_camera * found.reference_from_image)) continue;
-    if (!best || found.surprise < best->match.surprise) best = Found{k, found};
+  for (const std::size_t key : keys) {
+    const auto corners = feature_matcher_.match(*keys_[key].features, featuresOf(image));
+    const Se3 map_from_camera = keys_[key].map_from_camera * corners.reference_from_image;
+    if (!corners.succeeded || !expected.allows(map_from_camera)) continue;
+    CameraMotion moved = motion();
+    moved.velocity = minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds;
+    const auto found = match(key, image, map_from_camera, Matrix6d::Zero(), moved);
+    if (!found.succeeded || !expected.allows(keys_[key].map_from_camera * found.reference_from_image)) continue;
+    if (!best || found.surprise < best->match.surprise) best = Found{key, found};
   }
   return best;
 }
 
-RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const RgbdPyramid& image, Found found,
-                                       const Expected& expected, How how, double seconds) {
+// By the key frames that most of its corners were seen in; else with every key frame, as if the camera were there
+// again. The one that fits best.
+std::optional<RgbdTracker::Found> RgbdTracker::seek(const Image& image, const Expected& expected) const {
+  CameraMotion unknown = motion();
+  unknown.velocity.setZero();
+  std::optional<Found> best;
+  if (!medianDepth(image.pyramid)) return best;
+  constexpr double kSurely = 0.5, kSurprise = 0.1;  // it could be anywhere: only what fits well is believed
+  const Matrix6d known = expected.is_measured ? expected.information : Matrix6d::Zero();
+  const auto tryFrom = [&](std::size_t key, const Se3& map_from_camera, double least_overlap) {
+    const auto found = match(key, image, map_from_camera, known, unknown);
+    if (!found.succeeded || found.overlap < least_overlap || found.surprise > kSurprise) return;
+    if (!expected.allows(keys_[key].map_from_camera * found.reference_from_image)) return;
+    if (!best || found.surprise < best->match.surprise) best = Found{key, found};
+  };
+  constexpr double kSeenBefore = 0.2;  // corners tell that it is the same place
+  if (!expected.is_measured)
+    for (const auto& [key, pose] : posesByFeatures(image)) tryFrom(key, pose, kSeenBefore);
+  if (best) return best;
+  for (std::size_t k = 0; k < keys_.size(); ++k)
+    tryFrom(k, expected.is_measured ? expected.map_from_camera : keys_[k].map_from_camera, kSurely);
+  return best;
+}
+
+// Of the few key frames that share most corners with the image.
+std::vector<std::pair<std::size_t, Se3>> RgbdTracker::posesByFeatures(const Image& image) const {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::pair<std::size_t, std::pair<std::size_t, Se3>>> all;  // by the number of corners
+  for (std::size_t k = 0; options_.use_features && k < keys_.size(); ++k) {
+    const auto corners = feature_matcher_.match(*keys_[k].features, featuresOf(image));
+    if (corners.succeeded)
+      all.push_back({corners.inliers, {k, keys_[k].map_from_camera * corners.reference_from_image}});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::pair<std::size_t, Se3>> poses;
+  for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i) poses.push_back(all[i].second);
+  return poses;
+}
+
+RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const Image& image, Found found, const Expected& expected,
+                                       How how, double seconds) {
   current_ = found.key;
   Se3 map_from_camera = keys_[current_].map_from_camera * found.match.reference_from_image;
   const bool is_far = farness(keys_[current_], map_from_camera) > 1 || found.match.overlap < options_.key_overlap;
   Tracked tracked;
-  if (is_far && medianDepth(image)) {
+  if (is_far && medianDepth(image.pyramid)) {
     // Whether a frame of before sees it better: much nearer than where a new one is due.
     constexpr double kMuchNearer = 0.8;
     const auto other = nearest(map_from_camera, kMuchNearer, current_);
@@ -217,8 +282,8 @@ RgbdTracker::Expected RgbdTracker::expectedAfter(double seconds, const std::opti
     const Matrix6d covariance = prediction->information.inverse();
     expected.map_from_camera = expected.about = map_from_last_ * prediction->reference_from_image;
     expected.information = prediction->information;
-    expected.most = kSlack + kSigmas * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
-    expected.most_turn = kSlackTurn + kSigmas * std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+    expected.most = kToldSlack + kSigmas * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+    expected.most_turn = kToldSlackTurn + kSigmas * std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
     expected.is_measured = true;
     return expected;
   }
@@ -243,9 +308,10 @@ RgbdTracker::Tracked RgbdTracker::lostAt(base::Stamp last) const {
   return lost;
 }
 
-RgbdTracker::Tracked RgbdTracker::track(base::Stamp stamp, const RgbdPyramid& image,
+RgbdTracker::Tracked RgbdTracker::track(base::Stamp stamp, const RgbdPyramid& pyramid,
                                         const std::optional<DenseGuess>& prediction) {
-  const bool can_begin = medianDepth(image).has_value();
+  const bool can_begin = medianDepth(pyramid).has_value();
+  const Image image{pyramid};
   if (!last_ && can_begin) return begin(stamp, image, Se3{});
   if (!last_) return lostAt(stamp);
   // Of stamps that nearly coincide the noise would be a speed.

@@ -74,7 +74,7 @@ std::pair<int, int> groupAround(const LoosePoints& points, int i) {
 }
 
 // The plane through three points of a group; none if they are on a line, or it is seen edge-on.
-std::optional<geometry::Plane3> drawPlane(const LoosePoints& points, double min_incidence, SplitMix& random) {
+std::optional<geometry::Plane3> drawPlane(const LoosePoints& points, double min_incidence, base::SplitMix& random) {
   const int first = random.below(static_cast<int>(points.size()));
   const auto [begin, end] = groupAround(points, first);
   if (end - begin < 3) return std::nullopt;
@@ -183,7 +183,7 @@ geometry::Plane3 fitPlane(const LoosePoints& points, const std::vector<int>& mem
 }
 
 std::optional<geometry::Plane3> findPlane(const LoosePoints& points, const CloudPlaneOptions& options,
-                                          SplitMix& random) {
+                                          base::SplitMix& random) {
   if (points.size() < static_cast<std::size_t>(options.min_points)) return std::nullopt;
   std::optional<geometry::Plane3> best;
   int most = 0;

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <omnimapper/base/SplitMix.h>
 #include <omnimapper/perception/CloudPlaneFinder.h>
 
 #include <optional>
 #include <vector>
 
-#include "../SplitMix.h"
 #include "VoxelGrid.h"
 
 namespace omnimapper::perception::clouds {
@@ -39,7 +39,7 @@ LoosePoints loosen(const Voxels& voxels, const CloudPlaneOptions& options);
 /// The plane that most points are on, of those through three neighbours and after least squares; none if fewer than
 /// `options.min_points` are. Normal towards the origin.
 std::optional<geometry::Plane3> findPlane(const LoosePoints& points, const CloudPlaneOptions& options,
-                                          SplitMix& random);
+                                          base::SplitMix& random);
 
 /// Least squares, weighted by how far points may be off a plane that is known roughly, and by how many each is the mean
 /// of. Normal towards the origin.

@@ -1,7 +1,8 @@
+#include <omnimapper/base/SplitMix.h>
+
 #include <algorithm>
 #include <cstdint>
 
-#include "../SplitMix.h"
 #include "LineFinder.h"
 #include "LineFit.h"
 
@@ -14,7 +15,7 @@ class Ransac : public LineFinder {
   explicit Ransac(const LaserLineOptions& options) : options_(options), limit_(options.gate * options.gate) {}
 
   std::vector<Stretch> find(const ScanPoints& points) const override {
-    SplitMix random(static_cast<std::uint64_t>(options_.seed));
+    base::SplitMix random(static_cast<std::uint64_t>(options_.seed));
     std::vector<int> left(points.x.size());
     for (std::size_t i = 0; i < left.size(); ++i) left[i] = static_cast<int>(i);
     std::vector<Stretch> found;
@@ -59,7 +60,7 @@ class Ransac : public LineFinder {
     return inliers;
   }
 
-  Inliers largestSet(const ScanPoints& points, const std::vector<int>& left, SplitMix& random) const {
+  Inliers largestSet(const ScanPoints& points, const std::vector<int>& left, base::SplitMix& random) const {
     const int size = static_cast<int>(left.size());
     // The second point is not far in the scan from the first: more often on the same wall than one from anywhere.
     const int window = std::max(4, size / 4);

@@ -3,11 +3,14 @@
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/matching/DenseMatcher.h>
+#include <omnimapper/matching/FeatureMatcher.h>
 
 #include <cstddef>
 #include <deque>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace omnimapper::matching {
 
@@ -23,6 +26,7 @@ struct RgbdTrackerOptions {
   double picture_delay = 0.006;        ///< [s] of the picture's middle after that of the depths
   double picture_delay_sigma = 0.012;  ///< [s]
   double longest_loss = 2;             ///< [s] after which a lost camera begins anew
+  bool use_features = true;            ///< corners tell the motion where it was too fast for the rest
 
   static const base::OptionTable<RgbdTrackerOptions>& table();
 };
@@ -34,7 +38,8 @@ struct RgbdTrackerOptions {
 /// says where to look, and tells the shutters' motion.
 class RgbdTracker {
  public:
-  RgbdTracker(const RgbdTrackerOptions& options, const DenseMatcherOptions& matching);
+  RgbdTracker(const RgbdTrackerOptions& options, const DenseMatcherOptions& matching,
+              const FeatureMatcherOptions& features = {});
 
   struct Tracked {
     enum class How {
@@ -60,8 +65,14 @@ class RgbdTracker {
  private:
   struct KeyFrame {
     std::shared_ptr<const DenseReference> reference;
+    std::shared_ptr<const FeatureSet> features;  // none without use_features
     geometry::Se3 map_from_camera;
     double depth;  // [m] median
+  };
+  /// The image, and its features once somebody asks for them.
+  struct Image {
+    const RgbdPyramid& pyramid;
+    mutable std::shared_ptr<const FeatureSet> features = nullptr;
   };
   struct Found {
     std::size_t key;
@@ -77,24 +88,29 @@ class RgbdTracker {
 
     bool allows(const geometry::Se3& map_from_camera) const;
   };
-  Tracked begin(base::Stamp stamp, const RgbdPyramid& image, const geometry::Se3& map_from_camera);
+  Tracked begin(base::Stamp stamp, const Image& image, const geometry::Se3& map_from_camera);
   Tracked lostAt(base::Stamp last) const;
-  void makeKeyFrame(const RgbdPyramid& image, const geometry::Se3& map_from_camera, double picture_delay);
+  void makeKeyFrame(const Image& image, const geometry::Se3& map_from_camera, double picture_delay);
   CameraMotion motion() const;
   /// How far off the view of a key frame is: 1 where another one is due.
   double farness(const KeyFrame& key, const geometry::Se3& map_from_camera) const;
   std::optional<std::size_t> nearest(const geometry::Se3& map_from_camera, double farthest,
                                      std::optional<std::size_t> but) const;
-  DenseMatch match(std::size_t key, const RgbdPyramid& image, const geometry::Se3& map_from_camera,
+  DenseMatch match(std::size_t key, const Image& image, const geometry::Se3& map_from_camera,
                    const geometry::Matrix6d& information, const CameraMotion& motion) const;
   Expected expectedAfter(double seconds, const std::optional<DenseGuess>& prediction) const;
-  std::optional<Found> follow(const RgbdPyramid& image, const Expected& expected, double seconds) const;
-  std::optional<Found> seek(const RgbdPyramid& image, const Expected& expected) const;
-  Tracked take(base::Stamp stamp, const RgbdPyramid& image, Found found, const Expected& expected, Tracked::How how,
+  std::optional<Found> follow(const Image& image, const Expected& expected, double seconds) const;
+  std::optional<Found> followByFeatures(const std::vector<std::size_t>& keys, const Image& image,
+                                        const Expected& expected, double seconds) const;
+  const FeatureSet& featuresOf(const Image& image) const;
+  std::vector<std::pair<std::size_t, geometry::Se3>> posesByFeatures(const Image& image) const;
+  std::optional<Found> seek(const Image& image, const Expected& expected) const;
+  Tracked take(base::Stamp stamp, const Image& image, Found found, const Expected& expected, Tracked::How how,
                double seconds);
 
   RgbdTrackerOptions options_;
   DenseMatcher matcher_;
+  FeatureMatcher feature_matcher_;
   std::deque<KeyFrame> keys_;
   std::size_t current_ = 0;                 // of keys_
   std::optional<base::Stamp> last_, told_;  // image that was tracked last, and that left no direction open

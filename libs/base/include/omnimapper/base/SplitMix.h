@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace omnimapper::perception {
+namespace omnimapper::base {
 
 /// Steele, Lea, Flood: Fast splittable pseudorandom number generators (2014).
 class SplitMix {
@@ -22,4 +22,4 @@ class SplitMix {
   std::uint64_t state_;
 };
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::base

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <omnimapper/matching/RgbdPyramid.h>
+#include <omnimapper/perception/DepthImage.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace omnimapper::matching {
+
+class FeatureSet {
+ public:
+  /// A corner, where the camera sees it.
+  struct Corner {
+    Eigen::Vector3d seen;   // column, row [px], inverse depth [1/m]
+    Eigen::Vector3d point;  // optical frame [m]
+    double scale;           // by which its place is less exact than a corner's of the finest level
+  };
+  using Descriptor = std::array<std::uint64_t, 4>;
+
+  /// At most `most` corners that have a depth, spread over the image.
+  FeatureSet(const RgbdPyramid& image, int most);
+
+  perception::Pinhole camera;
+  std::vector<Corner> corners;
+  std::vector<Descriptor> descriptors;
+};
+
+}  // namespace omnimapper::matching
