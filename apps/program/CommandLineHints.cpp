@@ -25,8 +25,9 @@ std::string didYouMean(const std::string& name, const std::vector<std::string>& 
 // The option that takes such a file, or "".
 std::string optionFor(const std::string& argument, const CLI::App& app) {
   std::error_code error;
-  if (!std::filesystem::exists(argument, error)) return "";
-  const bool is_ini = std::filesystem::path(argument).extension() == ".ini";
+  const auto extension = std::filesystem::path(argument).extension();
+  const bool is_ini = extension == ".ini";
+  if (!is_ini && extension != ".rawlog" && !std::filesystem::exists(argument, error)) return "";
   const auto* option = app.get_option_no_throw(is_ini ? "--ini" : "--rawlog");
   return !option ? "" : is_ini ? "-i" : "-r";
 }
@@ -35,7 +36,8 @@ std::string optionFor(const std::string& argument, const CLI::App& app) {
 
 void sayUnknown(const CLI::App& app) {
   std::vector<std::string> known;
-  for (const auto* option : app.get_options())
+  const auto parsed = app.get_subcommands();  // of several tasks the one that was named
+  for (const auto* option : (parsed.empty() ? app : *parsed.front()).get_options())
     for (const auto& name : option->get_lnames()) known.push_back("--" + name);
   const auto unknown = app.remaining(true);
   bool is_misspelt = false;  // then a value may stand alone because of that

@@ -51,9 +51,9 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
   } catch (const CLI::ExtrasError&) {
     return sayUnknown(app), static_cast<int>(base::ExitCode::command_line);
   } catch (const CLI::ParseError& error) {
-    const bool is_help = error.get_exit_code() == 0;
-    if (is_help || !saidTasks(app)) app.exit(error);
-    return is_help ? 0 : static_cast<int>(base::ExitCode::command_line);
+    if (error.get_exit_code() == 0) return app.exit(error);
+    if (!saidTasks(app)) std::cerr << app.get_name() << ": " << base::printableLines(error.what()) << "; see --help\n";
+    return static_cast<int>(base::ExitCode::command_line);
   } catch (const base::Error& error) {
     std::cerr << app.get_name() << ": " << base::printableLines(error.what()) << "\n";
     return static_cast<int>(error.code());

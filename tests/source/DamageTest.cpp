@@ -235,9 +235,13 @@ TEST_F(DamageTest, aFolderIsRefusedWithWhatItIsFor) {
   };
   says("nothing", "notes.txt", "is a folder, in which there is nothing that can be read");
   says("map", "map.omnimap", "is the folder of a map, no log");
-  says("logs", "b.rawlog", "a log in it is b.rawlog");
+  says("logs", "b.rawlog", "a log in it is " + (folder_ / "logs/b.rawlog"));
   says("tum", "depth.txt", "omnimapper-import tum " + (folder_ / "tum"));
   says("scenes", "frame-000000.depth.png", "omnimapper-import tum " + (folder_ / "scenes"));
+  says("parent/inner", "depth.txt", "is a folder of RGB-D images");
+  EXPECT_NE(refusal(folder_ / "parent").find("in it, " + (folder_ / "parent/inner") + " is a folder of RGB-D"),
+            std::string::npos);
+  says("located", "localization.csv", "is the folder of a run with --localize");
   says("clouds", "1.pcd", "omnimapper-import pcd " + (folder_ / "clouds"));
 }
 

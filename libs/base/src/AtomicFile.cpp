@@ -120,6 +120,8 @@ void removeLeftovers(const fs::path& target) {
 
 void makeWritableFolder(const std::string& folder) {
   std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw Error(ExitCode::unwritable_output, folder + ": is a file, where a folder is to be; choose another name.");
   fs::create_directories(folder, error);
   if (error) failForFolder(folder, "this", error.message());
   if (const auto reason = whyUnwritable(folder); !reason.empty()) failForFolder(folder, "this", reason);
@@ -128,6 +130,9 @@ void makeWritableFolder(const std::string& folder) {
 void replaceFile(const std::string& path, const std::function<void(const std::string&)>& save) {
   refuseToReplaceKeptInput(path);
   const fs::path target(path);
+  std::error_code none;
+  if (fs::is_directory(target, none))
+    throw Error(ExitCode::unwritable_output, path + ": is a folder; name a file in it to write.");
   if (const auto reason = whyUnwritable(folderOf(target)); !reason.empty()) failForFolder(path, "its", reason);
   const std::string temporary = temporaryOf(target).string();
   removeLeftovers(target);

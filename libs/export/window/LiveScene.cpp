@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <unordered_map>
+#include <vector>
 
 #include "grid/GridFloor.h"
 #include "grid/GridMapper.h"
@@ -31,6 +32,8 @@ bool isSet(const char* variable) {
 /// bits, which are spread from the nearest on; Mesa's software renderer still hid lines behind the grid where the
 /// nearest was 1/30, not at 1/20.
 constexpr double kNearest = 1.0 / 16, kFarthest = 10, kDepthStep = 12 / kNearest / (1 << 16);
+
+constexpr double kAxesInView = 30;  ///< of the length of the newest pose's axes is the camera's distance at least
 
 ScanGridOptions gridOptions(const LiveWindowOptions& options) {
   constexpr double kMostCells = 4e6;  // what a window can show; a larger map gets coarser cells
@@ -95,6 +98,7 @@ class MrptScene : public LiveScene {
       replace(*refused_, closureLines(closures, false));
       replace(*landmarks_, landmarkObjects(shapesOf(view), false));
       pose_->setPose(view.map.key_frames.back().map_from_base);
+      pose_->setScale(static_cast<float>(std::min(1.0, sight.distance / kAxesInView)));
       const auto count =
           std::count_if(closures.begin(), closures.end(), [](const Closure& c) { return c.decision->accepted; });
       mrpt::opengl::TFontParams font;
@@ -165,7 +169,7 @@ class MrptScene : public LiveScene {
     return cloud;
   }
 
-  /// From where all key frames are seen.
+  /// From where all key frames are seen, and what cameras saw from them.
   struct Sight {
     mrpt::math::TPoint3D target;
     double distance;  // [m] of the camera from it
@@ -177,7 +181,29 @@ class MrptScene : public LiveScene {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    return {0.5 * (low + high), 12 + 1.6 * (high - low).norm()};
+    if (!hasClouds(map.key_frames.front())) return {0.5 * (low + high), 12 + 1.6 * (high - low).norm()};
+    constexpr std::size_t kEvery = 50;  // points of a key frame
+    std::vector<double> xs, ys, zs;
+    for (const map::KeyFrame& frame : map.key_frames) {
+      for (std::size_t i = 0; i < frame.cloud.size(); i += kEvery) {
+        const auto p = frame.map_from_base.composePoint(frame.cloud[i].inBase());
+        xs.push_back(p.x);
+        ys.push_back(p.y);
+        zs.push_back(p.z);
+      }
+    }
+    widen(xs, low.x, high.x);
+    widen(ys, low.y, high.y);
+    widen(zs, low.z, high.z);
+    return {0.5 * (low + high), 1 + 1.6 * (high - low).norm()};
+  }
+  /// So that all but the outermost of them lie between.
+  static void widen(std::vector<double>& values, double& low, double& high) {
+    if (values.empty()) return;
+    std::sort(values.begin(), values.end());
+    const std::size_t cut = values.size() / 50;
+    low = std::min(low, values[cut]);
+    high = std::max(high, values[values.size() - 1 - cut]);
   }
 
   void lookFrom(const Sight& sight) {

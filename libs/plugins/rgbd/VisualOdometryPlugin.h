@@ -12,7 +12,8 @@ namespace omnimapper::plugins {
 class VisualOdometryPlugin : public CameraOdometry {
  public:
   VisualOdometryPlugin(const CameraOdometryOptions& options, const matching::RgbdTrackerOptions& tracking,
-                       const matching::DenseMatcherOptions& matching, const matching::FeatureMatcherOptions& features = {});
+                       const matching::DenseMatcherOptions& matching,
+                       const matching::FeatureMatcherOptions& features = {});
 
  private:
   ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,

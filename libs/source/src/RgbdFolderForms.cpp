@@ -262,16 +262,6 @@ bool isSevenScenes(const fs::path& folder) {
   return false;
 }
 
-// Of a scene of 7-Scenes as it is unpacked.
-std::string sequenceIn(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_directory() && isSevenScenes(entry.path())) names.push_back(entry.path().filename().string());
-  }
-  if (names.empty()) return "";
-  return "; " + *std::min_element(names.begin(), names.end()) + " in it is one of 7-Scenes";
-}
-
 }  // namespace
 
 RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions& options) {
@@ -291,12 +281,10 @@ RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions
   else if (isSevenScenes(folder))
     content = readSevenScenes(folder, options);
   else
-    refuse(
-        folder,
-        std::string(
-            "is of no form that is known: depth.txt and rgb.txt (TUM), associations.txt, or depth/ and rgb/ or image/ "
-            "(ICL-NUIM), frame-*.depth.png (7-Scenes)") +
-            sequenceIn(folder) + "; it " + describeInput(folder));
+    refuse(folder,
+           "is of no form that is known: depth.txt and rgb.txt (TUM), associations.txt, or depth/ and rgb/ or image/ "
+           "(ICL-NUIM), frame-*.depth.png (7-Scenes); it " +
+               describeInput(folder));
   std::stable_sort(content.pairs.begin(), content.pairs.end(),
                    [](const RgbdPair& a, const RgbdPair& b) { return a.stamp < b.stamp; });
   return content;

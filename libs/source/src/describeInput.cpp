@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <vector>
 
 #include "CompressedFile.h"
 
@@ -63,13 +64,18 @@ std::string firstWith(const std::string& end, const std::filesystem::path& folde
   return first;
 }
 
-std::string describeFolder(const std::string& path) {
+// What is known of it, or "".
+std::string knownFolder(const std::string& path) {
   const std::filesystem::path folder(path);
   std::error_code error;
   if (std::filesystem::exists(folder / "map.omnimap", error))
     return "is the folder of a map, no log: report.html in it shows the map, summary.json has its numbers and verdict; "
            "--continue and --localize take it.";
-  if (const auto log = firstWith(".rawlog", folder); !log.empty()) return "is a folder; a log in it is " + log + ".";
+  if (std::filesystem::exists(folder / "localization.csv", error))
+    return "is the folder of a run with --localize, neither a log nor a map; the map is in the folder that it was "
+           "given.";
+  if (const auto log = firstWith(".rawlog", folder); !log.empty())
+    return "is a folder; a log in it is " + (folder / log).string() + ".";
   const bool has_images = std::filesystem::exists(folder / "depth.txt", error) ||
                           std::filesystem::is_directory(folder / "depth", error) ||
                           !firstWith(".depth.png", folder).empty();
@@ -79,6 +85,18 @@ std::string describeFolder(const std::string& path) {
   };
   if (has_images) return import("RGB-D images", "tum");
   if (!firstWith(".pcd", folder).empty()) return import("PCD clouds", "pcd");
+  return "";
+}
+
+std::string describeFolder(const std::string& path) {
+  if (const auto known = knownFolder(path); !known.empty()) return known;
+  std::error_code error;
+  std::vector<std::string> inner;
+  for (const auto& entry : std::filesystem::directory_iterator(path, error))
+    if (entry.is_directory(error)) inner.push_back(entry.path().string());
+  std::sort(inner.begin(), inner.end());
+  for (const auto& folder : inner)
+    if (const auto known = knownFolder(folder); !known.empty()) return "is a folder; in it, " + folder + " " + known;
   return "is a folder, in which there is nothing that can be read; name a file.";
 }
 

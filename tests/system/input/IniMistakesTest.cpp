@@ -45,7 +45,7 @@ TEST_F(IniMistakes, MisspeltKeysAreRefusedWithTheNearest) {
 TEST_F(IniMistakes, MisspeltSectionsAreRefusedWithTheNearest) {
   expectRefused(laser2dAnd("[triger]\ndistance_m = 1\n"), ExitCode::unknown_key, {"[triger]", "'trigger'"});
   expectRefused(laser2d("[odometry]", "[odometrie]"), ExitCode::unknown_plugin,
-                {"[odometry]", "class = ...", "no such section"});
+                {"[odometry]", "class = ...", "there is no section"});
 }
 
 TEST_F(IniMistakes, WhatStandsTwiceOrOutsideOfASectionIsRefusedWithItsLine) {

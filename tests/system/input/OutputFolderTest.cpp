@@ -53,7 +53,8 @@ TEST_F(OutputFolder, IsMadeWithItsParents) {
 
 TEST_F(OutputFolder, ThatCannotBeMadeOrWrittenIsRefusedByName) {
   const std::string file = writeFile(scratch_ / "file", "a file");
-  for (const std::string& folder : {file, file + "/below", std::string("/proc/self")}) {
+  EXPECT_TRUE(endedWith(ExitCode::unwritable_output, map({log_path_}, file), {file, "is a file, where a folder"}));
+  for (const std::string& folder : {file + "/below", std::string("/proc/self")}) {
     EXPECT_TRUE(endedWith(ExitCode::unwritable_output, map({log_path_}, folder), {folder, "permissions"}));
   }
   EXPECT_EQ(readFile(file), "a file");

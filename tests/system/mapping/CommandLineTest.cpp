@@ -82,8 +82,8 @@ TEST_F(CommandLine, MistakesAreAnsweredWithWhatWasMeant) {
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, graphslam({"-i", "ini/laser2d.ini", "-r", log, "-o", out}), {log}))
       << "with the folder that it has in a checkout, an INI that came with the program is found, too";
   EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({"--ouput", out}), {"did you mean --output?"}));
-  EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({"nowhere.rawlog"}),
-                        {"'nowhere.rawlog' stands without an option; --help"}));
+  EXPECT_TRUE(
+      endedWith(ExitCode::command_line, graphslam({"nowhere"}), {"'nowhere' stands without an option; --help"}));
   std::ofstream(log) << "a log";
   EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({log}), {"did you mean -r " + log + "?"}));
   EXPECT_TRUE(

@@ -9,28 +9,32 @@ namespace omnimapper::exports {
 
 namespace {
 
-// Six steps of red and blue, seven of green, and paper.
-constexpr int kRedSteps = 6, kGreenSteps = 7, kBlueSteps = 6;
-constexpr std::uint8_t kPaperIndex = kRedSteps * kGreenSteps * kBlueSteps;
+// Six steps of each colour; grey, which most of a building is, in finer ones; and paper.
+constexpr int kSteps = 6, kColours = kSteps * kSteps * kSteps, kGreys = 39;
+constexpr std::uint8_t kPaperIndex = kColours + kGreys;
 
-std::vector<draw::Rgb> colourCube() {
+std::vector<draw::Rgb> coloursAndGreys() {
   const auto level = [](int i, int steps) { return static_cast<std::uint8_t>(255 * i / (steps - 1)); };
   std::vector<draw::Rgb> colours;
-  for (int r = 0; r < kRedSteps; ++r) {
-    for (int g = 0; g < kGreenSteps; ++g) {
-      for (int b = 0; b < kBlueSteps; ++b)
-        colours.push_back({level(r, kRedSteps), level(g, kGreenSteps), level(b, kBlueSteps)});
-    }
-  }
+  for (int i = 0; i < kColours; ++i)
+    colours.push_back(
+        {level(i / (kSteps * kSteps), kSteps), level(i / kSteps % kSteps, kSteps), level(i % kSteps, kSteps)});
+  for (int i = 0; i < kGreys; ++i) colours.push_back({level(i, kGreys), level(i, kGreys), level(i, kGreys)});
   colours.push_back({226, 231, 237});
   return colours;
 }
 
-std::uint8_t indexOf(const draw::Rgb& colour) {
+// The nearer one of the nearest colour and the nearest grey of the palette.
+std::uint8_t indexOf(const draw::Rgb& colour, const std::vector<draw::Rgb>& palette) {
   const auto step = [](int value, int steps) { return (value * (steps - 1) + 127) / 255; };
-  return static_cast<std::uint8_t>((step(colour.r, kRedSteps) * kGreenSteps + step(colour.g, kGreenSteps)) *
-                                       kBlueSteps +
-                                   step(colour.b, kBlueSteps));
+  const int of_colours = (step(colour.r, kSteps) * kSteps + step(colour.g, kSteps)) * kSteps + step(colour.b, kSteps);
+  const int of_greys = kColours + step((colour.r + colour.g + colour.b) / 3, kGreys);
+  const auto distance = [&](int index) {
+    const auto& other = palette[static_cast<std::size_t>(index)];
+    const int r = colour.r - other.r, g = colour.g - other.g, b = colour.b - other.b;
+    return r * r + g * g + b * b;
+  };
+  return static_cast<std::uint8_t>(distance(of_greys) < distance(of_colours) ? of_greys : of_colours);
 }
 
 double quantileOf(std::vector<double> values, double part) {
@@ -84,13 +88,13 @@ std::optional<GridPicture> cloudPicture(const map::Map& map, const std::vector<m
   const auto pixels = [&](double metres) { return static_cast<int>(std::ceil(metres / picture.metres_per_pixel)); };
   image.width = pixels(right - left + 2 * margin);
   image.height = pixels(high - low + margin + below);
-  image.palette = colourCube();
+  image.palette = coloursAndGreys();
   image.pixels.assign(static_cast<std::size_t>(image.width) * image.height, kPaperIndex);
   const double half =
       0.7 * kCube / picture.metres_per_pixel;  // squares that meet, though points lie anywhere in a cube
   for (const auto& point : points) {
     const auto at = picture.pixelOf(point.in_map.x, point.in_map.y);
-    const auto index = indexOf(point.colour);
+    const auto index = indexOf(point.colour, image.palette);
     const auto first = [&](double centre) { return std::max(0, static_cast<int>(std::floor(centre - half))); };
     const auto end = [&](double centre, int size) {
       return std::min(size, static_cast<int>(std::ceil(centre + half)));

@@ -88,6 +88,18 @@ std::string withArticle(PluginKind kind) {
   return (name.front() == 'o' || name.front() == 'e' ? "an " : "a ") + name;
 }
 
+// A name that no section has is probably misspelt where the sections are listed.
+[[noreturn]] void failWithoutSection(const std::string& name, PluginKind kind, const base::Config& config) {
+  std::string key = toString(kind) + "s";
+  std::replace(key.begin(), key.end(), ' ', '_');
+  const std::string section = kind == PluginKind::extractor ? "perception" : "mapper";
+  const std::string near = base::nearestName(name, config.switchedOffPlugins());
+  throw base::Error(base::ExitCode::unknown_plugin, config.placeOf(section, key) + ": [" + section + "] " + key +
+                                                        " names '" + name + "', and there is no section [" + name +
+                                                        "] with a line 'class = ...'" +
+                                                        (near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
+
 template <class Factory, class Plugin>
 void makeAll(const std::vector<std::string>& names, PluginKind kind, const base::Config& config, PluginContext context,
              std::vector<Named<Plugin>>& plugins) {
@@ -98,13 +110,13 @@ void makeAll(const std::vector<std::string>& names, PluginKind kind, const base:
                                                           "] is named twice; name it once, or give the second a " +
                                                           "section of its own");
     }
+    if (!config.has(name)) failWithoutSection(name, kind, config);
     const std::string place = config.placeOf(name, "class") + ": [" + name + "]";
     const auto section = config.section(name);
     std::string class_name;
     if (!section.find("class", class_name)) {
-      throw base::Error(base::ExitCode::unknown_plugin, place + ": the section of " + withArticle(kind) +
-                                                            " needs a line 'class = ...'" +
-                                                            (config.has(name) ? "" : "; the file has no such section"));
+      throw base::Error(base::ExitCode::unknown_plugin,
+                        place + ": the section of " + withArticle(kind) + " needs a line 'class = ...'");
     }
     const auto factory = findFactory(kind, class_name, place + " class");
     context.section = name;

@@ -43,14 +43,18 @@ void warnOfCounts(const RunCounts& counts, std::size_t key_frames, Engine& engin
   };
   warn(counts.no_stamp, "without a stamp: left out");
   warn(counts.repeated_stamp,
-       "with the stamp of the one before: left out; if the stamps stand still, [source] step_s stamps the log anew");
+       "with the stamp of the one before: left out; is a log given twice, or do two overlap? If the stamps stand "
+       "still, [source] step_s stamps the log anew");
   warn(counts.too_late, "later than [mapper] horizon_s: left out");
   warn(counts.hurried,
        "worked on before [mapper] window_s was over, for more than queue_limit waited: do the stamps stand still?");
   warn(counts.unusable, "of odometry or poses, backwards in time or leaping: left out");
   warn(counts.unconnected,
        "without a pose: left out, for no pose plugin tells the motion; add a NoMotionPlugin to pose_plugins");
-  if (key_frames == 1) engine.warn("the map has one key frame: did the robot move, is the odometry in the log?");
+  if (key_frames == 1)
+    engine.warn(
+        "the map has one key frame: did robot or camera move, and does the log hold what tells how (odometry, scans, "
+        "or images that overlap)?");
 }
 
 bool isMostlyLeftOut(const RunCounts& counts) {
