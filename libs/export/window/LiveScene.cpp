@@ -181,7 +181,7 @@ class MrptScene : public LiveScene {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    if (!hasClouds(map.key_frames.front())) return {0.5 * (low + high), 12 + 1.6 * (high - low).norm()};
+    if (!hasDepthClouds(map)) return {0.5 * (low + high), 12 + 1.6 * (high - low).norm()};
     constexpr std::size_t kEvery = 50;  // points of a key frame
     std::vector<double> xs, ys, zs;
     for (const map::KeyFrame& frame : map.key_frames) {
