@@ -128,7 +128,7 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
   constexpr double kShortest = 0.03;   // [s] of stamps that nearly coincide the noise would be a speed
   if (!begun_) begun_ = scan.timestamp;
   ++images_;
-  returns_ += tracked.has_returned;
+  if (tracked.seen_before) countReturn(*tracked.seen_before, scan.timestamp);
   if (tracked.how == How::lost) {
     ++lost_;
     is_lost_ = true;
@@ -154,6 +154,23 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
   last_ = scan.timestamp;
   is_lost_ = false;
   lost_images_.clear();
+}
+
+void CameraOdometry::countReturn(base::Stamp seen_before, base::Stamp stamp) {
+  ++returns_;
+  while (!loops_.empty() && loops_.back().second >= seen_before) {
+    seen_before = std::min(seen_before, loops_.back().first);
+    loops_.pop_back();
+  }
+  loops_.emplace_back(seen_before, stamp);
+}
+
+// Of the time, what lies between two views of one place.
+double CameraOdometry::returnedPercent() const {
+  double seconds = 0;
+  for (const auto& [seen, seen_again] : loops_) seconds += base::secondsBetween(seen, seen_again);
+  const double all = begun_ && last_ ? base::secondsBetween(*begun_, *last_) : 0;
+  return all > 0 ? 100 * seconds / all : 0;
 }
 
 // From image to image, for a robot does not go straight on while its camera sees nothing. False where they do not tell
@@ -239,12 +256,21 @@ std::vector<mapper::Evidence> CameraOdometry::evidence() const {
   std::snprintf(text, sizeof text, "in %.0f %% of the images the camera saw nothing that tells all of its motion",
                 open);
   all.push_back({"camera_blind_percent", open, open > kMuch ? Says::too_little : Says::good, open > kMuch ? text : ""});
+  constexpr double kEnough = 25;  // [%]
+  const double returned = returnedPercent();
   std::snprintf(text, sizeof text,
-                returns_ > 0     ? "views of long before came back %zu times, and the images fitted them"
-                : seeksReturns() ? "the camera never came back to a view of before, where drift would be seen"
-                                 : "odometry by clouds does not look for views of before, where drift would be seen",
-                returns_);
-  all.push_back({"camera_returns", static_cast<double>(returns_), returns_ > 0 ? Says::good : Says::too_little, text});
+                !seeksReturns() ? "odometry by clouds does not look for views of before, where drift would be seen"
+                : returns_ == 0 ? "the camera never came back to a view of before, where drift would be seen"
+                : returned < kEnough
+                    ? "views of long before came back %zu times and the images fitted them, but only %.0f %% of the "
+                      "time lies between two views of one place, where drift would be seen"
+                    : "views of long before came back %zu times, and the images fitted them; %.0f %% of the time lies "
+                      "between two views of one place",
+                returns_, returned);
+  all.push_back({"camera_returns", static_cast<double>(returns_), returns_ > 0 ? Says::good : Says::too_little,
+                 returned < kEnough ? "" : text});
+  all.push_back({"camera_returned_percent", returned, returned < kEnough ? Says::too_little : Says::good,
+                 returned < kEnough ? text : ""});
   return all;
 }
 

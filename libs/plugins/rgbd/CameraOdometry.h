@@ -47,7 +47,7 @@ struct ImageMotion {
   /// Directions in the camera's frame that the image left open, tangent as in geometry::Se3: their projector; zero
   /// where there are none.
   geometry::Matrix6d open = geometry::Matrix6d::Zero();
-  bool has_returned = false;  ///< whether it shows again what a key frame of long before does
+  std::optional<base::Stamp> seen_before;  ///< when a key frame of long before saw what it shows again
 };
 
 /// A depth camera's motion from its images as a continuous pose source (thesis 5.3.3.1, 5.3.4.2): they are tracked in
@@ -80,6 +80,8 @@ class CameraOdometry : public mapper::PosePlugin {
   virtual bool seeksReturns() const { return true; }
   virtual ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
                             const std::optional<PredictedMotion>& prediction) = 0;
+  void countReturn(base::Stamp seen_before, base::Stamp stamp);
+  double returnedPercent() const;
   void follow(const mrpt::obs::CObservation3DRangeScan::ConstPtr& image);
   std::optional<mapper::RelativeMotion> wheelsBetween(base::Stamp begin, base::Stamp end) const;
   bool bridgeByWheels(base::Stamp stamp);
@@ -95,7 +97,8 @@ class CameraOdometry : public mapper::PosePlugin {
   std::optional<base::Stamp> last_;             // image that was tracked last
   matching::WheelOdometry wheels_;
   perception::LensStraightener lens_;
-  std::vector<base::Stamp> lost_images_;  // since then
+  std::vector<base::Stamp> lost_images_;                    // since then
+  std::vector<std::pair<base::Stamp, base::Stamp>> loops_;  // from views to their returns, apart from each other
   std::size_t images_ = 0, lost_ = 0, gaps_ = 0, returns_ = 0, bridged_ = 0, hasty_in_a_row_ = 0, runaways_ = 0,
               found_ = 0, unreadable_ = 0;
   bool has_begun_ = false, is_lost_ = false;

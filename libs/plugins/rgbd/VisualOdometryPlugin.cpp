@@ -28,7 +28,7 @@ ImageMotion VisualOdometryPlugin::track(const perception::RgbdView& view, base::
                                            : ImageMotion::How::tracked;
   motion.last_from_camera = tracked.last_from_camera;
   motion.last = tracked.last;
-  motion.has_returned = tracked.has_returned;
+  motion.seen_before = tracked.seen_before;
   if (tracked.match.open_directions > 0)
     motion.open = openDirections(tracked.match.covariance, matching::DenseMatch::kOpen);
   return motion;

@@ -103,7 +103,7 @@ DenseMatch RgbdTracker::match(std::size_t key, const Image& image, const Se3& ma
 RgbdTracker::Tracked RgbdTracker::begin(base::Stamp stamp, const Image& image, const Se3& map_from_camera) {
   velocity_.setZero();
   keys_.clear();  // where they lie from here is not known
-  makeKeyFrame(image, map_from_camera, options_.picture_delay);
+  makeKeyFrame(stamp, image, map_from_camera, options_.picture_delay);
   last_ = told_ = stamp;
   map_from_last_ = map_from_camera;
   is_lost_ = false;
@@ -114,7 +114,8 @@ RgbdTracker::Tracked RgbdTracker::begin(base::Stamp stamp, const Image& image, c
   return tracked;
 }
 
-void RgbdTracker::makeKeyFrame(const Image& image, const Se3& map_from_camera, double picture_delay) {
+void RgbdTracker::makeKeyFrame(base::Stamp stamp, const Image& image, const Se3& map_from_camera,
+                               double picture_delay) {
   CameraMotion moved = motion();
   moved.picture_delay = picture_delay;
   std::shared_ptr<const FeatureSet> features;
@@ -123,7 +124,7 @@ void RgbdTracker::makeKeyFrame(const Image& image, const Se3& map_from_camera, d
     features = image.features;
   }
   keys_.push_back(
-      {matcher_.prepare(image.pyramid, moved), features, map_from_camera, medianDepth(image.pyramid).value()});
+      {matcher_.prepare(image.pyramid, moved), features, stamp, map_from_camera, medianDepth(image.pyramid).value()});
   if (keys_.size() > static_cast<std::size_t>(options_.key_frames)) keys_.pop_front();
   current_ = keys_.size() - 1;
 }
@@ -248,7 +249,7 @@ RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const Image& image, Fo
     const auto isThere = [&] { return expected.allows(keys_[*other].map_from_camera * again->reference_from_image); };
     if (again && again->succeeded && again->overlap > options_.key_overlap && isThere()) {
       constexpr std::size_t kLongBefore = 5;  // key frames
-      tracked.has_returned = keys_.size() - *other > kLongBefore;
+      if (keys_.size() - *other > kLongBefore) tracked.seen_before = keys_[*other].stamp;
       current_ = *other;
       found.match = *again;
       map_from_camera = keys_[current_].map_from_camera * again->reference_from_image;
@@ -266,7 +267,7 @@ RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const Image& image, Fo
   map_from_last_ = map_from_camera;
   last_ = stamp;
   is_lost_ = false;
-  if (tracked.is_key_frame) makeKeyFrame(image, map_from_camera, found.match.delay);
+  if (tracked.is_key_frame) makeKeyFrame(stamp, image, map_from_camera, found.match.delay);
   return tracked;
 }
 

@@ -24,7 +24,7 @@ struct RgbdTrackerOptions {
   double depth_readout = 0.02;         ///< [s] from the first row of depths to the last
   double picture_readout = 0.025;      ///< [s] from the first row of the picture to the last
   double picture_delay = 0.006;        ///< [s] of the picture's middle after that of the depths
-  double picture_delay_sigma = 0.012;  ///< [s]
+  double picture_delay_sigma = 0.001;  ///< [s] with more of it a delay explains a motion that was none
   double longest_loss = 2;             ///< [s] after which a lost camera begins anew
   bool use_features = true;            ///< corners tell the motion where it was too fast for the rest
 
@@ -49,12 +49,12 @@ class RgbdTracker {
       lost,     ///< no key frame fits: pose and motion are not told
     };
     How how = How::begun;
-    geometry::Se3 map_from_camera;   ///< optical frame; the map's is the camera's at the beginning
-    geometry::Se3 last_from_camera;  ///< motion since the image that was tracked before
-    base::Stamp last;                ///< of that image
-    DenseMatch match;                ///< with the key frame
-    bool is_key_frame = false;       ///< whether it has become one
-    bool has_returned = false;       ///< whether it shows again what a key frame of long before does
+    geometry::Se3 map_from_camera;           ///< optical frame; the map's is the camera's at the beginning
+    geometry::Se3 last_from_camera;          ///< motion since the image that was tracked before
+    base::Stamp last;                        ///< of that image
+    DenseMatch match;                        ///< with the key frame
+    bool is_key_frame = false;               ///< whether it has become one
+    std::optional<base::Stamp> seen_before;  ///< when a key frame of long before saw what it shows again
   };
   /// Images by rising stamps. `prediction`: motion since the image tracked before, of the camera, from wheels or
   /// inertia; none: it goes on as it did.
@@ -66,6 +66,7 @@ class RgbdTracker {
   struct KeyFrame {
     std::shared_ptr<const DenseReference> reference;
     std::shared_ptr<const FeatureSet> features;  // none without use_features
+    base::Stamp stamp;
     geometry::Se3 map_from_camera;
     double depth;  // [m] median
   };
@@ -90,7 +91,7 @@ class RgbdTracker {
   };
   Tracked begin(base::Stamp stamp, const Image& image, const geometry::Se3& map_from_camera);
   Tracked lostAt(base::Stamp last) const;
-  void makeKeyFrame(const Image& image, const geometry::Se3& map_from_camera, double picture_delay);
+  void makeKeyFrame(base::Stamp stamp, const Image& image, const geometry::Se3& map_from_camera, double picture_delay);
   CameraMotion motion() const;
   /// How far off the view of a key frame is: 1 where another one is due.
   double farness(const KeyFrame& key, const geometry::Se3& map_from_camera) const;
