@@ -76,6 +76,15 @@ TEST(FeatureMatcher, WithoutCornersNothingIsFound) {
   EXPECT_FALSE(matcher.match(*blind, *matcher.prepare(room.pyramid(image))).succeeded) << "no picture";
 }
 
+TEST(FeatureMatcher, OfATinyImageThereIsNothing) {
+  auto room = tiledRoom();
+  for (const int width : {8, 16, 38}) {
+    room.width = width;
+    room.height = width / 2;
+    EXPECT_FALSE(matched(room, Se3{}, room, Se3{}).succeeded) << width;
+  }
+}
+
 TEST(FeatureMatcher, TheSameImagesGiveTheSameBits) {
   const auto room = tiledRoom();
   const Se3 motion = moved(0.1, 0.05, 0.05, 0.02, 0.1, 0.03);

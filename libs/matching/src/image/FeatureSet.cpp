@@ -65,6 +65,7 @@ FeatureSet::FeatureSet(const RgbdPyramid& image, int most) {
   floats.convertTo(grey, CV_8U);
   constexpr int kOfWhichSpread = 4, kLevels = 8, kEdge = 19, kFastThreshold = 8;
   constexpr float kScale = 1.2F;
+  if (std::min(level.width, level.height) <= 2 * kEdge) return;  // no corner is so far from the edge
   const auto orb =
       cv::ORB::create(kOfWhichSpread * most, kScale, kLevels, kEdge, 0, 2, cv::ORB::HARRIS_SCORE, 31, kFastThreshold);
   std::vector<cv::KeyPoint> keys;

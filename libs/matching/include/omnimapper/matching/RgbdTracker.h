@@ -34,8 +34,9 @@ struct RgbdTrackerOptions {
 /// Follows a camera from image to image. Each image is registered with a key frame, an earlier image whose pose is
 /// known: the nearest, so that drift grows with the way and not with the frame rate. Where the camera comes back to the
 /// view of an older key frame, that one is taken again. Before a bare wall, which leaves directions open, it goes on
-/// there as predicted, without wheels at most for `longest_loss`, and match.open_directions tells. The motion of late
-/// says where to look, and tells the shutters' motion.
+/// there as predicted, without wheels at most for `longest_loss`, and match.open_directions tells. Where a motion was
+/// too fast for depths and brightness, and where the view was lost, corners say where to look. The motion of late says
+/// where to look, and tells the shutters' motion.
 class RgbdTracker {
  public:
   RgbdTracker(const RgbdTrackerOptions& options, const DenseMatcherOptions& matching,
