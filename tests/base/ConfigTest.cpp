@@ -274,6 +274,11 @@ TEST(Config, ReadsFilesAndNamesTheOnesItCannotRead) {
   expectError([&] { Config::fromFile(folder.path()); }, ExitCode::unreadable_input, {folder.path()});
 }
 
+TEST(Config, NearestNameIsThatOfWhichItIsTheBeginning) {
+  EXPECT_EQ(nearestName("rel", {"ate", "rpe", "relations"}), "relations");
+  EXPECT_EQ(nearestName("re", {"ate", "rpe", "relations"}), "rpe") << "two letters begin too many words";
+}
+
 TEST(Config, NearestNameIsByEditDistanceOrNone) {
   const std::vector<std::string> names = {"odometry", "no_motion", "scan_matching"};
   EXPECT_EQ(nearestName("odometri", names), "odometry");

@@ -10,12 +10,6 @@ using geometry::Matrix6d;
 using geometry::Se3;
 using geometry::Vector6d;
 
-Se3 posed(double x, double y, double z, double turn_x, double turn_y, double turn_z) {
-  Vector6d delta;
-  delta << x, y, z, turn_x, turn_y, turn_z;
-  return geometry::plus(Se3{}, delta);
-}
-
 const Se3 kStart = posed(0.1, 0.05, -0.4, 0.1, 0.5, 0.02);
 const Se3 kMotion = posed(0.03, -0.02, 0.04, 0.02, -0.04, 0.03);  // 5 cm, 3 deg
 

@@ -10,12 +10,6 @@ namespace {
 using geometry::Se3;
 using geometry::Vector6d;
 
-Se3 moved(double x, double y, double z, double a, double b, double c) {
-  Vector6d delta;
-  delta << x, y, z, a, b, c;
-  return geometry::plus(Se3{}, delta);
-}
-
 RenderedRoom tiledRoom(unsigned tiles = 1) {
   RenderedRoom room;
   room.width = 640;
@@ -34,8 +28,8 @@ FeatureMatch matched(const RenderedRoom& there, const Se3& pose_there, const Ren
 
 TEST(FeatureMatcher, FindsAMotionHoweverFar) {
   const auto room = tiledRoom();
-  for (const Se3& motion : {moved(0.02, 0, 0.01, 0, 0.02, 0), moved(0.3, -0.1, 0.2, 0.05, 0.3, -0.1),
-                            moved(0, 0, 0, 0, 0, 0.8), moved(-0.2, 0.2, 0.4, 0.1, -0.2, 0.3)}) {
+  for (const Se3& motion : {posed(0.02, 0, 0.01, 0, 0.02, 0), posed(0.3, -0.1, 0.2, 0.05, 0.3, -0.1),
+                            posed(0, 0, 0, 0, 0, 0.8), posed(-0.2, 0.2, 0.4, 0.1, -0.2, 0.3)}) {
     const auto found = matched(room, Se3{}, room, motion);
     ASSERT_TRUE(found.succeeded) << found.pairs << " pairs, " << found.inliers << " agree";
     const Vector6d off = minus(found.reference_from_image, motion);
@@ -48,7 +42,7 @@ TEST(FeatureMatcher, ItsCovarianceIsOfTheErrorsSize) {
   auto room = tiledRoom();
   room.depth_noise = perception::DepthNoise{}.sigma;
   room.grey_noise = 2;
-  const Se3 motion = moved(0.1, 0.05, 0.05, 0.02, 0.1, 0.03);
+  const Se3 motion = posed(0.1, 0.05, 0.05, 0.02, 0.1, 0.03);
   double sum = 0;
   constexpr int kTrials = 10;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -62,13 +56,13 @@ TEST(FeatureMatcher, ItsCovarianceIsOfTheErrorsSize) {
 }
 
 TEST(FeatureMatcher, WhatIsNotTheSamePlaceIsNotBelieved) {
-  const auto found = matched(tiledRoom(1), Se3{}, tiledRoom(2), moved(0.1, 0, 0, 0, 0.1, 0));
+  const auto found = matched(tiledRoom(1), Se3{}, tiledRoom(2), posed(0.1, 0, 0, 0, 0.1, 0));
   EXPECT_FALSE(found.succeeded) << found.inliers << " of " << found.pairs << " agree";
 }
 
 TEST(FeatureMatcher, WithoutCornersNothingIsFound) {
   const RenderedRoom smooth;
-  EXPECT_FALSE(matched(smooth, Se3{}, smooth, moved(0.01, 0, 0, 0, 0, 0)).succeeded);
+  EXPECT_FALSE(matched(smooth, Se3{}, smooth, posed(0.01, 0, 0, 0, 0, 0)).succeeded);
   const FeatureMatcher matcher;
   const auto room = tiledRoom();
   const auto image = room.render(Se3{});
@@ -87,7 +81,7 @@ TEST(FeatureMatcher, OfATinyImageThereIsNothing) {
 
 TEST(FeatureMatcher, TheSameImagesGiveTheSameBits) {
   const auto room = tiledRoom();
-  const Se3 motion = moved(0.1, 0.05, 0.05, 0.02, 0.1, 0.03);
+  const Se3 motion = posed(0.1, 0.05, 0.05, 0.02, 0.1, 0.03);
   const auto one = matched(room, Se3{}, room, motion), other = matched(room, Se3{}, room, motion);
   EXPECT_EQ(one.reference_from_image.translation, other.reference_from_image.translation);
   EXPECT_EQ(one.covariance, other.covariance);

@@ -10,6 +10,13 @@
 
 namespace omnimapper::matching {
 
+/// A pose by its tangent, as in geometry::Se3: [m] and [rad].
+inline geometry::Se3 posed(double x, double y, double z, double turn_x, double turn_y, double turn_z) {
+  geometry::Vector6d delta;
+  delta << x, y, z, turn_x, turn_y, turn_z;
+  return geometry::plus(geometry::Se3{}, delta);
+}
+
 /// A camera in an empty room of 4 x 3 x 2.5 m whose walls have a smooth pattern: depths and brightness without a step.
 struct RenderedRoom {
   double half[3] = {2, 1.25, 1.5};  ///< [m] from the middle to the walls
@@ -19,8 +26,7 @@ struct RenderedRoom {
   double grey_noise = 0;
   double gain = 1, offset = 0;
   bool only_far_wall = false;
-  unsigned tiles =
-      0;  ///< which of many sets of tiles of 7 cm, grey and black, is on the walls, so that there are corners; 0: none
+  unsigned tiles = 0;  ///< number of the set of grey and black tiles on the walls, so that there are corners; 0: none
 
   struct Image {
     std::vector<float> depth;

@@ -79,11 +79,9 @@ TEST(RgbdTracker, ALensThatIsCoveredIsToldAndTheViewFoundAgain) {
   EXPECT_EQ(run.add(1.1, swing(0.4)).how, How::tracked);
 }
 
-/// Turned about the vertical.
+/// Turned about the vertical, and moved a little with it.
 Se3 turned(double angle) {
-  geometry::Vector6d delta;
-  delta << 0.1 * angle, 0, 0, 0, angle, 0;
-  return geometry::plus(Se3{}, delta);
+  return posed(0.1 * angle, 0, 0, 0, angle, 0);
 }
 
 TEST(RgbdTracker, CornersTellAMotionThatNobodyExpects) {

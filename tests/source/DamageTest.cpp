@@ -238,6 +238,8 @@ TEST_F(DamageTest, aFolderIsRefusedWithWhatItIsFor) {
   says("logs", "b.rawlog", "a log in it is " + (folder_ / "logs/b.rawlog"));
   says("tum", "depth.txt", "omnimapper-import tum " + (folder_ / "tum"));
   says("scenes", "frame-000000.depth.png", "omnimapper-import tum " + (folder_ / "scenes"));
+  std::filesystem::create_directories(folder_ / "halves/depth");
+  says("halves", "notes.txt", "nothing that can be read");  // the importer would refuse depths in a folder alone
   says("parent/inner", "depth.txt", "is a folder of RGB-D images");
   EXPECT_NE(refusal(folder_ / "parent").find("in it, " + (folder_ / "parent/inner") + " is a folder of RGB-D"),
             std::string::npos);

@@ -112,10 +112,11 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 2) + 1;
   for (const auto& candidate : candidates) {
-    if (candidate.size() >= name.size() + best_distance) continue;  // so many letters are missing at least
-    constexpr std::size_t kLongEnough = 3;                          // to be the beginning of a name that was cut short
+    constexpr std::size_t kLongEnough = 3;  // to be the beginning of a name that was cut short
     const bool is_beginning =
         name.size() >= kLongEnough && lowerCase(candidate).compare(0, name.size(), lowerCase(name)) == 0;
+    // So many letters are missing at least.
+    if (!is_beginning && candidate.size() >= name.size() + best_distance) continue;
     const std::size_t distance = is_beginning ? 1 : editDistance(lowerCase(name), lowerCase(candidate));
     if (distance < best_distance) {
       best_distance = distance;

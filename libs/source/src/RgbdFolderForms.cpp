@@ -255,14 +255,27 @@ RgbdFolderContent readSevenScenes(const fs::path& folder, const RgbdFolderOption
 }
 
 bool isSevenScenes(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     if (name.rfind("frame-", 0) == 0 && name.find(".depth.png") != std::string::npos) return true;
   }
   return false;
 }
 
+bool isOfEqualNames(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_directory(folder / "depth", error) &&
+         (fs::is_directory(folder / "rgb", error) || fs::is_directory(folder / "image", error));
+}
+
 }  // namespace
+
+bool isRgbdFolder(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / "depth.txt", error) || fs::exists(folder / "associations.txt", error) ||
+         isOfEqualNames(folder) || isSevenScenes(folder);
+}
 
 RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions& options) {
   std::error_code error;
@@ -275,8 +288,7 @@ RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions
     refuse(folder, "has rgb.txt but no depth.txt: a TUM RGB-D folder needs both");
   else if (fs::exists(folder / "associations.txt"))
     content = readAssociations(folder / "associations.txt", options);
-  else if (fs::is_directory(folder / "depth") &&
-           (fs::is_directory(folder / "rgb") || fs::is_directory(folder / "image")))
+  else if (isOfEqualNames(folder))
     content = readEqualNames(folder, options);
   else if (isSevenScenes(folder))
     content = readSevenScenes(folder, options);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "CompressedFile.h"
+#include "RgbdFolderForms.h"
 
 namespace omnimapper::source {
 
@@ -76,14 +77,11 @@ std::string knownFolder(const std::string& path) {
            "given.";
   if (const auto log = firstWith(".rawlog", folder); !log.empty())
     return "is a folder; a log in it is " + (folder / log).string() + ".";
-  const bool has_images = std::filesystem::exists(folder / "depth.txt", error) ||
-                          std::filesystem::is_directory(folder / "depth", error) ||
-                          !firstWith(".depth.png", folder).empty();
   const auto import = [&](const std::string& what, const std::string& task) {
     return "is a folder of " + what + "; make a rawlog of it with: omnimapper-import " + task + " " + path +
            " OUT.rawlog";
   };
-  if (has_images) return import("RGB-D images", "tum");
+  if (isRgbdFolder(folder)) return import("RGB-D images", "tum");
   if (!firstWith(".pcd", folder).empty()) return import("PCD clouds", "pcd");
   return "";
 }

@@ -24,7 +24,7 @@ void warnOfDoubt(const map::Session& session, bool stopped, Engine& engine) {
   if (!ties.areInDoubt()) return;
   engine.warn(joinedText(session) + ", but " + std::to_string(ties.refused) + " of the " +
               std::to_string(ties.refused + ties.accepted) + " measurements that tie it to the map " +
-              (stopped ? "do not fit, or would still have been borne out had the run not been interrupted"
+              (stopped ? "do not fit, or might have been borne out had the run not been interrupted"
                        : "do not fit: it may lie in a wrong place that looks alike, or the map is bent there. See "
                          "map.png; against a wrong place another [session] start helps (origin, pose, anywhere)"));
 }

@@ -118,13 +118,8 @@ void RgbdTracker::makeKeyFrame(base::Stamp stamp, const Image& image, const Se3&
                                double picture_delay) {
   CameraMotion moved = motion();
   moved.picture_delay = picture_delay;
-  std::shared_ptr<const FeatureSet> features;
-  if (options_.use_features) {
-    featuresOf(image);
-    features = image.features;
-  }
-  keys_.push_back(
-      {matcher_.prepare(image.pyramid, moved), features, stamp, map_from_camera, medianDepth(image.pyramid).value()});
+  keys_.push_back({matcher_.prepare(image.pyramid, moved), options_.use_features ? featuresOf(image) : nullptr, stamp,
+                   map_from_camera, medianDepth(image.pyramid).value()});
   if (keys_.size() > static_cast<std::size_t>(options_.key_frames)) keys_.pop_front();
   current_ = keys_.size() - 1;
 }
@@ -172,9 +167,9 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const Image& image, const 
   return best ? best : blind;
 }
 
-const FeatureSet& RgbdTracker::featuresOf(const Image& image) const {
+const std::shared_ptr<const FeatureSet>& RgbdTracker::featuresOf(const Image& image) const {
   if (!image.features) image.features = feature_matcher_.prepare(image.pyramid);
-  return *image.features;
+  return image.features;
 }
 
 // From where the corners say it is.
@@ -183,7 +178,7 @@ std::optional<RgbdTracker::Found> RgbdTracker::followByFeatures(const std::vecto
                                                                 double seconds) const {
   std::optional<Found> best;
   for (const std::size_t key : keys) {
-    const auto corners = feature_matcher_.match(*keys_[key].features, featuresOf(image));
+    const auto corners = feature_matcher_.match(*keys_[key].features, *featuresOf(image));
     const Se3 map_from_camera = keys_[key].map_from_camera * corners.reference_from_image;
     if (!corners.succeeded || !expected.allows(map_from_camera)) continue;
     CameraMotion moved = motion();
@@ -224,7 +219,7 @@ std::vector<std::pair<std::size_t, Se3>> RgbdTracker::posesByFeatures(const Imag
   constexpr std::size_t kMost = 3;
   std::vector<std::pair<std::size_t, std::pair<std::size_t, Se3>>> all;  // by the number of corners
   for (std::size_t k = 0; options_.use_features && k < keys_.size(); ++k) {
-    const auto corners = feature_matcher_.match(*keys_[k].features, featuresOf(image));
+    const auto corners = feature_matcher_.match(*keys_[k].features, *featuresOf(image));
     if (corners.succeeded)
       all.push_back({corners.inliers, {k, keys_[k].map_from_camera * corners.reference_from_image}});
   }

@@ -104,7 +104,7 @@ class RgbdTracker {
   std::optional<Found> follow(const Image& image, const Expected& expected, double seconds) const;
   std::optional<Found> followByFeatures(const std::vector<std::size_t>& keys, const Image& image,
                                         const Expected& expected, double seconds) const;
-  const FeatureSet& featuresOf(const Image& image) const;
+  const std::shared_ptr<const FeatureSet>& featuresOf(const Image& image) const;
   std::vector<std::pair<std::size_t, geometry::Se3>> posesByFeatures(const Image& image) const;
   std::optional<Found> seek(const Image& image, const Expected& expected) const;
   Tracked take(base::Stamp stamp, const Image& image, Found found, const Expected& expected, Tracked::How how,
