@@ -144,6 +144,18 @@ TEST_F(TumFile, TellsTheTwoFormatsApartByTheirColumns) {
   EXPECT_THROW(readTrajectory(file("1 3 0 0 0\n")), base::Error);
 }
 
+TEST_F(TumFile, OfAMapsFolderTheTrajectoryIsNamed) {
+  writeTum(folder_ / "trajectory.tum", randomWalk(2, 1));
+  try {
+    readTrajectory(folder_.path());
+    FAIL();
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("its trajectory is " + std::string(folder_ / "trajectory.tum")),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(TumFile, ReadsTheGroundTruthOfMrptsDemos) {
   const auto path = testing::mrptDataset("graphslam-engine-demos/action_observations_map/simul.rawlog.GT.txt");
   OMNIMAPPER_NEEDS(path);

@@ -118,9 +118,14 @@ std::string checkText(const std::string& title, const source::SourceReport& repo
   if (inis.empty()) return text;
   text += "\nSettings for what it holds:\n" + iniLines(inis);
   if (settings.empty() && inis.front().file == ini && inis.front().needs_settings) return text;
-  if (settings.empty())
-    return text + "Nothing in " + ini + " need be set anew for it" +
-           (findings.empty() ? "" : ": it copes with what is said above") + ".\n";
+  if (settings.empty()) {
+    const bool is_broken = !findings.empty() && findings.front().weight == Weight::problem;
+    return text +
+           (is_broken ? "Nothing that could be set anew in " + ini + " mends the problems above"
+                      : "Nothing in " + ini + " need be set anew for it" +
+                            (findings.empty() ? "" : ": it copes with what is said above")) +
+           ".\n";
+  }
   return text + "\nTo go over " + ini + " (-i " + ini + " -i THIS):\n\n" + toIni(settings);
 }
 

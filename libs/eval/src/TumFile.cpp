@@ -4,6 +4,7 @@
 #include <omnimapper/geometry/TumLine.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "TextColumns.h"
@@ -57,6 +58,9 @@ Trajectory readMrptGroundTruth(const std::string& path) {
 }
 
 Trajectory readTrajectory(const std::string& path) {
+  const auto inside = std::filesystem::path(path) / "trajectory.tum";
+  if (std::filesystem::exists(inside))
+    throw Error(ExitCode::unreadable_input, path + ": is a folder; its trajectory is " + inside.string());
   std::size_t columns = 0;
   forEachLine(path, [&](const TextColumns& line) {
     columns = line.texts.size();

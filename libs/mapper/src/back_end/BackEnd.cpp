@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "OneSensor.h"
+#include "back_end/judgeTilt.h"
 
 namespace omnimapper::mapper {
 
@@ -185,6 +186,9 @@ void BackEnd::judgeMap() {
       evidence.push_back({"session_" + std::to_string(session.number) + "_not_joined", 1, Evidence::Says::against_it,
                           joinedText(session) + " to the map, and lies where its start says"});
     }
+  }
+  if (settings_.engine.motion == Motion::planar) {
+    if (auto tilted = judgeTilt(state_.map)) evidence.push_back(std::move(*tilted));
   }
   state_.verdict = mapper::conclude(std::move(evidence));
 }
