@@ -19,10 +19,13 @@ struct Arguments {
   double delta = 1;
 };
 
-CLI::App* addVerb(CLI::App& app, const std::string& name, const std::string& help, Arguments& arguments) {
+constexpr char kPoses[] = "truth: TUM, or MRPT's .GT.txt";
+
+CLI::App* addVerb(CLI::App& app, const std::string& name, const std::string& help, const std::string& reference,
+                  Arguments& arguments) {
   CLI::App* verb = app.add_subcommand(name, help);
   verb->add_option("estimate", arguments.estimate, "trajectory to be judged, TUM format")->required();
-  verb->add_option("reference", arguments.reference, "truth: TUM, MRPT's .GT.txt, or relations")->required();
+  verb->add_option("reference", arguments.reference, reference)->required();
   verb->add_option("-o,--output", arguments.output_folder, "folder for numbers.json and plots, made if missing");
   verb->add_option("--json", arguments.json_file, "file for the numbers");
   verb->add_option("--tolerance", arguments.tolerance, "between stamps that belong together [s], default 0.01")
@@ -73,12 +76,12 @@ int run(const std::string& verb, const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("Says how far a trajectory is from the truth.", "omnimapper-eval");
-  addPairing(addVerb(app, "ate", "absolute trajectory error", arguments), arguments);
-  CLI::App* rpe = addVerb(app, "rpe", "relative pose error", arguments);
+  addPairing(addVerb(app, "ate", "absolute trajectory error", kPoses, arguments), arguments);
+  CLI::App* rpe = addVerb(app, "rpe", "relative pose error", kPoses, arguments);
   addPairing(rpe, arguments);
   rpe->add_option("--delta", arguments.delta, "span over which motion is compared, default 1");
   rpe->add_option("--unit", arguments.unit, "of the delta: frames, s or m; default frames");
-  addVerb(app, "relations", "metric of Kuemmerle et al. 2009 over relations checked by hand", arguments)
+  addVerb(app, "relations", "metric of Kuemmerle et al. 2009 over relations checked by hand", "relations", arguments)
       ->add_option("--base-from-sensor", arguments.base_from_sensor, "x y [m] yaw [deg] of the relations' sensor")
       ->expected(3);
   app.require_subcommand(1);

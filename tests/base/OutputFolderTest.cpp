@@ -103,6 +103,15 @@ TEST(OutputFolder, WhatSomebodyElsePutThereStaysAndIsNamed) {
   EXPECT_EQ(folder.foreignFiles(), (std::vector<std::string>{"edited", "notes.txt", "truth"}));
 }
 
+TEST(OutputFolder, WhatHasTheNameOfANewFileIsKeptBesideIt) {
+  ScratchFolder scratch;
+  put(scratch / "out/map", "mine");
+  put(scratch / "out/map~", "mine, older");
+  write(scratch / "out", {{"map", "first"}});
+  write(scratch / "out", {{"map", "second"}});
+  EXPECT_EQ(contents(scratch / "out"), (Contents{{"map", "second"}, {"map~", "mine, older"}, {"map~2", "mine"}}));
+}
+
 TEST(OutputFolder, NamesMayHaveBlanksButNoLineBreaks) {
   ScratchFolder scratch;
   const Contents odd{{" a b ", "1"}, {"c/ d", "2"}};

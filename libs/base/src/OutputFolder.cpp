@@ -104,6 +104,13 @@ std::string whyNotAt(const fs::path& top, const fs::path& name) {
   return "";
 }
 
+// What somebody else put where a file of a run is to be gets another name: that with a tilde, as editors have it.
+void setAside(const fs::path& file) {
+  fs::path other = file.string() + "~";
+  for (int n = 2; fs::exists(fs::symlink_status(other)); ++n) other = file.string() + "~" + std::to_string(n);
+  fs::rename(file, other);
+}
+
 // Does what a commit has noted and not done. Can be broken off and done again at any point.
 void finishCommit(const fs::path& folder) {
   const fs::path hidden = folder / kHidden, staged = hidden / kStaged;
@@ -112,6 +119,7 @@ void finishCommit(const fs::path& folder) {
   for (const auto& [name, size] : after) {
     if (!fs::exists(staged / name) || isBehindLink(folder, name)) continue;
     fs::create_directories((folder / name).parent_path());
+    if (before.count(name) == 0 && fs::exists(fs::symlink_status(folder / name))) setAside(folder / name);
     fs::rename(staged / name, folder / name);
   }
   for (const auto& [name, size] : before) {

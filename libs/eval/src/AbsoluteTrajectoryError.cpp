@@ -46,7 +46,9 @@ std::string hintsOn(const AbsoluteTrajectoryError& error, Alignment alignment) {
   hints += "The poses are turned by a lot.";
   if (alignment == Alignment::none || alignment == Alignment::first || alignment == Alignment::yaw)
     hints += " Frames that are not level alike, as of a camera in the hand, need --align se3.";
-  return hints + " Where the truth is that of a camera which looks along z, take OUT.truth.tum of omnimapper-import.\n";
+  return hints +
+         " If the truth is that of a camera which looks along z, take OUT.truth.tum of omnimapper-import in its "
+         "place.\n";
 }
 
 }  // namespace omnimapper::eval

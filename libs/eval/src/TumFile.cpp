@@ -22,7 +22,10 @@ StampedPose tumPose(const TextColumns& line) {
   line.expect(kTumColumns, "stamp x y z qx qy qz qw");
   const Eigen::Quaterniond q(line.number(7), line.number(4), line.number(5), line.number(6));
   if (std::abs(q.norm() - 1) > 0.01) {
-    throw Error(ExitCode::unreadable_input, line.at + "columns 5 to 8 are no unit quaternion qx qy qz qw");
+    throw Error(
+        ExitCode::unreadable_input,
+        line.at +
+            "columns 5 to 8 are no unit quaternion qx qy qz qw; a file of relations is for omnimapper-eval relations");
   }
   return {line.stamp(0), {q.normalized(), {line.number(1), line.number(2), line.number(3)}}};
 }
@@ -40,7 +43,8 @@ Trajectory readPoses(const std::string& path, StampedPose (*poseOf)(const TextCo
     const auto [place, is_new] = places.emplace(poses.back().stamp, line.at);
     if (!is_new) {
       throw Error(ExitCode::unreadable_input,
-                  line.at + "the stamp " + line.texts[0] + " stands already at " + place->second + "remove one");
+                  line.at + "the stamp " + line.texts[0] + " stands already at " + place->second +
+                      "remove one; if this is the map of two logs of the same time, judge each by a map of its own");
     }
     return true;
   });

@@ -24,6 +24,13 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
           .text("odometry_label", &Options::odometry_label,
                 "Sensor label of the wheels' odometry that predicts; empty for the first that comes, if any does. An "
                 "odometry plugin beside this one needs fallback = true.")
+          .text("imu_label", &Options::imu_label,
+                "Sensor label of the inertial sensor whose turn rates predict; empty for the first that comes, if any "
+                "does.")
+          .number("turn_rate_noise_per_root_s_deg", &Options::turn_rate_noise, base::Range::positive(),
+                  "Standard deviation of the turning that it tells after 1 s; grows with the root of time.")
+          .number("turn_rate_bias_per_s_deg", &Options::turn_rate_bias, zero_or_more,
+                  "Standard deviation of the turn rates that it shows at rest; they are learnt.")
           .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
                   "More than a hand or a robot moves the camera: a map with such motions is suspicious.")
           .number("position_noise_m", &Options::position_noise, base::Range::positive(),
@@ -43,6 +50,13 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
 
 namespace {
 
+// However the hand moved last in directions that nothing tells, it may go another way. That it does so for a while, and
+// not anew at each image, makes the spans' errors alike: they add up as those of such a while do.
+double freeVariance(base::Stamp begin, base::Stamp end) {
+  constexpr double kUsualSpeed = 0.5, kWhile = 1;  // [m/s] and [rad/s]; [s]
+  return kUsualSpeed * kUsualSpeed * kWhile * base::secondsBetween(begin, end);
+}
+
 matching::WheelOdometryOptions wheelsOf(const std::string& label) {
   matching::WheelOdometryOptions wheels;
   wheels.label = label;
@@ -52,11 +66,17 @@ matching::WheelOdometryOptions wheelsOf(const std::string& label) {
 }  // namespace
 
 CameraOdometry::CameraOdometry(const CameraOdometryOptions& options, std::string what)
-    : options_(options), what_(std::move(what)), wheels_(wheelsOf(options.odometry_label)) {}
+    : options_(options),
+      what_(std::move(what)),
+      wheels_(wheelsOf(options.odometry_label)),
+      gyroscope_({options.imu_label, options.turn_rate_noise, options.turn_rate_bias}) {}
 
 CameraOdometry::Taken CameraOdometry::add(const mrpt::obs::CObservation::ConstPtr& observation) {
   const auto scan = std::dynamic_pointer_cast<const CObservation3DRangeScan>(observation);
-  if (!scan) wheels_.add(*observation);
+  if (!scan) {
+    wheels_.add(*observation);
+    gyroscope_.add(*observation);
+  }
   if (!scan || !scan->hasRangeImage) return Taken::not_mine;
   if (!options_.label.empty() && scan->sensorLabel != options_.label) return Taken::not_mine;
   if (label_ && scan->sensorLabel != *label_) return Taken::not_mine;
@@ -78,7 +98,9 @@ void CameraOdometry::processUntil(base::Stamp stamp) {
     follow(next.mapped());
   }
   constexpr double kRemembered = 1;  // [s]
-  wheels_.forgetBefore(last_.value_or(stamp) - base::durationFromSeconds(kRemembered));
+  const auto forgotten = last_.value_or(stamp) - base::durationFromSeconds(kRemembered);
+  wheels_.forgetBefore(forgotten);
+  gyroscope_.forgetBefore(turn_begun_ ? std::min(*turn_begun_, forgotten) : forgotten);
 }
 
 // An image may come before the wheels' next reading: then they go on as they did just before.
@@ -96,21 +118,54 @@ std::optional<mapper::RelativeMotion> CameraOdometry::wheelsBetween(base::Stamp 
   return told;
 }
 
-std::optional<PredictedMotion> CameraOdometry::predictionOf(const geometry::Se3& base_from_camera,
-                                                            base::Stamp stamp) const {
+std::optional<matching::PredictedMotion> CameraOdometry::predictionOf(const geometry::Se3& base_from_camera,
+                                                                      base::Stamp stamp) const {
   constexpr double kStampError = 0.02;                 // [s] between the clocks of wheels and images
   constexpr double kPosition = 0.002, kAngle = 0.002;  // [m] [rad] a base nods and sways, too
-  const auto told = last_ ? wheelsBetween(*last_, stamp) : std::nullopt;
-  if (!told) return std::nullopt;
-  const geometry::Se3 motion = geometry::fromMrpt(told->begin_from_end);
+  if (!last_) return std::nullopt;
+  const auto told = wheelsBetween(*last_, stamp);
+  const auto turn = gyroscope_.between(*last_, stamp);
+  if (!told && !turn) return std::nullopt;
+  geometry::Se3 motion;
+  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
+  if (told) {
+    motion = geometry::fromMrpt(told->begin_from_end);
+    covariance = told->covariance;
+  }
+  if (turn) {
+    motion.rotation = turn->begin_from_end;
+    covariance.rightCols<3>().setZero();
+    covariance.bottomRows<3>().setZero();
+    covariance.bottomRightCorner<3, 3>() = turn->covariance;
+  }
   const geometry::Vector6d shifted =
       minus(motion, geometry::Se3{}) * (kStampError / std::max(kStampError, base::secondsBetween(*last_, stamp)));
-  geometry::Matrix6d covariance = told->covariance + shifted * shifted.transpose();
-  covariance.diagonal().head<3>().array() += kPosition * kPosition;
+  covariance += shifted * shifted.transpose();
+  covariance.diagonal().head<3>().array() += told ? kPosition * kPosition : freeVariance(*last_, stamp);
   covariance.diagonal().tail<3>().array() += kAngle * kAngle;
   const geometry::Se3 camera_from_base = inverse(base_from_camera);
   const geometry::Matrix6d ad = adjoint(camera_from_base);
-  return PredictedMotion{camera_from_base * motion * base_from_camera, ad * covariance * ad.transpose()};
+  return matching::PredictedMotion{camera_from_base * motion * base_from_camera, ad * covariance * ad.transpose(),
+                                   !told};
+}
+
+// Over a second or so, for what a key frame is off by is in each image that was registered with it.
+void CameraOdometry::learnBias(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera) {
+  constexpr double kWhile = 1;      // [s]
+  constexpr double kAngle = 0.005;  // [rad]
+  if (tracked.how != How::tracked || !tracked.open.isZero()) {
+    turn_begun_.reset();
+    return;
+  }
+  if (!turn_begun_) {
+    turn_begun_ = tracked.last;
+    turned_.setIdentity();
+  }
+  const auto& base_from_lens = base_from_camera.rotation;
+  turned_ = turned_ * base_from_lens * tracked.last_from_camera.rotation * base_from_lens.conjugate();
+  if (base::secondsBetween(*turn_begun_, stamp) < kWhile) return;
+  gyroscope_.learn(*turn_begun_, stamp, turned_, kAngle);
+  turn_begun_.reset();
 }
 
 void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
@@ -128,6 +183,8 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
   constexpr double kShortest = 0.03;   // [s] of stamps that nearly coincide the noise would be a speed
   if (!begun_) begun_ = scan.timestamp;
   ++images_;
+  learnBias(tracked, scan.timestamp, base_from_camera);
+  const bool by_wheels = prediction && !prediction->only_turn;
   if (tracked.seen_before) countReturn(*tracked.seen_before, scan.timestamp);
   if (tracked.how == How::lost) {
     ++lost_;
@@ -147,13 +204,44 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
     runaways_ += hasty_in_a_row_ == kRunaway;
     // However well a view fits, another place may look like it, as one bare wall looks like another.
     constexpr double kLong = 0.4;  // [s]
-    found_ += !prediction && is_lost_ && seconds > kLong;
-    bridged_ += !prediction && !tracked.open.isZero();
-    timeline_.insert(tracked.last, scan.timestamp, motionOf(tracked, scan.timestamp, base_from_camera, prediction));
+    found_ += !by_wheels && is_lost_ && seconds > kLong;
+    bridged_ += !by_wheels && !tracked.open.isZero();
+    tell(tracked.last, scan.timestamp, motionOf(tracked, scan.timestamp, base_from_camera, prediction));
   }
   last_ = scan.timestamp;
   is_lost_ = false;
   lost_images_.clear();
+}
+
+// Across images that told nothing the base went as wheels or gyroscope tell it, and what they are off by came evenly.
+void CameraOdometry::tell(base::Stamp begin, base::Stamp end, const mapper::RelativeMotion& motion) {
+  std::vector<base::Stamp> stamps = lost_images_;
+  stamps.push_back(end);
+  std::vector<geometry::Se3> begin_from{{}};  // the base at begin, and at each of the stamps
+  for (const auto stamp : stamps) {
+    const base::Stamp last = begin_from.size() == 1 ? begin : stamps[begin_from.size() - 2];
+    const auto told = wheelsBetween(last, stamp);
+    const auto turn = gyroscope_.between(last, stamp);
+    if (!told && !turn) break;
+    geometry::Se3 moved = told ? geometry::fromMrpt(told->begin_from_end) : geometry::Se3{};
+    if (turn) moved.rotation = turn->begin_from_end;
+    begin_from.push_back(begin_from.back() * moved);
+  }
+  if (stamps.size() == 1 || begin_from.size() <= stamps.size()) {
+    timeline_.insert(begin, end, motion);
+    return;
+  }
+  const double seconds = base::secondsBetween(begin, end);
+  const geometry::Vector6d off = minus(geometry::fromMrpt(motion.begin_from_end), begin_from.back());
+  base::Stamp from = begin;
+  geometry::Se3 begin_from_last;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const double share = base::secondsBetween(from, stamps[i]) / seconds;
+    const auto here = geometry::plus(begin_from[i + 1], base::secondsBetween(begin, stamps[i]) / seconds * off);
+    timeline_.insert(from, stamps[i], {geometry::toMrpt(inverse(begin_from_last) * here), share * motion.covariance});
+    begin_from_last = here;
+    from = stamps[i];
+  }
 }
 
 void CameraOdometry::countReturn(base::Stamp seen_before, base::Stamp stamp) {
@@ -193,7 +281,7 @@ bool CameraOdometry::bridgeByWheels(base::Stamp stamp) {
 // that were registered with it.
 mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base::Stamp stamp,
                                                 const geometry::Se3& base_from_camera,
-                                                const std::optional<PredictedMotion>& prediction) const {
+                                                const std::optional<matching::PredictedMotion>& prediction) const {
   const geometry::Se3& moved = tracked.last_from_camera;
   const double way = moved.translation.norm(), turn = geometry::logSo3(moved.rotation).norm();
   const auto variance = [&](double at_rest, double per_root_m, double per_root_turn) {
@@ -207,10 +295,7 @@ mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base
   if (prediction) {
     of_camera += tracked.open * prediction->covariance * tracked.open;
   } else {
-    // However the hand moved last in directions that the image left open, it may go another way. That it does so for a
-    // while, and not anew at each image, makes the spans' errors alike: they add up as those of such a while do.
-    constexpr double kUsualSpeed = 0.5, kWhile = 1;  // [m/s] and [rad/s]; [s]
-    of_camera += kUsualSpeed * kUsualSpeed * kWhile * base::secondsBetween(tracked.last, stamp) * tracked.open;
+    of_camera += freeVariance(tracked.last, stamp) * tracked.open;
   }
   const geometry::Matrix6d ad = adjoint(base_from_camera);
   return {geometry::toMrpt(base_from_camera * moved * inverse(base_from_camera)), ad * of_camera * ad.transpose()};

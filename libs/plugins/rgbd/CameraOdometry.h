@@ -3,7 +3,9 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/geometry/Se3.h>
+#include <omnimapper/matching/Gyroscope.h>
 #include <omnimapper/matching/PoseTimeline.h>
+#include <omnimapper/matching/PredictedMotion.h>
 #include <omnimapper/matching/WheelOdometry.h>
 #include <omnimapper/perception/LensStraightener.h>
 #include <omnimapper/perception/RgbdView.h>
@@ -19,8 +21,11 @@
 namespace omnimapper::plugins {
 
 struct CameraOdometryOptions {
-  std::string label;              ///< of the camera; empty: the first that comes
-  std::string odometry_label;     ///< of the wheels that predict; empty: the first that come
+  std::string label;           ///< of the camera; empty: the first that comes
+  std::string odometry_label;  ///< of the wheels that predict; empty: the first that come
+  std::string imu_label;       ///< of the gyroscope that predicts; empty: the first that comes
+  double turn_rate_noise = matching::GyroscopeOptions{}.noise_per_root_s;  ///< [rad / sqrt(s)]
+  double turn_rate_bias = matching::GyroscopeOptions{}.bias_sigma;         ///< [rad/s]
   double max_speed = 1.5;         ///< [m/s] of a camera; what seems faster is an error
   double position_noise = 0.001;  ///< [m] between two images
   double angle_noise = 0.05 * base::option_text::kRadiansPerDegree;            ///< [rad] between two images
@@ -30,12 +35,6 @@ struct CameraOdometryOptions {
   double angle_noise_per_root_turn = 0.013;                                    ///< [rad / sqrt(rad)]
 
   static const base::OptionTable<CameraOdometryOptions>& table();
-};
-
-/// The motion since the image that was tracked before, as wheels tell it: of the camera, optical frames.
-struct PredictedMotion {
-  geometry::Se3 last_from_camera;
-  geometry::Matrix6d covariance;  ///< in the camera's frame now, tangent as in geometry::Se3
 };
 
 /// What a tracker made of an image.
@@ -56,7 +55,7 @@ struct ImageMotion {
 /// a long gap the camera begins anew, and what happened meanwhile is told by the wheels or left to others.
 ///
 /// Where the base has wheels, their odometry says where a match begins, and counts where an image leaves a direction
-/// open: beside this it should be a fallback.
+/// open: beside this it should be a fallback. Where it has a gyroscope, this tells the turning in their place.
 class CameraOdometry : public mapper::PosePlugin {
  public:
   /// `what`: the name of the method, as evidence and warnings say it.
@@ -79,15 +78,17 @@ class CameraOdometry : public mapper::PosePlugin {
   /// Whether track() looks for views of before.
   virtual bool seeksReturns() const { return true; }
   virtual ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
-                            const std::optional<PredictedMotion>& prediction) = 0;
+                            const std::optional<matching::PredictedMotion>& prediction) = 0;
+  void tell(base::Stamp begin, base::Stamp end, const mapper::RelativeMotion& motion);
   void countReturn(base::Stamp seen_before, base::Stamp stamp);
   double returnedPercent() const;
+  void learnBias(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera);
   void follow(const mrpt::obs::CObservation3DRangeScan::ConstPtr& image);
   std::optional<mapper::RelativeMotion> wheelsBetween(base::Stamp begin, base::Stamp end) const;
   bool bridgeByWheels(base::Stamp stamp);
-  std::optional<PredictedMotion> predictionOf(const geometry::Se3& base_from_camera, base::Stamp stamp) const;
+  std::optional<matching::PredictedMotion> predictionOf(const geometry::Se3& base_from_camera, base::Stamp stamp) const;
   mapper::RelativeMotion motionOf(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera,
-                                  const std::optional<PredictedMotion>& prediction) const;
+                                  const std::optional<matching::PredictedMotion>& prediction) const;
 
   CameraOdometryOptions options_;
   std::string what_;
@@ -96,6 +97,9 @@ class CameraOdometry : public mapper::PosePlugin {
   std::optional<base::Stamp> reached_, begun_;  // image that was worked on last, first image of all
   std::optional<base::Stamp> last_;             // image that was tracked last
   matching::WheelOdometry wheels_;
+  matching::Gyroscope gyroscope_;
+  std::optional<base::Stamp> turn_begun_;  // of images from which on each told all of its motion
+  Eigen::Quaterniond turned_;              // of the base since then
   perception::LensStraightener lens_;
   std::vector<base::Stamp> lost_images_;                    // since then
   std::vector<std::pair<base::Stamp, base::Stamp>> loops_;  // from views to their returns, apart from each other

@@ -26,12 +26,10 @@ CloudOdometryPlugin::CloudOdometryPlugin(const CameraOdometryOptions& options,
 }
 
 ImageMotion CloudOdometryPlugin::track(const perception::RgbdView& view, base::Stamp stamp,
-                                       const std::optional<PredictedMotion>& prediction) {
+                                       const std::optional<matching::PredictedMotion>& prediction) {
   using How = matching::CloudTracker::Tracked::How;
   auto cloud = std::make_shared<const matching::MatchCloud>(matching::cloudOf(view.depth(), view.colour(), source_));
-  std::optional<geometry::Se3> guess;
-  if (prediction) guess = prediction->last_from_camera;
-  const auto tracked = tracker_.track(stamp, std::move(cloud), guess);
+  const auto tracked = tracker_.track(stamp, std::move(cloud), prediction);
   ImageMotion motion;
   motion.how = tracked.how == How::lost    ? ImageMotion::How::lost
                : tracked.how == How::begun ? ImageMotion::How::begun

@@ -19,7 +19,7 @@ class CloudOdometryPlugin : public CameraOdometry {
  private:
   bool seeksReturns() const override { return false; }
   ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
-                    const std::optional<PredictedMotion>& prediction) override;
+                    const std::optional<matching::PredictedMotion>& prediction) override;
 
   matching::CloudSourceOptions source_;
   matching::CloudTracker tracker_;

@@ -2,8 +2,6 @@
 
 #include <omnimapper/plugin/SharedSection.h>
 
-#include <Eigen/LU>
-
 #include "openDirections.h"
 
 IMPLEMENTS_MRPT_OBJECT(VisualOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
@@ -17,11 +15,9 @@ VisualOdometryPlugin::VisualOdometryPlugin(const CameraOdometryOptions& options,
     : CameraOdometry(options, "visual odometry"), tracker_(tracking, matching, features) {}
 
 ImageMotion VisualOdometryPlugin::track(const perception::RgbdView& view, base::Stamp stamp,
-                                        const std::optional<PredictedMotion>& prediction) {
+                                        const std::optional<matching::PredictedMotion>& prediction) {
   using How = matching::RgbdTracker::Tracked::How;
-  std::optional<matching::DenseGuess> guess;
-  if (prediction) guess = matching::DenseGuess{prediction->last_from_camera, prediction->covariance.inverse()};
-  const auto tracked = tracker_.track(stamp, matching::RgbdPyramid(view.depth(), view.colour()), guess);
+  const auto tracked = tracker_.track(stamp, matching::RgbdPyramid(view.depth(), view.colour()), prediction);
   ImageMotion motion;
   motion.how = tracked.how == How::lost    ? ImageMotion::How::lost
                : tracked.how == How::begun ? ImageMotion::How::begun

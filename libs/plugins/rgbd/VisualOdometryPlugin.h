@@ -17,7 +17,7 @@ class VisualOdometryPlugin : public CameraOdometry {
 
  private:
   ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
-                    const std::optional<PredictedMotion>& prediction) override;
+                    const std::optional<matching::PredictedMotion>& prediction) override;
 
   matching::RgbdTracker tracker_;
 };

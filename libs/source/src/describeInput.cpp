@@ -40,7 +40,8 @@ std::string describeFile(const std::string& path) {
   if (isRawlog(head))
     return "is a rawlog, or the damaged beginning of one; look at it with: omnimapper-graphslam --check " + path;
   if (beginsWith(head, "OMNIMAP")) return "is a map of OmniMapper; --continue and --localize take it.";
-  if (beginsWith(head, "#ROSBAG")) return "is a ROS bag; convert it with MRPT's rosbag2rawlog.";
+  if (beginsWith(head, "#ROSBAG"))
+    return "is a ROS bag; convert it with MRPT's rosbag2rawlog -c CONFIG.yml, which names the topics.";
   if (beginsWith(head, "SQLite format 3"))
     return "is an SQLite file, perhaps a ROS 2 bag; convert it to a rawlog first.";
   if (beginsWith(head, "\x89PNG") || beginsWith(head, "\xff\xd8\xff")) return "is an image, no rawlog.";

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/geometry/Angle.h>
 #include <omnimapper/geometry/Conversions.h>
 
 #include <functional>
@@ -337,6 +339,56 @@ TEST_F(VisualOdometry, ALongLossIsBridgedByTheWheelsOnTheirCurve) {
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->begin_from_end.yaw(), 1, 1e-6);
   EXPECT_NEAR(motion->begin_from_end.x(), 0.3 * std::sin(1.0), 1e-3) << "on its curve, not straight on";
+}
+
+TEST_F(VisualOdometry, AcrossImagesThatToldNothingTheBaseWentAsTheWheelsSay) {
+  // It turns, stands while the lens is covered, and turns on.
+  const auto yaw = [](double seconds) { return 0.5 * (std::min(seconds, 0.4) + std::max(seconds - 0.9, 0.0)); };
+  const auto pose = [&](double seconds) { return geometry::lift({0, 0, yaw(seconds)}); };
+  for (int i = 0; i <= 14; ++i) {
+    const double seconds = 0.1 * i;
+    const auto wheels = mrpt::obs::CObservationOdometry::Create();
+    wheels->timestamp = at(seconds);
+    wheels->odometry = mrpt::poses::CPose2D(0, 0, 0.9 * yaw(seconds));  // they slip
+    plugin_->add(wheels);
+    plugin_->add(renderedScan(room_, truth(0) * pose(seconds), kBaseFromCamera, at(seconds), i >= 3 && i <= 10));
+    plugin_->processUntil(at(seconds));
+  }
+  for (const double seconds : {0.2, 0.4, 0.6, 0.8, 1.0, 1.2}) {
+    const auto motion = plugin_->between(at(0), at(seconds));
+    ASSERT_TRUE(motion) << seconds;
+    EXPECT_NEAR(motion->begin_from_end.yaw(), yaw(seconds), 0.015) << seconds;
+  }
+}
+
+// The base turns about the normal of a bare wall: depths tell nothing of that.
+TEST_F(VisualOdometry, AGyroscopeTellsTheTurningThatABareWallDoesNot) {
+  room_.half[0] = 50;
+  room_.half[1] = 50;
+  const CPose3D base_from_imu(0, 0, 0, 0, 0, geometry::kPi);
+  for (int i = 0; i <= 100; ++i) {
+    const double seconds = 0.01 * i;
+    auto imu = mrpt::obs::CObservationIMU::Create();
+    imu->timestamp = at(seconds);
+    imu->sensorPose = base_from_imu;
+    imu->set(mrpt::obs::IMU_WX, 0.4);
+    imu->set(mrpt::obs::IMU_WY, 0);
+    imu->set(mrpt::obs::IMU_WZ, 0);
+    EXPECT_EQ(plugin_->add(imu), Taken::not_mine) << "others may take it, too";
+    if (i % 10 != 0) continue;
+    geometry::Vector6d rolled = geometry::Vector6d::Zero();
+    rolled[3] = 0.4 * seconds;
+    const Se3 level{Eigen::Quaterniond(geometry::sensorFromOptical().rotation.conjugate()), {0, 0.1, -0.3}};
+    auto image = renderedScan(room_, geometry::plus(level, rolled), CPose3D(), at(seconds), false);
+    image->hasIntensityImage = false;
+    plugin_->add(image);
+    plugin_->processUntil(at(seconds));
+  }
+  const auto motion = plugin_->between(at(0), at(1));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->begin_from_end.roll(), 0.4, 0.02);
+  EXPECT_LT(std::sqrt(motion->covariance(3, 3)), 0.05) << "as the gyroscope tells it";
+  EXPECT_GT(std::sqrt(motion->covariance(1, 1)), 0.3) << "along the wall nothing does";
 }
 
 }  // namespace

@@ -105,13 +105,17 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
 // The trajectory is written all the same: in the map's frame only by what [session] start says.
 [[noreturn]] void failWithNoPlace(const RunRequest& request, const RunResult& result, SessionOptions::Start start) {
   const bool was_sought = start == SessionOptions::Start::anywhere;
+  const bool was_compared = result.closures + result.refused_closures > 0;
   if (result.code == base::ExitCode::interrupted)
     throw base::Error(result.code, request.localize_map + ": interrupted before the log was located in the map");
   throw base::Error(
       result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code,
       request.localize_map + ": the log was located nowhere in the map: is it of another place? If not, say " +
           (was_sought ? "" : "[session] start = anywhere, which seeks the whole map, or ") +
-          "where it begins (origin, pose). Why: the refused closures in " + result.output_folder + "/report.html");
+          "where it begins (origin, pose). " +
+          (was_compared ? "Why: the refused closures in " + result.output_folder + "/report.html"
+                        : "No scan of it was compared with one of the map: an INI with loop_closure does that where "
+                          "both have a laser; else the map needs landmarks of the kinds that the INI measures"));
 }
 
 RunResult resultOf(const View& view) {
@@ -427,7 +431,7 @@ std::string foreignLine(const std::vector<std::string>& files) {
   std::string names;
   for (std::size_t i = 0; i < std::min(kMost, files.size()); ++i) names += (i > 0 ? ", " : "") + files[i];
   if (files.size() > kMost) names += " and " + std::to_string(files.size() - kMost) + " more";
-  return "also there        " + names + " (of no run; left as it is)\n";
+  return "also there        " + names + " (of no run; left there, NAME~ for what was NAME)\n";
 }
 
 }  // namespace

@@ -54,21 +54,29 @@ CloudMatch CloudTracker::matchFrom(const MatchCloud& target, const MatchCloud& c
   return still;
 }
 
+std::optional<Se3> CloudTracker::motionTo(double seconds, const std::optional<PredictedMotion>& prediction) const {
+  if (prediction && !prediction->only_turn) return prediction->last_from_camera;
+  if (!prediction && velocity_.isZero()) return std::nullopt;
+  Se3 motion = geometry::plus(Se3{}, seconds * velocity_);
+  if (prediction) motion.rotation = prediction->last_from_camera.rotation;
+  return motion;
+}
+
 CloudTracker::Tracked CloudTracker::track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud,
-                                          const std::optional<Se3>& prediction) {
+                                          const std::optional<PredictedMotion>& prediction) {
   if (!last_) return begin(stamp, std::move(cloud));
   const double seconds = base::secondsBetween(last_->stamp, stamp);
   Tracked tracked;
   tracked.last = last_->stamp;
-  auto predicted = prediction;
-  if (!predicted && !velocity_.isZero()) predicted = geometry::plus(Se3{}, seconds * velocity_);
+  const auto predicted = motionTo(seconds, prediction);
   tracked.match = matchFrom(*key_, *cloud, last_->key_from_camera, predicted);
   if (!tracked.match.fits && last_->cloud != key_) {
     key_ = last_->cloud;
     last_->key_from_camera = {};
     tracked.match = matchFrom(*key_, *cloud, {}, predicted);
   }
-  const bool is_blind = tracked.match.open_directions > 0 && !prediction;
+  const bool is_told = prediction && !prediction->only_turn;
+  const bool is_blind = tracked.match.open_directions > 0 && !is_told;
   if (!tracked.match.fits || (is_blind && base::secondsBetween(last_->told, stamp) > options_.longest_loss)) {
     if (seconds > options_.longest_loss) return begin(stamp, std::move(cloud));
     velocity_.setZero();

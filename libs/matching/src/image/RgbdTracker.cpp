@@ -1,5 +1,6 @@
 #include <omnimapper/matching/RgbdTracker.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -25,8 +26,8 @@ std::optional<double> medianDepth(const RgbdPyramid& pyramid) {
   return 1 / static_cast<double>(*middle);
 }
 
-// What neither hand nor robot does: [m] [rad] off what wheels or inertia tell, beyond what they may err by; and where
-// nothing tells the motion, [m] [rad] and besides [m/s] [rad/s].
+// What neither hand nor robot does: [m] [rad] off what wheels or a gyroscope tell, beyond what they may err by; and
+// where nothing tells the motion, [m] [rad] and besides [m/s] [rad/s].
 constexpr double kToldSlack = 0.1, kToldSlackTurn = 0.15;
 constexpr double kSlack = 0.3, kSlackTurn = 0.3, kFastest = 1.5, kFastestTurn = 4;
 
@@ -132,7 +133,8 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const Image& image, const 
                                                       double seconds) const {
   constexpr double kFarthest = 3, kDoubtful = 0.1;
   const Matrix6d nothing = Matrix6d::Zero();
-  std::vector<std::pair<std::size_t, Se3>> tries{{current_, expected.map_from_camera}, {current_, map_from_last_}};
+  const Se3& unmoved = expected.is_measured ? map_from_last_ : expected.about;
+  std::vector<std::pair<std::size_t, Se3>> tries{{current_, expected.map_from_camera}, {current_, unmoved}};
   for (const auto& [key, pose] : std::vector(tries)) {
     const auto other = nearest(pose, kFarthest, key);
     if (other) tries.emplace_back(*other, pose);
@@ -156,7 +158,7 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const Image& image, const 
     if (!best || found.match.surprise < best->match.surprise) best = found;
     if (best->match.surprise < kDoubtful) break;
   }
-  // What wheels or inertia tell is a better beginning than corners.
+  // What wheels tell is a better beginning than corners.
   if (options_.use_features && !expected.is_measured && (!best || best->match.surprise >= kDoubtful)) {
     std::vector<std::size_t> keys;
     for (const auto& [key, pose] : tries)
@@ -209,8 +211,11 @@ std::optional<RgbdTracker::Found> RgbdTracker::seek(const Image& image, const Ex
   if (!expected.is_measured)
     for (const auto& [key, pose] : posesByFeatures(image)) tryFrom(key, pose, kSeenBefore);
   if (best) return best;
-  for (std::size_t k = 0; k < keys_.size(); ++k)
-    tryFrom(k, expected.is_measured ? expected.map_from_camera : keys_[k].map_from_camera, kSurely);
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    Se3 there = expected.is_measured ? expected.map_from_camera : keys_[k].map_from_camera;
+    if (expected.is_turn_measured) there.rotation = expected.map_from_camera.rotation;
+    tryFrom(k, there, kSurely);
+  }
   return best;
 }
 
@@ -271,18 +276,8 @@ bool RgbdTracker::Expected::allows(const Se3& found) const {
   return off.translation.norm() < most && angleOf(off) < most_turn;
 }
 
-RgbdTracker::Expected RgbdTracker::expectedAfter(double seconds, const std::optional<DenseGuess>& prediction) const {
+RgbdTracker::Expected RgbdTracker::expectedOfLate(double seconds) const {
   Expected expected;
-  if (prediction) {
-    constexpr double kSigmas = 5;
-    const Matrix6d covariance = prediction->information.inverse();
-    expected.map_from_camera = expected.about = map_from_last_ * prediction->reference_from_image;
-    expected.information = prediction->information;
-    expected.most = kToldSlack + kSigmas * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
-    expected.most_turn = kToldSlackTurn + kSigmas * std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
-    expected.is_measured = true;
-    return expected;
-  }
   // A hand soon does something else: what images tell little of would go on and on.
   constexpr double kGoesOn = 0.4;  // [s]
   expected.map_from_camera =
@@ -296,6 +291,28 @@ RgbdTracker::Expected RgbdTracker::expectedAfter(double seconds, const std::opti
   return expected;
 }
 
+RgbdTracker::Expected RgbdTracker::expectedAfter(double seconds,
+                                                 const std::optional<PredictedMotion>& prediction) const {
+  Expected expected = expectedOfLate(seconds);
+  if (!prediction) return expected;
+  constexpr double kSigmas = 5;
+  const Se3 map_from_camera = map_from_last_ * prediction->last_from_camera;
+  const Matrix6d& covariance = prediction->covariance;
+  expected.about = map_from_camera;
+  expected.most_turn = kToldSlackTurn + kSigmas * std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+  expected.is_turn_measured = true;
+  if (prediction->only_turn) {
+    expected.map_from_camera.rotation = map_from_camera.rotation;
+    expected.information.bottomRightCorner<3, 3>() = covariance.bottomRightCorner<3, 3>().inverse();
+    return expected;
+  }
+  expected.map_from_camera = map_from_camera;
+  expected.information = covariance.inverse();
+  expected.most = kToldSlack + kSigmas * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+  expected.is_measured = true;
+  return expected;
+}
+
 RgbdTracker::Tracked RgbdTracker::lostAt(base::Stamp last) const {
   Tracked lost;
   lost.how = How::lost;
@@ -305,7 +322,7 @@ RgbdTracker::Tracked RgbdTracker::lostAt(base::Stamp last) const {
 }
 
 RgbdTracker::Tracked RgbdTracker::track(base::Stamp stamp, const RgbdPyramid& pyramid,
-                                        const std::optional<DenseGuess>& prediction) {
+                                        const std::optional<PredictedMotion>& prediction) {
   const bool can_begin = medianDepth(pyramid).has_value();
   const Image image{pyramid};
   if (!last_ && can_begin) return begin(stamp, image, Se3{});

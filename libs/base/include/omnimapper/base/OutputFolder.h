@@ -12,7 +12,8 @@ namespace omnimapper::base {
 /// opens the folder for writing, or one of its files with openInput().
 ///
 /// A hidden folder ".omnimapper" holds the staging folder, the lock, and the list of the files of the run, by which a
-/// later run tells its own kind from what somebody else put there. That stays.
+/// later run tells its own kind from what somebody else put there. That stays, and if a new file has its name it
+/// becomes NAME~.
 class OutputFolder {
  public:
   /// Touches nothing yet.

@@ -3,6 +3,7 @@
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/matching/CloudMatcher.h>
+#include <omnimapper/matching/PredictedMotion.h>
 
 #include <memory>
 #include <optional>
@@ -36,10 +37,10 @@ class CloudTracker {
     base::Stamp last;                ///< of that image
     CloudMatch match;                ///< with the key frame, or the last image
   };
-  /// Images by rising stamps. `prediction`: motion since the image tracked before, of the camera, from wheels; none: it
-  /// goes on as it did. Where the image leaves a direction open the prediction is taken.
+  /// Images by rising stamps. Without a prediction, and in what it does not tell, the camera goes on as it did. Where
+  /// the image leaves a direction open the prediction is taken.
   Tracked track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud,
-                const std::optional<geometry::Se3>& prediction = {});
+                const std::optional<PredictedMotion>& prediction = {});
 
  private:
   /// An image, and its pose in the frame of the key frame.
@@ -50,6 +51,7 @@ class CloudTracker {
     base::Stamp told;  ///< of the last image that left no direction open
   };
   Tracked begin(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud);
+  std::optional<geometry::Se3> motionTo(double seconds, const std::optional<PredictedMotion>& prediction) const;
   /// From where it is predicted, and if that does not fit, from where it was.
   CloudMatch matchFrom(const MatchCloud& target, const MatchCloud& cloud, const geometry::Se3& target_from_last,
                        const std::optional<geometry::Se3>& predicted) const;

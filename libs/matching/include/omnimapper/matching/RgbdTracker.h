@@ -4,6 +4,7 @@
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/matching/DenseMatcher.h>
 #include <omnimapper/matching/FeatureMatcher.h>
+#include <omnimapper/matching/PredictedMotion.h>
 
 #include <cstddef>
 #include <deque>
@@ -57,9 +58,8 @@ class RgbdTracker {
     bool is_key_frame = false;               ///< whether it has become one
     std::optional<base::Stamp> seen_before;  ///< when a key frame of long before saw what it shows again
   };
-  /// Images by rising stamps. `prediction`: motion since the image tracked before, of the camera, from wheels or
-  /// inertia; none: it goes on as it did.
-  Tracked track(base::Stamp stamp, const RgbdPyramid& image, const std::optional<DenseGuess>& prediction = {});
+  /// Images by rising stamps. Without a prediction, and in what it does not tell, the camera goes on as it did.
+  Tracked track(base::Stamp stamp, const RgbdPyramid& image, const std::optional<PredictedMotion>& prediction = {});
 
   std::size_t keyFrames() const { return keys_.size(); }
 
@@ -86,7 +86,8 @@ class RgbdTracker {
     geometry::Matrix6d information = geometry::Matrix6d::Zero();
     geometry::Se3 about;             // it is no farther than this from here:
     double most = 0, most_turn = 0;  // [m] [rad]
-    bool is_measured = false;        // by wheels or inertia
+    bool is_measured = false;        // by wheels
+    bool is_turn_measured = false;   // by wheels or a gyroscope
 
     bool allows(const geometry::Se3& map_from_camera) const;
   };
@@ -100,7 +101,9 @@ class RgbdTracker {
                                      std::optional<std::size_t> but) const;
   DenseMatch match(std::size_t key, const Image& image, const geometry::Se3& map_from_camera,
                    const geometry::Matrix6d& information, const CameraMotion& motion) const;
-  Expected expectedAfter(double seconds, const std::optional<DenseGuess>& prediction) const;
+  Expected expectedAfter(double seconds, const std::optional<PredictedMotion>& prediction) const;
+  /// As a hand goes on that is asked nothing.
+  Expected expectedOfLate(double seconds) const;
   std::optional<Found> follow(const Image& image, const Expected& expected, double seconds) const;
   std::optional<Found> followByFeatures(const std::vector<std::size_t>& keys, const Image& image,
                                         const Expected& expected, double seconds) const;
