@@ -149,5 +149,20 @@ TEST(OptionTable, ReadsFlagsChoicesAndLists) {
   EXPECT_TRUE(options.plugins.empty());
 }
 
+TEST(OptionTable, ANumberWithoutADefaultStaysEmptyUnlessItIsSet) {
+  struct Told {
+    std::optional<double> angle;
+  };
+  const auto table = OptionTable<Told>().number("angle_deg", &Told::angle, {0, 180}, "Turn.");
+  EXPECT_EQ(table.specs().front().default_value, "");
+  Told told;
+  EXPECT_FALSE(told.angle);
+  EXPECT_TRUE(table.set(told, 0, "200"));
+  EXPECT_FALSE(told.angle);
+  EXPECT_FALSE(table.set(told, 0, "90"));
+  ASSERT_TRUE(told.angle);
+  EXPECT_NEAR(*told.angle, 90 * option_text::kRadiansPerDegree, 1e-15);
+}
+
 }  // namespace
 }  // namespace omnimapper::base::option_table_test

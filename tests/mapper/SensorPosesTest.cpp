@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/mapper/SensorPoses.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -79,6 +80,23 @@ TEST(SensorPoses, GivesACopyAndLeavesTheObservationOfTheLogAlone) {
   EXPECT_EQ(moved->timestamp, scan->timestamp);
   scan->sensorLabel = "other";
   EXPECT_EQ(poses.applied(scan), scan);
+}
+
+TEST(SensorPoses, ACalibrationIsOfACopyAndOfCamerasWithDepthsAlone) {
+  const SensorPoses poses({}, base::Config::fromText("[calibration]\nlabel = camera\ndepth_fx_px = 517\n", "test.ini"));
+  auto camera = mrpt::obs::CObservation3DRangeScan::Create();
+  camera->sensorLabel = "camera";
+  const double of_the_log = camera->cameraParams.fx();
+  const auto calibrated = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(poses.applied(camera));
+  ASSERT_TRUE(calibrated);
+  EXPECT_NE(calibrated, camera);
+  EXPECT_EQ(calibrated->cameraParams.fx(), 517);
+  EXPECT_EQ(camera->cameraParams.fx(), of_the_log);
+  camera->sensorLabel = "other";
+  EXPECT_EQ(poses.applied(camera), camera);
+  auto laser = mrpt::obs::CObservation2DRangeScan::Create();
+  laser->sensorLabel = "camera";
+  EXPECT_EQ(poses.applied(laser), laser);
 }
 
 TEST(SensorPoses, AMovingSensorIsInterpolatedAndHeldBeyondTheEnds) {

@@ -74,7 +74,8 @@ const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
   return table;
 }
 
-SensorPoses::SensorPoses(const std::vector<std::string>& sections, const base::Config& config) {
+SensorPoses::SensorPoses(const std::vector<std::string>& sections, const base::Config& config)
+    : calibration_(perception::CameraCalibration::read(config)) {
   for (const auto& name : sections) {
     const auto options = config.section(name).read<SensorPoseOptions>();
     if (options.label.empty()) {
@@ -107,11 +108,14 @@ std::optional<mrpt::poses::CPose3D> SensorPoses::find(const std::string& label, 
 mrpt::obs::CObservation::Ptr SensorPoses::applied(const mrpt::obs::CObservation::Ptr& observation) const {
   const auto pose = find(observation->sensorLabel, observation->timestamp);
   const auto aperture = apertures_.find(observation->sensorLabel);
-  if (!pose && aperture == apertures_.end()) return observation;
+  const bool is_calibrated = calibration_.isOf(observation->sensorLabel) &&
+                             dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(observation.get()) != nullptr;
+  if (!pose && aperture == apertures_.end() && !is_calibrated) return observation;
   auto copy = std::dynamic_pointer_cast<mrpt::obs::CObservation>(observation->duplicateGetSmartPtr());
   if (pose) copy->setSensorPose(*pose);
   auto* scan = dynamic_cast<mrpt::obs::CObservation2DRangeScan*>(copy.get());
   if (scan && aperture != apertures_.end()) scan->aperture = static_cast<float>(aperture->second);
+  if (is_calibrated) calibration_.applyTo(dynamic_cast<mrpt::obs::CObservation3DRangeScan&>(*copy));
   return copy;
 }
 

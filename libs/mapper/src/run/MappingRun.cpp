@@ -67,6 +67,7 @@ std::exception_ptr tried(Engine& engine, const std::function<void()>& work) {
 // Sections whose `label` and `labels` are those of sensors.
 std::vector<std::string> labelledSections(const EngineOptions& options, const PerceptionOptions& perception) {
   std::vector<std::string> sections = options.sensors;
+  sections.emplace_back("calibration");
   for (const auto* names : {&options.pose_plugins, &perception.extractors, &options.measurement_plugins}) {
     sections.insert(sections.end(), names->begin(), names->end());
   }
@@ -404,11 +405,15 @@ RunResult Run::report() {
 }  // namespace
 
 const FixedSections& fixedSections() {
-  static const FixedSections sections{
-      {"mapper", EngineOptions::table().specs()},         {"perception", PerceptionOptions::table().specs()},
-      {"session", SessionOptions::table().specs()},       {"trigger", TriggerOptions::table().specs()},
-      {"solver", SolverOptions::table().specs()},         {"hypotheses", HypothesisOptions::table().specs()},
-      {"source", source::SourceOptions::table().specs()}, {"<name of a sensor>", SensorPoseOptions::table().specs()}};
+  static const FixedSections sections{{"mapper", EngineOptions::table().specs()},
+                                      {"perception", PerceptionOptions::table().specs()},
+                                      {"session", SessionOptions::table().specs()},
+                                      {"trigger", TriggerOptions::table().specs()},
+                                      {"solver", SolverOptions::table().specs()},
+                                      {"hypotheses", HypothesisOptions::table().specs()},
+                                      {"source", source::SourceOptions::table().specs()},
+                                      {"<name of a sensor>", SensorPoseOptions::table().specs()},
+                                      {"calibration", perception::CameraCalibrationOptions::table().specs()}};
   return sections;
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,9 @@ template <class Struct>
 class OptionTable {
  public:
   OptionTable& number(const std::string& key, double Struct::*member, Range range, const std::string& help);
+  /// A number that has no default: the member stays empty where the file does not name the key.
+  OptionTable& number(const std::string& key, std::optional<double> Struct::*member, Range range,
+                      const std::string& help);
   OptionTable& integer(const std::string& key, int Struct::*member, Range range, const std::string& help);
   OptionTable& flag(const std::string& key, bool Struct::*member, const std::string& help);
   OptionTable& text(const std::string& key, std::string Struct::*member, const std::string& help);
@@ -102,6 +106,18 @@ OptionTable<Struct>& OptionTable<Struct>::number(const std::string& key, double 
                if (!bad) target.*member = value * unit;
                return bad;
              });
+}
+
+template <class Struct>
+OptionTable<Struct>& OptionTable<Struct>::number(const std::string& key, std::optional<double> Struct::*member,
+                                                 Range range, const std::string& help) {
+  const double unit = option_text::isAngleInDegrees(key) ? option_text::kRadiansPerDegree : 1.0;
+  return add({key, "number", "", option_text::format(range), help}, [=](Struct& target, const std::string& text) {
+    double value = 0;
+    auto bad = option_text::parse(text, range, value);
+    if (!bad) target.*member = value * unit;
+    return bad;
+  });
 }
 
 template <class Struct>

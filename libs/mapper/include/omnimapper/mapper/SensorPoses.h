@@ -4,6 +4,7 @@
 #include <mrpt/poses/CPose3D.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Stamp.h>
+#include <omnimapper/perception/CameraCalibration.h>
 
 #include <map>
 #include <optional>
@@ -24,24 +25,27 @@ struct SensorPoseOptions {
   static const base::OptionTable<SensorPoseOptions>& table();
 };
 
-/// Where sensors are on the base (thesis 5.3.3: static or dynamic transform from sensor to base).
+/// Where sensors are on the base (thesis 5.3.3: static or dynamic transform from sensor to base), and how its cameras
+/// with depths are calibrated.
 class SensorPoses {
  public:
   SensorPoses() = default;
-  /// One section of `config` for each name. Throws base::Error if a section or a pose file does not fit.
+  /// One section of `config` for each name, and [calibration], if it is there. Throws base::Error if a section or a
+  /// pose file does not fit.
   SensorPoses(const std::vector<std::string>& sections, const base::Config& config);
 
   /// base_from_sensor for an observation, if the INI tells it; between stamps of a file it is interpolated, beyond
   /// its ends the nearest holds.
   std::optional<mrpt::poses::CPose3D> find(const std::string& label, base::Stamp stamp) const;
 
-  /// The observation itself where the INI tells nothing, else a copy with that sensor pose and aperture.
+  /// The observation itself where the INI tells nothing, else a copy with that sensor pose, aperture and calibration.
   mrpt::obs::CObservation::Ptr applied(const mrpt::obs::CObservation::Ptr& observation) const;
 
  private:
   using Track = std::map<base::Stamp, mrpt::poses::CPose3D>;
   std::map<std::string, Track> tracks_;      // a static pose is a track of one
   std::map<std::string, double> apertures_;  // [rad] where one is told
+  perception::CameraCalibration calibration_;
 };
 
 }  // namespace omnimapper::mapper

@@ -1,0 +1,111 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/perception/CameraCalibration.h>
+
+#include <algorithm>
+#include <array>
+
+namespace omnimapper::perception {
+
+namespace {
+
+using Options = CameraCalibrationOptions;
+using Number = Options::Number;
+
+// The numbers of one camera: fx, fy, cx, cy, then its lens in MRPT's order.
+using CameraNumbers = std::array<Number, 9>;
+
+CameraNumbers depthNumbers(const Options& o) {
+  return {o.depth_fx, o.depth_fy, o.depth_cx, o.depth_cy, o.depth_k1, o.depth_k2, o.depth_p1, o.depth_p2, o.depth_k3};
+}
+
+CameraNumbers pictureNumbers(const Options& o) {
+  return {o.picture_fx, o.picture_fy, o.picture_cx, o.picture_cy, o.picture_k1,
+          o.picture_k2, o.picture_p1, o.picture_p2, o.picture_k3};
+}
+
+void set(mrpt::img::TCamera& camera, const CameraNumbers& numbers) {
+  const bool tells_lens =
+      std::any_of(numbers.begin() + 4, numbers.end(), [](const Number& n) { return n.has_value(); });
+  // A fisheye's numbers are of another model, of which nothing can be kept.
+  if (tells_lens && camera.distortion != mrpt::img::DistortionModel::plumb_bob) camera.dist.fill(0);
+  if (tells_lens) camera.distortion = mrpt::img::DistortionModel::plumb_bob;
+  if (numbers[0]) camera.fx(*numbers[0]);
+  if (numbers[1]) camera.fy(*numbers[1]);
+  if (numbers[2]) camera.cx(*numbers[2]);
+  if (numbers[3]) camera.cy(*numbers[3]);
+  for (std::size_t i = 4; i < numbers.size(); ++i)
+    if (numbers[i]) camera.dist[i - 4] = *numbers[i];
+}
+
+}  // namespace
+
+const base::OptionTable<Options>& Options::table() {
+  const base::Range focal{1, 1e5}, centre{-1e5, 1e5}, lens{-1000, 1000}, scale{0.1, 10}, place{-10, 10};
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("label", &Options::label, "Sensor label of the camera with depths; empty for all of them.")
+          .number("depth_fx_px", &Options::depth_fx, focal, "Focal length of the depth camera, along the columns.")
+          .number("depth_fy_px", &Options::depth_fy, focal, "Focal length of the depth camera, along the rows.")
+          .number("depth_cx_px", &Options::depth_cx, centre, "Column of the depth camera's optical axis.")
+          .number("depth_cy_px", &Options::depth_cy, centre, "Row of the depth camera's optical axis.")
+          .number("depth_k1", &Options::depth_k1, lens, "Radial distortion of the depth camera's lens, OpenCV's model.")
+          .number("depth_k2", &Options::depth_k2, lens, "Its second radial coefficient.")
+          .number("depth_p1", &Options::depth_p1, lens, "Its first tangential coefficient.")
+          .number("depth_p2", &Options::depth_p2, lens, "Its second tangential coefficient.")
+          .number("depth_k3", &Options::depth_k3, lens, "Its third radial coefficient.")
+          .number("picture_fx_px", &Options::picture_fx, focal,
+                  "Focal length of the picture's camera, along the columns.")
+          .number("picture_fy_px", &Options::picture_fy, focal, "Focal length of the picture's camera, along the rows.")
+          .number("picture_cx_px", &Options::picture_cx, centre, "Column of the picture's optical axis.")
+          .number("picture_cy_px", &Options::picture_cy, centre, "Row of the picture's optical axis.")
+          .number("picture_k1", &Options::picture_k1, lens,
+                  "Radial distortion of the picture camera's lens, OpenCV's model.")
+          .number("picture_k2", &Options::picture_k2, lens, "Its second radial coefficient.")
+          .number("picture_p1", &Options::picture_p1, lens, "Its first tangential coefficient.")
+          .number("picture_p2", &Options::picture_p2, lens, "Its second tangential coefficient.")
+          .number("picture_k3", &Options::picture_k3, lens, "Its third radial coefficient.")
+          .number("depth_scale", &Options::depth_scale, scale, "True depth over the depth that the log tells.")
+          .number("picture_x_m", &Options::picture_x, place,
+                  "Picture's camera in the depth camera's frame (x forward, y left, z up), as MRPT keeps it: forward.")
+          .number("picture_y_m", &Options::picture_y, place, "Picture's camera in that frame: left.")
+          .number("picture_z_m", &Options::picture_z, place, "Picture's camera in that frame: up.")
+          .number("picture_yaw_deg", &Options::picture_yaw, {}, "Picture's optical frame in that frame: turn about z.")
+          .number("picture_pitch_deg", &Options::picture_pitch, {}, "Picture's optical frame: turn about y.")
+          .number("picture_roll_deg", &Options::picture_roll, {}, "Picture's optical frame: turn about x.");
+  return table;
+}
+
+CameraCalibration::CameraCalibration(const Options& options) : options_(options), tells_(true) {
+  const std::array<Number, 6> pose{options.picture_x,   options.picture_y,     options.picture_z,
+                                   options.picture_yaw, options.picture_pitch, options.picture_roll};
+  const auto told = std::count_if(pose.begin(), pose.end(), [](const Number& n) { return n.has_value(); });
+  if (told == 0 || told == 6) return;
+  throw base::Error(
+      base::ExitCode::out_of_range,
+      "[calibration] tells a part of the pose of the picture's camera: it takes all of picture_x_m, "
+      "picture_y_m, picture_z_m, picture_yaw_deg, picture_pitch_deg and picture_roll_deg, or none of them");
+}
+
+CameraCalibration CameraCalibration::read(const base::Config& config) {
+  if (!config.has("calibration")) return {};
+  const auto options = config.section("calibration").read<Options>();
+  try {
+    return CameraCalibration(options);
+  } catch (const base::Error& error) {
+    throw base::Error(error.code(), config.placeOf("calibration") + ": " + error.what());
+  }
+}
+
+void CameraCalibration::applyTo(mrpt::obs::CObservation3DRangeScan& scan) const {
+  set(scan.cameraParams, depthNumbers(options_));
+  set(scan.cameraParamsIntensity, pictureNumbers(options_));
+  if (options_.depth_scale)
+    scan.rangeUnits = static_cast<float>(static_cast<double>(scan.rangeUnits) * *options_.depth_scale);
+  if (options_.picture_x) {
+    scan.relativePoseIntensityWRTDepth =
+        mrpt::poses::CPose3D(*options_.picture_x, *options_.picture_y, *options_.picture_z, *options_.picture_yaw,
+                             *options_.picture_pitch, *options_.picture_roll);
+  }
+}
+
+}  // namespace omnimapper::perception
