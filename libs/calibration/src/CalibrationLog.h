@@ -1,0 +1,30 @@
+#pragma once
+
+#include <omnimapper/calibration/CalibrationRun.h>
+#include <omnimapper/source/SourceReport.h>
+
+#include <string>
+#include <vector>
+
+#include "Bundle.h"
+#include "View.h"
+
+namespace omnimapper::calibration {
+
+/// What of a log can calibrate its camera.
+struct CalibrationLog {
+  RgbdCamera camera;
+  std::string label;  ///< of the camera
+  std::vector<View> views;
+  std::vector<MetricSpan> spans;  ///< of wheels or given poses
+  bool are_wheels = false;        ///< spans are of wheels, whose own scale is uncertain
+  std::size_t images = 0, lost = 0;
+  double travel = 0, turn = 0;  ///< [m] [rad] of the camera
+  source::SourceReport report;
+};
+
+/// Throws Error(nothing_to_map) where nothing can be made of it, and Error(interrupted).
+CalibrationLog readCalibrationLog(const CalibrationRequest& request, base::Progress& progress,
+                                  const std::function<bool()>& stop);
+
+}  // namespace omnimapper::calibration

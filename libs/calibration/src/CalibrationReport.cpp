@@ -1,0 +1,181 @@
+#include "CalibrationReport.h"
+
+#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Numbers.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
+
+#include <cmath>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace omnimapper::calibration {
+
+namespace {
+
+using base::brief;
+using base::fixed;
+
+std::string nameOf(Group group, bool one_camera) {
+  const std::string of = one_camera ? "of both images" : "of the picture";
+  switch (group) {
+    case Group::focal:
+      return "focal length " + of;
+    case Group::centre:
+      return "centre " + of;
+    case Group::lens:
+      return "lens " + of;
+    case Group::depth_focal:
+      return "focal length of the depths";
+    case Group::depth_centre:
+      return "centre of the depths";
+    case Group::place:
+      return "place of the picture's camera in the depth camera's optical frame";
+    case Group::turn:
+      return "turn of the picture's camera in that frame (rotation vector)";
+    case Group::scale:
+      return "scale of the depths";
+    case Group::timing:
+      return "times of rows";
+  }
+  return "";
+}
+
+int decimalsOf(const std::string& key) {
+  if (key.size() > 3 && key.compare(key.size() - 3, 3, "_px") == 0) return 2;
+  return key.size() > 4 && key.compare(key.size() - 4, 4, "_deg") == 0 ? 3 : 4;
+}
+
+bool isTold(const Calibration& calibration, Group group) {
+  for (const auto& finding : calibration.findings)
+    if (finding.group == group) return finding.is_determined;
+  return false;
+}
+
+void writeCamera(std::ostream& out, const std::string& prefix, const Intrinsics& camera, bool focal, bool centre,
+                 bool lens) {
+  static const char* const keys[] = {"fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3"};
+  for (std::size_t i = 0; i < camera.size(); ++i) {
+    const bool is_told = i < 2 ? focal : i < 4 ? centre : lens;
+    if (is_told) out << prefix << "_" << keys[i] << " = " << brief(camera[i], 8) << "\n";
+  }
+}
+
+void writePose(std::ostream& out, const RgbdCamera& camera) {
+  const auto pose = geometry::toMrpt(geometry::sensorFromOptical() * camera.depth_from_picture);
+  constexpr double kDegree = base::option_text::kRadiansPerDegree;
+  out << "picture_x_m = " << brief(pose.x(), 8) << "\npicture_y_m = " << brief(pose.y(), 8)
+      << "\npicture_z_m = " << brief(pose.z(), 8) << "\npicture_yaw_deg = " << brief(pose.yaw() / kDegree, 10)
+      << "\npicture_pitch_deg = " << brief(pose.pitch() / kDegree, 10)
+      << "\npicture_roll_deg = " << brief(pose.roll() / kDegree, 10) << "\n";
+}
+
+std::string verdictOf(const Calibration& calibration) {
+  if (!calibration.is_better)
+    return "the views that were held back fit no better: the log's calibration holds, and calibration.ini changes "
+           "nothing";
+  return "the views that were held back fit better: calibration.ini has what is determined";
+}
+
+void writeHeldBack(std::ostream& out, const std::string& name, const HeldBack& held) {
+  out << "  " << std::left << std::setw(10) << name << "corners " << fixed(held.pixel_median, 3)
+      << " px in the median, " << fixed(held.pixel_rms, 3) << " px rms; depths " << fixed(1000 * held.depth_rms, 2)
+      << " mm rms at 1 m; cost " << fixed(held.cost, 4) << "\n";
+}
+
+}  // namespace
+
+std::string calibrationIni(const Calibration& calibration, const CalibrationLog& log, const std::string& title) {
+  const auto& camera = calibration.estimate;
+  std::ostringstream out;
+  out << base::kWrittenFromALog << ", " << title << ", by omnimapper-calibrate; report.txt says how well.\n"
+      << "; omnimapper-graphslam -i INI -i calibration.ini -r LOG -o FOLDER\n"
+      << "[calibration]\nlabel = " << log.label << "\n";
+  if (!calibration.is_better) return out.str();
+  const auto is_told = [&](Group group) { return isTold(calibration, group); };
+  const bool focal = is_told(Group::focal), centre = is_told(Group::centre), lens = is_told(Group::lens);
+  writeCamera(out, "picture", camera.picture, focal, centre, lens);
+  if (camera.is_registered) {
+    writeCamera(out, "depth", camera.picture, focal, centre, lens);
+  } else {
+    writeCamera(out, "depth", camera.depth, is_told(Group::depth_focal), is_told(Group::depth_centre), false);
+  }
+  if (is_told(Group::place) || is_told(Group::turn)) writePose(out, camera);
+  if (is_told(Group::scale)) out << "depth_scale = " << brief(camera.depth_scale, 8) << "\n";
+  return out.str();
+}
+
+std::string reportText(const Calibration& calibration, const CalibrationLog& log, const std::string& title) {
+  std::ostringstream out;
+  out << "calibration of '" << log.label << "' from " << title << "\n"
+      << base::counted(log.images, "image") << " over " << fixed(log.travel, 1) << " m and "
+      << fixed(log.turn / base::option_text::kRadiansPerDegree, 0) << " deg of turning, lost in " << log.lost << "; "
+      << base::counted(calibration.views, "view") << ", of which " << calibration.held_views << " held back; "
+      << base::counted(calibration.corners, "corner") << " of " << base::counted(calibration.tracks, "point") << ", "
+      << calibration.surfaces << " with depth\n"
+      << (calibration.log.is_registered ? "the depths are of the picture's view: one camera\n"
+                                        : "depths and picture are of two cameras\n");
+  if (calibration.spans > 0)
+    out << base::counted(calibration.spans, "distance") << " in metres, of "
+        << (log.are_wheels ? "wheels" : "given poses") << "\n";
+  out << "\n"
+      << std::left << std::setw(18) << "" << std::setw(12) << "log" << std::setw(12) << "estimate"
+      << "standard deviation\n";
+  for (const auto& finding : calibration.findings) {
+    out << nameOf(finding.group, calibration.log.is_registered) << "\n";
+    for (const auto& figure : finding.figures) {
+      const int decimals = decimalsOf(figure.key);
+      out << "  " << std::setw(16) << figure.key << std::setw(12) << fixed(figure.log, decimals);
+      if (finding.is_determined || figure.sigma > 0)
+        out << std::setw(12) << fixed(figure.estimate, decimals) << "+- " << brief(figure.sigma, 2);
+      out << "\n";
+    }
+    if (!finding.is_determined) out << "  the log's value holds; " << finding.why << "\n";
+  }
+  out << "\nviews held back, whose poses alone were fitted (" << calibration.after.corners << " corners):\n";
+  writeHeldBack(out, "before", calibration.before);
+  writeHeldBack(out, "after", calibration.after);
+  out << "verdict: " << verdictOf(calibration) << "\n";
+  return out.str();
+}
+
+std::string summaryJson(const Calibration& calibration, const CalibrationLog& log) {
+  nlohmann::ordered_json json;
+  json["label"] = log.label;
+  json["images"] = log.images;
+  json["images_lost"] = log.lost;
+  json["travel_m"] = log.travel;
+  json["turn_rad"] = log.turn;
+  json["is_one_camera"] = calibration.log.is_registered;
+  json["views"] = calibration.views;
+  json["views_held_back"] = calibration.held_views;
+  json["points"] = calibration.tracks;
+  json["corners"] = calibration.corners;
+  json["depths"] = calibration.surfaces;
+  json["distances_in_metres"] = calibration.spans;
+  for (const auto& finding : calibration.findings) {
+    nlohmann::ordered_json one;
+    one["name"] = nameOf(finding.group, calibration.log.is_registered);
+    one["is_determined"] = finding.is_determined;
+    if (!finding.is_determined) one["why"] = finding.why;
+    for (const auto& figure : finding.figures)
+      one["figures"].push_back(
+          {{"key", figure.key}, {"log", figure.log}, {"estimate", figure.estimate}, {"sigma", figure.sigma}});
+    json["parameters"].push_back(one);
+  }
+  const auto held = [](const HeldBack& h) {
+    return nlohmann::ordered_json{{"corners", h.corners},
+                                  {"pixel_median_px", h.pixel_median},
+                                  {"pixel_rms_px", h.pixel_rms},
+                                  {"depth_rms_per_m", h.depth_rms},
+                                  {"cost", h.cost}};
+  };
+  json["held_back_before"] = held(calibration.before);
+  json["held_back_after"] = held(calibration.after);
+  json["is_better"] = calibration.is_better;
+  json["verdict"] = verdictOf(calibration);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace omnimapper::calibration

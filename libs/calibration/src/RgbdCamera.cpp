@@ -1,0 +1,48 @@
+#include <omnimapper/calibration/RgbdCamera.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
+#include <omnimapper/perception/PictureView.h>
+
+namespace omnimapper::calibration {
+
+namespace {
+
+std::optional<Intrinsics> intrinsicsOf(const mrpt::img::TCamera& camera) {
+  if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt || !(camera.fx() > 1 && camera.fy() > 1))
+    return std::nullopt;
+  const bool is_straight = camera.distortion == mrpt::img::DistortionModel::none;
+  Intrinsics all{camera.fx(), camera.fy(), camera.cx(), camera.cy()};
+  for (std::size_t i = 0; i < 5; ++i) all[4 + i] = is_straight ? 0 : camera.dist[i];
+  return all;
+}
+
+}  // namespace
+
+// The lens bends little: what it adds is taken off again and again (as OpenCV does).
+Eigen::Vector3d rayThrough(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
+  constexpr int kRounds = 20;
+  const Eigen::Vector2d focal(camera[0], camera[1]);
+  Eigen::Vector3d ray((pixel.x() - camera[2]) / camera[0], (pixel.y() - camera[3]) / camera[1], 1);
+  for (int i = 0; i < kRounds; ++i) ray.head<2>() += (pixel - project(camera.data(), ray)).cwiseQuotient(focal);
+  return ray;
+}
+
+std::optional<RgbdCamera> cameraOf(const mrpt::obs::CObservation3DRangeScan& scan) {
+  RgbdCamera camera;
+  camera.is_registered = perception::isPictureOfDepthView(scan);
+  const auto depth = intrinsicsOf(scan.cameraParams);
+  const auto picture =
+      intrinsicsOf(scan.cameraParamsIntensity.fx() == 0 ? scan.cameraParams : scan.cameraParamsIntensity);
+  if (!depth || !picture) return std::nullopt;
+  camera.depth = *depth;
+  camera.picture = *picture;
+  camera.width = static_cast<int>(scan.intensityImage.getWidth());
+  camera.height = static_cast<int>(scan.intensityImage.getHeight());
+  // MRPT's depth camera has x forward; the picture's is optical.
+  if (!camera.is_registered)
+    camera.depth_from_picture =
+        inverse(geometry::sensorFromOptical()) * geometry::fromMrpt(scan.relativePoseIntensityWRTDepth);
+  return camera;
+}
+
+}  // namespace omnimapper::calibration

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/calibration/RgbdCamera.h>
+#include <omnimapper/matching/RgbdTracker.h>
+#include <omnimapper/perception/LensStraightener.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "View.h"
+
+namespace omnimapper::calibration {
+
+/// Follows a camera by its images and keeps some of them: evenly along its way and its turning, and of those near one
+/// another the one in which it turned most slowly, for a shutter that reads row by row bends fast ones.
+class ViewChooser {
+ public:
+  /// `most` views at the end.
+  explicit ViewChooser(std::size_t most) : most_(most), tracker_({}, {}, {}) {}
+
+  /// An image with depths and picture; one that is not of the first one's camera, or cannot be read, is counted.
+  void add(const mrpt::obs::CObservation3DRangeScan::ConstPtr& scan);
+  /// The views in the order of time. To be called once, at the end.
+  std::vector<View> take();
+
+  const std::optional<RgbdCamera>& camera() const { return camera_; }
+  std::size_t images() const { return images_; }
+  std::size_t lost() const { return lost_; }
+  /// How far the camera went [m] and turned [rad], all in all.
+  double travel() const { return travel_; }
+  double turn() const { return turn_; }
+
+ private:
+  struct Candidate {
+    View view;
+    std::size_t bin;
+  };
+  void keep(View view);
+  void thin();
+
+  std::size_t most_;
+  matching::RgbdTracker tracker_;
+  perception::LensStraightener lens_;
+  std::optional<RgbdCamera> camera_;
+  std::vector<Candidate> kept_;
+  std::size_t images_ = 0, lost_ = 0;
+  double travel_ = 0, turn_ = 0;
+  double spacing_ = 1;  // of bins, in units of motion
+  int stretch_ = 0;
+};
+
+}  // namespace omnimapper::calibration
