@@ -152,8 +152,8 @@ void BundleProblem::solve(const std::function<bool()>& stop) {
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.dense_linear_algebra_library_type = ceres::EIGEN;
   options.num_threads = 1;  // sums have one order: the same input gives the same bits
-  options.max_num_iterations = 60;
-  options.function_tolerance = 1e-7;
+  options.max_num_iterations = 40;
+  options.function_tolerance = 1e-6;
   options.logging_type = ceres::SILENT;
   options.callbacks.push_back(&callback);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
