@@ -62,7 +62,7 @@ class Room {
     for (std::size_t i = 0; i + 1 < views.size(); ++i) {
       const double distance =
           (inverse(picture_from_world[i]).translation - inverse(picture_from_world[i + 1]).translation).norm();
-      if (distance > 0.2) spans.push_back({i, i + 1, distance, 0.005});
+      if (distance > 0.2) spans.push_back({i, i + 1, distance, 0.005, 0});
     }
   }
 
@@ -166,6 +166,15 @@ TEST(Bundle, WithoutMetresTheScaleOfTheDepthsIsOpen) {
   const auto adjusted = adjust(room.input(room.truth), room.start(room.truth), {Group::focal, Group::scale});
   EXPECT_GT(undetermined(Group::scale, adjusted), 1) << "a larger scale and a longer way look the same";
   EXPECT_LT(undetermined(Group::focal, adjusted), 1);
+}
+
+TEST(Bundle, TheScaleIsKnownNoBetterThanThatOfTheWheels) {
+  Room room(true);
+  room.see(20, 0.2);
+  for (auto& span : room.spans) span.common_sigma = 0.01;
+  const auto adjusted = adjust(room.input(room.truth), room.start(room.truth), {Group::scale});
+  ASSERT_EQ(adjusted.parameters.size(), 1U);
+  EXPECT_GE(adjusted.parameters.front().sigma, 0.01);
 }
 
 TEST(Bundle, ALensOfWhichOnlyTheMiddleIsSeenIsNotDetermined) {

@@ -75,7 +75,11 @@ Adjusted adjust(const BundleInput& input, const Estimate& start, const std::set<
   for (std::size_t i = 0; i < input.are_held.size(); ++i)
     if (input.are_held[i]) problem.holdView(i);
   problem.solve(input.stop);
-  return problem.adjusted();
+  auto adjusted = problem.adjusted();
+  for (auto& one : adjusted.parameters)
+    if (one.group == Group::scale && !input.spans.empty())
+      one.sigma = std::hypot(one.sigma, input.spans.front().common_sigma);
+  return adjusted;
 }
 
 ViewMisses fitView(const std::vector<Measurement>& of_view, const View& view, const Estimate& estimate,

@@ -42,6 +42,7 @@ struct Measurement {
 struct MetricSpan {
   std::size_t first, second;  ///< views
   double distance, sigma;     ///< [m]
+  double common_sigma;        ///< [-] relative, of all alike: what measured them has a scale of its own
 };
 
 struct BundleInput {

@@ -141,6 +141,13 @@ HeldBack testOn(const std::vector<Measurement>& held, const BundleInput& used, c
   return result;
 }
 
+// Whether the scale of the depths may as well be the log's.
+bool isScaleOfLog(const Adjusted& adjusted, const RgbdCamera& log) {
+  const auto is_scale = [](const Parameter& one) { return one.group == Group::scale; };
+  const auto scale = std::find_if(adjusted.parameters.begin(), adjusted.parameters.end(), is_scale);
+  return scale == adjusted.parameters.end() || std::abs(scale->value - log.depth_scale) < 2 * scale->sigma;
+}
+
 // Frees everything, then lets go what the log determines worst, until all that is free is determined.
 Adjusted adjustWhatIsDetermined(const BundleInput& input, const Estimate& start, std::set<Group> free,
                                 std::map<Group, Adjusted>& attempts) {
@@ -150,7 +157,8 @@ Adjusted adjustWhatIsDetermined(const BundleInput& input, const Estimate& start,
     double worst = 1;
     std::optional<Group> let_go;
     for (const Group group : free) {
-      const double one = undetermined(group, adjusted);
+      double one = undetermined(group, adjusted);
+      if (group == Group::scale && one <= 1 && isScaleOfLog(adjusted, input.log)) one = 1.001;
       if (one <= worst) continue;
       worst = one;
       let_go = group;

@@ -41,13 +41,15 @@ class Metres {
 
   /// A span ends with the first view that is far enough from its first one.
   std::vector<MetricSpan> spansOf(const std::vector<View>& views) const {
-    constexpr double kFarEnough = 0.3, kFixed = 0.005, kOfWheels = 0.03;  // [m] [m] [-]
+    constexpr double kFixed = 0.005, kOfWheels = 0.03, kWheelsScale = 0.01;  // [m] [-]
+    const double far_enough = areWheels() ? 0.3 : 0.08;                      // [m] wheels slip at every start
     std::vector<MetricSpan> spans;
     for (std::size_t i = 0; i < views.size(); ++i) {
       for (std::size_t j = i + 1; j < views.size() && views[j].stretch == views[i].stretch; ++j) {
         const auto distance = between(views[i].stamp, views[j].stamp);
-        if (!distance || *distance < kFarEnough) continue;
-        spans.push_back({i, j, *distance, kFixed + (areWheels() ? kOfWheels * *distance : 0)});
+        if (!distance || *distance < far_enough) continue;
+        spans.push_back(
+            {i, j, *distance, kFixed + (areWheels() ? kOfWheels * *distance : 0), areWheels() ? kWheelsScale : 0});
         break;
       }
     }

@@ -128,8 +128,11 @@ std::string remedyOf(Group group) {
 
 std::string reasonOf(Group group, const Adjusted* attempt, bool has_metres) {
   if (group == Group::scale && !has_metres)
-    return "not determined: a larger scale and a longer way look the same, and nothing in the log measures metres; " +
+    return "not determined: a larger scale and a longer way look the same, and nothing in the log measures metres "
+           "between views that are far enough apart; " +
            remedyOf(group);
+  if (group == Group::scale && attempt != nullptr && undetermined(group, *attempt) <= 1)
+    return "the estimate differs from it by less than two standard deviations";
   if (attempt != nullptr && attempt->estimate.camera.is_registered && (group == Group::place || group == Group::turn))
     return "the depths are registered to the picture; this is what is left of it, and it is not written, for the "
            "picture "
