@@ -72,6 +72,9 @@ void writePose(std::ostream& out, const RgbdCamera& camera) {
 }
 
 std::string verdictOf(const Calibration& calibration) {
+  if (calibration.after.corners == 0)
+    return "the views that were held back show too few corners to test it: the log's calibration holds, and "
+           "calibration.ini changes nothing; record more of the same places";
   if (!calibration.is_better)
     return "the views that were held back fit no better: the log's calibration holds, and calibration.ini changes "
            "nothing";
