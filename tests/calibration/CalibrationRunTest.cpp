@@ -176,6 +176,18 @@ TEST_F(CalibrationRunTest, FindsWhereThePictureIsTakenAndTheScaleByGivenPoses) {
   EXPECT_LT(off.tail<3>().norm(), 0.35 * base::option_text::kRadiansPerDegree);
 }
 
+TEST_F(CalibrationRunTest, WhatAnIniToldBeforeIsToldAgain) {
+  Log log;
+  write(log);
+  request_.ini = folder_ / "before.ini";
+  std::ofstream(request_.ini) << "[calibration]\ndepth_scale = 1.02\npicture_fx_px = 265\npicture_fy_px = 265\n"
+                                 "depth_fx_px = 265\ndepth_fy_px = 265\n";
+  const auto result = run();
+  const auto camera = corrected(log);
+  EXPECT_NEAR(camera.picture[0], 260, 1.3) << result.text;
+  EXPECT_NEAR(camera.depth_scale, 1.02, 1e-6) << "nothing measures metres";
+}
+
 TEST_F(CalibrationRunTest, ACameraAtRestIsRefusedWithARemedy) {
   Log log;
   log.moves = false;

@@ -132,8 +132,17 @@ CalibrationLog readCalibrationLog(const CalibrationRequest& request, base::Progr
     if (!scan->hasRangeImage || !scan->hasIntensityImage) continue;
     ++seen.with_picture;
     result.label = scan->sensorLabel;
-    if (known.isOf(scan->sensorLabel)) known.applyTo(*scan);  // the log's own copy is not needed any more
+    if (known.isOf(scan->sensorLabel)) {
+      const auto units = static_cast<double>(scan->rangeUnits);
+      known.applyTo(*scan);  // the log's own copy is not needed any more
+      result.is_corrected = true;
+      result.corrected_scale = static_cast<double>(scan->rangeUnits) / units;
+    }
     chooser.add(scan);
+    if (chooser.isFull()) {
+      result.is_part = true;
+      break;
+    }
   }
   if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing was written");
   result.report = log.report();

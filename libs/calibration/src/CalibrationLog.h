@@ -18,6 +18,9 @@ struct CalibrationLog {
   std::vector<View> views;
   std::vector<MetricSpan> spans;  ///< of wheels or given poses
   bool are_wheels = false;        ///< spans are of wheels, whose own scale is uncertain
+  bool is_corrected = false;      ///< by an INI, from which the calibration starts
+  double corrected_scale = 1;     ///< of depths, by that INI
+  bool is_part = false;           ///< the log goes on, but there are views enough
   std::size_t images = 0, lost = 0;
   double travel = 0, turn = 0;  ///< [m] [rad] of the camera
   source::SourceReport report;

@@ -90,28 +90,32 @@ void writeHeldBack(std::ostream& out, const std::string& name, const HeldBack& h
 }  // namespace
 
 std::string calibrationIni(const Calibration& calibration, const CalibrationLog& log, const std::string& title) {
-  const auto& camera = calibration.estimate;
+  const auto& camera = calibration.is_better ? calibration.estimate : calibration.log;
   std::ostringstream out;
   out << base::kWrittenFromALog << ", " << title << ", by omnimapper-calibrate; report.txt says how well.\n"
       << "; omnimapper-graphslam -i INI -i calibration.ini -r LOG -o FOLDER\n"
       << "[calibration]\nlabel = " << log.label << "\n";
-  if (!calibration.is_better) return out.str();
-  const auto is_told = [&](Group group) { return isTold(calibration, group); };
+  // What an INI told before is told again, so that this one stands alone.
+  const bool tells_all = log.is_corrected;
+  if (!calibration.is_better && !tells_all) return out.str();
+  const auto is_told = [&](Group group) { return tells_all || isTold(calibration, group); };
   const bool focal = is_told(Group::focal), centre = is_told(Group::centre), lens = is_told(Group::lens);
   writeCamera(out, "picture", camera.picture, focal, centre, lens);
   if (camera.is_registered) {
     writeCamera(out, "depth", camera.picture, focal, centre, lens);
   } else {
-    writeCamera(out, "depth", camera.depth, is_told(Group::depth_focal), is_told(Group::depth_centre), false);
+    writeCamera(out, "depth", camera.depth, is_told(Group::depth_focal), is_told(Group::depth_centre), tells_all);
   }
-  if (is_told(Group::place) || is_told(Group::turn)) writePose(out, camera);
-  if (is_told(Group::scale)) out << "depth_scale = " << brief(camera.depth_scale, 8) << "\n";
+  if (!camera.is_registered && (is_told(Group::place) || is_told(Group::turn))) writePose(out, camera);
+  if (is_told(Group::scale)) out << "depth_scale = " << brief(log.corrected_scale * camera.depth_scale, 8) << "\n";
   return out.str();
 }
 
 std::string reportText(const Calibration& calibration, const CalibrationLog& log, const std::string& title) {
   std::ostringstream out;
-  out << "calibration of '" << log.label << "' from " << title << "\n"
+  out << (log.is_part ? "only the beginning of the log was needed; --start takes another part, --views more of it\n"
+                      : "")
+      << "calibration of '" << log.label << "' from " << title << "\n"
       << base::counted(log.images, "image") << " over " << fixed(log.travel, 1) << " m and "
       << fixed(log.turn / base::option_text::kRadiansPerDegree, 0) << " deg of turning, lost in " << log.lost << "; "
       << base::counted(calibration.views, "view") << ", of which " << calibration.held_views << " held back; "

@@ -97,7 +97,7 @@ void ViewChooser::add(const CObservation3DRangeScan::ConstPtr& scan) {
   } else {
     kept_.push_back({std::move(view), bin});
   }
-  if (kept_.size() >= 2 * most_) thin();
+  if (kept_.size() >= 2 * most_ && spacing_ < kWidestSpacing) thin();
 }
 
 // Twice the spacing: of two neighbouring bins the slower view stays.
@@ -117,11 +117,8 @@ void ViewChooser::thin() {
 }
 
 std::vector<View> ViewChooser::take() {
-  while (kept_.size() > most_) {
-    const auto before = kept_.size();
-    thin();
-    if (kept_.size() == before) kept_.resize(most_);
-  }
+  while (kept_.size() > most_ && spacing_ < kWidestSpacing) thin();
+  if (kept_.size() > most_) kept_.resize(most_);
   std::vector<View> views;
   for (auto& one : kept_) views.push_back(std::move(one.view));
   kept_.clear();

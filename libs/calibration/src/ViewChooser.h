@@ -26,6 +26,8 @@ class ViewChooser {
   /// The views in the order of time. To be called once, at the end.
   std::vector<View> take();
 
+  /// Whether there are so many views that more of the log would only take them farther apart than they can be matched.
+  bool isFull() const { return spacing_ >= kWidestSpacing && kept_.size() > most_; }
   const std::optional<RgbdCamera>& camera() const { return camera_; }
   std::size_t images() const { return images_; }
   std::size_t lost() const { return lost_; }
@@ -40,6 +42,8 @@ class ViewChooser {
   };
   void keep(View view);
   void thin();
+
+  static constexpr double kWidestSpacing = 4;  // 16 degrees or 0.32 m
 
   std::size_t most_;
   matching::RgbdTracker tracker_;
