@@ -4,18 +4,35 @@
 #include <omnimapper/plugin/SharedSection.h>
 
 #include "openDirections.h"
+#include "pcl/pclMatcher.h"
 
 IMPLEMENTS_MRPT_OBJECT(CloudOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
 
+const base::OptionTable<CloudLibraryOptions>& CloudLibraryOptions::table() {
+  using Options = CloudLibraryOptions;
+  static const auto table = base::OptionTable<Options>().choice(
+      "library", &Options::library, {{"omnimapper", Library::omnimapper}, {"pcl", Library::pcl}},
+      "Whose registration: our own, or that of PCL, which is slower.");
+  return table;
+}
+
+namespace {
+
+std::unique_ptr<const matching::CloudMatcher> matcherOf(const CloudLibraryOptions& by,
+                                                        const matching::CloudMatcherOptions& matching) {
+  if (by.library == CloudLibraryOptions::Library::pcl) return pclMatcher(matching);
+  return std::make_unique<matching::IteratedClosestPoints>(matching);
+}
+
+}  // namespace
+
 CloudOdometryPlugin::CloudOdometryPlugin(const CameraOdometryOptions& options,
                                          const matching::CloudTrackerOptions& tracking,
                                          const matching::CloudSourceOptions& source,
-                                         const matching::CloudMatcherOptions& matching)
-    : CameraOdometry(options, "odometry by clouds"),
-      source_(source),
-      tracker_(tracking, std::make_unique<matching::IteratedClosestPoints>(matching)) {
+                                         const matching::CloudMatcherOptions& matching, const CloudLibraryOptions& by)
+    : CameraOdometry(options, "odometry by clouds"), source_(source), tracker_(tracking, matcherOf(by, matching)) {
   const bool has_normals =
       source.source == matching::CloudSource::voxels || source.source == matching::CloudSource::all_points;
   if (matching.method == matching::CloudMethod::point_to_plane && !has_normals) {
@@ -41,8 +58,9 @@ ImageMotion CloudOdometryPlugin::track(const perception::RgbdView& view, base::S
   return motion;
 }
 
-using CloudOdometrySection = mapper::SharedSection<CameraOdometryOptions, matching::CloudTrackerOptions,
-                                                   matching::CloudSourceOptions, matching::CloudMatcherOptions>;
+using CloudOdometrySection =
+    mapper::SharedSection<CameraOdometryOptions, matching::CloudTrackerOptions, matching::CloudSourceOptions,
+                          matching::CloudMatcherOptions, CloudLibraryOptions>;
 
 const std::vector<base::OptionSpec>& CloudOdometryPluginFactory::options() const {
   return CloudOdometrySection::options();
@@ -53,7 +71,8 @@ std::unique_ptr<mapper::PosePlugin> CloudOdometryPluginFactory::make(const base:
   return std::make_unique<CloudOdometryPlugin>(CloudOdometrySection::read<CameraOdometryOptions>(section),
                                                CloudOdometrySection::read<matching::CloudTrackerOptions>(section),
                                                CloudOdometrySection::read<matching::CloudSourceOptions>(section),
-                                               CloudOdometrySection::read<matching::CloudMatcherOptions>(section));
+                                               CloudOdometrySection::read<matching::CloudMatcherOptions>(section),
+                                               CloudOdometrySection::read<CloudLibraryOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

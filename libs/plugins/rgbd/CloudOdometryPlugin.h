@@ -8,13 +8,23 @@
 
 namespace omnimapper::plugins {
 
+/// Whose registration of clouds.
+struct CloudLibraryOptions {
+  enum class Library { omnimapper, pcl };
+  Library library = Library::omnimapper;
+
+  static const base::OptionTable<CloudLibraryOptions>& table();
+};
+
 /// Odometry by clouds (thesis 4.1.1, 5.3.3.1): edges, voxels or all points of every image of one depth camera are
 /// registered with those of a key frame (matching/CloudTracker.h).
 class CloudOdometryPlugin : public CameraOdometry {
  public:
-  /// Throws Error(out_of_range) for edges that are to be registered by planes.
+  /// Throws Error(out_of_range) for edges that are to be registered by planes, and Error(unknown_plugin) for a library
+  /// that this was built without.
   CloudOdometryPlugin(const CameraOdometryOptions& options, const matching::CloudTrackerOptions& tracking,
-                      const matching::CloudSourceOptions& source, const matching::CloudMatcherOptions& matching);
+                      const matching::CloudSourceOptions& source, const matching::CloudMatcherOptions& matching,
+                      const CloudLibraryOptions& by = {});
 
  private:
   bool seeksReturns() const override { return false; }

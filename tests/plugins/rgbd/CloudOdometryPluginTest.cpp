@@ -77,6 +77,25 @@ TEST_F(CloudOdometry, TellsTheMotionOfTheBaseNotOfTheCamera) {
   }
 }
 
+TEST_F(CloudOdometry, PclTellsTheMotionTooOrSaysThatItIsNotThere) {
+  using matching::CloudMethod;
+  CloudLibraryOptions by;
+  by.library = CloudLibraryOptions::Library::pcl;
+  tracking_.longest_loss = 0.5;
+  for (const auto method : {CloudMethod::point_to_point, CloudMethod::point_to_plane, CloudMethod::gicp}) {
+    matching_.method = method;
+    try {
+      plugin_ = std::make_unique<CloudOdometryPlugin>(CameraOdometryOptions{}, tracking_, source_, matching_, by);
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
+      EXPECT_NE(std::string(error.what()).find("libpcl-dev"), std::string::npos) << error.what();
+      GTEST_SKIP() << "built without PCL (libpcl-dev)";
+    }
+    for (int i = 0; i <= 5; ++i) add(0.1 * i);
+    expectMotion(0, 0.5);
+  }
+}
+
 TEST_F(CloudOdometry, AcrossACoveredLensTheMotionIsToldWhenTheViewIsFoundAgain) {
   for (int i = 0; i <= 5; ++i) add(0.1 * i);
   for (int i = 6; i <= 8; ++i) add(0.1 * i, true);

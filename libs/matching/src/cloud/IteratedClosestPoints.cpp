@@ -66,6 +66,8 @@ class CloudSearch {
   void associate(std::size_t stride, double max_distance);
   // One step of Gauss-Newton. Gives its length [m] [rad].
   double step();
+  // The normal equations of the pairs: information(), and the gradient.
+  Vector6d gradient();
   double scale() const { return std::sqrt(scale_square_); }
   double overlap() const { return asked_ == 0 ? 0 : static_cast<double>(near_) / static_cast<double>(asked_); }
   std::size_t pairs() const { return pairs_.size(); }
@@ -160,7 +162,7 @@ Matrix6d CloudSearch::informationOfNoise(double noise) const {
   return sum;
 }
 
-double CloudSearch::step() {
+Vector6d CloudSearch::gradient() {
   Eigen::Matrix3d tt = Eigen::Matrix3d::Zero(), tw = tt, ww = tt;
   Eigen::Vector3d t = Eigen::Vector3d::Zero(), w = t;
   for (const Pair& pair : pairs_) {
@@ -176,9 +178,14 @@ double CloudSearch::step() {
   information_ << tt, tw, tw.transpose(), ww;
   Vector6d gradient;
   gradient << t, w;
+  return gradient;
+}
+
+double CloudSearch::step() {
+  const Vector6d downhill = -gradient();
   // What the pairs leave open stays as it is.
   const Matrix6d held = information_ + 1e-9 * information_.trace() * Matrix6d::Identity();
-  const Vector6d step = -held.ldlt().solve(gradient);
+  const Vector6d step = held.ldlt().solve(downhill);
   if (!step.allFinite()) return 0;
   target_from_source_ = plus(target_from_source_, step);
   return std::max(step.head<3>().norm(), step.tail<3>().norm());
@@ -203,43 +210,22 @@ void requireWhatIsNeeded(CloudMethod method, const MatchCloud& target, const Mat
                       "registration by GICP needs the covariances of both clouds' points");
 }
 
-}  // namespace
+constexpr std::size_t kFewestPoints = 6;  // points: fewer fix no motion
 
-CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchCloud& source, const Se3& guess) const {
-  requireWhatIsNeeded(options_.method, target, source);
-  constexpr std::size_t kFewest = 6;  // points: fewer fix no motion
-  CloudMatch match;
-  match.target_from_source = guess;
-  if (target.size() < kFewest || source.size() < kFewest) return match;
-  // Odd: an even one meets rows of an image, which are as wide as powers of two have factors, at the same few columns.
-  const auto stride_of = [&](double points) {
-    return static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(source.size()) / points))) | 1U;
-  };
-  const std::size_t finest = stride_of(options_.max_points);
-  CloudSearch search(options_, target, source, guess);
-  double distance = std::max(options_.coarse_distance, options_.max_distance);
-  for (std::size_t stride = std::max(finest, stride_of(options_.coarse_points));;) {
-    const bool is_last = stride == finest && distance <= options_.max_distance;
-    // What a coarse level finds is found better by the next.
-    const double enough = is_last ? options_.tolerance : 10 * options_.tolerance;
-    for (int i = 0; i < options_.max_iterations; ++i) {
-      search.associate(stride, distance);
-      ++match.iterations;
-      match.overlap = search.overlap();
-      if (match.overlap < options_.min_overlap || search.pairs() < kFewest) return match;
-      if (search.step() < enough) break;
-    }
-    if (is_last) break;
-    stride = std::max(finest, (stride / 4) | 1U);
-    distance = std::max(options_.max_distance, distance / 2);
-  }
+// Odd: an even one meets rows of an image, which are as wide as powers of two have factors, at the same few columns.
+std::size_t strideOf(const MatchCloud& source, double points) {
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(source.size()) / points))) | 1U;
+}
+
+// From the pairs where the search ended.
+void conclude(const CloudSearch& search, const CloudMatcherOptions& options, const Se3& guess, CloudMatch& match) {
   match.target_from_source = search.targetFromSource();
   match.residual = search.medianDistance();
   // A direction is open that all pairs together fix by less than this.
   constexpr double kWeakest = 1e4;  // [1/m2], [1/rad2]
-  const bool by_surfaces = options_.method != CloudMethod::point_to_point;
-  const Matrix6d noise = by_surfaces ? search.informationOfNoise(options_.normal_noise) : Matrix6d(Matrix6d::Zero());
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes((search.information() - noise) / options_.alike);
+  const bool by_surfaces = options.method != CloudMethod::point_to_point;
+  const Matrix6d noise = by_surfaces ? search.informationOfNoise(options.normal_noise) : Matrix6d(Matrix6d::Zero());
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes((search.information() - noise) / options.alike);
   match.open_directions = static_cast<int>((axes.eigenvalues().array() < kWeakest).count());
   const Vector6d variances =
       axes.eigenvalues().unaryExpr([](double value) { return value < kWeakest ? CloudMatch::kOpen : 1 / value; });
@@ -252,6 +238,49 @@ CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchClo
     match.target_from_source = plus(guess, axes.eigenvectors() * moved);
   }
   match.succeeded = match.open_directions == 0;
+}
+
+}  // namespace
+
+CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchCloud& source, const Se3& guess) const {
+  requireWhatIsNeeded(options_.method, target, source);
+  CloudMatch match;
+  match.target_from_source = guess;
+  if (target.size() < kFewestPoints || source.size() < kFewestPoints) return match;
+  const std::size_t finest = strideOf(source, options_.max_points);
+  CloudSearch search(options_, target, source, guess);
+  double distance = std::max(options_.coarse_distance, options_.max_distance);
+  for (std::size_t stride = std::max(finest, strideOf(source, options_.coarse_points));;) {
+    const bool is_last = stride == finest && distance <= options_.max_distance;
+    // What a coarse level finds is found better by the next.
+    const double enough = is_last ? options_.tolerance : 10 * options_.tolerance;
+    for (int i = 0; i < options_.max_iterations; ++i) {
+      search.associate(stride, distance);
+      ++match.iterations;
+      match.overlap = search.overlap();
+      if (match.overlap < options_.min_overlap || search.pairs() < kFewestPoints) return match;
+      if (search.step() < enough) break;
+    }
+    if (is_last) break;
+    stride = std::max(finest, (stride / 4) | 1U);
+    distance = std::max(options_.max_distance, distance / 2);
+  }
+  conclude(search, options_, guess, match);
+  return match;
+}
+
+CloudMatch IteratedClosestPoints::judged(const MatchCloud& target, const MatchCloud& source, const Se3& guess,
+                                         const Se3& target_from_source) const {
+  requireWhatIsNeeded(options_.method, target, source);
+  CloudMatch match;
+  match.target_from_source = guess;
+  if (target.size() < kFewestPoints || source.size() < kFewestPoints) return match;
+  CloudSearch search(options_, target, source, target_from_source);
+  search.associate(strideOf(source, options_.max_points), options_.max_distance);
+  match.overlap = search.overlap();
+  if (match.overlap < options_.min_overlap || search.pairs() < kFewestPoints) return match;
+  search.gradient();
+  conclude(search, options_, guess, match);
   return match;
 }
 

@@ -60,6 +60,9 @@ class IteratedClosestPoints : public CloudMatcher {
   /// Throws Error(out_of_range) for counts, distances or a tolerance that are not positive, and for `alike` below 1.
   explicit IteratedClosestPoints(const CloudMatcherOptions& options);
   CloudMatch match(const MatchCloud& target, const MatchCloud& source, const geometry::Se3& guess) const override;
+  /// What the residuals say of a registration that somebody else found from `guess`.
+  CloudMatch judged(const MatchCloud& target, const MatchCloud& source, const geometry::Se3& guess,
+                    const geometry::Se3& target_from_source) const;
 
  private:
   CloudMatcherOptions options_;
