@@ -3,6 +3,7 @@
 #include <omnimapper/base/Config.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,11 @@ struct SharedSection {
   template <class Struct>
   static Struct read(const base::ConfigSection& section) {
     auto keys = sectionKeysOfEngine();
-    for (const auto& spec : options()) keys.push_back(spec.key);
+    const auto& own = Struct::table().specs();  // which read() knows
+    for (const auto& spec : options()) {
+      const auto is_it = [&](const base::OptionSpec& other) { return other.key == spec.key; };
+      if (std::none_of(own.begin(), own.end(), is_it)) keys.push_back(spec.key);
+    }
     return section.read<Struct>(keys);
   }
 };
