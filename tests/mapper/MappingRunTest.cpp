@@ -114,6 +114,12 @@ TEST_F(MappingRun, StoppedItGivesTheMapSoFar) {
                           [](const auto& w) { return w.find("interrupted") != std::string::npos; }));
 }
 
+TEST_F(MappingRun, ThatAnOlderMapWasReplacedIsSaid) {
+  const std::string said = "in the place of the run that was there";
+  EXPECT_EQ(toText(run()).find(said), std::string::npos);
+  EXPECT_NE(toText(run()).find(said), std::string::npos);
+}
+
 TEST_F(MappingRun, StoppedWhileTheLogIsOpenedItLeavesNothing) {
   try {
     run({}, [] { return true; });

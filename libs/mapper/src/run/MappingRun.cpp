@@ -326,7 +326,8 @@ void Run::complete(RunResult& result) const {
 void Run::publish(const std::vector<base::Error>& failures, RunResult& result) {
   std::vector<base::Error> errors;
   for (const auto& error : failures) errors.emplace_back(error.code(), outputs_.asTheUserSees(error.what()));
-  bool is_apart = outputs_.holdsRun() && (stopped_ || failure_ || failure_at_end_ || !errors.empty());
+  const bool held_run = outputs_.holdsRun();
+  bool is_apart = held_run && (stopped_ || failure_ || failure_at_end_ || !errors.empty());
   if (!is_apart) {
     try {
       keepContinuedMap();
@@ -342,6 +343,7 @@ void Run::publish(const std::vector<base::Error>& failures, RunResult& result) {
   } catch (const base::Error& error) {
     is_apart ? errors.push_back(error) : result.warnings.push_back(error.what());
   }
+  result.took_place = held_run && !is_apart;
   result.foreign_files = outputs_.foreignFiles();
   const std::string older = is_apart ? outputs_.folder() +
                                            " is as it was; what there is of this run, which is not whole, "
@@ -473,7 +475,8 @@ std::string toText(const RunResult& result) {
   const std::string verdict =
       result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";
   return sessions + text + landmarkLine(result.landmarks) + verdict + "outputs           " + result.output_folder +
-         "\n" + foreignLine(result.foreign_files);
+         (result.took_place ? " (in the place of the run that was there)" : "") + "\n" +
+         foreignLine(result.foreign_files);
 }
 
 }  // namespace omnimapper::mapper

@@ -24,6 +24,7 @@ struct RunResult {
   Verdict verdict;  ///< on the whole map; without evidence in a run that localizes
   source::SourceReport source;
   std::string output_folder;                ///< where the outputs are: that of the request, or one in it
+  bool took_place = false;                  ///< they replaced those of an earlier run
   std::vector<std::string> foreign_files;   ///< what else is in the folder of the request, and no run made
   std::size_t key_frames = 0, factors = 0;  ///< of the whole map
   std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;
