@@ -15,6 +15,8 @@
 #include <map>
 #include <sstream>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace omnimapper::base {
 
@@ -28,6 +30,7 @@ const char kReserve[] = "reserve";
 constexpr off_t kReservedBytes = 64 * 1024;
 // The files of the run, and those of a run that takes its place but has not been moved there whole.
 const char kFiles[] = "files", kCommit[] = "commit";
+const char kMap[] = "map.omnimap";
 const char kFirstLine[] = "files of a run of OmniMapper, 1";
 
 using FileList = std::map<std::string, std::uint64_t>;  // sizes, by the path in the folder
@@ -104,11 +107,30 @@ std::string whyNotAt(const fs::path& top, const fs::path& name) {
   return "";
 }
 
+using Renamed = std::vector<std::pair<fs::path, fs::path>>;  // from, to
+
+void putBack(const Renamed& aside) {
+  std::error_code ignored;
+  for (const auto& [from, to] : aside) fs::rename(to, from, ignored);
+}
+
 // What somebody else put where a file of a run is to be gets another name: that with a tilde, as editors have it.
-void setAside(const fs::path& file) {
-  fs::path other = file.string() + "~";
-  for (int n = 2; fs::exists(fs::symlink_status(other)); ++n) other = file.string() + "~" + std::to_string(n);
-  fs::rename(file, other);
+Renamed setAside(const fs::path& folder, const FileList& files, const FileList& before) {
+  Renamed aside;
+  for (const auto& [name, size] : files) {
+    const fs::path file = folder / name;
+    if (before.count(name) > 0 || !fs::exists(fs::symlink_status(file)) || isBehindLink(folder, name)) continue;
+    fs::path other = file.string() + "~";
+    for (int n = 2; fs::exists(fs::symlink_status(other)); ++n) other = file.string() + "~" + std::to_string(n);
+    std::error_code error;
+    fs::rename(file, other, error);
+    if (error) {
+      putBack(aside);
+      throw fs::filesystem_error("cannot be renamed", file, other, error);
+    }
+    aside.emplace_back(file, other);
+  }
+  return aside;
 }
 
 // Does what a commit has noted and not done. Can be broken off and done again at any point.
@@ -119,7 +141,6 @@ void finishCommit(const fs::path& folder) {
   for (const auto& [name, size] : after) {
     if (!fs::exists(staged / name) || isBehindLink(folder, name)) continue;
     fs::create_directories((folder / name).parent_path());
-    if (before.count(name) == 0 && fs::exists(fs::symlink_status(folder / name))) setAside(folder / name);
     fs::rename(staged / name, folder / name);
   }
   for (const auto& [name, size] : before) {
@@ -206,7 +227,7 @@ bool OutputFolder::isCommitted() const {
 
 bool OutputFolder::holdsRun() const {
   std::error_code error;
-  return fs::exists(fs::path(hidden_) / kFiles, error) || fs::exists(fs::path(folder_) / "map.omnimap", error);
+  return fs::exists(fs::path(hidden_) / kFiles, error) || fs::exists(fs::path(folder_) / kMap, error);
 }
 
 void OutputFolder::commit() {
@@ -218,17 +239,26 @@ void OutputFolder::commit() {
       if (const auto reason = whyNotAt(folder_, name); !reason.empty()) fail(target, reason);
       refuseToReplaceKeptInput(target);
     }
+    const FileList before = readList(fs::path(hidden_) / kFiles);
+    // A map without a list is taken for a run's.
+    const Renamed aside =
+        before.empty() && fs::exists(fs::path(folder_) / kMap) ? Renamed{} : setAside(folder_, files, before);
     // What the run read stays, too.
-    for (const auto& [name, size] : readList(fs::path(hidden_) / kFiles)) {
+    for (const auto& [name, size] : before) {
       const fs::path file = fs::path(folder_) / name;
       if ((kept_.count(name) > 0 || isKeptInput(file)) && fs::is_regular_file(file))
         files.try_emplace(name, fs::file_size(file));
     }
     // This is the step: before it the old files count, after it the new ones.
-    writeFile(hidden_ + "/" + kCommit, [&](std::ostream& out) {
-      out << kFirstLine << "\n";
-      for (const auto& [name, size] : files) out << size << " " << name << "\n";
-    });
+    try {
+      writeFile(hidden_ + "/" + kCommit, [&](std::ostream& out) {
+        out << kFirstLine << "\n";
+        for (const auto& [name, size] : files) out << size << " " << name << "\n";
+      });
+    } catch (const Error&) {
+      putBack(aside);
+      throw;
+    }
   } catch (const fs::filesystem_error& error) {
     fail(folder_, std::string("the outputs cannot be put there (") + error.what() + ")");
   }

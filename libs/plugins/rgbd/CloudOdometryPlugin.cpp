@@ -4,7 +4,7 @@
 #include <omnimapper/plugin/SharedSection.h>
 
 #include "openDirections.h"
-#include "pcl/pclMatcher.h"
+#include "pclMatcher.h"
 
 IMPLEMENTS_MRPT_OBJECT(CloudOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
 
