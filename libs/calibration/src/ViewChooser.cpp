@@ -59,6 +59,10 @@ void ViewChooser::add(const CObservation3DRangeScan::ConstPtr& scan) {
     ++lost_;
     return;
   }
+  // Corners are read from it by the first image's size.
+  if (static_cast<int>(scan->intensityImage.getWidth()) != camera_->width ||
+      static_cast<int>(scan->intensityImage.getHeight()) != camera_->height)
+    return;
   if (tracked.how == How::begun) ++stretch_;
   View view;
   if (tracked.how != How::begun) {
