@@ -112,6 +112,29 @@ TEST(OutputFolder, WhatHasTheNameOfANewFileIsKeptBesideIt) {
   EXPECT_EQ(contents(scratch / "out"), (Contents{{"map", "second"}, {"map~", "mine, older"}, {"map~2", "mine"}}));
 }
 
+TEST(OutputFolder, BesideAMapWithoutAListOutputsAreTakenForARuns) {
+  ScratchFolder scratch;
+  put(scratch / "out/map.omnimap", "copied");
+  put(scratch / "out/map.png", "copied");
+  write(scratch / "out", {{"map.omnimap", "new"}, {"map.png", "new"}});
+  EXPECT_EQ(contents(scratch / "out"), (Contents{{"map.omnimap", "new"}, {"map.png", "new"}}));
+}
+
+TEST(OutputFolder, KilledAfterItsNoteWhatWasThereIsStillKeptBesideIt) {
+  ScratchFolder scratch;
+  for (const bool was_renamed : {false, true}) {
+    const std::string path = scratch / (was_renamed ? "renamed" : "noted");
+    put(path + "/map", "mine");
+    put(path + "/.omnimapper/staged/map", "new");
+    put(path + "/.omnimapper/commit", "files of a run of OmniMapper, 1\n3 map\n~ map\n");
+    if (was_renamed) fs::rename(path + "/map", path + "/map~");
+    { OutputFolder(path).open(); }
+    EXPECT_EQ(contents(path), (Contents{{"map", "new"}, {"map~", "mine"}}));
+    write(path, {{"map", "newer"}});
+    EXPECT_EQ(contents(path), (Contents{{"map", "newer"}, {"map~", "mine"}}));
+  }
+}
+
 TEST(OutputFolder, NamesMayHaveBlanksButNoLineBreaks) {
   ScratchFolder scratch;
   const Contents odd{{" a b ", "1"}, {"c/ d", "2"}};

@@ -13,9 +13,9 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace omnimapper::base {
@@ -31,6 +31,8 @@ constexpr off_t kReservedBytes = 64 * 1024;
 // The files of the run, and those of a run that takes its place but has not been moved there whole.
 const char kFiles[] = "files", kCommit[] = "commit";
 const char kMap[] = "map.omnimap";
+// Begins a line of the note about a name that somebody else's file has.
+const char kForeign[] = "~ ";
 const char kFirstLine[] = "files of a run of OmniMapper, 1";
 
 using FileList = std::map<std::string, std::uint64_t>;  // sizes, by the path in the folder
@@ -107,30 +109,20 @@ std::string whyNotAt(const fs::path& top, const fs::path& name) {
   return "";
 }
 
-using Renamed = std::vector<std::pair<fs::path, fs::path>>;  // from, to
-
-void putBack(const Renamed& aside) {
-  std::error_code ignored;
-  for (const auto& [from, to] : aside) fs::rename(to, from, ignored);
+// Names after which the note of a commit has a tilde: what somebody else put there.
+std::set<std::string> readForeign(const fs::path& note) {
+  std::set<std::string> names;
+  std::ifstream in(note);
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind(kForeign, 0) == 0) names.insert(line.substr(sizeof kForeign - 1));
+  return names;
 }
 
 // What somebody else put where a file of a run is to be gets another name: that with a tilde, as editors have it.
-Renamed setAside(const fs::path& folder, const FileList& files, const FileList& before) {
-  Renamed aside;
-  for (const auto& [name, size] : files) {
-    const fs::path file = folder / name;
-    if (before.count(name) > 0 || !fs::exists(fs::symlink_status(file)) || isBehindLink(folder, name)) continue;
-    fs::path other = file.string() + "~";
-    for (int n = 2; fs::exists(fs::symlink_status(other)); ++n) other = file.string() + "~" + std::to_string(n);
-    std::error_code error;
-    fs::rename(file, other, error);
-    if (error) {
-      putBack(aside);
-      throw fs::filesystem_error("cannot be renamed", file, other, error);
-    }
-    aside.emplace_back(file, other);
-  }
-  return aside;
+void setAside(const fs::path& file) {
+  fs::path other = file.string() + "~";
+  for (int n = 2; fs::exists(fs::symlink_status(other)); ++n) other = file.string() + "~" + std::to_string(n);
+  fs::rename(file, other);
 }
 
 // Does what a commit has noted and not done. Can be broken off and done again at any point.
@@ -138,9 +130,11 @@ void finishCommit(const fs::path& folder) {
   const fs::path hidden = folder / kHidden, staged = hidden / kStaged;
   if (!fs::exists(hidden / kCommit)) return;
   const FileList before = readList(hidden / kFiles), after = readList(hidden / kCommit);
+  const auto foreign = readForeign(hidden / kCommit);
   for (const auto& [name, size] : after) {
     if (!fs::exists(staged / name) || isBehindLink(folder, name)) continue;
     fs::create_directories((folder / name).parent_path());
+    if (foreign.count(name) > 0 && fs::exists(fs::symlink_status(folder / name))) setAside(folder / name);
     fs::rename(staged / name, folder / name);
   }
   for (const auto& [name, size] : before) {
@@ -240,9 +234,13 @@ void OutputFolder::commit() {
       refuseToReplaceKeptInput(target);
     }
     const FileList before = readList(fs::path(hidden_) / kFiles);
-    // A map without a list is taken for a run's.
-    const Renamed aside =
-        before.empty() && fs::exists(fs::path(folder_) / kMap) ? Renamed{} : setAside(folder_, files, before);
+    // The outputs beside a map without a list are taken for a run's.
+    const bool is_unlisted_run = before.empty() && fs::exists(fs::path(folder_) / kMap);
+    std::vector<std::string> foreign;
+    for (const auto& [name, size] : files) {
+      const bool is_there = fs::exists(fs::symlink_status(fs::path(folder_) / name));
+      if (is_there && !is_unlisted_run && before.count(name) == 0) foreign.push_back(name);
+    }
     // What the run read stays, too.
     for (const auto& [name, size] : before) {
       const fs::path file = fs::path(folder_) / name;
@@ -250,15 +248,11 @@ void OutputFolder::commit() {
         files.try_emplace(name, fs::file_size(file));
     }
     // This is the step: before it the old files count, after it the new ones.
-    try {
-      writeFile(hidden_ + "/" + kCommit, [&](std::ostream& out) {
-        out << kFirstLine << "\n";
-        for (const auto& [name, size] : files) out << size << " " << name << "\n";
-      });
-    } catch (const Error&) {
-      putBack(aside);
-      throw;
-    }
+    writeFile(hidden_ + "/" + kCommit, [&](std::ostream& out) {
+      out << kFirstLine << "\n";
+      for (const auto& [name, size] : files) out << size << " " << name << "\n";
+      for (const auto& name : foreign) out << kForeign << name << "\n";
+    });
   } catch (const fs::filesystem_error& error) {
     fail(folder_, std::string("the outputs cannot be put there (") + error.what() + ")");
   }
