@@ -71,6 +71,21 @@ TEST(Gyroscope, WhatItShowsAtRestIsLearntFromTurnsThatOthersMeasured) {
   EXPECT_LT(std::sqrt(turn->covariance(0, 0)), 0.1 * geometry::kPi / 180);
 }
 
+TEST(Gyroscope, ATurnThatCannotBeTrueTeachesNothingAndABiasThatDriftsIsFollowed) {
+  Gyroscope gyroscope{{}};
+  const auto drifting = [](double seconds) { return Eigen::Vector3d(0, 0, 1e-4 * seconds); };  // 0.34 deg/s per minute
+  for (int i = 0; i <= 60000; ++i) gyroscope.add(reading(0.01 * i, drifting(0.01 * i)));
+  for (int i = 0; i < 599; ++i) {
+    gyroscope.learn(at(i), at(i + 1), Eigen::Quaterniond::Identity(), 0.005);
+    if (i != 300) continue;
+    const Eigen::Vector3d before = gyroscope.bias();
+    // A view of before was found again, and with it 3 deg of drift.
+    gyroscope.learn(at(i + 0.1), at(i + 1), geometry::expSo3(Eigen::Vector3d(0.05, 0, 0)), 0.005);
+    EXPECT_EQ(gyroscope.bias(), before);
+  }
+  EXPECT_LT((gyroscope.bias() - drifting(599)).norm(), 0.01) << gyroscope.bias().transpose();
+}
+
 TEST(Gyroscope, WhereReadingsAreMissingItTellsNothing) {
   Gyroscope gyroscope{{}};
   for (const double seconds : {0.0, 0.05, 0.1, 0.3, 0.35}) gyroscope.add(reading(seconds, {0, 0, 1}));

@@ -4,6 +4,7 @@
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 
 #include <algorithm>
@@ -118,42 +119,49 @@ std::optional<mapper::RelativeMotion> CameraOdometry::wheelsBetween(base::Stamp 
   return told;
 }
 
+std::optional<CameraOdometry::BaseMotion> CameraOdometry::measuredBetween(base::Stamp begin, base::Stamp end) const {
+  const auto wheels = wheelsBetween(begin, end);
+  const auto turn = gyroscope_.between(begin, end);
+  if (!wheels && !turn) return std::nullopt;
+  BaseMotion motion;
+  motion.only_turn = !wheels;
+  if (wheels) {
+    motion.begin_from_end = geometry::fromMrpt(wheels->begin_from_end);
+    motion.covariance = wheels->covariance;
+  }
+  if (turn) {
+    motion.begin_from_end.rotation = turn->begin_from_end;
+    motion.covariance.rightCols<3>().setZero();
+    motion.covariance.bottomRows<3>().setZero();
+    motion.covariance.bottomRightCorner<3, 3>() = turn->covariance;
+  }
+  return motion;
+}
+
 std::optional<matching::PredictedMotion> CameraOdometry::predictionOf(const geometry::Se3& base_from_camera,
                                                                       base::Stamp stamp) const {
   constexpr double kStampError = 0.02;                 // [s] between the clocks of wheels and images
   constexpr double kPosition = 0.002, kAngle = 0.002;  // [m] [rad] a base nods and sways, too
-  if (!last_) return std::nullopt;
-  const auto told = wheelsBetween(*last_, stamp);
-  const auto turn = gyroscope_.between(*last_, stamp);
-  if (!told && !turn) return std::nullopt;
-  geometry::Se3 motion;
-  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
-  if (told) {
-    motion = geometry::fromMrpt(told->begin_from_end);
-    covariance = told->covariance;
-  }
-  if (turn) {
-    motion.rotation = turn->begin_from_end;
-    covariance.rightCols<3>().setZero();
-    covariance.bottomRows<3>().setZero();
-    covariance.bottomRightCorner<3, 3>() = turn->covariance;
-  }
+  const auto measured = last_ ? measuredBetween(*last_, stamp) : std::nullopt;
+  if (!measured) return std::nullopt;
+  const geometry::Se3& motion = measured->begin_from_end;
   const geometry::Vector6d shifted =
       minus(motion, geometry::Se3{}) * (kStampError / std::max(kStampError, base::secondsBetween(*last_, stamp)));
-  covariance += shifted * shifted.transpose();
-  covariance.diagonal().head<3>().array() += told ? kPosition * kPosition : freeVariance(*last_, stamp);
+  geometry::Matrix6d covariance = measured->covariance + shifted * shifted.transpose();
+  covariance.diagonal().head<3>().array() += measured->only_turn ? freeVariance(*last_, stamp) : kPosition * kPosition;
   covariance.diagonal().tail<3>().array() += kAngle * kAngle;
   const geometry::Se3 camera_from_base = inverse(base_from_camera);
   const geometry::Matrix6d ad = adjoint(camera_from_base);
   return matching::PredictedMotion{camera_from_base * motion * base_from_camera, ad * covariance * ad.transpose(),
-                                   !told};
+                                   measured->only_turn};
 }
 
-// Over a second or so, for what a key frame is off by is in each image that was registered with it.
+// Over a second or so, for what a key frame is off by is in each image that was registered with it. Where a view of
+// before is found again, drift is taken out at once, which is no turn.
 void CameraOdometry::learnBias(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera) {
   constexpr double kWhile = 1;      // [s]
   constexpr double kAngle = 0.005;  // [rad]
-  if (tracked.how != How::tracked || !tracked.open.isZero()) {
+  if (tracked.how != How::tracked || tracked.seen_before || !tracked.open.isZero()) {
     turn_begun_.reset();
     return;
   }
@@ -206,41 +214,43 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
     constexpr double kLong = 0.4;  // [s]
     found_ += !by_wheels && is_lost_ && seconds > kLong;
     bridged_ += !by_wheels && !tracked.open.isZero();
-    tell(tracked.last, scan.timestamp, motionOf(tracked, scan.timestamp, base_from_camera, prediction));
+    addMotion(tracked.last, scan.timestamp, motionOf(tracked, scan.timestamp, base_from_camera, prediction));
   }
   last_ = scan.timestamp;
   is_lost_ = false;
   lost_images_.clear();
 }
 
-// Across images that told nothing the base went as wheels or gyroscope tell it, and what they are off by came evenly.
-void CameraOdometry::tell(base::Stamp begin, base::Stamp end, const mapper::RelativeMotion& motion) {
-  std::vector<base::Stamp> stamps = lost_images_;
+// Across images that showed no motion the base moved as wheels or gyroscope measured it, and what these are off by came
+// evenly: the translation along a straight line, as the base stood at the beginning.
+void CameraOdometry::addMotion(base::Stamp begin, base::Stamp end, const mapper::RelativeMotion& motion) {
+  std::vector<base::Stamp> stamps{begin};
+  stamps.insert(stamps.end(), lost_images_.begin(), lost_images_.end());
   stamps.push_back(end);
-  std::vector<geometry::Se3> begin_from{{}};  // the base at begin, and at each of the stamps
-  for (const auto stamp : stamps) {
-    const base::Stamp last = begin_from.size() == 1 ? begin : stamps[begin_from.size() - 2];
-    const auto told = wheelsBetween(last, stamp);
-    const auto turn = gyroscope_.between(last, stamp);
-    if (!told && !turn) break;
-    geometry::Se3 moved = told ? geometry::fromMrpt(told->begin_from_end) : geometry::Se3{};
-    if (turn) moved.rotation = turn->begin_from_end;
-    begin_from.push_back(begin_from.back() * moved);
+  std::vector<geometry::Se3> begin_from{{}};  // the base at each of them
+  for (std::size_t i = 1; i < stamps.size() && stamps.size() > 2 && begin_from.size() == i; ++i) {
+    if (const auto measured = measuredBetween(stamps[i - 1], stamps[i]))
+      begin_from.push_back(begin_from.back() * measured->begin_from_end);
   }
-  if (stamps.size() == 1 || begin_from.size() <= stamps.size()) {
+  if (begin_from.size() < stamps.size()) {
     timeline_.insert(begin, end, motion);
     return;
   }
   const double seconds = base::secondsBetween(begin, end);
-  const geometry::Vector6d off = minus(geometry::fromMrpt(motion.begin_from_end), begin_from.back());
-  base::Stamp from = begin;
-  geometry::Se3 begin_from_last;
-  for (std::size_t i = 0; i < stamps.size(); ++i) {
-    const double share = base::secondsBetween(from, stamps[i]) / seconds;
-    const auto here = geometry::plus(begin_from[i + 1], base::secondsBetween(begin, stamps[i]) / seconds * off);
-    timeline_.insert(from, stamps[i], {geometry::toMrpt(inverse(begin_from_last) * here), share * motion.covariance});
-    begin_from_last = here;
-    from = stamps[i];
+  const geometry::Se3 begin_from_end = geometry::fromMrpt(motion.begin_from_end), last = begin_from.back();
+  const Eigen::Vector3d moved = begin_from_end.translation - last.translation;
+  const Eigen::Vector3d turned = geometry::logSo3(last.rotation.conjugate() * begin_from_end.rotation);
+  geometry::Se3 begin_from_before;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    const double until = base::secondsBetween(begin, stamps[i]) / seconds;
+    const double share = base::secondsBetween(stamps[i - 1], stamps[i]) / seconds;
+    const geometry::Se3 here{(begin_from[i].rotation * geometry::expSo3(until * turned)).normalized(),
+                             begin_from[i].translation + until * moved};
+    timeline_.insert(stamps[i - 1], stamps[i],
+                     {geometry::toMrpt(inverse(begin_from_before) * here),
+                      geometry::composeCovariance(share * motion.covariance, inverse(begin_from_end) * here,
+                                                  geometry::Matrix6d::Zero())});
+    begin_from_before = here;
   }
 }
 

@@ -39,7 +39,12 @@ struct CameraOdometryOptions {
 
 /// What a tracker made of an image.
 struct ImageMotion {
-  enum class How { begun, tracked, lost };
+  enum class How {
+    begun,
+    tracked,
+    found,  ///< again, after it was lost: the motion is across what nothing was known of
+    lost,
+  };
   How how = How::lost;
   geometry::Se3 last_from_camera;  ///< motion since the image that was tracked before, optical frames
   base::Stamp last;                ///< of that image
@@ -79,7 +84,15 @@ class CameraOdometry : public mapper::PosePlugin {
   virtual bool seeksReturns() const { return true; }
   virtual ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
                             const std::optional<matching::PredictedMotion>& prediction) = 0;
-  void tell(base::Stamp begin, base::Stamp end, const mapper::RelativeMotion& motion);
+  /// What wheels and gyroscope measured of the base; the turn by the gyroscope where there is one.
+  struct BaseMotion {
+    geometry::Se3 begin_from_end;
+    geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
+    bool only_turn = false;  // no wheels: the translation is not known
+  };
+  std::optional<BaseMotion> measuredBetween(base::Stamp begin, base::Stamp end) const;
+  /// Adds a motion to the timeline that images measured from `begin` to `end`.
+  void addMotion(base::Stamp begin, base::Stamp end, const mapper::RelativeMotion& motion);
   void countReturn(base::Stamp seen_before, base::Stamp stamp);
   double returnedPercent() const;
   void learnBias(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera);

@@ -21,6 +21,7 @@ ImageMotion VisualOdometryPlugin::track(const perception::RgbdView& view, base::
   ImageMotion motion;
   motion.how = tracked.how == How::lost    ? ImageMotion::How::lost
                : tracked.how == How::begun ? ImageMotion::How::begun
+               : tracked.how == How::found ? ImageMotion::How::found
                                            : ImageMotion::How::tracked;
   motion.last_from_camera = tracked.last_from_camera;
   motion.last = tracked.last;

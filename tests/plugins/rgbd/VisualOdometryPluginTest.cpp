@@ -361,6 +361,35 @@ TEST_F(VisualOdometry, AcrossImagesThatToldNothingTheBaseWentAsTheWheelsSay) {
   }
 }
 
+// It turns far while the lens is covered, and moves: the gyroscope tells the turn alone.
+TEST_F(VisualOdometry, AcrossImagesThatToldNothingAGyroscopeShapesTheTurnAndTheWayIsStraight) {
+  const auto pose = [&](double seconds) {
+    const double covered = std::clamp(seconds - 0.3, 0.0, 0.8);
+    const double there = covered < 0.4 ? 4 * covered : 4 * (0.8 - covered);  // 92 deg, and back
+    return geometry::lift({0.1 * covered, 0, there});
+  };
+  for (int i = 0; i <= 140; ++i) {
+    const double seconds = 0.01 * i;
+    auto imu = mrpt::obs::CObservationIMU::Create();
+    imu->timestamp = at(seconds);
+    const double rate = seconds < 0.3 || seconds >= 1.1 ? 0 : seconds < 0.7 ? 4 : -4;
+    imu->set(mrpt::obs::IMU_WX, 0);
+    imu->set(mrpt::obs::IMU_WY, 0);
+    imu->set(mrpt::obs::IMU_WZ, rate);
+    plugin_->add(imu);
+    if (i % 10 != 0) continue;
+    plugin_->add(renderedScan(room_, truth(0) * pose(seconds), kBaseFromCamera, at(seconds), i >= 40 && i <= 100));
+    plugin_->processUntil(at(seconds));
+  }
+  for (const double seconds : {0.5, 0.7, 0.9, 1.1}) {
+    const auto motion = plugin_->between(at(0), at(seconds));
+    ASSERT_TRUE(motion) << seconds;
+    const auto off = minus(geometry::fromMrpt(motion->begin_from_end), pose(seconds));
+    EXPECT_LT(off.head<3>().norm(), 0.03) << seconds;
+    EXPECT_LT(off.tail<3>().norm(), 0.05) << seconds;
+  }
+}
+
 // The base turns about the normal of a bare wall: depths tell nothing of that.
 TEST_F(VisualOdometry, AGyroscopeTellsTheTurningThatABareWallDoesNot) {
   room_.half[0] = 50;

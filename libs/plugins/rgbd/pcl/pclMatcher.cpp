@@ -43,7 +43,6 @@ std::optional<Se3> align(Registration& registration, const CloudMatcherOptions& 
   registration.setInputTarget(to);
   registration.setMaxCorrespondenceDistance(options.max_distance);
   registration.setMaximumIterations(options.max_iterations);
-  registration.setTransformationEpsilon(options.tolerance * options.tolerance);  // PCL compares squares
   Eigen::Matrix4f start = Eigen::Matrix4f::Identity();
   start.topLeftCorner<3, 3>() = guess.rotation.toRotationMatrix().cast<float>();
   start.topRightCorner<3, 1>() = guess.translation.cast<float>();
@@ -70,19 +69,25 @@ class PclMatcher : public matching::CloudMatcher {
  private:
   std::optional<Se3> registered(const MatchCloud& target, const MatchCloud& source, const Se3& guess) const {
     using Point = pcl::PointNormal;
+    // PCL's ICP compares the square of a step with it, its GICP the step itself [m] [rad].
+    const double square = options_.tolerance * options_.tolerance;
     switch (options_.method) {
       case CloudMethod::point_to_plane: {
         pcl::IterativeClosestPointWithNormals<Point, Point> icp;
+        icp.setTransformationEpsilon(square);
         return align(icp, options_, true, target, source, guess);
       }
       case CloudMethod::gicp: {
         pcl::GeneralizedIterativeClosestPoint<Point, Point> gicp;
+        gicp.setTransformationEpsilon(options_.tolerance);
+        gicp.setRotationEpsilon(options_.tolerance);
         return align(gicp, options_, false, target, source, guess);
       }
       case CloudMethod::point_to_point:
         break;
     }
     pcl::IterativeClosestPoint<Point, Point> icp;
+    icp.setTransformationEpsilon(square);
     return align(icp, options_, false, target, source, guess);
   }
 

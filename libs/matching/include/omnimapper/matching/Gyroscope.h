@@ -38,7 +38,8 @@ class Gyroscope {
   /// Of the base from `begin` to `end` (begin <= end); none where readings are missing for longer than 0.1 s.
   std::optional<Turn> between(base::Stamp begin, base::Stamp end) const;
   std::optional<base::Stamp> coveredUntil() const { return timeline_.end(); }
-  /// The base turned like that, with a standard deviation of `sigma` [rad] about each axis.
+  /// The base turned like that, with a standard deviation of `sigma` [rad] about each axis. What is farther from what
+  /// is known of the bias than both can be off by is left out.
   void learn(base::Stamp begin, base::Stamp end, const Eigen::Quaterniond& begin_from_end, double sigma);
   /// What it shows at rest [rad/s], in the base's frame.
   const Eigen::Vector3d& bias() const { return bias_; }
@@ -57,7 +58,8 @@ class Gyroscope {
   std::optional<Reading> last_;
   PoseTimeline timeline_;  // with the bias
   Eigen::Vector3d bias_ = Eigen::Vector3d::Zero();
-  double bias_variance_;  // of each axis
+  double bias_variance_;               // of each axis
+  std::optional<base::Stamp> learnt_;  // until when
 };
 
 }  // namespace omnimapper::matching
