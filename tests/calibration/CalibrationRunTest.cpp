@@ -234,6 +234,23 @@ TEST_F(CalibrationRunTest, ALogWithoutACameraOrWithAnotherLabelIsRefused) {
   EXPECT_NE(refusal().find("'front'"), std::string::npos);
 }
 
+TEST_F(CalibrationRunTest, ImagesOfAnotherSizeAndMissingOnesAreLeftOutAndCounted) {
+  source::writeRawlog(request_.logs.front(), [&](source::RawlogWriter& rawlog) {
+    for (int i = 0; i < 60; ++i) {
+      auto scan = imageOf({}, i);
+      if (i == 20) scan.intensityImage = mrpt::img::CImage(160, 120, mrpt::img::CH_GRAY);
+      if (i == 40) scan.intensityImage.setExternalStorage("not_there.png");
+      rawlog.add(scan);
+    }
+  });
+  const auto result = run();
+  EXPECT_EQ(result.code, base::ExitCode::missing_images);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.front().find("1 image of the camera left out, the first because its picture has 160 x 120"),
+            std::string::npos)
+      << result.warnings.front();
+}
+
 TEST_F(CalibrationRunTest, TheFolderOfAMapIsNotTaken) {
   std::filesystem::create_directories(request_.output);
   std::ofstream(request_.output + "/map.omnimap") << "a map";

@@ -100,7 +100,8 @@ std::string whyNone(const Seen& seen, const CalibrationRequest& request) {
   if (seen.with_depth == 0) return "the camera's observations have no depth images";
   if (seen.with_picture == 0)
     return "the camera's observations have no pictures of 8 bits, in which corners could be found; record both";
-  return "the camera has a fisheye lens or no calibration to start from; give one in an INI with [calibration] (--ini)";
+  return "the camera has a lens that this cannot refine (fisheye, or more than five numbers) or no calibration to "
+         "start from; give one in an INI with [calibration] (--ini)";
 }
 
 }  // namespace
@@ -146,10 +147,13 @@ CalibrationLog readCalibrationLog(const CalibrationRequest& request, base::Progr
   }
   if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing was written");
   result.report = log.report();
+  if (!chooser.camera() && chooser.leftOut() > 0) refuse(request, chooser.whyLeftOut(), result.report);
   if (!chooser.camera()) refuse(request, whyNone(seen, request), result.report);
   result.camera = *chooser.camera();
   result.images = chooser.images();
   result.lost = chooser.lost();
+  result.left_out = chooser.leftOut();
+  result.why_left_out = chooser.whyLeftOut();
   result.travel = chooser.travel();
   result.turn = chooser.turn();
   result.views = chooser.take();

@@ -21,7 +21,8 @@ struct CalibrationLog {
   bool is_corrected = false;      ///< by an INI, from which the calibration starts
   double corrected_scale = 1;     ///< of depths, by that INI
   bool is_part = false;           ///< the log goes on, but there are views enough
-  std::size_t images = 0, lost = 0;
+  std::size_t images = 0, lost = 0, left_out = 0;
+  std::string why_left_out;     ///< of the first image that was
   double travel = 0, turn = 0;  ///< [m] [rad] of the camera
   source::SourceReport report;
 };

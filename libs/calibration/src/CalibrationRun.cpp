@@ -1,4 +1,5 @@
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/OutputFolder.h>
 #include <omnimapper/calibration/CalibrationRun.h>
 
@@ -29,6 +30,9 @@ void refuseFolderOfMap(const std::string& folder) {
 std::vector<std::string> warningsOf(const CalibrationLog& log) {
   std::vector<std::string> all;
   if (!log.report.message.empty()) all.push_back(log.report.message);
+  if (log.left_out > 0)
+    all.push_back(base::counted(log.left_out, "image") + " of the camera left out, the first because " +
+                  log.why_left_out);
   constexpr double kMuch = 0.2;
   if (static_cast<double>(log.lost) > kMuch * static_cast<double>(log.images))
     all.push_back("the camera was lost in " + std::to_string(log.lost) + " of " + std::to_string(log.images) +

@@ -10,6 +10,8 @@ namespace {
 std::optional<Intrinsics> intrinsicsOf(const mrpt::img::TCamera& camera) {
   if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt || !(camera.fx() > 1 && camera.fy() > 1))
     return std::nullopt;
+  // A lens of eight numbers: five that were fitted would count beside three that were not.
+  if (camera.dist[5] != 0 || camera.dist[6] != 0 || camera.dist[7] != 0) return std::nullopt;
   const bool is_straight = camera.distortion == mrpt::img::DistortionModel::none;
   Intrinsics all{camera.fx(), camera.fy(), camera.cx(), camera.cy()};
   for (std::size_t i = 0; i < 5; ++i) all[4 + i] = is_straight ? 0 : camera.dist[i];

@@ -45,13 +45,33 @@ bool hasPicture(const CObservation3DRangeScan& scan) {
 
 }  // namespace
 
+void ViewChooser::leaveOut(const std::string& why) {
+  if (left_out_++ == 0) why_left_out_ = why;
+}
+
 void ViewChooser::add(const CObservation3DRangeScan::ConstPtr& scan) {
-  if (!hasPicture(*scan)) return;
-  if (!camera_) camera_ = cameraOf(*scan);
-  if (!camera_) return;
-  ++images_;
+  try {
+    if (!hasPicture(*scan)) return;
+    if (!camera_) camera_ = cameraOf(*scan);
+    if (!camera_) return;
+    const auto width = scan->intensityImage.getWidth(), height = scan->intensityImage.getHeight();
+    if (static_cast<int>(width) != camera_->width || static_cast<int>(height) != camera_->height) {
+      leaveOut("its picture has " + std::to_string(width) + " x " + std::to_string(height) + " pixels and not " +
+               std::to_string(camera_->width) + " x " + std::to_string(camera_->height));
+      return;
+    }
+    follow(scan);
+  } catch (const base::Error& error) {
+    leaveOut(error.what());
+  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
+    leaveOut("its picture's file " + scan->intensityImage.getExternalStorageFile() + " cannot be read");
+  }
+}
+
+void ViewChooser::follow(const CObservation3DRangeScan::ConstPtr& scan) {
   const auto straight = lens_.straightened(scan);
   const perception::RgbdView straight_view(*straight), raw_view(*scan);
+  ++images_;
   using How = matching::RgbdTracker::Tracked::How;
   const auto tracked =
       tracker_.track(scan->timestamp, matching::RgbdPyramid(straight_view.depth(), straight_view.colour()));
@@ -59,10 +79,6 @@ void ViewChooser::add(const CObservation3DRangeScan::ConstPtr& scan) {
     ++lost_;
     return;
   }
-  // Corners are read from it by the first image's size.
-  if (static_cast<int>(scan->intensityImage.getWidth()) != camera_->width ||
-      static_cast<int>(scan->intensityImage.getHeight()) != camera_->height)
-    return;
   if (tracked.how == How::begun) ++stretch_;
   View view;
   if (tracked.how != How::begun) {

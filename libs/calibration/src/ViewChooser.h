@@ -21,7 +21,7 @@ class ViewChooser {
   /// `most` views at the end.
   explicit ViewChooser(std::size_t most) : most_(most), tracker_({}, {}, {}) {}
 
-  /// An image with depths and picture; one that is not of the first one's camera, or cannot be read, is counted.
+  /// An image with depths and picture; one of another size than the first, or that cannot be read, is left out.
   void add(const mrpt::obs::CObservation3DRangeScan::ConstPtr& scan);
   /// The views in the order of time. To be called once, at the end.
   std::vector<View> take();
@@ -31,6 +31,9 @@ class ViewChooser {
   const std::optional<RgbdCamera>& camera() const { return camera_; }
   std::size_t images() const { return images_; }
   std::size_t lost() const { return lost_; }
+  /// Images that were left out, and why the first was.
+  std::size_t leftOut() const { return left_out_; }
+  const std::string& whyLeftOut() const { return why_left_out_; }
   /// How far the camera went [m] and turned [rad], all in all.
   double travel() const { return travel_; }
   double turn() const { return turn_; }
@@ -40,7 +43,8 @@ class ViewChooser {
     View view;
     std::size_t bin;
   };
-  void keep(View view);
+  void leaveOut(const std::string& why);
+  void follow(const mrpt::obs::CObservation3DRangeScan::ConstPtr& scan);
   void thin();
 
   static constexpr double kWidestSpacing = 4;  // 16 degrees or 0.32 m
@@ -50,7 +54,8 @@ class ViewChooser {
   perception::LensStraightener lens_;
   std::optional<RgbdCamera> camera_;
   std::vector<Candidate> kept_;
-  std::size_t images_ = 0, lost_ = 0;
+  std::size_t images_ = 0, lost_ = 0, left_out_ = 0;
+  std::string why_left_out_;
   double travel_ = 0, turn_ = 0;
   double spacing_ = 1;  // of bins, in units of motion
   int stretch_ = 0;

@@ -36,7 +36,7 @@ struct RgbdCamera {
   const Intrinsics& depthCamera() const { return is_registered ? picture : depth; }
 };
 
-/// As the log has it. None for a fisheye lens or a camera without a calibration.
+/// As the log has it. None for a fisheye lens, one of more than five numbers, or a camera without a calibration.
 std::optional<RgbdCamera> cameraOf(const mrpt::obs::CObservation3DRangeScan& scan);
 
 }  // namespace omnimapper::calibration
