@@ -58,7 +58,7 @@ void leaveOutContradictions(BundleInput& input, const Estimate& estimate, double
                                     !(missOf(one, estimate).norm() < pixels * one.sigma);
                            }),
             all.end());
-  // What two views or fewer show tells hardly more than its own place.
+  // A point that one view alone shows tells nothing but its own place.
   std::vector<int> counts(estimate.points.size(), 0);
   for (const auto& one : all) ++counts[one.track];
   all.erase(std::remove_if(all.begin(), all.end(), [&](const Measurement& one) { return counts[one.track] < 2; }),

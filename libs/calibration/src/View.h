@@ -22,7 +22,7 @@ struct LocalPlane {
 /// One image of the log with its depths, raw: the lens is in them.
 struct View {
   base::Stamp stamp;
-  int stretch = 0;  ///< images between which the camera was never lost have one number
+  int stretch = 0;  ///< images between which the tracking did not begin anew have one number
   geometry::Vector6d velocity = geometry::Vector6d::Zero();  ///< [m/s] [rad/s] in the picture's frame, then
   double turn_rate = 0;                                      ///< [rad/s] while it was taken
   geometry::Se3 world_from_picture;                          ///< optical frame; the start

@@ -438,7 +438,10 @@ std::string foreignLine(const std::vector<std::string>& files) {
   std::string names;
   for (std::size_t i = 0; i < std::min(kMost, files.size()); ++i) names += (i > 0 ? ", " : "") + files[i];
   if (files.size() > kMost) names += " and " + std::to_string(files.size() - kMost) + " more";
-  return "also there        " + names + " (of no run; left there, NAME~ for what was NAME)\n";
+  const bool was_renamed =
+      std::any_of(files.begin(), files.end(), [](const auto& name) { return name.find('~') != std::string::npos; });
+  return "also there        " + names + " (of no run; left there" + (was_renamed ? ", NAME~ is what was NAME" : "") +
+         ")\n";
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ class RgbdTracker {
   DenseMatch match(std::size_t key, const Image& image, const geometry::Se3& map_from_camera,
                    const geometry::Matrix6d& information, const CameraMotion& motion) const;
   Expected expectedAfter(double seconds, const std::optional<PredictedMotion>& prediction) const;
-  /// As a hand goes on that is asked nothing.
+  /// By the velocity of late, which fades.
   Expected expectedOfLate(double seconds) const;
   std::optional<Found> follow(const Image& image, const Expected& expected, double seconds) const;
   std::optional<Found> followByFeatures(const std::vector<std::size_t>& keys, const Image& image,
