@@ -138,13 +138,13 @@ std::string reportText(const Calibration& calibration, const CalibrationLog& log
     out << base::counted(calibration.spans, "distance") << " in metres, of "
         << (log.are_wheels ? "wheels" : "given poses") << "\n";
   out << "\n"
-      << std::left << std::setw(18) << "" << std::setw(12) << "log" << std::setw(12) << "estimate"
+      << std::left << std::setw(20) << "" << std::setw(12) << "log" << std::setw(12) << "estimate"
       << "standard deviation\n";
   for (const auto& finding : calibration.findings) {
     out << nameOf(finding.group, calibration.log.is_registered) << "\n";
     for (const auto& figure : finding.figures) {
       const int decimals = decimalsOf(figure.key);
-      out << "  " << std::setw(16) << figure.key << std::setw(12) << fixed(figure.log, decimals);
+      out << "  " << std::setw(18) << figure.key << std::setw(12) << fixed(figure.log, decimals);
       if (finding.is_determined || figure.sigma > 0)
         out << std::setw(12) << fixed(figure.estimate, decimals) << "+- " << brief(figure.sigma, 2);
       out << "\n";
