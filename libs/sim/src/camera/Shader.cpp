@@ -35,7 +35,7 @@ Eigen::Vector3f lightAt(const Eigen::Vector3f& place, const Eigen::Vector3f& nor
 
 }  // namespace
 
-Shader::Shader(const World& world, const Scenes& scenes) : scenes_(scenes) {
+Shader::Shader(const World& world, const Scenes& scenes) : scenes_(scenes), wear_(world) {
   std::map<const Texture*, std::shared_ptr<const TexturePyramid>> made;
   for (const Body& body : world.bodies) {
     for (const Surface& surface : body.surfaces) {
@@ -63,17 +63,21 @@ float Shader::footprint(const Frame& frame, int column, int row, const TexturePy
 }
 
 Eigen::Vector3f Shader::colourOf(const PixelHit& hit, const Eigen::Vector3f& along, const Eigen::Vector3f& eye,
-                                 float footprint) const {
+                                 float pixel_side, float footprint) const {
   if (hit.surface < 0) return kNothing;
   Eigen::Vector3f colour = scenes_.material(hit.surface).colour;
   if (const auto& texture = textures_[hit.surface])
     colour = colour.cwiseProduct(texture->at(hit.texture_at, footprint));
-  return colour.cwiseProduct(lightAt(eye + static_cast<float>(hit.depth) * along, hit.normal_in_map));
+  const float depth = static_cast<float>(hit.depth);
+  const Eigen::Vector3f place = eye + depth * along;
+  return wear_.factorAt(hit.surface, place, depth * pixel_side) *
+         colour.cwiseProduct(lightAt(place, hit.normal_in_map));
 }
 
 std::vector<Eigen::Vector3f> Shader::shade(const Frame& frame) const {
   const Pinhole& camera = frame.camera;
   const Eigen::Matrix3f map_from = frame.map_from_optical.rotation.toRotationMatrix().cast<float>();
+  const float pixel_side = static_cast<float>(1 / camera.fx);
   const Eigen::Vector3f eye = frame.map_from_optical.translation.cast<float>();
   const auto along = [&](int column, int row) -> Eigen::Vector3f {
     return map_from * camera.through(column, row).cast<float>();
@@ -84,15 +88,16 @@ std::vector<Eigen::Vector3f> Shader::shade(const Frame& frame) const {
       const PixelHit& hit = frame.at(column, row);
       const bool textured = hit.surface >= 0 && textures_[hit.surface];
       const float texels = textured ? footprint(frame, column, row, *textures_[hit.surface]) : 0;
-      colours[static_cast<std::size_t>(row) * camera.width + column] = colourOf(hit, along(column, row), eye, texels);
+      colours[static_cast<std::size_t>(row) * camera.width + column] =
+          colourOf(hit, along(column, row), eye, pixel_side, texels);
     }
   }
   for (const SeenThrough& seen : frame.seen_through) {
     const int row = seen.pixel / camera.width, column = seen.pixel % camera.width;
     constexpr float kUnknown = 2;  // texels: what is behind glass has no neighbours here
     Eigen::Vector3f& colour = colours[seen.pixel];
-    colour =
-        (1 - seen.transmission) * colour + seen.transmission * colourOf(seen.hit, along(column, row), eye, kUnknown);
+    colour = (1 - seen.transmission) * colour +
+             seen.transmission * colourOf(seen.hit, along(column, row), eye, pixel_side, kUnknown);
   }
   return colours;
 }

@@ -5,6 +5,7 @@
 
 #include "Frame.h"
 #include "TexturePyramid.h"
+#include "Wear.h"
 
 namespace omnimapper::sim {
 
@@ -20,12 +21,15 @@ class Shader {
   std::vector<Eigen::Vector3f> shade(const Frame& frame) const;
 
  private:
+  /// `along`: the point at depth 1 from the eye, in the map; a pixel there is `pixel_side` wide [m], and covers
+  /// `footprint` texels.
   Eigen::Vector3f colourOf(const PixelHit& hit, const Eigen::Vector3f& along, const Eigen::Vector3f& eye,
-                           float footprint) const;
+                           float pixel_side, float footprint) const;
   float footprint(const Frame& frame, int column, int row, const TexturePyramid& texture) const;
 
   const Scenes& scenes_;
   std::vector<std::shared_ptr<const TexturePyramid>> textures_;  // by surface number; none: one colour
+  Wear wear_;
 };
 
 }  // namespace omnimapper::sim

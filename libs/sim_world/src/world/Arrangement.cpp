@@ -27,6 +27,7 @@ Arrangement::Arrangement(const WorldOptions& options, const std::string& file)
     : random(static_cast<std::uint64_t>(options.seed), {0x9e0}), clutter(options.clutter), options_(options) {
   plan.file = file;
   plan.seed = static_cast<std::uint64_t>(options.seed);
+  plan.wear = options.wear;
 }
 
 RoomPlan& Arrangement::room(const std::string& name, const std::string& kind, const Vector2d& low,

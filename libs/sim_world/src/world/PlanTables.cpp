@@ -52,6 +52,10 @@ const OptionTable<WorldOptions>& WorldOptions::table() {
                   "Of a generated loop, along the middle of its corridor.")
           .number("move_time_s", &WorldOptions::move_time, kAnywhere,
                   "When moveable things of a generated place are carried elsewhere; negative: never.")
+          .number(
+              "wear", &WorldOptions::wear, {0, 0.3},
+              "How much the brightness of what stands still varies by stains, scuffs and grain that repeat nowhere: "
+              "its standard deviation over its mean. 0: all is new, and a wall shows a camera next to nothing.")
           .choice("sign_style", &WorldOptions::sign_style, {{"dark", "dark"}, {"white", "white"}},
                   "Look of the door signs of a generated place.")
           .list("rooms", &WorldOptions::rooms, "Sections of rooms.")

@@ -50,6 +50,7 @@ class WorldMaker {
 
   World make() {
     world_.seed = plan_.seed;
+    world_.wear = plan_.wear;
     world_.rooms = building_.rooms;
     world_.bodies = building_.bodies;
     world_.obstacles = building_.obstacles;

@@ -76,6 +76,8 @@ struct Person {
 /// Everything there is, in the map's frame: z up, floor of the first room at 0. Times are seconds since the start.
 struct World {
   std::uint64_t seed = 0;
+  /// By how much brightness varies from place to place on what stands still: its standard deviation over its mean.
+  double wear = 0;
   std::vector<Body> bodies;
   std::vector<Room> rooms;
   std::vector<Sign> signs;

@@ -19,6 +19,7 @@ struct WorldOptions {
   ClutterLevel clutter = ClutterLevel::medium;
   double length = 200;    ///< of a loop of corridor, along its middle [m]
   double move_time = 90;  ///< when what is moveable is carried elsewhere; negative: never [s]
+  double wear = 0;        ///< as World's
   std::string sign_style = "dark";
   std::vector<std::string> rooms, doors, furniture, objects, signs, posters, markers, landmarks, people;
   static const base::OptionTable<WorldOptions>& table();

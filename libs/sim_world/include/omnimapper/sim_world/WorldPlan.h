@@ -119,6 +119,7 @@ struct LandmarkPlan {
 struct WorldPlan {
   std::string file;  ///< where it is from, for messages
   std::uint64_t seed = 0;
+  double wear = 0;  ///< as World's
   std::vector<RoomPlan> rooms;
   std::vector<OpeningPlan> openings;
   std::vector<FurniturePlan> furniture;
