@@ -5,7 +5,17 @@
 
 namespace omnimapper::mapper {
 
-Verdict conclude(std::vector<Evidence> evidence) {
+Verdict conclude(std::vector<Evidence> all) {
+  std::vector<Evidence> evidence;
+  for (Evidence& one : all) {
+    const auto same =
+        std::find_if(evidence.begin(), evidence.end(), [&](const Evidence& other) { return other.name == one.name; });
+    if (same == evidence.end()) {
+      evidence.push_back(std::move(one));
+    } else {
+      *same = std::move(one);
+    }
+  }
   const auto any = [&](Evidence::Says says) {
     return std::any_of(evidence.begin(), evidence.end(), [&](const Evidence& one) { return one.says == says; });
   };

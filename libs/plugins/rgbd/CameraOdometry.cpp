@@ -11,6 +11,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "returnEvidence.h"
+
 namespace omnimapper::plugins {
 
 using mrpt::obs::CObservation3DRangeScan;
@@ -263,12 +265,11 @@ void CameraOdometry::countReturn(base::Stamp seen_before, base::Stamp stamp) {
   loops_.emplace_back(seen_before, stamp);
 }
 
-// Of the time, what lies between two views of one place.
-double CameraOdometry::returnedPercent() const {
+// What of the time lies between two views of one place.
+double CameraOdometry::secondsBetweenViews() const {
   double seconds = 0;
   for (const auto& [seen, seen_again] : loops_) seconds += base::secondsBetween(seen, seen_again);
-  const double all = begun_ && last_ ? base::secondsBetween(*begun_, *last_) : 0;
-  return all > 0 ? 100 * seconds / all : 0;
+  return seconds;
 }
 
 // From image to image, for a robot does not go straight on while its camera sees nothing. False where they do not tell
@@ -351,21 +352,11 @@ std::vector<mapper::Evidence> CameraOdometry::evidence() const {
   std::snprintf(text, sizeof text, "in %.0f %% of the images the camera saw nothing that tells all of its motion",
                 open);
   all.push_back({"camera_blind_percent", open, open > kMuch ? Says::too_little : Says::good, open > kMuch ? text : ""});
-  constexpr double kEnough = 25;  // [%]
-  const double returned = returnedPercent();
-  std::snprintf(text, sizeof text,
-                !seeksReturns() ? "odometry by clouds does not look for views of before, where drift would be seen"
-                : returns_ == 0 ? "the camera never came back to a view of before, where drift would be seen"
-                : returned < kEnough
-                    ? "views of long before came back %zu times and the images fitted them, but only %.0f %% of the "
-                      "time lies between two views of one place, where drift would be seen"
-                    : "views of long before came back %zu times, and the images fitted them; %.0f %% of the time lies "
-                      "between two views of one place",
-                returns_, returned);
-  all.push_back({"camera_returns", static_cast<double>(returns_), returns_ > 0 ? Says::good : Says::too_little,
-                 returned < kEnough ? "" : text});
-  all.push_back({"camera_returned_percent", returned, returned < kEnough ? Says::too_little : Says::good,
-                 returned < kEnough ? text : ""});
+  auto returns =
+      returnEvidence(returns_, secondsBetweenViews(), begun_ && last_ ? base::secondsBetween(*begun_, *last_) : 0);
+  if (!seeksReturns())
+    returns.back().reason = "odometry by clouds does not look for views of before, where drift would be seen";
+  all.insert(all.end(), returns.begin(), returns.end());
   return all;
 }
 

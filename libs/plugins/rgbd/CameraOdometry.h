@@ -94,7 +94,7 @@ class CameraOdometry : public mapper::PosePlugin {
   /// Adds a motion to the timeline that images measured from `begin` to `end`.
   void addMotion(base::Stamp begin, base::Stamp end, const mapper::RelativeMotion& motion);
   void countReturn(base::Stamp seen_before, base::Stamp stamp);
-  double returnedPercent() const;
+  double secondsBetweenViews() const;  // [s]
   void learnBias(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera);
   void follow(const mrpt::obs::CObservation3DRangeScan::ConstPtr& image);
   std::optional<mapper::RelativeMotion> wheelsBetween(base::Stamp begin, base::Stamp end) const;

@@ -1,7 +1,5 @@
 #include "VisualOdometryPlugin.h"
 
-#include <omnimapper/plugin/SharedSection.h>
-
 #include "openDirections.h"
 
 IMPLEMENTS_MRPT_OBJECT(VisualOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
@@ -30,9 +28,6 @@ ImageMotion VisualOdometryPlugin::track(const perception::RgbdView& view, base::
     motion.open = openDirections(tracked.match.covariance, matching::DenseMatch::kOpen);
   return motion;
 }
-
-using VisualOdometrySection = mapper::SharedSection<CameraOdometryOptions, matching::RgbdTrackerOptions,
-                                                    matching::DenseMatcherOptions, matching::FeatureMatcherOptions>;
 
 const std::vector<base::OptionSpec>& VisualOdometryPluginFactory::options() const {
   return VisualOdometrySection::options();

@@ -2,6 +2,7 @@
 
 #include <omnimapper/matching/RgbdTracker.h>
 #include <omnimapper/plugin/PluginFactory.h>
+#include <omnimapper/plugin/SharedSection.h>
 
 #include "CameraOdometry.h"
 
@@ -21,6 +22,10 @@ class VisualOdometryPlugin : public CameraOdometry {
 
   matching::RgbdTracker tracker_;
 };
+
+/// The options of a section of it.
+using VisualOdometrySection = mapper::SharedSection<CameraOdometryOptions, matching::RgbdTrackerOptions,
+                                                    matching::DenseMatcherOptions, matching::FeatureMatcherOptions>;
 
 class VisualOdometryPluginFactory : public mapper::PosePluginFactory {
   DEFINE_MRPT_OBJECT(VisualOdometryPluginFactory, omnimapper::plugins)

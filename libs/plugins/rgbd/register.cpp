@@ -1,6 +1,7 @@
 #include <omnimapper/base/AtLoad.h>
 
 #include "CloudOdometryPlugin.h"
+#include "ViewLinksPlugin.h"
 #include "VisualOdometryPlugin.h"
 
 namespace omnimapper::plugins {
@@ -10,6 +11,7 @@ const base::AtLoad kRegister([] {
   mapper::registerFactoryBases();
   mrpt::rtti::registerClass(CLASS_ID(VisualOdometryPluginFactory));
   mrpt::rtti::registerClass(CLASS_ID(CloudOdometryPluginFactory));
+  mrpt::rtti::registerClass(CLASS_ID(ViewLinksPluginFactory));
 });
 
 }  // namespace omnimapper::plugins

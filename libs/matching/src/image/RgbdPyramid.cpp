@@ -114,4 +114,15 @@ RgbdPyramid::RgbdPyramid(const DepthImage& depth, const ColourImage* colour, con
     levels_.push_back(halved(levels_.back()));
 }
 
+std::optional<double> RgbdPyramid::medianDepth() const {
+  constexpr double kLeast = 0.1;  // share of the pixels
+  const auto& all = levels_.back().inverse_depth;
+  std::vector<float> inverse;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(inverse), [](float one) { return one > 0; });
+  if (static_cast<double>(inverse.size()) <= kLeast * static_cast<double>(all.size())) return std::nullopt;
+  const auto middle = inverse.begin() + static_cast<std::ptrdiff_t>(inverse.size() / 2);
+  std::nth_element(inverse.begin(), middle, inverse.end());
+  return 1 / static_cast<double>(*middle);
+}
+
 }  // namespace omnimapper::matching

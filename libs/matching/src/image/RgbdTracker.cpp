@@ -14,18 +14,6 @@ using geometry::Se3;
 using geometry::Vector6d;
 using How = RgbdTracker::Tracked::How;
 
-// None of an image that has too few depths to be a key frame.
-std::optional<double> medianDepth(const RgbdPyramid& pyramid) {
-  constexpr double kLeast = 0.1;  // share of the pixels
-  const auto& all = pyramid.levels().back().inverse_depth;
-  std::vector<float> inverse;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(inverse), [](float one) { return one > 0; });
-  if (static_cast<double>(inverse.size()) <= kLeast * static_cast<double>(all.size())) return std::nullopt;
-  const auto middle = inverse.begin() + static_cast<std::ptrdiff_t>(inverse.size() / 2);
-  std::nth_element(inverse.begin(), middle, inverse.end());
-  return 1 / static_cast<double>(*middle);
-}
-
 // What neither hand nor robot does: [m] [rad] off what wheels or a gyroscope tell, beyond what they may err by; and
 // where nothing tells the motion, [m] [rad] and besides [m/s] [rad/s].
 constexpr double kToldSlack = 0.1, kToldSlackTurn = 0.15;
@@ -120,7 +108,7 @@ void RgbdTracker::makeKeyFrame(base::Stamp stamp, const Image& image, const Se3&
   CameraMotion moved = motion();
   moved.picture_delay = picture_delay;
   keys_.push_back({matcher_.prepare(image.pyramid, moved), options_.use_features ? featuresOf(image) : nullptr, stamp,
-                   map_from_camera, medianDepth(image.pyramid).value()});
+                   map_from_camera, image.pyramid.medianDepth().value()});
   if (keys_.size() > static_cast<std::size_t>(options_.key_frames)) keys_.pop_front();
   current_ = keys_.size() - 1;
 }
@@ -198,7 +186,7 @@ std::optional<RgbdTracker::Found> RgbdTracker::seek(const Image& image, const Ex
   CameraMotion unknown = motion();
   unknown.velocity.setZero();
   std::optional<Found> best;
-  if (!medianDepth(image.pyramid)) return best;
+  if (!image.pyramid.medianDepth()) return best;
   constexpr double kSurely = 0.5, kSurprise = 0.1;  // it could be anywhere: only what fits well is believed
   const Matrix6d known = expected.is_measured ? expected.information : Matrix6d::Zero();
   const auto tryFrom = [&](std::size_t key, const Se3& map_from_camera, double least_overlap) {
@@ -240,7 +228,7 @@ RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const Image& image, Fo
   Se3 map_from_camera = keys_[current_].map_from_camera * found.match.reference_from_image;
   const bool is_far = farness(keys_[current_], map_from_camera) > 1 || found.match.overlap < options_.key_overlap;
   Tracked tracked;
-  if (is_far && medianDepth(image.pyramid)) {
+  if (is_far && image.pyramid.medianDepth()) {
     // Whether a frame of before sees it better: much nearer than where a new one is due.
     constexpr double kMuchNearer = 0.8;
     const auto other = nearest(map_from_camera, kMuchNearer, current_);
@@ -323,7 +311,7 @@ RgbdTracker::Tracked RgbdTracker::lostAt(base::Stamp last) const {
 
 RgbdTracker::Tracked RgbdTracker::track(base::Stamp stamp, const RgbdPyramid& pyramid,
                                         const std::optional<PredictedMotion>& prediction) {
-  const bool can_begin = medianDepth(pyramid).has_value();
+  const bool can_begin = pyramid.medianDepth().has_value();
   const Image image{pyramid};
   if (!last_ && can_begin) return begin(stamp, image, Se3{});
   if (!last_) return lostAt(stamp);

@@ -4,6 +4,7 @@
 #include <omnimapper/perception/DepthImage.h>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace omnimapper::matching {
@@ -37,6 +38,8 @@ class RgbdPyramid {
   /// From the finest to the coarsest; the coarsest has at least 20 columns and rows, unless the image has fewer.
   const std::vector<RgbdLevel>& levels() const { return levels_; }
   const RgbdLevel& finest() const { return levels_.front(); }
+  /// Of the coarsest level [m]; none of an image that has depths in less than a tenth of it.
+  std::optional<double> medianDepth() const;
   bool hasPicture() const { return !levels_.front().grey.empty(); }
 
  private:

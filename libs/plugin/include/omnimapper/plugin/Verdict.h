@@ -25,8 +25,9 @@ struct Verdict {
   std::vector<Evidence> evidence;
 };
 
-/// Suspicious if any evidence is against the map, else "cannot tell" if there is too little of some, or none at all.
-Verdict conclude(std::vector<Evidence> evidence);
+/// Suspicious if any evidence is against the map, else "cannot tell" if there is too little of some, or none at all. Of
+/// several of one name the last counts: what measures the map knows more than what told the motion.
+Verdict conclude(std::vector<Evidence> all);
 
 /// "consistent", "cannot tell" or "suspicious".
 std::string toString(Verdict::Answer answer);

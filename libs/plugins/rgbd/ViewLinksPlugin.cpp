@@ -1,0 +1,300 @@
+#include "ViewLinksPlugin.h"
+
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
+#include <omnimapper/perception/RgbdView.h>
+#include <omnimapper/plugin/PoseFactors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "VisualOdometryPlugin.h"
+#include "returnEvidence.h"
+
+IMPLEMENTS_MRPT_OBJECT(ViewLinksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+namespace {
+
+// Of farness(): a view from so near is seen again for sure.
+constexpr double kSurelySeen = 1.5;
+
+double percentOf(std::size_t part, std::size_t all) {
+  return all > 0 ? 100 * static_cast<double>(part) / static_cast<double>(all) : 0;
+}
+
+}  // namespace
+
+using geometry::Se3;
+using mrpt::obs::CObservation3DRangeScan;
+
+const base::OptionTable<ViewLinksOptions>& ViewLinksOptions::table() {
+  using Options = ViewLinksOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("odometry", &Options::odometry,
+                "Section of the VisualOdometryPlugin whose camera, matching and shutters hold here, too.")
+          .integer("before", &Options::before, base::Range{0, 20},
+                   "Each key frame is linked to so many before it; the link to the one before is the odometry's.")
+          .integer("returns", &Options::returns, base::Range{0, 20},
+                   "Each is linked to at most so many views of longer before.")
+          .integer("views", &Options::views, base::Range{1, 100000},
+                   "Views of longer before that are kept; a thousand take 250 MB at most.")
+          .number("overlap", &Options::overlap, base::Range{0.1, 1}, "Share of such a view that must still be seen.")
+          .number("loss_scale", &Options::loss_scale, base::Range::positive(),
+                  "Errors beyond so many standard deviations count less and less.");
+  return table;
+}
+
+ViewLinksPlugin::ViewLinksPlugin(const ViewLinksOptions& options, const std::string& camera,
+                                 const matching::RgbdTrackerOptions& tracking,
+                                 const matching::DenseMatcherOptions& matching, const mapper::PluginContext& context)
+    : options_(options), tracking_(tracking), matcher_(matching), context_(context), label_(camera) {}
+
+bool ViewLinksPlugin::wants(const mrpt::obs::CObservation& observation) const {
+  const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation);
+  return scan && scan->hasRangeImage;
+}
+
+mapper::Batch ViewLinksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                                       const mapper::View& view) {
+  const auto& scan = dynamic_cast<const CObservation3DRangeScan&>(observed.observation);
+  if (label_.empty()) label_ = scan.sensorLabel;
+  if (scan.sensorLabel != label_) return {};
+  const CObservation3DRangeScan::ConstPtr borrowed(CObservation3DRangeScan::ConstPtr{}, &scan);
+  const auto straight = lens_.straightened(borrowed);
+  const perception::RgbdView seen(*straight);
+  const matching::RgbdPyramid pyramid(seen.depth(), seen.colour());
+  const auto depth = pyramid.medianDepth();
+  if (!depth) return {};
+  const Se3 base_from_camera = geometry::fromMrpt(scan.sensorPose) * geometry::sensorFromOptical();
+  const auto motion = motionAt(frame, base_from_camera, view);
+  Seen image{frame.id, matcher_.prepare(pyramid, motion), base_from_camera, *depth, motion.velocity};
+  std::vector<Link> links;
+  for (std::size_t back = 2; back <= static_cast<std::size_t>(options_.before) && back <= recent_.size(); ++back) {
+    if (auto link = linkTo(recent_[recent_.size() - back], image, pyramid, motion, view, 0))
+      links.push_back(std::move(*link));
+  }
+  for (const Seen* old : viewsSeenAgain(image, view)) {
+    auto link = linkTo(*old, image, pyramid, motion, view, options_.overlap);
+    const bool was_left = wasLeft(*old, frame, view);
+    if (was_left && farness(*old, image, view) < kSurelySeen) {
+      ++expected_;
+      missed_ += !link;
+    }
+    if (!link) continue;
+    link->is_return = was_left;
+    links.push_back(std::move(*link));
+  }
+  mapper::Batch batch;
+  for (const Link& link : links) {
+    auto factor = mapper::betweenPoses(context_.motion, view.map.keyFrame(link.to->frame).pose, frame.pose,
+                                       motionOf(link, image, links.size()), context_.section);
+    factor.loss = graph::Loss::cauchy(options_.loss_scale);
+    if (!link.is_return) {
+      batch.addFactor(std::move(factor));
+      continue;
+    }
+    mapper::Decision decision{frame.stamp,       context_.section,
+                              "view seen again", frame.id,
+                              link.to->frame,    true,
+                              "the images fit",  {{"overlap", link.match.overlap}, {"surprise", link.match.surprise}}};
+    decision.is_loop_closure = true;
+    batch.addHypothesis(std::move(factor), std::move(decision));
+  }
+  remember(std::move(image), view);
+  return batch;
+}
+
+Se3 ViewLinksPlugin::between(const Seen& from, const Seen& to, const mapper::State& state) const {
+  const Se3 map_from = geometry::fromMrpt(state.map.keyFrame(from.frame).map_from_base) * from.base_from_camera;
+  const Se3 map_to = geometry::fromMrpt(state.map.keyFrame(to.frame).map_from_base) * to.base_from_camera;
+  return inverse(map_from) * map_to;
+}
+
+// In the distances from which on visual odometry takes another key frame.
+double ViewLinksPlugin::farness(const Seen& from, const Seen& to, const mapper::State& state) const {
+  return farness(from, between(from, to, state));
+}
+
+double ViewLinksPlugin::farness(const Seen& from, const Se3& motion) const {
+  return std::max(geometry::logSo3(motion.rotation).norm() / tracking_.key_angle,
+                  motion.translation.norm() / (tracking_.key_distance * from.depth));
+}
+
+std::optional<ViewLinksPlugin::Link> ViewLinksPlugin::linkTo(const Seen& to, const Seen& image,
+                                                             const matching::RgbdPyramid& pyramid,
+                                                             const matching::CameraMotion& motion,
+                                                             const mapper::State& state, double least_overlap) const {
+  constexpr double kSurprise = 0.1;
+  auto match = matcher_.match(*to.reference, pyramid, {between(to, image, state)}, motion);
+  if (!match.succeeded || match.surprise > kSurprise) return std::nullopt;
+  if (match.overlap < least_overlap) return std::nullopt;
+  return Link{&to, std::move(match)};
+}
+
+// Whether the camera was elsewhere between a view and `frame`, so that coming back shows what it drifted by.
+bool ViewLinksPlugin::wasLeft(const Seen& old, const map::KeyFrame& frame, const mapper::State& state) const {
+  constexpr double kLeft = 8;
+  const auto& frames = state.map.key_frames;
+  const Se3 camera_from_map =
+      inverse(geometry::fromMrpt(state.map.keyFrame(old.frame).map_from_base) * old.base_from_camera);
+  const std::size_t end = frames.position(frame.id);
+  for (std::size_t i = frames.position(old.frame); i < end; ++i) {
+    const Se3 motion = camera_from_map * geometry::fromMrpt(frames[i].map_from_base) * old.base_from_camera;
+    if (farness(old, motion) > kLeft) return true;
+  }
+  return false;
+}
+
+// The nearest ones, by the estimate.
+std::vector<const ViewLinksPlugin::Seen*> ViewLinksPlugin::viewsSeenAgain(const Seen& image,
+                                                                          const mapper::State& state) const {
+  constexpr double kFarthest = 4;
+  std::vector<std::pair<double, const Seen*>> near;
+  for (const Seen& old : views_) {
+    const double far = farness(old, image, state);
+    if (far < kFarthest) near.emplace_back(far, &old);
+  }
+  std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  near.resize(std::min(near.size(), static_cast<std::size_t>(options_.returns)));
+  std::vector<const Seen*> nearest;
+  for (const auto& one : near) nearest.push_back(one.second);
+  return nearest;
+}
+
+mapper::RelativeMotion ViewLinksPlugin::motionOf(const Link& link, const Seen& image, std::size_t links) const {
+  // Neighbours share errors: so many residuals count as one. And how long a shutter takes is known to a fifth.
+  constexpr double kAlike = 30, kReadoutError = 0.2;
+  const double readout_sigma =
+      kReadoutError * std::max(std::abs(tracking_.depth_readout), std::abs(tracking_.picture_readout));
+  const geometry::Vector6d of_image = readout_sigma * image.velocity;
+  const geometry::Vector6d of_other =
+      readout_sigma * (adjoint(inverse(link.match.reference_from_image)) * link.to->velocity);
+  geometry::Matrix6d of_camera =
+      kAlike * link.match.covariance + of_image * of_image.transpose() + of_other * of_other.transpose();
+  of_camera *= static_cast<double>(links);
+  const geometry::Matrix6d ad = adjoint(image.base_from_camera);
+  return {
+      geometry::toMrpt(link.to->base_from_camera * link.match.reference_from_image * inverse(image.base_from_camera)),
+      ad * of_camera * ad.transpose()};
+}
+
+// For the shutters: since the last image or key frame before.
+matching::CameraMotion ViewLinksPlugin::motionAt(const map::KeyFrame& frame, const Se3& base_from_camera,
+                                                 const mapper::State& state) const {
+  matching::CameraMotion motion{geometry::Vector6d::Zero(), tracking_.depth_readout, tracking_.picture_delay,
+                                tracking_.picture_readout, tracking_.picture_delay_sigma};
+  const std::size_t position = state.map.key_frames.position(frame.id);
+  if (position == 0) return motion;
+  const map::KeyFrame& before = state.map.key_frames[position - 1];
+  const bool has_images = !before.dependents.empty();
+  const Se3 before_from_last = has_images ? geometry::fromMrpt(before.dependents.back().keyframe_from_base) : Se3{};
+  const double seconds = base::secondsBetween(has_images ? before.dependents.back().stamp : before.stamp, frame.stamp);
+  constexpr double kShortest = 0.01, kLongest = 0.5;  // [s]
+  if (before.id.session != frame.id.session || seconds < kShortest || seconds > kLongest) return motion;
+  const Se3 last_from_base = inverse(before_from_last) * geometry::fromMrpt(before.keyframe_from_next);
+  motion.velocity = minus(inverse(base_from_camera) * last_from_base * base_from_camera, Se3{}) / seconds;
+  return motion;
+}
+
+// What is no longer recent is kept where no view that is kept is near.
+void ViewLinksPlugin::remember(Seen seen, const mapper::State& state) {
+  constexpr std::size_t kRecent = 10;  // key frames
+  constexpr double kApart = 0.5;
+  recent_.push_back(std::move(seen));
+  if (recent_.size() <= std::max(kRecent, static_cast<std::size_t>(options_.before))) return;
+  Seen old = std::move(recent_.front());
+  recent_.erase(recent_.begin());
+  const bool is_known =
+      std::any_of(views_.begin(), views_.end(), [&](const Seen& view) { return farness(view, old, state) < kApart; });
+  if (is_known) return;
+  views_.push_back(std::move(old));
+  if (views_.size() > static_cast<std::size_t>(options_.views)) views_.erase(views_.begin());
+}
+
+void ViewLinksPlugin::retired(const map::KeyFrame& frame) {
+  for (auto* list : {&recent_, &views_}) {
+    list->erase(std::remove_if(list->begin(), list->end(), [&](const Seen& seen) { return seen.frame == frame.id; }),
+                list->end());
+  }
+}
+
+std::vector<mapper::Evidence> ViewLinksPlugin::evidence(const mapper::View& view) const {
+  if (view.map.key_frames.empty()) return {};
+  std::vector<std::pair<base::Stamp, base::Stamp>> loops;  // from a view to its return
+  std::size_t refused = 0;
+  for (const auto& decision : view.decisions) {
+    if (decision.plugin != context_.section || !decision.to) continue;
+    if (decision.accepted) {
+      loops.emplace_back(view.map.keyFrame(*decision.to).stamp, decision.stamp);
+    } else {
+      ++refused;
+    }
+  }
+  std::sort(loops.begin(), loops.end());
+  double seconds = 0;
+  auto until = view.map.key_frames.front().stamp;
+  for (const auto& [seen, seen_again] : loops) {
+    if (seen_again <= until) continue;
+    seconds += base::secondsBetween(std::max(seen, until), seen_again);
+    until = seen_again;
+  }
+  const double all = base::secondsBetween(view.map.key_frames.front().stamp, view.map.key_frames.back().stamp);
+  auto evidence = returnEvidence(loops.size(), seconds, all);
+  evidence.push_back(refusedEvidence(refused, loops.size()));
+  evidence.push_back(missedEvidence());
+  return evidence;
+}
+
+mapper::Evidence ViewLinksPlugin::refusedEvidence(std::size_t refused, std::size_t accepted) {
+  using Says = mapper::Evidence::Says;
+  constexpr double kMany = 15;  // [%]
+  const double percent = percentOf(refused, refused + accepted);
+  char text[200];
+  std::snprintf(text, sizeof text, "%.0f %% of the views that came back contradict the rest of the map", percent);
+  return {"camera_returns_refused_percent", percent, percent > kMany ? Says::too_little : Says::good,
+          percent > kMany ? text : ""};
+}
+
+mapper::Evidence ViewLinksPlugin::missedEvidence() const {
+  using Says = mapper::Evidence::Says;
+  constexpr double kMany = 10;      // [%]
+  constexpr std::size_t kFew = 10;  // of so few nothing is concluded
+  const double percent = percentOf(missed_, expected_);
+  const bool is_bent = percent > kMany && expected_ >= kFew;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "of the %zu times that the map has the camera back at a view of before, the image showed something "
+                "else %zu times: the map is bent",
+                expected_, missed_);
+  return {"camera_returns_missed_percent", percent, is_bent ? Says::against_it : Says::good, is_bent ? text : ""};
+}
+
+const std::vector<base::OptionSpec>& ViewLinksPluginFactory::options() const {
+  return ViewLinksOptions::table().specs();
+}
+
+std::unique_ptr<mapper::MeasurementPlugin> ViewLinksPluginFactory::make(const base::ConfigSection& section,
+                                                                        const mapper::PluginContext& context) const {
+  const auto options = section.read<ViewLinksOptions>(mapper::sectionKeysOfEngine());
+  const auto ini = base::Config::fromText(context.config_text, "the INI");
+  if (!ini.has(options.odometry) && options.odometry != ViewLinksOptions{}.odometry) {
+    throw base::Error(base::ExitCode::unknown_key,
+                      "[" + context.section + "] odometry: there is no section [" + options.odometry + "] in the INI");
+  }
+  const auto odometry = ini.section(options.odometry);
+  std::string class_name;
+  if (odometry.find("class", class_name) && class_name != "VisualOdometryPlugin")
+    return std::make_unique<ViewLinksPlugin>(options, "", matching::RgbdTrackerOptions{},
+                                             matching::DenseMatcherOptions{}, context);
+  return std::make_unique<ViewLinksPlugin>(options, VisualOdometrySection::read<CameraOdometryOptions>(odometry).label,
+                                           VisualOdometrySection::read<matching::RgbdTrackerOptions>(odometry),
+                                           VisualOdometrySection::read<matching::DenseMatcherOptions>(odometry),
+                                           context);
+}
+
+}  // namespace omnimapper::plugins

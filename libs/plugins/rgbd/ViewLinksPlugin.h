@@ -1,0 +1,107 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/geometry/Se3.h>
+#include <omnimapper/matching/DenseMatcher.h>
+#include <omnimapper/matching/RgbdTracker.h>
+#include <omnimapper/perception/LensStraightener.h>
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::plugins {
+
+struct ViewLinksOptions {
+  std::string odometry = "visual_odometry";  ///< section whose camera, matching and shutters hold here, too
+  int before = 3;                            ///< key frames back that each is linked to
+  int returns = 2;                           ///< views of longer before that each is linked to, at most
+  int views = 500;                           ///< that are kept for that; the oldest go
+  double overlap = 0.5;                      ///< of a view of longer before that is still seen, at least
+  double loss_scale = 1;                     ///< [standard deviations] from which on a link counts less
+
+  static const base::OptionTable<ViewLinksOptions>& table();
+};
+
+/// Registers the image of each key frame with those of key frames before it: with the second, third, ... before it
+/// (thesis 4.1.2: links to x-1, x-2 and x-3; that to x-1 is the odometry's), and with older ones whose view it should
+/// have again by the estimate, which closes loops as far as drift is small. Thus what drifted is spread over the way,
+/// where odometry alone takes it out at once.
+///
+/// Links of one key frame share its image, and are not independent: n of them have n times their covariance, and so
+/// count together as one. Links to views that were left in
+/// between act once the consistency test has accepted them.
+class ViewLinksPlugin : public mapper::MeasurementPlugin {
+ public:
+  /// `camera`: its label; empty for the first that comes.
+  ViewLinksPlugin(const ViewLinksOptions& options, const std::string& camera,
+                  const matching::RgbdTrackerOptions& tracking, const matching::DenseMatcherOptions& matching,
+                  const mapper::PluginContext& context);
+
+  bool wants(const mrpt::obs::CObservation& observation) const override;
+  mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                        const mapper::View& view) override;
+  void retired(const map::KeyFrame& frame) override;
+  /// What share of the time lies between two views of one place, where drift would be seen, in the place of the
+  /// odometry's, which looks at its own key frames alone; how many returns contradict the rest; and how often the
+  /// estimate has the camera at a view that the image does not show.
+  std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
+
+ private:
+  /// The image of a key frame.
+  struct Seen {
+    base::KeyFrameId frame;
+    std::shared_ptr<const matching::DenseReference> reference;
+    geometry::Se3 base_from_camera;
+    double depth;                 // [m] median
+    geometry::Vector6d velocity;  // of the camera, in its frame [m/s] [rad/s]
+  };
+  /// One that an image was registered with.
+  struct Link {
+    const Seen* to;
+    matching::DenseMatch match;
+    bool is_return = false;  // to a view that was left in between
+  };
+  std::optional<Link> linkTo(const Seen& to, const Seen& image, const matching::RgbdPyramid& pyramid,
+                             const matching::CameraMotion& motion, const mapper::State& state,
+                             double least_overlap) const;
+  std::vector<const Seen*> viewsSeenAgain(const Seen& image, const mapper::State& state) const;
+  double farness(const Seen& from, const Seen& to, const mapper::State& state) const;
+  double farness(const Seen& from, const geometry::Se3& motion) const;
+  bool wasLeft(const Seen& old, const map::KeyFrame& frame, const mapper::State& state) const;
+  geometry::Se3 between(const Seen& from, const Seen& to, const mapper::State& state) const;
+  mapper::RelativeMotion motionOf(const Link& link, const Seen& image, std::size_t links) const;
+  matching::CameraMotion motionAt(const map::KeyFrame& frame, const geometry::Se3& base_from_camera,
+                                  const mapper::State& state) const;
+  void remember(Seen seen, const mapper::State& state);
+  static mapper::Evidence refusedEvidence(std::size_t refused, std::size_t accepted);
+  mapper::Evidence missedEvidence() const;
+
+  ViewLinksOptions options_;
+  matching::RgbdTrackerOptions tracking_;
+  matching::DenseMatcher matcher_;
+  mapper::PluginContext context_;
+  perception::LensStraightener lens_;
+  std::string label_;         // empty until the first comes
+  std::vector<Seen> recent_;  // in the order they came, the newest last
+  std::vector<Seen> views_;   // older ones, each of another view
+  // How often the estimate had the camera back at a view that it had left, and how often the image did not fit.
+  std::size_t expected_ = 0, missed_ = 0;
+};
+
+class ViewLinksPluginFactory : public mapper::MeasurementPluginFactory {
+  DEFINE_MRPT_OBJECT(ViewLinksPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "ViewLinksPlugin"; }
+  std::string summary() const override {
+    return "Links key frames by their depth images: each to several before it, and to views that are seen again.";
+  }
+  const std::vector<base::OptionSpec>& options() const override;
+  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
+                                                  const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,27 @@
+#include "returnEvidence.h"
+
+#include <omnimapper/base/Numbers.h>
+
+#include <cstdio>
+
+namespace omnimapper::plugins {
+
+std::vector<mapper::Evidence> returnEvidence(std::size_t returns, double between, double all) {
+  using Says = mapper::Evidence::Says;
+  constexpr double kEnough = 25;  // [%]
+  const double percent = all > 0 ? 100 * between / all : 0;
+  const bool is_enough = percent >= kEnough;
+  char text[250] = "the camera never came back to a view of before, where drift would be seen";
+  if (returns > 0) {
+    std::snprintf(text, sizeof text,
+                  "views of long before came back %s and the images fitted them%s %.0f %% of the time lies between two "
+                  "views of one place%s",
+                  base::counted(returns, "time").c_str(), is_enough ? ";" : ", but only", percent,
+                  is_enough ? "" : ", where drift would be seen");
+  }
+  return {{"camera_returns", static_cast<double>(returns), returns > 0 ? Says::good : Says::too_little,
+           is_enough ? text : ""},
+          {"camera_returned_percent", percent, is_enough ? Says::good : Says::too_little, is_enough ? "" : text}};
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/plugin/PoseFactors.h>
+
+#include <memory>
+#include <vector>
+
+#include "RenderedScan.h"
+#include "rgbd/ViewLinksPlugin.h"
+
+namespace omnimapper::plugins::view_links_plugin_test {
+namespace {
+
+using geometry::Se3;
+using mrpt::poses::CPose3D;
+using Says = mapper::Evidence::Says;
+
+const CPose3D kBaseFromCamera(0.1, 0.05, 0.2, 0.1, 0.2, 0);
+
+base::Stamp at(double seconds) {
+  return base::stampFromUnix(1.6e9) + base::durationFromSeconds(seconds);
+}
+
+Se3 moved(double x, double y, double yaw) {
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())), {x, y, 0}};
+}
+
+/// A run whose key frames are put in by hand, one each second.
+class ViewLinks : public ::testing::Test {
+ protected:
+  ViewLinks() {
+    context_.section = "view_links";
+    context_.motion = mapper::Motion::spatial;
+    tracking_.depth_readout = tracking_.picture_readout = tracking_.picture_delay = tracking_.picture_delay_sigma = 0;
+    make({});
+  }
+
+  void make(const ViewLinksOptions& options) {
+    plugin_ = std::make_unique<ViewLinksPlugin>(options, "", tracking_, matching::DenseMatcherOptions{}, context_);
+  }
+
+  /// `start_from_base` is true, `estimate` is what the map has.
+  mapper::Batch see(const Se3& start_from_base, const Se3& estimate, bool is_covered = false) {
+    const double seconds = static_cast<double>(run_.map.key_frames.size());
+    map::KeyFrame frame;
+    frame.id = run_.map.key_frames.nextId(0);
+    frame.stamp = at(seconds);
+    frame.map_from_base = geometry::toMrpt(estimate);
+    frame.pose = run_.graph.addVariable(mapper::poseVariable(context_.motion),
+                                        mapper::poseValue(context_.motion, frame.map_from_base));
+    run_.map.key_frames.insert(frame);
+    const auto scan = renderedScan(room_, kRoomFromStart * start_from_base, kBaseFromCamera, frame.stamp, is_covered);
+    EXPECT_TRUE(plugin_->wants(*scan));
+    return plugin_->measure(run_.map.key_frames.at(frame.id), {*scan, nullptr}, run_.view());
+  }
+  mapper::Batch see(const Se3& start_from_base) { return see(start_from_base, start_from_base); }
+
+  base::VariableId poseOfFrame(std::size_t position) const { return run_.map.key_frames[position].pose; }
+
+  // The room's z is forward and its y down.
+  const Se3 kRoomFromStart{Eigen::Quaterniond(geometry::sensorFromOptical().rotation.conjugate()), {0, 0.1, -0.3}};
+  matching::RenderedRoom room_;
+  mapper::PluginContext context_;
+  matching::RgbdTrackerOptions tracking_;
+  mapper::ViewedRun run_;
+  std::unique_ptr<ViewLinksPlugin> plugin_;
+};
+
+TEST_F(ViewLinks, tieAKeyFrameToTheSecondAndThirdBeforeIt) {
+  EXPECT_TRUE(see(moved(0, 0, 0)).addedFactors().empty());
+  EXPECT_TRUE(see(moved(0.04, 0.01, 0.03)).addedFactors().empty());
+  EXPECT_EQ(see(moved(0.08, 0.01, 0.06)).addedFactors().size(), 1u);
+  const auto batch = see(moved(0.12, 0.02, 0.09));
+  ASSERT_EQ(batch.addedFactors().size(), 2u);
+  EXPECT_EQ(batch.addedFactors()[0].variables, (std::vector{poseOfFrame(1), poseOfFrame(3)}));
+  EXPECT_EQ(batch.addedFactors()[1].variables, (std::vector{poseOfFrame(0), poseOfFrame(3)}));
+  for (const auto& factor : batch.addedFactors()) EXPECT_FALSE(factor.tags.hypothesis);
+}
+
+TEST_F(ViewLinks, measureTheTrueMotionWhateverTheMapHas) {
+  see(moved(0, 0, 0));
+  see(moved(0.04, 0.01, 0.03));
+  const auto batch = see(moved(0.08, 0.01, 0.06), moved(0.11, -0.01, 0.04));
+  ASSERT_EQ(batch.addedFactors().size(), 1u);
+  // Its error at the true poses.
+  const auto& factor = batch.addedFactors().front();
+  const std::vector<Eigen::VectorXd> truth{
+      mapper::poseValue(context_.motion, geometry::toMrpt(moved(0, 0, 0))),
+      mapper::poseValue(context_.motion, geometry::toMrpt(moved(0.08, 0.01, 0.06)))};
+  const double* values[] = {truth[0].data(), truth[1].data()};
+  Eigen::Matrix<double, 6, 1> error;
+  factor.factor->evaluate(values, error.data(), nullptr);
+  EXPECT_LT(error.head<3>().norm(), 0.004);
+  EXPECT_LT(error.tail<3>().norm(), 0.003);
+}
+
+TEST_F(ViewLinks, doNotTieWhatACoveredLensShows) {
+  see(moved(0, 0, 0));
+  see(moved(0.04, 0.01, 0.03));
+  EXPECT_TRUE(see(moved(0.08, 0.01, 0.06), moved(0.08, 0.01, 0.06), true).addedFactors().empty());
+}
+
+// Turns away by a radian in steps that see nothing of the one before last, and back again.
+TEST_F(ViewLinks, proposeAViewThatComesBack) {
+  constexpr int kSteps = 12;
+  for (int i = 0; i < kSteps; ++i) see(moved(0, 0, 0.12 * i));
+  std::size_t proposed = 0;
+  for (int i = kSteps; i >= 0; --i) {
+    const auto batch = see(moved(0, 0, 0.12 * i + 0.01));
+    for (const auto& factor : batch.addedFactors()) proposed += factor.tags.hypothesis;
+    for (const auto& decision : batch.decisions()) EXPECT_TRUE(decision.is_loop_closure && decision.accepted);
+    run_.decisions.insert(run_.decisions.end(), batch.decisions().begin(), batch.decisions().end());
+  }
+  EXPECT_GT(proposed, 0u);
+  const auto evidence = plugin_->evidence(run_.view());
+  ASSERT_EQ(evidence.size(), 4u);
+  EXPECT_EQ(evidence[0].name, "camera_returns");
+  EXPECT_EQ(evidence[0].value, static_cast<double>(proposed));
+  EXPECT_EQ(evidence[1].name, "camera_returned_percent");
+  EXPECT_GT(evidence[1].value, 50);
+  for (const auto& one : evidence) EXPECT_EQ(one.says, Says::good) << one.reason;
+}
+
+// The map has the camera back where it began, and the image shows another side of the room.
+TEST_F(ViewLinks, speakAgainstAMapThatIsBent) {
+  constexpr int kSteps = 12;
+  for (int i = 0; i < kSteps; ++i) see(moved(0, 0, 0.12 * i));
+  for (int i = 0; i < kSteps; ++i) see(moved(0, 0, 0.12 * kSteps), moved(0, 0, 0.01 * i));
+  const auto evidence = plugin_->evidence(run_.view());
+  ASSERT_EQ(evidence.size(), 4u);
+  EXPECT_EQ(evidence[0].says, Says::too_little);
+  EXPECT_EQ(evidence[3].name, "camera_returns_missed_percent");
+  EXPECT_EQ(evidence[3].says, Says::against_it);
+  EXPECT_NE(evidence[3].reason.find("bent"), std::string::npos);
+}
+
+TEST_F(ViewLinks, ofAContradictedMapNothingIsConcluded) {
+  for (int i = 0; i < 20; ++i) see(moved(0, 0, 0.12 * i));
+  for (int i = 0; i < 10; ++i) {
+    mapper::Decision decision;
+    decision.stamp = at(15);
+    decision.plugin = "view_links";
+    decision.to = run_.map.key_frames[0].id;
+    decision.accepted = i < 8;
+    run_.decisions.push_back(decision);
+  }
+  const auto evidence = plugin_->evidence(run_.view());
+  EXPECT_EQ(evidence[2].name, "camera_returns_refused_percent");
+  EXPECT_EQ(evidence[2].value, 20);
+  EXPECT_EQ(evidence[2].says, Says::too_little);
+}
+
+TEST_F(ViewLinks, takeOneCameraAlone) {
+  see(moved(0, 0, 0));
+  see(moved(0.04, 0.01, 0.03));
+  auto scan = renderedScan(room_, kRoomFromStart, kBaseFromCamera, at(2));
+  scan->sensorLabel = "another";
+  EXPECT_TRUE(plugin_->measure(run_.map.key_frames.back(), {*scan, nullptr}, run_.view()).empty());
+}
+
+TEST(ViewLinksOptions, nameASectionThatIsThere) {
+  mapper::PluginContext context;
+  context.section = "view_links";
+  context.config_text = "[view_links]\nclass = ViewLinksPlugin\nodometry = nothing\n";
+  const auto config = base::Config::fromText(context.config_text, "test.ini");
+  try {
+    ViewLinksPluginFactory().make(config.section("view_links"), context);
+    FAIL() << "a section that is not there was taken";
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("[nothing]"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ViewLinksOptions, takeDefaultsBesideAnotherOdometry) {
+  mapper::PluginContext context;
+  context.section = "view_links";
+  context.config_text =
+      "[view_links]\nclass = ViewLinksPlugin\n[visual_odometry]\nclass = CloudOdometryPlugin\nsource = voxels\n";
+  const auto config = base::Config::fromText(context.config_text, "test.ini");
+  EXPECT_NE(ViewLinksPluginFactory().make(config.section("view_links"), context), nullptr);
+}
+
+}  // namespace
+}  // namespace omnimapper::plugins::view_links_plugin_test
