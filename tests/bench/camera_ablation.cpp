@@ -1,6 +1,6 @@
 // What a map of a hand-held depth camera is made from: every log is mapped by ini/rgbd_handheld.ini and by variants of
 // it, which take other sources (depth, brightness, clouds of edges, voxels or all points), other methods of
-// registration, and planes as landmarks or none. Prints a Markdown table and writes it with a plot and a CSV.
+// registration, links of key frames or none, and planes as landmarks or none. Prints a Markdown table and writes it with a plot and a CSV.
 //
 // A log is a rawlog with its true trajectory, or a place that is simulated. doc/results/registration.md has the table.
 //
@@ -54,21 +54,23 @@ AblationVariant byClouds(const std::string& key, const std::string& title, const
   return {key,
           AblationVariant::Family::clouds,
           title,
-          {"mapper.pose_plugins=cloud_odometry,no_motion", "cloud_odometry.class=CloudOdometryPlugin",
+          {"mapper.measurement_plugins=", "mapper.pose_plugins=cloud_odometry,no_motion", "cloud_odometry.class=CloudOdometryPlugin",
            "cloud_odometry.source=" + source, "cloud_odometry.method=" + method}};
 }
 
-AblationVariant withPlanes(AblationVariant variant) {
-  variant.settings.insert(variant.settings.end(),
-                          {"perception.extractors=planes", "planes.class=PlaneExtractor",
-                           "mapper.measurement_plugins=plane_landmarks", "plane_landmarks.class=PlaneLandmarksPlugin"});
+AblationVariant withPlanes(AblationVariant variant, const std::string& measurement_plugins) {
+  variant.settings.insert(
+      variant.settings.end(),
+      {"perception.extractors=planes", "planes.class=PlaneExtractor",
+       "mapper.measurement_plugins=" + measurement_plugins, "plane_landmarks.class=PlaneLandmarksPlugin"});
   return variant;
 }
 
 // The first is the default, which the plot holds the others against.
 std::vector<AblationVariant> allVariants() {
   return {visual("default", "depth and brightness (default)"),
-          withPlanes(visual("planes", "depth and brightness, with planes")),
+          visual("no_links", "without links of key frames", {"mapper.measurement_plugins="}),
+          withPlanes(visual("planes", "depth and brightness, with planes"), "plane_landmarks,view_links"),
           visual("depth", "depth alone", {"visual_odometry.use_brightness=false"}),
           visual("brightness", "brightness alone", {"visual_odometry.use_depth=false"}),
           byClouds("occluding_edges", "occluding edges", "occluding_edges"),
@@ -76,7 +78,7 @@ std::vector<AblationVariant> allVariants() {
           byClouds("high_curvature_edges", "high-curvature edges", "high_curvature_edges"),
           byClouds("voxels", "voxels of 2 cm", "voxels"),
           byClouds("all_points", "all points", "all_points"),
-          withPlanes(byClouds("all_points_planes", "all points, with planes", "all_points")),
+          withPlanes(byClouds("all_points_planes", "all points, with planes", "all_points"), "plane_landmarks"),
           byClouds("point_to_plane", "all points, point to plane", "all_points", "point_to_plane"),
           byClouds("point_to_point", "all points, point to point", "all_points", "point_to_point")};
 }
