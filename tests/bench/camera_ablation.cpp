@@ -1,6 +1,7 @@
 // What a map of a hand-held depth camera is made from: every log is mapped by ini/rgbd_handheld.ini and by variants of
 // it, which take other sources (depth, brightness, clouds of edges, voxels or all points), other methods of
-// registration, links of key frames or none, and planes as landmarks or none. Prints a Markdown table and writes it with a plot and a CSV.
+// registration, links of key frames or none, and planes as landmarks or none. Prints a Markdown table and writes it
+// with a plot and a CSV.
 //
 // A log is a rawlog with its true trajectory, or a place that is simulated. doc/results/registration.md has the table.
 //
@@ -54,15 +55,15 @@ AblationVariant byClouds(const std::string& key, const std::string& title, const
   return {key,
           AblationVariant::Family::clouds,
           title,
-          {"mapper.measurement_plugins=", "mapper.pose_plugins=cloud_odometry,no_motion", "cloud_odometry.class=CloudOdometryPlugin",
-           "cloud_odometry.source=" + source, "cloud_odometry.method=" + method}};
+          {"mapper.measurement_plugins=", "mapper.pose_plugins=cloud_odometry,no_motion",
+           "cloud_odometry.class=CloudOdometryPlugin", "cloud_odometry.source=" + source,
+           "cloud_odometry.method=" + method}};
 }
 
 AblationVariant withPlanes(AblationVariant variant, const std::string& measurement_plugins) {
-  variant.settings.insert(
-      variant.settings.end(),
-      {"perception.extractors=planes", "planes.class=PlaneExtractor",
-       "mapper.measurement_plugins=" + measurement_plugins, "plane_landmarks.class=PlaneLandmarksPlugin"});
+  variant.settings.insert(variant.settings.end(), {"perception.extractors=planes", "planes.class=PlaneExtractor",
+                                                   "mapper.measurement_plugins=" + measurement_plugins,
+                                                   "plane_landmarks.class=PlaneLandmarksPlugin"});
   return variant;
 }
 

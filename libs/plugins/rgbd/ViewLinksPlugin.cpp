@@ -86,6 +86,7 @@ mapper::Batch ViewLinksPlugin::measure(const map::KeyFrame& frame, const mapper:
       missed_ += !link;
     }
     if (!link) continue;
+    link->is_old = true;
     link->is_return = was_left;
     links.push_back(std::move(*link));
   }
@@ -94,7 +95,7 @@ mapper::Batch ViewLinksPlugin::measure(const map::KeyFrame& frame, const mapper:
     auto factor = mapper::betweenPoses(context_.motion, view.map.keyFrame(link.to->frame).pose, frame.pose,
                                        motionOf(link, image, links.size()), context_.section);
     factor.loss = graph::Loss::cauchy(options_.loss_scale);
-    if (!link.is_return) {
+    if (!link.is_old) {
       batch.addFactor(std::move(factor));
       continue;
     }
@@ -102,7 +103,7 @@ mapper::Batch ViewLinksPlugin::measure(const map::KeyFrame& frame, const mapper:
                               "view seen again", frame.id,
                               link.to->frame,    true,
                               "the images fit",  {{"overlap", link.match.overlap}, {"surprise", link.match.surprise}}};
-    decision.is_loop_closure = true;
+    decision.is_loop_closure = link.is_return;
     batch.addHypothesis(std::move(factor), std::move(decision));
   }
   remember(std::move(image), view);
@@ -228,7 +229,7 @@ std::vector<mapper::Evidence> ViewLinksPlugin::evidence(const mapper::View& view
   std::vector<std::pair<base::Stamp, base::Stamp>> loops;  // from a view to its return
   std::size_t refused = 0;
   for (const auto& decision : view.decisions) {
-    if (decision.plugin != context_.section || !decision.to) continue;
+    if (decision.plugin != context_.section || !decision.to || !decision.is_loop_closure) continue;
     if (decision.accepted) {
       loops.emplace_back(view.map.keyFrame(*decision.to).stamp, decision.stamp);
     } else {

@@ -32,8 +32,7 @@ struct ViewLinksOptions {
 /// where odometry alone takes it out at once.
 ///
 /// Links of one key frame share its image, and are not independent: n of them have n times their covariance, and so
-/// count together as one. Links to views that were left in
-/// between act once the consistency test has accepted them.
+/// count together as one. Links to views of longer before act once the consistency test has accepted them.
 class ViewLinksPlugin : public mapper::MeasurementPlugin {
  public:
   /// `camera`: its label; empty for the first that comes.
@@ -63,7 +62,8 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
   struct Link {
     const Seen* to;
     matching::DenseMatch match;
-    bool is_return = false;  // to a view that was left in between
+    bool is_old = false;     // to a view of longer before
+    bool is_return = false;  // which the camera left in between
   };
   std::optional<Link> linkTo(const Seen& to, const Seen& image, const matching::RgbdPyramid& pyramid,
                              const matching::CameraMotion& motion, const mapper::State& state,
