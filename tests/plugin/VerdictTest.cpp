@@ -25,6 +25,14 @@ TEST(Verdict, CannotTellWhereSomethingIsMissing) {
   EXPECT_EQ(sentenceOf(verdict), "Whether the map is right cannot be told: the robot never came back.");
 }
 
+TEST(Verdict, TakesWhatALaterPluginKnowsInPlaceOfTooLittle) {
+  const Evidence revisited{"revisited_m", 12, Says::good, ""};
+  EXPECT_EQ(conclude({kTooLittle, revisited}).answer, Answer::consistent);
+  EXPECT_EQ(conclude({kTooLittle, revisited}).evidence.size(), 1u);
+  EXPECT_EQ(conclude({revisited, kTooLittle}).answer, Answer::cannot_tell);
+  EXPECT_EQ(conclude({kAgainst, kGood}).answer, Answer::suspicious);
+}
+
 TEST(Verdict, CannotTellWhereNobodyJudges) {
   EXPECT_EQ(conclude({}).answer, Answer::cannot_tell);
   EXPECT_EQ(sentenceOf(conclude({})), "Whether the map is right cannot be told: no plugin judges maps.");

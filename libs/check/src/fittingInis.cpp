@@ -29,9 +29,10 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   const std::vector<std::string> of_lasers{"scan_odometry", "odometry", "no_motion"};  // pose plugins
   std::vector<FittingIni> inis;
   if (holds<mrpt::obs::CObservation3DRangeScan>(facts) && has_odometry && !has_laser) {
-    inis.push_back({"ini/rgbd_robot.ini",
-                    "walls, tables and floors of the range camera, its way by images and wheels",
-                    {{"visual_odometry", "odometry", "no_motion"}, {"planes"}, {"plane_landmarks"}, true}});
+    inis.push_back(
+        {"ini/rgbd_robot.ini",
+         "walls, tables and floors of the range camera, its way by images and wheels",
+         {{"visual_odometry", "odometry", "no_motion"}, {"planes"}, {"plane_landmarks", "view_links"}, true}});
   }
   if (sees_depth && (has_laser || has_odometry)) {
     inis.push_back({"ini/home_planes.ini",
@@ -53,7 +54,7 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   if (holds<mrpt::obs::CObservation3DRangeScan>(facts) && !has_laser && !has_odometry) {
     inis.push_back({"ini/rgbd_handheld.ini",
                     "the way and the points of a range camera by its images alone",
-                    {{"visual_odometry", "no_motion"}, {}, {}, false}});
+                    {{"visual_odometry", "no_motion"}, {}, {"view_links"}, false}});
   }
   if (has_odometry && holds<mrpt::obs::CObservationBearingRange>(facts)) {
     inis.push_back({"ini/landmarks.ini",

@@ -8,12 +8,13 @@ namespace omnimapper::mapper {
 Verdict conclude(std::vector<Evidence> all) {
   std::vector<Evidence> evidence;
   for (Evidence& one : all) {
-    const auto same =
-        std::find_if(evidence.begin(), evidence.end(), [&](const Evidence& other) { return other.name == one.name; });
-    if (same == evidence.end()) {
+    const auto vague = std::find_if(evidence.begin(), evidence.end(), [&](const Evidence& other) {
+      return other.name == one.name && other.says == Evidence::Says::too_little;
+    });
+    if (vague == evidence.end()) {
       evidence.push_back(std::move(one));
     } else {
-      *same = std::move(one);
+      *vague = std::move(one);
     }
   }
   const auto any = [&](Evidence::Says says) {

@@ -25,8 +25,8 @@ struct Verdict {
   std::vector<Evidence> evidence;
 };
 
-/// Suspicious if any evidence is against the map, else "cannot tell" if there is too little of some, or none at all. Of
-/// several of one name the last counts: what measures the map knows more than what told the motion.
+/// Suspicious if any evidence is against the map, else "cannot tell" if there is too little of some, or none at all.
+/// Where one plugin knows too little and a later one tells more under the same name, the later one counts.
 Verdict conclude(std::vector<Evidence> all);
 
 /// "consistent", "cannot tell" or "suspicious".
