@@ -1,5 +1,6 @@
 #include "ViewLinksPlugin.h"
 
+#include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/RgbdView.h>
@@ -64,6 +65,15 @@ mapper::Batch ViewLinksPlugin::measure(const map::KeyFrame& frame, const mapper:
   const auto& scan = dynamic_cast<const CObservation3DRangeScan&>(observed.observation);
   if (label_.empty()) label_ = scan.sensorLabel;
   if (scan.sensorLabel != label_) return {};
+  try {
+    return linksOf(frame, scan, view);
+  } catch (const base::Error&) {  // of an image that cannot be read, which the odometry warns of
+    return {};
+  }
+}
+
+mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const CObservation3DRangeScan& scan,
+                                       const mapper::View& view) {
   const CObservation3DRangeScan::ConstPtr borrowed(CObservation3DRangeScan::ConstPtr{}, &scan);
   const auto straight = lens_.straightened(borrowed);
   const perception::RgbdView seen(*straight);
@@ -74,18 +84,22 @@ mapper::Batch ViewLinksPlugin::measure(const map::KeyFrame& frame, const mapper:
   const auto motion = motionAt(frame, base_from_camera, view);
   Seen image{frame.id, matcher_.prepare(pyramid, motion), base_from_camera, *depth, motion.velocity};
   std::vector<Link> links;
-  for (std::size_t back = 2; back <= static_cast<std::size_t>(options_.before) && back <= recent_.size(); ++back) {
-    if (auto link = linkTo(recent_[recent_.size() - back], image, pyramid, motion, view, 0))
-      links.push_back(std::move(*link));
+  // By their places in the trajectory: a late image may have put a key frame between others.
+  const std::size_t position = view.map.key_frames.position(frame.id);
+  for (auto earlier = recent_.rbegin(); earlier != recent_.rend(); ++earlier) {
+    const std::size_t other = view.map.key_frames.position(earlier->frame);
+    const bool is_near = other + 2 <= position && position <= other + static_cast<std::size_t>(options_.before);
+    if (!is_near || earlier->frame.session != frame.id.session) continue;
+    if (auto link = linkTo(*earlier, image, pyramid, motion, view)) links.push_back(std::move(*link));
   }
   for (const Seen* old : viewsSeenAgain(image, view)) {
-    auto link = linkTo(*old, image, pyramid, motion, view, options_.overlap);
+    auto link = linkTo(*old, image, pyramid, motion, view);
     const bool was_left = wasLeft(*old, frame, view);
     if (was_left && farness(*old, image, view) < kSurelySeen) {
       ++expected_;
       missed_ += !link;
     }
-    if (!link) continue;
+    if (!link || link->match.overlap < options_.overlap) continue;
     link->is_old = true;
     link->is_return = was_left;
     links.push_back(std::move(*link));
@@ -129,11 +143,10 @@ double ViewLinksPlugin::farness(const Seen& from, const Se3& motion) const {
 std::optional<ViewLinksPlugin::Link> ViewLinksPlugin::linkTo(const Seen& to, const Seen& image,
                                                              const matching::RgbdPyramid& pyramid,
                                                              const matching::CameraMotion& motion,
-                                                             const mapper::State& state, double least_overlap) const {
+                                                             const mapper::State& state) const {
   constexpr double kSurprise = 0.1;
   auto match = matcher_.match(*to.reference, pyramid, {between(to, image, state)}, motion);
   if (!match.succeeded || match.surprise > kSurprise) return std::nullopt;
-  if (match.overlap < least_overlap) return std::nullopt;
   return Link{&to, std::move(match)};
 }
 
@@ -225,7 +238,11 @@ void ViewLinksPlugin::retired(const map::KeyFrame& frame) {
 }
 
 std::vector<mapper::Evidence> ViewLinksPlugin::evidence(const mapper::View& view) const {
-  if (view.map.key_frames.empty()) return {};
+  if (label_.empty() || options_.returns == 0 || view.map.key_frames.empty()) return {};
+  // Of earlier sessions no images are known.
+  const auto& last = view.map.key_frames.back();
+  const auto& first = *std::find_if(view.map.key_frames.begin(), view.map.key_frames.end(),
+                                    [&](const map::KeyFrame& frame) { return frame.id.session == last.id.session; });
   std::vector<std::pair<base::Stamp, base::Stamp>> loops;  // from a view to its return
   std::size_t refused = 0;
   for (const auto& decision : view.decisions) {
@@ -238,13 +255,13 @@ std::vector<mapper::Evidence> ViewLinksPlugin::evidence(const mapper::View& view
   }
   std::sort(loops.begin(), loops.end());
   double seconds = 0;
-  auto until = view.map.key_frames.front().stamp;
+  auto until = first.stamp;
   for (const auto& [seen, seen_again] : loops) {
     if (seen_again <= until) continue;
     seconds += base::secondsBetween(std::max(seen, until), seen_again);
     until = seen_again;
   }
-  const double all = base::secondsBetween(view.map.key_frames.front().stamp, view.map.key_frames.back().stamp);
+  const double all = base::secondsBetween(first.stamp, last.stamp);
   auto evidence = returnEvidence(loops.size(), seconds, all);
   evidence.push_back(refusedEvidence(refused, loops.size()));
   evidence.push_back(missedEvidence());

@@ -31,8 +31,9 @@ struct ViewLinksOptions {
 /// have again by the estimate, which closes loops as far as drift is small. Thus what drifted is spread over the way,
 /// where odometry alone takes it out at once.
 ///
-/// Links of one key frame share its image, and are not independent: n of them have n times their covariance, and so
-/// count together as one. Links to views of longer before act once the consistency test has accepted them.
+/// An image that cannot be read is left out. Links of one key frame share its image, and are not independent: n of them
+/// have n times their covariance, and so count together as one. Links to views of longer before act once the
+/// consistency test has accepted them.
 class ViewLinksPlugin : public mapper::MeasurementPlugin {
  public:
   /// `camera`: its label; empty for the first that comes.
@@ -65,9 +66,10 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
     bool is_old = false;     // to a view of longer before
     bool is_return = false;  // which the camera left in between
   };
+  mapper::Batch linksOf(const map::KeyFrame& frame, const mrpt::obs::CObservation3DRangeScan& scan,
+                        const mapper::View& view);
   std::optional<Link> linkTo(const Seen& to, const Seen& image, const matching::RgbdPyramid& pyramid,
-                             const matching::CameraMotion& motion, const mapper::State& state,
-                             double least_overlap) const;
+                             const matching::CameraMotion& motion, const mapper::State& state) const;
   std::vector<const Seen*> viewsSeenAgain(const Seen& image, const mapper::State& state) const;
   double farness(const Seen& from, const Seen& to, const mapper::State& state) const;
   double farness(const Seen& from, const geometry::Se3& motion) const;

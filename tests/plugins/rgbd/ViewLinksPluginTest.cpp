@@ -153,6 +153,23 @@ TEST_F(ViewLinks, ofAContradictedMapNothingIsConcluded) {
   EXPECT_EQ(evidence[2].says, Says::too_little);
 }
 
+TEST_F(ViewLinks, leaveOutAnImageThatCannotBeRead) {
+  see(moved(0, 0, 0));
+  see(moved(0.04, 0.01, 0.03));
+  auto scan = renderedScan(room_, kRoomFromStart, kBaseFromCamera, at(2));
+  scan->cameraParams.setIntrinsicParamsFromValues(0, 0, 0, 0);
+  EXPECT_TRUE(plugin_->measure(run_.map.key_frames.back(), {*scan, nullptr}, run_.view()).empty());
+  EXPECT_EQ(see(moved(0.08, 0.01, 0.06)).addedFactors().size(), 1u);
+}
+
+TEST_F(ViewLinks, sayNothingOfReturnsThatAreNotSought) {
+  ViewLinksOptions options;
+  options.returns = 0;
+  make(options);
+  for (int i = 0; i < 5; ++i) see(moved(0, 0, 0.12 * i));
+  EXPECT_TRUE(plugin_->evidence(run_.view()).empty());
+}
+
 TEST_F(ViewLinks, takeOneCameraAlone) {
   see(moved(0, 0, 0));
   see(moved(0.04, 0.01, 0.03));
