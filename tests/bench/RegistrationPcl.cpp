@@ -103,7 +103,8 @@ std::vector<RegistrationPeer> pclRegistrations() {
           peer<Gicp>("PCL GICP", "points, voxels of 2 cm", coarse, 8),
           peer<Icp>("PCL ICP", "points, voxels of 1 cm", fine, 32),
           peer<Gicp>("PCL GICP", "points, voxels of 1 cm", fine, 32),
-          peer<Icp>("PCL ICP", "all points", points, 112)};
+          peer<Icp>("PCL ICP", "all points", points, 112),
+          peer<Gicp>("PCL GICP", "all points", points, 112)};
 }
 
 }  // namespace omnimapper::bench

@@ -1,10 +1,12 @@
 // Motion between consecutive images of a depth camera by every kind of registration, against motion capture: the
 // thesis's Table 8, with PCL's methods (where bench-registration was built with it) and OpenCV's in the same run.
 // Prints a Markdown table. Times are those of the processor, of one thread, from the images on, without reading files.
-// The guess of a pair is the motion that the same method found for the pair before.
+// The guess of a pair is the motion that the same method found for the pair before, or none (--from-rest). Pairs of a
+// simulated place are each of another place (--simulated-pairs).
 //
 // Example: bench-registration --tum tum_fr1_rpy
 //          bench-registration --rawlog out/home/home.rawlog --truth out/home/truth.tum
+//          bench-registration --simulated-pairs 20 --place rawlogs/home_handheld.ini --only GICP
 #include <omnimapper/base/Memory.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/eval/TumFile.h>
@@ -21,7 +23,9 @@
 
 #include "RawlogFrames.h"
 #include "RegistrationPeers.h"
+#include "SimulatedPairs.h"
 #include "Timing.h"
+#include "WrittenPairs.h"
 
 namespace {
 
@@ -267,56 +271,95 @@ PosedFrames thinned(const PosedFrames& all, std::size_t every) {
   return some;
 }
 
+/// Images i - 1 and i are a pair, for i from 1 on in steps.
+struct Pairing {
+  bool is_all = false;     // no pair is left out for slow methods
+  bool are_apart = false;  // an image belongs to one pair alone
+  bool from_rest = false;  // the guess is no motion
+  std::size_t stepOf(const RegistrationPeer& method) const {
+    return are_apart ? 2 : is_all ? 1 : static_cast<std::size_t>(method.every);
+  }
+};
+
+Errors errorsOf(const RegistrationPeer& method, const PosedFrames& posed, const Pairing& pairing) {
+  const auto& [frames, poses] = posed;
+  const auto step = pairing.stepOf(method);
+  Errors errors;
+  Se3 guess;
+  for (std::size_t i = 1; i < frames.size(); i += step) {
+    const bool is_known = poses[i] && poses[i - 1];
+    // A method that leaves pairs out has no pair before: its guess is the true one of then, which is as good.
+    if (step > 1 && i > 1 && poses[i - 2] && poses[i - 1]) guess = inverse(*poses[i - 2]) * *poses[i - 1];
+    if (pairing.from_rest) guess = {};
+    const double begin = processorTime();
+    const auto found = method.run(frames[i - 1], frames[i], guess);
+    errors.time.push_back(processorTime() - begin);
+    errors.failed += !found;
+    // Who fails is taken at the guess, and begins anew.
+    const Registered taken = found.value_or(Registered{guess, {}});
+    if (is_known) errors.add(taken, inverse(*poses[i - 1]) * *poses[i]);
+    guess = found ? found->first_from_second : Se3{};
+  }
+  return errors;
+}
+
+void printRow(const RegistrationPeer& method, const Errors& errors) {
+  const auto p = spreadOf(errors.position), a = spreadOf(errors.angle);
+  std::printf("| %s | %s | %zu (%zu) | %.2f | %.2f ± %.2f | %.3f | %.3f ± %.3f | %.2f | %.2f | %s |\n",
+              method.row.c_str(), method.name.c_str(), errors.position.size(), errors.failed, rms(errors.position),
+              p.mean, p.deviation, rms(errors.angle), a.mean, a.deviation, quantile(errors.time, 0.5),
+              quantile(errors.time, 0.95),
+              errors.normalised.empty() ? "" : base::fixed(std::sqrt(spreadOf(errors.normalised).mean), 2).c_str());
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string tum, rawlog, truth, only;
+  std::string tum, rawlog, truth, place = "rawlogs/home_handheld.ini", written, only;
   std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
-  int every = 1;
-  bool all_pairs = false;
+  int every = 1, simulated = 0;
+  Pairing pairing;
   CLI::App app("Motion between consecutive depth images, by every kind of registration.");
   app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth, rgb and groundtruth.txt");
   app.add_option("--camera", camera, "its fx fy cx cy [px]; the default is freiburg1's")->expected(4);
   app.add_option("--rawlog", rawlog, "a rawlog in its place");
   app.add_option("--truth", truth, "true poses of its base, a TUM file");
   app.add_option("--every", every, "only every n-th of the frames")->check(CLI::PositiveNumber);
+  app.add_option(
+         "--simulated-pairs", simulated,
+         "in their place so many pairs of images 2 to 3 cm and 1 to 2 deg apart, each of another simulated place; "
+         "their guess is no motion")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--place", place, "INI of these places, whose seeds are 1, 2, ...; the first sensor is the camera");
   app.add_option("--only", only, "only methods with this in their row or name");
-  app.add_flag("--all-pairs", all_pairs, "slow methods try all pairs, too");
+  app.add_flag("--all-pairs", pairing.is_all, "slow methods try all pairs, too");
+  app.add_flag("--from-rest", pairing.from_rest, "the guess of each pair is no motion");
+  app.add_option(
+      "--write-pairs", written,
+      "write the pairs to this folder for other programs and register none: N_first.pcd and N_second.pcd, "
+      "binary x y z [m] in optical frames, and first_from_second at stamp N of truth.tum, N from 1 on; their "
+      "guess is no motion, as by --from-rest");
   CLI11_PARSE(app, argc, argv);
   base::keepFreedMemory();  // as our programs do
   cv::setNumThreads(1);
-  const auto posed = thinned(
-      rawlog.empty() ? readTumPosed(tum, {camera[0], camera[1], camera[2], camera[3]}) : readRawlog(rawlog, truth),
-      static_cast<std::size_t>(every));
-  const auto& [frames, poses] = posed;
+  pairing.are_apart = simulated > 0;
+  pairing.from_rest = pairing.from_rest || pairing.are_apart;
+  const auto posed = pairing.are_apart
+                         ? simulatedPairs(place, simulated)
+                         : thinned(rawlog.empty() ? readTumPosed(tum, {camera[0], camera[1], camera[2], camera[3]})
+                                                  : readRawlog(rawlog, truth),
+                                   static_cast<std::size_t>(every));
+  if (!written.empty()) {
+    writePairs(written, posed, pairing.are_apart ? 2 : 1);
+    return 0;
+  }
   std::printf(
       "%zu frames\n\n| points | method | pairs (failed) | position RMSE [mm] | mean ± s.d. | angle RMSE [deg] | mean ± "
       "s.d. | median [ms] | 95 %% | normalised error |\n|---|---|---|---|---|---|---|---|---|---|\n",
-      frames.size());
+      posed.frames.size());
   for (const auto& method : methods()) {
     if (!only.empty() && (method.row + " " + method.name).find(only) == std::string::npos) continue;
-    const auto step = static_cast<std::size_t>(all_pairs ? 1 : method.every);
-    Errors errors;
-    Se3 guess;
-    for (std::size_t i = 1; i < frames.size(); i += step) {
-      const bool is_known = poses[i] && poses[i - 1];
-      // A method that leaves pairs out has no pair before: its guess is the true one of then, which is as good.
-      if (step > 1 && i > 1 && poses[i - 2] && poses[i - 1]) guess = inverse(*poses[i - 2]) * *poses[i - 1];
-      const double begin = processorTime();
-      const auto found = method.run(frames[i - 1], frames[i], guess);
-      errors.time.push_back(processorTime() - begin);
-      errors.failed += !found;
-      // Who fails is taken at the guess, and begins anew.
-      const Registered taken = found.value_or(Registered{guess, {}});
-      if (is_known) errors.add(taken, inverse(*poses[i - 1]) * *poses[i]);
-      guess = found ? found->first_from_second : Se3{};
-    }
-    const auto p = spreadOf(errors.position), a = spreadOf(errors.angle);
-    std::printf("| %s | %s | %zu (%zu) | %.2f | %.2f ± %.2f | %.3f | %.3f ± %.3f | %.2f | %.2f | %s |\n",
-                method.row.c_str(), method.name.c_str(), errors.position.size(), errors.failed, rms(errors.position),
-                p.mean, p.deviation, rms(errors.angle), a.mean, a.deviation, quantile(errors.time, 0.5),
-                quantile(errors.time, 0.95),
-                errors.normalised.empty() ? "" : base::fixed(std::sqrt(spreadOf(errors.normalised).mean), 2).c_str());
-    std::fflush(stdout);
+    printRow(method, errorsOf(method, posed, pairing));
   }
 }
