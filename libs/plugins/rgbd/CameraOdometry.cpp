@@ -11,8 +11,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "returnEvidence.h"
-
 namespace omnimapper::plugins {
 
 using mrpt::obs::CObservation3DRangeScan;
@@ -195,7 +193,7 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
   ++images_;
   learnBias(tracked, scan.timestamp, base_from_camera);
   const bool by_wheels = prediction && !prediction->only_turn;
-  if (tracked.seen_before) countReturn(*tracked.seen_before, scan.timestamp);
+  if (tracked.seen_before) loops_.emplace_back(*tracked.seen_before, scan.timestamp);
   if (tracked.how == How::lost) {
     ++lost_;
     is_lost_ = true;
@@ -254,22 +252,6 @@ void CameraOdometry::addMotion(base::Stamp begin, base::Stamp end, const mapper:
                                                   geometry::Matrix6d::Zero())});
     begin_from_before = here;
   }
-}
-
-void CameraOdometry::countReturn(base::Stamp seen_before, base::Stamp stamp) {
-  ++returns_;
-  while (!loops_.empty() && loops_.back().second >= seen_before) {
-    seen_before = std::min(seen_before, loops_.back().first);
-    loops_.pop_back();
-  }
-  loops_.emplace_back(seen_before, stamp);
-}
-
-// What of the time lies between two views of one place.
-double CameraOdometry::secondsBetweenViews() const {
-  double seconds = 0;
-  for (const auto& [seen, seen_again] : loops_) seconds += base::secondsBetween(seen, seen_again);
-  return seconds;
 }
 
 // From image to image, for a robot does not go straight on while its camera sees nothing. False where they do not tell
@@ -352,8 +334,7 @@ std::vector<mapper::Evidence> CameraOdometry::evidence() const {
   std::snprintf(text, sizeof text, "in %.0f %% of the images the camera saw nothing that tells all of its motion",
                 open);
   all.push_back({"camera_blind_percent", open, open > kMuch ? Says::too_little : Says::good, open > kMuch ? text : ""});
-  auto returns =
-      returnEvidence(returns_, secondsBetweenViews(), begun_ && last_ ? base::secondsBetween(*begun_, *last_) : 0);
+  auto returns = returnEvidence(loops_, *begun_, last_.value_or(*begun_));
   if (!seeksReturns())
     returns.back().reason = "odometry by clouds does not look for views of before, where drift would be seen";
   all.insert(all.end(), returns.begin(), returns.end());

@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "returnEvidence.h"
+
 namespace omnimapper::plugins {
 
 struct CameraOdometryOptions {
@@ -93,8 +95,6 @@ class CameraOdometry : public mapper::PosePlugin {
   std::optional<BaseMotion> measuredBetween(base::Stamp begin, base::Stamp end) const;
   /// Adds a motion to the timeline that images measured from `begin` to `end`.
   void addMotion(base::Stamp begin, base::Stamp end, const mapper::RelativeMotion& motion);
-  void countReturn(base::Stamp seen_before, base::Stamp stamp);
-  double secondsBetweenViews() const;  // [s]
   void learnBias(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera);
   void follow(const mrpt::obs::CObservation3DRangeScan::ConstPtr& image);
   std::optional<mapper::RelativeMotion> wheelsBetween(base::Stamp begin, base::Stamp end) const;
@@ -114,10 +114,10 @@ class CameraOdometry : public mapper::PosePlugin {
   std::optional<base::Stamp> turn_begun_;  // of images from which on each told all of its motion
   Eigen::Quaterniond turned_;              // of the base since then
   perception::LensStraightener lens_;
-  std::vector<base::Stamp> lost_images_;                    // since then
-  std::vector<std::pair<base::Stamp, base::Stamp>> loops_;  // from views to their returns, apart from each other
-  std::size_t images_ = 0, lost_ = 0, gaps_ = 0, returns_ = 0, bridged_ = 0, hasty_in_a_row_ = 0, runaways_ = 0,
-              found_ = 0, unreadable_ = 0;
+  std::vector<base::Stamp> lost_images_;  // since then
+  std::vector<Loop> loops_;
+  std::size_t images_ = 0, lost_ = 0, gaps_ = 0, bridged_ = 0, hasty_in_a_row_ = 0, runaways_ = 0, found_ = 0,
+              unreadable_ = 0;
   bool has_begun_ = false, is_lost_ = false;
   double first_gap_ = 0;        // [s] after the first image
   std::string why_unreadable_;  // of the first image that was

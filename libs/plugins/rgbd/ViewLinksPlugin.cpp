@@ -37,27 +37,29 @@ const base::OptionTable<ViewLinksOptions>& ViewLinksOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .text("odometry", &Options::odometry,
-                "Section of the VisualOdometryPlugin whose camera, matching and shutters hold here, too.")
-          .integer("before", &Options::before, base::Range{0, 20},
-                   "Each key frame is linked to so many before it; the link to the one before is the odometry's.")
-          .integer("returns", &Options::returns, base::Range{0, 20},
-                   "Each is linked to at most so many views of longer before.")
-          .integer("views", &Options::views, base::Range{1, 100000},
-                   "Views of longer before that are kept; a thousand take 250 MB at most.")
-          .number("overlap", &Options::overlap, base::Range{0.1, 1}, "Share of such a view that must still be seen.")
+                "Section of the camera's odometry: its label, matching and shutters hold here, too.")
+          .integer("key_frames_back", &Options::key_frames_back, base::Range{0, 20},
+                   "A key frame is linked to the second before it, and so on up to this one; the odometry links it to "
+                   "the first.")
+          .integer("old_views", &Options::old_views, base::Range{0, 20},
+                   "A key frame is linked to at most so many older views that the camera should have again.")
+          .integer("stored_views", &Options::stored_views, base::Range{1, 100000},
+                   "So many older views are stored, then the oldest goes; a thousand take 250 MB at most.")
+          .number("overlap", &Options::overlap, base::Range{0.1, 1},
+                  "Share of an older view that the camera must still see to be linked to it.")
           .number("loss_scale", &Options::loss_scale, base::Range::positive(),
-                  "Errors beyond so many standard deviations count less and less.");
+                  "Links that are off by more than so many standard deviations count less and less.");
   return table;
 }
 
 ViewLinksPlugin::ViewLinksPlugin(const ViewLinksOptions& options, const std::string& camera,
                                  const matching::RgbdTrackerOptions& tracking,
                                  const matching::DenseMatcherOptions& matching, const mapper::PluginContext& context)
-    : options_(options), tracking_(tracking), matcher_(matching), context_(context), label_(camera) {}
+    : options_(options), camera_(camera), tracking_(tracking), matcher_(matching), context_(context) {}
 
 bool ViewLinksPlugin::wants(const mrpt::obs::CObservation& observation) const {
   const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation);
-  return scan && scan->hasRangeImage;
+  return scan && scan->hasRangeImage && (camera_.empty() || scan->sensorLabel == camera_);
 }
 
 mapper::Batch ViewLinksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
@@ -88,7 +90,8 @@ mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const CObserv
   const std::size_t position = view.map.key_frames.position(frame.id);
   for (auto earlier = recent_.rbegin(); earlier != recent_.rend(); ++earlier) {
     const std::size_t other = view.map.key_frames.position(earlier->frame);
-    const bool is_near = other + 2 <= position && position <= other + static_cast<std::size_t>(options_.before);
+    const bool is_near =
+        other + 2 <= position && position <= other + static_cast<std::size_t>(options_.key_frames_back);
     if (!is_near || earlier->frame.session != frame.id.session) continue;
     if (auto link = linkTo(*earlier, image, pyramid, motion, view)) links.push_back(std::move(*link));
   }
@@ -102,6 +105,10 @@ mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const CObserv
     if (!link || link->match.overlap < options_.overlap) continue;
     link->is_old = true;
     link->is_return = was_left;
+    if (was_left) {
+      returns_.push_back({old->frame, frame.id, link->match.reference_from_image, old->base_from_camera,
+                          base_from_camera, old->depth});
+    }
     links.push_back(std::move(*link));
   }
   mapper::Batch batch;
@@ -130,14 +137,13 @@ Se3 ViewLinksPlugin::between(const Seen& from, const Seen& to, const mapper::Sta
   return inverse(map_from) * map_to;
 }
 
-// In the distances from which on visual odometry takes another key frame.
 double ViewLinksPlugin::farness(const Seen& from, const Seen& to, const mapper::State& state) const {
-  return farness(from, between(from, to, state));
+  return farness(between(from, to, state), from.depth);
 }
 
-double ViewLinksPlugin::farness(const Seen& from, const Se3& motion) const {
+double ViewLinksPlugin::farness(const Se3& motion, double depth) const {
   return std::max(geometry::logSo3(motion.rotation).norm() / tracking_.key_angle,
-                  motion.translation.norm() / (tracking_.key_distance * from.depth));
+                  motion.translation.norm() / (tracking_.key_distance * depth));
 }
 
 std::optional<ViewLinksPlugin::Link> ViewLinksPlugin::linkTo(const Seen& to, const Seen& image,
@@ -159,7 +165,7 @@ bool ViewLinksPlugin::wasLeft(const Seen& old, const map::KeyFrame& frame, const
   const std::size_t end = frames.position(frame.id);
   for (std::size_t i = frames.position(old.frame); i < end; ++i) {
     const Se3 motion = camera_from_map * geometry::fromMrpt(frames[i].map_from_base) * old.base_from_camera;
-    if (farness(old, motion) > kLeft) return true;
+    if (farness(motion, old.depth) > kLeft) return true;
   }
   return false;
 }
@@ -174,7 +180,7 @@ std::vector<const ViewLinksPlugin::Seen*> ViewLinksPlugin::viewsSeenAgain(const 
     if (far < kFarthest) near.emplace_back(far, &old);
   }
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  near.resize(std::min(near.size(), static_cast<std::size_t>(options_.returns)));
+  near.resize(std::min(near.size(), static_cast<std::size_t>(options_.old_views)));
   std::vector<const Seen*> nearest;
   for (const auto& one : near) nearest.push_back(one.second);
   return nearest;
@@ -205,9 +211,10 @@ matching::CameraMotion ViewLinksPlugin::motionAt(const map::KeyFrame& frame, con
   const std::size_t position = state.map.key_frames.position(frame.id);
   if (position == 0) return motion;
   const map::KeyFrame& before = state.map.key_frames[position - 1];
-  const bool has_images = !before.dependents.empty();
-  const Se3 before_from_last = has_images ? geometry::fromMrpt(before.dependents.back().keyframe_from_base) : Se3{};
-  const double seconds = base::secondsBetween(has_images ? before.dependents.back().stamp : before.stamp, frame.stamp);
+  const bool has_dependents = !before.dependents.empty();
+  const Se3 before_from_last = has_dependents ? geometry::fromMrpt(before.dependents.back().keyframe_from_base) : Se3{};
+  const double seconds =
+      base::secondsBetween(has_dependents ? before.dependents.back().stamp : before.stamp, frame.stamp);
   constexpr double kShortest = 0.01, kLongest = 0.5;  // [s]
   if (before.id.session != frame.id.session || seconds < kShortest || seconds > kLongest) return motion;
   const Se3 last_from_base = inverse(before_from_last) * geometry::fromMrpt(before.keyframe_from_next);
@@ -220,14 +227,14 @@ void ViewLinksPlugin::remember(Seen seen, const mapper::State& state) {
   constexpr std::size_t kRecent = 10;  // key frames
   constexpr double kApart = 0.5;
   recent_.push_back(std::move(seen));
-  if (recent_.size() <= std::max(kRecent, static_cast<std::size_t>(options_.before))) return;
+  if (recent_.size() <= std::max(kRecent, static_cast<std::size_t>(options_.key_frames_back))) return;
   Seen old = std::move(recent_.front());
   recent_.erase(recent_.begin());
   const bool is_known =
       std::any_of(views_.begin(), views_.end(), [&](const Seen& view) { return farness(view, old, state) < kApart; });
   if (is_known) return;
   views_.push_back(std::move(old));
-  if (views_.size() > static_cast<std::size_t>(options_.views)) views_.erase(views_.begin());
+  if (views_.size() > static_cast<std::size_t>(options_.stored_views)) views_.erase(views_.begin());
 }
 
 void ViewLinksPlugin::retired(const map::KeyFrame& frame) {
@@ -238,44 +245,42 @@ void ViewLinksPlugin::retired(const map::KeyFrame& frame) {
 }
 
 std::vector<mapper::Evidence> ViewLinksPlugin::evidence(const mapper::View& view) const {
-  if (label_.empty() || options_.returns == 0 || view.map.key_frames.empty()) return {};
+  if (label_.empty() || options_.old_views == 0 || view.map.key_frames.empty()) return {};
   // Of earlier sessions no images are known.
   const auto& last = view.map.key_frames.back();
   const auto& first = *std::find_if(view.map.key_frames.begin(), view.map.key_frames.end(),
                                     [&](const map::KeyFrame& frame) { return frame.id.session == last.id.session; });
-  std::vector<std::pair<base::Stamp, base::Stamp>> loops;  // from a view to its return
-  std::size_t refused = 0;
-  for (const auto& decision : view.decisions) {
-    if (decision.plugin != context_.section || !decision.to || !decision.is_loop_closure) continue;
-    if (decision.accepted) {
-      loops.emplace_back(view.map.keyFrame(*decision.to).stamp, decision.stamp);
-    } else {
-      ++refused;
-    }
+  std::vector<Loop> loops;
+  for (const Return& one : returns_) {
+    if (isElsewhere(one, view)) continue;
+    loops.emplace_back(view.map.keyFrame(one.before).stamp, view.map.keyFrame(one.frame).stamp);
   }
-  std::sort(loops.begin(), loops.end());
-  double seconds = 0;
-  auto until = first.stamp;
-  for (const auto& [seen, seen_again] : loops) {
-    if (seen_again <= until) continue;
-    seconds += base::secondsBetween(std::max(seen, until), seen_again);
-    until = seen_again;
-  }
-  const double all = base::secondsBetween(first.stamp, last.stamp);
-  auto evidence = returnEvidence(loops.size(), seconds, all);
-  evidence.push_back(refusedEvidence(refused, loops.size()));
+  const std::size_t elsewhere = returns_.size() - loops.size();
+  auto evidence = returnEvidence(std::move(loops), first.stamp, last.stamp);
+  evidence.push_back(elsewhereEvidence(elsewhere, returns_.size()));
   evidence.push_back(missedEvidence());
   return evidence;
 }
 
-mapper::Evidence ViewLinksPlugin::refusedEvidence(std::size_t refused, std::size_t accepted) {
+// Whether the map has the camera so far from where its image has it that a point at the median depth is some pixels
+// off.
+bool ViewLinksPlugin::isElsewhere(const Return& one, const mapper::State& state) const {
+  constexpr double kFar = 0.5;
+  const Se3 map_from_before =
+      geometry::fromMrpt(state.map.keyFrame(one.before).map_from_base) * one.before_base_from_camera;
+  const Se3 map_from_camera = geometry::fromMrpt(state.map.keyFrame(one.frame).map_from_base) * one.base_from_camera;
+  return farness(inverse(one.before_from_camera) * inverse(map_from_before) * map_from_camera, one.depth) > kFar;
+}
+
+mapper::Evidence ViewLinksPlugin::elsewhereEvidence(std::size_t elsewhere, std::size_t all) {
   using Says = mapper::Evidence::Says;
   constexpr double kMany = 15;  // [%]
-  const double percent = percentOf(refused, refused + accepted);
+  const double percent = percentOf(elsewhere, all);
+  const bool is_many = percent > kMany;
   char text[200];
-  std::snprintf(text, sizeof text, "%.0f %% of the views that came back contradict the rest of the map", percent);
-  return {"camera_returns_refused_percent", percent, percent > kMany ? Says::too_little : Says::good,
-          percent > kMany ? text : ""};
+  std::snprintf(text, sizeof text, "of %zu views that came back the map has %zu elsewhere than their images", all,
+                elsewhere);
+  return {"camera_returns_elsewhere_percent", percent, is_many ? Says::too_little : Says::good, is_many ? text : ""};
 }
 
 mapper::Evidence ViewLinksPlugin::missedEvidence() const {
@@ -305,10 +310,18 @@ std::unique_ptr<mapper::MeasurementPlugin> ViewLinksPluginFactory::make(const ba
                       "[" + context.section + "] odometry: there is no section [" + options.odometry + "] in the INI");
   }
   const auto odometry = ini.section(options.odometry);
-  std::string class_name;
-  if (odometry.find("class", class_name) && class_name != "VisualOdometryPlugin")
-    return std::make_unique<ViewLinksPlugin>(options, "", matching::RgbdTrackerOptions{},
+  std::string class_name = "VisualOdometryPlugin", label;
+  odometry.find("class", class_name);
+  if (class_name == "CloudOdometryPlugin") {  // which has no shutters
+    odometry.find("label", label);
+    return std::make_unique<ViewLinksPlugin>(options, label, matching::RgbdTrackerOptions{},
                                              matching::DenseMatcherOptions{}, context);
+  }
+  if (class_name != "VisualOdometryPlugin") {
+    throw base::Error(base::ExitCode::out_of_range, "[" + context.section + "] odometry: [" + options.odometry +
+                                                        "] is a " + class_name +
+                                                        "; it must be a VisualOdometryPlugin or a CloudOdometryPlugin");
+  }
   return std::make_unique<ViewLinksPlugin>(options, VisualOdometrySection::read<CameraOdometryOptions>(odometry).label,
                                            VisualOdometrySection::read<matching::RgbdTrackerOptions>(odometry),
                                            VisualOdometrySection::read<matching::DenseMatcherOptions>(odometry),

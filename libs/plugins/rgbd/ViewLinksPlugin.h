@@ -7,7 +7,6 @@
 #include <omnimapper/perception/LensStraightener.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,10 +16,10 @@ namespace omnimapper::plugins {
 
 struct ViewLinksOptions {
   std::string odometry = "visual_odometry";  ///< section whose camera, matching and shutters hold here, too
-  int before = 3;                            ///< key frames back that each is linked to
-  int returns = 2;                           ///< views of longer before that each is linked to, at most
-  int views = 500;                           ///< that are kept for that; the oldest go
-  double overlap = 0.5;                      ///< of a view of longer before that is still seen, at least
+  int key_frames_back = 3;                   ///< links to the second before a key frame up to this one
+  int old_views = 2;                         ///< links of a key frame to older views, at most
+  int stored_views = 500;                    ///< older views that are kept; then the oldest goes
+  double overlap = 0.5;                      ///< share of an older view that is still seen, at least
   double loss_scale = 1;                     ///< [standard deviations] from which on a link counts less
 
   static const base::OptionTable<ViewLinksOptions>& table();
@@ -46,8 +45,8 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
                         const mapper::View& view) override;
   void retired(const map::KeyFrame& frame) override;
   /// What share of the time lies between two views of one place, where drift would be seen, in the place of the
-  /// odometry's, which looks at its own key frames alone; how many returns contradict the rest; and how often the
-  /// estimate has the camera at a view that the image does not show.
+  /// odometry's, which looks at its own key frames alone; how many returns the finished map has elsewhere than the
+  /// images; and how often the estimate had the camera at a view that the image did not show.
   std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
 
  private:
@@ -66,23 +65,32 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
     bool is_old = false;     // to a view of longer before
     bool is_return = false;  // which the camera left in between
   };
+  /// A view that was left and came back, as its images have it.
+  struct Return {
+    base::KeyFrameId before, frame;
+    geometry::Se3 before_from_camera, before_base_from_camera, base_from_camera;
+    double depth;  // [m] median
+  };
   mapper::Batch linksOf(const map::KeyFrame& frame, const mrpt::obs::CObservation3DRangeScan& scan,
                         const mapper::View& view);
   std::optional<Link> linkTo(const Seen& to, const Seen& image, const matching::RgbdPyramid& pyramid,
                              const matching::CameraMotion& motion, const mapper::State& state) const;
   std::vector<const Seen*> viewsSeenAgain(const Seen& image, const mapper::State& state) const;
   double farness(const Seen& from, const Seen& to, const mapper::State& state) const;
-  double farness(const Seen& from, const geometry::Se3& motion) const;
+  /// Of a motion in the distances from which on visual odometry takes another key frame; depth [m].
+  double farness(const geometry::Se3& motion, double depth) const;
   bool wasLeft(const Seen& old, const map::KeyFrame& frame, const mapper::State& state) const;
   geometry::Se3 between(const Seen& from, const Seen& to, const mapper::State& state) const;
   mapper::RelativeMotion motionOf(const Link& link, const Seen& image, std::size_t links) const;
   matching::CameraMotion motionAt(const map::KeyFrame& frame, const geometry::Se3& base_from_camera,
                                   const mapper::State& state) const;
   void remember(Seen seen, const mapper::State& state);
-  static mapper::Evidence refusedEvidence(std::size_t refused, std::size_t accepted);
+  bool isElsewhere(const Return& one, const mapper::State& state) const;
+  static mapper::Evidence elsewhereEvidence(std::size_t elsewhere, std::size_t all);
   mapper::Evidence missedEvidence() const;
 
   ViewLinksOptions options_;
+  std::string camera_;  // label; empty: the first that comes
   matching::RgbdTrackerOptions tracking_;
   matching::DenseMatcher matcher_;
   mapper::PluginContext context_;
@@ -90,6 +98,7 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
   std::string label_;         // empty until the first comes
   std::vector<Seen> recent_;  // in the order they came, the newest last
   std::vector<Seen> views_;   // older ones, each of another view
+  std::vector<Return> returns_;
   // How often the estimate had the camera back at a view that it had left, and how often the image did not fit.
   std::size_t expected_ = 0, missed_ = 0;
 };

@@ -2,14 +2,35 @@
 
 #include <omnimapper/base/Numbers.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 
 namespace omnimapper::plugins {
 
-std::vector<mapper::Evidence> returnEvidence(std::size_t returns, double between, double all) {
+namespace {
+
+// Of the time from `begin` on, what lies in any of them.
+double secondsIn(std::vector<Loop> loops, base::Stamp begin) {
+  std::sort(loops.begin(), loops.end());
+  double seconds = 0;
+  auto until = begin;
+  for (const auto& [seen, seen_again] : loops) {
+    if (seen_again <= until) continue;
+    seconds += base::secondsBetween(std::max(seen, until), seen_again);
+    until = seen_again;
+  }
+  return seconds;
+}
+
+}  // namespace
+
+std::vector<mapper::Evidence> returnEvidence(std::vector<Loop> loops, base::Stamp begin, base::Stamp end) {
   using Says = mapper::Evidence::Says;
   constexpr double kEnough = 25;  // [%]
-  const double percent = all > 0 ? 100 * between / all : 0;
+  const std::size_t returns = loops.size();
+  const double all = base::secondsBetween(begin, end);
+  const double percent = all > 0 ? 100 * secondsIn(std::move(loops), begin) / all : 0;
   const bool is_enough = percent >= kEnough;
   char text[250] = "the camera never came back to a view of before, where drift would be seen";
   if (returns > 0) {

@@ -110,7 +110,6 @@ TEST_F(ViewLinks, proposeAViewThatComesBack) {
     const auto batch = see(moved(0, 0, 0.12 * i + 0.01));
     for (const auto& factor : batch.addedFactors()) proposed += factor.tags.hypothesis;
     for (const auto& decision : batch.decisions()) left += decision.is_loop_closure && decision.accepted;
-    run_.decisions.insert(run_.decisions.end(), batch.decisions().begin(), batch.decisions().end());
   }
   EXPECT_GT(left, 0u);
   EXPECT_GE(proposed, left);
@@ -136,21 +135,37 @@ TEST_F(ViewLinks, speakAgainstAMapThatIsBent) {
   EXPECT_NE(evidence[3].reason.find("bent"), std::string::npos);
 }
 
-TEST_F(ViewLinks, ofAContradictedMapNothingIsConcluded) {
-  for (int i = 0; i < 20; ++i) see(moved(0, 0, 0.12 * i));
-  for (int i = 0; i < 10; ++i) {
-    mapper::Decision decision;
-    decision.stamp = at(15);
-    decision.plugin = "view_links";
-    decision.to = run_.map.key_frames[0].id;
-    decision.accepted = i < 8;
-    decision.is_loop_closure = true;
-    run_.decisions.push_back(decision);
+// Its images say that it stood still at the end, and the finished map has it half a radian away.
+TEST_F(ViewLinks, doubtAMapThatHasReturnsElsewhere) {
+  constexpr int kSteps = 12;
+  for (int i = 0; i < kSteps; ++i) see(moved(0, 0, 0.12 * i));
+  for (int i = kSteps; i >= 0; --i) see(moved(0, 0, 0.12 * i + 0.01));
+  EXPECT_EQ(plugin_->evidence(run_.view())[2].value, 0);
+  for (std::size_t i = kSteps; i < run_.map.key_frames.size(); ++i) {
+    auto& frame = run_.map.key_frames.edit(run_.map.key_frames[i].id);
+    frame.map_from_base = frame.map_from_base + geometry::toMrpt(moved(0, 0, 0.5));
   }
   const auto evidence = plugin_->evidence(run_.view());
-  EXPECT_EQ(evidence[2].name, "camera_returns_refused_percent");
-  EXPECT_EQ(evidence[2].value, 20);
+  EXPECT_EQ(evidence[2].name, "camera_returns_elsewhere_percent");
+  EXPECT_EQ(evidence[2].value, 100);
   EXPECT_EQ(evidence[2].says, Says::too_little);
+  EXPECT_EQ(evidence[0].value, 0);
+}
+
+// Two links that share an image have twice the covariance that one alone has.
+TEST_F(ViewLinks, shareTheirImage) {
+  const auto informationOfTheFirst = [&](int back) {
+    ViewLinksOptions options;
+    options.key_frames_back = back;
+    make(options);
+    run_ = mapper::ViewedRun();
+    for (int i = 0; i < 3; ++i) see(moved(0.04 * i, 0, 0.03 * i));
+    const auto batch = see(moved(0.12, 0, 0.09));
+    EXPECT_EQ(batch.addedFactors().size(), static_cast<std::size_t>(back - 1));
+    return batch.addedFactors().front().noise.information();
+  };
+  const Eigen::MatrixXd alone = informationOfTheFirst(2), of_two = informationOfTheFirst(3);
+  EXPECT_LT((2 * of_two - alone).norm(), 1e-6 * alone.norm());
 }
 
 TEST_F(ViewLinks, leaveOutAnImageThatCannotBeRead) {
@@ -164,7 +179,7 @@ TEST_F(ViewLinks, leaveOutAnImageThatCannotBeRead) {
 
 TEST_F(ViewLinks, sayNothingOfReturnsThatAreNotSought) {
   ViewLinksOptions options;
-  options.returns = 0;
+  options.old_views = 0;
   make(options);
   for (int i = 0; i < 5; ++i) see(moved(0, 0, 0.12 * i));
   EXPECT_TRUE(plugin_->evidence(run_.view()).empty());
@@ -189,6 +204,14 @@ TEST(ViewLinksOptions, nameASectionThatIsThere) {
   } catch (const base::Error& error) {
     EXPECT_NE(std::string(error.what()).find("[nothing]"), std::string::npos) << error.what();
   }
+}
+
+TEST(ViewLinksOptions, nameAnOdometryOfACamera) {
+  mapper::PluginContext context;
+  context.section = "view_links";
+  context.config_text = "[view_links]\nodometry = wheels\n[wheels]\nclass = OdometryPlugin\n";
+  const auto config = base::Config::fromText(context.config_text, "test.ini");
+  EXPECT_THROW(ViewLinksPluginFactory().make(config.section("view_links"), context), base::Error);
 }
 
 TEST(ViewLinksOptions, takeDefaultsBesideAnotherOdometry) {

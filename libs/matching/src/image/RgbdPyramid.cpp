@@ -2,6 +2,7 @@
 #include <omnimapper/matching/RgbdPyramid.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace omnimapper::matching {
