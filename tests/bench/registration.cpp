@@ -252,12 +252,13 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
 }
 
-PosedFrames readTumPosed(const std::string& folder, const perception::Pinhole& camera) {
+// `late`: by how much stamps of images come after the light [s].
+PosedFrames readTumPosed(const std::string& folder, const perception::Pinhole& camera, double late) {
   PosedFrames posed{readRgbd(folder, 1, camera), {}};
   const auto truth = eval::readTum(folder + "/groundtruth.txt");
   for (const auto& frame : posed.frames) {
     posed.poses.push_back(
-        eval::interpolatedPose(truth, base::stampFromUnix(frame.stamp), base::durationFromSeconds(0.1)));
+        eval::interpolatedPose(truth, base::stampFromUnix(frame.stamp - late), base::durationFromSeconds(0.1)));
   }
   return posed;
 }
@@ -271,7 +272,7 @@ PosedFrames thinned(const PosedFrames& all, std::size_t every) {
   return some;
 }
 
-/// Images i - 1 and i are a pair, for i from 1 on in steps.
+// Images i - 1 and i are a pair, for i from 1 on in steps.
 struct Pairing {
   bool is_all = false;     // no pair is left out for slow methods
   bool are_apart = false;  // an image belongs to one pair alone
@@ -318,11 +319,13 @@ void printRow(const RegistrationPeer& method, const Errors& errors) {
 int main(int argc, char** argv) {
   std::string tum, rawlog, truth, place = "rawlogs/home_handheld.ini", written, only;
   std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
+  double late = 0;
   int every = 1, simulated = 0;
   Pairing pairing;
   CLI::App app("Motion between consecutive depth images, by every kind of registration.");
   app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth, rgb and groundtruth.txt");
   app.add_option("--camera", camera, "its fx fy cx cy [px]; the default is freiburg1's")->expected(4);
+  app.add_option("--late", late, "[s] by which its stamps are late; of freiburg1's depths 0.025 to 0.03");
   app.add_option("--rawlog", rawlog, "a rawlog in its place");
   app.add_option("--truth", truth, "true poses of its base, a TUM file");
   app.add_option("--every", every, "only every n-th of the frames")->check(CLI::PositiveNumber);
@@ -331,7 +334,9 @@ int main(int argc, char** argv) {
          "in their place so many pairs of images 2 to 3 cm and 1 to 2 deg apart, each of another simulated place; "
          "their guess is no motion")
       ->check(CLI::PositiveNumber);
-  app.add_option("--place", place, "INI of these places, whose seeds are 1, 2, ...; the first sensor is the camera");
+  app.add_option("--place", place, "INI of these places, whose seeds are 1, 2, ...; its first sensor is an RgbdCamera")
+      ->check(CLI::ExistingFile)
+      ->capture_default_str();
   app.add_option("--only", only, "only methods with this in their row or name");
   app.add_flag("--all-pairs", pairing.is_all, "slow methods try all pairs, too");
   app.add_flag("--from-rest", pairing.from_rest, "the guess of each pair is no motion");
@@ -345,11 +350,13 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);
   pairing.are_apart = simulated > 0;
   pairing.from_rest = pairing.from_rest || pairing.are_apart;
-  const auto posed = pairing.are_apart
-                         ? simulatedPairs(place, simulated)
-                         : thinned(rawlog.empty() ? readTumPosed(tum, {camera[0], camera[1], camera[2], camera[3]})
-                                                  : readRawlog(rawlog, truth),
-                                   static_cast<std::size_t>(every));
+  const auto read = [&] {
+    if (simulated > 0) return simulatedPairs(place, simulated);
+    return thinned(rawlog.empty() ? readTumPosed(tum, {camera[0], camera[1], camera[2], camera[3]}, late)
+                                  : readRawlog(rawlog, truth),
+                   static_cast<std::size_t>(every));
+  };
+  const PosedFrames posed = read();
   if (!written.empty()) {
     writePairs(written, posed, pairing.are_apart ? 2 : 1);
     return 0;
