@@ -1,0 +1,60 @@
+#pragma once
+
+#include <omnimapper/geometry/Plane3.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace omnimapper::surfaces {
+
+/// Which square cells of a rectangle on a plane are set: what was seen of a surface, or what an outline covers.
+class CellGrid {
+ public:
+  /// A cell by column (along u) and row (along v).
+  struct Cell {
+    int column = 0, row = 0;
+  };
+
+  CellGrid() = default;
+  /// `u` and `v` are unit and at right angles; the corner of cell (0, 0) is at `origin`, its opposite one at
+  /// origin + cell * (u + v) [m]. Throws std::invalid_argument unless cell > 0 and both counts are in [0, 100 000] and
+  /// there are at most 100 million cells.
+  CellGrid(const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v, double cell, int columns,
+           int rows);
+  /// The grid that covers points of a plane, none set. The axes are u along the floor where the plane is not level, and
+  /// v up; on a level one u goes along x.
+  static CellGrid around(const geometry::Plane3& plane, const std::vector<Eigen::Vector3d>& points, double cell);
+
+  const Eigen::Vector3d& origin() const { return origin_; }
+  const Eigen::Vector3d& u() const { return u_; }
+  const Eigen::Vector3d& v() const { return v_; }
+  double cell() const { return cell_; }
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  double areaOfCell() const { return cell_ * cell_; }
+
+  /// The cell that the foot of a point is in; none outside.
+  std::optional<Cell> cellAt(const Eigen::Vector3d& point) const;
+  Eigen::Vector3d middleOf(Cell cell) const;
+  bool isSet(Cell cell) const { return cells_[indexOf(cell)]; }
+  void set(Cell cell) { cells_[indexOf(cell)] = true; }
+  /// Sets the cells whose middle the outline contains and no hole does, all dropped on the plane; even-odd rule.
+  void fill(const std::vector<Eigen::Vector3d>& outline, const std::vector<std::vector<Eigen::Vector3d>>& holes = {});
+  std::size_t count() const;
+  double area() const { return areaOfCell() * static_cast<double>(count()); }  ///< of those set [m^2]
+
+ private:
+  std::size_t indexOf(Cell cell) const {
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(cell.column);
+  }
+
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), u_ = Eigen::Vector3d::UnitX(), v_ = Eigen::Vector3d::UnitY();
+  double cell_ = 1;
+  int columns_ = 0, rows_ = 0;
+  std::vector<bool> cells_;
+};
+
+}  // namespace omnimapper::surfaces

@@ -1,0 +1,98 @@
+#include "omnimapper/surfaces/CellGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace omnimapper::surfaces {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// Where the edges of a closed walk cross the line y = `at`.
+void addCrossings(const std::vector<Vector2d>& walk, double at, std::vector<double>& crossings) {
+  for (std::size_t i = 0; i < walk.size(); ++i) {
+    const Vector2d &a = walk[i], &b = walk[(i + 1) % walk.size()];
+    if ((a.y() > at) == (b.y() > at)) continue;
+    crossings.push_back(a.x() + (b.x() - a.x()) * (at - a.y()) / (b.y() - a.y()));
+  }
+}
+
+}  // namespace
+
+CellGrid::CellGrid(const Vector3d& origin, const Vector3d& u, const Vector3d& v, double cell, int columns, int rows)
+    : origin_(origin), u_(u), v_(v), cell_(cell), columns_(columns), rows_(rows) {
+  constexpr int kMost = 100'000;
+  constexpr double kMostCells = 1e8;
+  if (!(cell > 0) || columns < 0 || rows < 0 || columns > kMost || rows > kMost ||
+      static_cast<double>(columns) * rows > kMostCells)
+    throw std::invalid_argument("a grid of cells of no size, or of too many");
+  cells_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), false);
+}
+
+CellGrid CellGrid::around(const geometry::Plane3& plane, const std::vector<Vector3d>& points, double cell) {
+  if (points.empty()) return {};
+  constexpr double kLevel = 0.9;  // of the normal's height
+  const Vector3d& normal = plane.normal;
+  const Vector3d u = std::abs(normal.z()) > kLevel ? Vector3d::UnitY().cross(normal).normalized()
+                                                   : Vector3d::UnitZ().cross(normal).normalized();
+  const Vector3d v = normal.cross(u);
+  Vector2d low = Vector2d::Constant(1e300), high = -low;
+  for (const Vector3d& point : points) {
+    const Vector2d at(u.dot(point), v.dot(point));
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
+  }
+  // Grids of one plane have their cells in the same places.
+  low = (low / cell).array().floor() * cell;
+  const Vector2d count = ((high - low) / cell).array().ceil().max(1);
+  if (!(count.maxCoeff() < 1e6)) throw std::invalid_argument("a grid of too many cells");
+  return {-plane.distance * normal + low.x() * u + low.y() * v,
+          u,
+          v,
+          cell,
+          static_cast<int>(count.x()),
+          static_cast<int>(count.y())};
+}
+
+std::optional<CellGrid::Cell> CellGrid::cellAt(const Vector3d& point) const {
+  const Vector3d from = point - origin_;
+  const double column = std::floor(u_.dot(from) / cell_), row = std::floor(v_.dot(from) / cell_);
+  if (!(column >= 0 && column < columns_ && row >= 0 && row < rows_)) return std::nullopt;
+  return Cell{static_cast<int>(column), static_cast<int>(row)};
+}
+
+Vector3d CellGrid::middleOf(Cell cell) const {
+  return origin_ + cell_ * ((cell.column + 0.5) * u_ + (cell.row + 0.5) * v_);
+}
+
+void CellGrid::fill(const std::vector<Vector3d>& outline, const std::vector<std::vector<Vector3d>>& holes) {
+  // In cells, so that the middle of cell i is at i + 0.5.
+  const auto flat = [&](const std::vector<Vector3d>& walk) {
+    std::vector<Vector2d> result;
+    for (const Vector3d& point : walk)
+      result.emplace_back(u_.dot(point - origin_) / cell_, v_.dot(point - origin_) / cell_);
+    return result;
+  };
+  std::vector<std::vector<Vector2d>> walks{flat(outline)};
+  for (const auto& hole : holes) walks.push_back(flat(hole));
+  std::vector<double> crossings;
+  for (int row = 0; row < rows_; ++row) {
+    crossings.clear();
+    for (const auto& walk : walks) addCrossings(walk, row + 0.5, crossings);
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const int first = static_cast<int>(std::ceil(std::clamp(crossings[i] - 0.5, 0.0, columns_ + 0.0)));
+      const int end = static_cast<int>(std::ceil(std::clamp(crossings[i + 1] - 0.5, 0.0, columns_ + 0.0)));
+      for (int column = first; column < end; ++column) set({column, row});
+    }
+  }
+}
+
+std::size_t CellGrid::count() const {
+  return static_cast<std::size_t>(std::count(cells_.begin(), cells_.end(), true));
+}
+
+}  // namespace omnimapper::surfaces

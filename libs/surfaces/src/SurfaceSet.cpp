@@ -1,0 +1,237 @@
+#include "omnimapper/surfaces/SurfaceSet.h"
+
+#include <omnimapper/base/Error.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace omnimapper::surfaces {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Eigen::Vector3d;
+
+constexpr char kFormat[] = "omnimapper surfaces 1";
+const std::array<const char*, 3> kOpeningKinds{"door", "passage", "window"};
+const std::array<const char*, 3> kLeaves{"none", "open", "closed"};
+
+// To the tenth of a millimetre: no surface is known better.
+Json toJson(const Vector3d& point) {
+  const auto rounded = [](double value) { return std::round(value * 1e4) / 1e4 + 0.0; };
+  return {rounded(point.x()), rounded(point.y()), rounded(point.z())};
+}
+
+Json exactJson(const Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+template <class Points>
+Json walkJson(const Points& points) {
+  Json walk = Json::array();
+  for (const Vector3d& point : points) walk.push_back(toJson(point));
+  return walk;
+}
+
+// Of each row, where runs of set cells begin and how long they are, in turns.
+Json toJson(const CellGrid& grid) {
+  Json rows = Json::array();
+  for (int row = 0; row < grid.rows(); ++row) {
+    Json runs = Json::array();
+    int begin = -1;
+    for (int column = 0; column <= grid.columns(); ++column) {
+      const bool is_set = column < grid.columns() && grid.isSet({column, row});
+      if (is_set && begin < 0) begin = column;
+      if (is_set || begin < 0) continue;
+      runs.push_back(begin);
+      runs.push_back(column - begin);
+      begin = -1;
+    }
+    rows.push_back(std::move(runs));
+  }
+  return {{"origin", exactJson(grid.origin())}, {"u", exactJson(grid.u())},
+          {"v", exactJson(grid.v())},           {"cell_m", grid.cell()},
+          {"columns", grid.columns()},          {"rows", std::move(rows)}};
+}
+
+Json toJson(const Surface& surface) {
+  Json json{{"id", surface.id}, {"name", surface.name}, {"class", toString(surface.is)}};
+  if (!surface.body.empty()) json["body"] = surface.body;
+  if (!surface.reason.empty()) json["reason"] = surface.reason;
+  json["normal"] = exactJson(surface.plane.normal);
+  json["distance_m"] = surface.plane.distance;
+  json["area_m2"] = std::round(areaOf(surface) * 1e4) / 1e4;
+  Json parts = Json::array();
+  for (const FlatPart& part : surface.parts) {
+    Json holes = Json::array();
+    for (const auto& hole : part.holes) holes.push_back(walkJson(hole));
+    parts.push_back({{"outline", walkJson(part.outline)}, {"holes", std::move(holes)}});
+  }
+  json["parts"] = std::move(parts);
+  if (surface.is_moved) json["moved"] = true;
+  if (surface.is_candidate) json["candidate"] = true;
+  if (surface.seen) json["seen"] = toJson(*surface.seen);
+  return json;
+}
+
+Json toJson(const Opening& opening) {
+  Json json{{"name", opening.name},
+            {"kind", kOpeningKinds.at(static_cast<std::size_t>(opening.kind))},
+            {"rooms", {opening.rooms[0], opening.rooms[1]}},
+            {"rectangle", walkJson(opening.rectangle)},
+            {"leaf", kLeaves.at(static_cast<std::size_t>(opening.leaf))}};
+  if (opening.leaf == Opening::Leaf::none) return json;
+  json["leaf_angle_rad"] = opening.leaf_angle;
+  json["leaf_body"] = opening.leaf_body;
+  return json;
+}
+
+Vector3d vectorFrom(const Json& json) {
+  if (!json.is_array() || json.size() != 3) throw std::invalid_argument("three numbers are expected");
+  const Vector3d vector(json[0].get<double>(), json[1].get<double>(), json[2].get<double>());
+  if (!vector.allFinite()) throw std::invalid_argument("a number is not finite");
+  return vector;
+}
+
+std::vector<Vector3d> walkFrom(const Json& json) {
+  std::vector<Vector3d> walk;
+  for (const auto& point : json) walk.push_back(vectorFrom(point));
+  return walk;
+}
+
+CellGrid gridFrom(const Json& json) {
+  const Json& rows = json.at("rows");
+  CellGrid grid(vectorFrom(json.at("origin")), vectorFrom(json.at("u")), vectorFrom(json.at("v")),
+                json.at("cell_m").get<double>(), json.at("columns").get<int>(), static_cast<int>(rows.size()));
+  for (int row = 0; row < grid.rows(); ++row) {
+    const Json& runs = rows[static_cast<std::size_t>(row)];
+    for (std::size_t i = 0; i + 1 < runs.size(); i += 2) {
+      const int begin = runs[i].get<int>(), length = runs[i + 1].get<int>();
+      if (begin < 0 || length < 0 || length > grid.columns() - begin)
+        throw std::invalid_argument("a run of cells leaves its row");
+      for (int column = begin; column < begin + length; ++column) grid.set({column, row});
+    }
+  }
+  return grid;
+}
+
+template <class Enum>
+Enum choiceFrom(const Json& json, const std::array<const char*, 3>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (json == names[i]) return static_cast<Enum>(i);
+  throw std::invalid_argument("'" + json.get<std::string>() + "' is not known");
+}
+
+Surface surfaceFrom(const Json& json) {
+  Surface surface;
+  surface.id = json.at("id").get<int>();
+  surface.name = json.at("name").get<std::string>();
+  const auto known = surfaceClassNamed(json.at("class").get<std::string>());
+  if (!known) throw std::invalid_argument("class '" + json.at("class").get<std::string>() + "' is not known");
+  surface.is = *known;
+  surface.body = json.value("body", "");
+  surface.reason = json.value("reason", "");
+  surface.plane = {vectorFrom(json.at("normal")), json.at("distance_m").get<double>()};
+  if (std::abs(surface.plane.normal.norm() - 1) > 1e-3) throw std::invalid_argument("the normal is not of length 1");
+  for (const auto& part : json.at("parts")) {
+    FlatPart& flat = surface.parts.emplace_back();
+    flat.outline = walkFrom(part.at("outline"));
+    for (const auto& hole : part.at("holes")) flat.holes.push_back(walkFrom(hole));
+  }
+  surface.is_moved = json.value("moved", false);
+  surface.is_candidate = json.value("candidate", false);
+  if (json.contains("seen")) surface.seen = gridFrom(json.at("seen"));
+  return surface;
+}
+
+Opening openingFrom(const Json& json) {
+  Opening opening;
+  opening.name = json.at("name").get<std::string>();
+  opening.kind = choiceFrom<Opening::Kind>(json.at("kind"), kOpeningKinds);
+  opening.rooms = json.at("rooms").get<std::array<std::string, 2>>();
+  const auto corners = walkFrom(json.at("rectangle"));
+  if (corners.size() != 4) throw std::invalid_argument("a rectangle has four corners");
+  std::copy(corners.begin(), corners.end(), opening.rectangle.begin());
+  opening.leaf = choiceFrom<Opening::Leaf>(json.at("leaf"), kLeaves);
+  opening.leaf_angle = json.value("leaf_angle_rad", 0.0);
+  opening.leaf_body = json.value("leaf_body", "");
+  return opening;
+}
+
+}  // namespace
+
+std::string toJson(const SurfaceSet& set) {
+  const auto list = [](const auto& all) {
+    Json lines = Json::array();
+    for (const auto& one : all) lines.push_back(toJson(one));
+    return lines;
+  };
+  // One surface a line: a person finds it, and a file of thousands stays small.
+  std::string text = "{\"format\": \"" + std::string(kFormat) + "\",\n\"title\": " + Json(set.title).dump() +
+                     ",\n\"frame\": \"map, z up; metres\",\n";
+  const auto append = [&](const char* name, const Json& lines, const char* end) {
+    text += "\"" + std::string(name) + "\": [";
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      text += (i > 0 ? ",\n" : "\n") + lines[i].dump(-1, ' ', false, Json::error_handler_t::replace);
+    text += end;
+  };
+  append("surfaces", list(set.surfaces), "],\n");
+  append("openings", list(set.openings), "]}\n");
+  return text;
+}
+
+SurfaceSet readSurfaces(const std::string& file) {
+  const auto refuse = [&](const std::string& what) -> base::Error {
+    return {base::ExitCode::unreadable_input, file + ": " + what};
+  };
+  std::ifstream in(file);
+  if (!in) throw refuse("cannot be read");
+  SurfaceSet set;
+  std::string where = "the file";
+  try {
+    const Json json = Json::parse(in);
+    if (json.at("format") != kFormat) throw std::invalid_argument("is not '" + std::string(kFormat) + "'");
+    set.title = json.value("title", "");
+    for (const auto& surface : json.at("surfaces")) {
+      where = "surface " + std::to_string(set.surfaces.size() + 1);
+      set.surfaces.push_back(surfaceFrom(surface));
+    }
+    for (const auto& opening : json.at("openings")) {
+      where = "opening " + std::to_string(set.openings.size() + 1);
+      set.openings.push_back(openingFrom(opening));
+    }
+  } catch (const Json::exception& error) {
+    throw refuse(where + ": " + error.what());
+  } catch (const std::invalid_argument& error) {
+    throw refuse(where + ": " + error.what());
+  }
+  return set;
+}
+
+namespace {
+
+double areaOf(const std::vector<Vector3d>& walk) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < walk.size(); ++i) sum += (walk[i] - walk[0]).cross(walk[i + 1] - walk[0]);
+  return sum.norm() / 2;
+}
+
+}  // namespace
+
+double areaOf(const Surface& surface) {
+  double area = 0;
+  for (const FlatPart& part : surface.parts) {
+    area += areaOf(part.outline);
+    for (const auto& hole : part.holes) area -= areaOf(hole);
+  }
+  return area;
+}
+
+std::vector<Vector3d> cornersOf(const Surface& surface) {
+  std::vector<Vector3d> corners;
+  for (const FlatPart& part : surface.parts) corners.insert(corners.end(), part.outline.begin(), part.outline.end());
+  return corners;
+}
+
+}  // namespace omnimapper::surfaces
