@@ -1,33 +1,24 @@
-#include <omnimapper/base/AtomicFile.h>
-#include <omnimapper/base/Error.h>
-#include <omnimapper/eval/Report.h>
-#include <omnimapper/eval/TumFile.h>
-
-#include <iostream>
-
+#include "Verbs.h"
 #include "program/Program.h"
 
 namespace {
 
 using namespace omnimapper;
-
-struct Arguments {
-  std::string estimate, reference, output_folder, json_file;
-  double tolerance = 0.01, interpolate = 0;          // [s]
-  std::vector<double> base_from_sensor = {0, 0, 0};  // x y [m] yaw [deg]
-  std::string alignment = "none", unit = "frames";
-  double delta = 1;
-};
+using evaluation::Arguments;
 
 constexpr char kPoses[] = "truth: TUM, or MRPT's .GT.txt";
+
+void addOutputs(CLI::App* verb, Arguments& arguments) {
+  verb->add_option("-o,--output", arguments.output_folder, "folder for numbers.json and plots, made if missing");
+  verb->add_option("--json", arguments.json_file, "file for the numbers");
+}
 
 CLI::App* addVerb(CLI::App& app, const std::string& name, const std::string& help, const std::string& reference,
                   Arguments& arguments) {
   CLI::App* verb = app.add_subcommand(name, help);
   verb->add_option("estimate", arguments.estimate, "trajectory to be judged, TUM format")->required();
   verb->add_option("reference", arguments.reference, reference)->required();
-  verb->add_option("-o,--output", arguments.output_folder, "folder for numbers.json and plots, made if missing");
-  verb->add_option("--json", arguments.json_file, "file for the numbers");
+  addOutputs(verb, arguments);
   verb->add_option("--tolerance", arguments.tolerance, "between stamps that belong together [s], default 0.01")
       ->check(omnimapper::program::notNegative());
   return verb;
@@ -39,43 +30,11 @@ void addPairing(CLI::App* verb, Arguments& arguments) {
       ->check(omnimapper::program::positive());
 }
 
-template <class Result, class... Reference>
-int report(const Arguments& arguments, const Result& result, const Reference&... reference) {
-  std::cout << eval::table(result);
-  const auto write_json = [&](std::ostream& out) { out << eval::json(result); };
-  if (!arguments.json_file.empty()) base::writeFile(arguments.json_file, write_json);
-  if (!arguments.output_folder.empty()) {
-    eval::saveReport(arguments.output_folder, arguments.estimate, result, reference...);
-  }
-  return 0;
-}
-
-int run(const std::string& verb, const Arguments& arguments) {
-  const auto estimate = eval::readTrajectory(arguments.estimate);
-  const auto tolerance = base::durationFromSeconds(arguments.tolerance);
-  if (verb == "relations") {
-    eval::RelationOptions options{tolerance, {}};
-    const auto& pose = arguments.base_from_sensor;
-    options.base_from_sensor = geometry::lift({pose[0], pose[1], pose[2] * geometry::kPi / 180});
-    return report(arguments, eval::relationError(estimate, eval::readRelations(arguments.reference), options));
-  }
-  const auto reference = eval::readTrajectory(arguments.reference);
-  const eval::PairingOptions pairing{tolerance, base::durationFromSeconds(arguments.interpolate),
-                                     eval::alignmentNamed(arguments.alignment)};
-  if (verb == "ate") {
-    const auto error = eval::absoluteTrajectoryError(estimate, reference, pairing);
-    std::cerr << eval::hintsOn(error, pairing.alignment);
-    return report(arguments, error, reference);
-  }
-  return report(arguments, eval::relativePoseError(estimate, reference, pairing,
-                                                   {arguments.delta, eval::deltaUnitNamed(arguments.unit)}));
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app("Says how far a trajectory is from the truth.", "omnimapper-eval");
+  CLI::App app("Says how far a trajectory or a map is from the truth.", "omnimapper-eval");
   addPairing(addVerb(app, "ate", "absolute trajectory error", kPoses, arguments), arguments);
   CLI::App* rpe = addVerb(app, "rpe", "relative pose error", kPoses, arguments);
   addPairing(rpe, arguments);
@@ -84,12 +43,18 @@ int main(int argc, char** argv) {
   addVerb(app, "relations", "metric of Kuemmerle et al. 2009 over relations checked by hand", "relations", arguments)
       ->add_option("--base-from-sensor", arguments.base_from_sensor, "x y [m] yaw [deg] of the relations' sensor")
       ->expected(3);
+  CLI::App* map = app.add_subcommand("map", "surfaces of a map against the true ones");
+  map->add_option("map", arguments.estimate, "folder of a map, or its surfaces.json")->required();
+  map->add_option("world", arguments.reference, "folder of the simulated log, or its surfaces.json")->required();
+  addOutputs(map, arguments);
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
       "  omnimapper-eval ate out/trajectory.tum simul.rawlog.GT.txt --align se3 -o out/ate\n"
       "  omnimapper-eval rpe out/trajectory.tum groundtruth.tum --delta 1 --unit m\n"
       "  omnimapper-eval relations out/trajectory.tum aces.relations\n"
+      "  omnimapper-eval map out/map out/home -o out/quality\n"
       "Options of one verb: omnimapper-eval ate --help. Exit codes: doc/exit_codes.md.");
-  return program::run(app, argc, argv, [&] { return run(app.get_subcommands().front()->get_name(), arguments); });
+  return program::run(app, argc, argv,
+                      [&] { return evaluation::run(app.get_subcommands().front()->get_name(), arguments); });
 }

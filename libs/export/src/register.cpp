@@ -3,6 +3,7 @@
 
 #include "grid/GridOutput.h"
 #include "plan/GeoJsonOutput.h"
+#include "plan/SurfacesOutput.h"
 #include "report/ReportOutput.h"
 #include "run/GraphOutput.h"
 #include "run/LocalizationOutput.h"
@@ -28,6 +29,7 @@ void registerOutputs() {
   registerClass(CLASS_ID(ReportOutputFactory));
   registerClass(CLASS_ID(SceneOutputFactory));
   registerClass(CLASS_ID(SummaryOutputFactory));
+  registerClass(CLASS_ID(SurfacesOutputFactory));
   registerClass(CLASS_ID(TrajectoryOutputFactory));
 }
 

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace omnimapper::evaluation {
+
+struct Arguments {
+  std::string estimate, reference, output_folder, json_file;
+  double tolerance = 0.01, interpolate = 0;          // [s]
+  std::vector<double> base_from_sensor = {0, 0, 0};  // x y [m] yaw [deg]
+  std::string alignment = "none", unit = "frames";
+  double delta = 1;
+};
+
+/// Prints and writes what the verb tells; its exit code.
+int run(const std::string& verb, const Arguments& arguments);
+
+}  // namespace omnimapper::evaluation

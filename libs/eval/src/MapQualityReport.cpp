@@ -1,0 +1,225 @@
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Numbers.h>
+#include <omnimapper/draw/Svg.h>
+#include <omnimapper/eval/MapQuality.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace omnimapper::eval {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using surfaces::Surface;
+using surfaces::SurfaceClass;
+using surfaces::SurfaceSet;
+
+std::string percent(double part, double whole) {
+  return whole > 0 ? base::fixed(100 * part / whole, 1) + " %" : "-";
+}
+
+std::string line(const std::string& name, const std::string& value, const std::string& of) {
+  char text[200];
+  std::snprintf(text, sizeof text, "  %-44s %9s   %s\n", name.c_str(), value.c_str(), of.c_str());
+  return text;
+}
+
+std::string countLine(const std::string& name, std::size_t part, std::size_t whole) {
+  return line(name, percent(static_cast<double>(part), static_cast<double>(whole)),
+              std::to_string(part) + " of " + std::to_string(whole));
+}
+
+std::string labelTable(const MapQuality& quality) {
+  std::string text;
+  for (const auto& [said, by_truth] : quality.labels) {
+    const auto [right, all] = quality.rightOf(said);
+    text += countLine("called " + toString(said), right, all);
+    std::string others;
+    for (const auto& [is, count] : by_truth)
+      if (is != said) others += (others.empty() ? "" : ", ") + std::to_string(count) + " " + toString(is);
+    if (!others.empty()) text += "      truly: " + others + "\n";
+  }
+  return text;
+}
+
+/// What is to be seen of a drawn surface at first sight.
+enum class Fault { none, wrong_class, doubled, spurious };
+
+Fault faultOf(const JudgedSurface& judged, const MapQuality& quality, const SurfaceSet& map) {
+  if (judged.is_spurious) return Fault::spurious;
+  const bool is_doubled = std::any_of(quality.doubles.begin(), quality.doubles.end(), [&](const auto& pair) {
+    return pair.first == judged.index || pair.second == judged.index;
+  });
+  if (is_doubled) return Fault::doubled;
+  return map.surfaces[judged.index].is == *judged.true_class ? Fault::none : Fault::wrong_class;
+}
+
+const char* colourOf(Fault fault) {
+  switch (fault) {
+    case Fault::none:
+      return "#15803d";
+    case Fault::wrong_class:
+      return "#d97706";
+    case Fault::doubled:
+      return "#2563eb";
+    case Fault::spurious:
+      break;
+  }
+  return "#dc2626";
+}
+
+bool isUpright(const Surface& surface) {
+  return std::abs(surface.plane.normal.z()) < 0.5;
+}
+
+// Where it lies as seen from above: of an upright one the line it stands on, else its outline.
+std::vector<Eigen::Vector2d> fromAbove(const Surface& surface) {
+  std::vector<Eigen::Vector2d> points;
+  if (!isUpright(surface)) {
+    for (const auto& part : surface.parts) {
+      for (const auto& corner : part.outline) points.push_back(corner.head<2>());
+      if (!part.outline.empty()) points.push_back(part.outline.front().head<2>());
+    }
+    return points;
+  }
+  const Eigen::Vector2d along(-surface.plane.normal.y(), surface.plane.normal.x());
+  const auto corners = cornersOf(surface);
+  const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
+    return along.dot(a.template head<2>()) < along.dot(b.template head<2>());
+  });
+  return {low->head<2>(), high->head<2>()};
+}
+
+void drawLegend(draw::Svg& svg, double y) {
+  double x = 60;
+  const auto entry = [&](const char* colour, const char* text, double width) {
+    svg.line({x, y}, {x + 26, y}, colour, 4);
+    svg.text({x + 32, y + 4}, text, draw::Svg::Anchor::start);
+    x += width;
+  };
+  entry(colourOf(Fault::none), "right", 90);
+  entry(colourOf(Fault::wrong_class), "wrong class", 130);
+  entry(colourOf(Fault::doubled), "doubled", 110);
+  entry(colourOf(Fault::spurious), "on nothing true", 150);
+  entry("#000000", "true, seen and not in the map", 230);
+  entry("#d4d4d4", "true", 60);
+}
+
+void drawPlan(std::ostream& out, const std::string& title, const MapQuality& quality, const SurfaceSet& map,
+              const SurfaceSet& truth) {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = -low;
+  for (const auto* set : {&map, &truth}) {
+    for (const auto& surface : set->surfaces) {
+      for (const auto& corner : cornersOf(surface)) {
+        low = low.cwiseMin(corner.head<2>());
+        high = high.cwiseMax(corner.head<2>());
+      }
+    }
+  }
+  if (!(low.x() < high.x())) low = {0, 0}, high = {1, 1};
+  const double width = 1200, height = 900;
+  draw::Svg svg(out, width, height);
+  svg.box({0, 0}, {width, height}, "#ffffff");
+  const auto axes = draw::Axes::withEqualScale({60, 60}, {width - 80, height - 110}, low, high);
+  axes.draw(svg, "x [m]", "y [m]");
+  svg.text({60, 22}, title, draw::Svg::Anchor::start, 16);
+  drawLegend(svg, 42);
+  const auto draw = [&](const Surface& surface, const std::string& colour, double pen) {
+    std::vector<Eigen::Vector2d> pixels;
+    for (const auto& point : fromAbove(surface)) pixels.push_back(axes.pixel(point));
+    if (pixels.size() > 1) svg.polyline(pixels, colour, isUpright(surface) ? pen : pen / 2);
+  };
+  for (const auto& surface : truth.surfaces)
+    if (surface.is != SurfaceClass::floor && surface.is != SurfaceClass::ceiling) draw(surface, "#d4d4d4", 5);
+  // What is wrong lies above what is right.
+  for (const Fault fault : {Fault::none, Fault::wrong_class, Fault::doubled, Fault::spurious}) {
+    for (const auto& judged : quality.drawn) {
+      if (faultOf(judged, quality, map) == fault) draw(map.surfaces[judged.index], colourOf(fault), 2.5);
+    }
+  }
+  for (const auto& sought : quality.sought)
+    if (!sought.is_found) draw(truth.surfaces[sought.index], "#000000", 1.5);
+}
+
+}  // namespace
+
+std::string table(const MapQuality& quality) {
+  std::string text = "surfaces of the map: " + std::to_string(quality.drawn.size()) + " drawn, " +
+                     std::to_string(quality.candidates) + " candidates (" + std::to_string(quality.true_candidates) +
+                     " on true surfaces)\n";
+  text += countLine("true surfaces that were seen, in the map once", quality.foundOnce(), quality.sought.size());
+  text += countLine("  in the map at all", quality.found(), quality.sought.size());
+  text += countLine("pairs that are doubled, to drawn surfaces", quality.doubles.size(), quality.drawn.size());
+  text += countLine("drawn on nothing true", quality.spurious(), quality.drawn.size());
+  text += line("outline, intersection over union (median)", base::fixed(quality.medianOverlap(), 3), "");
+  text += countLine("class right", quality.rightLabels(), quality.drawn.size() - quality.spurious());
+  text += labelTable(quality);
+  text += "area that was seen and is in the map\n";
+  for (const auto& [is, area] : quality.area)
+    text += line(toString(is), percent(area.covered, area.seen), "of " + base::fixed(area.seen, 1) + " m^2");
+  return text;
+}
+
+std::string json(const MapQuality& quality, const SurfaceSet& map, const SurfaceSet& truth) {
+  Json areas, labels, drawn = Json::array(), sought = Json::array(), doubles = Json::array();
+  for (const auto& [is, area] : quality.area)
+    areas[toString(is)] = {{"seen_m2", area.seen}, {"covered_m2", area.covered}};
+  for (const auto& [said, by_truth] : quality.labels)
+    for (const auto& [is, count] : by_truth) labels[toString(said)][toString(is)] = count;
+  for (const auto& one : quality.drawn) {
+    const Surface& surface = map.surfaces[one.index];
+    Json entry{{"name", surface.name},
+               {"class", toString(surface.is)},
+               {"area_m2", one.area},
+               {"share_on_true", one.share_on_true},
+               {"spurious", one.is_spurious}};
+    if (one.true_class) entry["true_class"] = toString(*one.true_class);
+    if (one.true_surface) entry["true_surface"] = truth.surfaces[*one.true_surface].name;
+    if (one.overlap) entry["overlap"] = *one.overlap;
+    drawn.push_back(std::move(entry));
+  }
+  for (const auto& one : quality.sought) {
+    Json by = Json::array();
+    for (const auto i : one.by) by.push_back(map.surfaces[i].name);
+    sought.push_back({{"name", truth.surfaces[one.index].name},
+                      {"class", toString(truth.surfaces[one.index].is)},
+                      {"covered", one.covered},
+                      {"found", one.is_found},
+                      {"by", by}});
+  }
+  for (const auto& [a, b] : quality.doubles) doubles.push_back({map.surfaces[a].name, map.surfaces[b].name});
+  const auto [wall_right, wall_all] = quality.rightOf(SurfaceClass::wall);
+  return Json{{"metric", "surfaces of a map"},
+              {"drawn", quality.drawn.size()},
+              {"candidates", quality.candidates},
+              {"true_candidates", quality.true_candidates},
+              {"sought", quality.sought.size()},
+              {"found", quality.found()},
+              {"found_once", quality.foundOnce()},
+              {"doubled_pairs", quality.doubles.size()},
+              {"spurious", quality.spurious()},
+              {"median_overlap", quality.medianOverlap()},
+              {"right_class", quality.rightLabels()},
+              {"called_wall", wall_all},
+              {"called_wall_right", wall_right},
+              {"area", areas},
+              {"labels", labels},
+              {"true_surfaces", sought},
+              {"drawn_surfaces", drawn},
+              {"doubles", doubles}}
+             .dump(1) +
+         "\n";
+}
+
+void saveReport(const std::string& folder, const std::string& title, const MapQuality& quality, const SurfaceSet& map,
+                const SurfaceSet& truth) {
+  base::makeWritableFolder(folder);
+  base::writeFile(folder + "/numbers.json", [&](std::ostream& out) { out << json(quality, map, truth); });
+  base::writeFile(folder + "/plan.svg", [&](std::ostream& out) { drawPlan(out, title, quality, map, truth); });
+}
+
+}  // namespace omnimapper::eval

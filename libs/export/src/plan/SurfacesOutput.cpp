@@ -1,0 +1,50 @@
+#include "plan/SurfacesOutput.h"
+
+#include <omnimapper/surfaces/SurfaceSet.h>
+
+#include "plan/LandmarkShapes.h"
+#include "run/OutputFile.h"
+
+IMPLEMENTS_MRPT_OBJECT(SurfacesOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
+
+namespace omnimapper::exports {
+
+const base::OptionTable<SurfacesOptions>& SurfacesOptions::table() {
+  static const base::OptionTable<SurfacesOptions> table;
+  return table;
+}
+
+namespace {
+
+surfaces::Surface surfaceOf(const ShapedLandmark& shaped, int id) {
+  const map::LandmarkShape& shape = shaped.shape;
+  surfaces::Surface surface;
+  surface.id = id;
+  surface.name = toString(shaped.landmark->id);
+  surface.is = surfaces::surfaceClassNamed(shape.label).value_or(surfaces::SurfaceClass::surface);
+  surface.plane = planeOf(shape.surfaces.front(), shape);
+  for (const auto& polygon : shape.surfaces) surface.parts.push_back({polygon.vertices, {}});
+  return surface;
+}
+
+}  // namespace
+
+SurfacesOutput::SurfacesOutput(const SurfacesOptions&, const mapper::PluginContext& context)
+    : title_(context.title), path_(outputPath(context, "surfaces.json")) {}
+
+void SurfacesOutput::finish(const mapper::View& view) {
+  surfaces::SurfaceSet set;
+  set.title = title_;
+  for (const auto& shaped : shapesOf(view)) {
+    if (shaped.moved || shaped.shape.surfaces.empty()) continue;
+    set.surfaces.push_back(surfaceOf(shaped, static_cast<int>(set.surfaces.size()) + 1));
+  }
+  writeBytes(path_, surfaces::toJson(set));
+}
+
+std::unique_ptr<mapper::OutputPlugin> SurfacesOutputFactory::make(const base::ConfigSection& section,
+                                                                  const mapper::PluginContext& context) const {
+  return std::make_unique<SurfacesOutput>(section.read<SurfacesOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::exports
