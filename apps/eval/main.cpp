@@ -34,6 +34,7 @@ void addPairing(CLI::App* verb, Arguments& arguments) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
+  std::string map_alignment = "se3";
   CLI::App app("Says how far a trajectory or a map is from the truth.", "omnimapper-eval");
   addPairing(addVerb(app, "ate", "absolute trajectory error", kPoses, arguments), arguments);
   CLI::App* rpe = addVerb(app, "rpe", "relative pose error", kPoses, arguments);
@@ -47,6 +48,8 @@ int main(int argc, char** argv) {
   map->add_option("map", arguments.estimate, "folder of a map, or its surfaces.json")->required();
   map->add_option("world", arguments.reference, "folder of the simulated log, or its surfaces.json")->required();
   addOutputs(map, arguments);
+  map->add_option("--align", map_alignment, "by trajectory.tum and truth.tum in the folders: none, first, yaw or se3")
+      ->capture_default_str();
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
@@ -55,6 +58,8 @@ int main(int argc, char** argv) {
       "  omnimapper-eval relations out/trajectory.tum aces.relations\n"
       "  omnimapper-eval map out/map out/home -o out/quality\n"
       "Options of one verb: omnimapper-eval ate --help. Exit codes: doc/exit_codes.md.");
-  return program::run(app, argc, argv,
-                      [&] { return evaluation::run(app.get_subcommands().front()->get_name(), arguments); });
+  return program::run(app, argc, argv, [&] {
+    if (map->parsed()) arguments.alignment = map_alignment;
+    return evaluation::run(app.get_subcommands().front()->get_name(), arguments);
+  });
 }

@@ -1,6 +1,7 @@
 #include "Verbs.h"
 
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Error.h>
 #include <omnimapper/eval/MapQuality.h>
 #include <omnimapper/eval/Report.h>
 #include <omnimapper/eval/TumFile.h>
@@ -28,8 +29,28 @@ std::string surfacesFile(const std::string& path) {
   return std::filesystem::is_directory(path) ? path + "/surfaces.json" : path;
 }
 
+// The surfaces of the map in the frame of the truth: the trajectories in both folders tell how that lies to the map's.
+surfaces::SurfaceSet inTrueFrame(const surfaces::SurfaceSet& map, const Arguments& arguments) {
+  const auto alignment = eval::alignmentNamed(arguments.alignment);
+  if (alignment == eval::Alignment::none) return map;
+  const std::string estimate = arguments.estimate + "/trajectory.tum", truth = arguments.reference + "/truth.tum";
+  for (const auto& file : {estimate, truth}) {
+    if (std::filesystem::exists(file)) continue;
+    throw base::Error(base::ExitCode::unreadable_input,
+                      file +
+                          ": is missing, and only trajectories tell how the frame of the map lies to the true one; "
+                          "if it is the same, say --align none");
+  }
+  const auto paired =
+      eval::pairTrajectories(eval::readTrajectory(estimate), eval::readTrajectory(truth),
+                             {base::durationFromSeconds(arguments.tolerance), base::Duration(0), alignment});
+  if (paired.reference_from_estimate.scale != 1)
+    throw base::Error(base::ExitCode::command_line, "--align sim3: a map has its scale");
+  return surfaces::moved(map, paired.reference_from_estimate.motion);
+}
+
 int judgeMap(const Arguments& arguments) {
-  const auto map = surfaces::readSurfaces(surfacesFile(arguments.estimate));
+  const auto map = inTrueFrame(surfaces::readSurfaces(surfacesFile(arguments.estimate)), arguments);
   const auto truth = surfaces::readSurfaces(surfacesFile(arguments.reference));
   const auto quality = eval::judgeMap(map, truth);
   std::cout << eval::table(quality);

@@ -57,6 +57,14 @@ CellGrid CellGrid::around(const geometry::Plane3& plane, const std::vector<Vecto
           static_cast<int>(count.y())};
 }
 
+CellGrid CellGrid::movedBy(const geometry::Se3& b_from_a) const {
+  CellGrid moved = *this;
+  moved.origin_ = b_from_a * origin_;
+  moved.u_ = b_from_a.rotation * u_;
+  moved.v_ = b_from_a.rotation * v_;
+  return moved;
+}
+
 std::optional<CellGrid::Cell> CellGrid::cellAt(const Vector3d& point) const {
   const Vector3d from = point - origin_;
   const double column = std::floor(u_.dot(from) / cell_), row = std::floor(v_.dot(from) / cell_);

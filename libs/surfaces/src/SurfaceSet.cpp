@@ -219,6 +219,22 @@ double areaOf(const std::vector<Vector3d>& walk) {
 
 }  // namespace
 
+SurfaceSet moved(SurfaceSet set, const geometry::Se3& b_from_a) {
+  const auto move = [&](auto& points) {
+    for (Vector3d& point : points) point = b_from_a * point;
+  };
+  for (Surface& surface : set.surfaces) {
+    surface.plane = b_from_a * surface.plane;
+    for (FlatPart& part : surface.parts) {
+      move(part.outline);
+      for (auto& hole : part.holes) move(hole);
+    }
+    if (surface.seen) surface.seen = surface.seen->movedBy(b_from_a);
+  }
+  for (Opening& opening : set.openings) move(opening.rectangle);
+  return set;
+}
+
 double areaOf(const Surface& surface) {
   double area = 0;
   for (const FlatPart& part : surface.parts) {

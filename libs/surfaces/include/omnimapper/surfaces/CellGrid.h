@@ -27,6 +27,9 @@ class CellGrid {
   /// v up; on a level one u goes along x.
   static CellGrid around(const geometry::Plane3& plane, const std::vector<Eigen::Vector3d>& points, double cell);
 
+  /// The same cells in frame b.
+  CellGrid movedBy(const geometry::Se3& b_from_a) const;
+
   const Eigen::Vector3d& origin() const { return origin_; }
   const Eigen::Vector3d& u() const { return u_; }
   const Eigen::Vector3d& v() const { return v_; }

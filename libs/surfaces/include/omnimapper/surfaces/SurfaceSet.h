@@ -55,6 +55,9 @@ struct SurfaceSet {
   std::vector<Opening> openings;
 };
 
+/// The same place in frame b.
+SurfaceSet moved(SurfaceSet set, const geometry::Se3& b_from_a);
+
 /// The file surfaces.json, UTF-8, byte for byte the same for the same set: {"format": "omnimapper surfaces 1", ...}.
 std::string toJson(const SurfaceSet& set);
 /// Throws base::Error(unreadable_input) naming `file` and the place in it.
