@@ -14,6 +14,13 @@ Points rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
+// The outlines alone.
+std::vector<Points> unionOf(const std::vector<Points>& polygons) {
+  std::vector<HoledPolygon2> all;
+  for (const auto& polygon : polygons) all.push_back({polygon, {}});
+  return geometry::unionOf(all).outlines;
+}
+
 TEST(PolygonUnion, OfTwoThatCrossIsConcave) {
   const auto cross = unionOf({rectangle(-3, -1, 3, 1), rectangle(-1, -3, 1, 3)});
   ASSERT_EQ(cross.size(), 1U);
@@ -33,17 +40,33 @@ TEST(PolygonUnion, GoesCounterClockwiseWhicheverWayTheyWent) {
   EXPECT_NEAR(area(one[0]), 1, 1e-12);
 }
 
-TEST(PolygonUnion, ClosesHoles) {
-  const std::vector<Points> bars = {rectangle(0, 0, 3, 1), rectangle(0, 2, 3, 3), rectangle(0, 0, 1, 3),
-                                    rectangle(2, 0, 3, 3)};
-  std::vector<Points> island_first = {rectangle(1.2, 1.2, 1.8, 1.8)}, island_last = bars;
-  island_first.insert(island_first.end(), bars.begin(), bars.end());
-  island_last.push_back(island_first.front());
-  for (const auto& all : {bars, island_first, island_last}) {
-    const auto ring = unionOf(all);
-    ASSERT_EQ(ring.size(), 1U);
-    EXPECT_NEAR(area(ring[0]), 9, 1e-12);
-  }
+TEST(PolygonUnion, KeepsHolesAndWhatLiesInThem) {
+  std::vector<HoledPolygon2> ring{{rectangle(0, 0, 3, 3), {rectangle(1, 1, 2, 2)}}};
+  auto areas = geometry::unionOf(ring);
+  ASSERT_EQ(areas.outlines.size(), 1U);
+  ASSERT_EQ(areas.holes.size(), 1U);
+  EXPECT_NEAR(area(areas.outlines[0]), 9, 1e-12);
+  EXPECT_NEAR(area(areas.holes[0]), -1, 1e-12);
+  ring.push_back({rectangle(1.2, 1.2, 1.8, 1.8), {}});
+  areas = geometry::unionOf(ring);
+  EXPECT_EQ(areas.outlines.size(), 2U);
+  EXPECT_EQ(areas.holes.size(), 1U);
+}
+
+TEST(PolygonUnion, AHoleIsNoneWhereAnotherCoversIt) {
+  const auto areas =
+      geometry::unionOf({{rectangle(0, 0, 3, 3), {rectangle(1, 1, 2, 2)}}, {rectangle(1, 0, 1.5, 3), {}}});
+  ASSERT_EQ(areas.holes.size(), 1U);
+  EXPECT_NEAR(area(areas.holes[0]), -0.5, 1e-12);
+}
+
+TEST(PolygonUnion, SmallHolesAndIslandsAreLeftOutAndTheLargestOutlineNever) {
+  const std::vector<HoledPolygon2> some{{rectangle(0, 0, 3, 3), {rectangle(1, 1, 1.1, 1.1)}},
+                                        {rectangle(5, 0, 5.1, 0.1), {}}};
+  EXPECT_EQ(geometry::unionOf(some).outlines.size(), 2U);
+  EXPECT_EQ(geometry::unionOf(some, 0.02).outlines.size(), 1U);
+  EXPECT_TRUE(geometry::unionOf(some, 0.02).holes.empty());
+  EXPECT_EQ(geometry::unionOf({some[1]}, 0.02).outlines.size(), 1U);
 }
 
 TEST(PolygonUnion, LeavesOutWhatHasNoArea) {
@@ -73,7 +96,6 @@ TEST(PolygonUnion, IsExactFarFromTheOrigin) {
     const auto one = unionOf({rectangle(far, far, far + 2, far + 1), rectangle(far + 1, far, far + 3, far + 1)});
     ASSERT_EQ(one.size(), 1U);
     EXPECT_EQ(one[0].size(), 4U);
-    EXPECT_NEAR(areaOutside(rectangle(far, far, far + 4, far + 1), one), 1, 1e-12);
   }
 }
 
@@ -82,8 +104,6 @@ TEST(PolygonUnion, LeavesOutWhatIsNowhere) {
     const auto one = unionOf({rectangle(0, 0, 1, 1), rectangle(0, 0, wrong, 1)});
     ASSERT_EQ(one.size(), 1U);
     EXPECT_NEAR(area(one[0]), 1, 1e-12);
-    EXPECT_NEAR(areaOutside(rectangle(0, 0, 2, 1), {rectangle(0, 0, 1, 1), rectangle(0, 0, 1, wrong)}), 1, 1e-12);
-    EXPECT_EQ(areaOutside(rectangle(0, 0, wrong, 1), {}), 0);
     EXPECT_TRUE(unionOf({{{0, 0}, {2, 0}, {2, 2}, {1, wrong}, {0, 2}}}).empty()) << "one corner is enough";
   }
 }
@@ -114,13 +134,6 @@ TEST(PolygonUnion, LeavesOutNeedlessCorners) {
   const auto smooth = unionOf({rough});
   ASSERT_EQ(smooth.size(), 1U);
   EXPECT_LE(smooth[0].size(), 6U);
-}
-
-TEST(AreaOutside, IsWhatOthersDoNotCover) {
-  const auto seen = unionOf({rectangle(0, 0, 2, 1), rectangle(3, 0, 4, 1)});
-  EXPECT_NEAR(areaOutside(rectangle(1, 0, 5, 1), seen), 1 + 1, 1e-12);
-  EXPECT_NEAR(areaOutside(rectangle(0.5, 0.2, 1, 0.8), seen), 0, 1e-12);
-  EXPECT_NEAR(areaOutside(rectangle(0, 0, 1, 1), {}), 1, 1e-12);
 }
 
 }  // namespace

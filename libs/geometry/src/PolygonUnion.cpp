@@ -35,11 +35,13 @@ Path pathOf(const Points& points) {
   return path;
 }
 
+// Without corners in the middle of an edge, which Clipper leaves where polygons met.
 Points pointsOf(const Path& path) {
-  Points points;
+  Points points, corners;
   for (const auto& corner : path)
     points.emplace_back(kUnit * static_cast<double>(corner.X), kUnit * static_cast<double>(corner.Y));
-  return points;
+  for (const std::size_t i : keptOfLoop(points, kUnit)) corners.push_back(points[i]);
+  return corners;
 }
 
 // Outlines counter-clockwise, holes clockwise.
@@ -62,32 +64,35 @@ Paths areasOf(const Points& points) {
   return combined(ClipperLib::ctUnion, {pathOf(corners)}, {});
 }
 
-// What lay in a hole lies within the outline around it then.
-Paths withoutHoles(Paths areas) {
-  areas.erase(std::remove_if(areas.begin(), areas.end(), [](const Path& p) { return !ClipperLib::Orientation(p); }),
-              areas.end());
-  return combined(ClipperLib::ctUnion, areas, {});
+// Less the holes.
+Paths areasOf(const HoledPolygon2& polygon) {
+  Paths holes;
+  for (const auto& hole : polygon.holes) {
+    Paths more = areasOf(hole);
+    std::move(more.begin(), more.end(), std::back_inserter(holes));
+  }
+  Paths areas = areasOf(polygon.outline);
+  return holes.empty() ? areas : combined(ClipperLib::ctDifference, areas, holes);
 }
 
 }  // namespace
 
-std::vector<Points> unionOf(const std::vector<Points>& polygons) {
+Areas2 unionOf(const std::vector<HoledPolygon2>& polygons, double least) {
   Paths all;
   for (const auto& polygon : polygons) {
     Paths areas = areasOf(polygon);
     std::move(areas.begin(), areas.end(), std::back_inserter(all));
   }
-  std::vector<Points> outlines;
-  for (const auto& area : withoutHoles(combined(ClipperLib::ctUnion, all, {}))) outlines.push_back(pointsOf(area));
-  return outlines;
-}
-
-double areaOutside(const Points& polygon, const std::vector<Points>& outlines) {
-  Paths covered;
-  for (const auto& outline : outlines) covered.push_back(pathOf(outline));
-  double area = 0;
-  for (const auto& left : combined(ClipperLib::ctDifference, areasOf(polygon), covered)) area += ClipperLib::Area(left);
-  return kUnit * kUnit * area;
+  const Paths together = combined(ClipperLib::ctUnion, all, {});
+  double largest = 0;
+  for (const auto& path : together) largest = std::max(largest, kUnit * kUnit * ClipperLib::Area(path));
+  Areas2 areas;
+  for (const auto& path : together) {
+    const double area = kUnit * kUnit * ClipperLib::Area(path);  // negative of holes
+    if (std::abs(area) < std::min(least, largest)) continue;
+    (area > 0 ? areas.outlines : areas.holes).push_back(pointsOf(path));
+  }
+  return areas;
 }
 
 }  // namespace omnimapper::geometry

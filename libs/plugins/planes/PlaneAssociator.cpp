@@ -2,7 +2,6 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
-#include <omnimapper/geometry/PolygonUnion.h>
 #include <omnimapper/landmarks/InterSessionHypothesis.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
 #include <omnimapper/plugin/PoseFactors.h>
@@ -157,7 +156,9 @@ void PlaneAssociator::addToKnown(const PlaneMeasurement& sighting, const mapper:
     const auto upright = uprightFactor(view_.graph, surface.variable);
     if (upright && leaning_.insert(*upright).second) batch_.removeFactor(*upright);
   }
-  const bool tells_more = reachesOver(surface, points) || showsMore(*payload, sighting, surface, points);
+  std::vector<std::vector<Eigen::Vector3d>> holes;
+  for (const auto& hole : sighting.holes_in_base) holes.push_back(inMap(hole));
+  const bool tells_more = reachesOver(surface, points) || showsMore(*payload, sighting, surface, points, holes);
   payload = payload->with(frame_.id, sighting, tells_more);
   batch_.addEvidence(id, payload);
 }
@@ -183,18 +184,23 @@ bool PlaneAssociator::reachesOver(const PlaneLandmarkIndex::Surface& surface,
 }
 
 bool PlaneAssociator::showsMore(const PlanePayload& payload, const PlaneMeasurement& sighting,
-                                const PlaneLandmarkIndex::Surface& surface,
-                                const std::vector<Eigen::Vector3d>& points) {
+                                const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points,
+                                const std::vector<std::vector<Eigen::Vector3d>>& holes) {
   if (payload.boundary != PlanePayload::Boundary::seen || sighting.is_line) return false;
   constexpr double kBay = 0.03, kEdge = 0.02;  // [m^2], [m] that edges are seen alike
-  const landmarks::PlaneAxes axes(surface.plane);
-  std::vector<Eigen::Vector2d> polygon;
   double around = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    polygon.push_back(axes.onto(points[i]));
-    around += (points[i] - points[(i + 1) % points.size()]).norm();
+  for (std::size_t i = 0; i < points.size(); ++i) around += (points[i] - points[(i + 1) % points.size()]).norm();
+  auto cells = surfaces::CellGrid::around(surface.plane, points, kSeenCell);
+  cells.fill(points, holes);
+  double unseen = 0;
+  for (int row = 0; row < cells.rows(); ++row) {
+    for (int column = 0; column < cells.columns(); ++column) {
+      if (!cells.isSet({column, row})) continue;
+      const auto known = surface.seen.cellAt(cells.middleOf({column, row}));
+      if (!known || !surface.seen.isSet(*known)) unseen += cells.areaOfCell();
+    }
   }
-  return geometry::areaOutside(polygon, surface.seen) > kBay + kEdge * around;
+  return unseen > kBay + kEdge * around;
 }
 
 void PlaneAssociator::logUseless(const PlaneMeasurement& sighting) {

@@ -54,7 +54,8 @@ class PlaneAssociator {
   static bool reachesOver(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points);
   // Whether a plane shows a part of the surface that nobody has seen yet, where boundaries are kept as seen.
   static bool showsMore(const PlanePayload& payload, const PlaneMeasurement& sighting,
-                        const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points);
+                        const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points,
+                        const std::vector<std::vector<Eigen::Vector3d>>& holes);
   void logUseless(const PlaneMeasurement& sighting);
   void addNew(const PlaneMeasurement& sighting, mapper::Decision decision);
   // Two stretches of one wall, with a door between them.

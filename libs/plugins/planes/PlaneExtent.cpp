@@ -2,7 +2,6 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
-#include <omnimapper/geometry/PolygonUnion.h>
 
 namespace omnimapper::plugins {
 
@@ -13,15 +12,39 @@ std::vector<Eigen::Vector2d> hullOn(const landmarks::PlaneAxes& axes, const std:
   return geometry::convexHull(std::move(dropped));
 }
 
-std::vector<std::vector<Eigen::Vector2d>> seenOn(const landmarks::PlaneAxes& axes,
-                                                 const std::vector<SurfacePatch>& patches,
-                                                 const map::KeyFrames& key_frames) {
-  std::vector<std::vector<Eigen::Vector2d>> polygons;
+geometry::Areas2 seenOn(const landmarks::PlaneAxes& axes, const std::vector<SurfacePatch>& patches,
+                        const map::KeyFrames& key_frames) {
+  constexpr double kLeast =
+      0.02;  // [m^2] smaller holes and islands come from edges that are seen differently each time
+  std::vector<geometry::HoledPolygon2> polygons;
   for (const auto& patch : patches) {
+    const auto map_from_base = geometry::fromMrpt(key_frames.at(patch.frame).map_from_base);
+    const auto dropped = [&](const std::vector<Eigen::Vector3d>& walk) {
+      std::vector<Eigen::Vector2d> points;
+      for (const auto& corner : walk) points.push_back(axes.onto(map_from_base * corner));
+      return points;
+    };
     auto& polygon = polygons.emplace_back();
-    for (const auto& corner : cornersInMap({patch}, key_frames)) polygon.push_back(axes.onto(corner));
+    polygon.outline = dropped(patch.outline_in_base);
+    for (const auto& hole : patch.holes_in_base) polygon.holes.push_back(dropped(hole));
   }
-  return geometry::unionOf(polygons);
+  return geometry::unionOf(polygons, kLeast);
+}
+
+surfaces::CellGrid cellsSeenOn(const geometry::Plane3& plane, const std::vector<SurfacePatch>& patches,
+                               const map::KeyFrames& key_frames) {
+  auto cells = surfaces::CellGrid::around(plane, cornersInMap(patches, key_frames), kSeenCell);
+  for (const auto& patch : patches) {
+    const auto map_from_base = geometry::fromMrpt(key_frames.at(patch.frame).map_from_base);
+    const auto inMap = [&](std::vector<Eigen::Vector3d> walk) {
+      for (auto& corner : walk) corner = map_from_base * corner;
+      return walk;
+    };
+    std::vector<std::vector<Eigen::Vector3d>> holes;
+    for (const auto& hole : patch.holes_in_base) holes.push_back(inMap(hole));
+    cells.fill(inMap(patch.outline_in_base), holes);
+  }
+  return cells;
 }
 
 std::vector<Eigen::Vector3d> cornersInMap(const std::vector<SurfacePatch>& patches, const map::KeyFrames& key_frames) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <omnimapper/geometry/PolygonUnion.h>
 #include <omnimapper/landmarks/PlaneAxes.h>
 #include <omnimapper/map/KeyFrames.h>
+#include <omnimapper/surfaces/CellGrid.h>
 
 #include <Eigen/Core>
 #include <vector>
@@ -10,13 +12,18 @@
 
 namespace omnimapper::plugins {
 
+constexpr double kSeenCell = 0.05;  ///< [m] side of the cells that a surface is counted in
+
 /// The convex hull of points, dropped on a plane [m, PlaneAxes].
 std::vector<Eigen::Vector2d> hullOn(const landmarks::PlaneAxes& axes, const std::vector<Eigen::Vector3d>& points);
 
-/// The outlines of what the patches of planes cover together, dropped on a plane [m, PlaneAxes]; lines cover nothing.
-std::vector<std::vector<Eigen::Vector2d>> seenOn(const landmarks::PlaneAxes& axes,
-                                                 const std::vector<SurfacePatch>& patches,
-                                                 const map::KeyFrames& key_frames);
+/// What the patches of planes cover together, dropped on a plane [m, PlaneAxes]; lines cover nothing.
+geometry::Areas2 seenOn(const landmarks::PlaneAxes& axes, const std::vector<SurfacePatch>& patches,
+                        const map::KeyFrames& key_frames);
+
+/// The same as cells, coarser and far quicker.
+surfaces::CellGrid cellsSeenOn(const geometry::Plane3& plane, const std::vector<SurfacePatch>& patches,
+                               const map::KeyFrames& key_frames);
 
 /// The corners of patches in the map, each where its key frame is now.
 std::vector<Eigen::Vector3d> cornersInMap(const std::vector<SurfacePatch>& patches, const map::KeyFrames& key_frames);

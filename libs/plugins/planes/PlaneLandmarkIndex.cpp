@@ -57,7 +57,7 @@ void PlaneLandmarkIndex::update(const mapper::View& view) {
     const auto corners = cornersInMap(payload.patches, view.map.key_frames);
     surface.hull = hullOn(axes, corners);
     if (payload.boundary == PlanePayload::Boundary::seen)
-      surface.seen = seenOn(axes, payload.patches, view.map.key_frames);
+      surface.seen = cellsSeenOn(surface.plane, payload.patches, view.map.key_frames);
     std::tie(surface.lowest, surface.highest) = heightsOf(corners);
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (const auto& corner : surface.hull) middle += corner / static_cast<double>(surface.hull.size());

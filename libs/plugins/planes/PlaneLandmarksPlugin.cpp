@@ -27,10 +27,10 @@ const base::OptionTable<PlaneLandmarksOptions>& PlaneLandmarksOptions::table() {
                 "ground", &Options::ground, {{"start", Options::Ground::start}, {"map", Options::Ground::map}},
                 "What tables and floors are told apart by their height from: where the first key frame's base is, or "
                 "z = 0 of the map, for a camera on given poses.")
-            .choice(
-                "boundary", &Options::boundary, {{"hull", Options::Boundary::hull}, {"seen", Options::Boundary::seen}},
-                "Boundary of a surface in the map: the convex hull of what was seen of it, or the union of it, with "
-                "bays; takes more time and room.")
+            .choice("boundary", &Options::boundary,
+                    {{"hull", Options::Boundary::hull}, {"seen", Options::Boundary::seen}},
+                    "Boundary of a surface in the map: what was seen of it, with bays and holes, or the convex hull of "
+                    "that.")
             .flag("planes", &Options::planes, "Take the planes of depth images and clouds.")
             .flag("lines", &Options::lines, "Take the lines of 2D lasers.")
             .number("min_area_m2", &Options::min_area, Range::notNegative(),

@@ -20,9 +20,9 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
   /// How what was seen of a surface as a plane becomes its boundary in the map.
   enum class Boundary : std::uint8_t {
     hull = 0,  ///< convex
-    seen = 1   ///< the union of what was seen, with bays; holes are closed
+    seen = 1   ///< the union of what was seen, with bays and holes
   };
-  Boundary boundary = Boundary::hull;
+  Boundary boundary = Boundary::seen;
   bool planes = true;                                                  ///< measure CObservationPlanes
   bool lines = true;                                                   ///< measure CObservationLaserLines
   double min_area = 0.25;                                              ///< [m^2] of a new landmark, seen as a plane

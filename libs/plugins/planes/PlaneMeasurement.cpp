@@ -58,6 +58,11 @@ PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_se
   sighting.plane_in_base = in_base;
   if (options.boundary == PlaneLandmarksOptions::Boundary::seen) {
     sighting.outline_in_base = corners;
+    for (const auto& hole : seen.holes) {
+      if (!allFinite(hole.vertices)) continue;
+      auto& in_base_hole = sighting.holes_in_base.emplace_back();
+      for (const auto& vertex : hole.vertices) in_base_hole.push_back(base_from_sensor * vertex);
+    }
   } else {
     for (const auto& corner : hull) sighting.outline_in_base.push_back(axes.inSpace(corner));
   }

@@ -21,7 +21,8 @@ struct PlaneMeasurement {
   geometry::Plane3 plane_in_base;  ///< of a line: the upright plane through it
   /// [m] convex, or with boundary = seen as it was seen; of a line its two ends.
   std::vector<Eigen::Vector3d> outline_in_base;
-  double size = 0;  ///< [m^2], of a line [m]
+  std::vector<std::vector<Eigen::Vector3d>> holes_in_base;  ///< [m] with boundary = seen
+  double size = 0;                                          ///< [m^2] of the hull, of a line [m]
   std::shared_ptr<const graph::Factor> factor;
   graph::SquareRootInformation noise = graph::SquareRootInformation::identity(1);
   std::string why_useless;  ///< not empty: nothing but is_line, sensor_label and size is told

@@ -15,7 +15,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr std::uint64_t kVersion = 3;  // 2: the ground; 3: the boundary
+constexpr std::uint64_t kVersion = 4;  // 2: the ground; 3: the boundary; 4: holes
 
 // What people call a surface of that slope, so high above the ground [m].
 std::string labelOf(const geometry::Plane3& plane, double height) {
@@ -25,6 +25,17 @@ std::string labelOf(const geometry::Plane3& plane, double height) {
   if (plane.normal.z() < -kLevel) return "ceiling";
   if (plane.normal.z() < kLevel) return "slope";
   return height > kGround ? "table" : height > -kGround ? "floor" : "level surface";
+}
+
+void writeWalk(std::ostream& out, const std::vector<Eigen::Vector3d>& walk) {
+  graph::writeUint(out, walk.size(), 4);
+  for (const auto& point : walk) graph::writeVector(out, point);
+}
+
+std::vector<Eigen::Vector3d> readWalk(std::istream& in) {
+  std::vector<Eigen::Vector3d> walk;
+  for (auto points = graph::readUint(in, 4); points > 0; --points) walk.push_back(graph::readVector<3>(in));
+  return walk;
 }
 
 std::string number(double value) {
@@ -43,7 +54,7 @@ bool PlanePayload::wasSeenAsPlane() const {
 std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, const PlaneMeasurement& sighting,
                                                        bool tells_more) const {
   auto more = std::make_shared<PlanePayload>(*this);
-  if (tells_more) more->patches.push_back({frame, sighting.outline_in_base});
+  if (tells_more) more->patches.push_back({frame, sighting.outline_in_base, sighting.holes_in_base});
   SeenBy& seen = more->seen_by[sighting.sensor_label];
   ++(sighting.is_line ? seen.lines : seen.planes);
   more->last_seen_from = frame;
@@ -84,15 +95,18 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
   shape.normal = plane.normal;
   // A laser alone tells how long a wall is, not how high.
   if (wasSeenAsPlane() && hull.size() > 2) {
+    geometry::Areas2 areas;
+    if (boundary == Boundary::seen) areas = seenOn(axes, patches, key_frames);
+    if (areas.outlines.empty()) areas = {{hull}, {}};
     double area = 0;
-    std::vector<std::vector<Eigen::Vector2d>> outlines;
-    if (boundary == Boundary::seen) outlines = seenOn(axes, patches, key_frames);
-    if (outlines.empty()) outlines = {hull};
-    for (const auto& outline : outlines) {
-      area += geometry::area(outline);
-      geometry::Polygon3& surface = shape.surfaces.emplace_back();
-      for (const auto& corner : outline) surface.vertices.push_back(axes.inSpace(corner));
-    }
+    const auto inSpace = [&](const std::vector<Eigen::Vector2d>& walk) {
+      area += geometry::area(walk);
+      geometry::Polygon3 polygon;
+      for (const auto& corner : walk) polygon.vertices.push_back(axes.inSpace(corner));
+      return polygon;
+    };
+    for (const auto& outline : areas.outlines) shape.surfaces.push_back(inSpace(outline));
+    for (const auto& hole : areas.holes) shape.holes.push_back(inSpace(hole));
     shape.properties.emplace_back("area_m2", number(area));
   } else if (hull.size() > 1) {
     const auto [low, high] =
@@ -124,8 +138,9 @@ void PlanePayload::write(std::ostream& out) const {
   graph::writeUint(out, patches.size(), 4);
   for (const auto& patch : patches) {
     graph::writeId(out, patch.frame);
-    graph::writeUint(out, patch.outline_in_base.size(), 4);
-    for (const auto& point : patch.outline_in_base) graph::writeVector(out, point);
+    writeWalk(out, patch.outline_in_base);
+    graph::writeUint(out, patch.holes_in_base.size(), 4);
+    for (const auto& hole : patch.holes_in_base) writeWalk(out, hole);
   }
   graph::writeId(out, last_seen_from);
   graph::writeUint(out, seen_by.size(), 4);
@@ -152,8 +167,9 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
       SurfacePatch patch;
       patch.frame = graph::readId<base::KeyFrameId>(in);
-      for (auto points = graph::readUint(in, 4); points > 0; --points)
-        patch.outline_in_base.push_back(graph::readVector<3>(in));
+      patch.outline_in_base = readWalk(in);
+      for (auto holes = version > 3 ? graph::readUint(in, 4) : 0; holes > 0; --holes)
+        patch.holes_in_base.push_back(readWalk(in));
       payload->patches.push_back(std::move(patch));
     }
     payload->last_seen_from = graph::readId<base::KeyFrameId>(in);

@@ -19,7 +19,8 @@ namespace omnimapper::plugins {
 /// A part of a surface as one observation showed it.
 struct SurfacePatch {
   base::KeyFrameId frame;
-  std::vector<Eigen::Vector3d> outline_in_base;  ///< [m] a polygon, or the two ends of a laser line
+  std::vector<Eigen::Vector3d> outline_in_base;               ///< [m] a polygon, or the two ends of a laser line
+  std::vector<std::vector<Eigen::Vector3d>> holes_in_base{};  ///< [m] in the polygon
 };
 
 /// Which sensor saw it, and how often.

@@ -86,8 +86,14 @@ void CellGrid::fill(const std::vector<Vector3d>& outline, const std::vector<std:
   };
   std::vector<std::vector<Vector2d>> walks{flat(outline)};
   for (const auto& hole : holes) walks.push_back(flat(hole));
+  double low = rows_, high = 0;
+  for (const Vector2d& point : walks.front()) {
+    low = std::min(low, point.y());
+    high = std::max(high, point.y());
+  }
   std::vector<double> crossings;
-  for (int row = 0; row < rows_; ++row) {
+  const int first_row = static_cast<int>(std::max(0.0, std::floor(low))), end_row = std::min<int>(rows_, high + 1);
+  for (int row = first_row; row < end_row; ++row) {
     crossings.clear();
     for (const auto& walk : walks) addCrossings(walk, row + 0.5, crossings);
     std::sort(crossings.begin(), crossings.end());

@@ -15,7 +15,7 @@ using PlanArea = std::vector<PlanPoint>;           ///< counter-clockwise; the l
 /// A landmark seen from above.
 struct PlanShape {
   std::vector<PlanLine> lines;  ///< lines, and of upright surfaces the line they stand on
-  std::vector<PlanArea> areas;  ///< of all other surfaces
+  std::vector<PlanArea> areas;  ///< of all other surfaces, without their holes
   std::vector<PlanPoint> points;
 };
 

@@ -36,6 +36,7 @@ void keepFinitePoints(map::LandmarkShape& shape) {
 
 void keepFinite(map::LandmarkShape& shape) {
   keep(shape.surfaces, isSurface);
+  keep(shape.holes, isSurface);
   keep(shape.lines, [](const auto& line) { return line.first.allFinite() && line.second.allFinite(); });
   keepFinitePoints(shape);
   if (shape.normal && !(shape.normal->norm() > 0.5 && shape.normal->allFinite())) shape.normal.reset();
@@ -73,9 +74,19 @@ std::string sensorsText(const std::map<std::string, std::size_t>& seen_by) {
   return text;
 }
 
+std::vector<geometry::Polygon3> withHoles(const geometry::Polygon3& surface, const map::LandmarkShape& shape) {
+  std::vector<geometry::Polygon3> walks{surface};
+  for (const auto& hole : shape.holes) {
+    const Eigen::Vector3d middle = (hole.vertices[0] + hole.vertices[1]) / 2;  // a corner may lie on the outline
+    if (geometry::contains(surface, middle)) walks.push_back(hole);
+  }
+  return walks;
+}
+
 double areaOf(const map::LandmarkShape& shape) {
   double sum = 0;
   for (const auto& surface : shape.surfaces) sum += geometry::area(surface);
+  for (const auto& hole : shape.holes) sum -= geometry::area(hole);
   return sum;
 }
 

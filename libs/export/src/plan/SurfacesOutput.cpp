@@ -23,7 +23,12 @@ surfaces::Surface surfaceOf(const ShapedLandmark& shaped, int id) {
   surface.name = toString(shaped.landmark->id);
   surface.is = surfaces::surfaceClassNamed(shape.label).value_or(surfaces::SurfaceClass::surface);
   surface.plane = planeOf(shape.surfaces.front(), shape);
-  for (const auto& polygon : shape.surfaces) surface.parts.push_back({polygon.vertices, {}});
+  for (const auto& polygon : shape.surfaces) {
+    const auto walks = withHoles(polygon, shape);
+    surfaces::FlatPart& part = surface.parts.emplace_back();
+    part.outline = walks.front().vertices;
+    for (std::size_t i = 1; i < walks.size(); ++i) part.holes.push_back(walks[i].vertices);
+  }
   return surface;
 }
 

@@ -39,11 +39,13 @@ void addDashed(CSetOfTriangles& strokes, const Eigen::Vector3d& from, const Eige
 CSetOfTriangles::Ptr landmarkStrokes(const ShapedLandmark& landmark) {
   auto strokes = CSetOfTriangles::Create();
   const auto add = landmark.moved ? addDashed : obs::addStroke;
-  for (const auto& surface : landmark.shape.surfaces) {
-    const auto& vertices = surface.vertices;
+  const auto addWalk = [&](const geometry::Polygon3& walk) {
+    const auto& vertices = walk.vertices;
     for (std::size_t i = 0, j = vertices.size() - 1; i < vertices.size(); j = i++)
       add(*strokes, vertices[j], vertices[i], kOutlineStroke);
-  }
+  };
+  for (const auto& surface : landmark.shape.surfaces) addWalk(surface);
+  for (const auto& hole : landmark.shape.holes) addWalk(hole);
   for (const auto& [from, to] : landmark.shape.lines) add(*strokes, from, to, kLineStroke);
   // Where it was, one place after the other.
   if (!landmark.shape.point_stamps.empty()) {
@@ -83,7 +85,7 @@ CSetOfObjects::Ptr objectOf(const ShapedLandmark& landmark, bool with_name) {
   if (!landmark.moved) {
     const std::uint8_t alpha = coversThePlan(shape.label) || landmark.isFaint() ? kFaint : kTranslucent;
     for (const auto& surface : shape.surfaces)
-      obs::addFilled(*object, planeOf(surface, shape), {surface}, inkOf(landmark, alpha));
+      obs::addFilled(*object, planeOf(surface, shape), withHoles(surface, shape), inkOf(landmark, alpha));
     if (!landmark.isFaint()) addNormal(*object, landmark);
   }
   if (const auto strokes = landmarkStrokes(landmark); strokes->getTrianglesCount() > 0) object->insert(strokes);
@@ -134,7 +136,7 @@ std::vector<mrpt::opengl::TTriangle> landmarkTriangles(const std::vector<ShapedL
         all.back().setColor(inkOf(landmark));
       }
     };
-    for (const auto& surface : shape.surfaces) take(*obs::filled(planeOf(surface, shape), {surface}));
+    for (const auto& surface : shape.surfaces) take(*obs::filled(planeOf(surface, shape), withHoles(surface, shape)));
     CSetOfTriangles more;
     for (const auto& [from, to] : shape.lines) obs::addStroke(more, from, to, kLineStroke);
     for (const auto& point : shape.points) addOctahedron(more, point);

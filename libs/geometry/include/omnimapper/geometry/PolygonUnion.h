@@ -5,15 +5,23 @@
 
 namespace omnimapper::geometry {
 
-/// Outlines of what polygons of the plane cover together [m], each counter-clockwise; holes are closed. The polygons
-/// may be concave and go either way; one that crosses itself counts as all it goes around; one without area, or with a
-/// corner that is not finite or farther than 1000 km from the origin, as nothing. Corners of theirs that are not needed
-/// to within 5 mm are left out first (keptOfLoop()); then they are rounded to 1 um. Throws Error(internal) if Clipper
-/// fails.
-std::vector<std::vector<Eigen::Vector2d>> unionOf(const std::vector<std::vector<Eigen::Vector2d>>& polygons);
+/// Areas of the plane [m]: outlines counter-clockwise, and holes in them, clockwise. Each hole lies in one outline; an
+/// outline may lie in a hole.
+struct Areas2 {
+  std::vector<std::vector<Eigen::Vector2d>> outlines, holes;
+};
 
-/// How much of a polygon lies outside all of `outlines`, which unionOf() gave [m^2].
-double areaOutside(const std::vector<Eigen::Vector2d>& polygon,
-                   const std::vector<std::vector<Eigen::Vector2d>>& outlines);
+/// A polygon with holes in it, all in any sense of rotation [m].
+struct HoledPolygon2 {
+  std::vector<Eigen::Vector2d> outline;
+  std::vector<std::vector<Eigen::Vector2d>> holes;
+};
+
+/// What polygons of the plane cover together: a hole of one is none where another covers it. They may be concave; one
+/// that crosses itself counts as all it goes around; one without area, or with a corner that is not finite or farther
+/// than 1000 km from the origin, as nothing. Corners of theirs that are not needed to within 5 mm are left out first
+/// (keptOfLoop()); then they are rounded to 1 um. Outlines and holes smaller than `least` [m^2] are left out, of the
+/// outlines all but the largest. Throws Error(internal) if Clipper fails.
+Areas2 unionOf(const std::vector<HoledPolygon2>& polygons, double least = 0);
 
 }  // namespace omnimapper::geometry
