@@ -66,6 +66,11 @@ Sensor::Sensor(const SensorOptions& options, const SensorContext& context)
   refuseBadLabel(options.label, context.place());
 }
 
+bool isSeenWell(double range, double cosine) {
+  constexpr double kFarthest = 4, kLeastCosine = 0.25882;  // [m], 75 deg
+  return range <= kFarthest && cosine >= kLeastCosine;
+}
+
 bool isPlainFileName(const std::string& name) {
   const auto is_bad = [](unsigned char c) { return c == '/' || c < 0x20 || c == 0x7f; };
   return !name.empty() && name.front() != '.' && std::none_of(name.begin(), name.end(), is_bad);

@@ -20,6 +20,7 @@
 #include "FolderReadme.h"
 #include "LogWriter.h"
 #include "Pictures.h"
+#include "SurfaceTruth.h"
 #include "TruthFolder.h"
 #include "WorldTruth.h"
 
@@ -136,7 +137,7 @@ void removeImages(const std::string& folder, const std::vector<std::string>& ste
 }
 
 void writeLog(const Simulation& simulation, const SimulationRequest& request, const std::string& folder,
-              base::Progress& progress, const std::function<bool()>& stop, TruthFolder& truth,
+              base::Progress& progress, const std::function<bool()>& stop, TruthFolder& truth, SurfaceTruth& surfaces,
               std::set<base::Stamp>& stamps, SimulationResult& result) {
   const auto arrivals = arrivalsOf(simulation, result.sensors);
   const std::string images = folder + "/" + request.name + "_Images";
@@ -172,6 +173,7 @@ void writeLog(const Simulation& simulation, const SimulationRequest& request, co
           ++count.measured;
           log->add(measurement.observation);
           truth.add(sensor, arrival.k, measurement);
+          surfaces.add(measurement.seen, sensor.timeOf(arrival.k));
           stamps.insert(measurement.observation->timestamp);
           progress.report(arrival.time / simulation.duration(), "simulating " + request.name);
         }
@@ -211,10 +213,12 @@ SimulationResult simulateInto(const std::string& folder, const Simulation& simul
   result.warnings = simulation.warnings();
   TruthFolder truth(folder);
   std::set<base::Stamp> stamps;
-  writeLog(simulation, request, folder, progress, stop, truth, stamps, result);
+  SurfaceTruth surfaces(simulation.world());
+  writeLog(simulation, request, folder, progress, stop, truth, surfaces, stamps, result);
   truth.close();
   result.way = wayOf(simulation.mapFromBase(), result.duration);
-  result.files = {request.name + ".rawlog", "truth.tum", "landmarks.json", "plan.svg", request.name + ".ini"};
+  result.files = {request.name + ".rawlog", "truth.tum", "landmarks.json", "surfaces.json", "world.ply", "plan.svg",
+                  request.name + ".ini"};
   if (simulation.options().images == SimulationOptions::Images::external)
     result.files.push_back(request.name + "_Images/");
   for (const auto& file : truth.files()) result.files.push_back(file);
@@ -222,6 +226,8 @@ SimulationResult simulateInto(const std::string& folder, const Simulation& simul
   result.files.push_back("README.md");
   writeText(folder + "/truth.tum", trajectoryOf(simulation, stamps));
   writeText(folder + "/landmarks.json", landmarksJson(simulation));
+  writeText(folder + "/surfaces.json", surfaces::toJson(surfaces.surfaces(request.name)));
+  base::writeFile(folder + "/world.ply", [&](std::ostream& out) { writeMesh(out, simulation.world()); });
   PlanDrawingOptions plan;
   for (double time = 0; time < result.duration; time += kPlanStep)
     plan.path.push_back(simulation.mapFromBase().at(time)->translation.head<2>());

@@ -45,6 +45,41 @@ std::string toString(SurfaceKind kind) {
   return "";
 }
 
+surfaces::SurfaceClass usualClass(SurfaceKind kind) {
+  using Class = surfaces::SurfaceClass;
+  switch (kind) {
+    case SurfaceKind::floor:
+    case SurfaceKind::road:
+    case SurfaceKind::kerb:
+      return Class::floor;
+    case SurfaceKind::ceiling:
+      return Class::ceiling;
+    case SurfaceKind::wall:
+      return Class::wall;
+    case SurfaceKind::door:
+      return Class::door;
+    case SurfaceKind::window:
+      return Class::window;
+    case SurfaceKind::table:
+      return Class::table;
+    case SurfaceKind::counter:
+      return Class::counter;
+    case SurfaceKind::shelf:
+      return Class::shelf;
+    case SurfaceKind::chair:
+      return Class::seat;
+    case SurfaceKind::sign:
+    case SurfaceKind::poster:
+    case SurfaceKind::marker:
+      return Class::poster;
+    case SurfaceKind::object:
+    case SurfaceKind::person:
+    case SurfaceKind::clutter:
+      break;
+  }
+  return Class::object;
+}
+
 std::vector<SurfaceRef> numberSurfaces(const World& world) {
   std::vector<SurfaceRef> refs;
   for (std::size_t body = 0; body < world.bodies.size(); ++body) {

@@ -148,7 +148,7 @@ Measurement Laser2d::measure(int k) const {
   }
   nlohmann::ordered_json truth = truthOf(all);
   if (options_.truth_ranges) truth["ranges"] = truth_ranges;
-  return {scan, truth.dump(), {}};
+  return {scan, truth.dump(), {}, seenPoints(all)};
 }
 
 SensorClass laser2dClass() {

@@ -78,7 +78,7 @@ Measurement Laser3d::measure(int k) const {
   cloud->sensorPose = geometry::toMrpt(baseFromSensor());
   cloud->pointcloud = points;
   nlohmann::ordered_json truth = truthOf(kept);
-  return {cloud, truth.dump(), {}};
+  return {cloud, truth.dump(), {}, seenPoints(kept)};
 }
 
 }  // namespace omnimapper::sim

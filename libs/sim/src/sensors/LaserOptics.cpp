@@ -53,6 +53,7 @@ struct LaserOptics::Return {
   double range = std::numeric_limits<double>::infinity();
   int surface = -1;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double cosine = 0;     // of incidence
   double reflected = 0;  // infrared times cosine times what panes let through
   bool is_mirrored = false;
   double power() const { return surface < 0 ? 0 : reflected / std::max(0.01, range * range); }
@@ -65,6 +66,16 @@ struct LaserOptics::Return {
 struct LaserOptics::Fate {
   std::array<double, kMostPanes> at_pane;
 };
+
+std::vector<SeenPoint> seenPoints(const std::vector<Echo>& echoes) {
+  std::vector<SeenPoint> points;
+  for (const Echo& echo : echoes) {
+    const bool is_plain = echo.is_valid && echo.surface >= 0 && !echo.is_mixed && !echo.is_mirrored;
+    if (is_plain && isSeenWell(echo.true_range, echo.cosine))
+      points.push_back({echo.surface, echo.in_map.cast<float>()});
+  }
+  return points;
+}
 
 LaserOptics::LaserOptics(const LaserOpticsOptions& options, const Scenes& scenes, int scouts)
     : options_(options), scenes_(scenes), scouts_(options.divergence > 0 ? scouts : 1) {}
@@ -95,6 +106,7 @@ std::vector<LaserOptics::Return> LaserOptics::cast(const Scene& scene, const std
         returns[i].range = before[i] + hits[j].range;
         returns[i].surface = hits[j].surface;
         returns[i].normal = hits[j].normal_in_map;
+        returns[i].cosine = cosine;
         returns[i].reflected = infrared * cosine * let_through[i];
       };
       const auto goOn = [&](const Ray& ray_behind) {
@@ -183,6 +195,7 @@ Echo LaserOptics::combine(const std::vector<Return>& returns, Random& random) co
   echo.surface = strongest->first.surface;
   echo.range = echo.true_range = strongest->range;
   echo.reflected = strongest->first.reflected;
+  echo.cosine = strongest->first.cosine;
   echo.is_mirrored = strongest->first.is_mirrored;
   if (parts.size() == 1 || die >= options_.mixing) return noisy(echo, strongest->power, random);
   double sum = 0, weight = 0;
@@ -239,6 +252,7 @@ std::vector<Echo> LaserOptics::measure(const Scene& scene, const std::vector<Bea
     if (static_cast<int>(returns[i].size()) > scouts_ && scouts_ > 1)
       returns[i].erase(returns[i].begin() + 1, returns[i].begin() + scouts_);
     echoes.push_back(combine(returns[i], randoms[i]));
+    echoes.back().in_map = beams[i].origin_in_map + echoes.back().true_range * beams[i].direction_in_map;
   }
   return echoes;
 }

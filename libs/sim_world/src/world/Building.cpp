@@ -70,7 +70,13 @@ Body makeBody(const RoomPlan& plan, const Room& room, int number, std::vector<Wa
   const bool is_road = room.is_outdoors && room.kind == "road";
   builder.layout(floor_material.layout)
       .addPlane("floor", is_road ? SurfaceKind::road : SurfaceKind::floor, floor_material.material, floor);
-  if (room.is_outdoors) return builder.build();
+  const auto built = [&] {
+    constexpr double kRamp = 0.035;  // [m/m]
+    Body body = builder.build();
+    if (room.slope.norm() > kRamp) body.surfaces.front().is = surfaces::SurfaceClass::ramp;
+    return body;
+  };
+  if (room.is_outdoors) return built();
   const NamedMaterial ceiling_material = materialNamed(plan.ceiling), wall_material = materialNamed(plan.wall);
   builder.layout(ceiling_material.layout).addPlane("ceiling", SurfaceKind::ceiling, ceiling_material.material, ceiling);
   builder.layout(wall_material.layout);
@@ -89,7 +95,7 @@ Body makeBody(const RoomPlan& plan, const Room& room, int number, std::vector<Wa
     }
     builder.addPlane(part, SurfaceKind::wall, wall_material.material, outline, holes);
   }
-  return builder.build();
+  return built();
 }
 
 void cutHole(const WorldPlan& plan, const FittedOpening& opening, double low_u, double high_u, WallFace& wall) {

@@ -110,15 +110,16 @@ void house(Piece& p) {
 
 const std::vector<FurnitureShape>& outdoorShapes() {
   using Kind = SurfaceKind;
+  using Class = surfaces::SurfaceClass;
   static const std::vector<FurnitureShape> shapes{
-      {"kerb", 4.0, 0.15, 0.12, 0, Kind::kerb, "kerb_stone", kerb, true},
-      {"sidewalk", 4.0, 2.0, 0.12, 0, Kind::floor, "pavement", sidewalk, true},
-      {"car", 4.3, 1.75, 1.45, 0, Kind::clutter, "car_silver", car, true},
+      {"kerb", 4.0, 0.15, 0.12, 0, Kind::kerb, "kerb_stone", kerb, Class::floor, Class::floor, true},
+      {"sidewalk", 4.0, 2.0, 0.12, 0, Kind::floor, "pavement", sidewalk, Class::floor, Class::floor, true},
+      {"car", 4.3, 1.75, 1.45, 0, Kind::clutter, "car_silver", car, Class::object, Class::object, true},
       {"tree", 2.4, 2.4, 4.5, 0, Kind::clutter, "plant", tree},
       {"lamp_post", 0.2, 0.2, 5.0, 0, Kind::clutter, "black_metal", lampPost},
       {"bollard", 0.2, 0.2, 0.9, 0, Kind::clutter, "steel", bollard},
       {"hedge", 4.0, 0.6, 1.1, 0, Kind::clutter, "plant", hedge},
-      {"house", 9.0, 3.0, 6.2, 0, Kind::wall, "plaster", house},
+      {"house", 9.0, 3.0, 6.2, 0, Kind::wall, "plaster", house, Class::wall, Class::wall},
   };
   return shapes;
 }

@@ -77,7 +77,13 @@ Body makeFurniture(const FurniturePlan& plan, const FurnitureShape& shape, const
   MeshBuilder builder(plan.name, track);
   FurniturePiece piece(builder, plan, shape, random);
   shape.build(piece);
-  return builder.build();
+  Body body = builder.build();
+  for (Surface& surface : body.surfaces) {
+    const bool is_top = surface.face && surface.face->plane_in_body.normal.z() > 1 - 1e-9;
+    surface.is = is_top ? shape.top : shape.sides;
+    if (surface.name.find("/books_") != std::string::npos) surface.is = surfaces::SurfaceClass::object;
+  }
+  return body;
 }
 
 }  // namespace omnimapper::sim

@@ -74,7 +74,7 @@ MeshBuilder& MeshBuilder::layout(const TextureLayout& layout) {
 }
 
 int MeshBuilder::addSurface(const std::string& part, SurfaceKind kind, const Material& material) {
-  body_.surfaces.push_back({part.empty() ? body_.name : body_.name + "/" + part, kind, material, {}});
+  body_.surfaces.push_back({part.empty() ? body_.name : body_.name + "/" + part, kind, material, {}, usualClass(kind)});
   return surfaceCount() - 1;
 }
 

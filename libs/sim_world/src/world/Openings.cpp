@@ -117,7 +117,30 @@ Body makeFrame(const FittedOpening& opening, const WallFace& wall) {
                      {at(left, far / 2, low_left), at(right, far / 2, low_right), at(right, far / 2, high),
                       at(left, far / 2, high)});
   }
-  return builder.build();
+  Body body = builder.build();
+  if (!is_window) body.surfaces[frame].is = surfaces::SurfaceClass::door_frame;
+  return body;
+}
+
+// As people go or look through it.
+surfaces::Opening openingOf(const FittedOpening& fitted, const WallFace& wall) {
+  const OpeningPlan& plan = *fitted.plan;
+  surfaces::Opening opening;
+  opening.name = plan.name;
+  opening.kind = plan.kind == OpeningPlan::Kind::door      ? surfaces::Opening::Kind::door
+                 : plan.kind == OpeningPlan::Kind::passage ? surfaces::Opening::Kind::passage
+                                                           : surfaces::Opening::Kind::window;
+  opening.rooms = {plan.rooms[0], plan.rooms[1]};
+  const double low_left = plan.sill > 0 ? fitted.low_z : wall.floorAt(fitted.low_u),
+               low_right = plan.sill > 0 ? fitted.low_z : wall.floorAt(fitted.high_u);
+  opening.rectangle = {wall.at(fitted.low_u, low_left), wall.at(fitted.high_u, low_right),
+                       wall.at(fitted.high_u, fitted.high_z), wall.at(fitted.low_u, fitted.high_z)};
+  if (plan.kind != OpeningPlan::Kind::door || plan.leaf == OpeningPlan::Leaf::none) return opening;
+  const bool is_closed = plan.leaf == OpeningPlan::Leaf::closed;
+  opening.leaf = is_closed ? surfaces::Opening::Leaf::closed : surfaces::Opening::Leaf::open;
+  opening.leaf_angle = is_closed ? 0 : plan.leaf_angle;
+  opening.leaf_body = plan.name + "_leaf";
+  return opening;
 }
 
 // A leaf turns about an edge of the opening on the side of the first room. Its frame: origin at the hinge on the floor,
@@ -182,6 +205,7 @@ FittedOpening fitOpening(const WorldPlan& plan, const OpeningPlan& opening, cons
 void addOpening(const FittedOpening& opening, const std::vector<WallFace>& walls, Building& building) {
   const OpeningPlan& plan = *opening.plan;
   const WallFace& wall = walls[opening.wall];
+  building.openings.push_back(openingOf(opening, wall));
   if (opening.depth > 0) building.bodies.push_back(makeFrame(opening, wall));
   const bool has_leaf = plan.kind == OpeningPlan::Kind::door && plan.leaf != OpeningPlan::Leaf::none;
   const bool is_closed = has_leaf && plan.leaf == OpeningPlan::Leaf::closed;

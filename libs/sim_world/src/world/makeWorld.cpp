@@ -52,6 +52,7 @@ class WorldMaker {
     world_.seed = plan_.seed;
     world_.wear = plan_.wear;
     world_.rooms = building_.rooms;
+    world_.openings = building_.openings;
     world_.bodies = building_.bodies;
     world_.obstacles = building_.obstacles;
     for (std::size_t i = 0; i < plan_.furniture.size(); ++i) add(plan_.furniture[i], i);

@@ -33,13 +33,18 @@ struct Beam {
 /// What comes back of a beam.
 struct Echo {
   bool is_valid = false;
-  double range = 0;          ///< as measured [m], if valid
-  int surface = -1;          ///< that sent it back, the stronger one if two did; -1: none
-  double true_range = 0;     ///< to that surface along the beam's middle, or mean of its part of the beam [m]; 0: none
+  double range = 0;       ///< as measured [m], if valid
+  int surface = -1;       ///< that sent it back, the stronger one if two did; -1: none
+  double true_range = 0;  ///< to that surface along the beam's middle, or mean of its part of the beam [m]; 0: none
+  double cosine = 0;      ///< of incidence
+  Eigen::Vector3d in_map = Eigen::Vector3d::Zero();  ///< at true_range on the beam's middle [m]
   double reflected = 0;      ///< part of the light scattered back by it, times the cosine of incidence
   bool is_mixed = false;     ///< of two surfaces
   bool is_mirrored = false;  ///< by a pane, seen at a grazing angle
 };
+
+/// Of those that show a surface well.
+std::vector<SeenPoint> seenPoints(const std::vector<Echo>& echoes);
 
 /// Casts beams as a real laser's. Panes are passed, seen (near face-on) or mirror (grazing, by Fresnel's law).
 /// At `scout` rays for each beam edges are looked for: 1 its middle, 3 its sides too; where a beam or its neighbour

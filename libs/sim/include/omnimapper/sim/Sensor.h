@@ -49,11 +49,21 @@ struct TruthFile {
   std::string bytes;
 };
 
+/// A point of a surface that a beam or a pixel measured from near and not too slanted.
+struct SeenPoint {
+  int surface = 0;         ///< number as numberSurfaces() counts
+  Eigen::Vector3f in_map;  ///< [m] without noise
+};
+
+/// Whether a measurement so far away [m], at that cosine of incidence, counts as seen: from within 4 m, under 75 deg.
+bool isSeenWell(double range, double cosine);
+
 /// One measurement and what was true.
 struct Measurement {
   mrpt::obs::CObservation::Ptr observation;
   std::string truth;  ///< one JSON object on one line, for truth/<label>.jsonl; empty: nothing to tell
   std::vector<TruthFile> truth_files;
+  std::vector<SeenPoint> seen = {};
 };
 
 /// Without '/', a leading '.' and control characters.

@@ -3,6 +3,7 @@
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/sim_world/Texture.h>
 #include <omnimapper/sim_world/Track.h>
+#include <omnimapper/surfaces/SurfaceClass.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -44,6 +45,9 @@ enum class SurfaceKind {
 };
 std::string toString(SurfaceKind kind);
 
+/// The class of most surfaces of that kind.
+surfaces::SurfaceClass usualClass(SurfaceKind kind);
+
 /// A face of a planar surface as the truth tells it, in the frame of the body: holes are outlines inside.
 struct PlanarFace {
   geometry::Plane3 plane_in_body;
@@ -57,6 +61,8 @@ struct Surface {
   SurfaceKind kind = SurfaceKind::clutter;
   Material material;
   std::optional<PlanarFace> face;  ///< none: it is not flat
+  /// What a person would call it; of a furniture's kind the sides may be of another class than the top.
+  surfaces::SurfaceClass is = surfaces::SurfaceClass::surface;
 };
 
 struct Triangle {

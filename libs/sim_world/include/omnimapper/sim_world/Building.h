@@ -14,7 +14,8 @@ namespace omnimapper::sim {
 struct Building {
   std::vector<Room> rooms;
   std::vector<WallFace> walls;
-  std::vector<Body> bodies;          ///< of each room, then of each opening and its leaf
+  std::vector<Body> bodies;  ///< of each room, then of each opening and its leaf
+  std::vector<surfaces::Opening> openings;
   std::vector<Ring> obstacles;       ///< solid of the walls and leaves, on the floor
   std::vector<Footprint> furniture;  ///< leaves of doors, for who looks for free floor
   std::vector<Ring> doorways;        ///< floor before and behind each opening that people walk through

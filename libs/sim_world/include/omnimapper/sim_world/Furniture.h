@@ -20,6 +20,8 @@ struct FurnitureShape {
   SurfaceKind kind;
   const char* material;
   void (*build)(FurniturePiece& piece);
+  /// What people call its tops (boards, seats), and what all of its other sides.
+  surfaces::SurfaceClass top = surfaces::SurfaceClass::object, sides = surfaces::SurfaceClass::object;
   bool follows_slope = false;  ///< lies on a sloped floor as on a level one: kerbs; all else stands upright
 };
 const std::vector<FurnitureShape>& furnitureShapes();

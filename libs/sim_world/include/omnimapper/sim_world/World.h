@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/sim_world/Body.h>
+#include <omnimapper/surfaces/SurfaceSet.h>
 
 #include <cstdint>
 #include <string>
@@ -80,6 +81,7 @@ struct World {
   double wear = 0;
   std::vector<Body> bodies;
   std::vector<Room> rooms;
+  std::vector<surfaces::Opening> openings;
   std::vector<Sign> signs;
   std::vector<Marker> markers;
   std::vector<PointLandmark> point_landmarks;
