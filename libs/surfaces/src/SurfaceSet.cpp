@@ -70,6 +70,7 @@ Json toJson(const Surface& surface) {
   }
   json["parts"] = std::move(parts);
   if (surface.is_moved) json["moved"] = true;
+  if (surface.sightings > 0) json["sightings"] = surface.sightings;
   if (surface.is_candidate) json["candidate"] = true;
   if (surface.seen) json["seen"] = toJson(*surface.seen);
   return json;
@@ -140,6 +141,7 @@ Surface surfaceFrom(const Json& json) {
     for (const auto& hole : part.at("holes")) flat.holes.push_back(walkFrom(hole));
   }
   surface.is_moved = json.value("moved", false);
+  surface.sightings = json.value("sightings", 0);
   surface.is_candidate = json.value("candidate", false);
   if (json.contains("seen")) surface.seen = gridFrom(json.at("seen"));
   return surface;

@@ -22,6 +22,7 @@ surfaces::Surface surfaceOf(const ShapedLandmark& shaped, int id) {
   surface.id = id;
   surface.name = toString(shaped.landmark->id);
   surface.is = surfaces::surfaceClassNamed(shape.label).value_or(surfaces::SurfaceClass::surface);
+  surface.sightings = static_cast<int>(shaped.landmark->evidence);
   surface.plane = planeOf(shape.surfaces.front(), shape);
   for (const auto& polygon : shape.surfaces) {
     const auto walks = withHoles(polygon, shape);
