@@ -67,6 +67,10 @@ void Arrangement::raise() {
   doorways_ = building_.doorways;
 }
 
+bool Arrangement::has(const std::string& room) const {
+  return std::any_of(plan.rooms.begin(), plan.rooms.end(), [&](const RoomPlan& r) { return r.name == room; });
+}
+
 const Room& Arrangement::roomNamed(const std::string& name) const {
   return *std::find_if(building_.rooms.begin(), building_.rooms.end(), [&](const Room& r) { return r.name == name; });
 }

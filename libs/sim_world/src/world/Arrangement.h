@@ -33,6 +33,7 @@ class Arrangement {
   void window(const std::string& room, const Eigen::Vector2d& near, double width = 1.4);
   void raise();
   const Building& building() const { return building_; }
+  bool has(const std::string& room) const;
   const Room& roomNamed(const std::string& name) const;
 
   /// Puts a piece with its back to a wall, `clear` of floor before its front kept free. Returns its number in

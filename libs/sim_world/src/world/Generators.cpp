@@ -11,16 +11,25 @@ namespace {
 struct Generator {
   const char* name;
   void (*make)(Arrangement& place, const WorldOptions& options);
+  bool has_plan_seed = false;
 };
 constexpr Generator kGenerators[] = {{"none", [](Arrangement&, const WorldOptions&) {}},
-                                     {"home", makeHome},
-                                     {"office", makeOffice},
-                                     {"laboratory", makeLaboratory},
+                                     {"home", makeHome, true},
+                                     {"office", makeOffice, true},
+                                     {"laboratory", makeLaboratory, true},
                                      {"two_offices", makeTwoOffices},
                                      {"loop", makeLoop},
                                      {"corridor_loop", makeCorridorLoop},
                                      {"box", makeBox},
                                      {"road", makeRoad}};
+
+std::vector<std::string> variedNames() {
+  std::vector<std::string> names;
+  for (const Generator& generator : kGenerators) {
+    if (generator.has_plan_seed) names.emplace_back(generator.name);
+  }
+  return names;
+}
 
 }  // namespace
 
@@ -37,6 +46,11 @@ WorldPlan generate(const WorldOptions& options, const std::string& file_for_mess
   for (const Generator& generator : kGenerators) {
     if (options.generator != generator.name) continue;
     Arrangement place(options, file_for_messages);
+    if (options.plan_seed != 0 && !generator.has_plan_seed) {
+      refuse(place.plan, "world", "plan_seed",
+             std::to_string(options.plan_seed) + ": generator = " + options.generator +
+                 " has one plan only; leave plan_seed out or take one of " + base::option_text::format(variedNames()));
+    }
     generator.make(place, options);
     return std::move(place.plan);
   }

@@ -45,6 +45,9 @@ const OptionTable<WorldOptions>& WorldOptions::table() {
           .integer("seed", &WorldOptions::seed, Range::notNegative(), "Of everything that is drawn by chance.")
           .text("generator", &WorldOptions::generator,
                 "Makes a whole place: none, home, office, laboratory, two_offices, loop, corridor_loop, box or road.")
+          .integer("plan_seed", &WorldOptions::plan_seed, Range::notNegative(),
+                   "Of rooms, doors, windows and ceilings of a home, an office or a laboratory; 0: the fixed plan, the "
+                   "only one of other places.")
           .choice("clutter", &WorldOptions::clutter,
                   {{"low", ClutterLevel::low}, {"medium", ClutterLevel::medium}, {"high", ClutterLevel::high}},
                   "How much stands about in a generated place.")

@@ -1,3 +1,4 @@
+#include "PlanVariation.h"
 #include "generators.h"
 
 namespace omnimapper::sim {
@@ -44,6 +45,14 @@ void buildOpenings(Arrangement& place) {
   place.window("bedroom", {2.1, 9.8}, 1.6);
   place.window("bathroom", {5.4, 8.9}, 0.6);
   place.window("study", {9.4, 8.2}, 1.4);
+}
+
+void varyHome(Arrangement& place, int plan_seed) {
+  PlanVariation variation(place.plan, plan_seed);
+  variation.maybeLeaveOut("study", 0.4);
+  variation.maybeReverseRow({"living_room", "kitchen"}, 4.7);
+  variation.maybeReverseRow({"bedroom", "bathroom", "study"}, 4.7);
+  variation.redraw();
 }
 
 void furnishLivingRoom(Arrangement& place) {
@@ -96,10 +105,13 @@ void furnishBedroom(Arrangement& place) {
   place.alongWall(room, "chair", Along::corner, 0.2);
 }
 
-void furnishTheRest(Arrangement& place) {
+void furnishBathroom(Arrangement& place) {
   place.alongWall("bathroom", "bathtub", Along::corner, 0.5);
   place.alongWall("bathroom", "toilet", Along::anywhere, 0.5);
   place.alongWall("bathroom", "washbasin", Along::anywhere, 0.5);
+}
+
+void furnishStudy(Arrangement& place) {
   FurniturePlan size;
   size.length = 1.5;
   size.width = 0.7;
@@ -112,6 +124,9 @@ void furnishTheRest(Arrangement& place) {
     place.objectsOn(*shelf, "board_4", 2, {"box", "ball", "cup"});
   }
   place.alongWall("study", "bookcase", Along::corner);
+}
+
+void furnishHallway(Arrangement& place) {
   FurniturePlan narrow;
   narrow.length = 1.0;
   narrow.width = 0.3;
@@ -121,16 +136,23 @@ void furnishTheRest(Arrangement& place) {
 
 }  // namespace
 
-void makeHome(Arrangement& place, const WorldOptions&) {
+void makeHome(Arrangement& place, const WorldOptions& options) {
   buildRooms(place);
   buildOpenings(place);
+  if (options.plan_seed > 0) varyHome(place, options.plan_seed);
   place.raise();
   furnishLivingRoom(place);
   furnishKitchen(place);
   furnishBedroom(place);
-  furnishTheRest(place);
-  for (const char* room : {"living_room", "kitchen", "hallway", "bedroom", "study"}) place.scatter(room, 0.1);
-  for (const char* room : {"living_room", "hallway", "bedroom", "study"}) place.postersIn(room, 2);
+  furnishBathroom(place);
+  if (place.has("study")) furnishStudy(place);
+  furnishHallway(place);
+  for (const char* room : {"living_room", "kitchen", "hallway", "bedroom", "study"}) {
+    if (place.has(room)) place.scatter(room, 0.1);
+  }
+  for (const char* room : {"living_room", "hallway", "bedroom", "study"}) {
+    if (place.has(room)) place.postersIn(room, 2);
+  }
   place.carryObjects(0.4);
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "PlanVariation.h"
 #include "generators.h"
 
 namespace omnimapper::sim {
@@ -37,48 +38,62 @@ void buildPassages(Arrangement& place, const PassageRow (&rows)[count]) {
     place.opening(Kind::passage, row.first, row.second, {row.x, row.y}).width = row.width;
 }
 
-// Places of work in two rows back to back, with low walls around each.
+// Low walls on two sides of a place of work, and a desk.
+void furnishCubicle(Arrangement& place, const Vector2d& middle, double size, bool faces_up) {
+  const double out = faces_up ? 1 : -1, yaw = faces_up ? M_PI : 0;
+  FurniturePlan wall;
+  wall.shape = "partition";
+  wall.x = middle.x();
+  wall.y = middle.y() - out * (size / 2 - 0.04);
+  wall.length = size - 0.1;
+  wall.yaw = yaw;
+  place.place(wall);
+  wall.x = middle.x() - size / 2;
+  wall.y = middle.y();
+  wall.length = size - 0.25;
+  wall.yaw = M_PI / 2;
+  place.place(wall);
+  FurniturePlan desk;
+  desk.shape = "desk";
+  desk.length = 1.8;
+  desk.x = middle.x() + 0.05;
+  desk.y = middle.y() - out * (size / 2 - 0.08 - 0.42);
+  desk.yaw = yaw;
+  const auto number = place.place(desk);
+  if (!number) return;
+  place.beside(*number, "office_chair", {-0.2, -0.6}, M_PI + place.random.uniform(-0.6, 0.6));
+  place.objectsOn(*number, "top", 3, {"laptop", "cup", "book", "lamp", "can"});
+}
+
+// Places of work in pairs of rows back to back, as many as the room holds with an aisle between pairs, one in the
+// middle of the rows and a way of 1 m along the walls.
 void furnishCubicles(Arrangement& place) {
-  constexpr double kCell = 2.6;
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) {
-      const bool faces_up = row % 2 == 1;
-      const Vector2d middle(4.6 + column * kCell + (column >= 2 ? 1.8 : 0), 4.5 + (row / 2) * 7.0 + (row % 2) * kCell);
-      const double out = faces_up ? 1 : -1, yaw = faces_up ? M_PI : 0;
-      FurniturePlan wall;
-      wall.shape = "partition";
-      wall.x = middle.x();
-      wall.y = middle.y() - out * (kCell / 2 - 0.04);
-      wall.length = kCell - 0.1;
-      wall.yaw = yaw;
-      place.place(wall);
-      wall.x = middle.x() - kCell / 2;
-      wall.y = middle.y();
-      wall.length = kCell - 0.25;
-      wall.yaw = M_PI / 2;
-      place.place(wall);
-      FurniturePlan desk;
-      desk.shape = "desk";
-      desk.length = 1.8;
-      desk.x = middle.x() + 0.05;
-      desk.y = middle.y() - out * (kCell / 2 - 0.08 - 0.42);
-      desk.yaw = yaw;
-      const auto number = place.place(desk);
-      if (!number) continue;
-      place.beside(*number, "office_chair", {-0.2, -0.6}, M_PI + place.random.uniform(-0.6, 0.6));
-      place.objectsOn(*number, "top", 3, {"laptop", "cup", "book", "lamp", "can"});
+  constexpr double kCell = 2.6, kAisle = 1.8, kPairs = 7.0, kAtWall = 1.05;
+  const Bounds bounds = boundsOf(place.roomNamed("cubicles").outline);
+  const Vector2d size = bounds.high - bounds.low, centre = (bounds.low + bounds.high) / 2;
+  const int columns = static_cast<int>((size.x() - 2 * kAtWall - kAisle) / kCell);
+  const int pairs = static_cast<int>((size.y() - 2 * kAtWall + kPairs - 2 * kCell) / kPairs);
+  const Vector2d first = centre - Vector2d(4.9 + kCell * (columns - 4) / 2, 5.5 + kPairs * (pairs - 2) / 2);
+  for (int column = 0; column < columns; ++column) {
+    for (int row = 0; row < 2 * pairs; ++row) {
+      const Vector2d middle(first.x() + column * kCell + (column >= columns / 2 ? kAisle : 0),
+                            first.y() + (row / 2) * kPairs + (row % 2) * kCell);
+      furnishCubicle(place, middle, kCell, row % 2 == 1);
     }
   }
 }
 
 void furnishAtrium(Arrangement& place) {
+  const Room& atrium = place.roomNamed("atrium");
+  const Bounds bounds = boundsOf(atrium.outline);
+  const Vector2d centre = (bounds.low + bounds.high) / 2;
   FurniturePlan pillar;
-  pillar.height = 6;
+  pillar.height = atrium.height;
   pillar.shape = "pillar";
-  for (const double x : {23.0, 30.0}) {
-    for (const double y : {6.0, 14.0}) {
-      pillar.x = x;
-      pillar.y = y;
+  for (const double x : {-3.5, 3.5}) {
+    for (const double y : {-4.0, 4.0}) {
+      pillar.x = centre.x() + x;
+      pillar.y = centre.y() + y;
       place.place(pillar);
     }
   }
@@ -90,14 +105,12 @@ void furnishAtrium(Arrangement& place) {
   FurniturePlan pane;
   pane.shape = "glass_pane";
   pane.length = 2.4;
-  pane.x = 26.5;
-  pane.y = 10;
+  pane.x = centre.x();
+  pane.y = centre.y();
   place.place(pane);
 }
 
-}  // namespace
-
-void makeOffice(Arrangement& place, const WorldOptions&) {
+void buildOffice(Arrangement& place) {
   static const RoomRow rooms[] = {
       {"west_hall", "corridor", "", 0, 0, 2, 20, 2.7, "paint_white", "carpet_grey"},
       {"north_hall", "corridor", "", 2, 18, 34, 20, 2.7, "paint_white", "carpet_grey"},
@@ -142,24 +155,60 @@ void makeOffice(Arrangement& place, const WorldOptions&) {
     door.leaf = OpeningPlan::Leaf::closed;
     door.name = "door_" + std::to_string(++number);
   }
-  place.raise();
-  addSigns(place);
-  furnishCubicles(place);
-  furnishAtrium(place);
-  for (const char* office : {"office_118", "office_120", "office_124"}) furnishOffice(place, office, 2);
-  furnishKitchenette(place, "kitchen");
+}
+
+void furnishMeetingRoom(Arrangement& place) {
   FurniturePlan size;
   size.length = 2.8;
   size.width = 1.2;
   if (const auto table = place.inMiddle("meeting_room", "table", size)) place.chairsAround(*table, "office_chair", 8);
+}
+
+// With or without the atrium and the second loop around it, a southern wing of two offices, and single rooms.
+void varyOffice(Arrangement& place, int plan_seed) {
+  PlanVariation variation(place.plan, plan_seed);
+  if (variation.chance(0.5)) {
+    static const RoomRow wing[] = {
+        {"office_133", "office", "133", 19.5, -5.62, 23.9, -0.12, 2.7, "paint_white", "carpet_grey"},
+        {"office_135", "office", "135", 24.02, -5.62, 28.4, -0.12, 2.7, "paint_white", "carpet_grey"},
+    };
+    buildRooms(place, wing);
+    for (const RoomRow& row : wing) {
+      place.opening(Kind::door, row.name, "south_hall", {(row.low_x + row.high_x) / 2, -0.06});
+      place.window(row.name, {(row.low_x + row.high_x) / 2, -5.62}, 2.0);
+    }
+  }
+  if (variation.chance(0.35)) variation.cutOffBeyond(19);
+  for (const char* room : {"office_118", "office_120", "office_124", "kitchen", "meeting_room"})
+    variation.maybeLeaveOut(room, 0.25);
+  variation.redraw();
+}
+
+}  // namespace
+
+void makeOffice(Arrangement& place, const WorldOptions& options) {
+  buildOffice(place);
+  if (options.plan_seed > 0) varyOffice(place, options.plan_seed);
+  place.raise();
+  addSigns(place);
+  furnishCubicles(place);
+  if (place.has("atrium")) furnishAtrium(place);
+  for (const char* office : {"office_118", "office_120", "office_124", "office_133", "office_135"}) {
+    if (place.has(office)) furnishOffice(place, office, 2);
+  }
+  if (place.has("kitchen")) furnishKitchenette(place, "kitchen");
+  if (place.has("meeting_room")) furnishMeetingRoom(place);
   for (const char* hall : {"west_hall", "north_hall", "east_hall", "south_hall", "middle_hall"}) {
+    if (!place.has(hall)) continue;
     place.scatter(hall, 0.02);
     place.postersIn(hall, 3);
   }
   place.carryObjects(0.3);
 }
 
-void makeLaboratory(Arrangement& place, const WorldOptions&) {
+namespace {
+
+void buildLaboratory(Arrangement& place) {
   static const RoomRow rooms[] = {
       {"west_hall", "corridor", "", -1.62, 0, -0.12, 11.62, 2.7, "paint_white", "linoleum"},
       {"north_hall", "corridor", "", -0.12, 10.12, 14.12, 11.62, 2.7, "paint_white", "linoleum"},
@@ -184,14 +233,39 @@ void makeLaboratory(Arrangement& place, const WorldOptions&) {
   place.window("laboratory", {10, 0}, 2.4);
   place.window("office_211", {2, 15.8});
   place.window("office_213", {11, 15.8}, 2.0);
+}
+
+// With or without a meeting room behind the eastern hall and each of the northern rooms, in this order or the other.
+void varyLaboratory(Arrangement& place, int plan_seed) {
+  PlanVariation variation(place.plan, plan_seed);
+  if (variation.chance(0.5)) {
+    static const RoomRow wing[] = {
+        {"meeting_room", "meeting_room", "214", 15.74, 2, 20.2, 7, 2.7, "paint_blue", "carpet_grey"}};
+    buildRooms(place, wing);
+    place.opening(Kind::door, "meeting_room", "east_hall", {15.68, 4.5});
+    place.window("meeting_room", {20.2, 4.5}, 2.0);
+  }
+  variation.maybeReverseRow({"office_211", "storage_212", "office_213"}, 7);
+  for (const char* room : {"office_211", "storage_212", "office_213"}) variation.maybeLeaveOut(room, 0.25);
+  variation.redraw();
+}
+
+}  // namespace
+
+void makeLaboratory(Arrangement& place, const WorldOptions& options) {
+  buildLaboratory(place);
+  if (options.plan_seed > 0) varyLaboratory(place, options.plan_seed);
   place.raise();
   addSigns(place);
   furnishLaboratory(place, "laboratory");
-  furnishOffice(place, "office_211", 2);
-  furnishOffice(place, "office_213", 2);
-  for (int i = 0; i < 3; ++i) place.alongWall("storage_212", "rack", Along::corner, 0.6);
+  for (const char* office : {"office_211", "office_213"}) {
+    if (place.has(office)) furnishOffice(place, office, 2);
+  }
+  if (place.has("meeting_room")) furnishMeetingRoom(place);
+  const bool has_storage = place.has("storage_212");
+  for (int i = 0; has_storage && i < 3; ++i) place.alongWall("storage_212", "rack", Along::corner, 0.6);
   place.scatter("laboratory", 0.12);
-  place.scatter("storage_212", 0.3);
+  if (has_storage) place.scatter("storage_212", 0.3);
   for (const char* hall : {"west_hall", "north_hall", "east_hall"}) place.postersIn(hall, 3);
   place.carryObjects(0.3);
 }

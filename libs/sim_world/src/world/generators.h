@@ -4,7 +4,8 @@
 
 namespace omnimapper::sim {
 
-/// Each fills an arrangement, rooms first. Sizes are those of places people live and work in.
+/// Each fills an arrangement, rooms first. Sizes are those of places people live and work in. Home, office and
+/// laboratory draw sizes, doors and rooms of their plan if options.plan_seed is above 0 (PlanVariation).
 
 /// 6 x 7 m, four walls, point landmarks along them and inside (thesis 4.5.2.4).
 void makeBox(Arrangement& place, const WorldOptions& options);

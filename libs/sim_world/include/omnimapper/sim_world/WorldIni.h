@@ -15,6 +15,7 @@ enum class ClutterLevel { low, medium, high };
 /// Section [world] of an INI: what a generator makes, and what sections add to it.
 struct WorldOptions {
   int seed = 1;
+  int plan_seed = 0;               ///< of the rooms and openings that the generator makes; 0: its fixed plan
   std::string generator = "none";  ///< one of generatorNames()
   ClutterLevel clutter = ClutterLevel::medium;
   double length = 200;    ///< of a loop of corridor, along its middle [m]
