@@ -208,6 +208,10 @@ void Batch::addEvidence(base::LandmarkId id, std::shared_ptr<const map::Landmark
   evidence_.push_back({id, std::move(payload)});
 }
 
+void Batch::describeLandmark(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload) {
+  evidence_.push_back({id, std::move(payload), false});
+}
+
 std::string whyUnfit(const Batch& batch, const graph::Graph& graph, const map::Map& map) {
   return Check(batch, graph, map).whyUnfit();
 }
@@ -235,9 +239,11 @@ AppliedBatch apply(const Batch& batch, const BatchOrigin& origin, graph::Graph& 
   for (const auto id : batch.removedFactors()) graph.removeFactor(id);
   for (const auto& evidence : batch.evidence()) {
     map::Landmark& landmark = *map.landmarks.edit(finalId(evidence.landmark, applied.landmarks));
-    ++landmark.evidence;
-    landmark.first_seen = std::min(landmark.first_seen, origin.stamp);
-    landmark.last_seen = std::max(landmark.last_seen, origin.stamp);
+    if (evidence.is_sighting) {
+      ++landmark.evidence;
+      landmark.first_seen = std::min(landmark.first_seen, origin.stamp);
+      landmark.last_seen = std::max(landmark.last_seen, origin.stamp);
+    }
     if (evidence.payload) landmark.payload = evidence.payload;
   }
   for (const auto id : batch.retiredLandmarks()) {

@@ -107,7 +107,7 @@ mapper::FollowUp PlaneLandmarksPlugin::afterCommit(const map::KeyFrame&, const m
 }
 
 mapper::Batch PlaneLandmarksPlugin::atEnd(const mapper::View& view) {
-  return view.map_is_held ? mapper::Batch() : mergeAlike(*known_, options_, context_.section, view);
+  return view.map_is_held ? mapper::Batch() : mergeAndJudge(*known_, options_, context_.section, view);
 }
 
 void PlaneLandmarksPlugin::restore(const map::MapSection*, const mapper::View& view) {

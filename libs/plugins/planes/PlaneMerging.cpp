@@ -5,7 +5,10 @@
 #include <omnimapper/landmarks/PlaneFactors.h>
 
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace omnimapper::plugins {
 
@@ -44,8 +47,43 @@ bool onOnePlane(const Surface& a, const Surface& b) {
   return std::abs(signedDistance(larger.plane, smaller.middle)) <= kOff;
 }
 
-mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
-                         const mapper::View& view) {
+namespace {
+
+// Whether what was seen of two surfaces covers the same cells, a few centimetres apart: how far two views of one
+// surface lie apart by what all views of a sensor have in common, such as its distortion, which no covariance of a map
+// knows.
+bool lieOnEachOther(const Surface& a, const Surface& b) {
+  constexpr double kAlong = 0.97, kApart = 0.05, kShare = 0.3;  // cosine of the turn, [m], of the smaller one
+  if (a.plane.normal.dot(b.plane.normal) < kAlong) return false;
+  const bool a_is_smaller = a.seen.area() < b.seen.area();
+  const Surface &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
+  std::size_t all = 0, shared = 0;
+  double sum = 0;
+  for (int row = 0; row < smaller.seen.rows(); ++row) {
+    for (int column = 0; column < smaller.seen.columns(); ++column) {
+      if (!smaller.seen.isSet({column, row})) continue;
+      ++all;
+      const Eigen::Vector3d point = smaller.seen.middleOf({column, row});
+      const auto there = larger.seen.cellAt(point);
+      if (!there || !larger.seen.isSet(*there)) continue;
+      ++shared;
+      const double off = signedDistance(larger.plane, point);
+      sum += off * off;
+    }
+  }
+  return all > 0 && static_cast<double>(shared) >= kShare * static_cast<double>(all) &&
+         sum <= kApart * kApart * static_cast<double>(shared);
+}
+
+/// Which landmarks become one, and what is known of those that stay.
+struct Merges {
+  std::vector<std::pair<base::LandmarkId, base::LandmarkId>> gone_into;
+  std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>> payloads;
+  mapper::Batch batch;  ///< all but the merges themselves
+};
+
+Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
+                  const mapper::View& view) {
   known.update(view);
   const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize());
   // Two surfaces may lie anyhow within those bounds: that they are one must be so many times likelier. Where little is
@@ -53,7 +91,7 @@ mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions&
   const int turns = known.form().variable()->tangentSize() - 1;
   const double least_density =
       std::log(options.min_likelihood_ratio) - std::log(2 * kOff) - turns * std::log(2 * kTurn);
-  mapper::Batch batch;
+  Merges merges;
   std::set<base::LandmarkId> merged;
   const auto& all = known.all();
   for (auto a = all.begin(); a != all.end(); ++a) {
@@ -62,7 +100,9 @@ mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions&
       if (merged.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
       if (!onOnePlane(a->second, b->second) || !overlap(a->second, b->second)) continue;
       const auto fit = fitOfDifference(known.form(), a->second, b->second, options.inflation, view);
-      if (!fit || fit->chi2 > limit || fit->log_density < least_density) continue;
+      if (!fit) continue;
+      const bool is_alike = fit->chi2 <= limit && fit->log_density >= least_density;
+      if (!is_alike && !lieOnEachOther(a->second, b->second)) continue;
       merged.insert(a->first);
       merged.insert(b->first);
       const map::Landmark &kept = view.map.landmark(a->first), &gone = view.map.landmark(b->first);
@@ -70,13 +110,68 @@ mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions&
       const auto& gone_payload = dynamic_cast<const PlanePayload&>(*gone.payload);
       const auto of_kept = uprightFactor(view.graph, kept.variables.front());
       const auto of_gone = uprightFactor(view.graph, gone.variables.front());
-      if (of_gone) batch.removeFactor(*of_gone);
-      if (of_kept && !of_gone) batch.removeFactor(*of_kept);  // something showed how the other leans
-      batch.mergeLandmarks(gone.id, kept.id, kept_payload.with(gone_payload));
-      batch.log(landmarks::mergeDecision(view, section, kept.id, gone.id, fit->chi2, limit));
+      if (of_gone) merges.batch.removeFactor(*of_gone);
+      if (of_kept && !of_gone) merges.batch.removeFactor(*of_kept);  // something showed how the other leans
+      merges.gone_into.emplace_back(gone.id, kept.id);
+      merges.payloads[kept.id] = kept_payload.with(gone_payload);
+      merges.batch.log(landmarks::mergeDecision(view, section, kept.id, gone.id, fit->chi2, limit));
     }
   }
-  return batch;
+  return merges;
+}
+
+mapper::Batch asBatch(Merges merges) {
+  for (const auto& [gone, kept] : merges.gone_into) merges.batch.mergeLandmarks(gone, kept, merges.payloads.at(kept));
+  return std::move(merges.batch);
+}
+
+// What each surface is that is left, and whether it was seen often enough.
+void judgeAll(const PlaneLandmarkIndex& known, const mapper::View& view, Merges& merges) {
+  constexpr std::uint32_t kLeastSightings = 4;
+  std::set<base::LandmarkId> gone;
+  for (const auto& one : merges.gone_into) gone.insert(one.first);
+  std::vector<std::shared_ptr<PlanePayload>> payloads;
+  std::vector<base::LandmarkId> ids;
+  std::vector<surfaces::Surface> all;
+  for (const auto& [id, surface] : known.all()) {
+    if (gone.count(id) > 0) continue;
+    const auto merged = merges.payloads.find(id);
+    const auto& payload =
+        merged != merges.payloads.end() ? *merged->second : dynamic_cast<const PlanePayload&>(*surface.payload);
+    const auto shape = payload.shape({view.graph.value(surface.variable)}, view.map.key_frames);
+    if (shape.surfaces.empty()) continue;
+    surfaces::Surface& judged = all.emplace_back();
+    judged.plane = surface.plane;
+    for (const auto& polygon : shape.surfaces) judged.parts.push_back({polygon.vertices, {}});
+    ids.push_back(id);
+    payloads.push_back(std::make_shared<PlanePayload>(payload));
+  }
+  if (all.empty()) return;
+  const auto judgements = surfaces::classify(all, payloads.front()->groundIn(view.map.key_frames));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    payloads[i]->judgement = judgements[i];
+    payloads[i]->is_candidate = payloads[i]->planes() < kLeastSightings;
+    const auto merged = merges.payloads.find(ids[i]);
+    if (merged != merges.payloads.end()) {
+      merged->second = payloads[i];
+    } else {
+      merges.batch.describeLandmark(ids[i], payloads[i]);
+    }
+  }
+}
+
+}  // namespace
+
+mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
+                         const mapper::View& view) {
+  return asBatch(findMerges(known, options, section, view));
+}
+
+mapper::Batch mergeAndJudge(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
+                            const mapper::View& view) {
+  Merges merges = findMerges(known, options, section, view);
+  judgeAll(known, view, merges);
+  return asBatch(std::move(merges));
 }
 
 std::optional<base::FactorId> uprightFactor(const graph::Graph& graph, base::VariableId plane) {

@@ -15,16 +15,16 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr std::uint64_t kVersion = 4;  // 2: the ground; 3: the boundary; 4: holes
+constexpr std::uint64_t kVersion = 5;  // 2: the ground; 3: the boundary; 4: holes; 5: the judgement
 
-// What people call a surface of that slope, so high above the ground [m].
-std::string labelOf(const geometry::Plane3& plane, double height) {
-  constexpr double kUpright = 0.2, kLevel = 0.95;  // of the normal's height
-  constexpr double kGround = 0.15;                 // [m]
-  if (std::abs(plane.normal.z()) < kUpright) return "wall";
-  if (plane.normal.z() < -kLevel) return "ceiling";
-  if (plane.normal.z() < kLevel) return "slope";
-  return height > kGround ? "table" : height > -kGround ? "floor" : "level surface";
+// What a surface is by itself, whatever stands beside it.
+surfaces::Judgement judgedAlone(const map::LandmarkShape& shape, const std::vector<Eigen::Vector3d>& corners,
+                                const geometry::Plane3& plane, double ground) {
+  surfaces::Surface surface;
+  surface.plane = plane;
+  for (const auto& polygon : shape.surfaces) surface.parts.push_back({polygon.vertices, {}});
+  if (surface.parts.empty()) surface.parts.push_back({corners, {}});
+  return surfaces::classify({surface}, ground).front();
 }
 
 void writeWalk(std::ostream& out, const std::vector<Eigen::Vector3d>& walk) {
@@ -48,7 +48,17 @@ std::string number(double value) {
 }  // namespace
 
 bool PlanePayload::wasSeenAsPlane() const {
-  return std::any_of(seen_by.begin(), seen_by.end(), [](const auto& sensor) { return sensor.second.planes > 0; });
+  return planes() > 0;
+}
+
+std::uint32_t PlanePayload::planes() const {
+  std::uint32_t sum = 0;
+  for (const auto& [label, seen] : seen_by) sum += seen.planes;
+  return sum;
+}
+
+double PlanePayload::groundIn(const map::KeyFrames& key_frames) const {
+  return ground == Ground::map || key_frames.empty() ? 0 : key_frames.front().map_from_base.z();
 }
 
 std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, const PlaneMeasurement& sighting,
@@ -89,9 +99,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
   const auto corners = cornersInMap(patches, key_frames);
   const auto hull = hullOn(axes, corners);
   if (hull.empty()) return shape;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const auto& corner : hull) middle += axes.inSpace(corner) / static_cast<double>(hull.size());
-  shape.label = labelOf(plane, middle.z() - (ground == Ground::map ? 0 : key_frames.front().map_from_base.z()));
+  shape.is_candidate = is_candidate;
   shape.normal = plane.normal;
   // A laser alone tells how long a wall is, not how high.
   if (wasSeenAsPlane() && hull.size() > 2) {
@@ -114,6 +122,9 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
     shape.lines.emplace_back(axes.inSpace(*low), axes.inSpace(*high));
     shape.properties.emplace_back("length_m", number((*high - *low).norm()));
   }
+  const auto judged = judgement ? *judgement : judgedAlone(shape, corners, plane, groundIn(key_frames));
+  shape.label = toString(judged.is);
+  shape.reason = judged.reason;
   for (const auto& [label, seen] : seen_by) {
     shape.properties.emplace_back(map::seenByKey(label), std::to_string(seen.planes + seen.lines));
   }
@@ -149,6 +160,9 @@ void PlanePayload::write(std::ostream& out) const {
     graph::writeUint(out, seen.planes, 4);
     graph::writeUint(out, seen.lines, 4);
   }
+  graph::writeText(out, judgement ? toString(judgement->is) : "");
+  graph::writeText(out, judgement ? judgement->reason : "");
+  graph::writeUint(out, is_candidate ? 1 : 0, 1);
 }
 
 void PlanePayload::addTo(map::PayloadRegistry& registry) {
@@ -178,6 +192,11 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
       SeenBy& seen = payload->seen_by[label];
       seen.planes = static_cast<std::uint32_t>(graph::readUint(in, 4));
       seen.lines = static_cast<std::uint32_t>(graph::readUint(in, 4));
+    }
+    if (version > 4) {
+      const std::string name = graph::readText(in), reason = graph::readText(in);
+      if (const auto is = surfaces::surfaceClassNamed(name)) payload->judgement = {*is, reason};
+      payload->is_candidate = graph::readUint(in, 1) != 0;
     }
     return payload;
   });

@@ -4,10 +4,12 @@
 #include <omnimapper/landmarks/PlaneParametrization.h>
 #include <omnimapper/map/KeyFrames.h>
 #include <omnimapper/map/PayloadRegistry.h>
+#include <omnimapper/surfaces/classify.h>
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -41,6 +43,9 @@ struct PlanePayload : map::LandmarkPayload {
   std::vector<SurfacePatch> patches;      ///< those that tell something of the extent that the others do not
   std::map<std::string, SeenBy> seen_by;  ///< sensor label
   base::KeyFrameId last_seen_from;
+  /// What it is in the whole map, as the end of a run found it; none before.
+  std::optional<surfaces::Judgement> judgement;
+  bool is_candidate = false;  ///< seen too little to be drawn
 
   std::string_view kind() const override { return "plane"; }
   void write(std::ostream& out) const override;
@@ -51,6 +56,10 @@ struct PlanePayload : map::LandmarkPayload {
   static void addTo(map::PayloadRegistry& registry);
 
   bool wasSeenAsPlane() const;
+  /// How often it was seen as a plane, by all sensors.
+  std::uint32_t planes() const;
+  /// z of where people walk, in the map [m].
+  double groundIn(const map::KeyFrames& key_frames) const;
   /// With one more sighting; its outline only where it `tells_more` of the extent.
   std::shared_ptr<const PlanePayload> with(base::KeyFrameId frame, const struct PlaneMeasurement& sighting,
                                            bool tells_more) const;

@@ -44,11 +44,12 @@ void keepFinite(map::LandmarkShape& shape) {
 
 }  // namespace
 
-std::vector<ShapedLandmark> shapesOf(const mapper::State& state) {
+std::vector<ShapedLandmark> shapesOf(const mapper::State& state, Candidates candidates) {
   std::vector<ShapedLandmark> shapes;
   for (const auto& [id, landmark] : state.map.landmarks) {
     if (landmark.state == map::Landmark::State::merged) continue;
     ShapedLandmark shaped{&landmark, mapper::shapeOf(landmark, state), landmark.state == map::Landmark::State::retired};
+    if (shaped.shape.is_candidate && candidates == Candidates::left_out) continue;
     keepFinite(shaped.shape);
     shapes.push_back(std::move(shaped));
   }

@@ -22,9 +22,12 @@ struct ShapedLandmark {
   bool isFaint() const { return landmark->evidence < 3; }
 };
 
+/// Whether landmarks that were seen too little to be drawn are of interest.
+enum class Candidates { left_out, kept };
+
 /// The landmarks of a map that outputs show, in the order of ids; those that were merged into another one are not. What
 /// is not finite in a shape is left out, as are surfaces without area.
-std::vector<ShapedLandmark> shapesOf(const mapper::State& state);
+std::vector<ShapedLandmark> shapesOf(const mapper::State& state, Candidates candidates = Candidates::left_out);
 
 /// How often each sensor saw it, by sensor label, as far as its payload tells.
 std::map<std::string, std::size_t> seenBy(const map::LandmarkShape& shape);

@@ -22,6 +22,8 @@ surfaces::Surface surfaceOf(const ShapedLandmark& shaped, int id) {
   surface.id = id;
   surface.name = toString(shaped.landmark->id);
   surface.is = surfaces::surfaceClassNamed(shape.label).value_or(surfaces::SurfaceClass::surface);
+  surface.reason = shape.reason;
+  surface.is_candidate = shape.is_candidate;
   surface.sightings = static_cast<int>(shaped.landmark->evidence);
   surface.plane = planeOf(shape.surfaces.front(), shape);
   for (const auto& polygon : shape.surfaces) {
@@ -41,7 +43,7 @@ SurfacesOutput::SurfacesOutput(const SurfacesOptions&, const mapper::PluginConte
 void SurfacesOutput::finish(const mapper::View& view) {
   surfaces::SurfaceSet set;
   set.title = title_;
-  for (const auto& shaped : shapesOf(view)) {
+  for (const auto& shaped : shapesOf(view, Candidates::kept)) {
     if (shaped.moved || shaped.shape.surfaces.empty()) continue;
     set.surfaces.push_back(surfaceOf(shaped, static_cast<int>(set.surfaces.size()) + 1));
   }

@@ -73,7 +73,7 @@ std::vector<std::vector<std::size_t>> connected(const std::vector<FlatTriangle>&
 
 // The walks around a group: edges that no second triangle of it has the other way.
 std::vector<Loop3> walksAround(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& group,
-                              const Places& places) {
+                               const Places& places) {
   std::map<std::pair<int, int>, int> edges;
   for (const std::size_t i : group) {
     for (int k = 0; k < 3; ++k) {

@@ -27,6 +27,8 @@ inline std::string seenByKey(const std::string& label) {
 /// How a landmark looks in the map, for whoever draws or exports it. All in the frame of the map [m].
 struct LandmarkShape {
   std::string label;                         ///< what a user calls it: "wall", "table"
+  std::string reason;                        ///< why it is called so; may be empty
+  bool is_candidate = false;                 ///< seen too little to be drawn
   std::vector<geometry::Polygon3> surfaces;  ///< flat, each may be concave
   std::vector<geometry::Polygon3> holes;     ///< each in one of `surfaces`, which it is cut out of
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;  ///< from, to

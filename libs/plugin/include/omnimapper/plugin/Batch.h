@@ -38,6 +38,8 @@ class Batch {
                                std::shared_ptr<const map::LandmarkPayload> payload = nullptr);
   /// One more observation of it. A payload replaces the one it has; null keeps that.
   void addEvidence(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload = nullptr);
+  /// What is known of it has changed without a sighting.
+  void describeLandmark(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload);
   /// It is no longer there: nothing is to be associated with it any more.
   void retireLandmark(base::LandmarkId id) { retired_landmarks_.push_back(id); }
   /// Both are one thing: `from` gives its factors and evidence to `into`, variable by variable, and its variables go.
@@ -60,6 +62,7 @@ class Batch {
   struct Evidence {
     base::LandmarkId landmark;
     std::shared_ptr<const map::LandmarkPayload> payload;
+    bool is_sighting = true;
   };
   struct Merge {
     base::LandmarkId from, into;

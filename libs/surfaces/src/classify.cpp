@@ -1,0 +1,267 @@
+#include "omnimapper/surfaces/classify.h"
+
+#include <omnimapper/geometry/ConvexPolygon2.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace omnimapper::surfaces {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Class = SurfaceClass;
+
+enum class Lie { up, down, upright, leaning };
+
+/// What is measured of a surface. Lengths in metres.
+struct Facts {
+  Lie lie = Lie::leaning;
+  double bottom = 0, top = 0;      // above the floor
+  double longer = 0, shorter = 0;  // sides of the least rectangle around it; of an upright one its width and height
+  bool is_before_wall = false;     // a surface that faces the same way stands close behind it
+  bool is_at_seat = false;         // it touches a level surface at the height of a seat
+  Eigen::AlignedBox3d box;
+};
+
+Lie lieOf(const geometry::Plane3& plane) {
+  constexpr double kLevel = 0.95, kUpright = 0.2;  // of the normal's height
+  const double up = plane.normal.z();
+  return up > kLevel ? Lie::up : up < -kLevel ? Lie::down : std::abs(up) < kUpright ? Lie::upright : Lie::leaning;
+}
+
+Vector2d alongFloor(const geometry::Plane3& plane) {
+  return Vector2d(-plane.normal.y(), plane.normal.x()).normalized();
+}
+
+// Of the least rectangle around points seen from above, longer side first.
+Vector2d leastRectangle(const std::vector<Vector3d>& points) {
+  std::vector<Vector2d> dropped;
+  for (const auto& point : points) dropped.push_back(point.head<2>());
+  const auto hull = geometry::convexHull(std::move(dropped));
+  Vector2d best(0, 0);
+  double best_area = 1e300;
+  for (std::size_t i = 0; i < hull.size() && hull.size() > 2; ++i) {
+    const Vector2d u = (hull[(i + 1) % hull.size()] - hull[i]).normalized(), v(-u.y(), u.x());
+    Vector2d low = Vector2d::Constant(1e300), high = -low;
+    for (const auto& corner : hull) {
+      const Vector2d at(u.dot(corner), v.dot(corner));
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+    }
+    const Vector2d size = high - low;
+    if (size.prod() >= best_area) continue;
+    best_area = size.prod();
+    best = {size.maxCoeff(), size.minCoeff()};
+  }
+  return best;
+}
+
+// Where an upright surface begins and ends along a direction of the floor.
+Vector2d rangeAlong(const std::vector<Vector3d>& points, const Vector2d& along) {
+  Vector2d range(1e300, -1e300);
+  for (const auto& point : points) {
+    range.x() = std::min(range.x(), along.dot(point.head<2>()));
+    range.y() = std::max(range.y(), along.dot(point.head<2>()));
+  }
+  return range;
+}
+
+Facts factsOf(const Surface& surface, double floor) {
+  Facts facts;
+  facts.lie = lieOf(surface.plane);
+  const auto corners = cornersOf(surface);
+  if (corners.empty()) return facts;
+  for (const auto& corner : corners) facts.box.extend(corner);
+  facts.bottom = facts.box.min().z() - floor;
+  facts.top = facts.box.max().z() - floor;
+  if (facts.lie == Lie::upright) {
+    const Vector2d range = rangeAlong(corners, alongFloor(surface.plane));
+    facts.longer = range.y() - range.x();
+    facts.shorter = facts.top - facts.bottom;
+  } else {
+    const Vector2d sides = leastRectangle(corners);
+    facts.longer = sides.x();
+    facts.shorter = sides.y();
+  }
+  return facts;
+}
+
+// Whether `behind` is a wall, or might be, that continues beside or above a surface that stands close before it.
+bool isWallBehind(const Surface& surface, const Facts& facts, const Surface& behind, const Facts& of_behind) {
+  constexpr double kNear = 0.12, kFar = 0.95, kBeside = 0.5, kLow = 0.4;  // [m]
+  if (of_behind.lie != Lie::upright || behind.plane.normal.dot(surface.plane.normal) < 0.97) return false;
+  const double before = signedDistance(behind.plane, facts.box.center());
+  if (before < kNear || before > kFar || of_behind.top < facts.top - kLow) return false;
+  if (of_behind.longer * of_behind.shorter < 0.5) return false;
+  const Vector2d along = alongFloor(surface.plane);
+  const Vector2d own = rangeAlong(cornersOf(surface), along), other = rangeAlong(cornersOf(behind), along);
+  return other.x() < own.y() + kBeside && other.y() > own.x() - kBeside;
+}
+
+bool isSeat(const Facts& facts) {
+  return facts.lie == Lie::up && facts.bottom > 0.33 && facts.top < 0.6 && facts.shorter > 0.3;
+}
+
+void addNeighbours(const std::vector<Surface>& surfaces, std::vector<Facts>& all) {
+  constexpr double kTouch = 0.12;  // [m]
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      if (i == j || all[i].box.isEmpty() || all[j].box.isEmpty()) continue;
+      if (all[i].lie == Lie::upright && !all[i].is_before_wall)
+        all[i].is_before_wall = isWallBehind(surfaces[i], all[i], surfaces[j], all[j]);
+      if (isSeat(all[j]) && all[i].box.exteriorDistance(all[j].box) < kTouch) all[i].is_at_seat = true;
+    }
+  }
+}
+
+/// A measure within [low, high] is as likely as any; outside it falls like a normal distribution of that sigma.
+struct Window {
+  double low, high, sigma;
+  double logLikelihood(double value) const {
+    const double off = std::max({0.0, low - value, value - high}) / sigma;
+    return -off * off / 2;
+  }
+};
+constexpr double kAny = 1e6;
+constexpr Window kAnything{-kAny, kAny, 1};
+
+/// One usual form of a class.
+struct Form {
+  Class is;
+  Lie lie;
+  double log_prior;
+  Window bottom, top, longer, shorter;
+  double if_before_wall = 0, if_not_before_wall = 0, if_at_seat = 0, if_not_at_seat = 0;  // log-likelihoods
+};
+
+// Sizes are those of DIN 18101 (doors) and usual furniture; a camera on a robot sees little of what is above 2 m.
+const std::vector<Form>& forms() {
+  static const std::vector<Form> all{
+      {Class::floor, Lie::up, 0, {-0.15, 0.15, 0.05}, {-0.15, 0.15, 0.05}, kAnything, kAnything},
+      {Class::ceiling, Lie::down, 0, {2.1, kAny, 0.1}, {2.1, kAny, 0.1}, {0.5, kAny, 0.2}, kAnything},
+      {Class::cabinet, Lie::down, -0.5, {0.3, 2.0, 0.1}, {0.3, 2.0, 0.1}, kAnything, {0, 0.8, 0.1}},
+      // Tops: tables are deeper than boards and cabinets are.
+      {Class::table, Lie::up, 0, {0.66, 0.82, 0.04}, {0.66, 0.82, 0.04}, {0.6, 3.0, 0.2}, {0.55, 1.6, 0.06}},
+      {Class::table, Lie::up, -0.7, {0.84, 0.95, 0.03}, {0.84, 0.95, 0.03}, {1.0, 3.0, 0.2}, {0.72, 1.2, 0.05}},
+      {Class::table, Lie::up, -1.2, {0.35, 0.5, 0.04}, {0.35, 0.5, 0.04}, {0.8, 1.4, 0.1}, {0.5, 0.8, 0.06}, 0, 0, -1},
+      {Class::counter, Lie::up, 0, {0.85, 0.97, 0.03}, {0.85, 0.97, 0.03}, {1.0, 5.0, 0.2}, {0.35, 0.72, 0.05}},
+      {Class::cabinet, Lie::up, -0.3, {0.55, 1.45, 0.05}, {0.55, 1.45, 0.05}, {0.3, 2.2, 0.1}, {0.2, 0.5, 0.05}},
+      {Class::appliance, Lie::up, -2, {0.85, 1.1, 0.05}, {0.85, 1.1, 0.05}, {0.5, 0.7, 0.05}, {0.5, 0.7, 0.05}},
+      {Class::shelf, Lie::up, -1, {0.3, 1.8, 0.1}, {0.3, 1.8, 0.1}, {0.5, 1.3, 0.1}, {0.15, 0.45, 0.04}},
+      {Class::seat, Lie::up, 0, {0.38, 0.5, 0.03}, {0.38, 0.5, 0.03}, {0.35, 2.1, 0.2}, {0.3, 0.95, 0.1}},
+      {Class::bed, Lie::up, 0, {0.35, 0.68, 0.04}, {0.35, 0.68, 0.04}, {1.7, 2.4, 0.15}, {0.8, 2.2, 0.1}},
+      // Upright ones.
+      {Class::wall, Lie::upright, 0, {-kAny, 0.6, 0.3}, {1.7, kAny, 0.15}, {1.1, kAny, 0.15}, {0.8, kAny, 0.2}, -3, 0},
+      {Class::wall, Lie::upright, -1.2, {-kAny, 0.6, 0.3}, {1.9, kAny, 0.1}, {0.35, 1.1, 0.1}, {1.0, kAny, 0.2}, -4, 0},
+      {Class::wall, Lie::upright, -1.5, {0.6, 2.2, 0.2}, {1.8, kAny, 0.1}, {1.0, kAny, 0.2}, {0.3, kAny, 0.1}, -3, 0},
+      {Class::door, Lie::upright, 0.3, {-kAny, 0.15, 0.1}, {1.55, 2.12, 0.05}, {0.7, 1.0, 0.04}, {1.3, 2.2, 0.1}},
+      {Class::door_frame, Lie::upright, 0, {-kAny, 0.4, 0.2}, {1.2, 2.2, 0.1}, {0.05, 0.38, 0.04}, {0.9, 2.2, 0.1}, -1},
+      {Class::cabinet,
+       Lie::upright,
+       0,
+       {-kAny, 0.35, 0.1},
+       {0.5, 1.45, 0.1},
+       {0.25, 2.4, 0.2},
+       {0.25, 1.4, 0.1},
+       0.3,
+       -0.3,
+       -0.8},
+      {Class::cabinet,
+       Lie::upright,
+       -0.5,
+       {-kAny, 0.5, 0.1},
+       {1.4, 2.25, 0.08},
+       {0.25, 2.2, 0.15},
+       {0.9, 2.2, 0.2},
+       0,
+       -3},
+      {Class::cabinet, Lie::upright, -1, {0.9, 1.6, 0.1}, {1.6, 2.3, 0.1}, {0.3, 2.5, 0.2}, {0.3, 0.9, 0.1}, 0, -2},
+      {Class::seat,
+       Lie::upright,
+       -0.7,
+       {-kAny, 0.6, 0.1},
+       {0.5, 1.0, 0.06},
+       {0.3, 2.2, 0.2},
+       {0.15, 0.9, 0.1},
+       0,
+       0,
+       0.7,
+       -2},
+      {Class::bed,
+       Lie::upright,
+       -1.5,
+       {-kAny, 0.35, 0.1},
+       {0.4, 0.65, 0.04},
+       {1.4, 2.3, 0.15},
+       {0.15, 0.65, 0.1},
+       0,
+       0,
+       0.5,
+       -1},
+      {Class::ramp, Lie::leaning, -1, {-0.2, 0.1, 0.1}, {0.1, kAny, 0.1}, {1.0, kAny, 0.2}, {0.7, kAny, 0.1}},
+  };
+  return all;
+}
+
+// The probability of being anything else: a form that has no usual size.
+constexpr double kUnknown = -4;
+
+std::string textOf(const Facts& facts, const std::vector<std::pair<double, Class>>& posterior) {
+  char text[160];
+  if (facts.lie == Lie::upright) {
+    std::snprintf(text, sizeof text, "upright from %.2f to %.2f m above the floor, %.2f m wide%s%s", facts.bottom,
+                  facts.top, facts.longer, facts.is_before_wall ? ", close before a wall" : "",
+                  facts.is_at_seat ? ", at a seat" : "");
+  } else {
+    std::snprintf(text, sizeof text, "%s, %.2f m above the floor, %.2f by %.2f m",
+                  facts.lie == Lie::up     ? "level"
+                  : facts.lie == Lie::down ? "level from below"
+                                           : "leaning",
+                  (facts.bottom + facts.top) / 2, facts.longer, facts.shorter);
+  }
+  std::string reason = text;
+  for (std::size_t i = 0; i < posterior.size() && i < 2 && posterior[i].first >= 0.01; ++i) {
+    std::snprintf(text, sizeof text, "%s%s %.2f", i == 0 ? ": " : ", ", toString(posterior[i].second).c_str(),
+                  posterior[i].first);
+    reason += text;
+  }
+  return reason;
+}
+
+Judgement judge(const Facts& facts) {
+  std::map<Class, double> best{{Class::surface, kUnknown}};
+  for (const Form& form : forms()) {
+    if (form.lie != facts.lie) continue;
+    const double sum = form.log_prior + form.bottom.logLikelihood(facts.bottom) + form.top.logLikelihood(facts.top) +
+                       form.longer.logLikelihood(facts.longer) + form.shorter.logLikelihood(facts.shorter) +
+                       (facts.is_before_wall ? form.if_before_wall : form.if_not_before_wall) +
+                       (facts.is_at_seat ? form.if_at_seat : form.if_not_at_seat);
+    const auto [found, is_new] = best.try_emplace(form.is, sum);
+    if (!is_new) found->second = std::max(found->second, sum);
+  }
+  double whole = 0;
+  for (const auto& one : best) whole += std::exp(one.second);
+  std::vector<std::pair<double, Class>> posterior;
+  for (const auto& [is, sum] : best) posterior.emplace_back(std::exp(sum) / whole, is);
+  std::stable_sort(posterior.begin(), posterior.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  return {posterior.front().first >= 0.5 ? posterior.front().second : Class::surface, textOf(facts, posterior)};
+}
+
+}  // namespace
+
+std::vector<Judgement> classify(const std::vector<Surface>& surfaces, double floor) {
+  std::vector<Facts> all;
+  for (const auto& surface : surfaces) all.push_back(factsOf(surface, floor));
+  addNeighbours(surfaces, all);
+  std::vector<Judgement> judgements;
+  for (const auto& facts : all) judgements.push_back(facts.box.isEmpty() ? Judgement{} : judge(facts));
+  return judgements;
+}
+
+}  // namespace omnimapper::surfaces
