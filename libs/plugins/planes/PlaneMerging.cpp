@@ -75,6 +75,19 @@ bool lieOnEachOther(const Surface& a, const Surface& b) {
          sum <= kApart * kApart * static_cast<double>(shared);
 }
 
+// Whether two parts of one wall, with a door or furniture between them: upright, as high as walls, on one plane from
+// one end to the other.
+bool continueEachOther(const Surface& a, const Surface& b, double ground) {
+  constexpr double kAlong = 0.995, kOffPlane = 0.04, kFar = 2;              // cosine of the turn, [m], [m]
+  constexpr double kUpright = 0.1, kHigh = 1.85, kLow = 0.7, kLeast = 0.5;  // of the normal's height, [m], [m], [m^2]
+  for (const Surface* one : {&a, &b}) {
+    const bool is_tall = one->highest - ground > kHigh && one->lowest - ground < kLow && one->seen.area() > kLeast;
+    if (!is_tall || std::abs(one->plane.normal.z()) > kUpright) return false;
+  }
+  return a.plane.normal.dot(b.plane.normal) > kAlong && std::abs(signedDistance(a.plane, b.middle)) < kOffPlane &&
+         std::abs(signedDistance(b.plane, a.middle)) < kOffPlane && gapBetween(a, cornersOf(b), b.heights) < kFar;
+}
+
 /// Which landmarks become one, and what is known of those that stay.
 struct Merges {
   std::vector<std::pair<base::LandmarkId, base::LandmarkId>> gone_into;
@@ -83,8 +96,9 @@ struct Merges {
 };
 
 Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
-                  const mapper::View& view) {
+                  const mapper::View& view, bool is_end) {
   known.update(view);
+  const double ground = known.emptyPayload().groundIn(view.map.key_frames);
   const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize());
   // Two surfaces may lie anyhow within those bounds: that they are one must be so many times likelier. Where little is
   // known of how they lie to each other, nobody can tell, and they wait.
@@ -98,11 +112,13 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
     for (auto b = std::next(a); b != all.end(); ++b) {
       if (merged.count(a->first) > 0) break;
       if (merged.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
-      if (!onOnePlane(a->second, b->second) || !overlap(a->second, b->second)) continue;
+      if (!onOnePlane(a->second, b->second)) continue;
+      const bool continues = is_end && continueEachOther(a->second, b->second, ground);
+      if (!continues && !overlap(a->second, b->second)) continue;
       const auto fit = fitOfDifference(known.form(), a->second, b->second, options.inflation, view);
       if (!fit) continue;
       const bool is_alike = fit->chi2 <= limit && fit->log_density >= least_density;
-      if (!is_alike && !lieOnEachOther(a->second, b->second)) continue;
+      if (!continues && !is_alike && !lieOnEachOther(a->second, b->second)) continue;
       merged.insert(a->first);
       merged.insert(b->first);
       const map::Landmark &kept = view.map.landmark(a->first), &gone = view.map.landmark(b->first);
@@ -127,7 +143,9 @@ mapper::Batch asBatch(Merges merges) {
 
 // What each surface is that is left, and whether it was seen often enough.
 void judgeAll(const PlaneLandmarkIndex& known, const mapper::View& view, Merges& merges) {
-  constexpr std::uint32_t kLeastSightings = 4;
+  // The longer a log, the more often is seen what is there, and the more chance views have to be wrong alike.
+  constexpr std::size_t kFewest = 2, kMost = 7, kKeyFramesForOne = 200;
+  const std::size_t least = std::min(kMost, kFewest + view.map.key_frames.size() / kKeyFramesForOne);
   std::set<base::LandmarkId> gone;
   for (const auto& one : merges.gone_into) gone.insert(one.first);
   std::vector<std::shared_ptr<PlanePayload>> payloads;
@@ -150,7 +168,7 @@ void judgeAll(const PlaneLandmarkIndex& known, const mapper::View& view, Merges&
   const auto judgements = surfaces::classify(all, payloads.front()->groundIn(view.map.key_frames));
   for (std::size_t i = 0; i < all.size(); ++i) {
     payloads[i]->judgement = judgements[i];
-    payloads[i]->is_candidate = payloads[i]->planes() < kLeastSightings;
+    payloads[i]->is_candidate = payloads[i]->planes() < least;
     const auto merged = merges.payloads.find(ids[i]);
     if (merged != merges.payloads.end()) {
       merged->second = payloads[i];
@@ -164,12 +182,12 @@ void judgeAll(const PlaneLandmarkIndex& known, const mapper::View& view, Merges&
 
 mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
                          const mapper::View& view) {
-  return asBatch(findMerges(known, options, section, view));
+  return asBatch(findMerges(known, options, section, view, false));
 }
 
 mapper::Batch mergeAndJudge(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
                             const mapper::View& view) {
-  Merges merges = findMerges(known, options, section, view);
+  Merges merges = findMerges(known, options, section, view, true);
   judgeAll(known, view, merges);
   return asBatch(std::move(merges));
 }

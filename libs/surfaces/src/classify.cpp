@@ -26,6 +26,7 @@ struct Facts {
   double longer = 0, shorter = 0;  // sides of the least rectangle around it; of an upright one its width and height
   bool is_before_wall = false;     // a surface that faces the same way stands close behind it
   bool is_at_seat = false;         // it touches a level surface at the height of a seat
+  Vector2d along{0, 0};            // of an upright one, where it begins and ends along the floor
   Eigen::AlignedBox3d box;
 };
 
@@ -39,53 +40,68 @@ Vector2d alongFloor(const geometry::Plane3& plane) {
   return Vector2d(-plane.normal.y(), plane.normal.x()).normalized();
 }
 
-// Of the least rectangle around points seen from above, longer side first.
-Vector2d leastRectangle(const std::vector<Vector3d>& points) {
-  std::vector<Vector2d> dropped;
-  for (const auto& point : points) dropped.push_back(point.head<2>());
-  const auto hull = geometry::convexHull(std::move(dropped));
-  Vector2d best(0, 0);
-  double best_area = 1e300;
-  for (std::size_t i = 0; i < hull.size() && hull.size() > 2; ++i) {
-    const Vector2d u = (hull[(i + 1) % hull.size()] - hull[i]).normalized(), v(-u.y(), u.x());
-    Vector2d low = Vector2d::Constant(1e300), high = -low;
-    for (const auto& corner : hull) {
-      const Vector2d at(u.dot(corner), v.dot(corner));
-      low = low.cwiseMin(at);
-      high = high.cwiseMax(at);
-    }
-    const Vector2d size = high - low;
-    if (size.prod() >= best_area) continue;
-    best_area = size.prod();
-    best = {size.maxCoeff(), size.minCoeff()};
-  }
-  return best;
+// A corner that sticks out, as where a view mixed two surfaces, has little area: between the directions' quantiles lies
+// all but one part in thirty of the surface at either end.
+constexpr double kOutlying = 1.0 / 30;
+Vector2d quantiles(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto last = static_cast<double>(values.size() - 1);
+  const double low = values[static_cast<std::size_t>(kOutlying * last)],
+               high = values[static_cast<std::size_t>((1 - kOutlying) * last)];
+  const double beyond = (high - low) * kOutlying / (1 - 2 * kOutlying);  // what an even distribution has there
+  return {low - beyond, high + beyond};
 }
 
-// Where an upright surface begins and ends along a direction of the floor.
-Vector2d rangeAlong(const std::vector<Vector3d>& points, const Vector2d& along) {
-  Vector2d range(1e300, -1e300);
-  for (const auto& point : points) {
-    range.x() = std::min(range.x(), along.dot(point.head<2>()));
-    range.y() = std::max(range.y(), along.dot(point.head<2>()));
+std::vector<Vector3d> cellsOf(const Surface& surface) {
+  constexpr double kCell = 0.05;  // [m]
+  auto grid = CellGrid::around(surface.plane, cornersOf(surface), kCell);
+  for (const auto& part : surface.parts) grid.fill(part.outline, part.holes);
+  std::vector<Vector3d> cells;
+  for (int row = 0; row < grid.rows(); ++row)
+    for (int column = 0; column < grid.columns(); ++column)
+      if (grid.isSet({column, row})) cells.push_back(grid.middleOf({column, row}));
+  return cells.empty() ? cornersOf(surface) : cells;
+}
+
+Vector2d rangeAlong(const std::vector<Vector3d>& cells, const Vector3d& along) {
+  std::vector<double> values;
+  for (const auto& cell : cells) values.push_back(along.dot(cell));
+  return quantiles(std::move(values));
+}
+
+Vector3d onFloor(const Vector2d& direction) {
+  return {direction.x(), direction.y(), 0};
+}
+
+// Of the least rectangle around it from above, longer side first.
+Vector2d leastRectangle(const std::vector<Vector3d>& cells) {
+  constexpr int kDirections = 18;
+  Vector2d best(1e300, 1e300);
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = M_PI / 2 * i / kDirections;
+    const Vector2d u(std::cos(angle), std::sin(angle)), v(-u.y(), u.x());
+    const Vector2d on_u = rangeAlong(cells, onFloor(u)), on_v = rangeAlong(cells, onFloor(v));
+    const Vector2d size(on_u.y() - on_u.x(), on_v.y() - on_v.x());
+    if (size.prod() < best.prod()) best = {size.maxCoeff(), size.minCoeff()};
   }
-  return range;
+  return best;
 }
 
 Facts factsOf(const Surface& surface, double floor) {
   Facts facts;
   facts.lie = lieOf(surface.plane);
-  const auto corners = cornersOf(surface);
-  if (corners.empty()) return facts;
-  for (const auto& corner : corners) facts.box.extend(corner);
-  facts.bottom = facts.box.min().z() - floor;
-  facts.top = facts.box.max().z() - floor;
+  if (cornersOf(surface).empty()) return facts;
+  const auto cells = cellsOf(surface);
+  for (const auto& cell : cells) facts.box.extend(cell);
+  const Vector2d heights = rangeAlong(cells, Vector3d::UnitZ());
+  facts.bottom = heights.x() - floor;
+  facts.top = heights.y() - floor;
   if (facts.lie == Lie::upright) {
-    const Vector2d range = rangeAlong(corners, alongFloor(surface.plane));
-    facts.longer = range.y() - range.x();
+    facts.along = rangeAlong(cells, onFloor(alongFloor(surface.plane)));
+    facts.longer = facts.along.y() - facts.along.x();
     facts.shorter = facts.top - facts.bottom;
   } else {
-    const Vector2d sides = leastRectangle(corners);
+    const Vector2d sides = leastRectangle(cells);
     facts.longer = sides.x();
     facts.shorter = sides.y();
   }
@@ -94,14 +110,14 @@ Facts factsOf(const Surface& surface, double floor) {
 
 // Whether `behind` is a wall, or might be, that continues beside or above a surface that stands close before it.
 bool isWallBehind(const Surface& surface, const Facts& facts, const Surface& behind, const Facts& of_behind) {
-  constexpr double kNear = 0.12, kFar = 0.95, kBeside = 0.5, kLow = 0.4;  // [m]
+  constexpr double kNear = 0.12, kFar = 0.95, kBeside = 0.5, kLow = 0.4, kLeastWall = 1;  // [m]
+  constexpr double kMuch = 0.8;
   if (of_behind.lie != Lie::upright || behind.plane.normal.dot(surface.plane.normal) < 0.97) return false;
   const double before = signedDistance(behind.plane, facts.box.center());
   if (before < kNear || before > kFar || of_behind.top < facts.top - kLow) return false;
-  if (of_behind.longer * of_behind.shorter < 0.5) return false;
-  const Vector2d along = alongFloor(surface.plane);
-  const Vector2d own = rangeAlong(cornersOf(surface), along), other = rangeAlong(cornersOf(behind), along);
-  return other.x() < own.y() + kBeside && other.y() > own.x() - kBeside;
+  if (of_behind.longer < std::max(kLeastWall, kMuch * facts.longer)) return false;
+  // Both directions along the floor are nearly the same.
+  return of_behind.along.x() < facts.along.y() + kBeside && of_behind.along.y() > facts.along.x() - kBeside;
 }
 
 bool isSeat(const Facts& facts) {
