@@ -26,6 +26,7 @@ struct Facts {
   double longer = 0, shorter = 0;  // sides of the least rectangle around it; of an upright one its width and height
   bool is_before_wall = false;     // a surface that faces the same way stands close behind it
   bool is_at_seat = false;         // it touches a level surface at the height of a seat
+  bool is_at_bed = false;          // or one of the size of a bed
   Vector2d along{0, 0};            // of an upright one, where it begins and ends along the floor
   Eigen::AlignedBox3d box;
 };
@@ -120,8 +121,11 @@ bool isWallBehind(const Surface& surface, const Facts& facts, const Surface& beh
   return of_behind.along.x() < facts.along.y() + kBeside && of_behind.along.y() > facts.along.x() - kBeside;
 }
 
-bool isSeat(const Facts& facts) {
-  return facts.lie == Lie::up && facts.bottom > 0.33 && facts.top < 0.6 && facts.shorter > 0.3;
+bool isLow(const Facts& facts) {
+  return facts.lie == Lie::up && facts.bottom > 0.33 && facts.top < 0.68 && facts.shorter > 0.3;
+}
+bool isBed(const Facts& facts) {
+  return isLow(facts) && facts.longer > 1.75 && facts.shorter > 0.75;
 }
 
 void addNeighbours(const std::vector<Surface>& surfaces, std::vector<Facts>& all) {
@@ -131,7 +135,8 @@ void addNeighbours(const std::vector<Surface>& surfaces, std::vector<Facts>& all
       if (i == j || all[i].box.isEmpty() || all[j].box.isEmpty()) continue;
       if (all[i].lie == Lie::upright && !all[i].is_before_wall)
         all[i].is_before_wall = isWallBehind(surfaces[i], all[i], surfaces[j], all[j]);
-      if (isSeat(all[j]) && all[i].box.exteriorDistance(all[j].box) < kTouch) all[i].is_at_seat = true;
+      if (!isLow(all[j]) || all[i].box.exteriorDistance(all[j].box) > kTouch) continue;
+      (isBed(all[j]) ? all[i].is_at_bed : all[i].is_at_seat) = true;
     }
   }
 }
@@ -147,82 +152,82 @@ struct Window {
 constexpr double kAny = 1e6;
 constexpr Window kAnything{-kAny, kAny, 1};
 
+/// Log-likelihoods of what stands close behind and touches it.
+struct Neighbours {
+  double wall = 0, no_wall = 0, seat = 0, no_seat = 0, bed = 0, no_bed = 0;
+};
+
 /// One usual form of a class.
 struct Form {
   Class is;
-  Lie lie;
   double log_prior;
   Window bottom, top, longer, shorter;
-  double if_before_wall = 0, if_not_before_wall = 0, if_at_seat = 0, if_not_at_seat = 0;  // log-likelihoods
+  Neighbours beside = {};
 };
 
-// Sizes are those of DIN 18101 (doors) and usual furniture; a camera on a robot sees little of what is above 2 m.
-const std::vector<Form>& forms() {
+// Sizes are those of DIN 18101 (doors) and usual furniture. Tables are deeper than boards and cabinets are.
+const std::vector<Form>& levelForms() {
   static const std::vector<Form> all{
-      {Class::floor, Lie::up, 0, {-0.15, 0.15, 0.05}, {-0.15, 0.15, 0.05}, kAnything, kAnything},
-      {Class::ceiling, Lie::down, 0, {2.1, kAny, 0.1}, {2.1, kAny, 0.1}, {0.5, kAny, 0.2}, kAnything},
-      {Class::cabinet, Lie::down, -0.5, {0.3, 2.0, 0.1}, {0.3, 2.0, 0.1}, kAnything, {0, 0.8, 0.1}},
-      // Tops: tables are deeper than boards and cabinets are.
-      {Class::table, Lie::up, 0, {0.66, 0.82, 0.04}, {0.66, 0.82, 0.04}, {0.6, 3.0, 0.2}, {0.55, 1.6, 0.06}},
-      {Class::table, Lie::up, -0.7, {0.84, 0.95, 0.03}, {0.84, 0.95, 0.03}, {1.0, 3.0, 0.2}, {0.72, 1.2, 0.05}},
-      {Class::table, Lie::up, -1.2, {0.35, 0.5, 0.04}, {0.35, 0.5, 0.04}, {0.8, 1.4, 0.1}, {0.5, 0.8, 0.06}, 0, 0, -1},
-      {Class::counter, Lie::up, 0, {0.85, 0.97, 0.03}, {0.85, 0.97, 0.03}, {1.0, 5.0, 0.2}, {0.35, 0.72, 0.05}},
-      {Class::cabinet, Lie::up, -0.3, {0.55, 1.45, 0.05}, {0.55, 1.45, 0.05}, {0.3, 2.2, 0.1}, {0.2, 0.5, 0.05}},
-      {Class::appliance, Lie::up, -2, {0.85, 1.1, 0.05}, {0.85, 1.1, 0.05}, {0.5, 0.7, 0.05}, {0.5, 0.7, 0.05}},
-      {Class::shelf, Lie::up, -1, {0.3, 1.8, 0.1}, {0.3, 1.8, 0.1}, {0.5, 1.3, 0.1}, {0.15, 0.45, 0.04}},
-      {Class::seat, Lie::up, 0, {0.38, 0.5, 0.03}, {0.38, 0.5, 0.03}, {0.35, 2.1, 0.2}, {0.3, 0.95, 0.1}},
-      {Class::bed, Lie::up, 0, {0.35, 0.68, 0.04}, {0.35, 0.68, 0.04}, {1.7, 2.4, 0.15}, {0.8, 2.2, 0.1}},
-      // Upright ones.
-      {Class::wall, Lie::upright, 0, {-kAny, 0.6, 0.3}, {1.7, kAny, 0.15}, {1.1, kAny, 0.15}, {0.8, kAny, 0.2}, -3, 0},
-      {Class::wall, Lie::upright, -1.2, {-kAny, 0.6, 0.3}, {1.9, kAny, 0.1}, {0.35, 1.1, 0.1}, {1.0, kAny, 0.2}, -4, 0},
-      {Class::wall, Lie::upright, -1.5, {0.6, 2.2, 0.2}, {1.8, kAny, 0.1}, {1.0, kAny, 0.2}, {0.3, kAny, 0.1}, -3, 0},
-      {Class::door, Lie::upright, 0.3, {-kAny, 0.15, 0.1}, {1.55, 2.12, 0.05}, {0.7, 1.0, 0.04}, {1.3, 2.2, 0.1}},
-      {Class::door_frame, Lie::upright, 0, {-kAny, 0.4, 0.2}, {1.2, 2.2, 0.1}, {0.05, 0.38, 0.04}, {0.9, 2.2, 0.1}, -1},
-      {Class::cabinet,
-       Lie::upright,
-       0,
-       {-kAny, 0.35, 0.1},
-       {0.5, 1.45, 0.1},
-       {0.25, 2.4, 0.2},
-       {0.25, 1.4, 0.1},
-       0.3,
-       -0.3,
-       -0.8},
-      {Class::cabinet,
-       Lie::upright,
-       -0.5,
-       {-kAny, 0.5, 0.1},
-       {1.4, 2.25, 0.08},
-       {0.25, 2.2, 0.15},
-       {0.9, 2.2, 0.2},
-       0,
-       -3},
-      {Class::cabinet, Lie::upright, -1, {0.9, 1.6, 0.1}, {1.6, 2.3, 0.1}, {0.3, 2.5, 0.2}, {0.3, 0.9, 0.1}, 0, -2},
-      {Class::seat,
-       Lie::upright,
-       -0.7,
-       {-kAny, 0.6, 0.1},
-       {0.5, 1.0, 0.06},
-       {0.3, 2.2, 0.2},
-       {0.15, 0.9, 0.1},
-       0,
-       0,
-       0.7,
-       -2},
-      {Class::bed,
-       Lie::upright,
-       -1.5,
-       {-kAny, 0.35, 0.1},
-       {0.4, 0.65, 0.04},
-       {1.4, 2.3, 0.15},
-       {0.15, 0.65, 0.1},
-       0,
-       0,
-       0.5,
-       -1},
-      {Class::ramp, Lie::leaning, -1, {-0.2, 0.1, 0.1}, {0.1, kAny, 0.1}, {1.0, kAny, 0.2}, {0.7, kAny, 0.1}},
+      {Class::floor, 0, {-0.15, 0.15, 0.05}, {-0.15, 0.15, 0.05}, kAnything, kAnything},
+      {Class::table, 0, {0.66, 0.82, 0.04}, {0.66, 0.82, 0.04}, {0.6, 3.0, 0.2}, {0.55, 1.6, 0.06}},
+      {Class::table, -0.7, {0.84, 0.95, 0.03}, {0.84, 0.95, 0.03}, {1.0, 3.0, 0.2}, {0.74, 1.2, 0.04}},
+      {Class::table, -1.2, {0.35, 0.5, 0.04}, {0.35, 0.5, 0.04}, {0.8, 1.4, 0.1}, {0.5, 0.8, 0.06}, {0, 0, -1, 0}},
+      {Class::counter, 0, {0.85, 0.97, 0.03}, {0.85, 0.97, 0.03}, {1.0, 5.0, 0.2}, {0.5, 0.72, 0.06}},
+      {Class::cabinet, -0.3, {0.55, 1.45, 0.05}, {0.55, 1.45, 0.05}, {0.3, 2.2, 0.1}, {0.2, 0.5, 0.05}},
+      {Class::appliance, -2, {0.85, 1.1, 0.05}, {0.85, 1.1, 0.05}, {0.5, 0.7, 0.05}, {0.5, 0.7, 0.05}},
+      {Class::shelf, -1.5, {0.3, 1.8, 0.1}, {0.3, 1.8, 0.1}, {0.6, 1.3, 0.1}, {0.15, 0.4, 0.03}},
+      {Class::seat, 0, {0.38, 0.5, 0.03}, {0.38, 0.5, 0.03}, {0.35, 2.1, 0.2}, {0.3, 0.95, 0.1}},
+      {Class::bed, 0, {0.38, 0.65, 0.04}, {0.38, 0.65, 0.04}, {1.85, 2.3, 0.12}, {0.8, 2.2, 0.1}},
   };
   return all;
+}
+
+const std::vector<Form>& undersideForms() {
+  static const std::vector<Form> all{
+      {Class::ceiling, 0, {2.1, kAny, 0.1}, {2.1, kAny, 0.1}, {0.5, kAny, 0.2}, kAnything},
+      {Class::cabinet, -0.5, {0.3, 2.0, 0.1}, {0.3, 2.0, 0.1}, kAnything, {0, 0.8, 0.1}},
+  };
+  return all;
+}
+
+// `longer` is the width, `shorter` the height. A camera on a robot sees little of what is above 2 m, and of the walls
+// of small rooms less.
+const std::vector<Form>& uprightForms() {
+  static const std::vector<Form> all{
+      {Class::wall, 0, {-kAny, 0.6, 0.3}, {1.7, kAny, 0.15}, {1.1, kAny, 0.15}, {0.8, kAny, 0.2}, {-3, 0}},
+      {Class::wall, 0, {-kAny, 0.6, 0.3}, {1.3, kAny, 0.15}, {2.4, kAny, 0.15}, {0.7, kAny, 0.2}, {-1, 0}},
+      {Class::wall, -1.2, {-kAny, 0.6, 0.3}, {1.9, kAny, 0.1}, {0.35, 1.1, 0.1}, {1.0, kAny, 0.2}, {-4, 0}},
+      {Class::wall, -1.5, {0.6, 2.2, 0.2}, {1.9, kAny, 0.1}, {1.0, kAny, 0.2}, {0.3, kAny, 0.1}, {-3, 0}},
+      {Class::door, 0.5, {-kAny, 0.15, 0.1}, {1.55, 2.08, 0.05}, {0.7, 1.05, 0.04}, {1.3, 2.2, 0.1}},
+      {Class::door_frame, 0, {-kAny, 0.4, 0.2}, {1.2, 2.15, 0.1}, {0.05, 0.32, 0.04}, {0.9, 2.2, 0.1}},
+      {Class::cabinet, 0, {-kAny, 0.35, 0.1}, {0.5, 1.45, 0.1}, {0.25, 2.4, 0.15}, {0.25, 1.4, 0.1}, {0.3, -0.3, -0.3}},
+      {Class::cabinet, -0.5, {-kAny, 0.5, 0.1}, {1.4, 2.2, 0.06}, {0.4, 2.2, 0.1}, {0.9, 2.2, 0.2}, {0, -3}},
+      {Class::cabinet, -1, {0.9, 1.6, 0.1}, {1.6, 2.3, 0.1}, {0.3, 2.5, 0.2}, {0.3, 0.9, 0.1}, {0, -2}},
+      {Class::seat, -0.8, {-kAny, 0.6, 0.1}, {0.5, 1.0, 0.06}, {0.3, 2.2, 0.2}, {0.15, 0.9, 0.1}, {0, 0, 0.7, -2}},
+      {Class::bed, 0, {-kAny, 0.55, 0.1}, {0.4, 1.05, 0.04}, {1.3, 2.3, 0.15}, {0.15, 0.9, 0.1}, {0, 0, 0, 0, 0.7, -3}},
+  };
+  return all;
+}
+
+const std::vector<Form>& leaningForms() {
+  static const std::vector<Form> all{
+      {Class::ramp, -1, {-0.2, 0.1, 0.1}, {0.1, kAny, 0.1}, {1.0, kAny, 0.2}, {0.7, kAny, 0.1}},
+  };
+  return all;
+}
+
+const std::vector<Form>& formsOf(Lie lie) {
+  switch (lie) {
+    case Lie::up:
+      return levelForms();
+    case Lie::down:
+      return undersideForms();
+    case Lie::upright:
+      return uprightForms();
+    case Lie::leaning:
+      break;
+  }
+  return leaningForms();
 }
 
 // The probability of being anything else: a form that has no usual size.
@@ -233,7 +238,9 @@ std::string textOf(const Facts& facts, const std::vector<std::pair<double, Class
   if (facts.lie == Lie::upright) {
     std::snprintf(text, sizeof text, "upright from %.2f to %.2f m above the floor, %.2f m wide%s%s", facts.bottom,
                   facts.top, facts.longer, facts.is_before_wall ? ", close before a wall" : "",
-                  facts.is_at_seat ? ", at a seat" : "");
+                  facts.is_at_bed    ? ", at a bed"
+                  : facts.is_at_seat ? ", at a seat"
+                                     : "");
   } else {
     std::snprintf(text, sizeof text, "%s, %.2f m above the floor, %.2f by %.2f m",
                   facts.lie == Lie::up     ? "level"
@@ -252,12 +259,12 @@ std::string textOf(const Facts& facts, const std::vector<std::pair<double, Class
 
 Judgement judge(const Facts& facts) {
   std::map<Class, double> best{{Class::surface, kUnknown}};
-  for (const Form& form : forms()) {
-    if (form.lie != facts.lie) continue;
+  for (const Form& form : formsOf(facts.lie)) {
     const double sum = form.log_prior + form.bottom.logLikelihood(facts.bottom) + form.top.logLikelihood(facts.top) +
                        form.longer.logLikelihood(facts.longer) + form.shorter.logLikelihood(facts.shorter) +
-                       (facts.is_before_wall ? form.if_before_wall : form.if_not_before_wall) +
-                       (facts.is_at_seat ? form.if_at_seat : form.if_not_at_seat);
+                       (facts.is_before_wall ? form.beside.wall : form.beside.no_wall) +
+                       (facts.is_at_seat ? form.beside.seat : form.beside.no_seat) +
+                       (facts.is_at_bed ? form.beside.bed : form.beside.no_bed);
     const auto [found, is_new] = best.try_emplace(form.is, sum);
     if (!is_new) found->second = std::max(found->second, sum);
   }
