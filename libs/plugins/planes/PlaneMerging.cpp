@@ -168,7 +168,7 @@ void judgeAll(const PlaneLandmarkIndex& known, const mapper::View& view, Merges&
   const auto judgements = surfaces::classify(all, payloads.front()->groundIn(view.map.key_frames));
   for (std::size_t i = 0; i < all.size(); ++i) {
     payloads[i]->judgement = judgements[i];
-    payloads[i]->is_candidate = payloads[i]->planes() < least;
+    payloads[i]->is_candidate = payloads[i]->sightings() < least;
     const auto merged = merges.payloads.find(ids[i]);
     if (merged != merges.payloads.end()) {
       merged->second = payloads[i];

@@ -48,12 +48,12 @@ std::string number(double value) {
 }  // namespace
 
 bool PlanePayload::wasSeenAsPlane() const {
-  return planes() > 0;
+  return std::any_of(seen_by.begin(), seen_by.end(), [](const auto& sensor) { return sensor.second.planes > 0; });
 }
 
-std::uint32_t PlanePayload::planes() const {
+std::uint32_t PlanePayload::sightings() const {
   std::uint32_t sum = 0;
-  for (const auto& [label, seen] : seen_by) sum += seen.planes;
+  for (const auto& [label, seen] : seen_by) sum += seen.planes + seen.lines;
   return sum;
 }
 

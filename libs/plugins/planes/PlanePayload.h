@@ -56,8 +56,8 @@ struct PlanePayload : map::LandmarkPayload {
   static void addTo(map::PayloadRegistry& registry);
 
   bool wasSeenAsPlane() const;
-  /// How often it was seen as a plane, by all sensors.
-  std::uint32_t planes() const;
+  /// How often it was seen, by all sensors, as plane or line.
+  std::uint32_t sightings() const;
   /// z of where people walk, in the map [m].
   double groundIn(const map::KeyFrames& key_frames) const;
   /// With one more sighting; its outline only where it `tells_more` of the extent.
