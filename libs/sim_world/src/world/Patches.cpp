@@ -71,6 +71,24 @@ std::vector<std::vector<std::size_t>> connected(const std::vector<FlatTriangle>&
   return result;
 }
 
+// Whether a group is a facet of something round: it meets another one at an edge and hardly bends there.
+bool isFacet(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& group,
+             const std::map<std::pair<int, int>, std::vector<std::size_t>>& at_edge) {
+  const double least = std::cos(40 * M_PI / 180);
+  return std::any_of(group.begin(), group.end(), [&](std::size_t i) {
+    const FlatTriangle& triangle = triangles[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto across = at_edge.find({triangle.corners[(k + 1) % 3], triangle.corners[k]});
+      if (across == at_edge.end()) continue;
+      for (const std::size_t other : across->second) {
+        const bool bends = !isOnPlaneOf(triangle, triangles[other]);
+        if (bends && triangle.plane.normal.dot(triangles[other].plane.normal) > least) return true;
+      }
+    }
+    return false;
+  });
+}
+
 // The walks around a group: edges that no second triangle of it has the other way.
 std::vector<Loop3> walksAround(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& group,
                                const Places& places) {
@@ -130,7 +148,13 @@ void addPatchesOf(const Body& body, int body_number, int local, int surface_numb
                       geometry::Plane3::through(corners[0], area.normalized())};
     triangles.push_back(flat);
   }
+  std::map<std::pair<int, int>, std::vector<std::size_t>> at_edge;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      at_edge[{triangles[i].corners[k], triangles[i].corners[(k + 1) % 3]}].push_back(i);
+  }
   for (const auto& group : connected(triangles)) {
+    if (isFacet(triangles, group, at_edge)) continue;
     const geometry::Plane3& plane = triangles[group.front()].plane;
     // Stretches that meet in a corner alone have a walk each; holes go the other way around.
     std::vector<surfaces::FlatPart> parts;

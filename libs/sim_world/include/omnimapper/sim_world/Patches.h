@@ -19,7 +19,7 @@ struct Patch {
 
 /// All flat stretches over `least` [m^2], in the order of surfaces. Triangles of one surface that lie on one plane and
 /// share a corner are one stretch; faces that touch without a common corner, as of two boxes of one body side by side,
-/// are two.
+/// are two. Facets of round things, which meet a neighbour at less than 40 deg, are none.
 std::vector<Patch> findPatches(const World& world, double least = 0.05);
 
 }  // namespace omnimapper::sim
