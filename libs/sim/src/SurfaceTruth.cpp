@@ -77,7 +77,8 @@ surfaces::SurfaceSet SurfaceTruth::surfaces(const std::string& title) const {
     surfaces::FlatPart& part = surface.parts.emplace_back();
     part.outline = moved(patch.part_in_body.outline, *map_from_body);
     for (const auto& hole : patch.part_in_body.holes) part.holes.push_back(moved(hole, *map_from_body));
-    surface.seen = seen_[i].movedBy(*map_from_body);
+    const surfaces::CellGrid seen = seen_[i].movedBy(*map_from_body);
+    surface.seen = seen.count() > 0 ? seen : surfaces::CellGrid(seen.origin(), seen.u(), seen.v(), seen.cell(), 0, 0);
     surface.is_moved = !body.track.isFixed();
   }
   return set;

@@ -19,8 +19,8 @@ class SurfaceTruth {
   /// Points of a measurement in the log, taken at that time [s].
   void add(const std::vector<SeenPoint>& seen, double time);
 
-  /// Patches over 0.05 m^2 where they are at time 0, each with the cells of 5 cm that were seen; those of bodies that
-  /// are nowhere then are left out. Openings.
+  /// Patches over 0.05 m^2 where they are at time 0, each with the cells of 5 cm that were seen, or no cells where
+  /// nobody saw any; those of bodies that are nowhere then are left out. Openings.
   surfaces::SurfaceSet surfaces(const std::string& title) const;
 
  private:

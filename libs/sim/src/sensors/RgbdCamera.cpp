@@ -5,6 +5,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -68,10 +69,11 @@ std::vector<float> RgbdCamera::sense(const Pictures& pictures, int k) const {
   const std::vector<float> signal = settings_.from_texture ? textureSignal(shader_.shade(frame), frame.camera.width,
                                                                            frame.camera.height, disparity.window)
                                                            : patternSignal(*context().scenes, frame);
-  std::vector<float> depths = senseDepth(frame, scene, signal, disparity, randomOf(k, kDepthStream));
-  if (!hands_out_colour_view_) return depths;
-  const geometry::Se3 colour_from_depth{Eigen::Quaterniond::Identity(), {-settings_.colour_right, 0, 0}};
-  return registerDepth(depths, settings_.depth_camera, settings_.colour_camera, colour_from_depth);
+  return senseDepth(frame, scene, signal, disparity, randomOf(k, kDepthStream));
+}
+
+bool RgbdCamera::isInRange(float depth) const {
+  return depth >= settings_.disparity.min_range && depth <= settings_.disparity.max_range;
 }
 
 void RgbdCamera::fillDepth(const std::vector<float>& depths, mrpt::obs::CObservation& observation) const {
@@ -91,8 +93,7 @@ void RgbdCamera::fillDepth(const std::vector<float>& depths, mrpt::obs::CObserva
   for (int row = 0; row < camera.height; ++row) {
     for (int column = 0; column < camera.width; ++column) {
       const float depth = depths[static_cast<std::size_t>(row) * camera.width + column];
-      const bool is_told = depth >= settings_.disparity.min_range && depth <= settings_.disparity.max_range;
-      scan.rangeImage(row, column) = is_told ? static_cast<std::uint16_t>(depth / settings_.unit + 0.5) : 0;
+      scan.rangeImage(row, column) = isInRange(depth) ? static_cast<std::uint16_t>(depth / settings_.unit + 0.5) : 0;
     }
   }
 }
@@ -106,30 +107,32 @@ void RgbdCamera::fillColour(const Pictures& pictures, int k, mrpt::obs::CObserva
                  mapFromColour(pictures.colour_time + half), settings_.photograph, randomOf(k, kColourStream));
 }
 
-namespace {
-
-// Of every fourth pixel in row and column: 3 cm apart at 4 m. What is measured through glass is not the glass.
-std::vector<SeenPoint> seenPoints(const Frame& frame, const mrpt::math::CMatrix_u16& depths, double unit) {
-  constexpr int kEvery = 4;
-  constexpr double kSame = 0.3;  // [m] a Kinect is not off by more at 4 m
+// Of pixels 2.5 cm apart at 4 m that are in the range image. What is measured through glass is not the glass.
+std::vector<SeenPoint> RgbdCamera::seenPoints(const Frame& frame, const std::vector<float>& depths) const {
+  constexpr double kGap = 0.025 / 4;  // between pixels, at 1 m [m]
+  constexpr double kSame = 0.3;       // a Kinect is not off by more at 4 m [m]
+  const Pinhole& camera = frame.camera;
+  const int step = std::max(1, static_cast<int>(kGap * camera.fx));
   std::vector<SeenPoint> points;
-  for (int row = kEvery / 2; row < frame.camera.height; row += kEvery) {
-    for (int column = kEvery / 2; column < frame.camera.width; column += kEvery) {
+  for (int row = step / 2; row < camera.height; row += step) {
+    for (int column = step / 2; column < camera.width; column += step) {
       const PixelHit& hit = frame.at(column, row);
-      const double depth = depths(row, column) * unit;
-      if (hit.surface < 0 || depth == 0 || std::abs(depth - hit.depth) > kSame) continue;
-      const Eigen::Vector3d in_optical = hit.depth * frame.camera.through(column, row);
+      const float depth = depths[static_cast<std::size_t>(row) * camera.width + column];
+      if (hit.surface < 0 || !isInRange(depth) || std::abs(static_cast<double>(depth) - hit.depth) > kSame) continue;
+      const Eigen::Vector3d in_optical = hit.depth * camera.through(column, row);
       if (!isSeenWell(in_optical.norm(), static_cast<double>(hit.cosine))) continue;
+      if (isRegistered()) {
+        const auto there = settings_.colour_camera.project(in_optical + depthToColour());
+        if (!there || !settings_.colour_camera.contains(*there)) continue;
+      }
       points.push_back({hit.surface, (frame.map_from_optical * in_optical).cast<float>()});
     }
   }
   return points;
 }
 
-}  // namespace
-
 std::size_t RgbdCamera::sizeOfMeasurement() const {
-  constexpr std::size_t kBytesOfPixel = 9;  // depth, colour, labels, one of sixteen as seen
+  constexpr std::size_t kBytesOfPixel = 10;  // depth, colour, labels, one of nine as seen
   return kBytesOfPixel * static_cast<std::size_t>(options_of_camera_.width) *
          static_cast<std::size_t>(options_of_camera_.height);
 }
@@ -141,7 +144,11 @@ Measurement RgbdCamera::measure(int k) const {
                                                                    : pictures.depth;
   auto scan = mrpt::obs::CObservation3DRangeScan::Create();
   stamp(*scan, k);
-  fillDepth(settings_.exact ? exactDepth(exact) : sense(pictures, k), *scan);
+  const std::vector<float> depths = settings_.exact ? exactDepth(exact) : sense(pictures, k);
+  fillDepth(isRegistered() ? registerDepth(depths, settings_.depth_camera, settings_.colour_camera,
+                                           {Eigen::Quaterniond::Identity(), depthToColour()})
+                           : depths,
+            *scan);
   nlohmann::ordered_json truth{{"time_s", pictures.time}};
   if (options_of_camera_.colour) {
     fillColour(pictures, k, *scan);
@@ -152,7 +159,7 @@ Measurement RgbdCamera::measure(int k) const {
   const geometry::Se3 sensor_from_handed_out = hands_out_colour_view_ ? sensor_from_colour_ : geometry::Se3{};
   truth["map_from_sensor"] = poseJson(mapFromSensor(pictures.time) * sensor_from_handed_out);
   Measurement measurement{scan, truth.dump(), {}};
-  measurement.seen = seenPoints(exact, scan->rangeImage, settings_.unit);
+  measurement.seen = seenPoints(settings_.exact ? exact : pictures.depth, depths);
   const Pinhole& camera = exact.camera;
   if (options_of_camera_.labels) {
     measurement.truth_files.push_back(

@@ -21,7 +21,10 @@ class RgbdCamera : public Sensor {
   struct Pictures;
   geometry::Se3 mapFromColour(double time) const;
   Pictures cast(double time) const;
+  /// Depths of the depth camera.
   std::vector<float> sense(const Pictures& pictures, int k) const;
+  bool isInRange(float depth) const;
+  std::vector<SeenPoint> seenPoints(const Frame& frame, const std::vector<float>& depths) const;
   void fillDepth(const std::vector<float>& depths, mrpt::obs::CObservation& observation) const;
   void fillColour(const Pictures& pictures, int k, mrpt::obs::CObservation& observation) const;
 
@@ -29,7 +32,10 @@ class RgbdCamera : public Sensor {
   RgbdSettings settings_;
   Shader shader_;
   geometry::Se3 sensor_from_colour_;  // both look along x
-  bool hands_out_colour_view_;        // the range image is that of the colour camera
+  /// From the depth camera's optical frame to the colour camera's.
+  Eigen::Vector3d depthToColour() const { return {-settings_.colour_right, 0, 0}; }
+  bool isRegistered() const { return hands_out_colour_view_ && !settings_.exact; }  ///< from the depth camera's view
+  bool hands_out_colour_view_;  // the range image is that of the colour camera
 };
 
 }  // namespace omnimapper::sim
