@@ -25,7 +25,8 @@ struct Arguments {
 
 void addOptions(CLI::App& app, Arguments& arguments) {
   app.description(
-      "Simulates a robot's log with its truth: rawlog, trajectory, landmarks, labels.\n"
+      "Simulates a robot's log with its truth: rawlog, trajectory, landmarks, labels,\n"
+      "flat surfaces and a mesh of the place.\n"
       "Example: omnimapper-simulate -i home.ini -o out/home --set simulation.duration_s=60");
   app.add_option("-i,--ini", arguments.inis, "INI file: world, robot, sensors; a further one counts over it");
   app.add_option("-o,--output", arguments.run.folder, "folder for log and truth, made if missing");

@@ -93,8 +93,8 @@ TEST_F(Simulate, TruthNamesWhatBeamsAndPixelsSaw) {
   EXPECT_GT(wall_beams, 0.5 * beams);
   EXPECT_EQ(filesIn(scratch_ / "out/truth/labels").size(), 13U);
   const std::string readme = readFile(scratch_ / "out/README.md");
-  for (const char* name :
-       {"small.rawlog", "truth.tum", "landmarks.json", "plan.svg", "truth/laser.jsonl", "small.ini"}) {
+  for (const char* name : {"small.rawlog", "truth.tum", "landmarks.json", "surfaces.json", "world.ply", "plan.svg",
+                           "truth/laser.jsonl", "small.ini"}) {
     EXPECT_NE(readme.find(std::string("`") + name + "`"), std::string::npos) << name;
     EXPECT_TRUE(fs::exists(scratch_ / "out/" + name)) << name;
   }
@@ -181,8 +181,8 @@ TEST_F(Simulate, AFolderUsedAgainHoldsTheNewRunAlone) {
   expected["notes.txt"] = "mine";
   EXPECT_TRUE(contentOf(scratch_ / "twice") == expected);
   EXPECT_EQ(filesIn(scratch_ / "twice"),
-            (std::set<std::string>{"other.rawlog", "other.ini", "truth.tum", "truth", "landmarks.json", "plan.svg",
-                                   "pictures", "README.md", "notes.txt"}));
+            (std::set<std::string>{"other.rawlog", "other.ini", "truth.tum", "truth", "landmarks.json", "surfaces.json",
+                                   "world.ply", "plan.svg", "pictures", "README.md", "notes.txt"}));
 }
 
 TEST_F(Simulate, ThePageOfTheFolderSaysWhatItsSensorsAreGoodFor) {

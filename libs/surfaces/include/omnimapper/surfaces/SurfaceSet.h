@@ -20,7 +20,7 @@ struct FlatPart {
 
 /// One flat surface of a place, as it truly is or as a map has it. Frame: the map's, z up [m].
 struct Surface {
-  int id = 0;        ///< in the true mesh the number of its faces, in a map that of the landmark; unique in its set
+  int id = 0;        ///< of the truth any number above 0, in a map that of the landmark; unique in its set
   std::string name;  ///< "kitchen/wall_2", or of a map the landmark's name
   std::string body;  ///< of the true ones: what it is a side of; else empty
   SurfaceClass is = SurfaceClass::surface;
