@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/eval/TumFile.h>
+#include <omnimapper/surfaces/SurfaceSet.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <sys/wait.h>
 
@@ -53,6 +54,31 @@ TEST_F(EvalApp, PrintsATableAndLeavesNumbersAndPlots) {
   for (const char* name : {"numbers.json", "errors.svg", "trajectory.svg"}) EXPECT_TRUE(fs::exists(out + "/" + name));
   EXPECT_EQ(contentOf(folder_ / "n.json"), contentOf(out + "/numbers.json"));
   EXPECT_NE(contentOf(folder_ / "n.json").find("\"translation_m\""), std::string::npos);
+}
+
+TEST_F(EvalApp, HoldsAMapAgainstTheTrueSurfacesInTheFrameOfTheTruth) {
+  surfaces::SurfaceSet truth{"test", {}, {}};
+  auto& wall = truth.surfaces.emplace_back();
+  wall.name = "wall";
+  wall.is = surfaces::SurfaceClass::wall;
+  wall.plane = {-Eigen::Vector3d::UnitY(), 3};
+  wall.parts.push_back({{{0, 3, 0}, {4, 3, 0}, {4, 3, 2}, {0, 3, 2}}, {}});
+  const auto write = [](const std::string& path, const std::string& text) { std::ofstream(path) << text; };
+  const std::string world = folder_ / "world", map = folder_ / "map";
+  for (const auto& folder : {world, map}) fs::create_directories(folder);
+  write(world + "/surfaces.json", toJson(truth));
+  write(map + "/surfaces.json", toJson(surfaces::moved(truth, someMotion())));
+  EXPECT_NE(run("map " + map + " " + world), 0);
+  EXPECT_TRUE(printed("trajectory.tum: is missing")) << text_;
+  fs::copy(estimate_, map + "/trajectory.tum");
+  fs::copy(reference_, world + "/truth.tum");
+  ASSERT_EQ(run("map " + map + " " + world + " -o " + folder_ / "quality"), 0) << text_;
+  EXPECT_TRUE(printed("1 of 1")) << text_;
+  for (const char* name : {"numbers.json", "plan.svg"}) EXPECT_TRUE(fs::exists(folder_ / "quality/" + name)) << name;
+  ASSERT_EQ(run("map " + map + " " + world + " --align none"), 0) << text_;
+  EXPECT_TRUE(printed("0 of 1")) << text_;
+  EXPECT_NE(run("map " + (folder_ / "nowhere") + " " + world + " --align none"), 0);
+  EXPECT_TRUE(printed("nowhere")) << text_;
 }
 
 TEST_F(EvalApp, KnowsRelativeErrorAndRelations) {

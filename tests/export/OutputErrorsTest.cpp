@@ -9,6 +9,7 @@
 #include "BoxWorld.h"
 #include "grid/GridOutput.h"
 #include "plan/GeoJsonOutput.h"
+#include "plan/SurfacesOutput.h"
 #include "report/ReportOutput.h"
 #include "run/GraphOutput.h"
 #include "run/MapOutput.h"
@@ -32,6 +33,7 @@ const std::vector<OutputCase>& cases() {
   static const std::vector<OutputCase> cases{
       {std::make_shared<exports::TrajectoryOutputFactory>(), {"trajectory.tum"}},
       {std::make_shared<exports::GeoJsonOutputFactory>(), {"floorplan.geojson"}},
+      {std::make_shared<exports::SurfacesOutputFactory>(), {"surfaces.json"}},
       {std::make_shared<exports::GraphOutputFactory>(), {"graph.g2o"}},
       {std::make_shared<exports::GridOutputFactory>(), {"grid.pgm", "grid.yaml", "grid.png"}},
       {std::make_shared<exports::PointsOutputFactory>(), {"points.ply"}},

@@ -18,13 +18,18 @@ namespace {
 constexpr std::uint64_t kVersion = 5;  // 2: the ground; 3: the boundary; 4: holes; 5: the judgement
 
 // What a surface is by itself, whatever stands beside it.
-surfaces::Judgement judgedAlone(const map::LandmarkShape& shape, const std::vector<Eigen::Vector3d>& corners,
-                                const geometry::Plane3& plane, double ground) {
+surfaces::Judgement judgedAlone(const map::LandmarkShape& shape, const geometry::Plane3& plane, double ground) {
   surfaces::Surface surface;
   surface.plane = plane;
   for (const auto& polygon : shape.surfaces) surface.parts.push_back({polygon.vertices, {}});
-  if (surface.parts.empty()) surface.parts.push_back({corners, {}});
   return surfaces::classify({surface}, ground).front();
+}
+
+// A laser at one height takes whatever is upright for a wall.
+surfaces::Judgement judgedByLines(const geometry::Plane3& plane) {
+  constexpr double kUpright = 0.2;  // of the normal's height
+  const bool is_wall = std::abs(plane.normal.z()) < kUpright;
+  return {is_wall ? surfaces::SurfaceClass::wall : surfaces::SurfaceClass::surface, "lines of a laser alone"};
 }
 
 void writeWalk(std::ostream& out, const std::vector<Eigen::Vector3d>& walk) {
@@ -122,7 +127,9 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
     shape.lines.emplace_back(axes.inSpace(*low), axes.inSpace(*high));
     shape.properties.emplace_back("length_m", number((*high - *low).norm()));
   }
-  const auto judged = judgement ? *judgement : judgedAlone(shape, corners, plane, groundIn(key_frames));
+  const auto judged = judgement          ? *judgement
+                      : wasSeenAsPlane() ? judgedAlone(shape, plane, groundIn(key_frames))
+                                         : judgedByLines(plane);
   shape.label = toString(judged.is);
   shape.reason = judged.reason;
   for (const auto& [label, seen] : seen_by) {

@@ -69,6 +69,51 @@ TEST_F(PlaneMerging, PartsThatAreFoundToBeOneAreMerged) {
   EXPECT_EQ(run_.decisions.back().kind, "merge");
 }
 
+// What the covariance of the map calls two, since both are seen far more precisely than they are true.
+TEST_F(PlaneMerging, ViewsThatLieOnEachOtherAreOne) {
+  PlaneLandmarksOptions options;
+  options.plane_sigma = options.plane_angle_sigma = 1e-4;
+  make(options);
+  driveTo({});
+  const auto precise = [](double x) {
+    auto seen = wallPlane(x, -1, 1);
+    seen.covariance = Vector3d(1e-8, 1e-8, 1e-8).asDiagonal();
+    return seen;
+  };
+  see(planesOf({precise(3)}));
+  see(planesOf({precise(3.03)}));
+  see(planesOf({precise(3.12)}));
+  ASSERT_EQ(active().size(), 3U);
+  solve();
+  EXPECT_EQ(active().size(), 2U) << "what is a hand's breadth before it stays";
+}
+
+TEST_F(PlaneMerging, AtTheEndPartsOfOneWallAreOneAndTwoTablesAreTwo) {
+  driveTo({});
+  const auto high = [](double y0, double y1) {
+    return plane({3, 0.5 * (y0 + y1), 1.1}, {0, -0.5 * (y1 - y0), 0}, {0, 0, 1.1});
+  };
+  see(planesOf({high(-2, -1), high(0, 1), tableTop(2, -1, 0.7), tableTop(2, 1, 0.7)}));
+  solve();
+  ASSERT_EQ(active().size(), 4U);
+  apply(plugin_->atEnd(run_.view()));
+  ASSERT_EQ(active().size(), 3U);
+  EXPECT_EQ(shapeOf(active()[0]).surfaces.size(), 2U) << "nobody saw what is between";
+}
+
+TEST_F(PlaneMerging, AtTheEndSurfacesAreJudgedAndWhatWasSeenOnceIsACandidate) {
+  driveTo({});
+  see(planesOf({wallPlane(3, -2, 2), tableTop(2, 1, 0.7)}));
+  see(planesOf({wallPlane(3, -2, 2)}));
+  apply(plugin_->atEnd(run_.view()));
+  ASSERT_EQ(active().size(), 2U);
+  EXPECT_EQ(shapeOf(active()[0]).label, "wall");
+  EXPECT_FALSE(shapeOf(active()[0]).reason.empty());
+  EXPECT_FALSE(shapeOf(active()[0]).is_candidate);
+  EXPECT_TRUE(shapeOf(active()[1]).is_candidate);
+  EXPECT_EQ(active()[0].evidence, 2U) << "to judge is no sighting";
+}
+
 TEST_F(PlaneMerging, TheFacesOfAThinWallAreTwo) {
   driveTo({});
   see(planesOf({wallPlane(3, -1, 1)}));

@@ -115,7 +115,8 @@ TEST_F(CommandLine, EveryListedPluginPrintsASectionThatRuns) {
   writeFile(file("all.ini"), ini);
   EXPECT_TRUE(endedWith(ExitCode::ok, graphslam({"-i", file("all.ini"), "-r", file("box.rawlog"), "-o", file("all")})));
   auto expected = allOutputs();
-  expected.insert({"floorplan.geojson", "landmarks.ply"});  // of the walls, which ini/laser2d.ini leaves out
+  expected.insert(
+      {"floorplan.geojson", "landmarks.ply", "surfaces.json"});  // of the walls, which ini/laser2d.ini leaves out
   EXPECT_EQ(filesIn(file("all")), expected);
 }
 
