@@ -64,6 +64,23 @@ Paths areasOf(const Points& points) {
   return combined(ClipperLib::ctUnion, {pathOf(corners)}, {});
 }
 
+// In pairs, and pairs of those: most edges are gone before many polygons meet.
+Paths unionOfParts(std::vector<Paths> parts) {
+  while (parts.size() > 1) {
+    std::vector<Paths> pairs;
+    for (std::size_t i = 0; i < parts.size(); i += 2) {
+      if (i + 1 == parts.size()) {
+        pairs.push_back(std::move(parts[i]));
+        continue;
+      }
+      std::move(parts[i + 1].begin(), parts[i + 1].end(), std::back_inserter(parts[i]));
+      pairs.push_back(combined(ClipperLib::ctUnion, parts[i], {}));
+    }
+    parts = std::move(pairs);
+  }
+  return parts.empty() ? Paths() : std::move(parts.front());
+}
+
 // Less the holes.
 Paths areasOf(const HoledPolygon2& polygon) {
   Paths holes;
@@ -78,12 +95,9 @@ Paths areasOf(const HoledPolygon2& polygon) {
 }  // namespace
 
 Areas2 unionOf(const std::vector<HoledPolygon2>& polygons, double least) {
-  Paths all;
-  for (const auto& polygon : polygons) {
-    Paths areas = areasOf(polygon);
-    std::move(areas.begin(), areas.end(), std::back_inserter(all));
-  }
-  const Paths together = combined(ClipperLib::ctUnion, all, {});
+  std::vector<Paths> parts;
+  for (const auto& polygon : polygons) parts.push_back(areasOf(polygon));
+  const Paths together = unionOfParts(std::move(parts));
   double largest = 0;
   for (const auto& path : together) largest = std::max(largest, kUnit * kUnit * ClipperLib::Area(path));
   Areas2 areas;

@@ -187,7 +187,7 @@ bool PlaneAssociator::showsMore(const PlanePayload& payload, const PlaneMeasurem
                                 const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points,
                                 const std::vector<std::vector<Eigen::Vector3d>>& holes) {
   if (payload.boundary != PlanePayload::Boundary::seen || sighting.is_line) return false;
-  constexpr double kBay = 0.03, kEdge = 0.005;  // [m^2], [m] that edges are seen alike
+  constexpr double kBay = 0.03, kEdge = 0.01;  // [m^2], [m] that edges are seen alike
   double around = 0;
   for (std::size_t i = 0; i < points.size(); ++i) around += (points[i] - points[(i + 1) % points.size()]).norm();
   auto cells = surfaces::CellGrid::around(surface.plane, points, kSeenCell);

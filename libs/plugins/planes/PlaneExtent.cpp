@@ -31,9 +31,9 @@ geometry::Areas2 seenOn(const landmarks::PlaneAxes& axes, const std::vector<Surf
   return geometry::unionOf(polygons, kLeast);
 }
 
-surfaces::CellGrid cellsSeenOn(const geometry::Plane3& plane, const std::vector<SurfacePatch>& patches,
-                               const map::KeyFrames& key_frames) {
-  auto cells = surfaces::CellGrid::around(plane, cornersInMap(patches, key_frames), kSeenCell);
+void addSeen(surfaces::CellGrid& cells, const geometry::Plane3& plane, const std::vector<SurfacePatch>& patches,
+             const map::KeyFrames& key_frames) {
+  cells = cells.grownTo(plane, cornersInMap(patches, key_frames), kSeenCell);
   for (const auto& patch : patches) {
     const auto map_from_base = geometry::fromMrpt(key_frames.at(patch.frame).map_from_base);
     const auto inMap = [&](std::vector<Eigen::Vector3d> walk) {
@@ -44,7 +44,6 @@ surfaces::CellGrid cellsSeenOn(const geometry::Plane3& plane, const std::vector<
     for (const auto& hole : patch.holes_in_base) holes.push_back(inMap(hole));
     cells.fill(inMap(patch.outline_in_base), holes);
   }
-  return cells;
 }
 
 std::vector<Eigen::Vector3d> cornersInMap(const std::vector<SurfacePatch>& patches, const map::KeyFrames& key_frames) {

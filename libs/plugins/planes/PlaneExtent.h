@@ -21,9 +21,10 @@ std::vector<Eigen::Vector2d> hullOn(const landmarks::PlaneAxes& axes, const std:
 geometry::Areas2 seenOn(const landmarks::PlaneAxes& axes, const std::vector<SurfacePatch>& patches,
                         const map::KeyFrames& key_frames);
 
-/// The same as cells, coarser and far quicker.
-surfaces::CellGrid cellsSeenOn(const geometry::Plane3& plane, const std::vector<SurfacePatch>& patches,
-                               const map::KeyFrames& key_frames);
+/// Sets the cells that the patches of planes cover, dropped on a plane; the grid grows as far as they reach. Coarser
+/// and far quicker than seenOn().
+void addSeen(surfaces::CellGrid& cells, const geometry::Plane3& plane, const std::vector<SurfacePatch>& patches,
+             const map::KeyFrames& key_frames);
 
 /// The corners of patches in the map, each where its key frame is now.
 std::vector<Eigen::Vector3d> cornersInMap(const std::vector<SurfacePatch>& patches, const map::KeyFrames& key_frames);

@@ -54,11 +54,27 @@ void PlaneLandmarkIndex::update(const mapper::View& view) {
     surface.variable = landmark->variables.front();
     surface.plane = form().plane(view.graph.value(surface.variable));
     const landmarks::PlaneAxes axes(surface.plane);
-    const auto corners = cornersInMap(payload.patches, view.map.key_frames);
-    surface.hull = hullOn(axes, corners);
-    if (payload.boundary == PlanePayload::Boundary::seen)
-      surface.seen = cellsSeenOn(surface.plane, payload.patches, view.map.key_frames);
-    std::tie(surface.lowest, surface.highest) = heightsOf(corners);
+    // Between solutions nothing moves, and patches are but added.
+    const bool has_moved = surface.solve != view.solves.size() + 1 || surface.patches > payload.patches.size();
+    if (has_moved) {
+      surface.patches = 0;
+      surface.hull.clear();
+      surface.seen = {};
+      std::tie(surface.lowest, surface.highest) = std::pair(HUGE_VAL, -HUGE_VAL);
+    }
+    const std::vector<SurfacePatch> fresh(payload.patches.begin() + static_cast<std::ptrdiff_t>(surface.patches),
+                                          payload.patches.end());
+    surface.patches = payload.patches.size();
+    if (!fresh.empty()) {
+      auto corners = cornersInMap(fresh, view.map.key_frames);
+      const auto [lowest, highest] = heightsOf(corners);
+      surface.lowest = std::min(surface.lowest, lowest);
+      surface.highest = std::max(surface.highest, highest);
+      for (const auto& corner : surface.hull) corners.push_back(axes.inSpace(corner));
+      surface.hull = hullOn(axes, corners);
+      if (payload.boundary == PlanePayload::Boundary::seen)
+        addSeen(surface.seen, surface.plane, fresh, view.map.key_frames);
+    }
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (const auto& corner : surface.hull) middle += corner / static_cast<double>(surface.hull.size());
     surface.radius = 0;

@@ -31,7 +31,8 @@ class PlaneLandmarkIndex {
     Heights heights = Heights::unknown;
     double lowest = 0, highest = 0;  ///< [m] z in the map of what was seen of it
     base::KeyFrameId last_seen_from;
-    std::size_t solve = 0;  ///< number of solves when this was worked out
+    std::size_t patches = 0;  ///< so many of the payload's are in hull and seen
+    std::size_t solve = 0;    ///< number of solves when this was worked out
     std::shared_ptr<const map::LandmarkPayload> payload;
   };
 

@@ -3,6 +3,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
 #include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/geometry/Simplify.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
@@ -37,6 +38,17 @@ PlaneMeasurement useless(PlaneMeasurement sighting, std::string why) {
   return sighting;
 }
 
+// Outlines follow pixels: most of their corners tell nothing of a wall.
+std::vector<Eigen::Vector3d> withoutNeedlessCorners(const std::vector<Eigen::Vector3d>& walk,
+                                                    const landmarks::PlaneAxes& axes) {
+  constexpr double kStraight = 0.01;  // [m]
+  std::vector<Eigen::Vector2d> dropped;
+  for (const auto& point : walk) dropped.push_back(axes.onto(point));
+  std::vector<Eigen::Vector3d> kept;
+  for (const std::size_t i : geometry::keptOfLoop(dropped, kStraight)) kept.push_back(walk[i]);
+  return kept;
+}
+
 PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_sensor,
                          const PlaneLandmarksOptions& options) {
   const Plane3& in_sensor = seen.plane_in_sensor;
@@ -57,11 +69,12 @@ PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_se
   if (hull.size() < 3) return useless(sighting, "its outline has no area");
   sighting.plane_in_base = in_base;
   if (options.boundary == PlaneLandmarksOptions::Boundary::seen) {
-    sighting.outline_in_base = corners;
+    sighting.outline_in_base = withoutNeedlessCorners(corners, axes);
     for (const auto& hole : seen.holes) {
       if (!allFinite(hole.vertices)) continue;
-      auto& in_base_hole = sighting.holes_in_base.emplace_back();
-      for (const auto& vertex : hole.vertices) in_base_hole.push_back(base_from_sensor * vertex);
+      std::vector<Eigen::Vector3d> walk;
+      for (const auto& vertex : hole.vertices) walk.push_back(base_from_sensor * vertex);
+      sighting.holes_in_base.push_back(withoutNeedlessCorners(walk, axes));
     }
   } else {
     for (const auto& corner : hull) sighting.outline_in_base.push_back(axes.inSpace(corner));

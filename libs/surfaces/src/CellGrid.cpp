@@ -57,6 +57,21 @@ CellGrid CellGrid::around(const geometry::Plane3& plane, const std::vector<Vecto
           static_cast<int>(count.y())};
 }
 
+CellGrid CellGrid::grownTo(const geometry::Plane3& plane, std::vector<Vector3d> points, double cell) const {
+  if (cells_.empty()) return around(plane, points, cell);
+  const bool is_inside =
+      std::all_of(points.begin(), points.end(), [&](const Vector3d& point) { return cellAt(point).has_value(); });
+  if (is_inside) return *this;
+  points.push_back(middleOf({0, 0}));
+  points.push_back(middleOf({columns_ - 1, rows_ - 1}));
+  CellGrid grown = around(plane, points, cell);
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column)
+      if (isSet({column, row}))
+        if (const auto there = grown.cellAt(middleOf({column, row}))) grown.set(*there);
+  return grown;
+}
+
 CellGrid CellGrid::movedBy(const geometry::Se3& b_from_a) const {
   CellGrid moved = *this;
   moved.origin_ = b_from_a * origin_;

@@ -27,6 +27,9 @@ class CellGrid {
   /// v up; on a level one u goes along x.
   static CellGrid around(const geometry::Plane3& plane, const std::vector<Eigen::Vector3d>& points, double cell);
 
+  /// Itself, or one that covers the points of its plane as well, with the same cells set. Of an empty grid that around
+  /// the points. `cell` is its own.
+  CellGrid grownTo(const geometry::Plane3& plane, std::vector<Eigen::Vector3d> points, double cell) const;
   /// The same cells in frame b.
   CellGrid movedBy(const geometry::Se3& b_from_a) const;
 
