@@ -29,7 +29,9 @@ std::map<std::string, std::size_t> countLandmarks(const State& state) {
   std::map<std::string, std::size_t> counts;
   for (const auto& [id, landmark] : state.map.landmarks) {
     if (landmark.state != map::Landmark::State::active) continue;
-    const std::string label = shapeOf(landmark, state).label, named = landmark.kind + " ";
+    const map::LandmarkShape shape = shapeOf(landmark, state);
+    if (shape.is_candidate) continue;
+    const std::string &label = shape.label, named = landmark.kind + " ";
     ++counts[label.compare(0, named.size(), named) == 0 ? landmark.kind : label];
   }
   return counts;

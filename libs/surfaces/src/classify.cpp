@@ -129,14 +129,18 @@ bool isBed(const Facts& facts) {
 }
 
 void addNeighbours(const std::vector<Surface>& surfaces, std::vector<Facts>& all) {
-  constexpr double kTouch = 0.12;  // [m]
+  constexpr double kTouch = 0.12, kHighestSeat = 0.53;  // [m]
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < all.size(); ++j) {
       if (i == j || all[i].box.isEmpty() || all[j].box.isEmpty()) continue;
       if (all[i].lie == Lie::upright && !all[i].is_before_wall)
         all[i].is_before_wall = isWallBehind(surfaces[i], all[i], surfaces[j], all[j]);
       if (!isLow(all[j]) || all[i].box.exteriorDistance(all[j].box) > kTouch) continue;
-      (isBed(all[j]) ? all[i].is_at_bed : all[i].is_at_seat) = true;
+      if (isBed(all[j])) {
+        all[i].is_at_bed = true;
+      } else if (all[j].top < kHighestSeat) {
+        all[i].is_at_seat = true;
+      }
     }
   }
 }

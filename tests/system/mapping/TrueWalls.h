@@ -27,6 +27,25 @@ inline std::vector<TrueWall> trueWalls(const std::string& folder) {
   return walls;
 }
 
+/// Where a wall of floorplan.geojson begins and ends: of one in several parts, the points that are farthest apart.
+inline nlohmann::json endsOf(const nlohmann::json& geometry) {
+  if (geometry["type"] == "LineString") return geometry["coordinates"];
+  nlohmann::json ends;
+  double longest = -1;
+  for (const auto& first : geometry["coordinates"]) {
+    for (const auto& second : geometry["coordinates"]) {
+      for (const auto& a : first) {
+        for (const auto& b : second) {
+          const double apart =
+              std::hypot(a[0].get<double>() - b[0].get<double>(), a[1].get<double>() - b[1].get<double>());
+          if (apart > longest) longest = apart, ends = {a, b};
+        }
+      }
+    }
+  }
+  return ends;
+}
+
 /// Of the farther of two ends of a wall in the map from the nearest true wall's line [m].
 inline double endsFromWalls(const nlohmann::json& ends, const mrpt::poses::CPose3D& world_from_map,
                             const std::vector<TrueWall>& walls) {
