@@ -76,22 +76,25 @@ bool isUpright(const Surface& surface) {
   return std::abs(surface.plane.normal.z()) < 0.5;
 }
 
-// Where it lies as seen from above: of an upright one the line it stands on, else its outline.
-std::vector<Eigen::Vector2d> fromAbove(const Surface& surface) {
-  std::vector<Eigen::Vector2d> points;
-  if (!isUpright(surface)) {
-    for (const auto& part : surface.parts) {
-      for (const auto& corner : part.outline) points.push_back(corner.head<2>());
-      if (!part.outline.empty()) points.push_back(part.outline.front().head<2>());
+// Where it lies as seen from above: of an upright one the line it stands on, else its outlines.
+std::vector<std::vector<Eigen::Vector2d>> fromAbove(const Surface& surface) {
+  std::vector<std::vector<Eigen::Vector2d>> walks;
+  for (const auto& part : surface.parts) {
+    if (part.outline.empty()) continue;
+    if (!isUpright(surface)) {
+      auto& walk = walks.emplace_back();
+      for (const auto& corner : part.outline) walk.push_back(corner.head<2>());
+      walk.push_back(part.outline.front().head<2>());
+      continue;
     }
-    return points;
+    const Eigen::Vector2d along(-surface.plane.normal.y(), surface.plane.normal.x());
+    const auto [low, high] =
+        std::minmax_element(part.outline.begin(), part.outline.end(), [&](const auto& a, const auto& b) {
+          return along.dot(a.template head<2>()) < along.dot(b.template head<2>());
+        });
+    walks.push_back({low->head<2>(), high->head<2>()});
   }
-  const Eigen::Vector2d along(-surface.plane.normal.y(), surface.plane.normal.x());
-  const auto corners = cornersOf(surface);
-  const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
-    return along.dot(a.template head<2>()) < along.dot(b.template head<2>());
-  });
-  return {low->head<2>(), high->head<2>()};
+  return walks;
 }
 
 void drawLegend(draw::Svg& svg, double y) {
@@ -126,12 +129,14 @@ void drawPlan(std::ostream& out, const std::string& title, const MapQuality& qua
   svg.box({0, 0}, {width, height}, "#ffffff");
   const auto axes = draw::Axes::withEqualScale({60, 60}, {width - 80, height - 110}, low, high);
   axes.draw(svg, "x [m]", "y [m]");
-  svg.text({60, 22}, title, draw::Svg::Anchor::start, 16);
-  drawLegend(svg, 42);
+  svg.text({60, 20}, title, draw::Svg::Anchor::start, 16);
+  drawLegend(svg, 38);
   const auto draw = [&](const Surface& surface, const std::string& colour, double pen) {
-    std::vector<Eigen::Vector2d> pixels;
-    for (const auto& point : fromAbove(surface)) pixels.push_back(axes.pixel(point));
-    if (pixels.size() > 1) svg.polyline(pixels, colour, isUpright(surface) ? pen : pen / 2);
+    for (const auto& walk : fromAbove(surface)) {
+      std::vector<Eigen::Vector2d> pixels;
+      for (const auto& point : walk) pixels.push_back(axes.pixel(point));
+      svg.polyline(pixels, colour, isUpright(surface) ? pen : pen / 2);
+    }
   };
   for (const auto& surface : truth.surfaces)
     if (surface.is != SurfaceClass::floor && surface.is != SurfaceClass::ceiling) draw(surface, "#d4d4d4", 5);
