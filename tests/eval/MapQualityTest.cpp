@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <fstream>
@@ -149,6 +150,15 @@ TEST(MapQuality, OfAMapWithoutSurfacesNothingIsFoundAndOfAPlaceWithoutAllIsSpuri
   EXPECT_EQ(none.sought.size(), 1u);
   EXPECT_FALSE(table(none).empty());
   EXPECT_EQ(judgeMap(setOf({wall(0, 4, 3)}), setOf({})).spurious(), 1u);
+}
+
+TEST(MapQuality, ASurfaceThatReachesTooFarIsRefusedByName) {
+  try {
+    judgeMap(setOf({wall(0, 1e7, 3)}), setOf({wall(0, 4, 3)}));
+    FAIL();
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("surface 'wall at 3"), std::string::npos) << error.what();
+  }
 }
 
 TEST(MapQuality, TheReportNamesWhatIsWrong) {

@@ -1,9 +1,11 @@
+#include <omnimapper/base/Error.h>
 #include <omnimapper/eval/MapQuality.h>
 #include <omnimapper/eval/Statistics.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace omnimapper::eval {
 
@@ -14,13 +16,22 @@ using surfaces::Surface;
 using surfaces::SurfaceClass;
 using surfaces::SurfaceSet;
 
+CellGrid gridOf(const Surface& surface, double cell) {
+  try {
+    return CellGrid::around(surface.plane, cornersOf(surface), cell);
+  } catch (const std::invalid_argument& error) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "surface '" + surface.name + "': " + error.what() + "; it reaches too far");
+  }
+}
+
 /// A surface with the cells that its outlines cover.
 struct Covered {
   const Surface* surface = nullptr;
   CellGrid cells;
   Eigen::AlignedBox3d box;
 
-  Covered(const Surface& of, double cell) : surface(&of), cells(CellGrid::around(of.plane, cornersOf(of), cell)) {
+  Covered(const Surface& of, double cell) : surface(&of), cells(gridOf(of, cell)) {
     for (const auto& part : of.parts) cells.fill(part.outline, part.holes);
     for (const auto& corner : cornersOf(of)) box.extend(corner);
   }

@@ -3,6 +3,8 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
 
+#include <Eigen/Geometry>
+
 namespace omnimapper::plugins {
 
 std::vector<Eigen::Vector2d> hullOn(const landmarks::PlaneAxes& axes, const std::vector<Eigen::Vector3d>& points) {
@@ -33,7 +35,14 @@ geometry::Areas2 seenOn(const landmarks::PlaneAxes& axes, const std::vector<Surf
 
 void addSeen(surfaces::CellGrid& cells, const geometry::Plane3& plane, const std::vector<SurfacePatch>& patches,
              const map::KeyFrames& key_frames) {
-  cells = cells.grownTo(plane, cornersInMap(patches, key_frames), kSeenCell);
+  constexpr double kLargest = 2000;  // [m] what reaches farther is no surface that anybody counts
+  const auto corners = cornersInMap(patches, key_frames);
+  Eigen::AlignedBox3d box;
+  for (const auto& corner : corners) box.extend(corner);
+  if (cells.columns() > 0)
+    box.extend(cells.middleOf({0, 0})).extend(cells.middleOf({cells.columns() - 1, cells.rows() - 1}));
+  if (!(box.diagonal().norm() < kLargest)) return;
+  cells = cells.grownTo(plane, corners, kSeenCell);
   for (const auto& patch : patches) {
     const auto map_from_base = geometry::fromMrpt(key_frames.at(patch.frame).map_from_base);
     const auto inMap = [&](std::vector<Eigen::Vector3d> walk) {

@@ -54,8 +54,10 @@ Vector2d quantiles(std::vector<double> values) {
 }
 
 std::vector<Vector3d> cellsOf(const Surface& surface) {
-  constexpr double kCell = 0.05;  // [m]
-  auto grid = CellGrid::around(surface.plane, cornersOf(surface), kCell);
+  constexpr double kCell = 0.05, kMostCells = 500;  // [m], along a side
+  Eigen::AlignedBox3d box;
+  for (const auto& corner : cornersOf(surface)) box.extend(corner);
+  auto grid = CellGrid::around(surface.plane, cornersOf(surface), std::max(kCell, box.diagonal().norm() / kMostCells));
   for (const auto& part : surface.parts) grid.fill(part.outline, part.holes);
   std::vector<Vector3d> cells;
   for (int row = 0; row < grid.rows(); ++row)

@@ -74,7 +74,8 @@ struct MapQuality {
 
 /// Compares by area on the true planes. A true surface without `seen` counts as seen all over; where no surface of a
 /// class was seen it has no entry in `area`. Posters lie on their wall: what covers one is on that wall, and none need
-/// be found. What is moved is never sought, but what lies on it is not spurious.
+/// be found. What is moved is never sought, but what lies on it is not spurious. Throws base::Error(unreadable_input)
+/// for a surface that reaches too far to be counted in cells.
 MapQuality judgeMap(const surfaces::SurfaceSet& map, const surfaces::SurfaceSet& truth,
                     const MapQualityOptions& options = {});
 
