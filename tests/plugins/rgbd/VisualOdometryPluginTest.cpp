@@ -254,6 +254,21 @@ TEST_F(VisualOdometry, ImagesOfAnotherSizeAreTrackedOrRefused) {
   expectMotion(1.4, 2);
 }
 
+TEST_F(VisualOdometry, WithAPictureOfSixteenBitsItIsNotWrong) {
+  addWith([](auto& scan, double) {
+    scan.intensityImage.resize(scan.rangeImage.cols(), scan.rangeImage.rows(), mrpt::img::CH_GRAY,
+                               mrpt::img::PixelDepth::D16U);
+  });
+  for (const double end : {0.8, 1.0, 1.2, 2.0}) expectHonest(0.5, end);
+  expectMotion(1.4, 2);
+}
+
+TEST_F(VisualOdometry, AcrossTwoSecondsWithoutImagesItIsNotWrong) {
+  for (const double seconds : {0.0, 0.1, 0.2, 0.3, 2.3, 2.4, 2.5}) add(seconds);
+  expectHonest(0.3, 2.3);
+  expectMotion(2.3, 2.5);
+}
+
 TEST_F(VisualOdometry, AcrossASecondWithoutImagesItIsNotWrong) {
   for (const double seconds : {0.0, 0.1, 0.2, 0.3, 1.5, 1.6, 1.7}) add(seconds);
   expectHonest(0.3, 1.5);
