@@ -64,6 +64,7 @@ inline std::shared_ptr<CObservationPlanes> filledPlanes() {
   floor.holes = {{{{2, -0.5, -0.9}, {2, 0.5, -0.9}, {3, 0.5, -0.9}, {3, -0.5, -0.9}}}};
   floor.inliers = 120000;
   floor.rms = 0.004;
+  floor.roughness = 1.25;
   floor.colour = Rgb{120, 110, 90};
   ObservedPlane wall;
   wall.plane_in_sensor = {-Eigen::Vector3d::UnitX(), 4};

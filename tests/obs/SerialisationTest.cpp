@@ -86,6 +86,18 @@ TEST(Serialisation, bytesOfVersion0AreReadAsWhatTheyWere) {
   }
 }
 
+// Planes of version 1 tell how rough they are.
+TEST(Serialisation, bytesOfPlanesOfVersion1AreReadAsWhatTheyWere) {
+  const auto bytes = contentOf(testing::sourceFile("tests/obs/version_1/CObservationPlanes.bin"));
+  const auto object = objectFrom(bytes);
+  ASSERT_TRUE(object);
+  const auto& planes = dynamic_cast<const CObservationPlanes&>(*object).planes;
+  ASSERT_EQ(planes.size(), 2U);
+  EXPECT_EQ(planes[0].roughness, 1.25);
+  EXPECT_EQ(planes[1].roughness, 0);
+  EXPECT_EQ(bytesOf(*object), bytes);
+}
+
 TEST(Serialisation, everyClassThrowsOnEveryTruncation) {
   for (const auto& [name, make] : filledObjects()) {
     const auto bytes = bytesOf(*make());

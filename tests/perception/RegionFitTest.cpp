@@ -47,6 +47,7 @@ TEST(RegionFit, TheRmsIsThatOfTheDistancesFromThePlane) {
   const auto wall = fitted([](int x) { return 1 / (x % 2 == 0 ? 0.999 : 1.001); }, 0, 0);
   ASSERT_EQ(wall.size(), 1U);
   EXPECT_NEAR(wall[0].result.rms, 0.001, 1e-5);
+  EXPECT_NEAR(wall[0].result.roughness, 0.001 / std::sqrt(DepthNoise().pixelVariance()), 1e-3);
 }
 
 }  // namespace

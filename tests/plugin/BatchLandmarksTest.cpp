@@ -115,6 +115,33 @@ TEST_F(BatchLandmarks, MergingGivesFactorsAndEvidenceToTheOther) {
   testing::expectNothingDangles(state());
 }
 
+TEST_F(BatchLandmarks, OneTakesInSeveralAndOneThatGoesTakesInNone) {
+  expectRefused(
+      [&](Batch& batch) {
+        batch.mergeLandmarks(b_, a_);
+        batch.mergeLandmarks(b_, a_);
+      },
+      "twice");
+  expectRefused(
+      [&](Batch& batch) {
+        batch.mergeLandmarks(b_, a_);
+        batch.mergeLandmarks(a_, b_);
+      },
+      "cannot take in");
+  const auto third = applied([&](Batch& batch) {
+                       const auto variable = batch.addVariable(graph::se2(), Eigen::Vector3d::Zero());
+                       batch.addFactor(sighting(pose_, variable, batch.addLandmark("thing", {variable})));
+                     }).landmarks.front();
+  applied([&](Batch& batch) {
+    batch.mergeLandmarks(b_, a_);
+    batch.mergeLandmarks(third, a_);
+  });
+  EXPECT_EQ(map_.landmark(third).id, a_);
+  EXPECT_EQ(map_.landmark(b_).id, a_);
+  EXPECT_EQ(state().factorsOf(a_).size(), 3U);
+  testing::expectNothingDangles(state());
+}
+
 TEST_F(BatchLandmarks, AFactorBetweenTwoThatAreMergedGoes) {
   const auto both =
       applied([&](Batch& batch) { batch.addFactor(sighting(variableOf(a_), variableOf(b_), a_)); }).factors.front();

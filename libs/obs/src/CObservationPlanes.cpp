@@ -21,9 +21,10 @@ void writePlane(Archive& out, const ObservedPlane& plane) {
   writeItems(out, plane.holes, writePolygon);
   out << plane.inliers << plane.rms;
   writeOptional(out, plane.colour, writeColour);
+  out << plane.roughness;
 }
 
-ObservedPlane readPlane(Archive& in) {
+ObservedPlane readPlaneWithoutRoughness(Archive& in) {
   ObservedPlane plane;
   plane.plane_in_sensor.normal = readMatrix<Eigen::Vector3d>(in);
   plane.plane_in_sensor.distance = readNumber<double>(in);
@@ -37,6 +38,12 @@ ObservedPlane readPlane(Archive& in) {
   return plane;
 }
 
+ObservedPlane readPlane(Archive& in) {
+  ObservedPlane plane = readPlaneWithoutRoughness(in);
+  plane.roughness = readNumber<double>(in);
+  return plane;
+}
+
 double areaOf(const ObservedPlane& plane) {
   double result = area(plane.outline);
   for (const auto& hole : plane.holes) result -= area(hole);
@@ -46,7 +53,7 @@ double areaOf(const ObservedPlane& plane) {
 }  // namespace
 
 uint8_t CObservationPlanes::serializeGetVersion() const {
-  return 0;
+  return 1;
 }
 
 void CObservationPlanes::serializeTo(mrpt::serialization::CArchive& out) const {
@@ -55,9 +62,9 @@ void CObservationPlanes::serializeTo(mrpt::serialization::CArchive& out) const {
 }
 
 void CObservationPlanes::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
-  if (version != 0) refuseVersion("CObservationPlanes", version);
+  if (version > 1) refuseVersion("CObservationPlanes", version);
   readHead(in);
-  planes = readItems(in, readPlane);
+  planes = readItems(in, version == 0 ? readPlaneWithoutRoughness : readPlane);
 }
 
 void CObservationPlanes::describe(std::ostream& out) const {
@@ -67,8 +74,8 @@ void CObservationPlanes::describe(std::ostream& out) const {
     const auto& [normal, distance] = plane.plane_in_sensor;
     out << i << ": normal " << shortly(normal.x()) << " " << shortly(normal.y()) << " " << shortly(normal.z())
         << ", distance " << shortly(distance) << " m, area " << shortly(areaOf(plane)) << " m^2, " << plane.inliers
-        << " points with rms " << shortly(1000 * plane.rms) << " mm, deviations "
-        << shortly(1000 * std::sqrt(plane.covariance(0, 0))) << " and "
+        << " points with rms " << shortly(1000 * plane.rms) << " mm, " << shortly(plane.roughness)
+        << " times the sensor's noise, deviations " << shortly(1000 * std::sqrt(plane.covariance(0, 0))) << " and "
         << shortly(1000 * std::sqrt(plane.covariance(1, 1))) << " mrad, "
         << shortly(1000 * std::sqrt(plane.covariance(2, 2))) << " mm, outline of " << plane.outline.vertices.size()
         << " vertices, " << plane.holes.size() << " holes";

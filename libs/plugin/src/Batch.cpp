@@ -94,7 +94,9 @@ class Check {
   void checkMerge(base::LandmarkId from, base::LandmarkId into) {
     const std::string edit = "merge of landmark " + toString(from) + " into " + toString(into);
     need(from != into, edit, "they are the same");
-    need(merged_.insert(from).second && merged_.insert(into).second, edit, "one of them is merged twice in a batch");
+    kept_.insert(into);
+    need(gone_.insert(from).second, edit, "it is merged twice in a batch");
+    need(gone_.count(into) == 0 && kept_.count(from) == 0, edit, "one that goes cannot take in another");
     need(!Batch::isProvisional(from) && !Batch::isProvisional(into), edit, "only landmarks of the map can be merged");
     needLandmark(from, edit);
     needLandmark(into, edit);
@@ -117,7 +119,7 @@ class Check {
   const map::Map& map_;
   std::set<base::FactorId> removed_;
   std::set<base::VariableId> removed_variables_;
-  std::set<base::LandmarkId> merged_;
+  std::set<base::LandmarkId> gone_, kept_;
   std::string problem_;
 };
 

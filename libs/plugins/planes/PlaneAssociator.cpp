@@ -101,7 +101,7 @@ std::optional<double> PlaneAssociator::missIfAlike(const PlaneLandmarkIndex::Sur
   for (const auto& point : points) middle += point / static_cast<double>(points.size());
   const double off = std::abs(signedDistance(surface.plane, middle)) - kFarthest;
   if (off > kSigmas * pose_sigma_) return std::nullopt;
-  const double gap = gapBetween(surface, points, toldBy(sighting)) - options_.max_gap;
+  const double gap = gapBetween(surface, points, toldBy(sighting)) - maxGap(surface, sighting);
   if (gap > kSigmas * pose_sigma_) return std::nullopt;
   return std::max(off, gap);
 }
@@ -156,10 +156,7 @@ void PlaneAssociator::addToKnown(const PlaneMeasurement& sighting, const mapper:
     const auto upright = uprightFactor(view_.graph, surface.variable);
     if (upright && leaning_.insert(*upright).second) batch_.removeFactor(*upright);
   }
-  std::vector<std::vector<Eigen::Vector3d>> holes;
-  for (const auto& hole : sighting.holes_in_base) holes.push_back(inMap(hole));
-  const bool tells_more = reachesOver(surface, points) || showsMore(*payload, sighting, surface, points, holes);
-  payload = payload->with(frame_.id, sighting, tells_more);
+  payload = payload->with(frame_.id, sighting, newsOf(sighting, points, surface, *payload));
   batch_.addEvidence(id, payload);
 }
 
@@ -183,24 +180,52 @@ bool PlaneAssociator::reachesOver(const PlaneLandmarkIndex::Surface& surface,
   });
 }
 
-bool PlaneAssociator::showsMore(const PlanePayload& payload, const PlaneMeasurement& sighting,
-                                const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points,
-                                const std::vector<std::vector<Eigen::Vector3d>>& holes) {
-  if (payload.boundary != PlanePayload::Boundary::seen || sighting.is_line) return false;
+namespace {
+
+// Whether a part of a surface covers more cells that were not yet seen than edges that are seen elsewhere each time do.
+bool showsMore(const surfaces::FlatPart& part, const geometry::Plane3& plane, const surfaces::CellGrid& seen) {
   constexpr double kBay = 0.03, kEdge = 0.01;  // [m^2], [m] that edges are seen alike
+  const auto& points = part.outline;
   double around = 0;
   for (std::size_t i = 0; i < points.size(); ++i) around += (points[i] - points[(i + 1) % points.size()]).norm();
-  auto cells = surfaces::CellGrid::around(surface.plane, points, kSeenCell);
-  cells.fill(points, holes);
+  auto cells = surfaces::CellGrid::around(plane, points, kSeenCell);
+  cells.fill(points, part.holes);
   double unseen = 0;
   for (int row = 0; row < cells.rows(); ++row) {
     for (int column = 0; column < cells.columns(); ++column) {
       if (!cells.isSet({column, row})) continue;
-      const auto known = surface.seen.cellAt(cells.middleOf({column, row}));
-      if (!known || !surface.seen.isSet(*known)) unseen += cells.areaOfCell();
+      const auto known = seen.cellAt(cells.middleOf({column, row}));
+      if (!known || !seen.isSet(*known)) unseen += cells.areaOfCell();
     }
   }
   return unseen > kBay + kEdge * around;
+}
+
+}  // namespace
+
+News PlaneAssociator::newsOf(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points,
+                             const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) const {
+  News news{reachesOver(surface, points), false};
+  if (payload.boundary != PlanePayload::Boundary::seen || sighting.is_line) return news;
+  const auto partInMap = [&](const std::vector<Eigen::Vector3d>& outline,
+                             const std::vector<std::vector<Eigen::Vector3d>>& holes) {
+    surfaces::FlatPart part{inMap(outline), {}};
+    for (const auto& hole : holes) part.holes.push_back(inMap(hole));
+    return part;
+  };
+  const auto whole = partInMap(sighting.outline_in_base, sighting.holes_in_base);
+  news.of_extent = news.of_extent || showsMore(whole, surface.plane, surface.seen);
+  news.of_well_seen = sighting.is_all_well_seen && showsMore(whole, surface.plane, surface.well_seen);
+  for (const auto& part : sighting.well_seen_in_base) {
+    news.of_well_seen =
+        news.of_well_seen || showsMore(partInMap(part.outline, part.holes), surface.plane, surface.well_seen);
+  }
+  return news;
+}
+
+double PlaneAssociator::maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting) const {
+  const bool are_planes = !sighting.is_line && surface.heights == PlaneLandmarkIndex::Heights::known;
+  return are_planes ? options_.max_plane_gap : options_.max_gap;
 }
 
 void PlaneAssociator::logUseless(const PlaneMeasurement& sighting) {
@@ -221,7 +246,7 @@ void PlaneAssociator::addNew(const PlaneMeasurement& sighting, mapper::Decision 
     decision.reason = "of a new landmark seen twice at once";
     batch_.log(std::move(decision));
     batch_.addFactor(record(sighting, same->surface.variable, same->surface.id));
-    same->payload = same->payload->with(frame_.id, sighting, true);
+    same->payload = same->payload->with(frame_.id, sighting, {true, true});
     batch_.addEvidence(same->surface.id, same->payload);
     const landmarks::PlaneAxes axes(same->surface.plane);
     for (const auto& point : points) same->surface.hull.push_back(axes.onto(point));
@@ -234,7 +259,7 @@ void PlaneAssociator::addNew(const PlaneMeasurement& sighting, mapper::Decision 
   batch_.log(std::move(decision));
   if (!large) return;
   const auto variable = batch_.addVariable(form_.variable(), form_.value(plane, points));
-  const auto payload = known_.emptyPayload().with(frame_.id, sighting, true);
+  const auto payload = known_.emptyPayload().with(frame_.id, sighting, {true, true});
   const auto landmark = batch_.addLandmark("plane", {variable}, payload);
   batch_.addFactor(record(sighting, variable, landmark));
   if (sighting.is_line && form_.mayTilt()) {
@@ -267,7 +292,7 @@ PlaneAssociator::Fresh* PlaneAssociator::alikeInThisMoment(const PlaneMeasuremen
       return std::abs(signedDistance(plane, point)) > kOff;
     });
     if (!off && plane.normal.cross(normal).norm() < kTurn && plane.normal.dot(normal) > 0 &&
-        gapBetween(fresh.surface, points, toldBy(sighting)) <= options_.max_gap)
+        gapBetween(fresh.surface, points, toldBy(sighting)) <= maxGap(fresh.surface, sighting))
       return &fresh;
   }
   return nullptr;

@@ -52,10 +52,10 @@ class PlaneAssociator {
                         const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload);
   // Whether a corner lies outside by more than edges are seen alike.
   static bool reachesOver(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points);
-  // Whether a plane shows a part of the surface that nobody has seen yet, where boundaries are kept as seen.
-  static bool showsMore(const PlanePayload& payload, const PlaneMeasurement& sighting,
-                        const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points,
-                        const std::vector<std::vector<Eigen::Vector3d>>& holes);
+  News newsOf(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points,
+              const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) const;
+  // [m] between a surface and a sighting of it.
+  double maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting) const;
   void logUseless(const PlaneMeasurement& sighting);
   void addNew(const PlaneMeasurement& sighting, mapper::Decision decision);
   // Two stretches of one wall, with a door between them.

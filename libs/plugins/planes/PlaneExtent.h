@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/geometry/PolygonUnion.h>
+#include <omnimapper/geometry/PolygonBooleans.h>
 #include <omnimapper/landmarks/PlaneAxes.h>
 #include <omnimapper/map/KeyFrames.h>
 #include <omnimapper/surfaces/CellGrid.h>

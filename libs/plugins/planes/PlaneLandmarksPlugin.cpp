@@ -37,8 +37,17 @@ const base::OptionTable<PlaneLandmarksOptions>& PlaneLandmarksOptions::table() {
                     "A new landmark seen as a plane is so large.")
             .number("min_length_m", &Options::min_length, Range::notNegative(),
                     "A new landmark seen as a line is so long.")
-            .number("max_gap_m", &Options::max_gap, Range::notNegative(),
-                    "Surfaces on one plane that are so far apart are landmarks of their own.")
+            .number(
+                "max_gap_m", &Options::max_gap, Range::notNegative(),
+                "Walls on one plane that are farther apart along the floor are landmarks of their own, where one of "
+                "them was seen as a line only.")
+            .number("max_plane_gap_m", &Options::max_plane_gap, Range::notNegative(),
+                    "Surfaces on one plane that are farther apart are landmarks of their own, where both were seen as "
+                    "planes.")
+            .number("well_seen_within_m", &Options::well_seen_within, Range::positive(),
+                    "What was seen of a surface from farther off draws it only until something was seen better.")
+            .number("well_seen_under_deg", &Options::well_seen_under, Range::positive(),
+                    "The same for what was seen more aslant, from the normal.")
             .number("plane_sigma_m", &Options::plane_sigma, Range::notNegative(),
                     "Standard deviation of a surface from flat, beside the noise that an observed plane tells of.")
             .number("plane_angle_sigma_deg", &Options::plane_angle_sigma, Range::notNegative(),

@@ -23,11 +23,16 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
     seen = 1   ///< the union of what was seen, with bays and holes
   };
   Boundary boundary = Boundary::seen;
-  bool planes = true;                                                  ///< measure CObservationPlanes
-  bool lines = true;                                                   ///< measure CObservationLaserLines
-  double min_area = 0.25;                                              ///< [m^2] of a new landmark, seen as a plane
-  double min_length = 0.8;                                             ///< [m] of a new landmark, seen as a line
-  double max_gap = 0.5;                                                ///< [m] between surfaces of one landmark
+  bool planes = true;           ///< measure CObservationPlanes
+  bool lines = true;            ///< measure CObservationLaserLines
+  double min_area = 0.25;       ///< [m^2] of a new landmark, seen as a plane
+  double min_length = 0.8;      ///< [m] of a new landmark, seen as a line
+  double max_gap = 0.5;         ///< [m] between lines of one landmark, and between lines and surfaces
+  double max_plane_gap = 0.15;  ///< [m] between surfaces seen as planes of one landmark
+  /// What a sensor sees of a surface from farther off or more aslant draws it only where nothing better is known: noise
+  /// of depth grows with the square of the distance, and mixed pixels at edges reach far along a grazing ray.
+  double well_seen_within = 4;                                         ///< [m]
+  double well_seen_under = 75 * base::option_text::kRadiansPerDegree;  ///< [rad] between the ray and the normal
   double plane_sigma = 0.01;                                           ///< [m] a surface is so far from flat
   double plane_angle_sigma = base::option_text::kRadiansPerDegree;     ///< [rad]
   double line_sigma = 0.01;                                            ///< [m]

@@ -3,6 +3,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
 #include <omnimapper/geometry/PlaneTangent.h>
+#include <omnimapper/geometry/PolygonBooleans.h>
 #include <omnimapper/geometry/Simplify.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
@@ -11,6 +12,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -49,6 +51,59 @@ std::vector<Eigen::Vector3d> withoutNeedlessCorners(const std::vector<Eigen::Vec
   return kept;
 }
 
+// On a plane those places lie in a disc about the foot of the sensor.
+struct Disc {
+  Eigen::Vector2d middle;
+  double radius;
+  bool contains(const Eigen::Vector2d& point) const { return (point - middle).norm() <= radius; }
+  std::vector<Eigen::Vector2d> asPolygon() const {
+    constexpr int kCorners = 64;
+    std::vector<Eigen::Vector2d> corners;
+    for (int i = 0; i < kCorners; ++i) {
+      const double angle = 2 * M_PI * i / kCorners;
+      corners.push_back(middle + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    }
+    return corners;
+  }
+};
+
+Disc wellSeenOn(const landmarks::PlaneAxes& axes, const Plane3& plane, const Eigen::Vector3d& sensor,
+                const PlaneLandmarksOptions& options) {
+  const double off = std::abs(signedDistance(plane, sensor));
+  const double near = options.well_seen_within * options.well_seen_within - off * off;
+  const double aslant = off * std::tan(std::min(options.well_seen_under, M_PI / 2 - 1e-6));
+  return {axes.onto(sensor), std::min(near > 0 ? std::sqrt(near) : 0, aslant)};
+}
+
+// Leaves `well_seen_in_base` empty where that is all of it.
+void addWellSeen(const landmarks::PlaneAxes& axes, const Disc& disc, PlaneMeasurement& sighting) {
+  const auto dropped = [&](const std::vector<Eigen::Vector3d>& walk) {
+    std::vector<Eigen::Vector2d> points;
+    for (const auto& corner : walk) points.push_back(axes.onto(corner));
+    return points;
+  };
+  const geometry::HoledPolygon2 whole{dropped(sighting.outline_in_base), [&] {
+                                        std::vector<std::vector<Eigen::Vector2d>> holes;
+                                        for (const auto& hole : sighting.holes_in_base) holes.push_back(dropped(hole));
+                                        return holes;
+                                      }()};
+  sighting.is_all_well_seen = std::all_of(whole.outline.begin(), whole.outline.end(),
+                                          [&](const auto& corner) { return disc.contains(corner); });
+  if (sighting.is_all_well_seen || !(disc.radius > 0)) return;
+  const geometry::Areas2 areas = geometry::intersectionOf(whole, disc.asPolygon());
+  const auto inSpace = [&](const std::vector<Eigen::Vector2d>& walk) {
+    std::vector<Eigen::Vector3d> corners;
+    for (const auto& corner : walk) corners.push_back(axes.inSpace(corner));
+    return corners;
+  };
+  // Areas do not tell which hole is in which outline; where there are several, each has all of them.
+  for (const auto& outline : areas.outlines) {
+    surfaces::FlatPart& part = sighting.well_seen_in_base.emplace_back();
+    part.outline = inSpace(outline);
+    for (const auto& hole : areas.holes) part.holes.push_back(inSpace(hole));
+  }
+}
+
 PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_sensor,
                          const PlaneLandmarksOptions& options) {
   const Plane3& in_sensor = seen.plane_in_sensor;
@@ -76,10 +131,12 @@ PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_se
       for (const auto& vertex : hole.vertices) walk.push_back(base_from_sensor * vertex);
       sighting.holes_in_base.push_back(withoutNeedlessCorners(walk, axes));
     }
+    addWellSeen(axes, wellSeenOn(axes, in_base, base_from_sensor.translation, options), sighting);
   } else {
     for (const auto& corner : hull) sighting.outline_in_base.push_back(axes.inSpace(corner));
   }
   sighting.size = geometry::area(hull);
+  sighting.roughness = std::isfinite(seen.roughness) ? seen.roughness : 0;
   sighting.factor = std::make_shared<landmarks::PlaneFactor>(in_base);
   sighting.noise = graph::SquareRootInformation::fromCovariance(in_base_covariance);
   return sighting;

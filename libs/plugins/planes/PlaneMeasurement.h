@@ -5,6 +5,7 @@
 #include <omnimapper/graph/Factor.h>
 #include <omnimapper/graph/Noise.h>
 #include <omnimapper/landmarks/PlaneParametrization.h>
+#include <omnimapper/surfaces/SurfaceSet.h>
 
 #include <memory>
 #include <string>
@@ -22,7 +23,11 @@ struct PlaneMeasurement {
   /// [m] convex, or with boundary = seen as it was seen; of a line its two ends.
   std::vector<Eigen::Vector3d> outline_in_base;
   std::vector<std::vector<Eigen::Vector3d>> holes_in_base;  ///< [m] with boundary = seen
-  double size = 0;                                          ///< [m^2] of the hull, of a line [m]
+  /// With boundary = seen what of it was seen from near and not too aslant. Empty if that is all of it, or nothing.
+  std::vector<surfaces::FlatPart> well_seen_in_base;
+  bool is_all_well_seen = true;
+  double roughness = 0;  ///< as ObservedPlane::roughness
+  double size = 0;       ///< [m^2] of the hull, of a line [m]
   std::shared_ptr<const graph::Factor> factor;
   graph::SquareRootInformation noise = graph::SquareRootInformation::identity(1);
   std::string why_useless;  ///< not empty: nothing but is_line, sensor_label and size is told

@@ -1,9 +1,11 @@
 #include "PlaneMerging.h"
 
+#include <omnimapper/geometry/Polygon3.h>
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/landmarks/Merging.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -106,28 +108,40 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
   const double least_density =
       std::log(options.min_likelihood_ratio) - std::log(2 * kOff) - turns * std::log(2 * kTurn);
   Merges merges;
-  std::set<base::LandmarkId> merged;
+  std::set<base::LandmarkId> gone_already;
+  std::set<base::FactorId> removed;
+  std::map<base::LandmarkId, std::vector<const Surface*>> parts;  // that one has taken in
   const auto& all = known.all();
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = std::next(a); b != all.end(); ++b) {
-      if (merged.count(a->first) > 0) break;
-      if (merged.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
+      if (gone_already.count(a->first) > 0) break;
+      if (gone_already.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
       if (!onOnePlane(a->second, b->second)) continue;
-      const bool continues = is_end && continueEachOther(a->second, b->second, ground);
+      const auto& of_a = parts[a->first];
+      const bool continues = is_end && (continueEachOther(a->second, b->second, ground) ||
+                                        std::any_of(of_a.begin(), of_a.end(), [&](const Surface* part) {
+                                          return continueEachOther(*part, b->second, ground);
+                                        }));
       if (!continues && !overlap(a->second, b->second)) continue;
       const auto fit = fitOfDifference(known.form(), a->second, b->second, options.inflation, view);
       if (!fit) continue;
       const bool is_alike = fit->chi2 <= limit && fit->log_density >= least_density;
       if (!continues && !is_alike && !lieOnEachOther(a->second, b->second)) continue;
-      merged.insert(a->first);
-      merged.insert(b->first);
+      gone_already.insert(b->first);
+      parts[a->first].push_back(&b->second);
       const map::Landmark &kept = view.map.landmark(a->first), &gone = view.map.landmark(b->first);
-      const auto& kept_payload = dynamic_cast<const PlanePayload&>(*kept.payload);
+      const auto before = merges.payloads.find(kept.id);
+      const auto& kept_payload =
+          before != merges.payloads.end() ? *before->second : dynamic_cast<const PlanePayload&>(*kept.payload);
       const auto& gone_payload = dynamic_cast<const PlanePayload&>(*gone.payload);
       const auto of_kept = uprightFactor(view.graph, kept.variables.front());
       const auto of_gone = uprightFactor(view.graph, gone.variables.front());
+      const bool has_kept = of_kept && removed.count(*of_kept) == 0;
       if (of_gone) merges.batch.removeFactor(*of_gone);
-      if (of_kept && !of_gone) merges.batch.removeFactor(*of_kept);  // something showed how the other leans
+      if (has_kept && !of_gone) {  // something showed how the other leans
+        merges.batch.removeFactor(*of_kept);
+        removed.insert(*of_kept);
+      }
       merges.gone_into.emplace_back(gone.id, kept.id);
       merges.payloads[kept.id] = kept_payload.with(gone_payload);
       merges.batch.log(landmarks::mergeDecision(view, section, kept.id, gone.id, fit->chi2, limit));
@@ -141,39 +155,83 @@ mapper::Batch asBatch(Merges merges) {
   return std::move(merges.batch);
 }
 
-// What each surface is that is left, and whether it was seen often enough.
-void judgeAll(const PlaneLandmarkIndex& known, const mapper::View& view, Merges& merges) {
-  // The longer a log, the more often is seen what is there, and the more chance views have to be wrong alike.
-  constexpr std::size_t kFewest = 2, kMost = 7, kKeyFramesForOne = 200;
-  const std::size_t least = std::min(kMost, kFewest + view.map.key_frames.size() / kKeyFramesForOne);
+// A surface of the map that is left, with what is known of it.
+struct Left {
+  base::LandmarkId id;
+  std::shared_ptr<PlanePayload> payload;
+  surfaces::Surface surface;  ///< all that was seen of it, from afar too
+};
+
+std::vector<Left> leftAfter(const Merges& merges, const PlaneLandmarkIndex& known, const mapper::View& view) {
   std::set<base::LandmarkId> gone;
   for (const auto& one : merges.gone_into) gone.insert(one.first);
-  std::vector<std::shared_ptr<PlanePayload>> payloads;
-  std::vector<base::LandmarkId> ids;
-  std::vector<surfaces::Surface> all;
+  std::vector<Left> all;
   for (const auto& [id, surface] : known.all()) {
     if (gone.count(id) > 0) continue;
     const auto merged = merges.payloads.find(id);
     const auto& payload =
         merged != merges.payloads.end() ? *merged->second : dynamic_cast<const PlanePayload&>(*surface.payload);
-    const auto shape = payload.shape({view.graph.value(surface.variable)}, view.map.key_frames);
-    if (shape.surfaces.empty()) continue;
-    surfaces::Surface& judged = all.emplace_back();
-    judged.plane = surface.plane;
-    for (const auto& polygon : shape.surfaces) judged.parts.push_back({polygon.vertices, {}});
-    ids.push_back(id);
-    payloads.push_back(std::make_shared<PlanePayload>(payload));
+    Left left{id, std::make_shared<PlanePayload>(payload), {}};
+    left.surface.plane = surface.plane;
+    if (payload.wasSeenAsPlane()) left.surface.parts = payload.seenAtAll(surface.plane, view.map.key_frames);
+    if (!left.surface.parts.empty()) all.push_back(std::move(left));
   }
+  return all;
+}
+
+// Of most of the area that the map has.
+double usualRoughness(const std::vector<Left>& all) {
+  std::vector<std::pair<double, double>> by_roughness;  // and their areas
+  double whole = 0;
+  for (const Left& left : all) {
+    if (left.payload->roughness.count == 0) continue;
+    double area = 0;
+    for (const auto& part : left.surface.parts) area += geometry::area(geometry::Polygon3{part.outline});
+    by_roughness.emplace_back(left.payload->roughness.mean(), area);
+    whole += area;
+  }
+  std::sort(by_roughness.begin(), by_roughness.end());
+  double below = 0;
+  for (const auto& [roughness, area] : by_roughness) {
+    below += area;
+    if (below >= whole / 2) return roughness;
+  }
+  return 0;
+}
+
+// How often a surface must have been seen as a plane to be drawn; `rough`: how rough it is, to what is usual. Planes
+// through the spines of books, the legs of chairs and heaps of things lie rougher than walls do, most of them upright
+// or leaning, and the longer a log, the more chance views agree. Not at all where nothing makes up for how rough it is.
+std::optional<std::size_t> sightingsToDraw(const geometry::Plane3& plane, double rough, std::size_t key_frames) {
+  constexpr double kLevel = 0.95, kUpright = 0.2;                   // of the normal's height
+  constexpr double kSmooth = 1.2, kRough = 1.5, kRoughLevel = 2.5;  // to what is usual
+  constexpr std::size_t kLevelOnes = 2, kSmoothOnes = 3, kFewest = 2, kMost = 7, kKeyFramesForOne = 200;
+  const double height = std::abs(plane.normal.z());
+  const std::size_t by_length = std::min(kMost, kFewest + key_frames / kKeyFramesForOne);
+  if (height > kLevel) return rough <= kRoughLevel ? std::optional(kLevelOnes) : std::nullopt;
+  if (rough <= kSmooth) return height < kUpright ? std::min(kSmoothOnes, by_length) : by_length;
+  return height < kUpright && rough <= kRough ? std::optional(by_length) : std::nullopt;
+}
+
+// What each surface is that is left, and whether it was seen often and well enough to be drawn.
+void judgeAll(const PlaneLandmarkIndex& known, const mapper::View& view, Merges& merges) {
+  const auto all = leftAfter(merges, known, view);
   if (all.empty()) return;
-  const auto judgements = surfaces::classify(all, payloads.front()->groundIn(view.map.key_frames));
+  std::vector<surfaces::Surface> judged;
+  for (const Left& left : all) judged.push_back(left.surface);
+  const auto judgements = surfaces::classify(judged, all.front().payload->groundIn(view.map.key_frames));
+  const double usual = usualRoughness(all);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    payloads[i]->judgement = judgements[i];
-    payloads[i]->is_candidate = payloads[i]->sightings() < least;
-    const auto merged = merges.payloads.find(ids[i]);
+    PlanePayload& payload = *all[i].payload;
+    payload.judgement = judgements[i];
+    const double rough = usual > 0 ? payload.roughness.mean() / usual : 1;
+    const auto needed = sightingsToDraw(all[i].surface.plane, rough, view.map.key_frames.size());
+    payload.is_candidate = !needed || payload.planeSightings() < *needed;
+    const auto merged = merges.payloads.find(all[i].id);
     if (merged != merges.payloads.end()) {
-      merged->second = payloads[i];
+      merged->second = all[i].payload;
     } else {
-      merges.batch.describeLandmark(ids[i], payloads[i]);
+      merges.batch.describeLandmark(all[i].id, all[i].payload);
     }
   }
 }

@@ -15,7 +15,8 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr std::uint64_t kVersion = 5;  // 2: the ground; 3: the boundary; 4: holes; 5: the judgement
+// 2: the ground; 3: the boundary; 4: holes; 5: the judgement; 6: what was well seen, and roughness
+constexpr std::uint64_t kVersion = 6;
 
 // What a surface is by itself, whatever stands beside it.
 surfaces::Judgement judgedAlone(const map::LandmarkShape& shape, const geometry::Plane3& plane, double ground) {
@@ -43,6 +44,18 @@ std::vector<Eigen::Vector3d> readWalk(std::istream& in) {
   return walk;
 }
 
+// Surfaces that were only ever seen from afar are drawn by that.
+std::vector<SurfacePatch> wellSeenIfAny(const std::vector<SurfacePatch>& patches) {
+  std::vector<SurfacePatch> well_seen;
+  bool has_area = false;
+  for (const auto& patch : patches) {
+    if (!patch.is_well_seen) continue;
+    well_seen.push_back(patch);
+    has_area = has_area || patch.outline_in_base.size() > 2;
+  }
+  return has_area ? well_seen : patches;
+}
+
 std::string number(double value) {
   const double rounded = std::round(value * 1000) / 1000;
   std::string text = std::to_string(rounded + 0.0);
@@ -62,14 +75,29 @@ std::uint32_t PlanePayload::sightings() const {
   return sum;
 }
 
+std::uint32_t PlanePayload::planeSightings() const {
+  std::uint32_t sum = 0;
+  for (const auto& [label, seen] : seen_by) sum += seen.planes;
+  return sum;
+}
+
 double PlanePayload::groundIn(const map::KeyFrames& key_frames) const {
   return ground == Ground::map || key_frames.empty() ? 0 : key_frames.front().map_from_base.z();
 }
 
 std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, const PlaneMeasurement& sighting,
-                                                       bool tells_more) const {
+                                                       const News& news) const {
   auto more = std::make_shared<PlanePayload>(*this);
-  if (tells_more) more->patches.push_back({frame, sighting.outline_in_base, sighting.holes_in_base});
+  const bool is_whole = sighting.is_all_well_seen;
+  if (news.of_extent || (is_whole && news.of_well_seen))
+    more->patches.push_back({frame, sighting.outline_in_base, sighting.holes_in_base, is_whole});
+  if (!is_whole && news.of_well_seen)
+    for (const auto& part : sighting.well_seen_in_base)
+      more->patches.push_back({frame, part.outline, part.holes, true});
+  if (sighting.roughness > 0) {
+    more->roughness.sum += sighting.roughness;
+    ++more->roughness.count;
+  }
   SeenBy& seen = more->seen_by[sighting.sensor_label];
   ++(sighting.is_line ? seen.lines : seen.planes);
   more->last_seen_from = frame;
@@ -83,6 +111,8 @@ std::shared_ptr<const PlanePayload> PlanePayload::with(const PlanePayload& other
     both->seen_by[label].planes += seen.planes;
     both->seen_by[label].lines += seen.lines;
   }
+  both->roughness.sum += other.roughness.sum;
+  both->roughness.count += other.roughness.count;
   both->last_seen_from = std::max(last_seen_from, other.last_seen_from);
   return both;
 }
@@ -97,6 +127,41 @@ std::shared_ptr<const map::LandmarkPayload> PlanePayload::seenFrom(const std::se
 
 map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& values,
                                        const map::KeyFrames& key_frames) const {
+  auto entry = std::make_shared<ShapeMemo::Entry>();
+  entry->values = values;
+  for (const auto& patch : patches)
+    entry->frames.push_back(geometry::fromMrpt(key_frames.at(patch.frame).map_from_base));
+  const auto isSame = [](const geometry::Se3& a, const geometry::Se3& b) {
+    return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
+  };
+  const auto known = memo_.get();
+  if (known && known->values == values && known->frames.size() == entry->frames.size() &&
+      std::equal(known->frames.begin(), known->frames.end(), entry->frames.begin(), isSame))
+    return known->shape;
+  entry->shape = shapeNow(values, key_frames);
+  memo_.set(entry);
+  return entry->shape;
+}
+
+std::vector<surfaces::FlatPart> PlanePayload::seenAtAll(const geometry::Plane3& plane,
+                                                        const map::KeyFrames& key_frames) const {
+  const landmarks::PlaneAxes axes(plane);
+  const auto areas = seenOn(axes, patches, key_frames);
+  const auto inSpace = [&](const std::vector<Eigen::Vector2d>& walk) {
+    std::vector<Eigen::Vector3d> corners;
+    for (const auto& corner : walk) corners.push_back(axes.inSpace(corner));
+    return corners;
+  };
+  std::vector<surfaces::FlatPart> parts;
+  for (const auto& outline : areas.outlines) {
+    parts.push_back({inSpace(outline), {}});
+    for (const auto& hole : areas.holes) parts.back().holes.push_back(inSpace(hole));
+  }
+  return parts;
+}
+
+map::LandmarkShape PlanePayload::shapeNow(const std::vector<Eigen::VectorXd>& values,
+                                          const map::KeyFrames& key_frames) const {
   map::LandmarkShape shape;
   if (values.empty()) return shape;
   const auto plane = landmarks::PlaneParametrization::of(form).plane(values.front());
@@ -109,7 +174,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
   // A laser alone tells how long a wall is, not how high.
   if (wasSeenAsPlane() && hull.size() > 2) {
     geometry::Areas2 areas;
-    if (boundary == Boundary::seen) areas = seenOn(axes, patches, key_frames);
+    if (boundary == Boundary::seen) areas = seenOn(axes, wellSeenIfAny(patches), key_frames);
     if (areas.outlines.empty()) areas = {{hull}, {}};
     double area = 0;
     const auto inSpace = [&](const std::vector<Eigen::Vector2d>& walk) {
@@ -159,6 +224,7 @@ void PlanePayload::write(std::ostream& out) const {
     writeWalk(out, patch.outline_in_base);
     graph::writeUint(out, patch.holes_in_base.size(), 4);
     for (const auto& hole : patch.holes_in_base) writeWalk(out, hole);
+    graph::writeUint(out, patch.is_well_seen ? 1 : 0, 1);
   }
   graph::writeId(out, last_seen_from);
   graph::writeUint(out, seen_by.size(), 4);
@@ -170,6 +236,8 @@ void PlanePayload::write(std::ostream& out) const {
   graph::writeText(out, judgement ? toString(judgement->is) : "");
   graph::writeText(out, judgement ? judgement->reason : "");
   graph::writeUint(out, is_candidate ? 1 : 0, 1);
+  graph::writeDouble(out, roughness.sum);
+  graph::writeUint(out, roughness.count, 4);
 }
 
 void PlanePayload::addTo(map::PayloadRegistry& registry) {
@@ -191,6 +259,7 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
       patch.outline_in_base = readWalk(in);
       for (auto holes = version > 3 ? graph::readUint(in, 4) : 0; holes > 0; --holes)
         patch.holes_in_base.push_back(readWalk(in));
+      if (version > 5) patch.is_well_seen = graph::readUint(in, 1) != 0;
       payload->patches.push_back(std::move(patch));
     }
     payload->last_seen_from = graph::readId<base::KeyFrameId>(in);
@@ -204,6 +273,10 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
       const std::string name = graph::readText(in), reason = graph::readText(in);
       if (const auto is = surfaces::surfaceClassNamed(name)) payload->judgement = {*is, reason};
       payload->is_candidate = graph::readUint(in, 1) != 0;
+    }
+    if (version > 5) {
+      payload->roughness.sum = graph::readDouble(in);
+      payload->roughness.count = static_cast<std::uint32_t>(graph::readUint(in, 4));
     }
     return payload;
   });

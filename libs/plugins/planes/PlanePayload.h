@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -23,12 +24,44 @@ struct SurfacePatch {
   base::KeyFrameId frame;
   std::vector<Eigen::Vector3d> outline_in_base;               ///< [m] a polygon, or the two ends of a laser line
   std::vector<std::vector<Eigen::Vector3d>> holes_in_base{};  ///< [m] in the polygon
+  bool is_well_seen = true;                                   ///< from near and not too aslant
 };
 
 /// Which sensor saw it, and how often.
 struct SeenBy {
   std::uint32_t planes = 0;  ///< as planes
   std::uint32_t lines = 0;   ///< as lines of a laser
+};
+
+/// What a sighting tells of a surface's extent that is not known yet.
+struct News {
+  bool of_extent = false;     ///< by all of it
+  bool of_well_seen = false;  ///< by what it shows from near
+};
+
+/// By how many times more than the sensor's noise the points of sightings scattered about their planes.
+struct Roughness {
+  double sum = 0;
+  std::uint32_t count = 0;  ///< of the sightings that told
+  double mean() const { return count == 0 ? 0 : sum / count; }
+};
+
+/// A shape as it was worked out last. A copy begins without, for it may be of another payload.
+class ShapeMemo {
+ public:
+  struct Entry {
+    std::vector<Eigen::VectorXd> values;
+    std::vector<geometry::Se3> frames;  ///< map_from_base of the patches
+    map::LandmarkShape shape;
+  };
+  ShapeMemo() = default;
+  ShapeMemo(const ShapeMemo&) {}
+  ShapeMemo& operator=(const ShapeMemo&) { return *this; }
+  std::shared_ptr<const Entry> get() const { return std::atomic_load(&entry_); }
+  void set(std::shared_ptr<const Entry> entry) { std::atomic_store(&entry_, std::move(entry)); }
+
+ private:
+  std::shared_ptr<const Entry> entry_;
 };
 
 /// What is known of a plane landmark beside where its plane is (thesis 4.2.2.1). Its parts hang on the key frames that
@@ -42,6 +75,7 @@ struct PlanePayload : map::LandmarkPayload {
   Boundary boundary = Boundary::hull;
   std::vector<SurfacePatch> patches;      ///< those that tell something of the extent that the others do not
   std::map<std::string, SeenBy> seen_by;  ///< sensor label
+  Roughness roughness;
   base::KeyFrameId last_seen_from;
   /// What it is in the whole map, as the end of a run found it; none before.
   std::optional<surfaces::Judgement> judgement;
@@ -60,11 +94,20 @@ struct PlanePayload : map::LandmarkPayload {
   std::uint32_t sightings() const;
   /// z of where people walk, in the map [m].
   double groundIn(const map::KeyFrames& key_frames) const;
-  /// With one more sighting; its outline only where it `tells_more` of the extent.
+  /// All that was seen of it as a plane on that plane, from afar too [m, map].
+  std::vector<surfaces::FlatPart> seenAtAll(const geometry::Plane3& plane, const map::KeyFrames& key_frames) const;
+  /// How often it was seen as a plane.
+  std::uint32_t planeSightings() const;
+  /// With one more sighting; its outline only where that is news.
   std::shared_ptr<const PlanePayload> with(base::KeyFrameId frame, const struct PlaneMeasurement& sighting,
-                                           bool tells_more) const;
+                                           const News& news) const;
   /// With all that is known of another.
   std::shared_ptr<const PlanePayload> with(const PlanePayload& other) const;
+
+ private:
+  map::LandmarkShape shapeNow(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames& key_frames) const;
+
+  mutable ShapeMemo memo_;
 };
 
 }  // namespace omnimapper::plugins

@@ -12,6 +12,7 @@ class PlaneMerging : public SurfaceRun {};
 TEST_F(PlaneMerging, ABoundaryAsSeenHasBaysUntilTheyAreSeen) {
   PlaneLandmarksOptions options;
   options.boundary = PlaneLandmarksOptions::Boundary::seen;
+  options.well_seen_under = 89 * geometry::kPi / 180;
   make(options);
   driveTo({});
   see(planesOf({plane({2, 0, 0.7}, {1, 0, 0}, {0, 0.3, 0})}));
@@ -112,6 +113,62 @@ TEST_F(PlaneMerging, AtTheEndSurfacesAreJudgedAndWhatWasSeenOnceIsACandidate) {
   EXPECT_FALSE(shapeOf(active()[0]).is_candidate);
   EXPECT_TRUE(shapeOf(active()[1]).is_candidate);
   EXPECT_EQ(active()[0].evidence, 2U) << "to judge is no sighting";
+}
+
+// A wall of 6 m, 5 m off, then from 2 m: of its length 2 sqrt(4^2 - 2^2) = 6.93 m lie within 4 m.
+TEST_F(PlaneMerging, WhatWasSeenFromAfarIsDrawnUntilItIsSeenFromNear) {
+  driveTo({});
+  see(planesOf({wallPlane(5, -6, 6)}));
+  ASSERT_EQ(active().size(), 1U);
+  ASSERT_EQ(shapeOf(active()[0]).surfaces.size(), 1U);
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 12 * 1.6, 0.01);
+  driveTo({3, 0, 0, 0, 0, 0});
+  see(planesOf({wallPlane(2, -6, 6)}));
+  ASSERT_EQ(active().size(), 1U);
+  ASSERT_EQ(shapeOf(active()[0]).surfaces.size(), 1U);
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 6.6 * 1.6, 0.3);
+}
+
+// 0.5 m before a wall 75 deg from its normal are 1.87 m along it.
+TEST_F(PlaneMerging, WhatWasSeenAslantIsNotDrawnBesideWhatWasSeenWell) {
+  driveTo({});
+  see(planesOf({plane({0.5, 0, 0}, {0, -6, 0}, {0, 0, 0.2})}));
+  ASSERT_EQ(active().size(), 1U);
+  ASSERT_EQ(shapeOf(active()[0]).surfaces.size(), 1U);
+  EXPECT_NEAR(geometry::area(shapeOf(active()[0]).surfaces[0]), 2 * 1.866 * 0.4, 0.01);
+}
+
+TEST_F(PlaneMerging, AtTheEndWhatIsRougherThanTheRestIsACandidate) {
+  driveTo({});
+  const auto rough = [](obs::ObservedPlane seen, double roughness) {
+    seen.roughness = roughness;
+    return seen;
+  };
+  for (int i = 0; i < 3; ++i) {
+    see(planesOf({rough(wallPlane(3, -2, 2), 0.9), rough(wallPlane(2, -3.5, -2.5), 1.6),
+                  rough(wallPlane(2, 2.5, 3.5), 1), rough(tableTop(2, 0, 0.7), 1.6)}));
+  }
+  apply(plugin_->atEnd(run_.view()));
+  ASSERT_EQ(active().size(), 4U);
+  EXPECT_FALSE(shapeOf(active()[0]).is_candidate);
+  EXPECT_TRUE(shapeOf(active()[1]).is_candidate) << "upright, and twice as rough as the wall";
+  EXPECT_FALSE(shapeOf(active()[2]).is_candidate);
+  EXPECT_FALSE(shapeOf(active()[3]).is_candidate) << "things on a table make it rough";
+}
+
+TEST_F(PlaneMerging, AtTheEndOneTakesInSeveral) {
+  driveTo({});
+  const auto high = [](double y0, double y1) {
+    return plane({3, 0.5 * (y0 + y1), 1.1}, {0, -0.5 * (y1 - y0), 0}, {0, 0, 1.1});
+  };
+  see(planesOf({high(-3, -2), high(-1, 0), high(1, 2)}));
+  see(planesOf({high(-3, -2), high(-1, 0), high(1, 2)}));
+  ASSERT_EQ(active().size(), 3U);
+  solve();
+  apply(plugin_->atEnd(run_.view()));
+  ASSERT_EQ(active().size(), 1U);
+  EXPECT_EQ(active()[0].evidence, 6U);
+  EXPECT_EQ(factorsOfKind("plane_from_se3"), 6U);
 }
 
 TEST_F(PlaneMerging, TheFacesOfAThinWallAreTwo) {

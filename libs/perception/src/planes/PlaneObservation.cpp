@@ -53,6 +53,7 @@ std::shared_ptr<obs::CObservationPlanes> observe(const PlaneSegmentation& found,
     for (const Contour& hole : region.holes) plane.holes.push_back(polygonOf(hole, outline_tolerance));
     plane.inliers = static_cast<std::uint32_t>(region.inliers);
     plane.rms = region.rms;
+    plane.roughness = region.roughness;
     plane.colour = sums[i].mean();
     derived->planes.push_back(std::move(plane));
   }

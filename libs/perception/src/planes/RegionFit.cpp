@@ -143,6 +143,8 @@ std::vector<FittedRegion> fitRegions(const InverseDepth& inverse, const Pinhole&
     place[static_cast<std::size_t>(component[i])] = correction.determined ? static_cast<int>(fitted.size()) : kNone;
     if (!correction.determined) continue;
     fitted.push_back(fit(sums[i], planes[i], correction.plane, camera, noise));
+    const double by_noise = sums[i].residuals.n * noise.pixelVariance();
+    if (by_noise > 0) fitted.back().result.roughness = std::sqrt(correction.squares / by_noise);
     fitted.back().component = component[i];
   }
   addRms(inverse, camera, components, place, fitted);

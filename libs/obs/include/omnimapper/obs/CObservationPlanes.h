@@ -22,7 +22,9 @@ struct ObservedPlane {
   std::vector<geometry::Polygon3> holes;               ///< [m] within the outline
   std::uint32_t inliers = 0;                           ///< number of its points
   double rms = 0;                                      ///< [m] distance of its points from the plane
-  std::optional<Rgb> colour;                           ///< mean, where the sensor sees colours
+  /// By how many times more than the sensor's noise its points scatter about the plane [-]; 0 where nobody told.
+  double roughness = 0;
+  std::optional<Rgb> colour;  ///< mean, where the sensor sees colours
 };
 
 /// The planes that were found in one depth image or point cloud.

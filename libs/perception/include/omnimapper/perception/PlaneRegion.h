@@ -37,6 +37,9 @@ struct PlaneRegion {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m], mean of the inliers, put on the plane
   int inliers = 0;                                     ///< pixels
   double rms = 0;                                      ///< [m], distance of the inliers from the plane
+  /// By how many times more than the sensor's noise the inliers scatter about the plane, in inverse depth [-]; 0 for a
+  /// sensor without noise.
+  double roughness = 0;
   Contour outline;
   std::vector<Contour> holes;
 };

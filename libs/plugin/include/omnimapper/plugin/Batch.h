@@ -43,7 +43,7 @@ class Batch {
   /// It is no longer there: nothing is to be associated with it any more.
   void retireLandmark(base::LandmarkId id) { retired_landmarks_.push_back(id); }
   /// Both are one thing: `from` gives its factors and evidence to `into`, variable by variable, and its variables go.
-  /// A payload replaces the one of `into`; null keeps that.
+  /// A payload replaces the one of `into`; null keeps that. One may take in several; one that goes takes in none.
   void mergeLandmarks(base::LandmarkId from, base::LandmarkId into,
                       std::shared_ptr<const map::LandmarkPayload> payload = nullptr) {
     merges_.push_back({from, into, std::move(payload)});

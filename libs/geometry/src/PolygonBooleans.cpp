@@ -1,4 +1,4 @@
-#include "omnimapper/geometry/PolygonUnion.h"
+#include "omnimapper/geometry/PolygonBooleans.h"
 
 #include <omnimapper/base/Error.h>
 
@@ -92,21 +92,28 @@ Paths areasOf(const HoledPolygon2& polygon) {
   return holes.empty() ? areas : combined(ClipperLib::ctDifference, areas, holes);
 }
 
-}  // namespace
-
-Areas2 unionOf(const std::vector<HoledPolygon2>& polygons, double least) {
-  std::vector<Paths> parts;
-  for (const auto& polygon : polygons) parts.push_back(areasOf(polygon));
-  const Paths together = unionOfParts(std::move(parts));
+Areas2 asAreas(const Paths& paths, double least) {
   double largest = 0;
-  for (const auto& path : together) largest = std::max(largest, kUnit * kUnit * ClipperLib::Area(path));
+  for (const auto& path : paths) largest = std::max(largest, kUnit * kUnit * ClipperLib::Area(path));
   Areas2 areas;
-  for (const auto& path : together) {
+  for (const auto& path : paths) {
     const double area = kUnit * kUnit * ClipperLib::Area(path);  // negative of holes
     if (std::abs(area) < std::min(least, largest)) continue;
     (area > 0 ? areas.outlines : areas.holes).push_back(pointsOf(path));
   }
   return areas;
+}
+
+}  // namespace
+
+Areas2 unionOf(const std::vector<HoledPolygon2>& polygons, double least) {
+  std::vector<Paths> parts;
+  for (const auto& polygon : polygons) parts.push_back(areasOf(polygon));
+  return asAreas(unionOfParts(std::move(parts)), least);
+}
+
+Areas2 intersectionOf(const HoledPolygon2& polygon, const std::vector<Eigen::Vector2d>& within) {
+  return asAreas(combined(ClipperLib::ctIntersection, areasOf(polygon), areasOf(within)), 0);
 }
 
 }  // namespace omnimapper::geometry

@@ -24,4 +24,7 @@ struct HoledPolygon2 {
 /// outlines all but the largest. Throws Error(internal) if Clipper fails.
 Areas2 unionOf(const std::vector<HoledPolygon2>& polygons, double least = 0);
 
+/// What of a polygon lies within another one; both are read as unionOf() reads them.
+Areas2 intersectionOf(const HoledPolygon2& polygon, const std::vector<Eigen::Vector2d>& within);
+
 }  // namespace omnimapper::geometry
