@@ -132,8 +132,8 @@ TEST(MapQuality, CandidatesAreCountedAndNotJudged) {
       judgeMap(setOf({wall(0, 4, 3), candidate(wall(0, 4, 3.02)), candidate(wall(0, 4, 9))}), setOf({wall(0, 4, 3)}));
   EXPECT_EQ(quality.drawn.size(), 1u);
   EXPECT_EQ(quality.foundOnce(), 1u);
-  EXPECT_EQ(quality.candidates, 2u);
-  EXPECT_EQ(quality.true_candidates, 1u);
+  EXPECT_EQ(quality.candidates.size(), 2u);
+  EXPECT_EQ(quality.trueCandidates(), 1u);
 }
 
 TEST(MapQuality, WhatIsMovedIsNotSoughtAndWhatLiesOnItIsNotSpurious) {

@@ -75,8 +75,7 @@ class Judge {
     for (std::size_t i = 0; i < map_.size(); ++i) {
       const JudgedSurface judged = judgedAt(i);
       if (map_[i].surface->is_candidate) {
-        ++quality.candidates;
-        quality.true_candidates += !judged.is_spurious;
+        quality.candidates.push_back(judged);
         continue;
       }
       if (!judged.is_spurious) ++quality.labels[map_[i].surface->is][*judged.true_class];
@@ -293,6 +292,11 @@ std::size_t MapQuality::spurious() const {
       std::count_if(drawn.begin(), drawn.end(), [](const auto& d) { return d.is_spurious; }));
 }
 
+std::size_t MapQuality::trueCandidates() const {
+  return static_cast<std::size_t>(
+      std::count_if(candidates.begin(), candidates.end(), [](const auto& c) { return !c.is_spurious; }));
+}
+
 std::size_t MapQuality::rightLabels() const {
   std::size_t right = 0;
   for (const auto& said : labels) right += rightOf(said.first).first;
@@ -315,6 +319,18 @@ double MapQuality::medianOverlap() const {
   for (const auto& one : drawn)
     if (one.overlap) overlaps.push_back(*one.overlap);
   return statisticsOf(overlaps).median;
+}
+
+std::vector<surfaces::Example> examplesOf(const MapQuality& quality, const SurfaceSet& map) {
+  constexpr double kMuch = 0.6;  // of a surface, on true ones: what lies on others by half is an example of nothing
+  const auto facts = surfaces::factsOf(map.surfaces, 0);
+  std::vector<surfaces::Example> examples;
+  for (const auto* list : {&quality.drawn, &quality.candidates}) {
+    for (const auto& judged : *list)
+      if (judged.true_class && judged.share_on_true >= kMuch)
+        examples.push_back({*judged.true_class, facts[judged.index]});
+  }
+  return examples;
 }
 
 }  // namespace omnimapper::eval

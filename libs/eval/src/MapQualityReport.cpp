@@ -154,8 +154,8 @@ void drawPlan(std::ostream& out, const std::string& title, const MapQuality& qua
 
 std::string table(const MapQuality& quality) {
   std::string text = "surfaces of the map: " + std::to_string(quality.drawn.size()) + " drawn, " +
-                     std::to_string(quality.candidates) + " candidates (" + std::to_string(quality.true_candidates) +
-                     " on true surfaces)\n";
+                     std::to_string(quality.candidates.size()) + " candidates (" +
+                     std::to_string(quality.trueCandidates()) + " on true surfaces)\n";
   text += countLine("true surfaces that were seen, in the map once", quality.foundOnce(), quality.sought.size());
   text += countLine("  in the map at all", quality.found(), quality.sought.size());
   text += countLine("pairs that are doubled, to drawn surfaces", quality.doubles.size(), quality.drawn.size());
@@ -200,8 +200,8 @@ std::string json(const MapQuality& quality, const SurfaceSet& map, const Surface
   const auto [wall_right, wall_all] = quality.rightOf(SurfaceClass::wall);
   return Json{{"metric", "surfaces of a map"},
               {"drawn", quality.drawn.size()},
-              {"candidates", quality.candidates},
-              {"true_candidates", quality.true_candidates},
+              {"candidates", quality.candidates.size()},
+              {"true_candidates", quality.trueCandidates()},
               {"sought", quality.sought.size()},
               {"found", quality.found()},
               {"found_once", quality.foundOnce()},
@@ -225,6 +225,7 @@ void saveReport(const std::string& folder, const std::string& title, const MapQu
   base::makeWritableFolder(folder);
   base::writeFile(folder + "/numbers.json", [&](std::ostream& out) { out << json(quality, map, truth); });
   base::writeFile(folder + "/plan.svg", [&](std::ostream& out) { drawPlan(out, title, quality, map, truth); });
+  base::writeFile(folder + "/examples.csv", [&](std::ostream& out) { out << toCsv(examplesOf(quality, map)); });
 }
 
 }  // namespace omnimapper::eval

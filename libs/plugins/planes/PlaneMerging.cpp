@@ -159,7 +159,7 @@ mapper::Batch asBatch(Merges merges) {
 struct Left {
   base::LandmarkId id;
   std::shared_ptr<PlanePayload> payload;
-  surfaces::Surface surface;  ///< all that was seen of it, from afar too
+  surfaces::Surface surface;  ///< as it is drawn
 };
 
 std::vector<Left> leftAfter(const Merges& merges, const PlaneLandmarkIndex& known, const mapper::View& view) {
@@ -171,10 +171,12 @@ std::vector<Left> leftAfter(const Merges& merges, const PlaneLandmarkIndex& know
     const auto merged = merges.payloads.find(id);
     const auto& payload =
         merged != merges.payloads.end() ? *merged->second : dynamic_cast<const PlanePayload&>(*surface.payload);
+    const auto shape = payload.shape({view.graph.value(surface.variable)}, view.map.key_frames);
+    if (shape.surfaces.empty()) continue;
     Left left{id, std::make_shared<PlanePayload>(payload), {}};
     left.surface.plane = surface.plane;
-    if (payload.wasSeenAsPlane()) left.surface.parts = payload.seenAtAll(surface.plane, view.map.key_frames);
-    if (!left.surface.parts.empty()) all.push_back(std::move(left));
+    left.surface.parts = partsOf(shape);
+    all.push_back(std::move(left));
   }
   return all;
 }

@@ -22,7 +22,7 @@ constexpr std::uint64_t kVersion = 6;
 surfaces::Judgement judgedAlone(const map::LandmarkShape& shape, const geometry::Plane3& plane, double ground) {
   surfaces::Surface surface;
   surface.plane = plane;
-  for (const auto& polygon : shape.surfaces) surface.parts.push_back({polygon.vertices, {}});
+  surface.parts = partsOf(shape);
   return surfaces::classify({surface}, ground).front();
 }
 
@@ -64,6 +64,15 @@ std::string number(double value) {
 }
 
 }  // namespace
+
+std::vector<surfaces::FlatPart> partsOf(const map::LandmarkShape& shape) {
+  std::vector<surfaces::FlatPart> parts;
+  for (const auto& polygon : shape.surfaces) {
+    parts.push_back({polygon.vertices, {}});
+    for (const auto& hole : shape.holes) parts.back().holes.push_back(hole.vertices);
+  }
+  return parts;
+}
 
 bool PlanePayload::wasSeenAsPlane() const {
   return std::any_of(seen_by.begin(), seen_by.end(), [](const auto& sensor) { return sensor.second.planes > 0; });
@@ -141,23 +150,6 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
   entry->shape = shapeNow(values, key_frames);
   memo_.set(entry);
   return entry->shape;
-}
-
-std::vector<surfaces::FlatPart> PlanePayload::seenAtAll(const geometry::Plane3& plane,
-                                                        const map::KeyFrames& key_frames) const {
-  const landmarks::PlaneAxes axes(plane);
-  const auto areas = seenOn(axes, patches, key_frames);
-  const auto inSpace = [&](const std::vector<Eigen::Vector2d>& walk) {
-    std::vector<Eigen::Vector3d> corners;
-    for (const auto& corner : walk) corners.push_back(axes.inSpace(corner));
-    return corners;
-  };
-  std::vector<surfaces::FlatPart> parts;
-  for (const auto& outline : areas.outlines) {
-    parts.push_back({inSpace(outline), {}});
-    for (const auto& hole : areas.holes) parts.back().holes.push_back(inSpace(hole));
-  }
-  return parts;
 }
 
 map::LandmarkShape PlanePayload::shapeNow(const std::vector<Eigen::VectorXd>& values,

@@ -94,8 +94,6 @@ struct PlanePayload : map::LandmarkPayload {
   std::uint32_t sightings() const;
   /// z of where people walk, in the map [m].
   double groundIn(const map::KeyFrames& key_frames) const;
-  /// All that was seen of it as a plane on that plane, from afar too [m, map].
-  std::vector<surfaces::FlatPart> seenAtAll(const geometry::Plane3& plane, const map::KeyFrames& key_frames) const;
   /// How often it was seen as a plane.
   std::uint32_t planeSightings() const;
   /// With one more sighting; its outline only where that is news.
@@ -109,5 +107,8 @@ struct PlanePayload : map::LandmarkPayload {
 
   mutable ShapeMemo memo_;
 };
+
+/// The surfaces of a shape; holes of one are with each, where they are outside they tell nothing.
+std::vector<surfaces::FlatPart> partsOf(const map::LandmarkShape& shape);
 
 }  // namespace omnimapper::plugins

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/surfaces/Examples.h>
 #include <omnimapper/surfaces/SurfaceSet.h>
 
 #include <cstddef>
@@ -25,7 +26,7 @@ struct MapQualityOptions {
   double spurious_share = 0.5;  ///< a surface is spurious if less of it lies on true surfaces
 };
 
-/// One drawn surface of the map.
+/// One surface of the map.
 struct JudgedSurface {
   std::size_t index = 0;     ///< in the map's set
   double area = 0;           ///< [m^2]
@@ -55,14 +56,14 @@ struct SeenArea {
 /// How the surfaces of a map compare with the true ones.
 struct MapQuality {
   std::vector<JudgedSurface> drawn;
+  std::vector<JudgedSurface> candidates;  ///< surfaces that the map keeps and does not draw
   std::vector<SoughtSurface> sought;
   std::vector<std::pair<std::size_t, std::size_t>> doubles;  ///< indices of the map's surfaces, each pair once
   std::map<surfaces::SurfaceClass, SeenArea> area;           ///< by true class, of surfaces that never moved
   /// Drawn surfaces that are not spurious, by the class that the map tells, then the true one.
   std::map<surfaces::SurfaceClass, std::map<surfaces::SurfaceClass, std::size_t>> labels;
-  std::size_t candidates = 0;       ///< surfaces that the map keeps and does not draw
-  std::size_t true_candidates = 0;  ///< of these, not spurious
 
+  std::size_t trueCandidates() const;  ///< not spurious
   std::size_t foundOnce() const;
   std::size_t found() const;
   std::size_t spurious() const;
@@ -79,11 +80,16 @@ struct MapQuality {
 MapQuality judgeMap(const surfaces::SurfaceSet& map, const surfaces::SurfaceSet& truth,
                     const MapQualityOptions& options = {});
 
+/// Each surface of the map that lies on a true one, with what that is: what classify() may learn from. The map
+/// is in the frame of the truth, whose floor is at z = 0.
+std::vector<surfaces::Example> examplesOf(const MapQuality& quality, const surfaces::SurfaceSet& map);
+
 /// A table of text for a terminal.
 std::string table(const MapQuality& quality);
 /// The same numbers and each surface, as a JSON object.
 std::string json(const MapQuality& quality, const surfaces::SurfaceSet& map, const surfaces::SurfaceSet& truth);
-/// Writes numbers.json and plan.svg, the place from above with what is wrong in colour, into a folder, made if missing.
+/// Writes numbers.json, plan.svg, the place from above with what is wrong in colour, and examples.csv, what
+/// examplesOf() tells, into a folder, made if missing.
 void saveReport(const std::string& folder, const std::string& title, const MapQuality& quality,
                 const surfaces::SurfaceSet& map, const surfaces::SurfaceSet& truth);
 
