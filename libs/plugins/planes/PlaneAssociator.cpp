@@ -184,7 +184,7 @@ namespace {
 
 // Whether a part of a surface covers more cells that were not yet seen than edges that are seen elsewhere each time do.
 bool showsMore(const surfaces::FlatPart& part, const geometry::Plane3& plane, const surfaces::CellGrid& seen) {
-  constexpr double kBay = 0.03, kEdge = 0.01;  // [m^2], [m] that edges are seen alike
+  constexpr double kBay = 0.02, kEdge = 0.004;  // [m^2], [m] that edges are seen alike
   const auto& points = part.outline;
   double around = 0;
   for (std::size_t i = 0; i < points.size(); ++i) around += (points[i] - points[(i + 1) % points.size()]).norm();

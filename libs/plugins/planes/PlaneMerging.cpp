@@ -55,7 +55,7 @@ namespace {
 // surface lie apart by what all views of a sensor have in common, such as its distortion, which no covariance of a map
 // knows.
 bool lieOnEachOther(const Surface& a, const Surface& b) {
-  constexpr double kAlong = 0.97, kApart = 0.05, kShare = 0.3;  // cosine of the turn, [m], of the smaller one
+  constexpr double kAlong = 0.94, kApart = 0.05, kShare = 0.3;  // cosine of the turn, [m], of the smaller one
   if (a.plane.normal.dot(b.plane.normal) < kAlong) return false;
   const bool a_is_smaller = a.seen.area() < b.seen.area();
   const Surface &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
@@ -80,8 +80,8 @@ bool lieOnEachOther(const Surface& a, const Surface& b) {
 // Whether two parts of one wall, with a door or furniture between them: upright, as high as walls, on one plane from
 // one end to the other.
 bool continueEachOther(const Surface& a, const Surface& b, double ground) {
-  constexpr double kAlong = 0.995, kOffPlane = 0.04, kFar = 2;              // cosine of the turn, [m], [m]
-  constexpr double kUpright = 0.1, kHigh = 1.85, kLow = 0.7, kLeast = 0.5;  // of the normal's height, [m], [m], [m^2]
+  constexpr double kAlong = 0.995, kOffPlane = 0.04, kFar = 2;             // cosine of the turn, [m], [m]
+  constexpr double kUpright = 0.1, kHigh = 1.7, kLow = 0.7, kLeast = 0.5;  // of the normal's height, [m], [m], [m^2]
   for (const Surface* one : {&a, &b}) {
     const bool is_tall = one->highest - ground > kHigh && one->lowest - ground < kLow && one->seen.area() > kLeast;
     if (!is_tall || std::abs(one->plane.normal.z()) > kUpright) return false;
@@ -116,7 +116,8 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
     for (auto b = std::next(a); b != all.end(); ++b) {
       if (gone_already.count(a->first) > 0) break;
       if (gone_already.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
-      if (!onOnePlane(a->second, b->second)) continue;
+      const bool lie = overlap(a->second, b->second) && lieOnEachOther(a->second, b->second);
+      if (!lie && !onOnePlane(a->second, b->second)) continue;
       const auto& of_a = parts[a->first];
       const bool continues = is_end && (continueEachOther(a->second, b->second, ground) ||
                                         std::any_of(of_a.begin(), of_a.end(), [&](const Surface* part) {
@@ -126,7 +127,7 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
       const auto fit = fitOfDifference(known.form(), a->second, b->second, options.inflation, view);
       if (!fit) continue;
       const bool is_alike = fit->chi2 <= limit && fit->log_density >= least_density;
-      if (!continues && !is_alike && !lieOnEachOther(a->second, b->second)) continue;
+      if (!continues && !is_alike && !lie) continue;
       gone_already.insert(b->first);
       parts[a->first].push_back(&b->second);
       const map::Landmark &kept = view.map.landmark(a->first), &gone = view.map.landmark(b->first);
