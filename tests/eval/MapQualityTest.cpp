@@ -119,6 +119,23 @@ TEST(MapQuality, ClassesAreHeldAgainstTheTrueOnes) {
   EXPECT_EQ(quality.labels.at(SurfaceClass::wall).at(SurfaceClass::cabinet), 1u);
 }
 
+TEST(MapQuality, AWallAcrossAClosedDoorIsNotTheDoor) {
+  const auto truth = setOf({wall(0, 4, 3), wall(1, 2, 2.95, SurfaceClass::door)});
+  const auto quality = judgeMap(setOf({wall(0, 4, 3)}), truth);
+  EXPECT_EQ(quality.sought.size(), 2u);
+  EXPECT_EQ(quality.found(), 1u) << "the wall";
+  EXPECT_NEAR(quality.area.at(SurfaceClass::door).covered, 0, 1e-9);
+}
+
+TEST(MapQuality, ExamplesAreOfWhatLiesOnTrueSurfaces) {
+  const auto map = setOf({wall(0, 4, 3, SurfaceClass::surface), wall(0, 4, 9), candidate(wall(5, 6, 3))});
+  const auto examples = examplesOf(judgeMap(map, setOf({wall(0, 4, 3), wall(5, 6, 3, SurfaceClass::door)})), map);
+  ASSERT_EQ(examples.size(), 2U);
+  EXPECT_EQ(examples[0].is, SurfaceClass::wall);
+  EXPECT_NEAR(examples[0].facts.longer, 4, 0.11);
+  EXPECT_EQ(examples[1].is, SurfaceClass::door);
+}
+
 TEST(MapQuality, APosterIsPartOfItsWall) {
   const auto truth = setOf({wall(0, 4, 3), wall(1, 2, 2.99, SurfaceClass::poster)});
   const auto quality = judgeMap(setOf({wall(0, 4, 3)}), truth);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/surfaces/classify.h>
+#include <omnimapper/surfaces/Classification.h>
 
 #include <set>
 

@@ -74,6 +74,19 @@ TEST(CellGrid, APointIsInTheCellWhoseMiddleIsNearest) {
   EXPECT_FALSE(grid.cellAt({std::numeric_limits<double>::quiet_NaN(), 3, 1}));
 }
 
+TEST(CellGrid, AWalkThatIsNotFiniteOrTooFarCoversNothing) {
+  const geometry::Plane3 floor{Vector3d::UnitZ(), 0};
+  const std::vector<Vector3d> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  for (const double far : {std::nan(""), HUGE_VAL, 1.7e308, -1.7e308}) {
+    const std::vector<Vector3d> nowhere{{0.5, 0.5, 0}, {far, 0.2, 0}, {0.2, -far, 0}};
+    auto grid = CellGrid::around(floor, square, 0.1);
+    grid.fill(nowhere);
+    EXPECT_EQ(grid.count(), 0U);
+    grid.fill(square, {nowhere});
+    EXPECT_EQ(grid.count(), 100U);
+  }
+}
+
 TEST(CellGrid, WhatHasNoSizeOrTooMuchIsRefused) {
   const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY();
   EXPECT_THROW(CellGrid(Vector3d::Zero(), x, y, 0, 1, 1), std::invalid_argument);
@@ -102,8 +115,19 @@ TEST_F(SurfaceFile, HoldsWhatWasWritten) {
   EXPECT_TRUE(read.surfaces.front().is_moved);
 }
 
+TEST_F(SurfaceFile, ATitleThatIsNotUtf8IsWrittenAllTheSame) {
+  const auto read = readSurfaces(write(toJson({"caf\xe9", {wallWithWindow()}, {}})));
+  EXPECT_EQ(read.title.substr(0, 3), "caf");
+  EXPECT_EQ(read.surfaces.size(), 1U);
+}
+
+TEST_F(SurfaceFile, WhatLiesOffItsPlaneIsRefused) {
+  SurfaceSet set{"home", {wallWithWindow()}, {}};
+  set.surfaces.front().parts.front().outline.front() += 0.5 * set.surfaces.front().plane.normal;
+  EXPECT_NE(errorOf(toJson(set)).find("surface 1: a corner lies 1 cm or more off its plane"), std::string::npos);
+}
+
 TEST_F(SurfaceFile, ErrorsNameFileAndPlace) {
-  EXPECT_EQ(errorOf("{"), errorOf("{"));
   EXPECT_NE(errorOf("{").find(path_), std::string::npos);
   EXPECT_NE(errorOf("{\"format\": \"other\"}").find("is not 'omnimapper surfaces 1'"), std::string::npos);
   SurfaceSet set{"home", {wallWithWindow(), wallWithWindow()}, {}};

@@ -16,9 +16,10 @@ using surfaces::Surface;
 using surfaces::SurfaceClass;
 using surfaces::SurfaceSet;
 
-CellGrid gridOf(const Surface& surface, double cell) {
+// On the plane of the surface.
+CellGrid gridAround(const Surface& surface, const std::vector<Eigen::Vector3d>& corners, double cell) {
   try {
-    return CellGrid::around(surface.plane, cornersOf(surface), cell);
+    return CellGrid::around(surface.plane, corners, cell);
   } catch (const std::invalid_argument& error) {
     throw base::Error(base::ExitCode::unreadable_input,
                       "surface '" + surface.name + "': " + error.what() + "; it reaches too far");
@@ -31,7 +32,7 @@ struct Covered {
   CellGrid cells;
   Eigen::AlignedBox3d box;
 
-  Covered(const Surface& of, double cell) : surface(&of), cells(gridOf(of, cell)) {
+  Covered(const Surface& of, double cell) : surface(&of), cells(gridAround(of, cornersOf(of), cell)) {
     for (const auto& part : of.parts) cells.fill(part.outline, part.holes);
     for (const auto& corner : cornersOf(of)) box.extend(corner);
   }
@@ -87,10 +88,14 @@ class Judge {
   }
 
  private:
-  // Of each set cell of a surface in the map, row by row: the true surface there, or none.
+  // Of each cell of a surface in the map, row by row: the true surface there, or none; none where it is not set.
   using TrueCells = std::vector<int>;
   static constexpr int kNone = -1;
 
+  static std::size_t indexIn(const CellGrid& grid, CellGrid::Cell cell) {
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(grid.columns()) +
+           static_cast<std::size_t>(cell.column);
+  }
   bool mayMeet(const Covered& a, const Covered& b) const {
     if (a.surface->plane.normal.dot(b.surface->plane.normal) < std::cos(options_.max_turn)) return false;
     return a.box.exteriorDistance(b.box) <= options_.max_distance;
@@ -103,8 +108,9 @@ class Judge {
     std::vector<std::size_t> near;
     for (std::size_t t = 0; t < truth_.size(); ++t)
       if (mayMeet(mapped, truth_[t])) near.push_back(t);
-    TrueCells cells;
-    mapped.forEach([&](const Eigen::Vector3d& point, CellGrid::Cell) {
+    TrueCells cells(static_cast<std::size_t>(mapped.cells.rows()) * static_cast<std::size_t>(mapped.cells.columns()),
+                    kNone);
+    mapped.forEach([&](const Eigen::Vector3d& point, CellGrid::Cell cell) {
       int best = kNone;
       double best_distance = 1e300;
       for (const std::size_t t : near) {
@@ -115,7 +121,7 @@ class Judge {
         best_distance = distance;
         best = static_cast<int>(t);
       }
-      cells.push_back(best);
+      cells[indexIn(mapped.cells, cell)] = best;
     });
     return cells;
   }
@@ -133,7 +139,7 @@ class Judge {
       ++on[static_cast<std::size_t>(t)];
       ++classes[classAt(static_cast<std::size_t>(t))];
     }
-    const std::size_t all = on_true_[i].size();
+    const std::size_t all = map_[i].cells.count();
     judged.share_on_true = all == 0 ? 0 : static_cast<double>(all_on) / static_cast<double>(all);
     judged.is_spurious = all == 0 || judged.share_on_true < options_.spurious_share;
     const auto most = [](const auto& a, const auto& b) { return a.second < b.second; };
@@ -162,10 +168,16 @@ class Judge {
   static void forEachSeen(const Covered& truth, const Use& use) {
     Covered::forEachSet(truth.surface->seen ? *truth.surface->seen : truth.cells, use);
   }
+  // A wall that goes across a closed door covers the wall, not the door leaf: what it covers there stands for the
+  // nearest true surface, and must be of the same class.
   bool coversAt(std::size_t i, std::size_t t, const Eigen::Vector3d& point_on_true) const {
-    return mayMeet(map_[i], truth_[t]) &&
-           std::abs(signedDistance(map_[i].surface->plane, point_on_true)) <= options_.max_distance &&
-           map_[i].contains(point_on_true);
+    if (!mayMeet(map_[i], truth_[t]) ||
+        std::abs(signedDistance(map_[i].surface->plane, point_on_true)) > options_.max_distance)
+      return false;
+    const auto cell = map_[i].cells.cellAt(point_on_true);
+    if (!cell || !map_[i].cells.isSet(*cell)) return false;
+    const int stands_for = on_true_[i][indexIn(map_[i].cells, *cell)];
+    return stands_for != kNone && classAt(static_cast<std::size_t>(stands_for)) == classAt(t);
   }
 
   // `on`: how many cells lie on which true surface.
@@ -174,13 +186,13 @@ class Judge {
     std::vector<std::size_t> stands_for;
     std::vector<Eigen::Vector3d> corners = cornersOf(*map_[i].surface);
     for (const auto& [t, cells] : on) {
-      const bool is_much = static_cast<double>(cells) >= kMuch * static_cast<double>(on_true_[i].size());
+      const bool is_much = static_cast<double>(cells) >= kMuch * static_cast<double>(map_[i].cells.count());
       if (!is_much && coverOf(i, t) < options_.found_share) continue;
       stands_for.push_back(t);
       const auto more = cornersOf(*truth_[t].surface);
       corners.insert(corners.end(), more.begin(), more.end());
     }
-    const CellGrid all = CellGrid::around(map_[i].surface->plane, corners, options_.cell);
+    const CellGrid all = gridAround(*map_[i].surface, corners, options_.cell);
     std::size_t both = 0, either = 0;
     for (int row = 0; row < all.rows(); ++row) {
       for (int column = 0; column < all.columns(); ++column) {
@@ -248,22 +260,16 @@ class Judge {
     }
   }
   double sharedShare(std::size_t small, std::size_t large) const {
-    std::vector<int> at_large(static_cast<std::size_t>(map_[large].cells.rows() * map_[large].cells.columns()), kNone);
-    const auto index = [&](CellGrid::Cell cell) {
-      return static_cast<std::size_t>(cell.row * map_[large].cells.columns() + cell.column);
-    };
-    std::size_t next = 0;
-    map_[large].forEach(
-        [&](const Eigen::Vector3d&, CellGrid::Cell c) { at_large[index(c)] = on_true_[large][next++]; });
+    const Covered &smaller = map_[small], &larger = map_[large];
     std::size_t shared = 0;
-    next = 0;
-    map_[small].forEach([&](const Eigen::Vector3d& point, CellGrid::Cell) {
-      const int here = on_true_[small][next++];
-      if (std::abs(signedDistance(map_[large].surface->plane, point)) > options_.max_distance) return;
-      const auto cell = map_[large].cells.cellAt(point);
-      shared += cell && map_[large].cells.isSet(*cell) && at_large[index(*cell)] == here;
+    smaller.forEach([&](const Eigen::Vector3d& point, CellGrid::Cell here) {
+      if (std::abs(signedDistance(larger.surface->plane, point)) > options_.max_distance) return;
+      const auto there = larger.cells.cellAt(point);
+      shared += there && larger.cells.isSet(*there) &&
+                on_true_[large][indexIn(larger.cells, *there)] == on_true_[small][indexIn(smaller.cells, here)];
     });
-    return next == 0 ? 0 : static_cast<double>(shared) / static_cast<double>(next);
+    const std::size_t all = smaller.cells.count();
+    return all == 0 ? 0 : static_cast<double>(shared) / static_cast<double>(all);
   }
 
   MapQualityOptions options_;

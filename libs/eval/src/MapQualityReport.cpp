@@ -170,7 +170,8 @@ std::string table(const MapQuality& quality) {
 }
 
 std::string json(const MapQuality& quality, const SurfaceSet& map, const SurfaceSet& truth) {
-  Json areas, labels, drawn = Json::array(), sought = Json::array(), doubles = Json::array();
+  Json areas = Json::object(), labels = Json::object(), drawn = Json::array(), sought = Json::array(),
+       doubles = Json::array();
   for (const auto& [is, area] : quality.area)
     areas[toString(is)] = {{"seen_m2", area.seen}, {"covered_m2", area.covered}};
   for (const auto& [said, by_truth] : quality.labels)

@@ -19,14 +19,14 @@ std::optional<Fit> fitOf(const Eigen::VectorXd& difference, const Eigen::MatrixX
 }
 
 mapper::Decision mergeDecision(const mapper::View& view, const std::string& section, base::LandmarkId kept,
-                               base::LandmarkId gone, double chi2, double limit) {
+                               base::LandmarkId gone, double chi2, double limit, const std::string& why) {
   mapper::Decision decision;
   decision.stamp = view.map.key_frames.back().stamp;
   decision.plugin = section;
   decision.kind = "merge";
   decision.from = view.map.key_frames.back().id;
   decision.accepted = true;
-  decision.reason = "two landmarks are one";
+  decision.reason = "two landmarks are one" + (why.empty() ? why : ": " + why);
   decision.numbers = {{"landmark", kept.index}, {"other", gone.index}, {"chi-square", chi2}, {"limit", limit}};
   return decision;
 }

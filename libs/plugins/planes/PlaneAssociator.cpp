@@ -71,11 +71,16 @@ mapper::Batch PlaneAssociator::take(const std::vector<PlaneMeasurement>& all) {
 
 std::vector<mapper::Pairing> PlaneAssociator::pairingsOf(const std::vector<PlaneMeasurement>& sightings) {
   std::vector<mapper::Pairing> pairings;
+  // Where nothing is learnt any more, what may be noise must not hold a pose as if it were exact.
+  const auto isOf = [&](const PlaneLandmarkIndex::Surface& surface) {
+    return !view_.map_is_held || !dynamic_cast<const PlanePayload&>(*surface.payload).is_candidate;
+  };
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     const auto points = inMap(sightings[i].outline_in_base);
     double range = 0;
     for (const auto& corner : sightings[i].outline_in_base) range = std::max(range, corner.norm());
     for (const auto& [id, surface] : known_.all()) {
+      if (!isOf(surface)) continue;
       const auto miss = missIfAlike(surface, sightings[i], points);
       // Farther ones where the base may have slid so far since it saw them.
       if (!miss || (*miss > 0 && *miss > kSigmas * sigmaSince(surface.last_seen_from, range))) continue;
@@ -186,6 +191,7 @@ namespace {
 bool showsMore(const surfaces::FlatPart& part, const geometry::Plane3& plane, const surfaces::CellGrid& seen) {
   constexpr double kBay = 0.02, kEdge = 0.004;  // [m^2], [m] that edges are seen alike
   const auto& points = part.outline;
+  if (!(extentOf(points) < kLargestCounted)) return false;
   double around = 0;
   for (std::size_t i = 0; i < points.size(); ++i) around += (points[i] - points[(i + 1) % points.size()]).norm();
   auto cells = surfaces::CellGrid::around(plane, points, kSeenCell);

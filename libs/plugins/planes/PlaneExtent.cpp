@@ -33,15 +33,21 @@ geometry::Areas2 seenOn(const landmarks::PlaneAxes& axes, const std::vector<Surf
   return geometry::unionOf(polygons, kLeast);
 }
 
+double extentOf(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const auto& point : points) box.extend(point);
+  return points.empty() ? 0 : box.diagonal().norm();
+}
+
 void addSeen(surfaces::CellGrid& cells, const geometry::Plane3& plane, const std::vector<SurfacePatch>& patches,
              const map::KeyFrames& key_frames) {
-  constexpr double kLargest = 2000;  // [m] what reaches farther is no surface that anybody counts
   const auto corners = cornersInMap(patches, key_frames);
-  Eigen::AlignedBox3d box;
-  for (const auto& corner : corners) box.extend(corner);
-  if (cells.columns() > 0)
-    box.extend(cells.middleOf({0, 0})).extend(cells.middleOf({cells.columns() - 1, cells.rows() - 1}));
-  if (!(box.diagonal().norm() < kLargest)) return;
+  auto all = corners;
+  if (cells.columns() > 0) {
+    all.push_back(cells.middleOf({0, 0}));
+    all.push_back(cells.middleOf({cells.columns() - 1, cells.rows() - 1}));
+  }
+  if (!(extentOf(all) < kLargestCounted)) return;
   cells = cells.grownTo(plane, corners, kSeenCell);
   for (const auto& patch : patches) {
     const auto map_from_base = geometry::fromMrpt(key_frames.at(patch.frame).map_from_base);

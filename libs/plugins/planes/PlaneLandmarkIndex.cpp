@@ -74,13 +74,11 @@ void PlaneLandmarkIndex::update(const mapper::View& view) {
       surface.highest = std::max(surface.highest, highest);
       for (const auto& corner : surface.hull) corners.push_back(axes.inSpace(corner));
       surface.hull = hullOn(axes, corners);
-      if (payload.boundary == PlanePayload::Boundary::seen) {
-        std::vector<SurfacePatch> fresh_well_seen;
-        std::copy_if(fresh.begin(), fresh.end(), std::back_inserter(fresh_well_seen),
-                     [](const SurfacePatch& patch) { return patch.is_well_seen; });
-        addSeen(surface.seen, surface.plane, fresh, view.map.key_frames);
-        addSeen(surface.well_seen, surface.plane, fresh_well_seen, view.map.key_frames);
-      }
+      std::vector<SurfacePatch> fresh_well_seen;
+      std::copy_if(fresh.begin(), fresh.end(), std::back_inserter(fresh_well_seen),
+                   [](const SurfacePatch& patch) { return patch.is_well_seen; });
+      addSeen(surface.seen, surface.plane, fresh, view.map.key_frames);
+      addSeen(surface.well_seen, surface.plane, fresh_well_seen, view.map.key_frames);
     }
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (const auto& corner : surface.hull) middle += corner / static_cast<double>(surface.hull.size());

@@ -25,7 +25,7 @@ class PlaneLandmarkIndex {
     base::VariableId variable;
     geometry::Plane3 plane;
     std::vector<Eigen::Vector2d> hull;                 ///< [m, PlaneAxes of the plane]
-    surfaces::CellGrid seen;                           ///< cells of kSeenCell; empty unless boundary = seen
+    surfaces::CellGrid seen;                           ///< cells of kSeenCell; empty of one that is too large
     surfaces::CellGrid well_seen;                      ///< of those that were seen from near and not too aslant
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] of the hull
     double radius = 0;                                 ///< [m] of the hull about the middle

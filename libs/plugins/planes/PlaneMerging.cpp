@@ -1,6 +1,5 @@
 #include "PlaneMerging.h"
 
-#include <omnimapper/geometry/Polygon3.h>
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/landmarks/Merging.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
@@ -11,6 +10,8 @@
 #include <set>
 #include <utility>
 #include <vector>
+
+#include "PlaneJudging.h"
 
 namespace omnimapper::plugins {
 
@@ -93,7 +94,7 @@ bool continueEachOther(const Surface& a, const Surface& b, double ground) {
 /// Which landmarks become one, and what is known of those that stay.
 struct Merges {
   std::vector<std::pair<base::LandmarkId, base::LandmarkId>> gone_into;
-  std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>> payloads;
+  PlanePayloads payloads;
   mapper::Batch batch;  ///< all but the merges themselves
 };
 
@@ -116,18 +117,22 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
     for (auto b = std::next(a); b != all.end(); ++b) {
       if (gone_already.count(a->first) > 0) break;
       if (gone_already.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
-      const bool lie = overlap(a->second, b->second) && lieOnEachOther(a->second, b->second);
+      const bool do_overlap = overlap(a->second, b->second);
+      const bool lie = do_overlap && lieOnEachOther(a->second, b->second);
       if (!lie && !onOnePlane(a->second, b->second)) continue;
       const auto& of_a = parts[a->first];
       const bool continues = is_end && (continueEachOther(a->second, b->second, ground) ||
                                         std::any_of(of_a.begin(), of_a.end(), [&](const Surface* part) {
                                           return continueEachOther(*part, b->second, ground);
                                         }));
-      if (!continues && !overlap(a->second, b->second)) continue;
+      if (!continues && !do_overlap) continue;
       const auto fit = fitOfDifference(known.form(), a->second, b->second, options.inflation, view);
       if (!fit) continue;
       const bool is_alike = fit->chi2 <= limit && fit->log_density >= least_density;
       if (!continues && !is_alike && !lie) continue;
+      const std::string why = is_alike    ? ""
+                              : continues ? "parts of one wall, as high as walls and on one plane"
+                                          : "what was seen of them is in the same place";
       gone_already.insert(b->first);
       parts[a->first].push_back(&b->second);
       const map::Landmark &kept = view.map.landmark(a->first), &gone = view.map.landmark(b->first);
@@ -145,7 +150,7 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
       }
       merges.gone_into.emplace_back(gone.id, kept.id);
       merges.payloads[kept.id] = kept_payload.with(gone_payload);
-      merges.batch.log(landmarks::mergeDecision(view, section, kept.id, gone.id, fit->chi2, limit));
+      merges.batch.log(landmarks::mergeDecision(view, section, kept.id, gone.id, fit->chi2, limit, why));
     }
   }
   return merges;
@@ -154,89 +159,6 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
 mapper::Batch asBatch(Merges merges) {
   for (const auto& [gone, kept] : merges.gone_into) merges.batch.mergeLandmarks(gone, kept, merges.payloads.at(kept));
   return std::move(merges.batch);
-}
-
-// A surface of the map that is left, with what is known of it.
-struct Left {
-  base::LandmarkId id;
-  std::shared_ptr<PlanePayload> payload;
-  surfaces::Surface surface;  ///< as it is drawn
-};
-
-std::vector<Left> leftAfter(const Merges& merges, const PlaneLandmarkIndex& known, const mapper::View& view) {
-  std::set<base::LandmarkId> gone;
-  for (const auto& one : merges.gone_into) gone.insert(one.first);
-  std::vector<Left> all;
-  for (const auto& [id, surface] : known.all()) {
-    if (gone.count(id) > 0) continue;
-    const auto merged = merges.payloads.find(id);
-    const auto& payload =
-        merged != merges.payloads.end() ? *merged->second : dynamic_cast<const PlanePayload&>(*surface.payload);
-    const auto shape = payload.shape({view.graph.value(surface.variable)}, view.map.key_frames);
-    if (shape.surfaces.empty()) continue;
-    Left left{id, std::make_shared<PlanePayload>(payload), {}};
-    left.surface.plane = surface.plane;
-    left.surface.parts = partsOf(shape);
-    all.push_back(std::move(left));
-  }
-  return all;
-}
-
-// Of most of the area that the map has.
-double usualRoughness(const std::vector<Left>& all) {
-  std::vector<std::pair<double, double>> by_roughness;  // and their areas
-  double whole = 0;
-  for (const Left& left : all) {
-    if (left.payload->roughness.count == 0) continue;
-    double area = 0;
-    for (const auto& part : left.surface.parts) area += geometry::area(geometry::Polygon3{part.outline});
-    by_roughness.emplace_back(left.payload->roughness.mean(), area);
-    whole += area;
-  }
-  std::sort(by_roughness.begin(), by_roughness.end());
-  double below = 0;
-  for (const auto& [roughness, area] : by_roughness) {
-    below += area;
-    if (below >= whole / 2) return roughness;
-  }
-  return 0;
-}
-
-// How often a surface must have been seen as a plane to be drawn; `rough`: how rough it is, to what is usual. Planes
-// through the spines of books, the legs of chairs and heaps of things lie rougher than walls do, most of them upright
-// or leaning, and the longer a log, the more chance views agree. Not at all where nothing makes up for how rough it is.
-std::optional<std::size_t> sightingsToDraw(const geometry::Plane3& plane, double rough, std::size_t key_frames) {
-  constexpr double kLevel = 0.95, kUpright = 0.2;                   // of the normal's height
-  constexpr double kSmooth = 1.2, kRough = 1.5, kRoughLevel = 2.5;  // to what is usual
-  constexpr std::size_t kLevelOnes = 2, kSmoothOnes = 3, kFewest = 2, kMost = 7, kKeyFramesForOne = 200;
-  const double height = std::abs(plane.normal.z());
-  const std::size_t by_length = std::min(kMost, kFewest + key_frames / kKeyFramesForOne);
-  if (height > kLevel) return rough <= kRoughLevel ? std::optional(kLevelOnes) : std::nullopt;
-  if (rough <= kSmooth) return height < kUpright ? std::min(kSmoothOnes, by_length) : by_length;
-  return height < kUpright && rough <= kRough ? std::optional(by_length) : std::nullopt;
-}
-
-// What each surface is that is left, and whether it was seen often and well enough to be drawn.
-void judgeAll(const PlaneLandmarkIndex& known, const mapper::View& view, Merges& merges) {
-  const auto all = leftAfter(merges, known, view);
-  if (all.empty()) return;
-  std::vector<surfaces::Surface> judged;
-  for (const Left& left : all) judged.push_back(left.surface);
-  const auto judgements = surfaces::classify(judged, all.front().payload->groundIn(view.map.key_frames));
-  const double usual = usualRoughness(all);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    PlanePayload& payload = *all[i].payload;
-    payload.judgement = judgements[i];
-    const double rough = usual > 0 ? payload.roughness.mean() / usual : 1;
-    const auto needed = sightingsToDraw(all[i].surface.plane, rough, view.map.key_frames.size());
-    payload.is_candidate = !needed || payload.planeSightings() < *needed;
-    const auto merged = merges.payloads.find(all[i].id);
-    if (merged != merges.payloads.end()) {
-      merged->second = all[i].payload;
-    } else {
-      merges.batch.describeLandmark(all[i].id, all[i].payload);
-    }
-  }
 }
 
 }  // namespace
@@ -249,7 +171,18 @@ mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions&
 mapper::Batch mergeAndJudge(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
                             const mapper::View& view) {
   Merges merges = findMerges(known, options, section, view, true);
-  judgeAll(known, view, merges);
+  PlanePayloads left = merges.payloads;
+  for (const auto& [id, surface] : known.all())
+    left.try_emplace(id, std::dynamic_pointer_cast<const PlanePayload>(surface.payload));
+  for (const auto& [gone, kept] : merges.gone_into) left.erase(gone);
+  for (const auto& [id, payload] : judged(left, known, view)) {
+    const auto merged = merges.payloads.find(id);
+    if (merged != merges.payloads.end()) {
+      merged->second = payload;
+    } else {
+      merges.batch.describeLandmark(id, payload);
+    }
+  }
   return asBatch(std::move(merges));
 }
 

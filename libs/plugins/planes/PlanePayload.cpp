@@ -67,9 +67,9 @@ std::string number(double value) {
 
 std::vector<surfaces::FlatPart> partsOf(const map::LandmarkShape& shape) {
   std::vector<surfaces::FlatPart> parts;
-  for (const auto& polygon : shape.surfaces) {
-    parts.push_back({polygon.vertices, {}});
-    for (const auto& hole : shape.holes) parts.back().holes.push_back(hole.vertices);
+  for (std::size_t i = 0; i < shape.surfaces.size(); ++i) {
+    parts.push_back({shape.surfaces[i].vertices, {}});
+    for (const auto& hole : map::holesIn(shape, i)) parts.back().holes.push_back(hole.vertices);
   }
   return parts;
 }
@@ -109,6 +109,7 @@ std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, c
   }
   SeenBy& seen = more->seen_by[sighting.sensor_label];
   ++(sighting.is_line ? seen.lines : seen.planes);
+  more->forgetDoubt();
   more->last_seen_from = frame;
   return more;
 }
@@ -122,8 +123,19 @@ std::shared_ptr<const PlanePayload> PlanePayload::with(const PlanePayload& other
   }
   both->roughness.sum += other.roughness.sum;
   both->roughness.count += other.roughness.count;
+  if (!both->isAccepted() && other.isAccepted()) {
+    both->judgement = other.judgement;
+    both->is_candidate = false;
+  }
+  both->forgetDoubt();
   both->last_seen_from = std::max(last_seen_from, other.last_seen_from);
   return both;
+}
+
+void PlanePayload::forgetDoubt() {
+  if (isAccepted()) return;
+  judgement.reset();
+  is_candidate = false;
 }
 
 std::shared_ptr<const map::LandmarkPayload> PlanePayload::seenFrom(const std::set<base::KeyFrameId>& frames) const {

@@ -4,7 +4,7 @@
 #include <omnimapper/landmarks/PlaneParametrization.h>
 #include <omnimapper/map/KeyFrames.h>
 #include <omnimapper/map/PayloadRegistry.h>
-#include <omnimapper/surfaces/classify.h>
+#include <omnimapper/surfaces/Classification.h>
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -102,13 +102,18 @@ struct PlanePayload : map::LandmarkPayload {
   /// With all that is known of another.
   std::shared_ptr<const PlanePayload> with(const PlanePayload& other) const;
 
+  /// An end of a run has found it good enough to be drawn. It stays so: that a map grows elsewhere says nothing of it.
+  bool isAccepted() const { return judgement && !is_candidate; }
+
  private:
+  // What was seen once more is judged anew at the next end, and drawn until then.
+  void forgetDoubt();
   map::LandmarkShape shapeNow(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames& key_frames) const;
 
   mutable ShapeMemo memo_;
 };
 
-/// The surfaces of a shape; holes of one are with each, where they are outside they tell nothing.
+/// The surfaces of a shape, each with its holes.
 std::vector<surfaces::FlatPart> partsOf(const map::LandmarkShape& shape);
 
 }  // namespace omnimapper::plugins

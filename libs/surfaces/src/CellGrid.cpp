@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace omnimapper::surfaces {
 
@@ -99,15 +100,25 @@ void CellGrid::fill(const std::vector<Vector3d>& outline, const std::vector<std:
       result.emplace_back(u_.dot(point - origin_) / cell_, v_.dot(point - origin_) / cell_);
     return result;
   };
+  // What is not finite, or would not be in whole cells, covers nothing.
+  const auto isSomewhere = [](const std::vector<Vector2d>& walk) {
+    constexpr double kFarthest = 1e9;  // cells
+    return std::all_of(walk.begin(), walk.end(), [](const Vector2d& point) {
+      return point.allFinite() && point.cwiseAbs().maxCoeff() < kFarthest;
+    });
+  };
   std::vector<std::vector<Vector2d>> walks{flat(outline)};
-  for (const auto& hole : holes) walks.push_back(flat(hole));
+  if (!isSomewhere(walks.front())) return;
+  for (const auto& hole : holes)
+    if (auto walk = flat(hole); isSomewhere(walk)) walks.push_back(std::move(walk));
   double low = rows_, high = 0;
   for (const Vector2d& point : walks.front()) {
     low = std::min(low, point.y());
     high = std::max(high, point.y());
   }
   std::vector<double> crossings;
-  const int first_row = static_cast<int>(std::max(0.0, std::floor(low))), end_row = std::min<int>(rows_, high + 1);
+  const int first_row = static_cast<int>(std::max(0.0, std::floor(low)));
+  const int end_row = static_cast<int>(std::min(rows_ + 0.0, high + 1));
   for (int row = first_row; row < end_row; ++row) {
     crossings.clear();
     for (const auto& walk : walks) addCrossings(walk, row + 0.5, crossings);

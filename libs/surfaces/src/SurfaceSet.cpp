@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/Error.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -103,8 +104,12 @@ std::vector<Vector3d> walkFrom(const Json& json) {
 
 CellGrid gridFrom(const Json& json) {
   const Json& rows = json.at("rows");
-  CellGrid grid(vectorFrom(json.at("origin")), vectorFrom(json.at("u")), vectorFrom(json.at("v")),
-                json.at("cell_m").get<double>(), json.at("columns").get<int>(), static_cast<int>(rows.size()));
+  const Vector3d u = vectorFrom(json.at("u")), v = vectorFrom(json.at("v"));
+  constexpr double kNearly = 1e-3;
+  if (std::abs(u.norm() - 1) > kNearly || std::abs(v.norm() - 1) > kNearly || std::abs(u.dot(v)) > kNearly)
+    throw std::invalid_argument("u and v of the cells are not of length 1 and at right angles");
+  CellGrid grid(vectorFrom(json.at("origin")), u, v, json.at("cell_m").get<double>(), json.at("columns").get<int>(),
+                static_cast<int>(rows.size()));
   for (int row = 0; row < grid.rows(); ++row) {
     const Json& runs = rows[static_cast<std::size_t>(row)];
     for (std::size_t i = 0; i + 1 < runs.size(); i += 2) {
@@ -124,6 +129,14 @@ Enum choiceFrom(const Json& json, const std::array<const char*, 3>& names) {
   throw std::invalid_argument("'" + json.get<std::string>() + "' is not known");
 }
 
+void refuseOffPlane(const geometry::Plane3& plane, const FlatPart& part) {
+  constexpr double kOff = 0.01;  // [m]
+  const auto isOff = [&](const Vector3d& corner) { return !(std::abs(signedDistance(plane, corner)) < kOff); };
+  bool is_off = std::any_of(part.outline.begin(), part.outline.end(), isOff);
+  for (const auto& hole : part.holes) is_off = is_off || std::any_of(hole.begin(), hole.end(), isOff);
+  if (is_off) throw std::invalid_argument("a corner lies 1 cm or more off its plane");
+}
+
 Surface surfaceFrom(const Json& json) {
   Surface surface;
   surface.id = json.at("id").get<int>();
@@ -139,6 +152,7 @@ Surface surfaceFrom(const Json& json) {
     FlatPart& flat = surface.parts.emplace_back();
     flat.outline = walkFrom(part.at("outline"));
     for (const auto& hole : part.at("holes")) flat.holes.push_back(walkFrom(hole));
+    refuseOffPlane(surface.plane, flat);
   }
   surface.is_moved = json.value("moved", false);
   surface.sightings = json.value("sightings", 0);
@@ -170,7 +184,8 @@ std::string toJson(const SurfaceSet& set) {
     return lines;
   };
   // One surface a line: a person finds it, and a file of thousands stays small.
-  std::string text = "{\"format\": \"" + std::string(kFormat) + "\",\n\"title\": " + Json(set.title).dump() +
+  std::string text = "{\"format\": \"" + std::string(kFormat) +
+                     "\",\n\"title\": " + Json(set.title).dump(-1, ' ', false, Json::error_handler_t::replace) +
                      ",\n\"frame\": \"map, z up; metres\",\n";
   const auto append = [&](const char* name, const Json& lines, const char* end) {
     text += "\"" + std::string(name) + "\": [";

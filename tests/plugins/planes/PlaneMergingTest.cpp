@@ -115,6 +115,47 @@ TEST_F(PlaneMerging, AtTheEndSurfacesAreJudgedAndWhatWasSeenOnceIsACandidate) {
   EXPECT_EQ(active()[0].evidence, 2U) << "to judge is no sighting";
 }
 
+// A second end, as of a run that goes on in a saved map.
+TEST_F(PlaneMerging, WhatAnEndAcceptedStaysAndACandidateIsJudgedAnew) {
+  driveTo({});
+  see(planesOf({wallPlane(3, -2, 2), tableTop(2, 1, 0.7)}));
+  see(planesOf({wallPlane(3, -2, 2)}));
+  apply(plugin_->atEnd(run_.view()));
+  ASSERT_TRUE(shapeOf(active()[1]).is_candidate);
+  for (int i = 1; i < 450; ++i) driveTo({0.001 * i, 0, 0, 0, 0, 0});
+  see(planesOf({tableTop(2 - 0.449, 1, 0.7)}));
+  EXPECT_FALSE(shapeOf(active()[1]).is_candidate) << "drawn until the next end";
+  apply(plugin_->atEnd(run_.view()));
+  EXPECT_FALSE(shapeOf(active()[0]).is_candidate) << "by now it would have to be seen four times";
+  EXPECT_FALSE(shapeOf(active()[1]).is_candidate);
+}
+
+TEST_F(PlaneMerging, WithHullsSurfacesThatLieOnEachOtherAreOneToo) {
+  PlaneLandmarksOptions options;
+  options.boundary = PlaneLandmarksOptions::Boundary::hull;
+  options.plane_sigma = options.plane_angle_sigma = 1e-4;
+  make(options);
+  driveTo({});
+  for (const double x : {3.0, 3.03}) {
+    auto seen = wallPlane(x, -1, 1);
+    seen.covariance = Vector3d(1e-8, 1e-8, 1e-8).asDiagonal();
+    see(planesOf({seen}));
+  }
+  ASSERT_EQ(active().size(), 2U);
+  solve();
+  EXPECT_EQ(active().size(), 1U);
+}
+
+// Level ground of 800 m by 800 m, as a laser on a mast sees it.
+TEST_F(PlaneMerging, OneThatIsTooLargeToBeCountedIsALandmarkAllTheSame) {
+  driveTo({});
+  for (int i = 0; i < 3; ++i) see(planesOf({plane({0, 0, -1.5}, {400, 0, 0}, {0, 400, 0})}));
+  solve();
+  apply(plugin_->atEnd(run_.view()));
+  ASSERT_EQ(active().size(), 1U);
+  EXPECT_EQ(active()[0].evidence, 3U);
+}
+
 // A wall of 6 m, 5 m off, then from 2 m: of its length 2 sqrt(4^2 - 2^2) = 6.93 m lie within 4 m.
 TEST_F(PlaneMerging, WhatWasSeenFromAfarIsDrawnUntilItIsSeenFromNear) {
   driveTo({});

@@ -75,12 +75,9 @@ std::string sensorsText(const std::map<std::string, std::size_t>& seen_by) {
   return text;
 }
 
-std::vector<geometry::Polygon3> withHoles(const geometry::Polygon3& surface, const map::LandmarkShape& shape) {
-  std::vector<geometry::Polygon3> walks{surface};
-  for (const auto& hole : shape.holes) {
-    const Eigen::Vector3d middle = (hole.vertices[0] + hole.vertices[1]) / 2;  // a corner may lie on the outline
-    if (geometry::contains(surface, middle)) walks.push_back(hole);
-  }
+std::vector<geometry::Polygon3> withHoles(std::size_t surface, const map::LandmarkShape& shape) {
+  std::vector<geometry::Polygon3> walks = map::holesIn(shape, surface);
+  walks.insert(walks.begin(), shape.surfaces[surface]);
   return walks;
 }
 

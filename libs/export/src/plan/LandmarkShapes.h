@@ -35,8 +35,8 @@ std::map<std::string, std::size_t> seenBy(const map::LandmarkShape& shape);
 /// "laser only", "kinect and laser", ...; empty if nothing is known.
 std::string sensorsText(const std::map<std::string, std::size_t>& seen_by);
 
-/// A surface, then the holes in it.
-std::vector<geometry::Polygon3> withHoles(const geometry::Polygon3& surface, const map::LandmarkShape& shape);
+/// A surface of the shape, by its number, then the holes in it.
+std::vector<geometry::Polygon3> withHoles(std::size_t surface, const map::LandmarkShape& shape);
 
 /// [m^2] of all surfaces, less their holes.
 double areaOf(const map::LandmarkShape& shape);

@@ -26,11 +26,11 @@ surfaces::Surface surfaceOf(const ShapedLandmark& shaped, int id) {
   surface.is_candidate = shape.is_candidate;
   surface.sightings = static_cast<int>(shaped.landmark->evidence);
   surface.plane = planeOf(shape.surfaces.front(), shape);
-  for (const auto& polygon : shape.surfaces) {
-    const auto walks = withHoles(polygon, shape);
+  for (std::size_t i = 0; i < shape.surfaces.size(); ++i) {
+    const auto walks = withHoles(i, shape);
     surfaces::FlatPart& part = surface.parts.emplace_back();
     part.outline = walks.front().vertices;
-    for (std::size_t i = 1; i < walks.size(); ++i) part.holes.push_back(walks[i].vertices);
+    for (std::size_t hole = 1; hole < walks.size(); ++hole) part.holes.push_back(walks[hole].vertices);
   }
   return surface;
 }

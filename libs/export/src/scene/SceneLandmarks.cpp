@@ -84,8 +84,8 @@ CSetOfObjects::Ptr objectOf(const ShapedLandmark& landmark, bool with_name) {
   object->setName(name);
   if (!landmark.moved) {
     const std::uint8_t alpha = coversThePlan(shape.label) || landmark.isFaint() ? kFaint : kTranslucent;
-    for (const auto& surface : shape.surfaces)
-      obs::addFilled(*object, planeOf(surface, shape), withHoles(surface, shape), inkOf(landmark, alpha));
+    for (std::size_t i = 0; i < shape.surfaces.size(); ++i)
+      obs::addFilled(*object, planeOf(shape.surfaces[i], shape), withHoles(i, shape), inkOf(landmark, alpha));
     if (!landmark.isFaint()) addNormal(*object, landmark);
   }
   if (const auto strokes = landmarkStrokes(landmark); strokes->getTrianglesCount() > 0) object->insert(strokes);
@@ -136,7 +136,8 @@ std::vector<mrpt::opengl::TTriangle> landmarkTriangles(const std::vector<ShapedL
         all.back().setColor(inkOf(landmark));
       }
     };
-    for (const auto& surface : shape.surfaces) take(*obs::filled(planeOf(surface, shape), withHoles(surface, shape)));
+    for (std::size_t i = 0; i < shape.surfaces.size(); ++i)
+      take(*obs::filled(planeOf(shape.surfaces[i], shape), withHoles(i, shape)));
     CSetOfTriangles more;
     for (const auto& [from, to] : shape.lines) obs::addStroke(more, from, to, kLineStroke);
     for (const auto& point : shape.points) addOctahedron(more, point);

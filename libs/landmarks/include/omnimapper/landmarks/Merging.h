@@ -17,8 +17,8 @@ struct Fit {
 std::optional<Fit> fitOf(const Eigen::VectorXd& difference, const Eigen::MatrixXd& covariance);
 
 /// What the log says of two landmarks that were found to be one, now. `chi2`: of the difference between them; `limit`:
-/// that of the test it passed.
+/// that of the test for it. `why` they are one, where it is not that test that told.
 mapper::Decision mergeDecision(const mapper::View& view, const std::string& section, base::LandmarkId kept,
-                               base::LandmarkId gone, double chi2, double limit);
+                               base::LandmarkId gone, double chi2, double limit, const std::string& why = "");
 
 }  // namespace omnimapper::landmarks

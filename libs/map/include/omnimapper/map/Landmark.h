@@ -30,7 +30,7 @@ struct LandmarkShape {
   std::string reason;                        ///< why it is called so; may be empty
   bool is_candidate = false;                 ///< seen too little to be drawn
   std::vector<geometry::Polygon3> surfaces;  ///< flat, each may be concave
-  std::vector<geometry::Polygon3> holes;     ///< each in one of `surfaces`, which it is cut out of
+  std::vector<geometry::Polygon3> holes;     ///< each in one of `surfaces`, which it is cut out of (holesIn())
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;  ///< from, to
   std::vector<Eigen::Vector3d> points;
   std::vector<base::Stamp> point_stamps;  ///< when it was at each of `points`; empty: at all times
@@ -38,6 +38,10 @@ struct LandmarkShape {
   std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value: for tables and exports
   /// Of the properties, that of seenByKey() tells how often a sensor saw it.
 };
+
+/// The holes of a surface of the shape: of those that go around a hole it is the smallest, for an island may lie in a
+/// hole and have holes itself.
+std::vector<geometry::Polygon3> holesIn(const LandmarkShape& shape, std::size_t surface);
 
 /// What a landmark is beside what is optimised: a plane's extent, a sign's text, an object's model. Immutable; a plugin
 /// that learns more gives a new one. Points in it are in the base of the key frame that saw them.

@@ -29,11 +29,19 @@ std::string surfacesFile(const std::string& path) {
   return std::filesystem::is_directory(path) ? path + "/surfaces.json" : path;
 }
 
+// A file in the same folder.
+std::string besideSurfaces(const std::string& path, const std::string& name) {
+  return (std::filesystem::path(surfacesFile(path)).parent_path() / name).string();
+}
+
 // The surfaces of the map in the frame of the truth: the trajectories in both folders tell how that lies to the map's.
 surfaces::SurfaceSet inTrueFrame(const surfaces::SurfaceSet& map, const Arguments& arguments) {
   const auto alignment = eval::alignmentNamed(arguments.alignment);
   if (alignment == eval::Alignment::none) return map;
-  const std::string estimate = arguments.estimate + "/trajectory.tum", truth = arguments.reference + "/truth.tum";
+  if (alignment == eval::Alignment::sim3)
+    throw base::Error(base::ExitCode::command_line, "--align sim3: a map has its scale");
+  const std::string estimate = besideSurfaces(arguments.estimate, "trajectory.tum");
+  const std::string truth = besideSurfaces(arguments.reference, "truth.tum");
   for (const auto& file : {estimate, truth}) {
     if (std::filesystem::exists(file)) continue;
     throw base::Error(base::ExitCode::unreadable_input,
@@ -44,8 +52,6 @@ surfaces::SurfaceSet inTrueFrame(const surfaces::SurfaceSet& map, const Argument
   const auto paired =
       eval::pairTrajectories(eval::readTrajectory(estimate), eval::readTrajectory(truth),
                              {base::durationFromSeconds(arguments.tolerance), base::Duration(0), alignment});
-  if (paired.reference_from_estimate.scale != 1)
-    throw base::Error(base::ExitCode::command_line, "--align sim3: a map has its scale");
   return surfaces::moved(map, paired.reference_from_estimate.motion);
 }
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <omnimapper/surfaces/classify.h>
+#include <omnimapper/surfaces/Classification.h>
 
 namespace omnimapper::surfaces {
 

@@ -1,0 +1,93 @@
+#include "PlaneJudging.h"
+
+#include <omnimapper/geometry/Polygon3.h>
+#include <omnimapper/surfaces/Classification.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::plugins {
+
+namespace {
+
+/// A landmark of the map with what is seen of it.
+struct DrawnLandmark {
+  base::LandmarkId id;
+  std::shared_ptr<PlanePayload> payload;
+  surfaces::Surface surface;
+};
+
+std::vector<DrawnLandmark> drawnOf(const PlanePayloads& payloads, const PlaneLandmarkIndex& known,
+                                   const mapper::View& view) {
+  std::vector<DrawnLandmark> all;
+  for (const auto& [id, payload] : payloads) {
+    const auto& surface = known.all().at(id);
+    const auto shape = payload->shape({view.graph.value(surface.variable)}, view.map.key_frames);
+    if (shape.surfaces.empty()) continue;
+    DrawnLandmark& drawn = all.emplace_back();
+    drawn.id = id;
+    drawn.payload = std::make_shared<PlanePayload>(*payload);
+    drawn.surface.plane = surface.plane;
+    drawn.surface.parts = partsOf(shape);
+  }
+  return all;
+}
+
+// How rough at most half of the area is that the map has.
+double usualRoughness(const std::vector<DrawnLandmark>& all) {
+  std::vector<std::pair<double, double>> by_roughness;  // and their areas
+  double whole = 0;
+  for (const DrawnLandmark& drawn : all) {
+    if (drawn.payload->roughness.count == 0) continue;
+    double area = 0;
+    for (const auto& part : drawn.surface.parts) area += geometry::area(geometry::Polygon3{part.outline});
+    by_roughness.emplace_back(drawn.payload->roughness.mean(), area);
+    whole += area;
+  }
+  std::sort(by_roughness.begin(), by_roughness.end());
+  double below = 0;
+  for (const auto& [roughness, area] : by_roughness) {
+    below += area;
+    if (below >= whole / 2) return roughness;
+  }
+  return 0;
+}
+
+// How often a surface must have been seen as a plane to be drawn; `rough`: how rough it is, to what is usual. Planes
+// through the spines of books, the legs of chairs and heaps of things lie rougher than walls do, most of them upright
+// or leaning, and the longer a log, the more chance views agree. Not at all where nothing makes up for how rough it is.
+std::optional<std::size_t> sightingsToDraw(const geometry::Plane3& plane, double rough, std::size_t key_frames) {
+  constexpr double kLevel = 0.95, kUpright = 0.2;                   // of the normal's height
+  constexpr double kSmooth = 1.2, kRough = 1.5, kRoughLevel = 2.5;  // to what is usual
+  constexpr std::size_t kLevelOnes = 2, kSmoothOnes = 3, kFewest = 2, kMost = 7, kKeyFramesForOne = 200;
+  const double height = std::abs(plane.normal.z());
+  const std::size_t by_length = std::min(kMost, kFewest + key_frames / kKeyFramesForOne);
+  if (height > kLevel) return rough <= kRoughLevel ? std::optional(kLevelOnes) : std::nullopt;
+  if (rough <= kSmooth) return height < kUpright ? std::min(kSmoothOnes, by_length) : by_length;
+  return height < kUpright && rough <= kRough ? std::optional(by_length) : std::nullopt;
+}
+
+}  // namespace
+
+PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& known, const mapper::View& view) {
+  const auto all = drawnOf(payloads, known, view);
+  std::vector<surfaces::Surface> drawn;
+  for (const auto& one : all) drawn.push_back(one.surface);
+  const auto judgements = surfaces::classify(drawn, known.emptyPayload().groundIn(view.map.key_frames));
+  const double usual = usualRoughness(all);
+  PlanePayloads results;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    PlanePayload& payload = *all[i].payload;
+    const double rough = usual > 0 ? payload.roughness.mean() / usual : 1;
+    const auto needed = sightingsToDraw(all[i].surface.plane, rough, view.map.key_frames.size());
+    payload.is_candidate = !payload.isAccepted() && (!needed || payload.planeSightings() < *needed);
+    payload.judgement = judgements[i];
+    results[all[i].id] = all[i].payload;
+  }
+  return results;
+}
+
+}  // namespace omnimapper::plugins
