@@ -26,7 +26,6 @@ std::vector<DrawnLandmark> drawnOf(const PlanePayloads& payloads, const PlaneLan
   for (const auto& [id, payload] : payloads) {
     const auto& surface = known.all().at(id);
     const auto shape = payload->shape({view.graph.value(surface.variable)}, view.map.key_frames);
-    if (shape.surfaces.empty()) continue;
     DrawnLandmark& drawn = all.emplace_back();
     drawn.id = id;
     drawn.payload = std::make_shared<PlanePayload>(*payload);
@@ -74,6 +73,7 @@ std::optional<std::size_t> sightingsToDraw(const geometry::Plane3& plane, double
 
 PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& known, const mapper::View& view) {
   const auto all = drawnOf(payloads, known, view);
+  constexpr std::size_t kFewestLines = 3;
   std::vector<surfaces::Surface> drawn;
   for (const auto& one : all) drawn.push_back(one.surface);
   const auto judgements = surfaces::classify(drawn, known.emptyPayload().groundIn(view.map.key_frames));
@@ -81,11 +81,15 @@ PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& kn
   PlanePayloads results;
   for (std::size_t i = 0; i < all.size(); ++i) {
     PlanePayload& payload = *all[i].payload;
+    results[all[i].id] = all[i].payload;
+    if (all[i].surface.parts.empty()) {
+      payload.is_candidate = payload.sightings() < kFewestLines;
+      continue;
+    }
     const double rough = usual > 0 ? payload.roughness.mean() / usual : 1;
     const auto needed = sightingsToDraw(all[i].surface.plane, rough, view.map.key_frames.size());
     payload.is_candidate = !payload.isAccepted() && (!needed || payload.planeSightings() < *needed);
     payload.judgement = judgements[i];
-    results[all[i].id] = all[i].payload;
   }
   return results;
 }

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "grid/ScaleBar.h"
+#include "pictures/Legend.h"
 #include "plan/FloorPlan.h"
 #include "plan/LandmarkColours.h"
 
@@ -69,6 +73,20 @@ void drawLinesAndPoints(draw::Image& image, const GridPicture& grid, const std::
   }
 }
 
+// What the colours of surfaces mean, the most frequent first, with how many there are.
+std::vector<LegendRow> legendOf(const std::vector<ShapedLandmark>& landmarks) {
+  std::map<std::string, int> counts;
+  for (const auto& landmark : landmarks)
+    if (landmark.isSomewhere() && !coversThePlan(landmark.shape.label)) ++counts[landmark.shape.label];
+  std::vector<std::pair<int, std::string>> by_count;
+  for (const auto& [label, count] : counts) by_count.emplace_back(-count, label);
+  std::sort(by_count.begin(), by_count.end());
+  std::vector<LegendRow> rows;
+  for (const auto& [count, label] : by_count)
+    rows.push_back({colourOfLabel(label), label + ": " + std::to_string(-count)});
+  return rows;
+}
+
 }  // namespace
 
 draw::Image drawMap(const GridPicture& grid, const std::vector<ShapedLandmark>& landmarks,
@@ -92,6 +110,8 @@ draw::Image drawMap(const GridPicture& grid, const std::vector<ShapedLandmark>& 
     drawDot(image, path.back(), {kTrack, 6 * width});
   }
   drawScaleBar(image, grid);
+  constexpr int kColumns = 6, kSideOfALetter = 800;  // [px] of the picture, for each 6 by 13 px
+  drawLegend(image, legendOf(landmarks), kColumns, std::max(1, std::max(image.width, image.height) / kSideOfALetter));
   return image;
 }
 
