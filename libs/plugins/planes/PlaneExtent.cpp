@@ -27,8 +27,8 @@ geometry::Areas2 seenOn(const landmarks::PlaneAxes& axes, const std::vector<Surf
       return points;
     };
     auto& polygon = polygons.emplace_back();
-    polygon.outline = dropped(patch.outline_in_base);
-    for (const auto& hole : patch.holes_in_base) polygon.holes.push_back(dropped(hole));
+    polygon.outline = dropped(patch.outlineInBase());
+    for (const auto& hole : patch.holesInBase()) polygon.holes.push_back(dropped(hole));
   }
   return geometry::unionOf(polygons, kLeast);
 }
@@ -56,8 +56,8 @@ void addSeen(surfaces::CellGrid& cells, const geometry::Plane3& plane, const std
       return walk;
     };
     std::vector<std::vector<Eigen::Vector3d>> holes;
-    for (const auto& hole : patch.holes_in_base) holes.push_back(inMap(hole));
-    cells.fill(inMap(patch.outline_in_base), holes);
+    for (const auto& hole : patch.holesInBase()) holes.push_back(inMap(hole));
+    cells.fill(inMap(patch.outlineInBase()), holes);
   }
 }
 
@@ -65,7 +65,7 @@ std::vector<Eigen::Vector3d> cornersInMap(const std::vector<SurfacePatch>& patch
   std::vector<Eigen::Vector3d> corners;
   for (const auto& patch : patches) {
     const auto map_from_base = geometry::fromMrpt(key_frames.at(patch.frame).map_from_base);
-    for (const auto& corner : patch.outline_in_base) corners.push_back(map_from_base * corner);
+    for (const auto& corner : patch.outlineInBase()) corners.push_back(map_from_base * corner);
   }
   return corners;
 }

@@ -51,7 +51,7 @@ std::vector<SurfacePatch> wellSeenIfAny(const std::vector<SurfacePatch>& patches
   for (const auto& patch : patches) {
     if (!patch.is_well_seen) continue;
     well_seen.push_back(patch);
-    has_area = has_area || patch.outline_in_base.size() > 2;
+    has_area = has_area || patch.outlineInBase().size() > 2;
   }
   return has_area ? well_seen : patches;
 }
@@ -146,26 +146,26 @@ std::shared_ptr<const map::LandmarkPayload> PlanePayload::seenFrom(const std::se
   return part->patches.empty() ? nullptr : part;
 }
 
-map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& values,
-                                       const map::KeyFrames& key_frames) const {
-  auto entry = std::make_shared<ShapeMemo::Entry>();
-  entry->values = values;
+geometry::Areas2 PlanePayload::coveredOn(const Eigen::VectorXd& value, const map::KeyFrames& key_frames) const {
+  auto entry = std::make_shared<CoveredMemo::Entry>();
+  entry->value = value;
   for (const auto& patch : patches)
     entry->frames.push_back(geometry::fromMrpt(key_frames.at(patch.frame).map_from_base));
   const auto isSame = [](const geometry::Se3& a, const geometry::Se3& b) {
     return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
   };
   const auto known = memo_.get();
-  if (known && known->values == values && known->frames.size() == entry->frames.size() &&
+  if (known && known->value == value && known->frames.size() == entry->frames.size() &&
       std::equal(known->frames.begin(), known->frames.end(), entry->frames.begin(), isSame))
-    return known->shape;
-  entry->shape = shapeNow(values, key_frames);
+    return known->areas;
+  const landmarks::PlaneAxes axes(landmarks::PlaneParametrization::of(form).plane(value));
+  entry->areas = seenOn(axes, wellSeenIfAny(patches), key_frames);
   memo_.set(entry);
-  return entry->shape;
+  return entry->areas;
 }
 
-map::LandmarkShape PlanePayload::shapeNow(const std::vector<Eigen::VectorXd>& values,
-                                          const map::KeyFrames& key_frames) const {
+map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& values,
+                                       const map::KeyFrames& key_frames) const {
   map::LandmarkShape shape;
   if (values.empty()) return shape;
   const auto plane = landmarks::PlaneParametrization::of(form).plane(values.front());
@@ -178,7 +178,7 @@ map::LandmarkShape PlanePayload::shapeNow(const std::vector<Eigen::VectorXd>& va
   // A laser alone tells how long a wall is, not how high.
   if (wasSeenAsPlane() && hull.size() > 2) {
     geometry::Areas2 areas;
-    if (boundary == Boundary::seen) areas = seenOn(axes, wellSeenIfAny(patches), key_frames);
+    if (boundary == Boundary::seen) areas = coveredOn(values.front(), key_frames);
     if (areas.outlines.empty()) areas = {{hull}, {}};
     double area = 0;
     const auto inSpace = [&](const std::vector<Eigen::Vector2d>& walk) {
@@ -225,9 +225,9 @@ void PlanePayload::write(std::ostream& out) const {
   graph::writeUint(out, patches.size(), 4);
   for (const auto& patch : patches) {
     graph::writeId(out, patch.frame);
-    writeWalk(out, patch.outline_in_base);
-    graph::writeUint(out, patch.holes_in_base.size(), 4);
-    for (const auto& hole : patch.holes_in_base) writeWalk(out, hole);
+    writeWalk(out, patch.outlineInBase());
+    graph::writeUint(out, patch.holesInBase().size(), 4);
+    for (const auto& hole : patch.holesInBase()) writeWalk(out, hole);
     graph::writeUint(out, patch.is_well_seen ? 1 : 0, 1);
   }
   graph::writeId(out, last_seen_from);
@@ -258,13 +258,12 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
     if (version > 1) payload->ground = graph::readUint(in, 1) == 0 ? Ground::start : Ground::map;
     if (version > 2) payload->boundary = graph::readUint(in, 1) == 0 ? Boundary::hull : Boundary::seen;
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
-      SurfacePatch patch;
-      patch.frame = graph::readId<base::KeyFrameId>(in);
-      patch.outline_in_base = readWalk(in);
-      for (auto holes = version > 3 ? graph::readUint(in, 4) : 0; holes > 0; --holes)
-        patch.holes_in_base.push_back(readWalk(in));
-      if (version > 5) patch.is_well_seen = graph::readUint(in, 1) != 0;
-      payload->patches.push_back(std::move(patch));
+      const auto frame = graph::readId<base::KeyFrameId>(in);
+      auto outline = readWalk(in);
+      std::vector<std::vector<Eigen::Vector3d>> holes;
+      for (auto count = version > 3 ? graph::readUint(in, 4) : 0; count > 0; --count) holes.push_back(readWalk(in));
+      const bool is_well_seen = version <= 5 || graph::readUint(in, 1) != 0;
+      payload->patches.emplace_back(frame, std::move(outline), std::move(holes), is_well_seen);
     }
     payload->last_seen_from = graph::readId<base::KeyFrameId>(in);
     for (auto left = graph::readUint(in, 4); left > 0; --left) {

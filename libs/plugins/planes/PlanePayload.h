@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/geometry/PolygonBooleans.h>
 #include <omnimapper/landmarks/PlaneParametrization.h>
 #include <omnimapper/map/KeyFrames.h>
 #include <omnimapper/map/PayloadRegistry.h>
@@ -13,18 +14,32 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "PlaneLandmarksPlugin.h"
 
 namespace omnimapper::plugins {
 
-/// A part of a surface as one observation showed it.
-struct SurfacePatch {
+/// A part of a surface as one observation showed it. Copies share the outline, for a payload is copied at each
+/// sighting.
+class SurfacePatch {
+ public:
+  SurfacePatch(base::KeyFrameId frame_id, std::vector<Eigen::Vector3d> outline_in_base,
+               std::vector<std::vector<Eigen::Vector3d>> holes_in_base = {}, bool seen_well = true)
+      : frame(frame_id),
+        is_well_seen(seen_well),
+        in_base_(std::make_shared<surfaces::FlatPart>(
+            surfaces::FlatPart{std::move(outline_in_base), std::move(holes_in_base)})) {}
+
   base::KeyFrameId frame;
-  std::vector<Eigen::Vector3d> outline_in_base;               ///< [m] a polygon, or the two ends of a laser line
-  std::vector<std::vector<Eigen::Vector3d>> holes_in_base{};  ///< [m] in the polygon
-  bool is_well_seen = true;                                   ///< from near and not too aslant
+  bool is_well_seen;  ///< from near and not too aslant
+  /// [m] a polygon, or the two ends of a laser line; and the holes in it.
+  const std::vector<Eigen::Vector3d>& outlineInBase() const { return in_base_->outline; }
+  const std::vector<std::vector<Eigen::Vector3d>>& holesInBase() const { return in_base_->holes; }
+
+ private:
+  std::shared_ptr<const surfaces::FlatPart> in_base_;
 };
 
 /// Which sensor saw it, and how often.
@@ -46,17 +61,21 @@ struct Roughness {
   double mean() const { return count == 0 ? 0 : sum / count; }
 };
 
-/// A shape as it was worked out last. A copy begins without, for it may be of another payload.
-class ShapeMemo {
+/// What patches cover together, as it was worked out last. A copy may be asked by a payload with more patches, which
+/// does not find them in `frames`.
+class CoveredMemo {
  public:
   struct Entry {
-    std::vector<Eigen::VectorXd> values;
+    Eigen::VectorXd value;              ///< of the plane
     std::vector<geometry::Se3> frames;  ///< map_from_base of the patches
-    map::LandmarkShape shape;
+    geometry::Areas2 areas;
   };
-  ShapeMemo() = default;
-  ShapeMemo(const ShapeMemo&) {}
-  ShapeMemo& operator=(const ShapeMemo&) { return *this; }
+  CoveredMemo() = default;
+  CoveredMemo(const CoveredMemo& other) : entry_(other.get()) {}
+  CoveredMemo& operator=(const CoveredMemo& other) {
+    set(other.get());
+    return *this;
+  }
   std::shared_ptr<const Entry> get() const { return std::atomic_load(&entry_); }
   void set(std::shared_ptr<const Entry> entry) { std::atomic_store(&entry_, std::move(entry)); }
 
@@ -108,9 +127,10 @@ struct PlanePayload : map::LandmarkPayload {
  private:
   // What was seen once more is judged anew at the next end, and drawn until then.
   void forgetDoubt();
-  map::LandmarkShape shapeNow(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames& key_frames) const;
+  // What is drawn of it [m, PlaneAxes of the plane of that value].
+  geometry::Areas2 coveredOn(const Eigen::VectorXd& value, const map::KeyFrames& key_frames) const;
 
-  mutable ShapeMemo memo_;
+  mutable CoveredMemo memo_;
 };
 
 /// The surfaces of a shape, each with its holes.
