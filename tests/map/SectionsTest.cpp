@@ -203,5 +203,40 @@ TEST(SessionFigures, AreOfEachSessionAndNotOfTheLeapBetween) {
   EXPECT_EQ(trajectory[5].session, 1);
 }
 
+TEST(LevelSection, HoldsWhichWayIsUpAndRefusesWhatIsNoDirection) {
+  Level level;
+  level.source = Level::Source::imu;
+  level.up = {0, 0.6, 0.8};
+  level.covariance.diagonal() = Eigen::Vector3d(1e-4, 2e-4, 0);
+  level.reason = "gravity";
+  const Level read = levelFromSection(levelToSection(level));
+  EXPECT_EQ(read.source, level.source);
+  EXPECT_EQ(read.up, level.up);
+  EXPECT_EQ(read.covariance, level.covariance);
+  EXPECT_EQ(read.reason, level.reason);
+  level.up = {0, 0, 2};
+  EXPECT_THROW(levelFromSection(levelToSection(level)), base::Error);
+  auto damaged = levelToSection(read);
+  damaged.bytes[0] = 9;
+  EXPECT_THROW(levelFromSection(damaged), base::Error);
+  damaged.bytes.resize(20);
+  EXPECT_THROW(levelFromSection(damaged), base::Error);
+}
+
+TEST(Level, TurnsUpToZAndSaysSo) {
+  Level level;
+  EXPECT_EQ(level.levelFromMap().coeffs(), Eigen::Quaterniond::Identity().coeffs()) << "nobody knows";
+  EXPECT_EQ(sentenceOf(level), "which way is up is not known: ");
+  level.source = Level::Source::planes;
+  level.up = {0, -1, 0};
+  level.covariance.diagonal() = Eigen::Vector3d(0.0001, 0, 0.0004);
+  level.reason = "all of them";
+  EXPECT_LT((level.levelFromMap() * level.up - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_NEAR(level.standardDeviation(), 0.02, 1e-12);
+  EXPECT_EQ(sentenceOf(level), "up is (0.000, -1.000, 0.000) of the map +- 1.15 deg, by planes: all of them");
+  level.up = {0, 0, -1};
+  EXPECT_LT((level.levelFromMap() * level.up - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace omnimapper::map::sections_test

@@ -3,6 +3,7 @@
 #include <omnimapper/base/IdTable.h>
 #include <omnimapper/map/KeyFrames.h>
 #include <omnimapper/map/Landmark.h>
+#include <omnimapper/map/Level.h>
 
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ struct Map {
   KeyFrames key_frames;
   base::IdTable<base::LandmarkId, Landmark> landmarks;
   std::vector<Session> sessions;  ///< in order of number
+  /// Which way is up; none before a run has ended, and in maps from before it was asked: z counts as up then.
+  std::optional<Level> level;
 
   /// The key frame of that id. Throws Error(internal) if there is none.
   const KeyFrame& keyFrame(base::KeyFrameId id) const { return key_frames.at(id); }

@@ -55,4 +55,9 @@ std::vector<Session> sessionsFromSection(const MapSection& section);
 /// anchor the pose of its first key frame.
 std::vector<Session> sessionsOfFrames(const KeyFrames& key_frames);
 
+/// The "level" section, of maps whose level was estimated.
+MapSection levelToSection(const Level& level);
+/// Throws Error(unreadable_input) as framesFromSection(), and where up is no direction.
+Level levelFromSection(const MapSection& section);
+
 }  // namespace omnimapper::map
