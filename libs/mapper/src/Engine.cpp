@@ -72,6 +72,7 @@ void Engine::finish() {
   while (back_end_.hasJobs()) tried([&] { back_end_.applyAllJobs(); });
   if (!state_.map.key_frames.empty()) {
     tried([&] { back_end_.solveFinally(); });
+    if (!state_.map_is_held) tried([&] { back_end_.findLevel(); });
     tried([&] { back_end_.conclude(); });
   }
   tried([&] { back_end_.collectSections(); });

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "OneSensor.h"
+#include "back_end/estimateLevel.h"
 #include "back_end/judgeTilt.h"
 
 namespace omnimapper::mapper {
@@ -152,6 +153,12 @@ void BackEnd::solve(const graph::SolveOptions& options) {
     const auto timer = state_.times.measure(Stage::output, section);
     plugin->update(state_.view());
   }
+}
+
+void BackEnd::findLevel() {
+  auto judged = estimateLevel(state_.view(), state_.level_evidence, settings_.engine.motion);
+  state_.map.level = std::move(judged.level);
+  for (auto& sentence : judged.warnings) state_.warnings.push_back(std::move(sentence));
 }
 
 // Each plugin sees what those before it concluded.

@@ -47,6 +47,8 @@ class BackEnd {
   void applyAllJobs();
   /// Solves to the end.
   void solveFinally() { solve(settings_.solver.final()); }
+  /// Finds which way is up.
+  void findLevel();
   /// Lets plugins conclude what only the whole log tells.
   void conclude();
   /// Weighs what plugins say for and against the map.

@@ -48,6 +48,7 @@ void FrontEnd::add(const mrpt::obs::CObservation::Ptr& observation) {
   queue_.arrived(observation->timestamp);
   const auto placed = sensor_poses_.applied(observation);
   const bool is_taken = feedSources(placed);
+  state_.level_evidence.add(*placed);
   // Where nothing is to be measured, what tells the motion makes the key frames.
   if (perception_.wants(*placed) || (is_taken && plugins_.measurement.empty())) {
     if (!queue_.add(placed)) addLate(placed);

@@ -128,6 +128,7 @@ RunResult resultOf(const View& view) {
   result.closures = closures.accepted;
   result.refused_closures = closures.refused;
   result.sessions = view.map.sessions;
+  if (!view.map_is_held) result.level = view.map.level;
   result.localized = view.localization.size();
   for (const auto& estimate : view.localization) result.located += estimate.located();
   const auto figures = map::sessionFigures(view.map);
@@ -477,8 +478,9 @@ std::string toText(const RunResult& result) {
                 result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
   const std::string verdict =
       result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";
-  return sessions + text + landmarkLine(result.landmarks) + verdict + "outputs           " + result.output_folder +
-         (result.took_place ? " (in the place of the run that was there)" : "") + "\n" +
+  const std::string level = result.level ? "level             " + sentenceOf(*result.level) + "\n" : "";
+  return sessions + text + landmarkLine(result.landmarks) + level + verdict + "outputs           " +
+         result.output_folder + (result.took_place ? " (in the place of the run that was there)" : "") + "\n" +
          foreignLine(result.foreign_files);
 }
 

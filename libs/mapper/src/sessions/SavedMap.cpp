@@ -21,7 +21,7 @@ namespace omnimapper::mapper {
 namespace {
 
 constexpr std::uint32_t kGraphVersion = 1;
-const std::array<std::string, 4> kOwnSections{"graph", "frames", "landmarks", "sessions"};
+const std::array<std::string, 5> kOwnSections{"graph", "frames", "landmarks", "sessions", "level"};
 
 [[noreturn]] void refuse(const std::string& reason) {
   throw base::Error(base::ExitCode::unreadable_input, reason);
@@ -161,6 +161,7 @@ SavedMap parse(const map::MapFile& file, const Kinds& kinds) {
   }
   const auto* sessions = file.find("sessions");
   saved.map.sessions = sessions ? map::sessionsFromSection(*sessions) : map::sessionsOfFrames(saved.map.key_frames);
+  if (const auto* level = file.find("level")) saved.map.level = map::levelFromSection(*level);
   for (const auto& section : file.sections()) {
     const bool own = std::find(kOwnSections.begin(), kOwnSections.end(), section.name) != kOwnSections.end();
     if (!own) saved.sections.push_back(section);
@@ -196,6 +197,7 @@ map::MapFile mapFileOf(const map::Map& map, const graph::Graph& graph, const std
   file.set(map::framesToSection(map));
   file.set(map::landmarksToSection(map));
   file.set(map::sessionsToSection(map));
+  if (map.level) file.set(map::levelToSection(*map.level));
   for (const auto& section : sections) file.set(section);
   return file;
 }

@@ -31,6 +31,7 @@ struct RunResult {
   std::size_t localized = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
   std::map<std::string, std::size_t> landmarks;  ///< of the whole map, by label
   std::vector<map::Session> sessions;            ///< of the whole map; the last is this run
+  std::optional<map::Level> level;               ///< of the whole map; none of a run that localizes in an old one
   double log_seconds = 0;                        ///< from first to last stamp
   double wall_seconds = 0;                       ///< of the whole run
   double way = 0;                                ///< [m] of this run's trajectory
