@@ -1,13 +1,14 @@
 #include "PlaneJudging.h"
 
 #include <omnimapper/geometry/Polygon3.h>
-#include <omnimapper/surfaces/Classification.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "LevelSurfaces.h"
 
 namespace omnimapper::plugins {
 
@@ -74,9 +75,9 @@ std::optional<std::size_t> sightingsToDraw(const geometry::Plane3& plane, double
 PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& known, const mapper::View& view) {
   const auto all = drawnOf(payloads, known, view);
   constexpr std::size_t kFewestLines = 3;
-  std::vector<surfaces::Surface> drawn;
-  for (const auto& one : all) drawn.push_back(one.surface);
-  const auto judgements = surfaces::classify(drawn, known.emptyPayload().groundIn(view.map.key_frames));
+  LevelSurfaces level(view.map.level);
+  for (const auto& one : all) level.add(one.surface);
+  const auto judgements = level.judged(known.emptyPayload().ground, view.map.key_frames);
   const double usual = usualRoughness(all);
   PlanePayloads results;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -87,7 +88,7 @@ PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& kn
       continue;
     }
     const double rough = usual > 0 ? payload.roughness.mean() / usual : 1;
-    const auto needed = sightingsToDraw(all[i].surface.plane, rough, view.map.key_frames.size());
+    const auto needed = sightingsToDraw(level.all()[i].plane, rough, view.map.key_frames.size());
     payload.is_candidate = !payload.isAccepted() && (!needed || payload.planeSightings() < *needed);
     payload.judgement = judgements[i];
   }

@@ -229,5 +229,37 @@ TEST_F(PlaneMerging, StretchesOfANewWallSeenAtOnceAreOne) {
   EXPECT_EQ(factorsOfKind("upright_plane"), 1U);
 }
 
+// A camera in the hand whose first picture had y up: a floor 1 m below it, a table and a wall.
+TEST_F(PlaneMerging, ClassesAreThoseOfTheLevelFrame) {
+  driveTo({});
+  const auto place = [](const obs::ObservedPlane& floor) {
+    return planesOf(
+        {floor, plane({1, -0.27, -0.7}, {0, 0, 0.4}, {0.8, 0, 0}), plane({3, 0.2, 0}, {0, 0, 2}, {0, 1.2, 0})});
+  };
+  const auto floor = plane({1, -1, 0}, {0, 0, 2}, {2, 0, 0});
+  ASSERT_GT(floor.plane_in_sensor.normal.y(), 0);
+  see(place(floor));
+  see(place(floor));
+  see(place(floor));
+  ASSERT_EQ(active().size(), 3U);
+  run_.map.level = map::Level{map::Level::Source::planes, Vector3d::UnitY(), Eigen::Matrix3d::Zero(), ""};
+  apply(plugin_->atEnd(run_.view()));
+  EXPECT_EQ(shapeOf(active()[0]).label, "floor") << shapeOf(active()[0]).reason;
+  EXPECT_EQ(shapeOf(active()[1]).label, "table") << shapeOf(active()[1]).reason;
+  EXPECT_EQ(shapeOf(active()[2]).label, "wall") << shapeOf(active()[2]).reason;
+  EXPECT_NEAR(shapeOf(active()[0]).surfaces[0].vertices[0].y(), -1, 1e-6) << "the map is not turned";
+}
+
+TEST_F(PlaneMerging, NothingHasAClassWhereUpIsNotKnown) {
+  driveTo({});
+  see(planesOf({wallPlane(3, -2, 2), tableTop(2, 1, 0.7)}));
+  run_.map.level = map::Level{};
+  apply(plugin_->atEnd(run_.view()));
+  for (const auto& landmark : active()) {
+    EXPECT_EQ(shapeOf(landmark).label, "surface");
+    EXPECT_EQ(shapeOf(landmark).reason, "which way is up is not known");
+  }
+}
+
 }  // namespace
 }  // namespace omnimapper::plugins::plane_merging_test
