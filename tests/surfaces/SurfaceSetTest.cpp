@@ -108,8 +108,11 @@ TEST_F(SurfaceFile, HoldsWhatWasWritten) {
   door.leaf_angle = 1.6;
   door.leaf_body = "door_1_leaf";
   set.openings.push_back(door);
+  set.level = SurfaceSetLevel{{0, 0.6, 0.8}, "imu", 0.01};
   const auto read = readSurfaces(write(toJson(set)));
   EXPECT_EQ(toJson(read), toJson(set));
+  EXPECT_EQ(read.level->from, "imu");
+  EXPECT_EQ(read.level->up, Vector3d(0, 0.6, 0.8));
   EXPECT_NEAR(read.surfaces.front().seen->area(), 2, 1e-9);
   EXPECT_EQ(read.openings.front().leaf, Opening::Leaf::open);
   EXPECT_TRUE(read.surfaces.front().is_moved);

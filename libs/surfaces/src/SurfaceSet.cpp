@@ -77,6 +77,14 @@ Json toJson(const Surface& surface) {
   return json;
 }
 
+constexpr double kDegrees = 180 / 3.14159265358979323846;  // in a radian
+
+Json toJson(const SurfaceSetLevel& level) {
+  return {{"up", exactJson(level.up)},
+          {"from", level.from},
+          {"standard_deviation_deg", level.from == "unknown" ? Json() : Json(level.standard_deviation * kDegrees)}};
+}
+
 Json toJson(const Opening& opening) {
   Json json{{"name", opening.name},
             {"kind", kOpeningKinds.at(static_cast<std::size_t>(opening.kind))},
@@ -137,6 +145,14 @@ void refuseOffPlane(const geometry::Plane3& plane, const FlatPart& part) {
   if (is_off) throw std::invalid_argument("a corner lies 1 cm or more off its plane");
 }
 
+SurfaceSetLevel levelFrom(const Json& json) {
+  SurfaceSetLevel level{vectorFrom(json.at("up")), json.at("from").get<std::string>(), 0};
+  if (std::abs(level.up.norm() - 1) > 1e-3) throw std::invalid_argument("up is not of length 1");
+  const Json& sigma = json.at("standard_deviation_deg");
+  if (sigma.is_number()) level.standard_deviation = sigma.get<double>() / kDegrees;
+  return level;
+}
+
 Surface surfaceFrom(const Json& json) {
   Surface surface;
   surface.id = json.at("id").get<int>();
@@ -186,7 +202,8 @@ std::string toJson(const SurfaceSet& set) {
   // One surface a line: a person finds it, and a file of thousands stays small.
   std::string text = "{\"format\": \"" + std::string(kFormat) +
                      "\",\n\"title\": " + Json(set.title).dump(-1, ' ', false, Json::error_handler_t::replace) +
-                     ",\n\"frame\": \"map, z up; metres\",\n";
+                     (set.level ? ",\n\"frame\": \"map; metres\",\n\"level\": " + toJson(*set.level).dump() + ",\n"
+                                : ",\n\"frame\": \"map, z up; metres\",\n");
   const auto append = [&](const char* name, const Json& lines, const char* end) {
     text += "\"" + std::string(name) + "\": [";
     for (std::size_t i = 0; i < lines.size(); ++i)
@@ -210,6 +227,7 @@ SurfaceSet readSurfaces(const std::string& file) {
     const Json json = Json::parse(in);
     if (json.at("format") != kFormat) throw std::invalid_argument("is not '" + std::string(kFormat) + "'");
     set.title = json.value("title", "");
+    if (json.contains("level")) set.level = levelFrom(json.at("level"));
     for (const auto& surface : json.at("surfaces")) {
       where = "surface " + std::to_string(set.surfaces.size() + 1);
       set.surfaces.push_back(surfaceFrom(surface));
@@ -249,6 +267,7 @@ SurfaceSet moved(SurfaceSet set, const geometry::Se3& b_from_a) {
     if (surface.seen) surface.seen = surface.seen->movedBy(b_from_a);
   }
   for (Opening& opening : set.openings) move(opening.rectangle);
+  if (set.level) set.level->up = b_from_a.rotation * set.level->up;
   return set;
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "plan/FloorPlan.h"
+#include "plan/LevelFrame.h"
 
 namespace omnimapper::exports {
 
@@ -163,7 +164,9 @@ std::string encodeGeoJson(const GeoJsonInput& input) {
   const auto place = input.metres ? std::nullopt : mapper::placeOnEarth(input.view);
   const Positions at(place ? std::optional(mapper::EarthFrame(*place, input.view)) : std::nullopt);
   Json features = Json::array();
-  for (const auto& shaped : shapesOf(input.view)) {
+  // On the earth x and y of the map are east and north, whatever its z.
+  const LevelFrame level(place ? map::Map() : input.view.map);
+  for (const auto& shaped : level(shapesOf(input.view))) {
     Json geometry = geometryOf(shaped.shape, at);
     if (geometry.is_null()) continue;
     features.push_back({{"type", "Feature"},
@@ -173,12 +176,14 @@ std::string encodeGeoJson(const GeoJsonInput& input) {
   }
   for (const auto& session : input.view.map.sessions) {
     if (!input.trajectory) break;
-    Json trajectory = wayOf(input.view.map, session, at);
+    Json trajectory = wayOf(level(input.view.map), session, at);
     if (!trajectory.is_null()) features.push_back(std::move(trajectory));
   }
   Json collection = {{"type", "FeatureCollection"}, {"name", input.title}};
-  collection["frame"] =
-      place ? "longitude and latitude, WGS84" : "x and y of the map in metres, on no known place of the earth";
+  collection["frame"] = place ? "longitude and latitude, WGS84"
+                        : level.isOfMap()
+                            ? "x and y of the map in metres, on no known place of the earth"
+                            : "x and y of the map, turned so that up is z, in metres, on no known place of the earth";
   collection["features"] = std::move(features);
   // Names from a log may be no UTF-8: those bytes are replaced.
   return collection.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -43,6 +43,8 @@ SurfacesOutput::SurfacesOutput(const SurfacesOptions&, const mapper::PluginConte
 void SurfacesOutput::finish(const mapper::View& view) {
   surfaces::SurfaceSet set;
   set.title = title_;
+  if (const auto& level = view.map.level)
+    set.level = surfaces::SurfaceSetLevel{level->up, toString(level->source), level->standardDeviation()};
   for (const auto& shaped : shapesOf(view, Candidates::kept)) {
     if (shaped.moved || shaped.shape.surfaces.empty()) continue;
     set.surfaces.push_back(surfaceOf(shaped, static_cast<int>(set.surfaces.size()) + 1));

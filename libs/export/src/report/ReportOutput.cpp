@@ -1,6 +1,7 @@
 #include "report/ReportOutput.h"
 
 #include "grid/ScanGrid.h"
+#include "plan/LevelFrame.h"
 #include "plan/MapPicture.h"
 #include "report/ReportPage.h"
 #include "run/OutputFile.h"
@@ -40,16 +41,17 @@ map::Map mapOnly(const mapper::View& view) {
 }  // namespace
 
 void ReportOutput::finish(const mapper::View& view) {
-  auto trajectory = trajectoryOf(view);
+  const LevelFrame level(view.map);
+  auto trajectory = level(trajectoryOf(view));
   // What was located nowhere is not drawn into the map.
   if (view.map_is_held && figuresOf(view, trajectory).located == 0) trajectory.clear();
-  const auto closures = closuresOf(view.map, view.decisions);
-  const auto landmarks = shapesOf(view);
+  const auto closures = level(closuresOf(view.map, view.decisions));
+  const auto in_map = shapesOf(view), landmarks = level(in_map);
   ScanGridOptions grid_options;
   grid_options.resolution = options_.resolution;
   grid_options.max_range = options_.max_range;
   grid_options.margin = 0.5;  // walls lie on the border of what scans have seen
-  const auto map = mapOnly(view);
+  const auto map = level(mapOnly(view));
   const auto places = placesOf(trajectory, landmarks);
   std::optional<GridPicture> picture;
   if (const auto grid = buildScanGrid(map, grid_options)) {
@@ -65,6 +67,7 @@ void ReportOutput::finish(const mapper::View& view) {
                           picture ? &*picture : nullptr,
                           trajectory,
                           closures,
+                          in_map,
                           landmarks,
                           static_cast<std::size_t>(options_.max_rows)};
   writeBytes(outputPath(context_, "report.html"), drawReport(input));

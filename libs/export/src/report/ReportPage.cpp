@@ -98,7 +98,8 @@ std::string drawReport(const ReportInput& input) {
   html +=
       drawVerdict(view.verdict) + drawWarnings(view.warnings) + drawFigures(input, figuresOf(view, input.trajectory));
   if (input.picture)
-    html += drawReportMap(*input.picture, input.landmarks, input.trajectory, input.closures, kMostRefusedClosures);
+    html +=
+        drawReportMap(*input.picture, input.drawn_landmarks, input.trajectory, input.closures, kMostRefusedClosures);
   html += drawLandmarkTable(input.landmarks, startOf(view.map)) +
           charts("Sightings", drawSensorBars(input.landmarks) + drawFeatureCurves(view));
   html += charts("Error", drawErrorCurves(view)) + charts("Time", drawTimeCurves(view));

@@ -18,9 +18,11 @@ struct ReportInput {
   const mapper::View& view;
   const mapper::PluginContext& context;
   const GridPicture* picture;  ///< null for a map that is empty
+  /// From above, as LevelFrame turns them.
   const std::vector<map::StampedPose>& trajectory;
   const std::vector<Closure>& closures;
-  const std::vector<ShapedLandmark>& landmarks;
+  const std::vector<ShapedLandmark>& landmarks;  ///< in the map
+  const std::vector<ShapedLandmark>& drawn_landmarks;
   std::size_t max_rows;  ///< of the decision log
 };
 

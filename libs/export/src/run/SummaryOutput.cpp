@@ -17,6 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kDegrees = 180 / 3.14159265358979323846;  // in a radian
+
 Json graphOf(const mapper::View& view) {
   const GraphFigures figures = figuresOf(view.graph);
   return {{"variables", view.graph.variables().size()},
@@ -105,6 +107,13 @@ Json verdictOf(const mapper::Verdict& verdict) {
       {"verdict", mapper::toString(verdict.answer)}, {"sentence", mapper::sentenceOf(verdict)}, {"evidence", evidence}};
 }
 
+Json levelOf(const map::Level& level) {
+  return {{"up", {level.up.x(), level.up.y(), level.up.z()}},
+          {"from", toString(level.source)},
+          {"standard_deviation_deg", level.isKnown() ? Json(level.standardDeviation() * kDegrees) : Json()},
+          {"reason", level.reason}};
+}
+
 Json summaryOf(const mapper::View& view, const std::string& title) {
   const auto trajectory = trajectoryOf(view);
   const RunFigures figures = figuresOf(view, trajectory);
@@ -123,6 +132,7 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   summary["sessions"] = sessionsOf(view.map);
   if (view.map_is_held) summary["localization"] = {{"key_frames", figures.localized}, {"located", figures.located}};
   summary["landmarks"] = mapper::countLandmarks(view);
+  if (view.map.level) summary["level"] = levelOf(*view.map.level);
   summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
   if (!view.map.sessions.empty()) summary["closures"]["session"] = view.map.sessions.back().number;
   if (!view.map_is_held) summary["verdict"] = verdictOf(view.verdict);

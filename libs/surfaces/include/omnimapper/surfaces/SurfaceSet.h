@@ -18,7 +18,14 @@ struct FlatPart {
   std::vector<std::vector<Eigen::Vector3d>> holes;
 };
 
-/// One flat surface of a place, as it truly is or as a map has it. Frame: the map's, z up [m].
+/// Which way is up in the frame of a set, where that need not be z.
+struct SurfaceSetLevel {
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit
+  std::string from;                               ///< "imu", "planes", "base" or "unknown"
+  double standard_deviation = 0;                  ///< [rad]
+};
+
+/// One flat surface of a place, as it truly is or as a map has it. Frame: the map's [m].
 struct Surface {
   int id = 0;        ///< of the truth any number above 0, in a map that of the landmark; unique in its set
   std::string name;  ///< "kitchen/wall_2", or of a map the landmark's name
@@ -54,6 +61,7 @@ struct SurfaceSet {
   std::string title;  ///< of the place
   std::vector<Surface> surfaces;
   std::vector<Opening> openings;
+  std::optional<SurfaceSetLevel> level = std::nullopt;  ///< none: z is up
 };
 
 /// The same place in frame b.
