@@ -1,5 +1,8 @@
 // Findings about absolute poses.
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+
+#include <algorithm>
 
 #include "CheckedLog.h"
 
@@ -25,6 +28,45 @@ TEST(Poses, ThatStandOnTheirSideAreAProblem) {
   EXPECT_EQ(textOf(0.3).find("level"), std::string::npos) << textOf(0.3);
   EXPECT_EQ(textOf(0.9).find("problem: 'tracker'"), std::string::npos) << "a camera in the hand that looks down";
   EXPECT_NE(textOf(0.9).find("right for a camera in the hand"), std::string::npos) << textOf(0.9);
+}
+
+// Half a lap of a robot whose accelerometer stands on it tilted, with poses of a tracker that is tilted by as much.
+std::string textOfTilt(double base_deg, double poses_deg) {
+  auto log = halfALap();
+  const auto begin = log.front()->timestamp;
+  const mrpt::poses::CPose3D base(0, 0, 0, 0, 0, base_deg * kPi / 180), frame(0, 0, 0, 0, 0, poses_deg * kPi / 180);
+  for (int i = 0; i < 300; ++i) {
+    const auto stamp = begin + base::durationFromSeconds(0.02 * i);
+    auto imu = mrpt::obs::CObservationIMU::Create();
+    imu->sensorLabel = "imu";
+    imu->timestamp = stamp;
+    const auto force = base.inverseComposePoint(mrpt::math::TPoint3D(0, 0, 9.81));
+    imu->set(mrpt::obs::IMU_X_ACC, force.x);
+    imu->set(mrpt::obs::IMU_Y_ACC, force.y);
+    imu->set(mrpt::obs::IMU_Z_ACC, force.z);
+    log.push_back(imu);
+    if (poses_deg == 0) continue;
+    auto pose = mrpt::obs::CObservationRobotPose::Create();
+    pose->sensorLabel = "tracker";
+    pose->timestamp = stamp;
+    pose->pose.mean = frame + mrpt::poses::CPose3D(0.01 * i, 0, 0, 0, 0, 0) + base;
+    log.push_back(pose);
+  }
+  std::stable_sort(log.begin(), log.end(), [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
+  return Checked(log).text();
+}
+
+TEST(Poses, ThatAreNotLevelByTheAccelerometerAreToldWithAngleAndRemedy) {
+  EXPECT_EQ(textOfTilt(0, 0).find("level"), std::string::npos) << textOfTilt(0, 0);
+  const auto base = textOfTilt(8, 0);
+  EXPECT_NE(base.find("warning: the base is not level: by the accelerometer 'imu' up is 8.0 +- "), std::string::npos)
+      << base;
+  EXPECT_NE(base.find("roll 8.0 and pitch 0.0 deg"), std::string::npos) << base;
+  const auto poses = textOfTilt(0, 20);
+  EXPECT_NE(poses.find("problem: 'tracker': the poses are not level: by the accelerometer 'imu' up is 20.0 +- "),
+            std::string::npos)
+      << poses;
+  EXPECT_EQ(poses.find("the base is not level"), std::string::npos) << poses;
 }
 
 }  // namespace

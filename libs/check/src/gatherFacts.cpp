@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "LevelTally.h"
 #include "OdometryTally.h"
 #include "PoseTally.h"
 #include "ScanPairs.h"
@@ -33,6 +34,7 @@ class Gatherer {
     clock_.add(stamp);
     stamps_[{label, observation->GetRuntimeClass()->className}].add(stamp, clock_);
     if (OdometryTally::isOdometry(*observation)) odometry_[label].add(*observation);
+    level_.add(*observation);
     if (const auto pose = std::dynamic_pointer_cast<const mrpt::obs::CObservationRobotPose>(observation)) {
       poses_[label].add(*pose);
     }
@@ -57,6 +59,7 @@ class Gatherer {
     for (const auto& [sensor, tally] : stamps_) facts.sensors[sensor] = stampFacts(tally);
     for (const auto& [label, tally] : odometry_) facts.odometry[label] = tally.facts();
     for (const auto& [label, tally] : poses_) facts.poses[label] = tally.facts();
+    facts.levels = level_.facts(!odometry_.empty());
     // No robot has more of them; a log that says so would be compared for minutes.
     constexpr std::size_t kMost = 10;
     const auto compared = beginningOf(odometry_, kMost);
@@ -129,6 +132,7 @@ class Gatherer {
   std::map<std::pair<std::string, std::string>, StampTally> stamps_;
   std::map<std::string, OdometryTally> odometry_;
   std::map<std::string, PoseTally> poses_;
+  LevelTally level_;
   std::map<std::string, Laser> lasers_;
   StreamClock clock_;
   std::map<std::pair<std::string, std::string>, source::LeftOut> uncalibrated_;  // as LogFacts::unusable

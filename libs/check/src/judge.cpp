@@ -28,6 +28,7 @@ class Judge {
     judgeOdometry();
     judgePairs();
     judgePoses();
+    judgeLevels();
     for (const auto& laser : usableLasers(facts_)) judgeSensorPose(laser);
     std::stable_sort(findings_.begin(), findings_.end(),
                      [](const Finding& a, const Finding& b) { return a.weight > b.weight; });
@@ -239,12 +240,46 @@ class Judge {
     }
   }
 
+  // Whether something told which way is up in the frame of these poses.
+  bool isMeasured(const std::string& poses) const {
+    return std::any_of(facts_.levels.begin(), facts_.levels.end(), [&](const LevelFacts& level) {
+      return level.of_poses && level.is_known && level.poses == poses;
+    });
+  }
+
+  void judgeLevels() {
+    constexpr double kLean = 3 * base::option_text::kRadiansPerDegree, kSigmas = 3;
+    constexpr double kMuch = 10 * base::option_text::kRadiansPerDegree;      // walls are no longer upright
+    constexpr double kMostLean = 45 * base::option_text::kRadiansPerDegree;  // of a robot on wheels
+    for (const auto& level : facts_.levels) {
+      const double lean = level.lean();
+      if (!level.is_known || lean < std::max(kLean, kSigmas * level.sigma)) continue;
+      if (!level.of_poses && lean > kMostLean) continue;
+      // The turn that takes up to z: roll, then pitch.
+      const double roll = std::atan2(level.up.y(), level.up.z());
+      const double pitch = -std::atan2(level.up.x(), std::hypot(level.up.y(), level.up.z()));
+      const std::string by = "by " + level.by + " up is " + fixed(degrees(lean), 1) + " +- " +
+                             fixed(degrees(level.sigma), 1) + " deg from ";
+      const std::string turn = "roll " + fixed(degrees(roll), 1) + " and pitch " + fixed(degrees(pitch), 1) + " deg";
+      if (level.of_poses) {
+        add(lean > kMuch ? Weight::problem : Weight::warning,
+            quoted(level.poses) + ": the poses are not level: " + by + "the z axis of their frame; turn them by " +
+                turn + ", or map in space ([mapper] motion = spatial), where surfaces are judged by that direction");
+      } else {
+        add(Weight::warning, "the base is not level: " + by +
+                                 "its z axis; if the sensor is mounted otherwise than its "
+                                 "pose says, tell it in [mapper] sensors, turned by " +
+                                 turn);
+      }
+    }
+  }
+
   void judgePoses() {
     // Frames whose y or x points up are 90 deg off; a camera in the hand often looks down by half of that.
     constexpr double kTilted = 45 * base::option_text::kRadiansPerDegree;
     constexpr double kOnItsSide = 70 * base::option_text::kRadiansPerDegree;
     for (const auto& [label, poses] : facts_.poses) {
-      if (poses.tilt < kTilted) continue;
+      if (poses.tilt < kTilted || isMeasured(label)) continue;
       if (poses.tilt < kOnItsSide) {
         add(Weight::note, quoted(label) + ": on average the base is tilted by " + fixed(degrees(poses.tilt), 0) +
                               " deg, which is right for a camera in the hand; if a robot drove on a floor, the poses "

@@ -4,6 +4,7 @@
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/source/SourceReport.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -79,6 +80,18 @@ struct PoseFacts {
   double tilt = 0;  ///< [rad] between the z axis of their frame and that of the base on average, [0, pi]
 };
 
+/// Which way is up in the frame of given poses, or in the base of a robot on wheels, as something measured it.
+struct LevelFacts {
+  std::string by;         ///< "the accelerometer 'imu'"
+  bool of_poses = false;  ///< in the frame of `poses`, else in the base
+  std::string poses;      ///< label
+  bool is_known = false;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit
+  double sigma = 0;                               ///< [rad] about the axis that is known least
+  std::string reason;                             ///< half a sentence
+  double lean() const;                            ///< [rad] between `up` and z
+};
+
 /// Odometry held against the motion that scan matching finds between pairs of scans, in the base's plane.
 struct MotionFacts {
   std::string laser, odometry;  ///< labels; no odometry: what scans alone tell
@@ -124,6 +137,7 @@ struct LogFacts {
   std::map<std::string, OdometryFacts> odometry;                      ///< by label
   std::vector<OdometryPair> odometry_pairs;                           ///< each with each
   std::map<std::string, PoseFacts> poses;                             ///< CObservationRobotPose by label
+  std::vector<LevelFacts> levels;                                     ///< of all poses and of the base
   std::vector<MotionFacts> motions;                                   ///< of each laser, with each odometry
   /// Share of a laser's scans that lie in the time of an odometry, by (laser, odometry).
   std::map<std::pair<std::string, std::string>, double> covered;
