@@ -54,4 +54,30 @@ TEST_F(Cameras, OnARobotAreMappedWithItsWheels) {
   EXPECT_FALSE(readFile(folder_ + "/floorplan.geojson").empty());
 }
 
+// The poses' z is up; the camera's depths tilt desks and floors by some degrees, which is in the standard deviation.
+TEST_F(Cameras, OnGivenPosesKnowWhichWayIsUpByWhatTheySee) {
+  const auto images = sharedData("rgbd/tum_fr3_cabinet58");
+  OMNIMAPPER_NEEDS(images);
+  const std::string log = scratch_ / "cabinet.rawlog";
+  ASSERT_TRUE(endedWith(ExitCode::ok, runProgram({ownProgram("omnimapper-import"), "tum", *images, log, "--poses"})));
+  mapIt("rgbd_planes.ini", log);
+  const auto level = loadSummary(folder_).at("level");
+  EXPECT_EQ(level.at("from"), "planes") << level;
+  EXPECT_GT(level.at("up").at(2).get<double>(), 0.9998) << "1 deg: " << level;
+}
+
+// The twin: the first picture of the simulated hand is tilted by 6 deg.
+TEST_F(Cameras, InASimulatedHandKnowWhichWayIsUpByAnAccelerometer) {
+  const std::string place = scratch_ / "home";
+  ASSERT_TRUE(endedWith(
+      ExitCode::ok, runProgram({ownProgram("omnimapper-simulate"), "-i", sourceFile("rawlogs/home_handheld.ini"), "-o",
+                                place, "--set", "simulation.duration_s=20", "--set", "simulation.sensors=kinect, imu",
+                                "--set", "imu.class=Imu", "--set", "imu.rate_hz=100"})));
+  mapIt("rgbd_handheld.ini", place + "/home_handheld.rawlog");
+  const auto level = loadSummary(folder_).at("level");
+  ASSERT_EQ(level.at("from"), "imu") << level;
+  EXPECT_GT(level.at("up").at(2).get<double>(), 0.97) << level;
+  EXPECT_LT(level.at("standard_deviation_deg").get<double>(), 2) << level;
+}
+
 }  // namespace
