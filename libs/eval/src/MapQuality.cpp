@@ -1,11 +1,10 @@
-#include <omnimapper/base/Error.h>
 #include <omnimapper/eval/MapQuality.h>
 #include <omnimapper/eval/Statistics.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+
+#include "CoveredSurface.h"
 
 namespace omnimapper::eval {
 
@@ -16,50 +15,14 @@ using surfaces::Surface;
 using surfaces::SurfaceClass;
 using surfaces::SurfaceSet;
 
-// On the plane of the surface.
-CellGrid gridAround(const Surface& surface, const std::vector<Eigen::Vector3d>& corners, double cell) {
-  try {
-    return CellGrid::around(surface.plane, corners, cell);
-  } catch (const std::invalid_argument& error) {
-    throw base::Error(base::ExitCode::unreadable_input,
-                      "surface '" + surface.name + "': " + error.what() + "; it reaches too far");
-  }
-}
-
-/// A surface with the cells that its outlines cover.
-struct Covered {
-  const Surface* surface = nullptr;
-  CellGrid cells;
-  Eigen::AlignedBox3d box;
-
-  Covered(const Surface& of, double cell) : surface(&of), cells(gridAround(of, cornersOf(of), cell)) {
-    for (const auto& part : of.parts) cells.fill(part.outline, part.holes);
-    for (const auto& corner : cornersOf(of)) box.extend(corner);
-  }
-  template <class Use>
-  void forEach(const Use& use) const {
-    forEachSet(cells, use);
-  }
-  template <class Use>
-  static void forEachSet(const CellGrid& grid, const Use& use) {
-    for (int row = 0; row < grid.rows(); ++row)
-      for (int column = 0; column < grid.columns(); ++column)
-        if (grid.isSet({column, row})) use(grid.middleOf({column, row}), CellGrid::Cell{column, row});
-  }
-  bool contains(const Eigen::Vector3d& point) const {
-    const auto cell = cells.cellAt(point);
-    return cell && cells.isSet(*cell);
-  }
-};
-
 /// What was seen of a true surface: all of it if nobody tells.
-bool isSeenAt(const Covered& truth, const Eigen::Vector3d& point) {
+bool isSeenAt(const CoveredSurface& truth, const Eigen::Vector3d& point) {
   if (!truth.surface->seen) return truth.contains(point);
   const auto cell = truth.surface->seen->cellAt(point);
   return cell && truth.surface->seen->isSet(*cell);
 }
 
-double seenArea(const Covered& truth) {
+double seenArea(const CoveredSurface& truth) {
   return truth.surface->seen ? truth.surface->seen->area() : truth.cells.area();
 }
 
@@ -96,15 +59,12 @@ class Judge {
     return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(grid.columns()) +
            static_cast<std::size_t>(cell.column);
   }
-  bool mayMeet(const Covered& a, const Covered& b) const {
-    if (a.surface->plane.normal.dot(b.surface->plane.normal) < std::cos(options_.max_turn)) return false;
-    return a.box.exteriorDistance(b.box) <= options_.max_distance;
-  }
-  bool isOn(const Covered& truth, const Eigen::Vector3d& point) const {
+  bool mayMeet(const CoveredSurface& a, const CoveredSurface& b) const { return eval::mayMeet(a, b, options_); }
+  bool isOn(const CoveredSurface& truth, const Eigen::Vector3d& point) const {
     return std::abs(signedDistance(truth.surface->plane, point)) <= options_.max_distance && truth.contains(point);
   }
   // The nearest of several, so that a door leaf before a wall is the leaf; one that was seen before others.
-  TrueCells trueCellsOf(const Covered& mapped) const {
+  TrueCells trueCellsOf(const CoveredSurface& mapped) const {
     std::vector<std::size_t> near;
     for (std::size_t t = 0; t < truth_.size(); ++t)
       if (mayMeet(mapped, truth_[t])) near.push_back(t);
@@ -165,8 +125,8 @@ class Judge {
     return seen == 0 ? 0 : static_cast<double>(covered) / static_cast<double>(seen);
   }
   template <class Use>
-  static void forEachSeen(const Covered& truth, const Use& use) {
-    Covered::forEachSet(truth.surface->seen ? *truth.surface->seen : truth.cells, use);
+  static void forEachSeen(const CoveredSurface& truth, const Use& use) {
+    forEachSetCell(truth.surface->seen ? *truth.surface->seen : truth.cells, use);
   }
   // A wall that goes across a closed door covers the wall, not the door leaf: what it covers there stands for the
   // nearest true surface, and must be of the same class.
@@ -209,7 +169,7 @@ class Judge {
     return either == 0 ? 0 : static_cast<double>(both) / static_cast<double>(either);
   }
   bool isPosterAt(std::size_t i, const Eigen::Vector3d& point) const {
-    return std::any_of(truth_.begin(), truth_.end(), [&](const Covered& truth) {
+    return std::any_of(truth_.begin(), truth_.end(), [&](const CoveredSurface& truth) {
       return truth.surface->is == SurfaceClass::poster && mayMeet(map_[i], truth) && isOn(truth, point);
     });
   }
@@ -260,7 +220,7 @@ class Judge {
     }
   }
   double sharedShare(std::size_t small, std::size_t large) const {
-    const Covered &smaller = map_[small], &larger = map_[large];
+    const CoveredSurface &smaller = map_[small], &larger = map_[large];
     std::size_t shared = 0;
     smaller.forEach([&](const Eigen::Vector3d& point, CellGrid::Cell here) {
       if (std::abs(signedDistance(larger.surface->plane, point)) > options_.max_distance) return;
@@ -273,7 +233,7 @@ class Judge {
   }
 
   MapQualityOptions options_;
-  std::vector<Covered> truth_, map_;
+  std::vector<CoveredSurface> truth_, map_;
   std::vector<TrueCells> on_true_;  // of each surface of the map
 };
 

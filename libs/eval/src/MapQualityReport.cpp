@@ -1,13 +1,12 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/draw/Svg.h>
 #include <omnimapper/eval/MapQuality.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
-#include <set>
+
+#include "ReportLines.h"
+#include "SurfacePlan.h"
 
 namespace omnimapper::eval {
 
@@ -17,21 +16,6 @@ using Json = nlohmann::ordered_json;
 using surfaces::Surface;
 using surfaces::SurfaceClass;
 using surfaces::SurfaceSet;
-
-std::string percent(double part, double whole) {
-  return whole > 0 ? base::fixed(100 * part / whole, 1) + " %" : "-";
-}
-
-std::string line(const std::string& name, const std::string& value, const std::string& of) {
-  char text[200];
-  std::snprintf(text, sizeof text, "  %-44s %9s   %s\n", name.c_str(), value.c_str(), of.c_str());
-  return text;
-}
-
-std::string countLine(const std::string& name, std::size_t part, std::size_t whole) {
-  return line(name, percent(static_cast<double>(part), static_cast<double>(whole)),
-              std::to_string(part) + " of " + std::to_string(whole));
-}
 
 std::string labelTable(const MapQuality& quality) {
   std::string text;
@@ -72,82 +56,25 @@ const char* colourOf(Fault fault) {
   return "#dc2626";
 }
 
-bool isUpright(const Surface& surface) {
-  return std::abs(surface.plane.normal.z()) < 0.5;
-}
-
-// Where it lies as seen from above: of an upright one the line it stands on, else its outlines.
-std::vector<std::vector<Eigen::Vector2d>> fromAbove(const Surface& surface) {
-  std::vector<std::vector<Eigen::Vector2d>> walks;
-  for (const auto& part : surface.parts) {
-    if (part.outline.empty()) continue;
-    if (!isUpright(surface)) {
-      auto& walk = walks.emplace_back();
-      for (const auto& corner : part.outline) walk.push_back(corner.head<2>());
-      walk.push_back(part.outline.front().head<2>());
-      continue;
-    }
-    const Eigen::Vector2d along(-surface.plane.normal.y(), surface.plane.normal.x());
-    const auto [low, high] =
-        std::minmax_element(part.outline.begin(), part.outline.end(), [&](const auto& a, const auto& b) {
-          return along.dot(a.template head<2>()) < along.dot(b.template head<2>());
-        });
-    walks.push_back({low->head<2>(), high->head<2>()});
-  }
-  return walks;
-}
-
-void drawLegend(draw::Svg& svg, double y) {
-  double x = 60;
-  const auto entry = [&](const char* colour, const char* text, double width) {
-    svg.line({x, y}, {x + 26, y}, colour, 4);
-    svg.text({x + 32, y + 4}, text, draw::Svg::Anchor::start);
-    x += width;
-  };
-  entry(colourOf(Fault::none), "right", 90);
-  entry(colourOf(Fault::wrong_class), "wrong class", 130);
-  entry(colourOf(Fault::doubled), "doubled", 110);
-  entry(colourOf(Fault::spurious), "on nothing true", 150);
-  entry("#000000", "true, seen and not in the map", 230);
-  entry("#d4d4d4", "true", 60);
-}
-
 void drawPlan(std::ostream& out, const std::string& title, const MapQuality& quality, const SurfaceSet& map,
               const SurfaceSet& truth) {
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = -low;
-  for (const auto* set : {&map, &truth}) {
-    for (const auto& surface : set->surfaces) {
-      for (const auto& corner : cornersOf(surface)) {
-        low = low.cwiseMin(corner.head<2>());
-        high = high.cwiseMax(corner.head<2>());
-      }
-    }
-  }
-  if (!(low.x() < high.x())) low = {0, 0}, high = {1, 1};
-  const double width = 1200, height = 900;
-  draw::Svg svg(out, width, height);
-  svg.box({0, 0}, {width, height}, "#ffffff");
-  const auto axes = draw::Axes::withEqualScale({60, 60}, {width - 80, height - 110}, low, high);
-  axes.draw(svg, "x [m]", "y [m]");
-  svg.text({60, 20}, title, draw::Svg::Anchor::start, 16);
-  drawLegend(svg, 38);
-  const auto draw = [&](const Surface& surface, const std::string& colour, double pen) {
-    for (const auto& walk : fromAbove(surface)) {
-      std::vector<Eigen::Vector2d> pixels;
-      for (const auto& point : walk) pixels.push_back(axes.pixel(point));
-      svg.polyline(pixels, colour, isUpright(surface) ? pen : pen / 2);
-    }
-  };
+  SurfacePlan plan(out, title, {&map, &truth});
+  plan.addLegend(colourOf(Fault::none), "right", 90);
+  plan.addLegend(colourOf(Fault::wrong_class), "wrong class", 130);
+  plan.addLegend(colourOf(Fault::doubled), "doubled", 110);
+  plan.addLegend(colourOf(Fault::spurious), "on nothing true", 150);
+  plan.addLegend("#000000", "true, seen and not in the map", 230);
+  plan.addLegend("#d4d4d4", "true", 60);
   for (const auto& surface : truth.surfaces)
-    if (surface.is != SurfaceClass::floor && surface.is != SurfaceClass::ceiling) draw(surface, "#d4d4d4", 5);
+    if (surface.is != SurfaceClass::floor && surface.is != SurfaceClass::ceiling) plan.draw(surface, "#d4d4d4", 5);
   // What is wrong lies above what is right.
   for (const Fault fault : {Fault::none, Fault::wrong_class, Fault::doubled, Fault::spurious}) {
     for (const auto& judged : quality.drawn) {
-      if (faultOf(judged, quality, map) == fault) draw(map.surfaces[judged.index], colourOf(fault), 2.5);
+      if (faultOf(judged, quality, map) == fault) plan.draw(map.surfaces[judged.index], colourOf(fault), 2.5);
     }
   }
   for (const auto& sought : quality.sought)
-    if (!sought.is_found) draw(truth.surfaces[sought.index], "#000000", 1.5);
+    if (!sought.is_found) plan.draw(truth.surfaces[sought.index], "#000000", 1.5);
 }
 
 }  // namespace
