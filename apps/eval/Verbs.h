@@ -11,9 +11,15 @@ struct Arguments {
   std::vector<double> base_from_sensor = {0, 0, 0};  // x y [m] yaw [deg]
   std::string alignment = "none", unit = "frames";
   double delta = 1;
+  std::string log;          // of views
+  std::size_t views = 200;  // at most
 };
 
 /// Prints and writes what the verb tells; its exit code.
 int run(const std::string& verb, const Arguments& arguments);
+
+/// Of these verbs: the surfaces of a map against the true ones, and against the depth images of a log.
+int judgeMap(const Arguments& arguments);
+int judgeByViews(const Arguments& arguments);
 
 }  // namespace omnimapper::evaluation

@@ -50,6 +50,26 @@ int main(int argc, char** argv) {
   addOutputs(map, arguments);
   map->add_option("--align", map_alignment, "by trajectory.tum and truth.tum in the folders: none, first, yaw or se3")
       ->capture_default_str();
+  CLI::App* views = app.add_subcommand("views", "surfaces of a map against the depth images of a log on known poses");
+  views->add_option("map", arguments.estimate, "folder of a map, or its surfaces.json")->required();
+  views->add_option("log", arguments.log, "rawlog with depth images")->required();
+  views->add_option("trajectory", arguments.reference, "poses of the base in that log: TUM")->required();
+  addOutputs(views, arguments);
+  views->add_option("--align", map_alignment, "by trajectory.tum in the map's folder: none, first, yaw or se3")
+      ->capture_default_str();
+  views->add_option("--tolerance", arguments.tolerance, "between stamps of an image and its pose [s], default 0.01")
+      ->check(omnimapper::program::notNegative());
+  views->add_option("--interpolate", arguments.interpolate, "interpolate the poses over gaps up to this [s]")
+      ->check(omnimapper::program::positive());
+  views->add_option("--views", arguments.views, "at most; of more images every second, fourth, ... is one")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  views->footer(
+      "Example, a camera whose poses were measured by others:\n"
+      "  omnimapper-import tum tum_fr3_cabinet58 cabinet.rawlog --poses\n"
+      "  omnimapper-graphslam -i rgbd_planes.ini -r cabinet.rawlog -o out/cabinet\n"
+      "  omnimapper-eval views out/cabinet cabinet.rawlog cabinet.truth.tum -o out/views\n"
+      "On the map's own poses: omnimapper-eval views out/map LOG out/map/trajectory.tum");
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
@@ -57,9 +77,10 @@ int main(int argc, char** argv) {
       "  omnimapper-eval rpe out/trajectory.tum groundtruth.tum --delta 1 --unit m\n"
       "  omnimapper-eval relations out/trajectory.tum aces.relations\n"
       "  omnimapper-eval map out/map out/home -o out/quality\n"
+      "  omnimapper-eval views out/cabinet cabinet.rawlog cabinet.truth.tum -o out/views\n"
       "Options of one verb: omnimapper-eval ate --help. Exit codes: doc/exit_codes.md.");
   return program::run(app, argc, argv, [&] {
-    if (map->parsed()) arguments.alignment = map_alignment;
+    if (map->parsed() || views->parsed()) arguments.alignment = map_alignment;
     return evaluation::run(app.get_subcommands().front()->get_name(), arguments);
   });
 }

@@ -81,6 +81,37 @@ TEST_F(EvalApp, HoldsAMapAgainstTheTrueSurfacesInTheFrameOfTheTruth) {
   EXPECT_TRUE(printed("nowhere")) << text_;
 }
 
+TEST_F(EvalApp, HoldsAMapAgainstTheDepthImagesOfALog) {
+  const auto code = [](base::ExitCode exit_code) { return static_cast<int>(exit_code); };
+  const std::string home = testing::sourceFile("rawlogs/home_30s"), log = home + "/home_30s.rawlog";
+  const std::string truth = home + "/truth.tum", map = folder_ / "map", out = folder_ / "views";
+  // The floor, in another frame than the truth's.
+  surfaces::SurfaceSet floor{"test", {}, {}};
+  floor.surfaces.emplace_back().name = "floor";
+  floor.surfaces.front().parts.push_back({{{-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}}, {}});
+  fs::create_directories(map);
+  std::ofstream(map + "/surfaces.json") << toJson(surfaces::moved(floor, someMotion()));
+  writeTum(map + "/trajectory.tum", inOtherWorld(someMotion(), readTum(truth)));
+  const std::string rest = " --interpolate 0.06 --views 10";
+  ASSERT_EQ(run("views " + map + " " + log + " " + truth + rest + " -o " + out + " --json " + folder_ / "v.json"), 0)
+      << text_;
+  EXPECT_TRUE(printed("1 surfaces drawn in the map")) << text_;
+  for (const char* name : {"numbers.json", "plan.svg"}) EXPECT_TRUE(fs::exists(out + "/" + name)) << name;
+  EXPECT_EQ(contentOf(folder_ / "v.json"), contentOf(out + "/numbers.json"));
+  EXPECT_NE(contentOf(folder_ / "v.json").find("\"surfaces_of_map\": [\n    \"floor\""), std::string::npos)
+      << "the floor was found in the frame of the truth: " << contentOf(folder_ / "v.json");
+  EXPECT_EQ(run("views " + map + " " + log), code(base::ExitCode::command_line));
+  EXPECT_EQ(run("views " + map + " " + log + " " + truth + " --align sim3"), code(base::ExitCode::command_line));
+  EXPECT_EQ(run("views " + map + " " + (folder_ / "nowhere") + " " + truth + rest),
+            code(base::ExitCode::unreadable_input));
+  EXPECT_TRUE(printed("nowhere")) << text_;
+  EXPECT_EQ(run("views " + map + " " + log + " " + reference_ + " --align none"),
+            code(base::ExitCode::unreadable_input));
+  EXPECT_TRUE(printed("no depth image has a pose")) << text_;
+  EXPECT_EQ(run("views --help"), 0);
+  EXPECT_TRUE(printed("omnimapper-eval views out/cabinet cabinet.rawlog cabinet.truth.tum")) << text_;
+}
+
 TEST_F(EvalApp, KnowsRelativeErrorAndRelations) {
   EXPECT_EQ(run("rpe " + estimate_ + " " + reference_ + " --delta 2 --unit s"), 0) << text_;
   EXPECT_TRUE(printed("48 spans")) << text_;

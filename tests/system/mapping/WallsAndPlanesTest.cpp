@@ -1,6 +1,7 @@
 // ini/laser_walls.ini and ini/rgbd_planes.ini as their first lines say to run them: real logs, and simulated twins.
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <omnimapper/eval/ViewAgreement.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 
@@ -53,6 +54,19 @@ class WallsAndPlanes : public ::testing::Test {
     for (const auto& [id, record] : loaded.graph.factors())
       count += record.tags.owner == "relations" && record.weight > 0;
     return count;
+  }
+
+  /// How the map agrees with the depth images of a log that has their poses, too; both are in one frame.
+  omnimapper::eval::ViewAgreement viewsOf(const std::string& log) const {
+    omnimapper::eval::Trajectory poses;
+    omnimapper::source::RawlogSource source(log);
+    while (const auto observation = source.next()) {
+      if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(observation.get()))
+        poses.push_back({pose->timestamp, omnimapper::geometry::fromMrpt(pose->pose.mean)});
+    }
+    omnimapper::base::Progress silent;
+    const auto read = omnimapper::eval::readViews(log, poses, {}, silent, [] { return false; });
+    return omnimapper::eval::judgeByViews(omnimapper::surfaces::readSurfaces(folder_ + "/surfaces.json"), read.views);
   }
 
   /// Every frame of the trajectory for which the log gives a pose is within that [m], and 1 deg, of it.
@@ -119,6 +133,11 @@ TEST_F(WallsAndPlanes, OfACabinetAreItsTopItsSidesAndTheFloor) {
   EXPECT_EQ(faces.size(), 5U);
   const auto is_top = [](const json& face) { return face["geometry"]["type"] == "Polygon"; };
   EXPECT_EQ(std::count_if(faces.begin(), faces.end(), is_top), 1);
+  const auto agreement = viewsOf(log);
+  EXPECT_TRUE(agreement.split.empty()) << agreement.split.size();
+  EXPECT_LE(agreement.doubles.size(), 1U) << "two that are 5 m away";
+  EXPECT_GT(agreement.area_twice.covered, 0.9 * agreement.area_twice.seen);
+  EXPECT_LT(agreement.distance.median, 0.01);
 }
 
 TEST_F(WallsAndPlanes, OfACameraThatTurnsQuicklyHoldItsGivenPoses) {
@@ -173,6 +192,10 @@ TEST_F(WallsAndPlanes, OfASimulatedCameraHoldItsGivenPoses) {
   writeCamera(log, true);
   mapIt("rgbd_planes.ini", log);
   expectGivenPosesHold(log, 0.01);
+  const auto agreement = viewsOf(log);
+  EXPECT_LE(agreement.split.size(), 1U);
+  EXPECT_GT(agreement.area_twice.covered, 0.8 * agreement.area_twice.seen);
+  EXPECT_LT(agreement.distance.median, 0.01);
 }
 
 // What 20 ms make of poses is said by their sigmas.
