@@ -21,5 +21,7 @@ struct EdgePeer {
 /// None where bench-edges was built without it: occluding, occluded and boundary; high curvature with normals; RGB; and
 /// all at once.
 std::vector<EdgePeer> pclEdges();
+/// All five kinds with normals, by the smallest jump that counts; none as above.
+std::vector<EdgePeer> pclEdgesOfAllKinds();
 
 }  // namespace omnimapper::bench

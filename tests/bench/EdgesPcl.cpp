@@ -12,9 +12,11 @@ namespace {
 using Point = pcl::PointXYZRGB;
 using Cloud = pcl::PointCloud<Point>;
 
+constexpr int kJumps = 1 + 2 + 4, kHighCurvature = 8, kRgb = 16;
+
 template <class Detector>
-std::vector<std::uint8_t> labelsOf(Detector& detector, const Cloud::Ptr& cloud, int kinds) {
-  const auto labels = pclEdgeLabels(detector, cloud, kinds);
+std::vector<std::uint8_t> labelsOf(Detector& detector, const Cloud::Ptr& cloud, int kinds, float jump = 0.02F) {
+  const auto labels = pclEdgeLabels(detector, cloud, kinds, jump);
   std::vector<std::uint8_t> image;
   image.reserve(labels.size());
   for (const pcl::Label& label : labels) image.push_back(static_cast<std::uint8_t>(label.label));
@@ -28,16 +30,27 @@ EdgePeer peer(const std::string& name, const Run& run) {
           [cloud, run] { return run(*cloud); }};
 }
 
+EdgePeer jumpsOf(const std::string& name, float jump) {
+  return peer(name, [jump](const Cloud::Ptr& cloud) {
+    pcl::OrganizedEdgeBase<Point, pcl::Label> detector;
+    return labelsOf(detector, cloud, kJumps, jump);
+  });
+}
+
+EdgePeer allOf(const std::string& name, float jump) {
+  return peer(name, [jump](const Cloud::Ptr& cloud) {
+    pcl::OrganizedEdgeFromRGBNormals<Point, pcl::Normal, pcl::Label> detector;
+    detector.setInputNormals(pclNormals<Point>(cloud));
+    return labelsOf(detector, cloud, kJumps + kHighCurvature + kRgb, jump);
+  });
+}
+
 }  // namespace
 
 std::vector<EdgePeer> pclEdges() {
   using pcl::Label;
-  constexpr int kJumps = 1 + 2 + 4, kHighCurvature = 8, kRgb = 16;
-  return {peer("PCL OrganizedEdgeBase: occluding, occluded, boundary",
-               [](const Cloud::Ptr& cloud) {
-                 pcl::OrganizedEdgeBase<Point, Label> detector;
-                 return labelsOf(detector, cloud, kJumps);
-               }),
+  return {jumpsOf("PCL OrganizedEdgeBase: occluding, occluded, boundary", 0.02F),
+          jumpsOf("PCL OrganizedEdgeBase: the same, jumps of 0.03", 0.03F),
           peer("PCL OrganizedEdgeFromNormals: high curvature, with normals",
                [](const Cloud::Ptr& cloud) {
                  pcl::OrganizedEdgeFromNormals<Point, pcl::Normal, Label> detector;
@@ -49,11 +62,11 @@ std::vector<EdgePeer> pclEdges() {
                  pcl::OrganizedEdgeFromRGB<Point, Label> detector;
                  return labelsOf(detector, cloud, kRgb);
                }),
-          peer("PCL OrganizedEdgeFromRGBNormals: all five, with normals", [](const Cloud::Ptr& cloud) {
-            pcl::OrganizedEdgeFromRGBNormals<Point, pcl::Normal, Label> detector;
-            detector.setInputNormals(pclNormals<Point>(cloud));
-            return labelsOf(detector, cloud, kJumps + kHighCurvature + kRgb);
-          })};
+          allOf("PCL OrganizedEdgeFromRGBNormals: all five, with normals", 0.02F)};
+}
+
+std::vector<EdgePeer> pclEdgesOfAllKinds() {
+  return {allOf("PCL, jumps of 0.02", 0.02F), allOf("PCL, jumps of 0.03", 0.03F)};
 }
 
 }  // namespace omnimapper::bench

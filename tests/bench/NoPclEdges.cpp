@@ -7,4 +7,8 @@ std::vector<EdgePeer> pclEdges() {
   return {};
 }
 
+std::vector<EdgePeer> pclEdgesOfAllKinds() {
+  return {};
+}
+
 }  // namespace omnimapper::bench

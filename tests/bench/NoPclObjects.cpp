@@ -1,9 +1,13 @@
-// Stands for ObjectsPcl.cpp where PCL is not installed.
+// Stands for ObjectsPcl.cpp and ObjectsLccp.cpp where PCL is not installed.
 #include "ObjectPeers.h"
 
 namespace omnimapper::bench {
 
 std::vector<ObjectPeer> pclObjects() {
+  return {};
+}
+
+std::vector<ObjectPeer> lccpObjects() {
   return {};
 }
 

@@ -24,7 +24,8 @@ struct ObjectPeer {
   std::function<Things(const LabelledCloud&)> run;
 };
 
-/// None where bench-objects was built without PCL.
+/// None where bench-objects was built without PCL: its organised chain, and supervoxels.
 std::vector<ObjectPeer> pclObjects();
+std::vector<ObjectPeer> lccpObjects();
 
 }  // namespace omnimapper::bench

@@ -19,11 +19,11 @@ pcl::PointCloud<pcl::Normal>::Ptr pclNormals(const typename pcl::PointCloud<Poin
   return normals;
 }
 
-/// What kinds of edges each point is on, as bits; with the settings that the thesis had.
+/// What kinds of edges each point is on, as bits; with the settings that the thesis had. `jump` in parts of the depth.
 template <class Detector, class CloudPtr>
-pcl::PointCloud<pcl::Label> pclEdgeLabels(Detector& detector, const CloudPtr& cloud, int kinds) {
+pcl::PointCloud<pcl::Label> pclEdgeLabels(Detector& detector, const CloudPtr& cloud, int kinds, float jump = 0.02F) {
   detector.setInputCloud(cloud);
-  detector.setDepthDisconThreshold(0.02F);
+  detector.setDepthDisconThreshold(jump);
   detector.setMaxSearchNeighbors(50);
   detector.setEdgeType(kinds);
   pcl::PointCloud<pcl::Label> labels;

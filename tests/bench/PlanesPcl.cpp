@@ -25,12 +25,17 @@ pcl::PointCloud<pcl::Normal>::Ptr normalsOf(const pcl::PointCloud<Point>::Ptr& c
   return normals;
 }
 
-std::vector<std::uint16_t> planes(const DepthFrame& frame, Normals::NormalEstimationMethod method, bool refined) {
+constexpr double kPclCurvature = 0.001,
+                 kNoisyCurvature = 0.01;  // PCL's own bound, and one that a Kinect's noise passes
+
+std::vector<std::uint16_t> planes(const DepthFrame& frame, Normals::NormalEstimationMethod method, bool refined,
+                                  double max_curvature) {
   const auto cloud = organisedCloud<Point>(frame);
   pcl::OrganizedMultiPlaneSegmentation<Point, pcl::Normal, pcl::Label> segmentation;
   segmentation.setMinInliers(1000);
   segmentation.setAngularThreshold(3 * M_PI / 180);
   segmentation.setDistanceThreshold(0.02);
+  segmentation.setMaximumCurvature(max_curvature);
   segmentation.setInputNormals(normalsOf(cloud, method));
   segmentation.setInputCloud(cloud);
   std::vector<pcl::PointIndices> inliers;
@@ -61,10 +66,13 @@ std::vector<PlanePeer> pclPlanes() {
                        normalsOf(organisedCloud<Point>(frame), method);
                        return std::vector<std::uint16_t>(frame.units.size(), 0);
                      }});
-    for (const bool refined : {false, true}) {
-      peers.push_back({name + std::string(refined ? " + planes + refinement" : " + planes"),
-                       [method = method, refined](const DepthFrame& frame) { return planes(frame, method, refined); }});
-    }
+    const auto add = [&, method = method, name = name](bool refined, double curvature, const std::string& rest) {
+      peers.push_back({std::string(name) + (refined ? " + planes + refinement" : " + planes") + rest,
+                       [=](const DepthFrame& frame) { return planes(frame, method, refined, curvature); }});
+    };
+    add(false, kPclCurvature, "");
+    add(true, kPclCurvature, "");
+    add(true, kNoisyCurvature, ", curvature 0.01");
   }
   return peers;
 }

@@ -129,28 +129,33 @@ void printTimes(const std::vector<RgbdFrame>& frames, int rounds) {
 
 void printAgreement(const std::vector<RgbdFrame>& frames, int reach) {
   const auto ours_all = ours("", EdgeOptions(), true, 0), canny = openCvCanny();
-  const auto peers = pclEdges();
+  const auto pcl = pclEdgesOfAllKinds();
   std::printf(
       "\nWithin %d px of the other's edges of the same kind\n\n| kind | peer | ours, by the peer | the peer's, by ours "
       "| pixels of ours | of the peer's |\n|---|---|---|---|---|---|\n",
       reach);
-  for (const auto kind : perception::kEdgeKinds) {
+  const auto print = [&](perception::EdgeKind kind, const EdgePeer& peer) {
     Share of_ours, of_peer;
-    const bool use_canny = kind == perception::kRgb;
-    if (!use_canny && peers.empty()) continue;
-    const EdgePeer& peer = use_canny ? canny : peers.back();
     for (const RgbdFrame& frame : frames) {
       ours_all.take(frame);
       peer.take(frame);
       const Labels a = ours_all.run();
       Labels b = peer.run();
-      for (std::size_t i = 0; i < b.size() && use_canny; ++i) b[i] = frame.units[i] == 0 ? 0 : b[i];
+      // Where there is no depth, ours tells nothing.
+      for (std::size_t i = 0; i < b.size() && kind == perception::kRgb; ++i) b[i] = frame.units[i] == 0 ? 0 : b[i];
       add(a, b, kind, frame.width, reach, of_ours);
       add(b, a, kind, frame.width, reach, of_peer);
     }
     const auto n = static_cast<double>(frames.size());
-    std::printf("| %s | %s | %.3f | %.3f | %.0f | %.0f |\n", nameOf(kind), use_canny ? "OpenCV" : "PCL",
-                of_ours.value(), of_peer.value(), of_ours.all / n, of_peer.all / n);
+    std::printf("| %s | %s | %.3f | %.3f | %.0f | %.0f |\n", nameOf(kind), peer.name.c_str(), of_ours.value(),
+                of_peer.value(), of_ours.all / n, of_peer.all / n);
+  };
+  for (const auto kind : perception::kEdgeKinds) {
+    if (kind == perception::kRgb) print(kind, canny);
+    for (std::size_t i = 0; i < pcl.size() && kind != perception::kRgb; ++i) {
+      const bool depends_on_jump = kind != perception::kHighCurvature;
+      if (i == 0 || depends_on_jump) print(kind, pcl[i]);
+    }
   }
 }
 
@@ -184,11 +189,7 @@ void printTruth(const TruthOptions& options) {
       frames.size(), std::filesystem::path(options.ini).filename().c_str(), options.sensor.c_str(), options.least_jump,
       options.least_turn_deg, options.reach);
   std::vector<EdgePeer> all{ours("ours", EdgeOptions(), true, 0)};
-  const auto pcl = pclEdges();
-  if (!pcl.empty()) {
-    all.push_back(pcl.back());
-    all.back().name = "PCL";
-  }
+  for (const auto& peer : pclEdgesOfAllKinds()) all.push_back(peer);
   std::vector<std::vector<Labels>> results(all.size());
   for (std::size_t m = 0; m < all.size(); ++m) {
     for (const TrueEdges& frame : frames) {

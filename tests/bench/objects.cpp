@@ -1,6 +1,6 @@
-// Things on tables: ours and PCL's organised chain in one run, on labelled clouds of table-top scenes or on what
-// omnimapper-simulate leaves with `labels = true`. Prints Markdown tables. PCL's rows are there where bench-objects was
-// built with it. Times are those of the processor, of one thread.
+// Things on tables: ours, PCL's organised chain and PCL's supervoxels in one run, on labelled clouds of table-top
+// scenes or on what omnimapper-simulate leaves with `labels = true`. Prints Markdown tables. PCL's rows are there where
+// bench-objects was built with it. Times are those of the processor, of one thread.
 //
 // Example: bench-objects --clouds objects/mosd
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -207,7 +207,7 @@ std::vector<LabelledCloud> readSimulated(const std::string& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Things on tables: ours and PCL's organised chain in one run");
+  CLI::App app("Things on tables: ours and PCL's two ways in one run");
   std::string folder, simulated;
   double tilt_deg = 75;
   int rounds = 3;
@@ -225,7 +225,7 @@ int main(int argc, char** argv) {
   using Comparator = perception::ObjectOptions::Comparator;
   std::vector<ObjectPeer> methods{ours(tilt_deg * M_PI / 180, Comparator::euclidean, "ours, euclidean"),
                                   ours(tilt_deg * M_PI / 180, Comparator::convex, "ours, convex")};
-  for (const auto& peer : pclObjects()) methods.push_back(peer);
+  for (const auto& peers : {pclObjects(), lccpObjects()}) methods.insert(methods.end(), peers.begin(), peers.end());
   std::vector<Result> results(methods.size());
   for (int round = 0; round < rounds; ++round) {
     for (const auto& cloud : clouds) {
