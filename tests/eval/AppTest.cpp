@@ -108,6 +108,11 @@ TEST_F(EvalApp, HoldsAMapAgainstTheDepthImagesOfALog) {
   EXPECT_EQ(run("views " + map + " " + log + " " + reference_ + " --align none"),
             code(base::ExitCode::unreadable_input));
   EXPECT_TRUE(printed("no depth image has a pose")) << text_;
+  const std::string half = folder_ / "half.rawlog";
+  fs::copy(log, half);
+  fs::resize_file(half, fs::file_size(half) / 2);
+  EXPECT_EQ(run("views " + map + " " + half + " " + truth + rest), code(base::ExitCode::damaged_input)) << text_;
+  EXPECT_TRUE(printed("surfaces drawn in the map")) << "of what was readable: " << text_;
   EXPECT_EQ(run("views --help"), 0);
   EXPECT_TRUE(printed("omnimapper-eval views out/cabinet cabinet.rawlog cabinet.truth.tum")) << text_;
 }

@@ -2,6 +2,9 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/testing/Fixtures.h>
 
+#include <functional>
+#include <utility>
+
 #include "omnimapper/eval/TumFile.h"
 #include "omnimapper/eval/ViewAgreement.h"
 #include "omnimapper/eval/Views.h"
@@ -76,6 +79,7 @@ TEST(Views, OfPosesOutsideOfTheLogThereAreNone) {
   for (auto& pose : others) pose.stamp += std::chrono::hours(24);
   const auto message = messageOf([&] { readHome(others); }, base::ExitCode::unreadable_input);
   EXPECT_NE(message.find("no depth image has a pose"), std::string::npos) << message;
+  messageOf([] { readHome({}); }, base::ExitCode::unreadable_input);
 }
 
 TEST(Views, OfALogWithoutDepthImagesThereAreNone) {

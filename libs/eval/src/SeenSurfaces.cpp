@@ -1,6 +1,7 @@
 #include "SeenSurfaces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace omnimapper::eval {

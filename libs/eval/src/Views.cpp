@@ -6,6 +6,7 @@
 #include <omnimapper/perception/RgbdView.h>
 #include <omnimapper/source/RawlogSource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -127,6 +128,8 @@ void refuseNone(const LogViews& views, const std::string& log, const Trajectory&
                           (views.message.empty() ? "" : "\n" + views.message));
   }
   if (views.posed > 0) return;
+  if (trajectory.empty())
+    throw base::Error(base::ExitCode::unreadable_input, log + ": there is no pose for any of its depth images");
   throw base::Error(base::ExitCode::unreadable_input,
                     log + ": no depth image has a pose: the images are of " + base::formatUnix(first) + " to " +
                         base::formatUnix(last) + ", the poses of " + base::formatUnix(trajectory.front().stamp) +
