@@ -89,7 +89,10 @@ PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& kn
     }
     const double rough = usual > 0 ? payload.roughness.mean() / usual : 1;
     const auto needed = sightingsToDraw(level.all()[i].plane, rough, view.map.key_frames.size());
-    payload.is_candidate = !payload.isAccepted() && (!needed || payload.planeSightings() < *needed);
+    // That a laser saw it often tells that something is there, not how far it reaches: it counts as one view.
+    constexpr std::size_t kOften = 8;
+    const std::size_t planes = payload.planeSightings(), lines = payload.sightings() - planes;
+    payload.is_candidate = !payload.isAccepted() && (!needed || planes + (lines >= kOften ? 1 : 0) < *needed);
     payload.judgement = judgements[i];
   }
   return results;
