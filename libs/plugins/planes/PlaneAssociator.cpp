@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "PlaneExtent.h"
 #include "PlaneMerging.h"
@@ -106,7 +107,7 @@ std::optional<double> PlaneAssociator::missIfAlike(const PlaneLandmarkIndex::Sur
   for (const auto& point : points) middle += point / static_cast<double>(points.size());
   const double off = std::abs(signedDistance(surface.plane, middle)) - kFarthest;
   if (off > kSigmas * pose_sigma_) return std::nullopt;
-  const double gap = gapBetween(surface, points, toldBy(sighting)) - maxGap(surface, sighting);
+  const double gap = gapBetween(surface, points, toldBy(sighting)) - maxGap(surface, sighting, points);
   if (gap > kSigmas * pose_sigma_) return std::nullopt;
   return std::max(off, gap);
 }
@@ -229,9 +230,14 @@ News PlaneAssociator::newsOf(const PlaneMeasurement& sighting, const std::vector
   return news;
 }
 
-double PlaneAssociator::maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting) const {
-  const bool are_planes = !sighting.is_line && surface.heights == PlaneLandmarkIndex::Heights::known;
-  return are_planes ? options_.max_plane_gap : options_.max_gap;
+double PlaneAssociator::maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting,
+                               const std::vector<Eigen::Vector3d>& points) const {
+  constexpr double kOverFurniture =
+      1.5;  // [m] what reaches so high and goes on behind a bookcase or a door is one wall
+  if (sighting.is_line || surface.heights == PlaneLandmarkIndex::Heights::unknown) return options_.max_gap;
+  const double high = known_.emptyPayload().groundIn(view_.map.key_frames) + kOverFurniture;
+  const bool is_wall = surface.highest > high && heightsOf(points).second > high;
+  return is_wall ? options_.max_gap : options_.max_plane_gap;
 }
 
 void PlaneAssociator::logUseless(const PlaneMeasurement& sighting) {
@@ -283,6 +289,7 @@ void PlaneAssociator::addNew(const PlaneMeasurement& sighting, mapper::Decision 
   fresh.surface.variable = variable;
   fresh.surface.plane = plane;
   fresh.surface.hull = hullOn(landmarks::PlaneAxes(plane), points);
+  std::tie(fresh.surface.lowest, fresh.surface.highest) = heightsOf(points);
   fresh.surface.heights = toldBy(sighting);
   fresh.payload = payload;
   fresh_.push_back(std::move(fresh));
@@ -298,7 +305,7 @@ PlaneAssociator::Fresh* PlaneAssociator::alikeInThisMoment(const PlaneMeasuremen
       return std::abs(signedDistance(plane, point)) > kOff;
     });
     if (!off && plane.normal.cross(normal).norm() < kTurn && plane.normal.dot(normal) > 0 &&
-        gapBetween(fresh.surface, points, toldBy(sighting)) <= maxGap(fresh.surface, sighting))
+        gapBetween(fresh.surface, points, toldBy(sighting)) <= maxGap(fresh.surface, sighting, points))
       return &fresh;
   }
   return nullptr;

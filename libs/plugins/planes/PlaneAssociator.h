@@ -55,7 +55,8 @@ class PlaneAssociator {
   News newsOf(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points,
               const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) const;
   // [m] between a surface and a sighting of it.
-  double maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting) const;
+  double maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting,
+                const std::vector<Eigen::Vector3d>& points) const;
   void logUseless(const PlaneMeasurement& sighting);
   void addNew(const PlaneMeasurement& sighting, mapper::Decision decision);
   // Two stretches of one wall, with a door between them.

@@ -37,13 +37,11 @@ const base::OptionTable<PlaneLandmarksOptions>& PlaneLandmarksOptions::table() {
                     "A new landmark seen as a plane is so large.")
             .number("min_length_m", &Options::min_length, Range::notNegative(),
                     "A new landmark seen as a line is so long.")
-            .number(
-                "max_gap_m", &Options::max_gap, Range::notNegative(),
-                "Walls on one plane that are farther apart along the floor are landmarks of their own, where one of "
-                "them was seen as a line only.")
+            .number("max_gap_m", &Options::max_gap, Range::notNegative(),
+                    "Stretches of one wall that are farther apart are landmarks of their own: lines of a laser, and "
+                    "surfaces that reach higher than 1.5 m above the ground.")
             .number("max_plane_gap_m", &Options::max_plane_gap, Range::notNegative(),
-                    "Surfaces on one plane that are farther apart are landmarks of their own, where both were seen as "
-                    "planes.")
+                    "Other surfaces on one plane that are farther apart are landmarks of their own.")
             .number("well_seen_within_m", &Options::well_seen_within, Range::positive(),
                     "What was seen of a surface from farther off draws it only until something was seen better.")
             .number("well_seen_under_deg", &Options::well_seen_under, Range::positive(),

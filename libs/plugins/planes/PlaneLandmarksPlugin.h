@@ -27,8 +27,8 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
   bool lines = true;            ///< measure CObservationLaserLines
   double min_area = 0.25;       ///< [m^2] of a new landmark, seen as a plane
   double min_length = 0.8;      ///< [m] of a new landmark, seen as a line
-  double max_gap = 0.5;         ///< [m] between lines of one landmark, and between lines and surfaces
-  double max_plane_gap = 0.15;  ///< [m] between surfaces seen as planes of one landmark
+  double max_gap = 0.5;         ///< [m] between stretches of one wall: of lines, and of what is higher than furniture
+  double max_plane_gap = 0.15;  ///< [m] between other surfaces of one landmark
   /// What a sensor sees of a surface from farther off or more aslant draws it only where nothing better is known: noise
   /// of depth grows with the square of the distance, and mixed pixels at edges reach far along a grazing ray.
   double well_seen_within = 4;                                         ///< [m]

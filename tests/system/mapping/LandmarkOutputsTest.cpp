@@ -45,16 +45,15 @@ TEST_F(LandmarkOutputs, TheFloorPlanHasTheWallsWhereTheyAre) {
     const std::string label = properties.value("label", ""), type = feature["geometry"]["type"];
     tops += furniture.count(label) > 0 && type == "Polygon";
     floors += label == "floor" && type == "Polygon";
-    if ((label != "wall" && label != "door") || properties["sightings"] < 10) continue;
+    if (label != "wall" || properties["sightings"] < 10) continue;
     const auto ends = endsOf(feature["geometry"]);
     const auto along = [&](int axis) { return ends[1][axis].get<double>() - ends[0][axis].get<double>(); };
     if (std::hypot(along(0), along(1)) < 1.2) continue;  // may be furniture, of which the truth lists no planes
     ++seen_well;
-    if (label == "door") continue;  // a part of a wall may be taken for one; the truth lists no leaves
     const double off = endsFromWalls(ends, world_from_map, walls);
     EXPECT_LT(off, 0.08) << feature["id"];
   }
-  EXPECT_GE(seen_well, 5U) << "each wall once, some taken for a door, and furniture is none";
+  EXPECT_GE(seen_well, 5U) << "each wall once, and furniture is none";
   EXPECT_GT(tops, 0U);
   EXPECT_GT(floors, 0U);
   EXPECT_EQ(plan["features"].back()["properties"]["feature"], "trajectory");
