@@ -232,8 +232,8 @@ News PlaneAssociator::newsOf(const PlaneMeasurement& sighting, const std::vector
 
 double PlaneAssociator::maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting,
                                const std::vector<Eigen::Vector3d>& points) const {
-  constexpr double kOverFurniture =
-      1.5;  // [m] what reaches so high and goes on behind a bookcase or a door is one wall
+  // What reaches so high and goes on behind a bookcase or a door is one wall.
+  constexpr double kOverFurniture = 1.5;  // [m]
   if (sighting.is_line || surface.heights == PlaneLandmarkIndex::Heights::unknown) return options_.max_gap;
   const double high = known_.emptyPayload().groundIn(view_.map.key_frames) + kOverFurniture;
   const bool is_wall = surface.highest > high && heightsOf(points).second > high;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace omnimapper::surfaces {
@@ -114,8 +115,9 @@ std::vector<Judgement> classify(const std::vector<Surface>& surfaces, double flo
                                 const std::vector<Example>& examples) {
   constexpr double kHalf = 0.5;
   static const Voters of_known(knownExamples());
-  const bool are_known = &examples == &knownExamples();
-  const Voters& voters = are_known ? of_known : Voters(examples);
+  std::optional<Voters> of_others;
+  if (&examples != &knownExamples()) of_others.emplace(examples);
+  const Voters& voters = of_others ? *of_others : of_known;
   std::vector<Judgement> judgements;
   for (const auto& facts : factsOf(surfaces, floor)) {
     Judgement& judgement = judgements.emplace_back();
