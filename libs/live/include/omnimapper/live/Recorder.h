@@ -1,0 +1,83 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace omnimapper::live {
+
+/// An observation as it stands in a rawlog.
+using Encoded = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+Encoded encode(const mrpt::obs::CObservation& observation);
+/// What a reader of the rawlog gets. Throws std::exception if it is none.
+mrpt::obs::CObservation::Ptr decode(const Encoded& encoded);
+
+struct RecorderOptions {
+  int compression = 1;                  ///< of zlib, 0 to 9
+  std::uint64_t split_bytes = 0;        ///< on the disk, from which on another file is begun; 0: never
+  std::size_t queue_bytes = 256 << 20;  ///< that may wait to be written
+};
+
+/// Writes observations into rawlogs as they come, in a thread of its own: in blocks of a second, each a whole member of
+/// gzip, so that all but the last second can be read of a file whose writer was killed.
+class Recorder {
+ public:
+  /// Files are named NAME.rawlog, NAME_001.rawlog and so on, in `folder`. Throws Error(unwritable_output) if the first
+  /// cannot be made, or is there already.
+  Recorder(const std::string& folder, const std::string& name, const RecorderOptions& options);
+  /// As close().
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Whether there is room for so many bytes among those that wait.
+  bool hasRoomFor(std::size_t bytes) const;
+  /// In the order of the file; from any thread. After a failure it does nothing.
+  void add(const Encoded& observation);
+  /// Writes what waits and ends.
+  void close();
+
+  struct Figures {
+    std::uint64_t observations = 0;
+    std::uint64_t bytes = 0;  ///< written, before compression
+    std::uint64_t bytes_on_disk = 0;
+    double seconds = 0;  ///< that the thread worked
+  };
+  Figures figures() const;
+  /// Why recording ended early; empty if it did not. What was written until then can be read.
+  std::string failure() const;
+  /// Their names in the folder, as far as they have been begun.
+  std::vector<std::string> files() const;
+
+ private:
+  void run();
+  void openNext();
+  void writeBlock(const std::vector<Encoded>& block, std::size_t bytes);
+  std::string compressed(const std::vector<Encoded>& block, std::size_t bytes) const;
+
+  const std::string folder_, name_;
+  const RecorderOptions options_;
+  int file_ = -1;
+  std::uint64_t file_bytes_ = 0;  // of whole blocks in it
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Encoded> waiting_;
+  std::size_t waiting_bytes_ = 0;
+  bool closing_ = false;
+  Figures figures_;
+  std::string failure_;
+  std::vector<std::string> files_;
+  std::thread thread_;
+};
+
+}  // namespace omnimapper::live

@@ -1,0 +1,102 @@
+#include "Arrivals.h"
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationStereoImages.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <omnimapper/base/Names.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace omnimapper::live {
+
+namespace {
+
+// What is large, and may be left out for a newer one.
+bool isOfCamera(const mrpt::obs::CObservation& observation) {
+  using namespace mrpt::obs;
+  return dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
+         dynamic_cast<const CObservationImage*>(&observation) ||
+         dynamic_cast<const CObservationStereoImages*>(&observation) ||
+         dynamic_cast<const CObservationPointCloud*>(&observation) ||
+         dynamic_cast<const CObservationVelodyneScan*>(&observation);
+}
+
+}  // namespace
+
+Arrivals::Arrivals(const LiveOptions& options, std::unique_ptr<Recorder> recorder)
+    : options_(options), recorder_(std::move(recorder)) {}
+
+void Arrivals::add(mrpt::obs::CObservation& observation, base::Stamp arrival, SensorClock& clock) {
+  observation.sensorLabel = base::sensorName(observation.sensorLabel);
+  observation.timestamp = clock.corrected(observation.timestamp, arrival);
+  const Encoded encoded = encode(observation);
+  const bool is_camera = isOfCamera(observation);
+  {
+    const std::lock_guard lock(mutex_);
+    ++counts_.arrived;
+    if (is_camera && recorder_ && !recorder_->hasRoomFor(encoded->size())) {
+      ++counts_.not_kept;
+      return;
+    }
+    if (recorder_) recorder_->add(encoded);
+    if (const auto reason = gate_.refuses(observation)) {
+      ++counts_.unusable;
+      report_.countUnusable(observation.sensorLabel, *reason, observation.timestamp);
+      return;
+    }
+    report_.count(observation.sensorLabel, observation.GetRuntimeClass()->className, observation.timestamp);
+    ++report_.objects;
+    report_.bytes += encoded->size();
+    if (is_camera) makeRoomFor(observation.sensorLabel);
+    waiting_.push_back({next_number_++, observation.sensorLabel, is_camera, encoded});
+  }
+  arrived_.notify_one();
+}
+
+// Of more than so many frames of one camera the oldest goes.
+void Arrivals::makeRoomFor(const std::string& label) {
+  const auto is_alike = [&](const Waiting& one) { return one.is_camera && one.label == label; };
+  const auto waiting = std::count_if(waiting_.begin(), waiting_.end(), is_alike);
+  if (waiting < options_.camera_queue) return;
+  const auto oldest = std::find_if(waiting_.begin(), waiting_.end(), is_alike);
+  dropped_.push_back(oldest->number);
+  ++counts_.dropped;
+  waiting_.erase(oldest);
+}
+
+void Arrivals::addOther(const std::string& class_name) {
+  const std::lock_guard lock(mutex_);
+  ++report_.other_objects[class_name];
+}
+
+std::optional<LiveObservation> Arrivals::next(std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  if (!arrived_.wait_for(lock, patience, [this] { return !waiting_.empty(); })) return std::nullopt;
+  const Waiting first = std::move(waiting_.front());
+  waiting_.pop_front();
+  ++counts_.given;
+  lock.unlock();
+  return LiveObservation{decode(first.encoded), first.number};
+}
+
+std::vector<std::uint64_t> Arrivals::takeDropped() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(dropped_, {});
+}
+
+source::SourceReport Arrivals::report() const {
+  const std::lock_guard lock(mutex_);
+  return report_;
+}
+
+LiveCounts Arrivals::counts() const {
+  const std::lock_guard lock(mutex_);
+  LiveCounts counts = counts_;
+  counts.waiting = waiting_.size();
+  return counts;
+}
+
+}  // namespace omnimapper::live

@@ -1,0 +1,94 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/InputFile.h>
+#include <omnimapper/live/Journal.h>
+
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+namespace omnimapper::live {
+
+namespace {
+
+const std::string kFirstLine = "omnimapper journal 1", kExtension = ".journal";
+
+// a NUMBER, d NUMBER, b, j.
+std::optional<JournalEvent> eventOf(std::string_view line) {
+  JournalEvent event;
+  if (line == "b" || line == "j") {
+    event.kind = line == "b" ? JournalEvent::Kind::bundle : JournalEvent::Kind::job;
+    return event;
+  }
+  if (line.size() < 3 || (line[0] != 'a' && line[0] != 'd') || line[1] != ' ') return std::nullopt;
+  event.kind = line[0] == 'a' ? JournalEvent::Kind::add : JournalEvent::Kind::drop;
+  const auto end = line.data() + line.size();
+  const auto [rest, error] = std::from_chars(line.data() + 2, end, event.number);
+  return error == std::errc() && rest == end ? std::make_optional(event) : std::nullopt;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+  throw base::Error(base::ExitCode::unreadable_input, path + ": " + reason);
+}
+
+std::vector<std::string> rawlogsBeside(const std::string& path) {
+  const std::string stem = std::filesystem::path(path).replace_extension().string();
+  std::vector<std::string> rawlogs;
+  for (std::size_t i = 0;; ++i) {
+    char number[32] = "";
+    if (i > 0) std::snprintf(number, sizeof number, "_%03zu", i);
+    std::string rawlog = stem + number + ".rawlog";
+    if (!std::filesystem::exists(rawlog)) break;
+    rawlogs.push_back(std::move(rawlog));
+  }
+  if (rawlogs.empty()) refuse(path, "the recording " + stem + ".rawlog that it is about is not beside it");
+  return rawlogs;
+}
+
+}  // namespace
+
+JournalWriter::JournalWriter(const std::string& path) : file_(path, std::ios::binary) {
+  file_ << kFirstLine << "\n" << std::flush;
+  if (!file_) throw base::Error(base::ExitCode::unwritable_output, path + ": the journal cannot be written");
+}
+
+void JournalWriter::add(const JournalEvent& event) {
+  switch (event.kind) {
+    case JournalEvent::Kind::add:
+      file_ << "a " << event.number << "\n";
+      break;
+    case JournalEvent::Kind::drop:
+      file_ << "d " << event.number << "\n";
+      break;
+    case JournalEvent::Kind::bundle:
+      file_ << "b\n";
+      break;
+    case JournalEvent::Kind::job:
+      file_ << "j\n";
+      break;
+  }
+}
+
+bool JournalWriter::flush() {
+  return static_cast<bool>(file_.flush());
+}
+
+Journal Journal::read(const std::string& path) {
+  if (std::filesystem::path(path).extension() != kExtension)
+    refuse(path, "a journal ends in " + kExtension + ", such as recording" + kExtension);
+  const std::string text = base::readInput(path, "journal of a live run");
+  if (text.compare(0, kFirstLine.size() + 1, kFirstLine + "\n") != 0) refuse(path, "this is no journal of a live run");
+  Journal journal;
+  std::size_t line = 1;
+  for (std::size_t begin = kFirstLine.size() + 1, end; (end = text.find('\n', begin)) != std::string::npos;
+       begin = end + 1) {
+    const auto event = eventOf(std::string_view(text).substr(begin, end - begin));
+    if (!event) refuse(path, "line " + std::to_string(line + 1) + " is no line of a journal: damaged");
+    journal.events.push_back(*event);
+    ++line;
+  }
+  journal.rawlogs = rawlogsBeside(path);
+  return journal;
+}
+
+}  // namespace omnimapper::live

@@ -1,0 +1,104 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/live/LiveSource.h>
+
+#include <utility>
+
+#include "Arrivals.h"
+#include "SensorThread.h"
+
+namespace omnimapper::live {
+
+namespace {
+
+constexpr std::chrono::milliseconds kToStop(2000), kStep(100);
+
+}  // namespace
+
+struct LiveSource::Parts {
+  std::vector<SensorSection> sections;
+  LiveOptions options;
+  std::shared_ptr<Arrivals> arrivals;
+  std::vector<SensorThread> threads;
+  bool has_left_behind = false, has_told_failure = false;
+};
+
+LiveSource::LiveSource(std::vector<SensorSection> sensors, const LiveOptions& options,
+                       std::unique_ptr<Recorder> recorder)
+    : parts_(std::make_unique<Parts>()) {
+  parts_->sections = std::move(sensors);
+  parts_->options = options;
+  parts_->arrivals = std::make_shared<Arrivals>(options, std::move(recorder));
+}
+
+LiveSource::~LiveSource() {
+  close();
+}
+
+void LiveSource::open(const std::function<bool()>& stop) {
+  parts_->threads.reserve(parts_->sections.size());
+  for (const auto& section : parts_->sections) {
+    auto& thread = parts_->threads.emplace_back(section, parts_->options, parts_->arrivals);
+    thread.start();
+    while (!thread.waitUntilOpen(kStep)) {
+      if (stop && stop())
+        throw base::Error(base::ExitCode::interrupted, "interrupted while sensor [" + section.name + "] was opened");
+    }
+    if (thread.hasFailedToOpen())
+      throw base::Error(base::ExitCode::unreadable_input, section.file + ": sensor [" + section.name + "] (" +
+                                                              section.driver +
+                                                              ") cannot be opened: " + thread.figures().problem);
+  }
+}
+
+void LiveSource::close() {
+  for (auto thread = parts_->threads.rbegin(); thread != parts_->threads.rend(); ++thread)
+    parts_->has_left_behind = !thread->stop(kToStop) || parts_->has_left_behind;
+  if (auto* recorder = parts_->arrivals->recorder()) recorder->close();
+}
+
+bool LiveSource::hasLeftBehind() const {
+  return parts_->has_left_behind;
+}
+
+std::optional<LiveObservation> LiveSource::next(std::chrono::milliseconds patience) {
+  return parts_->arrivals->next(patience);
+}
+
+std::vector<std::uint64_t> LiveSource::takeDropped() {
+  return parts_->arrivals->takeDropped();
+}
+
+std::vector<std::string> LiveSource::takeNews() {
+  std::vector<std::string> all;
+  for (auto& thread : parts_->threads) {
+    for (auto& sentence : thread.takeNews()) all.push_back(std::move(sentence));
+  }
+  const auto* recorder = parts_->arrivals->recorder();
+  if (recorder && !parts_->has_told_failure) {
+    if (const auto failure = recorder->failure(); !failure.empty()) {
+      all.push_back(failure + "; mapping goes on, and what was recorded until then can be read");
+      parts_->has_told_failure = true;
+    }
+  }
+  return all;
+}
+
+std::vector<SensorFigures> LiveSource::sensors() const {
+  std::vector<SensorFigures> all;
+  for (const auto& thread : parts_->threads) all.push_back(thread.figures());
+  return all;
+}
+
+LiveCounts LiveSource::counts() const {
+  return parts_->arrivals->counts();
+}
+
+source::SourceReport LiveSource::report() const {
+  return parts_->arrivals->report();
+}
+
+const Recorder* LiveSource::recorder() const {
+  return parts_->arrivals->recorder();
+}
+
+}  // namespace omnimapper::live

@@ -1,0 +1,152 @@
+#include <dlfcn.h>
+#include <mrpt/system/COutputLogger.h>
+#include <omnimapper/base/Exceptions.h>
+#include <omnimapper/base/InputFile.h>
+#include <omnimapper/base/Names.h>
+#include <omnimapper/live/SensorSection.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <set>
+
+namespace omnimapper::live {
+
+namespace {
+
+using mrpt::config::CConfigFileMemory;
+
+const std::string kDriver = "driver", kLabel = "sensorLabel";
+
+// Drivers that MRPT has in name alone where a library was missing when it was built, and what reads the device instead.
+const char* insteadOf(const std::string& driver) {
+  return driver == "CKinect" ? "KinectSensor" : nullptr;
+}
+
+[[noreturn]] void throwNoDriver(const SensorSection& section) {
+  throw base::Error(base::ExitCode::unknown_key, section.file + ": sensor [" + section.name +
+                                                     "] has no key driver; name the class that reads it, such "
+                                                     "as driver = CHokuyoURG");
+}
+
+SensorSection sectionOf(const std::string& name, const std::string& file,
+                        const std::shared_ptr<const CConfigFileMemory>& ini) {
+  SensorSection section;
+  section.name = name;
+  section.file = file;
+  section.driver = ini->read_string(name, kDriver, "");
+  section.label = base::sensorName(ini->read_string(name, kLabel, ""));
+  section.ini = ini;
+  if (section.driver.empty()) throwNoDriver(section);
+  return section;
+}
+
+void loadLibraries(const LiveOptions& options, const base::Config& config) {
+  for (const auto& library : options.libraries) {
+    if (!config.isTrusted("live", "libraries"))
+      throw base::Error(base::ExitCode::plugin_library,
+                        config.placeOf("live", "libraries") +
+                            ": libraries are loaded only where the first INI or the command line names them");
+    if (!dlopen(library.c_str(), RTLD_NOW | RTLD_GLOBAL))
+      throw base::Error(base::ExitCode::plugin_library, config.placeOf("live", "libraries") + ": " + dlerror());
+  }
+}
+
+void refuseSharedLabels(const std::vector<SensorSection>& sensors) {
+  std::set<std::string> labels;
+  for (const auto& sensor : sensors) {
+    if (sensor.label.empty() || labels.insert(sensor.label).second) continue;
+    throw base::Error(base::ExitCode::out_of_range,
+                      sensor.file + ": sensor [" + sensor.name + "] has the sensorLabel " + sensor.label +
+                          " of another sensor; give each its own, by which the map tells them apart");
+  }
+}
+
+}  // namespace
+
+const base::OptionTable<SensorOptions>& SensorOptions::table() {
+  static const auto table =
+      base::OptionTable<SensorOptions>()
+          .choice("clock", &SensorOptions::clock,
+                  {{"automatic", Clock::automatic}, {"driver", Clock::driver}, {"arrival", Clock::arrival}},
+                  "Time of an observation: the driver's stamp; or when it arrived; automatic takes the driver's and "
+                  "moves it by the offset between the clocks where the stamps are far from their arrival.")
+          .number("clock_offset_s", &SensorOptions::clock_offset, base::Range(),
+                  "Added to every stamp of the driver, such as a known latency with a minus.");
+  return table;
+}
+
+std::vector<SensorSection> readGrabberIni(const std::string& path) {
+  const auto ini = std::make_shared<CConfigFileMemory>();
+  try {
+    ini->setContent(base::readInput(path, "INI of rawlog-grabber"));
+  } catch (const base::Error&) {
+    throw;
+  } catch (const std::exception& error) {  // MRPT expands ${name}, $env{NAME} and $eval{expression} in values
+    throw base::Error(base::ExitCode::unreadable_input, path + ": " + error.what());
+  }
+  std::vector<std::string> names;
+  ini->getAllSections(names);
+  std::vector<SensorSection> sensors;
+  for (const auto& name : names) {
+    if (name.empty() || name == "global" || ini->read_bool(name, "rawlog-grabber-ignore", false)) continue;
+    sensors.push_back(sectionOf(name, path, ini));
+  }
+  return sensors;
+}
+
+std::vector<SensorSection> readSensors(const LiveOptions& options, const base::Config& config) {
+  loadLibraries(options, config);
+  const auto ini = std::make_shared<CConfigFileMemory>();
+  ini->setContent(config.text());
+  std::vector<SensorSection> sensors;
+  for (const auto& name : options.sensors) {
+    if (!config.has(name))
+      throw base::Error(base::ExitCode::unknown_key, config.placeOf("live", "sensors") + ": there is no section [" +
+                                                         name + "] for this sensor; write one with its driver");
+    sensors.push_back(sectionOf(name, config.placeOf(name), ini));
+    std::vector<std::string> keys;
+    ini->getAllKeys(name, keys);  // the driver's own keys are for the driver to judge
+    sensors.back().options = config.section(name).read<SensorOptions>(keys);
+  }
+  if (!options.grabber.empty()) {
+    std::filesystem::path path = options.grabber;
+    if (path.is_relative() && !std::filesystem::exists(path))
+      path = std::filesystem::path(config.firstFile()).parent_path() / path;
+    const auto more = readGrabberIni(path.string());
+    sensors.insert(sensors.end(), more.begin(), more.end());
+  }
+  if (sensors.empty())
+    throw base::Error(base::ExitCode::command_line,
+                      config.file() +
+                          ": --live needs sensors: name them in [live] sensors, each with a section of its own "
+                          "(driver = CHokuyoURG), or name an INI of rawlog-grabber in [live] grabber");
+  refuseSharedLabels(sensors);
+  return sensors;
+}
+
+mrpt::hwdrivers::CGenericSensor::Ptr makeSensor(const SensorSection& section) {
+  mrpt::hwdrivers::CGenericSensor::Ptr sensor;
+  if (const char* instead = insteadOf(section.driver)) {
+    throw base::Error(base::ExitCode::unknown_plugin, section.file + ": sensor [" + section.name +
+                                                          "]: MRPT was built without what " + section.driver +
+                                                          " needs; write driver = " + instead);
+  }
+  sensor = mrpt::hwdrivers::CGenericSensor::createSensorPtr(section.driver);
+  if (!sensor)
+    throw base::Error(base::ExitCode::unknown_plugin,
+                      section.file + ": sensor [" + section.name + "]: there is no driver " + section.driver +
+                          "; it is a class of mrpt::hwdrivers, such as CHokuyoURG, or of a library that "
+                          "[live] libraries names");
+  if (auto* logger = dynamic_cast<mrpt::system::COutputLogger*>(sensor.get()))
+    logger->setMinLoggingLevel(mrpt::system::LVL_ERROR);
+  try {
+    sensor->loadConfig(*section.ini, section.name);
+  } catch (const std::exception& error) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      section.file + ": sensor [" + section.name + "]: " + base::sentenceOf(error));
+  }
+  return sensor;
+}
+
+}  // namespace omnimapper::live

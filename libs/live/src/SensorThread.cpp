@@ -1,0 +1,212 @@
+#include "SensorThread.h"
+
+#include <mrpt/core/Clock.h>
+#include <omnimapper/base/Exceptions.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+namespace omnimapper::live {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using State = SensorFigures::State;
+
+constexpr auto kBetweenAttempts = std::chrono::milliseconds(500);
+constexpr auto kRateWindow = std::chrono::seconds(3);
+
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::string inSeconds(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f s", seconds);
+  return text;
+}
+
+}  // namespace
+
+struct SensorThread::Shared {
+  Shared(SensorSection its, const LiveOptions& all, std::shared_ptr<Arrivals> where)
+      : section(std::move(its)), options(all), arrivals(std::move(where)), clock(section.options, all.max_clock_off) {
+    figures.name = section.name;
+  }
+
+  const SensorSection section;
+  const LiveOptions options;
+  const std::shared_ptr<Arrivals> arrivals;
+  SensorClock clock;  // the thread's alone
+
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool stopping = false, was_open = false, failed_to_open = false, ended = false;
+  SensorFigures figures;
+  Clock::time_point last_arrival = Clock::now();
+  std::deque<Clock::time_point> arrived;  // in the last seconds
+  std::vector<std::string> news;
+
+  bool isStopping() {
+    const std::lock_guard lock(mutex);
+    return stopping;
+  }
+  // Returns early if it is to stop.
+  void sleep(std::chrono::duration<double> time) {
+    std::unique_lock lock(mutex);
+    changed.wait_for(lock, time, [this] { return stopping; });
+  }
+  void tell(const std::string& sentence) { news.push_back("sensor [" + section.name + "] " + sentence); }
+
+  void opened() {
+    const std::lock_guard lock(mutex);
+    last_arrival = Clock::now();
+    if (!was_open) figures.state = State::working;
+    was_open = true;
+    changed.notify_all();
+  }
+  void arrivedNow(std::size_t count) {
+    const std::lock_guard lock(mutex);
+    const auto now = Clock::now();
+    if (figures.state == State::lost || figures.state == State::silent) {
+      tell("is back after " + inSeconds(std::chrono::duration<double>(now - last_arrival).count()));
+      ++figures.reopened;
+    }
+    figures.state = State::working;
+    figures.problem.clear();
+    figures.observations += count;
+    last_arrival = now;
+    arrived.insert(arrived.end(), count, now);
+    while (now - arrived.front() > kRateWindow) arrived.pop_front();
+    if (clock.jumps() > figures.clock_jumps) {
+      char text[160];
+      std::snprintf(text, sizeof text, "has a clock that is %.3f s from the host's; its stamps are moved by that",
+                    clock.offset());
+      tell(text);
+    }
+    figures.clock_jumps = clock.jumps();
+    figures.clock_offset = clock.offset();
+  }
+  // What a driver threw. The first failure of a sensor that was never open ends the thread.
+  void failed(const std::string& reason) {
+    const std::lock_guard lock(mutex);
+    if (!was_open) {
+      failed_to_open = true;
+      figures.problem = reason;
+    } else if (figures.state != State::lost || figures.problem != reason) {
+      tell("is lost: " + reason + "; mapping goes on without it, and it is opened again when it answers");
+      figures.problem = reason;
+    }
+    figures.state = State::lost;
+    changed.notify_all();
+  }
+};
+
+SensorThread::SensorThread(SensorSection section, const LiveOptions& options, std::shared_ptr<Arrivals> arrivals)
+    : shared_(std::make_shared<Shared>(std::move(section), options, std::move(arrivals))) {}
+
+void SensorThread::start() {
+  thread_ = std::thread([shared = shared_] { run(shared); });
+}
+
+void SensorThread::run(const std::shared_ptr<Shared>& shared) {
+  while (!shared->isStopping()) {
+    try {
+      readDriver(*shared);
+    } catch (const std::exception& error) {
+      shared->failed(base::sentenceOf(error));
+    }
+    {
+      const std::lock_guard lock(shared->mutex);
+      if (shared->failed_to_open) break;
+    }
+    shared->sleep(kBetweenAttempts);
+  }
+  const std::lock_guard lock(shared->mutex);
+  if (!shared->failed_to_open) shared->figures.state = State::stopped;
+  shared->ended = true;
+  shared->changed.notify_all();
+}
+
+// Until the sensor fails, falls silent, or is to stop.
+void SensorThread::readDriver(Shared& shared) {
+  const auto driver = makeSensor(shared.section);
+  driver->initialize();
+  shared.opened();
+  const double rate = driver->getProcessRate();
+  constexpr double kMostOften = 500;  // [Hz]
+  const std::chrono::duration<double> period(1 / (rate > 0 ? std::min(rate, kMostOften) : kMostOften));
+  auto silent_since = Clock::now();
+  while (!shared.isStopping()) {
+    const auto begin = Clock::now();
+    driver->doProcess();
+    const auto arrival = mrpt::Clock::now();
+    std::size_t count = 0;
+    for (const auto& [stamp, object] : driver->getObservations()) {
+      if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
+        shared.arrivals->add(*observation, arrival, shared.clock);
+        ++count;
+      } else if (object) {
+        shared.arrivals->addOther(object->GetRuntimeClass()->className);
+      }
+    }
+    if (count > 0) {
+      shared.arrivedNow(count);
+      silent_since = Clock::now();
+    } else if (driver->getState() == mrpt::hwdrivers::CGenericSensor::ssError) {
+      throw std::runtime_error("its driver says that it failed");
+    } else if (secondsSince(silent_since) > shared.options.reopen_after) {
+      throw std::runtime_error("it has sent nothing for " + inSeconds(secondsSince(silent_since)));
+    }
+    const auto spent = Clock::now() - begin;
+    if (spent < period) shared.sleep(period - spent);
+  }
+}
+
+bool SensorThread::waitUntilOpen(std::chrono::milliseconds patience) const {
+  std::unique_lock lock(shared_->mutex);
+  return shared_->changed.wait_for(lock, patience, [this] { return shared_->was_open || shared_->failed_to_open; });
+}
+
+bool SensorThread::hasFailedToOpen() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->failed_to_open;
+}
+
+bool SensorThread::stop(std::chrono::milliseconds patience) {
+  if (!thread_.joinable()) return true;
+  bool has_ended = false;
+  {
+    std::unique_lock lock(shared_->mutex);
+    shared_->stopping = true;
+    shared_->changed.notify_all();
+    has_ended = shared_->changed.wait_for(lock, patience, [this] { return shared_->ended; });
+  }
+  has_ended ? thread_.join() : thread_.detach();
+  return has_ended;
+}
+
+std::vector<std::string> SensorThread::takeNews() {
+  const std::lock_guard lock(shared_->mutex);
+  const double silence = secondsSince(shared_->last_arrival);
+  if (shared_->figures.state == State::working && silence > shared_->options.silent_after && !shared_->ended) {
+    shared_->figures.state = State::silent;
+    shared_->tell("is silent: it has sent nothing for " + inSeconds(silence));
+  }
+  return std::exchange(shared_->news, {});
+}
+
+SensorFigures SensorThread::figures() const {
+  const std::lock_guard lock(shared_->mutex);
+  SensorFigures figures = shared_->figures;
+  const auto since = Clock::now() - kRateWindow;
+  const auto newest =
+      std::count_if(shared_->arrived.begin(), shared_->arrived.end(), [&](const auto& when) { return when > since; });
+  figures.rate = static_cast<double>(newest) / std::chrono::duration<double>(kRateWindow).count();
+  return figures;
+}
+
+}  // namespace omnimapper::live

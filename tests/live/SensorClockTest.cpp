@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+#include <omnimapper/live/SensorClock.h>
+
+#include "Observations.h"
+
+namespace omnimapper::live::sensor_clock_test {
+namespace {
+
+using namespace observations;
+using Clock = SensorOptions::Clock;
+
+constexpr double kMaxOff = 0.5;
+
+double secondsOf(base::Stamp stamp) {
+  return base::secondsBetween(kNow, stamp);
+}
+
+TEST(SensorClock, stampsThatAreNearTheirArrivalStay) {
+  SensorClock clock({}, kMaxOff);
+  for (int i = 0; i < 100; ++i) EXPECT_NEAR(secondsOf(clock.corrected(at(i), at(i + 0.05 + 0.001 * (i % 7)))), i, 1e-6);
+  EXPECT_EQ(clock.jumps(), 0u);
+  EXPECT_EQ(clock.offset(), 0);
+}
+
+TEST(SensorClock, anObservationWithoutStampHasThatOfItsArrival) {
+  SensorClock clock({}, kMaxOff);
+  EXPECT_EQ(clock.corrected(base::Stamp{}, at(3)), at(3));
+}
+
+// A device that counts from its start; the shortest latency of ten is 5 ms, and is taken for none.
+TEST(SensorClock, anotherClockIsMovedByTheShortestLatency) {
+  SensorClock clock({}, kMaxOff);
+  double last = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double latency = i % 10 == 0 ? 0.005 : 0.030;
+    last = secondsOf(clock.corrected(at(-5e7 + i), at(i + latency)));
+  }
+  EXPECT_NEAR(last, 999.005, 0.002);
+  EXPECT_EQ(clock.jumps(), 1u);
+  EXPECT_NEAR(clock.offset(), 5e7 + 0.005, 0.002);
+}
+
+TEST(SensorClock, aClockThatJumpsIsFoundAgain) {
+  SensorClock clock({}, kMaxOff);
+  for (int i = 0; i < 50; ++i) clock.corrected(at(i), at(i + 0.01));
+  EXPECT_NEAR(secondsOf(clock.corrected(at(1050), at(50.01))), 50.01, 1e-6) << "from the future: at once";
+  EXPECT_EQ(clock.jumps(), 1u);
+  double last = 0;
+  for (int i = 51; i < 80; ++i) last = secondsOf(clock.corrected(at(i - 2), at(i + 0.01)));
+  EXPECT_NEAR(last, 79.01, 0.01) << "back by two seconds against the host: after ten";
+}
+
+TEST(SensorClock, aBurstThatWasHeldUpIsNoJump) {
+  SensorClock clock({}, kMaxOff);
+  for (int i = 0; i < 50; ++i) clock.corrected(at(i), at(i + 0.01));
+  for (int i = 50; i < 55; ++i) EXPECT_NEAR(secondsOf(clock.corrected(at(i), at(56))), i, 1e-6);
+  for (int i = 57; i < 70; ++i) EXPECT_NEAR(secondsOf(clock.corrected(at(i), at(i + 0.01))), i, 1e-6);
+  EXPECT_EQ(clock.jumps(), 0u);
+}
+
+TEST(SensorClock, doesAsItsOptionsSay) {
+  SensorOptions options;
+  options.clock = Clock::arrival;
+  EXPECT_EQ(SensorClock(options, kMaxOff).corrected(at(-100), at(3)), at(3));
+  options.clock = Clock::driver;
+  options.clock_offset = -0.25;
+  EXPECT_NEAR(secondsOf(SensorClock(options, kMaxOff).corrected(at(-100), at(3))), -100.25, 1e-6);
+}
+
+}  // namespace
+}  // namespace omnimapper::live::sensor_clock_test

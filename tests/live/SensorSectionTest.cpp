@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/live/SensorSection.h>
+#include <omnimapper/testing/Fixtures.h>
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+namespace omnimapper::live::sensor_section_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kLaser = "[front]\ndriver = CHokuyoURG\nsensorLabel = LASER\nCOM_port_LIN = /dev/ttyACM0\n";
+
+std::vector<SensorSection> sensorsOf(const std::string& text) {
+  const auto config = base::Config::fromText(text, "robot.ini");
+  return readSensors(config.section("live").read<LiveOptions>(), config);
+}
+
+struct Refusal {
+  base::ExitCode code;
+  std::string text;
+};
+
+std::optional<Refusal> refusalOf(const std::string& text) {
+  try {
+    sensorsOf(text);
+  } catch (const base::Error& error) {
+    return Refusal{error.code(), error.what()};
+  }
+  return std::nullopt;
+}
+
+TEST(SensorSection, sensorsAreReadInTheOrderOfTheList) {
+  const auto sensors = sensorsOf("[live]\nsensors = wheels, front\n" + kLaser +
+                                 "clock = arrival\nclock_offset_s = -0.02\n[wheels]\ndriver = CGPSInterface\n");
+  ASSERT_EQ(sensors.size(), 2u);
+  EXPECT_EQ(sensors[0].name, "wheels");
+  EXPECT_EQ(sensors[0].driver, "CGPSInterface");
+  EXPECT_EQ(sensors[0].label, "");
+  EXPECT_EQ(sensors[1].label, "LASER");
+  EXPECT_EQ(sensors[1].options.clock, SensorOptions::Clock::arrival);
+  EXPECT_EQ(sensors[1].options.clock_offset, -0.02);
+  EXPECT_EQ(sensors[1].ini->read_string("front", "COM_port_LIN", ""), "/dev/ttyACM0");
+}
+
+TEST(SensorSection, whatIsMissingIsNamed) {
+  auto refusal = refusalOf("[live]\n");
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->code, base::ExitCode::command_line);
+  refusal = refusalOf("[live]\nsensors = rear\n" + kLaser);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->code, base::ExitCode::unknown_key);
+  EXPECT_NE(refusal->text.find("[rear]"), std::string::npos) << refusal->text;
+  refusal = refusalOf("[live]\nsensors = rear\n[rear]\nsensorLabel = x\n");
+  ASSERT_TRUE(refusal);
+  EXPECT_NE(refusal->text.find("no key driver"), std::string::npos) << refusal->text;
+  refusal =
+      refusalOf("[live]\nsensors = front, rear\n" + kLaser + "[rear]\ndriver = CHokuyoURG\nsensorLabel = LASER\n");
+  ASSERT_TRUE(refusal);
+  EXPECT_NE(refusal->text.find("of another sensor"), std::string::npos) << refusal->text;
+  refusal = refusalOf("[live]\nsensors = front\nlibraries = no_such_library.so\n" + kLaser);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->code, base::ExitCode::plugin_library);
+}
+
+TEST(SensorSection, aDriverIsMadeWithItsKeys) {
+  const auto sensors = sensorsOf("[live]\nsensors = front\n" + kLaser);
+  const auto driver = makeSensor(sensors.at(0));
+  ASSERT_TRUE(driver);
+  EXPECT_EQ(std::string(driver->GetRuntimeClass()->className), "CHokuyoURG");
+  EXPECT_EQ(driver->getSensorLabel(), "LASER");
+}
+
+TEST(SensorSection, aDriverThatIsNotThereIsNamed) {
+  for (const char* driver : {"CNoSuchDriver", "CKinect"}) {
+    const auto sensors = sensorsOf("[live]\nsensors = eye\n[eye]\ndriver = " + std::string(driver) + "\n");
+    try {
+      makeSensor(sensors.at(0));
+      ADD_FAILURE() << driver;
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
+      EXPECT_NE(std::string(error.what()).find(driver), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(SensorSection, aGrabberIniIsReadAsItIs) {
+  const testing::ScratchFolder folder;
+  std::ofstream(folder / "grabber.ini") << "[global]\nrawlog_prefix = ./dataset\n" + kLaser +
+                                               "[unused]\nrawlog-grabber-ignore = true\ndriver = CNoSuchDriver\n";
+  const auto sensors = sensorsOf("[live]\ngrabber = " + folder / "grabber.ini" + "\n");
+  ASSERT_EQ(sensors.size(), 1u);
+  EXPECT_EQ(sensors[0].name, "front");
+  EXPECT_EQ(sensors[0].file, folder / "grabber.ini");
+}
+
+TEST(SensorSection, everyGrabberIniOfMrptIsRead) {
+  const std::string folder = "/usr/share/mrpt/config_files/rawlog-grabber";
+  if (!fs::exists(folder))
+    GTEST_SKIP() << "the examples of rawlog-grabber (Debian's mrpt-common) are not on this machine";
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".ini") continue;
+    EXPECT_NO_THROW(readGrabberIni(entry.path().string())) << entry.path();
+    ++count;
+  }
+  EXPECT_GT(count, 20);
+}
+
+}  // namespace
+}  // namespace omnimapper::live::sensor_section_test
