@@ -14,6 +14,7 @@ struct Arguments {
   std::string print_ini;
   std::vector<std::string> inis, settings, checked_logs;
   bool is_check = false, list_plugins = false, ini_reference = false, gui = false, quiet = false, verbose = false;
+  bool record_only = false;
 };
 
 inline void addOptions(CLI::App& app, Arguments& arguments) {
@@ -22,11 +23,22 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
       "Example: omnimapper-graphslam -i laser2d.ini -r office.rawlog -o out/office\n"
       "Check:   omnimapper-graphslam --check office.rawlog\n"
       "Go on:   omnimapper-graphslam -i laser2d.ini -r next_day.rawlog --continue out/office -o out/both\n"
+      "Live:    omnimapper-graphslam -i live_hokuyo_kinect.ini --live -o out/today\n"
       "Locate:  omnimapper-graphslam -i laser2d.ini -r next_day.rawlog --localize out/office -o out/located");
   app.add_option("-i,--ini", arguments.inis,
                  "INI file: which plugins, with which options; a further one counts over it. Without a folder also one "
                  "that came with the program, such as laser2d.ini");
-  app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
+  auto* rawlogs = app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
+  auto* live = app.add_flag("--live", arguments.run.live,
+                            "map the sensors of [live] until Ctrl-C, and record them in the folder recording of -o");
+  auto* record =
+      app.add_flag("--record-only", arguments.record_only, "record the sensors of [live] into -o, map nothing");
+  app.add_option("--replay", arguments.run.replay,
+                 "journal (recording/TIME.journal) of a --live run: makes the same map again")
+      ->type_name("JOURNAL")
+      ->excludes(live);
+  live->excludes(rawlogs);
+  record->excludes(rawlogs)->excludes(live);
   app.add_option("-o,--output", arguments.run.output_folder, "folder for the outputs, made if missing");
   app.add_option_function<std::vector<std::string>>(
          "--check",
@@ -35,7 +47,8 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
            for (const auto& log : logs)
              if (!log.empty()) arguments.checked_logs.push_back(log);
          },
-         "judge a log (or those of -r), map nothing: what is wrong, what to set; -o keeps it")
+         "judge a log (or those of -r, or with --live ten seconds of the sensors), map nothing: what is wrong, "
+         "what to set; -o keeps it")
       ->expected(0, CLI::detail::expected_max_vector_size)
       ->type_name("LOG");
   app.add_option("--continue", arguments.run.continue_map, "map (or its folder) that the logs go on from: [session]");

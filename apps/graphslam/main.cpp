@@ -1,6 +1,5 @@
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Progress.h>
-#include <omnimapper/check/CheckRun.h>
 #include <omnimapper/export/registerOutputs.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/Features.h>
@@ -14,6 +13,7 @@
 #include <optional>
 
 #include "Arguments.h"
+#include "Tasks.h"
 #include "program/Program.h"
 #include "program/ShippedInis.h"
 
@@ -48,18 +48,13 @@ int run(Arguments& arguments) {
   if (arguments.list_plugins) return std::cout << mapper::listPlugins(), 0;
   if (arguments.ini_reference) return std::cout << mapper::iniReference(mapper::fixedSections()), 0;
   if (!arguments.print_ini.empty()) return std::cout << mapper::printIni(arguments.print_ini), 0;
-  std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
+  std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, isatty(STDERR_FILENO), arguments.quiet);
   const auto stop = program::isInterrupted;
-  if (arguments.is_check) {
-    auto logs = arguments.checked_logs;
-    logs.insert(logs.end(), arguments.run.logs.begin(), arguments.run.logs.end());
-    program::require({{"--check LOG", !logs.empty()}});
-    const auto checked = check::runCheck(logs, config, arguments.run.output_folder, *progress, stop);
-    progress.reset();  // its line is free for the summary
-    return std::cout << base::printableLines(checked.text), static_cast<int>(checked.code);
-  }
+  if (arguments.is_check) return checkLogs(arguments, config, progress, stop);
+  if (arguments.record_only) return recordSensors(arguments, config, progress, stop);
+  const bool is_of_logs = !arguments.run.live && arguments.run.replay.empty();
   program::require({{"-i INI", !arguments.inis.empty()},
-                    {"-r LOG", !arguments.run.logs.empty()},
+                    {"-r LOG, --live or --replay JOURNAL", !is_of_logs || !arguments.run.logs.empty()},
                     {"-o FOLDER", !arguments.run.output_folder.empty()}});
   if (arguments.gui) addOutput("live_window", "LiveWindow", config, arguments.run);
   if (!arguments.run.localize_map.empty()) addOutput("localization", "LocalizationOutput", config, arguments.run);
@@ -74,11 +69,7 @@ int run(Arguments& arguments) {
   const auto result = mapper::runMapping(arguments.run, config, *progress, stop);
   progress.reset();
   if (!told) tell(result, arguments);
-  const int code = static_cast<int>(result.code);
-  if (!arguments.gui) return code;
-  // MRPT's window thread may still paint, and cannot be waited for: what it uses must not go before it does.
-  std::cout.flush();
-  std::_Exit(code);
+  return static_cast<int>(result.code);
 }
 
 }  // namespace
@@ -87,5 +78,12 @@ int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("", "omnimapper-graphslam");
   addOptions(app, arguments);
-  return program::run(app, argc, argv, [&] { return run(arguments); });
+  return program::run(app, argc, argv, [&] {
+    const int code = run(arguments);
+    if (!arguments.gui && !arguments.run.live) return code;
+    // MRPT's window thread may still paint, and a driver that hangs was left behind: what they use must not go before
+    // they do, and they cannot be waited for.
+    std::cout.flush();
+    std::_Exit(code);
+  });
 }

@@ -19,7 +19,7 @@ const base::OptionTable<LiveOptions>& LiveOptions::table() {
                 "Writes what the sensors say into rawlogs in the folder recording of the output folder, with a journal "
                 "from which --replay makes the same map again.")
           .choice("images", &LiveOptions::images,
-                  {{"lossless", LiveOptions::Images::lossless}, {"jpeg", LiveOptions::Images::jpeg}},
+                  {{"lossless", source::ColourImages::lossless}, {"jpeg", source::ColourImages::jpeg}},
                   "How colour images are recorded. The mapper sees what was recorded: with jpeg that of quality 95.")
           .integer("compression", &LiveOptions::compression, Range{0, 9},
                    "How hard the recording is compressed: 0 not at all, 1 fast, 9 small.")
@@ -33,9 +33,13 @@ const base::OptionTable<LiveOptions>& LiveOptions::table() {
               "Frames of one camera that wait for the mapper; of more than that the oldest is left out of the map, "
               "and counted. It stays in the recording. Lasers and odometry are never left out.")
           .number("silent_after_s", &LiveOptions::silent_after, Range::positive(),
-                  "A sensor that has sent nothing for so long is said to be silent.")
+                  "A sensor that has sent nothing for so long, and for twice as long as its last ten observations were "
+                  "apart, "
+                  "is said to be silent.")
           .number("reopen_after_s", &LiveOptions::reopen_after, Range::positive(),
-                  "A sensor that has sent nothing for so long is closed and opened again, until it answers.")
+                  "A sensor that has sent nothing for so long, and for three times as long as its last ten "
+                  "observations were "
+                  "apart, is closed and opened again, until it answers.")
           .number("max_clock_off_s", &LiveOptions::max_clock_off, Range::positive(),
                   "Stamps that are farther from the time of their arrival are by another clock, whose offset is "
                   "estimated, and again where it jumps.")

@@ -1,6 +1,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/live/LiveSource.h>
 
+#include <cstdio>
 #include <utility>
 
 #include "Arrivals.h"
@@ -14,10 +15,28 @@ constexpr std::chrono::milliseconds kToStop(2000), kStep(100);
 
 }  // namespace
 
+std::string toString(SensorFigures::State state) {
+  using State = SensorFigures::State;
+  switch (state) {
+    case State::opening:
+      return "opening";
+    case State::working:
+      return "working";
+    case State::silent:
+      return "silent";
+    case State::lost:
+      return "lost";
+    case State::stopped:
+      break;
+  }
+  return "stopped";
+}
+
 struct LiveSource::Parts {
   std::vector<SensorSection> sections;
   LiveOptions options;
   std::shared_ptr<Arrivals> arrivals;
+  std::optional<source::ImageSettings> images;  // while sensors are open
   std::vector<SensorThread> threads;
   bool has_left_behind = false, has_told_failure = false;
 };
@@ -35,6 +54,7 @@ LiveSource::~LiveSource() {
 }
 
 void LiveSource::open(const std::function<bool()>& stop) {
+  parts_->images.emplace(parts_->options.images);
   parts_->threads.reserve(parts_->sections.size());
   for (const auto& section : parts_->sections) {
     auto& thread = parts_->threads.emplace_back(section, parts_->options, parts_->arrivals);
@@ -54,6 +74,7 @@ void LiveSource::close() {
   for (auto thread = parts_->threads.rbegin(); thread != parts_->threads.rend(); ++thread)
     parts_->has_left_behind = !thread->stop(kToStop) || parts_->has_left_behind;
   if (auto* recorder = parts_->arrivals->recorder()) recorder->close();
+  if (!parts_->has_left_behind) parts_->images.reset();
 }
 
 bool LiveSource::hasLeftBehind() const {
@@ -87,6 +108,17 @@ std::vector<SensorFigures> LiveSource::sensors() const {
   std::vector<SensorFigures> all;
   for (const auto& thread : parts_->threads) all.push_back(thread.figures());
   return all;
+}
+
+std::string LiveSource::sensorsText() const {
+  std::string text;
+  for (const auto& sensor : sensors()) {
+    char rate[32];
+    std::snprintf(rate, sizeof rate, "%.0f Hz", sensor.rate);
+    const bool is_working = sensor.state == SensorFigures::State::working;
+    text += (text.empty() ? "" : ", ") + sensor.name + " " + (is_working ? rate : toString(sensor.state));
+  }
+  return text;
 }
 
 LiveCounts LiveSource::counts() const {

@@ -48,6 +48,12 @@ mrpt::obs::CObservation::Ptr decode(const Encoded& encoded) {
   return observation;
 }
 
+RecorderOptions recorderOptions(const LiveOptions& options) {
+  constexpr double kMega = 1e6;
+  return {options.compression, static_cast<std::uint64_t>(options.split_mb * kMega),
+          static_cast<std::size_t>(options.queue_mb * kMega)};
+}
+
 Recorder::Recorder(const std::string& folder, const std::string& name, const RecorderOptions& options)
     : folder_(folder), name_(name), options_(options) {
   openNext();

@@ -48,6 +48,7 @@ struct SensorThread::Shared {
   SensorFigures figures;
   Clock::time_point last_arrival = Clock::now();
   std::deque<Clock::time_point> arrived;  // in the last seconds
+  std::deque<double> gaps;                // [s] between the last arrivals
   std::vector<std::string> news;
 
   bool isStopping() {
@@ -58,6 +59,12 @@ struct SensorThread::Shared {
   void sleep(std::chrono::duration<double> time) {
     std::unique_lock lock(mutex);
     changed.wait_for(lock, time, [this] { return stopping; });
+  }
+  // [s] A sensor that sends seldom is not silent yet.
+  double longestGap() const { return gaps.empty() ? 0 : *std::max_element(gaps.begin(), gaps.end()); }
+  double reopensAfter() {
+    const std::lock_guard lock(mutex);
+    return std::max(options.reopen_after, 3 * longestGap());
   }
   void tell(const std::string& sentence) { news.push_back("sensor [" + section.name + "] " + sentence); }
 
@@ -78,6 +85,9 @@ struct SensorThread::Shared {
     figures.state = State::working;
     figures.problem.clear();
     figures.observations += count;
+    constexpr std::size_t kGaps = 10;
+    gaps.push_back(std::chrono::duration<double>(now - last_arrival).count());
+    if (gaps.size() > kGaps) gaps.pop_front();
     last_arrival = now;
     arrived.insert(arrived.end(), count, now);
     while (now - arrived.front() > kRateWindow) arrived.pop_front();
@@ -158,7 +168,7 @@ void SensorThread::readDriver(Shared& shared) {
       silent_since = Clock::now();
     } else if (driver->getState() == mrpt::hwdrivers::CGenericSensor::ssError) {
       throw std::runtime_error("its driver says that it failed");
-    } else if (secondsSince(silent_since) > shared.options.reopen_after) {
+    } else if (secondsSince(silent_since) > shared.reopensAfter()) {
       throw std::runtime_error("it has sent nothing for " + inSeconds(secondsSince(silent_since)));
     }
     const auto spent = Clock::now() - begin;
@@ -192,7 +202,8 @@ bool SensorThread::stop(std::chrono::milliseconds patience) {
 std::vector<std::string> SensorThread::takeNews() {
   const std::lock_guard lock(shared_->mutex);
   const double silence = secondsSince(shared_->last_arrival);
-  if (shared_->figures.state == State::working && silence > shared_->options.silent_after && !shared_->ended) {
+  const double patience = std::max(shared_->options.silent_after, 2 * shared_->longestGap());
+  if (shared_->figures.state == State::working && silence > patience && !shared_->ended) {
     shared_->figures.state = State::silent;
     shared_->tell("is silent: it has sent nothing for " + inSeconds(silence));
   }

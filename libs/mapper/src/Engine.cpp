@@ -12,11 +12,12 @@
 namespace omnimapper::mapper {
 
 Engine::Engine(const EngineSettings& settings, const std::string& title, SensorPoses sensor_poses, PluginSet plugins,
-               int threads)
+               int threads, std::unique_ptr<Schedule> schedule)
     : settings_(settings),
       plugins_(std::move(plugins)),
-      back_end_(settings_, plugins_, pool_, state_),
-      front_end_(settings_, std::move(sensor_poses), plugins_, back_end_.chain(), pool_, state_),
+      schedule_(std::move(schedule)),
+      back_end_(settings_, plugins_, pool_, *schedule_, state_),
+      front_end_(settings_, std::move(sensor_poses), plugins_, back_end_.chain(), pool_, *schedule_, state_),
       sessions_(title, back_end_, state_),
       pool_(std::max(1, threads)) {
   if (plugins_.pose.empty()) {
@@ -33,9 +34,15 @@ void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
   while (auto bundle = front_end_.next()) process(*bundle);
 }
 
+void Engine::poll() {
+  const auto timer = state_.times.measure(Stage::engine);
+  while (auto bundle = front_end_.next()) process(*bundle);
+}
+
 void Engine::process(FrameBundle& bundle) {
   const auto begin = state_.times.mark();
   if (!back_end_.process(bundle)) return;
+  schedule_->mapped(bundle.stamp);
   forget();
   state_.times.addKeyFrameSince(begin);
 }

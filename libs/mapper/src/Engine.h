@@ -8,10 +8,13 @@
 #include <omnimapper/mapper/SensorPoses.h>
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "RunState.h"
+#include "Schedule.h"
 #include "back_end/BackEnd.h"
 #include "front_end/FrontEnd.h"
 #include "sessions/SessionManager.h"
@@ -20,18 +23,22 @@ namespace omnimapper::mapper {
 
 /// The mapper (thesis 5.2.3, 5.3.2): observations in, a map out. One thread calls it and is the only writer; workers
 /// run extractors, preparations and jobs. What comes out depends on the observations, their order of arrival and the
-/// options, never on the workers.
+/// options, never on the workers, unless a schedule of another kind is given.
 class Engine {
  public:
   /// Throws Error(unknown_plugin) if no pose plugin or no measurement plugin is given.
   /// `title` names the session.
   Engine(const EngineSettings& settings, const std::string& title, SensorPoses sensor_poses, PluginSet plugins,
-         int threads);
+         int threads, std::unique_ptr<Schedule> schedule = std::make_unique<Schedule>());
 
   /// To be called before the first observation if the run continues a saved map or localizes in it.
   SessionManager& sessions() { return sessions_; }
   /// Takes one observation, in order of arrival, and works on whatever that releases. What cannot be used is counted.
   void add(const mrpt::obs::CObservation::Ptr& observation);
+  /// Works on whatever the schedule takes by now.
+  void poll();
+  /// Whether observations had better wait for the workers.
+  bool isBusy() const { return front_end_.isFull(); }
   /// The end of the log: everything still queued is worked off, jobs in order, the graph is solved to the end, and the
   /// map is judged.
   void finish();
@@ -46,6 +53,8 @@ class Engine {
   void warn(const std::string& sentence) { state_.warnings.push_back(sentence); }
   /// For the summary: observations that the source did not hand out because nothing can be made of them.
   void setLeftOut(std::size_t observations) { state_.counts.left_out = observations; }
+  /// For the summary: how a live run is.
+  void setLive(LiveFigures figures) { state_.live = std::move(figures); }
   /// Measures time spent outside the engine, such as reading the log.
   StageTimes::Timer measure(Stage stage) { return state_.times.measure(stage); }
 
@@ -66,6 +75,7 @@ class Engine {
   EngineSettings settings_;
   PluginSet plugins_;
   RunState state_;
+  std::unique_ptr<Schedule> schedule_;
   BackEnd back_end_;
   FrontEnd front_end_;
   SessionManager sessions_;

@@ -74,28 +74,6 @@ Digest digestOf(const std::string& path) {
   return digest;
 }
 
-/// MRPT's settings for images while this lives.
-class ImageSettings {
- public:
-  explicit ImageSettings(ColourImages images)
-      : was_lossless_(CImage::DISABLE_JPEG_COMPRESSION()), old_quality_(CImage::SERIALIZATION_JPEG_QUALITY()) {
-    constexpr int kQuality = 95;
-    CImage::DISABLE_JPEG_COMPRESSION(images == ColourImages::lossless);
-    CImage::SERIALIZATION_JPEG_QUALITY(kQuality);
-  }
-  ~ImageSettings() {
-    CImage::DISABLE_JPEG_COMPRESSION(was_lossless_);
-    CImage::SERIALIZATION_JPEG_QUALITY(old_quality_);
-  }
-  ImageSettings(const ImageSettings&) = delete;
-  ImageSettings& operator=(const ImageSettings&) = delete;
-
- private:
-  using CImage = mrpt::img::CImage;
-  bool was_lossless_;
-  int old_quality_;
-};
-
 }  // namespace
 
 void RawlogWriter::add(const mrpt::obs::CObservation& observation) {

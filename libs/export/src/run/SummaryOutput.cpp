@@ -114,6 +114,31 @@ Json levelOf(const map::Level& level) {
           {"reason", level.reason}};
 }
 
+Json liveOf(const mapper::LiveFigures& live) {
+  Json sensors = Json::array();
+  for (const auto& sensor : live.sensors) {
+    sensors.push_back({{"name", sensor.name},
+                       {"state", sensor.state},
+                       {"observations", sensor.observations},
+                       {"clock_offset_s", sensor.clock_offset},
+                       {"clock_jumps", sensor.clock_jumps},
+                       {"reopened", sensor.reopened}});
+  }
+  return {{"sensors", sensors},
+          {"arrived", live.arrived},
+          {"given", live.given},
+          {"dropped", live.dropped},
+          {"not_kept", live.not_kept},
+          {"unusable", live.unusable},
+          {"latency_s", {{"median", live.latency_median}, {"99_percent", live.latency_99}}},
+          {"recording",
+           {{"files", live.recording},
+            {"observations", live.recorded},
+            {"bytes", live.recorded_bytes},
+            {"bytes_on_disk", live.bytes_on_disk},
+            {"seconds", live.recorder_seconds}}}};
+}
+
 Json summaryOf(const mapper::View& view, const std::string& title) {
   const auto trajectory = trajectoryOf(view);
   const RunFigures figures = figuresOf(view, trajectory);
@@ -137,6 +162,7 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   if (!view.map.sessions.empty()) summary["closures"]["session"] = view.map.sessions.back().number;
   if (!view.map_is_held) summary["verdict"] = verdictOf(view.verdict);
   summary["counts"] = counts;
+  if (view.live) summary["live"] = liveOf(*view.live);
   summary["graph"] = graphOf(view);
   summary["decisions"] = decisionsOf(view.decisions);
   summary["solves"] = solvesOf(view.solves);

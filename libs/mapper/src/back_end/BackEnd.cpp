@@ -32,14 +32,16 @@ RawImages imagesThatOutputsNeed(const PluginSet& plugins) {
 
 }  // namespace
 
-BackEnd::BackEnd(const EngineSettings& settings, PluginSet& plugins, base::WorkerPool& pool, RunState& state)
+BackEnd::BackEnd(const EngineSettings& settings, PluginSet& plugins, base::WorkerPool& pool, Schedule& schedule,
+                 RunState& state)
     : settings_(settings),
       plugins_(plugins),
       state_(state),
       absolute_(absoluteSections(plugins)),
       chain_(settings.engine.motion, plugins.pose, state.map, state.graph),
       estimator_(settings, state),
-      applier_(plugins.measurement, state, estimator_, pool, static_cast<std::size_t>(settings.engine.job_delay)),
+      applier_(plugins.measurement, state, estimator_, pool, schedule,
+               static_cast<std::size_t>(settings.engine.job_delay)),
       kept_(settings.engine.cloud(), imagesThatOutputsNeed(plugins), state.map) {}
 
 void BackEnd::beginSession(const map::Session& session, const std::optional<SessionStart>& start) {

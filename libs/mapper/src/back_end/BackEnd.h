@@ -25,7 +25,8 @@ namespace omnimapper::mapper {
 class BackEnd {
  public:
   /// All of them stay the caller's.
-  BackEnd(const EngineSettings& settings, PluginSet& plugins, base::WorkerPool& pool, RunState& state);
+  BackEnd(const EngineSettings& settings, PluginSet& plugins, base::WorkerPool& pool, Schedule& schedule,
+          RunState& state);
 
   /// Begins a session in the map as it stands; without `start` at the origin, or where measurements say.
   void beginSession(const map::Session& session, const std::optional<SessionStart>& start);

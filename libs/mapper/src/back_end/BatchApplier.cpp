@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace omnimapper::mapper {
@@ -31,9 +32,12 @@ void BatchApplier::collectFollowUps(base::KeyFrameId id) {
 }
 
 void BatchApplier::applyJobs(Which which) {
-  const auto next = [&] {
+  const auto next = [&]() -> std::optional<JobQueue::Done> {
     const auto timer = state_.times.measure(Stage::job_wait);
-    return jobs_.take(state_.map.key_frames.size(), which == Which::all);
+    const std::size_t now = state_.map.key_frames.size();
+    const bool takes =
+        jobs_.size() > 0 && (which == Which::all || schedule_.takesJob(jobs_.isDue(now), jobs_.isDone()));
+    return takes ? jobs_.take(now, true) : std::nullopt;
   };
   while (const auto done = next()) {
     const std::string why_unfit = whyUnfit(done->batch, state_.graph, state_.map);

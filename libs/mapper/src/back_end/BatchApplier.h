@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "RunState.h"
+#include "Schedule.h"
 #include "back_end/Estimator.h"
 #include "back_end/JobQueue.h"
 
@@ -16,8 +17,8 @@ class BatchApplier {
  public:
   /// All of them stay the caller's.
   BatchApplier(std::vector<Named<MeasurementPlugin>>& plugins, RunState& state, Estimator& estimator,
-               base::WorkerPool& pool, std::size_t job_delay)
-      : plugins_(plugins), state_(state), estimator_(estimator), jobs_(pool, job_delay) {}
+               base::WorkerPool& pool, Schedule& schedule, std::size_t job_delay)
+      : plugins_(plugins), state_(state), estimator_(estimator), schedule_(schedule), jobs_(pool, job_delay) {}
 
   /// Applies a batch and tells its plugin the final ids. Throws Error(internal) if it does not fit.
   void apply(const Batch& batch, const BatchOrigin& origin, MeasurementPlugin& plugin);
@@ -36,6 +37,7 @@ class BatchApplier {
   std::vector<Named<MeasurementPlugin>>& plugins_;
   RunState& state_;
   Estimator& estimator_;
+  Schedule& schedule_;
   JobQueue jobs_;
 };
 

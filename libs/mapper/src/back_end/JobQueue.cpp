@@ -1,5 +1,6 @@
 #include "back_end/JobQueue.h"
 
+#include <chrono>
 #include <utility>
 
 namespace omnimapper::mapper {
@@ -11,8 +12,12 @@ void JobQueue::add(std::size_t now, const BatchOrigin& origin, base::KeyFrameId 
   waiting_.push_back({now + delay_, origin, frame, std::move(job.name), std::move(snapshot), std::move(batch)});
 }
 
+bool JobQueue::isDone() const {
+  return !waiting_.empty() && waiting_.front().batch.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
 std::optional<JobQueue::Done> JobQueue::take(std::size_t now, bool all) {
-  if (waiting_.empty() || (!all && waiting_.front().due > now)) return std::nullopt;
+  if (waiting_.empty() || (!all && !isDue(now))) return std::nullopt;
   Waiting& first = waiting_.front();
   first.batch.wait();
   Waiting taken = std::move(first);

@@ -31,6 +31,9 @@ class JobQueue {
   /// The oldest job, if it is due at `now` key frames, or in any case with `all`; waits for it to be done. Throws what
   /// the job threw.
   std::optional<Done> take(std::size_t now, bool all);
+  /// Whether the oldest job is due at `now` key frames, and whether its worker has done it; false without jobs.
+  bool isDue(std::size_t now) const { return !waiting_.empty() && waiting_.front().due <= now; }
+  bool isDone() const;
   std::size_t size() const { return waiting_.size(); }
 
  private:

@@ -10,9 +10,6 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// Bundles that wait for their perception. The number of threads plays no part in it: what is known of the odometry when
-// a bundle is worked on must not depend on them.
-constexpr std::size_t kPipelineDepth = 8;
 // How long beyond the window an observation waits for a pose source that lags behind.
 constexpr double kPatienceSeconds = 3;
 
@@ -26,11 +23,12 @@ std::vector<const Plugin*> pointers(const std::vector<Named<Plugin>>& plugins) {
 }  // namespace
 
 FrontEnd::FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, PluginSet& plugins, PoseChain& chain,
-                   base::WorkerPool& pool, RunState& state)
+                   base::WorkerPool& pool, Schedule& schedule, RunState& state)
     : options_(settings.engine),
       sensor_poses_(std::move(sensor_poses)),
       plugins_(plugins),
       chain_(chain),
+      schedule_(schedule),
       state_(state),
       queue_(base::durationFromSeconds(settings.engine.window)),
       trigger_(settings.trigger),
@@ -92,9 +90,14 @@ void FrontEnd::addLate(const mrpt::obs::CObservation::Ptr& observation) {
   release({observation->timestamp, {observation}}, true);
 }
 
+void FrontEnd::close() {
+  closed_ = true;
+  schedule_.end();
+}
+
 std::optional<FrameBundle> FrontEnd::next() {
-  while (bundles_.size() <= kPipelineDepth && releaseNext()) continue;
-  if (bundles_.empty() || (bundles_.size() <= kPipelineDepth && !closed_)) return std::nullopt;
+  while (!isFull() && releaseNext()) continue;
+  if (bundles_.empty() || !schedule_.takesBundle(bundles_.front(), bundles_.size())) return std::nullopt;
   FrameBundle first = std::move(bundles_.front());
   bundles_.pop_front();
   return first;

@@ -12,6 +12,7 @@
 
 #include "FrameBundle.h"
 #include "RunState.h"
+#include "Schedule.h"
 #include "back_end/PoseChain.h"
 #include "front_end/InputFilter.h"
 #include "front_end/Perception.h"
@@ -27,16 +28,18 @@ class FrontEnd {
   /// All but `sensor_poses` stay the caller's. `chain` answers the trigger how the base moved, and learns of what pose
   /// sources correct.
   FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, PluginSet& plugins, PoseChain& chain,
-           base::WorkerPool& pool, RunState& state);
+           base::WorkerPool& pool, Schedule& schedule, RunState& state);
 
   /// Takes one observation. What cannot be used is counted.
   void add(const mrpt::obs::CObservation::Ptr& observation);
   /// The log has ended: next() hands out all that still waits.
-  void close() { closed_ = true; }
+  void close();
   /// The bundle to work on now; none until more is added. Process it before the next call: the trigger asks how the
   /// base moved until then.
   std::optional<FrameBundle> next();
 
+  /// Whether so many bundles wait for their perception that no more are begun.
+  bool isFull() const { return bundles_.size() > Schedule::kPipelineDepth; }
   /// Stamp of the oldest bundle that waits to be handed out; late ones stand behind younger ones.
   std::optional<base::Stamp> oldestWaiting() const;
   /// Lets pose sources and trigger drop what they keep of the time before `stamp`.
@@ -53,6 +56,7 @@ class FrontEnd {
   SensorPoses sensor_poses_;
   PluginSet& plugins_;
   PoseChain& chain_;
+  Schedule& schedule_;
   RunState& state_;
   InputFilter filter_;
   ReleaseQueue queue_;

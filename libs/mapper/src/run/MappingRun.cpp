@@ -1,15 +1,15 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/OutputFolder.h>
+#include <omnimapper/live/LiveOptions.h>
+#include <omnimapper/live/SensorSection.h>
 #include <omnimapper/map/SessionFigures.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/SessionAlignment.h>
 #include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/plugin/LandmarkShape.h>
-#include <omnimapper/source/RawlogSource.h>
-#include <omnimapper/source/ReadAhead.h>
+#include <omnimapper/source/SourceOptions.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "Engine.h"
+#include "run/Feed.h"
 #include "run/MissingExtractors.h"
 #include "run/RunWarnings.h"
 #include "run/SensorLabels.h"
@@ -26,32 +27,6 @@
 namespace omnimapper::mapper {
 
 namespace {
-
-// Sleeps so that the log's time runs `speed` times as fast as the clock on the wall.
-class Pace {
- public:
-  explicit Pace(double speed) : speed_(speed) {}
-  // Returns early if it is to stop.
-  void waitFor(base::Stamp stamp, const std::function<bool()>& stop) {
-    if (speed_ <= 0 || !base::isValid(stamp)) return;
-    if (!first_) first_ = stamp;
-    const double due = base::secondsBetween(*first_, stamp) / speed_;
-    for (double ahead; (ahead = due - watch_.seconds()) > 0 && !stop();) {
-      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead, 0.1)));
-    }
-  }
-
- private:
-  double speed_;
-  std::optional<base::Stamp> first_;
-  StopWatch watch_;
-};
-
-std::string titleOf(const std::vector<std::string>& logs) {
-  std::string title;
-  for (const auto& log : logs) title += (title.empty() ? "" : " + ") + std::filesystem::path(log).stem().string();
-  return title;
-}
 
 // What breaks while the log is worked on must not cost the map of what came before it.
 std::exception_ptr tried(Engine& engine, const std::function<void()>& work) {
@@ -75,29 +50,26 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
 }
 
 // An empty map is not written: it would take the place of a good one.
-[[noreturn]] void failWithNothingToMap(const RunRequest& request, const std::string& ini, const RunResult& result,
+[[noreturn]] void failWithNothingToMap(const std::string& name, const std::string& ini, const RunResult& result,
                                        const std::vector<std::string>& unknown_labels,
                                        const std::string& missing_extractors) {
-  std::string logs, labels;
+  std::string labels;
   for (const auto& sentence : unknown_labels) labels += sentence + "\n";
-  for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
   const bool is_whole = result.code == base::ExitCode::ok;
   const std::string how = result.code == base::ExitCode::interrupted ? "interrupted before the first" : "no";
   throw base::Error(
       is_whole ? base::ExitCode::nothing_to_map : result.code,
-      logs + ": nothing to map: " + how + " observation that a measurement plugin of " + ini + " wants" +
+      name + ": nothing to map: " + how + " observation that a measurement plugin of " + ini + " wants" +
           (is_whole ? " (see its [source], [perception] extractors and [mapper] measurement_plugins)" : "") +
           "; nothing was written. omnimapper-graphslam --check names the INIs that fit this log.\n" +
           missing_extractors + labels + "What was read:\n" + result.source.text());
 }
 
 // What stands still in the map though it moved is wrong by as much.
-[[noreturn]] void failWithNoMotion(const RunRequest& request, const std::string& ini, const RunResult& result,
+[[noreturn]] void failWithNoMotion(const std::string& name, const std::string& ini, const RunResult& result,
                                    const std::vector<std::string>& idle) {
-  std::string logs;
-  for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
   throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::nothing_to_map : result.code,
-                    logs + ": nothing to map: it does not tell how the sensors moved: there is nothing in it for " +
+                    name + ": nothing to map: it does not tell how the sensors moved: there is nothing in it for " +
                         base::option_text::format(idle) + " of " + ini +
                         "; nothing was written. omnimapper-graphslam --check names the INIs that fit this log.\n" +
                         "What was read:\n" + result.source.text());
@@ -129,6 +101,7 @@ RunResult resultOf(const View& view) {
   result.refused_closures = closures.refused;
   result.sessions = view.map.sessions;
   if (!view.map_is_held) result.level = view.map.level;
+  result.live = view.live;
   result.localized = view.localization.size();
   for (const auto& estimate : view.localization) result.located += estimate.located();
   const auto figures = map::sessionFigures(view.map);
@@ -138,15 +111,6 @@ RunResult resultOf(const View& view) {
     result.log_seconds = figures.back().seconds;
   }
   return result;
-}
-
-// The most first; empty without landmarks.
-std::string landmarkLine(const std::map<std::string, std::size_t>& counts) {
-  std::vector<std::pair<std::string, std::size_t>> rows(counts.begin(), counts.end());
-  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  std::string text;
-  for (const auto& [label, count] : rows) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + label;
-  return text.empty() ? "" : "landmarks         " + text + "\n";
 }
 
 constexpr char kInterrupted[] = "interrupted";  // folder of what is not whole
@@ -168,6 +132,7 @@ class Run {
   std::vector<std::string> warn(const RunResult& result);
   void publish(const std::vector<base::Error>& failures, RunResult& result);
   void keepContinuedMap();
+  std::vector<std::string> foreignFiles() const;
   void showToTheEnd(const RunResult& result);
   void complete(RunResult& result) const;
   std::string missingFor(const std::string& section) const;
@@ -182,7 +147,7 @@ class Run {
   EngineSettings settings_ = EngineSettings::read(config_);
   const PerceptionOptions perception_ = config_.section("perception").read<PerceptionOptions>();
   const SessionOptions session_ = config_.section("session").read<SessionOptions>();
-  const source::SourceOptions source_ = config_.section("source").read<source::SourceOptions>();
+  const std::unique_ptr<Feed> feed_ = makeFeed(request_, config_);
 
   std::set<std::string> measuring_;  // sections that measure
   std::vector<std::pair<std::string, const PosePlugin*>> pose_plugins_;
@@ -190,7 +155,6 @@ class Run {
   std::vector<std::pair<std::string, const MeasurementPlugin*>> measurement_plugins_;
   SensorSamples samples_;
   std::optional<Engine> engine_;
-  std::optional<source::ReadAhead> log_;
   std::optional<base::InputsKept> kept_;
   base::OutputFolder outputs_{request_.output_folder};
   bool stopped_ = false;
@@ -200,7 +164,7 @@ class Run {
 // Everything that an INI, a map or a log can be refused for.
 void Run::open() {
   makeEngine();
-  engine_->setStop(stop_);
+  if (!feed_->endsWhenStopped()) engine_->setStop(stop_);
   if (const auto off = config_.switchedOffPlugins(); !off.empty()) {
     engine_->warn(config_.file() + ": no list of [mapper] or [perception] names the plugins " +
                   base::option_text::format(off) + ": they are switched off");
@@ -216,9 +180,10 @@ void Run::open() {
                           "[mapper] measurement_plugins, such as loop_closure for a laser, or landmarks");
   }
   loadMapInto(request_, session_, config_, settings_.engine.motion, *engine_);
-  log_.emplace(source::openRawlogs(request_.logs, source_, stop_), stop_);
-  kept_.emplace(request_.logs);
+  feed_->open(stop_);
+  kept_.emplace(feed_->inputs());
   outputs_.open();
+  feed_->begin(outputs_.folder(), stop_);
 }
 
 void Run::makeEngine() {
@@ -232,7 +197,7 @@ void Run::makeEngine() {
   context.motion = options.motion;
   context.map_is_held = localizes();
   context.output_folder = outputs_.staging();
-  context.title = titleOf(request_.logs);
+  context.title = feed_->title();
   context.config_text = config_.text();
   auto plugins = makePlugins({options.pose_plugins, perception_.extractors, options.measurement_plugins, outputs},
                              config_, context);
@@ -244,31 +209,12 @@ void Run::makeEngine() {
   }
   for (const auto& [section, plugin] : plugins.extractors) extractors_.emplace_back(section, plugin.get());
   for (const auto& [section, plugin] : plugins.measurement) measurement_plugins_.emplace_back(section, plugin.get());
-  engine_.emplace(settings_, context.title, std::move(sensor_poses), std::move(plugins), request_.threads);
+  engine_.emplace(settings_, context.title, std::move(sensor_poses), std::move(plugins), request_.threads,
+                  feed_->schedule());
 }
 
 void Run::feed() {
-  failure_ = tried(*engine_, [&] {
-    Pace pace(request_.speed);
-    const auto read = [this] {
-      const auto timer = engine_->measure(Stage::source);
-      return log_->next();
-    };
-    stopped_ = stop_();
-    while (!stopped_) {
-      const auto observation = read();
-      if (!observation) {
-        // Stopped while it waited?
-        stopped_ = log_->report().ending == source::SourceReport::Ending::open && stop_();
-        break;
-      }
-      pace.waitFor(observation->timestamp, stop_);
-      if ((stopped_ = stop_())) break;
-      samples_.add(observation);
-      engine_->add(observation);
-      progress_.report(log_->progress(), std::to_string(engine_->view().map.key_frames.size()) + " key frames");
-    }
-  });
+  failure_ = tried(*engine_, [&] { stopped_ = feed_->feed(*engine_, samples_, progress_, stop_); });
 }
 
 void Run::finish() {
@@ -278,7 +224,7 @@ void Run::finish() {
 // Tells the engine what a user should know of the run. Gives a sentence for each label that the INI names and the log
 // lacks.
 std::vector<std::string> Run::warn(const RunResult& result) {
-  const auto report = log_->report();
+  const auto report = feed_->report();
   warnOfLog(report, stopped_, *engine_);
   auto unknown_labels =
       unknownLabels(config_, labelledSections(settings_.engine, perception_), report, engine_->view().map);
@@ -313,8 +259,8 @@ std::string Run::missingFor(const std::string& section) const {
 void Run::complete(RunResult& result) const {
   result.verdict = engine_->view().verdict;
   result.warnings = engine_->view().warnings;
-  result.source = log_->report();
-  result.code = stopped_ ? base::ExitCode::interrupted : result.source.exitCode();
+  result.source = feed_->report();
+  result.code = stopped_ ? base::ExitCode::interrupted : feed_->code();
   if (result.code == base::ExitCode::ok) result.code = engine_->extractionErrors().code();
   if (result.code == base::ExitCode::ok && isMostlyLeftOut(engine_->view().counts))
     result.code = base::ExitCode::mostly_left_out;
@@ -345,7 +291,7 @@ void Run::publish(const std::vector<base::Error>& failures, RunResult& result) {
     is_apart ? errors.push_back(error) : result.warnings.push_back(error.what());
   }
   result.took_place = held_run && !is_apart;
-  result.foreign_files = outputs_.foreignFiles();
+  result.foreign_files = foreignFiles();
   const std::string older = is_apart ? outputs_.folder() +
                                            " is as it was; what there is of this run, which is not whole, "
                                            "is in " +
@@ -357,6 +303,12 @@ void Run::publish(const std::vector<base::Error>& failures, RunResult& result) {
     throw base::Error(errors.front().code(), sentences + older);
   }
   if (is_apart) result.warnings.push_back(older);
+}
+
+std::vector<std::string> Run::foreignFiles() const {
+  auto files = outputs_.foreignFiles();
+  for (const auto& own : feed_->files()) files.erase(std::remove(files.begin(), files.end(), own), files.end());
+  return files;
 }
 
 // A map that was gone on from, and that this INI does not write, is not another INI's.
@@ -391,12 +343,13 @@ RunResult Run::report() {
       if (const auto sentence = missingFor(section); !sentence.empty())
         missing += "[" + section + "]: " + sentence + ".\n";
     }
-    failWithNothingToMap(request_, config_.file(), outcome, unknown_labels, missing);
+    failWithNothingToMap(feed_->name(), config_.file(), outcome, unknown_labels, missing);
   }
   if (const auto idle = engine_->idleSources(); !idle.empty() && !localizes() && outcome.new_key_frames > 1)
-    failWithNoMotion(request_, config_.file(), outcome, idle);
+    failWithNoMotion(feed_->name(), config_.file(), outcome, idle);
   progress_.report(1.0, "writing the outputs");
   publish(engine_->writeOutputs(), outcome);
+  feed_->published();
   outcome.wall_seconds = watch_.seconds();
   showToTheEnd(outcome);
   if (failure_) std::rethrow_exception(failure_);
@@ -415,6 +368,8 @@ const FixedSections& fixedSections() {
                                       {"solver", SolverOptions::table().specs()},
                                       {"hypotheses", HypothesisOptions::table().specs()},
                                       {"source", source::SourceOptions::table().specs()},
+                                      {"live", live::LiveOptions::table().specs()},
+                                      {"<name of a sensor of [live]>", live::SensorOptions::table().specs()},
                                       {"<name of a sensor>", SensorPoseOptions::table().specs()},
                                       {"calibration", perception::CameraCalibrationOptions::table().specs()}};
   return sections;
@@ -428,60 +383,6 @@ RunResult runMapping(const RunRequest& request, const base::Config& config, base
   run.feed();
   run.finish();
   return run.report();
-}
-
-namespace {
-
-// What is in the output folder beside the outputs; empty without any.
-std::string foreignLine(const std::vector<std::string>& files) {
-  constexpr std::size_t kMost = 4;
-  if (files.empty()) return "";
-  std::string names;
-  for (std::size_t i = 0; i < std::min(kMost, files.size()); ++i) names += (i > 0 ? ", " : "") + files[i];
-  if (files.size() > kMost) names += " and " + std::to_string(files.size() - kMost) + " more";
-  const bool was_renamed =
-      std::any_of(files.begin(), files.end(), [](const auto& name) { return name.find('~') != std::string::npos; });
-  return "also there        " + names + " (of no run; left there" + (was_renamed ? ", NAME~ is what was NAME" : "") +
-         ")\n";
-}
-
-}  // namespace
-
-std::string toText(const RunResult& result) {
-  std::string sessions;
-  if (result.localized > 0) {
-    char located[128];
-    std::snprintf(located, sizeof located, "located           %.1f %% of %zu key frames\n",
-                  100.0 * static_cast<double>(result.located) / static_cast<double>(result.localized),
-                  result.localized);
-    sessions = located;
-  } else if (result.sessions.size() > 1) {
-    const auto& session = result.sessions.back();
-    sessions = "sessions          " + std::to_string(result.sessions.size()) + ", of " +
-               std::to_string(result.new_key_frames) + " key frames the new one; " + joinedText(session) + "\n";
-  }
-  const std::size_t of_map = result.localized > 0 ? result.key_frames - result.new_key_frames : 0;
-  const std::string held = of_map > 0 ? " (and " + std::to_string(of_map) + " of the map, which stays as it is)" : "";
-  // A key frame that was located takes its factors with it when it leaves the window: their count would tell nothing.
-  const std::string factors = result.localized > 0 ? "" : "factors           " + std::to_string(result.factors) + "\n";
-  const char* scope = result.localized == 0 && result.sessions.size() > 1 ? " in the new session" : "";
-  char text[512];
-  std::snprintf(text, sizeof text,
-                "key frames        %zu%s\n"
-                "%s"
-                "%-17s %zu accepted, %zu refused%s (reasons: report.html)\n"
-                "way               %.1f m in %.1f s%s\n"
-                "wall time         %.2f s (%.0f times the log's own pace)\n",
-                result.key_frames - of_map, held.c_str(), factors.c_str(),
-                result.localized > 0 ? "matches with map" : "loop closures", result.closures, result.refused_closures,
-                scope, result.way, result.log_seconds, scope, result.wall_seconds,
-                result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
-  const std::string verdict =
-      result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";
-  const std::string level = result.level ? "level             " + sentenceOf(*result.level) + "\n" : "";
-  return sessions + text + landmarkLine(result.landmarks) + level + verdict + "outputs           " +
-         result.output_folder + (result.took_place ? " (in the place of the run that was there)" : "") + "\n" +
-         foreignLine(result.foreign_files);
 }
 
 }  // namespace omnimapper::mapper

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/source/ImageSettings.h>
 
 #include <string>
 #include <vector>
@@ -9,18 +10,16 @@ namespace omnimapper::live {
 
 /// Section [live] of an INI file: which drivers a run reads, and what it keeps of what they say.
 struct LiveOptions {
-  enum class Images { lossless, jpeg };
-
   std::vector<std::string> sensors;    ///< sections, each of one driver
   std::string grabber;                 ///< an INI of rawlog-grabber whose sensors are read beside those
   std::vector<std::string> libraries;  ///< shared libraries that register drivers of their own
   bool record = true;
-  Images images = Images::lossless;
+  source::ColourImages images = source::ColourImages::lossless;
   int compression = 1;         ///< of zlib
   double split_mb = 2000;      ///< [MB] size of a rawlog from which on the next one is begun; 0: never
   double queue_mb = 256;       ///< [MB] of images and clouds that wait to be written
   int camera_queue = 3;        ///< frames of one camera that wait for the mapper
-  double silent_after = 1;     ///< [s]
+  double silent_after = 0.8;   ///< [s]
   double reopen_after = 3;     ///< [s] of silence
   double max_clock_off = 0.5;  ///< [s] between a stamp and its arrival
   double checkpoint = 60;      ///< [s] between two; 0: none

@@ -47,6 +47,8 @@ struct SensorFigures {
   std::string problem;       ///< the driver's words, where it is lost
 };
 
+std::string toString(SensorFigures::State state);
+
 /// The sensors of a live run, each read by a thread of its own through its MRPT driver.
 class LiveSource {
  public:
@@ -76,6 +78,8 @@ class LiveSource {
 
   std::vector<SensorFigures> sensors() const;
   LiveCounts counts() const;
+  /// A few words for a line of a screen: each sensor with its rate, or how it is.
+  std::string sensorsText() const;
   /// Observations by label and class, as of a log.
   source::SourceReport report() const;
   /// Null if nothing is recorded.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
+#include <omnimapper/live/LiveOptions.h>
 
 #include <atomic>
 #include <condition_variable>
@@ -26,6 +27,8 @@ struct RecorderOptions {
   std::uint64_t split_bytes = 0;        ///< on the disk, from which on another file is begun; 0: never
   std::size_t queue_bytes = 256 << 20;  ///< that may wait to be written
 };
+
+RecorderOptions recorderOptions(const LiveOptions& options);
 
 /// Writes observations into rawlogs as they come, in a thread of its own: in blocks of a second, each a whole member of
 /// gzip, so that all but the last second can be read of a file whose writer was killed.

@@ -5,12 +5,14 @@
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/PluginHelp.h>
+#include <omnimapper/plugin/LiveFigures.h>
 #include <omnimapper/plugin/Verdict.h>
 #include <omnimapper/source/SourceReport.h>
 
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -32,6 +34,7 @@ struct RunResult {
   std::map<std::string, std::size_t> landmarks;  ///< of the whole map, by label
   std::vector<map::Session> sessions;            ///< of the whole map; the last is this run
   std::optional<map::Level> level;               ///< of the whole map; none of a run that localizes in an old one
+  std::optional<LiveFigures> live;               ///< of a run on sensors
   double log_seconds = 0;                        ///< from first to last stamp
   double wall_seconds = 0;                       ///< of the whole run
   double way = 0;                                ///< [m] of this run's trajectory
@@ -40,6 +43,8 @@ struct RunResult {
 /// What a user asks of one run.
 struct RunRequest {
   std::vector<std::string> logs;  ///< rawlogs, merged by stamp
+  bool live = false;              ///< instead of logs: the sensors of [live], until `stop`
+  std::string replay;             ///< instead of logs: the journal of such a run, whose map is made again
   std::string output_folder;
   std::vector<std::string> more_outputs;  ///< sections of outputs beside those of the INI, such as the live window
   std::string continue_map;               ///< map file that the logs are a new session of; empty: a new map
@@ -58,7 +63,9 @@ struct RunRequest {
 /// take the place of an older run's all together, or not at all; those of a run that was stopped, broke off, or could
 /// not write all of them do so only where there was none, and else are in the folder "interrupted" in it. Throws
 /// base::Error for everything that keeps a map from being written. `stop` is asked while the logs are
-/// opened, between observations and while one is waited for; stopped while they are opened, it throws too.
+/// opened, between observations and while one is waited for; stopped while they are opened, it throws too. A live run
+/// that is stopped is a whole one; it records into the folder "recording", and replaces checkpoint.omnimap from time to
+/// time, in the output folder.
 RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
                      const std::function<bool()>& stop);
 

@@ -2,6 +2,7 @@
 
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/plugin/DecisionLog.h>
+#include <omnimapper/plugin/LiveFigures.h>
 #include <omnimapper/plugin/LocalizationEstimate.h>
 #include <omnimapper/plugin/StageTimes.h>
 #include <omnimapper/plugin/State.h>
@@ -9,6 +10,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +57,8 @@ struct View : State {
   const std::vector<LocalizationEstimate>& localization;
   /// What the run thinks of the map, once it is finished.
   const Verdict& verdict;
+  /// Of a run on live sensors.
+  const std::optional<LiveFigures>& live;
 };
 
 /// The map of a run and what the run notes beside it: what a View shows.
@@ -71,6 +75,7 @@ struct ViewedRun {
   bool map_is_held = false;
   std::vector<LocalizationEstimate> localization;
   Verdict verdict;
+  std::optional<LiveFigures> live;
 
   View view() const {
     return {{map, graph, uncertainty},
@@ -82,7 +87,8 @@ struct ViewedRun {
             sections,
             map_is_held,
             localization,
-            verdict};
+            verdict,
+            live};
   }
 };
 

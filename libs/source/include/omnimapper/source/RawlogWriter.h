@@ -3,6 +3,7 @@
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <omnimapper/source/ImageSettings.h>
 
 #include <functional>
 #include <memory>
@@ -19,12 +20,6 @@ class RawlogWriter {
 
  private:
   mrpt::serialization::CArchive& archive_;
-};
-
-/// How colour images inside a rawlog are kept.
-enum class ColourImages {
-  lossless,
-  jpeg,  ///< quality 95: a twentieth of the room, and of the time
 };
 
 /// Writes a rawlog (gzip) in whole or not at all: to a temporary file that is read back, byte by byte the same, before

@@ -1,0 +1,66 @@
+#include "Tasks.h"
+
+#include <omnimapper/base/Names.h>
+#include <omnimapper/check/CheckRun.h>
+#include <omnimapper/live/record.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+using namespace omnimapper;
+
+namespace {
+
+// A folder that goes when it is done with.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_((std::filesystem::temp_directory_path() / "omnimapper-check-XXXXXX").string()) {
+    if (!mkdtemp(path_.data()))
+      throw base::Error(base::ExitCode::unwritable_output, path_ + ": no folder can be made there; set TMPDIR");
+  }
+  ~TemporaryFolder() {
+    std::error_code none;
+    std::filesystem::remove_all(path_, none);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
+
+int checkLogs(const Arguments& arguments, const base::Config& config, std::optional<base::TerminalProgress>& progress,
+              const std::function<bool()>& stop) {
+  auto logs = arguments.checked_logs;
+  logs.insert(logs.end(), arguments.run.logs.begin(), arguments.run.logs.end());
+  std::optional<TemporaryFolder> folder;
+  std::string heading;
+  if (arguments.run.live) {
+    constexpr double kSeconds = 10;
+    folder.emplace();
+    const auto options = config.section("live").read<live::LiveOptions>();
+    const auto recorded = live::record(options, config, folder->path(), kSeconds, *progress, stop);
+    heading = live::toText(recorded) + "\n";
+    logs = recorded.files;
+  }
+  program::require({{"--check LOG", !logs.empty()}});
+  const auto checked = check::runCheck(logs, config, arguments.run.output_folder, *progress, stop);
+  progress.reset();
+  std::cout << base::printableLines(heading + checked.text) << std::flush;
+  return static_cast<int>(checked.code);
+}
+
+int recordSensors(const Arguments& arguments, const base::Config& config,
+                  std::optional<base::TerminalProgress>& progress, const std::function<bool()>& stop) {
+  program::require({{"-i INI", !arguments.inis.empty()}, {"-o FOLDER", !arguments.run.output_folder.empty()}});
+  const auto recorded = live::record(config.section("live").read<live::LiveOptions>(), config,
+                                     arguments.run.output_folder, 0, *progress, stop);
+  progress.reset();
+  if (!arguments.quiet) std::cout << base::printableLines(live::toText(recorded)) << std::flush;
+  if (!recorded.failure.empty()) std::cerr << "omnimapper-graphslam: " << recorded.failure << "\n";
+  return static_cast<int>(recorded.code());
+}

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Progress.h>
+#include <omnimapper/live/LiveSource.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::live {
+
+/// How a recording went.
+struct Recorded {
+  std::vector<std::string> files;  ///< rawlogs, with the folder
+  std::vector<SensorFigures> sensors;
+  LiveCounts counts;
+  Recorder::Figures figures;
+  double seconds = 0;            ///< that sensors were open
+  std::string failure;           ///< why it ended early; empty if it did not
+  bool has_left_behind = false;  ///< a driver that did not return: the process must end without waiting for it
+
+  base::ExitCode code() const;
+};
+
+/// Such as 2026-11-27_07-15-37: of now, for files.
+std::string nameByTime();
+
+/// Records the sensors of an INI into `folder`, made if missing, until `stop`, the recording fails, or for `seconds`
+/// if that is not 0. Throws Error as readSensors(), LiveSource::open() and Recorder.
+Recorded record(const LiveOptions& options, const base::Config& config, const std::string& folder, double seconds,
+                base::Progress& progress, const std::function<bool()>& stop);
+
+/// The summary for a screen.
+std::string toText(const Recorded& recorded);
+
+}  // namespace omnimapper::live

@@ -1,0 +1,106 @@
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/live/record.h>
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+
+namespace omnimapper::live {
+
+namespace {
+
+constexpr double kMegabyte = 1e6;
+
+std::string formatted(const char* format, double first, double second) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, first, second);
+  return text;
+}
+
+}  // namespace
+
+base::ExitCode Recorded::code() const {
+  if (!failure.empty()) return base::ExitCode::disk_full;
+  return counts.arrived == 0 ? base::ExitCode::nothing_to_map : base::ExitCode::ok;
+}
+
+std::string nameByTime() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  localtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d_%H-%M-%S", &parts);
+  return text;
+}
+
+Recorded record(const LiveOptions& options, const base::Config& config, const std::string& folder, double seconds,
+                base::Progress& progress, const std::function<bool()>& stop) {
+  using Clock = std::chrono::steady_clock;
+  const auto sections = readSensors(options, config);
+  for (const auto& section : sections) makeSensor(section);  // refused now rather than when files are there
+  base::makeWritableFolder(folder);
+  LiveSource source(sections, options, std::make_unique<Recorder>(folder, nameByTime(), recorderOptions(options)));
+  const auto remember = [&](Recorded& recorded) {
+    for (const auto& file : source.recorder()->files()) recorded.files.push_back(folder + "/" + file);
+    recorded.failure = source.recorder()->failure();
+  };
+  try {
+    source.open(stop);
+  } catch (...) {
+    source.close();
+    Recorded none;
+    remember(none);
+    std::error_code error;
+    for (const auto& file : none.files)
+      if (source.counts().arrived == 0) std::filesystem::remove(file, error);
+    throw;
+  }
+  const auto begin = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  while (!stop() && source.recorder()->failure().empty() && (seconds == 0 || elapsed() < seconds)) {
+    source.next(std::chrono::milliseconds(20));  // nobody maps it
+    for (const auto& sentence : source.takeNews()) progress.tell(sentence);
+    source.takeDropped();
+    progress.reportState(source.sensorsText() +
+                         formatted("; %.0f s, %.1f MB", elapsed(),
+                                   static_cast<double>(source.recorder()->figures().bytes_on_disk) / kMegabyte));
+  }
+  Recorded recorded;
+  recorded.seconds = elapsed();
+  recorded.sensors = source.sensors();
+  source.close();
+  recorded.counts = source.counts();
+  recorded.figures = source.recorder()->figures();
+  recorded.has_left_behind = source.hasLeftBehind();
+  remember(recorded);
+  return recorded;
+}
+
+std::string toText(const Recorded& recorded) {
+  std::string text;
+  for (const auto& sensor : recorded.sensors) {
+    char line[192];
+    std::snprintf(line, sizeof line, "%-17s %llu observations, %.1f Hz, %s\n", sensor.name.c_str(),
+                  static_cast<unsigned long long>(sensor.observations),
+                  recorded.seconds > 0 ? static_cast<double>(sensor.observations) / recorded.seconds : 0.0,
+                  toString(sensor.state).c_str());
+    text += line;
+  }
+  const auto& figures = recorded.figures;
+  const auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / kMegabyte; };
+  char line[256];
+  std::snprintf(
+      line, sizeof line, "recorded          %llu of %llu observations in %.1f s: %.1f MB, on the disk %.1f MB\n",
+      static_cast<unsigned long long>(figures.observations), static_cast<unsigned long long>(recorded.counts.arrived),
+      recorded.seconds, megabytes(figures.bytes), megabytes(figures.bytes_on_disk));
+  text += line;
+  if (figures.seconds > 0)
+    text +=
+        formatted("reach             %.0f MB/s (what came was %.1f MB/s)\n", megabytes(figures.bytes) / figures.seconds,
+                  recorded.seconds > 0 ? megabytes(figures.bytes) / recorded.seconds : 0.0);
+  for (const auto& file : recorded.files) text += "rawlog            " + file + "\n";
+  return text;
+}
+
+}  // namespace omnimapper::live

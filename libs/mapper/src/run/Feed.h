@@ -1,0 +1,57 @@
+#pragma once
+
+#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Progress.h>
+#include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/source/SourceReport.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Engine.h"
+#include "run/MissingExtractors.h"
+
+namespace omnimapper::mapper {
+
+/// Where the observations of a run come from: logs, sensors, or what was recorded of sensors.
+class Feed {
+ public:
+  using Stop = std::function<bool()>;
+
+  virtual ~Feed() = default;
+
+  /// Of the session that the run makes.
+  virtual std::string title() const = 0;
+  /// What is read, for messages.
+  virtual std::string name() const = 0;
+  /// Files that no output may replace.
+  virtual std::vector<std::string> inputs() const { return {}; }
+  /// When the engine is to take up what its workers make.
+  virtual std::unique_ptr<Schedule> schedule() { return std::make_unique<Schedule>(); }
+  /// Whether a run that `stop` ends is a whole one.
+  virtual bool endsWhenStopped() const { return false; }
+
+  /// Opens what can be opened before there is a place for outputs; throws Error where that cannot be read.
+  virtual void open(const Stop& stop) = 0;
+  /// The folder of the outputs is there.
+  virtual void begin(const std::string& /*output_folder*/, const Stop& /*stop*/) {}
+  /// Gives all to the engine. True if `stop` ended it before its end.
+  virtual bool feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) = 0;
+  /// The outputs are in their places.
+  virtual void published() {}
+
+  /// What was read until now.
+  virtual source::SourceReport report() const = 0;
+  /// What the program ends with if nothing else is wrong.
+  virtual base::ExitCode code() const { return report().exitCode(); }
+  /// Names in the output folder that are the feed's own.
+  virtual std::vector<std::string> files() const { return {}; }
+};
+
+/// What the request asks for. Throws Error where the INI does not suit it.
+std::unique_ptr<Feed> makeFeed(const RunRequest& request, const base::Config& config);
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,171 @@
+#include "run/LiveFeed.h"
+
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/live/record.h>
+#include <omnimapper/plugin/DecisionLog.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = live::JournalEvent::Kind;
+using std::chrono::milliseconds;
+
+constexpr char kRecording[] = "recording", kCheckpoint[] = "checkpoint.omnimap";  // in the output folder
+
+}  // namespace
+
+LiveFeed::LiveFeed(const live::LiveOptions& options, std::vector<std::string> labels, const base::Config& config)
+    : options_(options),
+      labels_(std::move(labels)),
+      sections_(live::readSensors(options, config)),
+      title_(live::nameByTime()),
+      name_("the sensors of " + config.file()) {
+  for (const auto& section : sections_) live::makeSensor(section);  // refused now rather than when all is under way
+}
+
+void LiveFeed::begin(const std::string& output_folder, const Stop& stop) {
+  checkpoints_.emplace(output_folder + "/" + kCheckpoint, options_.checkpoint);
+  const std::string folder = output_folder + "/" + kRecording;
+  std::unique_ptr<live::Recorder> recorder;
+  if (options_.record) {
+    base::makeWritableFolder(folder);
+    recorder = std::make_unique<live::Recorder>(folder, title_, live::recorderOptions(options_));
+    trace_->journal.emplace(folder + "/" + title_ + ".journal");
+  }
+  sensors_ = std::make_unique<live::LiveSource>(sections_, options_, std::move(recorder));
+  try {
+    sensors_->open(stop);
+  } catch (...) {
+    sensors_->close();
+    if (options_.record && sensors_->counts().arrived == 0) {
+      std::error_code none;
+      for (const char* extension : {".rawlog", ".journal"}) fs::remove(folder + "/" + title_ + extension, none);
+      fs::remove(folder, none);
+    }
+    throw;
+  }
+}
+
+bool LiveFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) {
+  constexpr milliseconds kPatience(10), kBusy(2);
+  const auto waitForWorkers = [&] {
+    engine.poll();
+    if (engine.isBusy()) std::this_thread::sleep_for(kBusy);
+  };
+  while (!stop()) {
+    attend(engine, progress);
+    if (engine.isBusy()) {
+      waitForWorkers();
+    } else if (!giveNext(engine, samples, kPatience)) {
+      engine.poll();
+    }
+  }
+  progress.reportState("ending: closing the sensors, and mapping what they have sent");
+  sensors_->close();
+  for (bool is_more = true; is_more;) {
+    while (engine.isBusy()) waitForWorkers();
+    is_more = giveNext(engine, samples, milliseconds(0));
+  }
+  has_ended_ = true;
+  attended_ = flushed_ = {};
+  attend(engine, progress);
+  return false;
+}
+
+// False if there is nothing.
+bool LiveFeed::giveNext(Engine& engine, SensorSamples& samples, milliseconds patience) {
+  const auto take = [&] {
+    const auto timer = engine.measure(Stage::source);
+    return sensors_->next(patience);
+  };
+  const auto next = take();
+  for (const auto number : sensors_->takeDropped()) trace_->note(Kind::drop, number);
+  if (!next) return false;
+  const auto& label = next->observation->sensorLabel;
+  if (!labels_.empty() && std::find(labels_.begin(), labels_.end(), label) == labels_.end()) return true;
+  trace_->note(Kind::add, next->number);
+  samples.add(next->observation);
+  engine.add(next->observation);
+  return true;
+}
+
+// What is due beside mapping, some times a second.
+void LiveFeed::attend(Engine& engine, base::Progress& progress) {
+  constexpr milliseconds kBetween(50), kBetweenFlushes(500);
+  const auto now = Clock::now();
+  if (now - attended_ < kBetween) return;
+  attended_ = now;
+  for (const auto& sentence : sensors_->takeNews()) {
+    progress.tell(sentence);
+    engine.warn(sentence);
+  }
+  if (const auto problem = checkpoints_->offer(engine.view()); !problem.empty()) progress.tell(problem);
+  if (trace_->journal && now - flushed_ >= kBetweenFlushes) {
+    flushed_ = now;
+    if (!trace_->journal->flush() && !has_told_journal_) {
+      has_told_journal_ = true;
+      engine.warn("the journal of the recording cannot be written any more: a replay ends there");
+    }
+  }
+  engine.setLive(figures());
+  progress.reportState(stateText(engine.view()));
+}
+
+LiveFigures LiveFeed::figures() const {
+  LiveFigures figures;
+  for (const auto& sensor : sensors_->sensors())
+    figures.sensors.push_back({sensor.name, toString(sensor.state), sensor.observations, sensor.clock_offset,
+                               sensor.clock_jumps, sensor.reopened});
+  const auto counts = sensors_->counts();
+  figures.arrived = counts.arrived;
+  figures.given = counts.given;
+  figures.dropped = counts.dropped;
+  figures.not_kept = counts.not_kept;
+  figures.unusable = counts.unusable;
+  figures.latency_median = trace_->latencies.quantile(0.5);
+  figures.latency_99 = trace_->latencies.quantile(0.99);
+  if (const auto* recorder = sensors_->recorder()) {
+    for (const auto& file : recorder->files()) figures.recording.push_back(std::string(kRecording) + "/" + file);
+    const auto recorded = recorder->figures();
+    figures.recorded = recorded.observations;
+    figures.recorded_bytes = recorded.bytes;
+    figures.bytes_on_disk = recorded.bytes_on_disk;
+    figures.recorder_seconds = recorded.seconds;
+  }
+  return figures;
+}
+
+std::string LiveFeed::stateText(const View& view) const {
+  const auto counts = sensors_->counts();
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "; %zu key frames, %zu closures; %.2f s late (99 %%: %.2f s), %llu waiting, %llu dropped",
+                view.map.key_frames.size(), countClosures(view.decisions).accepted, trace_->latencies.quantile(0.5),
+                trace_->latencies.quantile(0.99), static_cast<unsigned long long>(counts.waiting),
+                static_cast<unsigned long long>(counts.dropped));
+  return sensors_->sensorsText() + text;
+}
+
+source::SourceReport LiveFeed::report() const {
+  auto report = sensors_->report();
+  if (has_ended_) report.ending = source::SourceReport::Ending::complete;
+  return report;
+}
+
+base::ExitCode LiveFeed::code() const {
+  const auto* recorder = sensors_->recorder();
+  return recorder && !recorder->failure().empty() ? base::ExitCode::disk_full : report().exitCode();
+}
+
+std::vector<std::string> LiveFeed::files() const {
+  return {kRecording, kCheckpoint};
+}
+
+}  // namespace omnimapper::mapper

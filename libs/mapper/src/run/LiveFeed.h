@@ -1,0 +1,52 @@
+#pragma once
+
+#include <omnimapper/live/LiveOptions.h>
+#include <omnimapper/live/LiveSource.h>
+#include <omnimapper/live/SensorSection.h>
+
+#include <chrono>
+#include <optional>
+
+#include "run/Checkpoints.h"
+#include "run/Feed.h"
+#include "run/LiveTrace.h"
+
+namespace omnimapper::mapper {
+
+/// Sensors, until the run is stopped.
+class LiveFeed : public Feed {
+ public:
+  /// Of sensors, only `labels` are mapped, all if it is empty. Throws Error as live::readSensors().
+  LiveFeed(const live::LiveOptions& options, std::vector<std::string> labels, const base::Config& config);
+
+  std::string title() const override { return title_; }
+  std::string name() const override { return name_; }
+  std::unique_ptr<Schedule> schedule() override { return std::make_unique<LiveSchedule>(trace_); }
+  bool endsWhenStopped() const override { return true; }
+  void open(const Stop&) override {}
+  void begin(const std::string& output_folder, const Stop& stop) override;
+  bool feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) override;
+  void published() override { checkpoints_->remove(); }
+  source::SourceReport report() const override;
+  base::ExitCode code() const override;
+  std::vector<std::string> files() const override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool giveNext(Engine& engine, SensorSamples& samples, std::chrono::milliseconds patience);
+  void attend(Engine& engine, base::Progress& progress);
+  LiveFigures figures() const;
+  std::string stateText(const View& view) const;
+
+  live::LiveOptions options_;
+  std::vector<std::string> labels_;
+  std::vector<live::SensorSection> sections_;
+  std::string title_, name_;
+  std::shared_ptr<LiveTrace> trace_ = std::make_shared<LiveTrace>();
+  std::unique_ptr<live::LiveSource> sensors_;
+  std::optional<Checkpoints> checkpoints_;
+  Clock::time_point attended_ = Clock::now(), flushed_ = attended_;
+  bool has_ended_ = false, has_told_journal_ = false;
+};
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <omnimapper/source/ReadAhead.h>
+#include <omnimapper/source/SourceOptions.h>
+
+#include <optional>
+
+#include "run/Feed.h"
+
+namespace omnimapper::mapper {
+
+/// Logs, merged by stamp, as fast as they can be mapped, or at a pace.
+class LogFeed : public Feed {
+ public:
+  /// `speed`: times the log's own pace; 0: as fast as possible.
+  LogFeed(std::vector<std::string> logs, double speed, source::SourceOptions options)
+      : logs_(std::move(logs)), speed_(speed), options_(std::move(options)) {}
+
+  std::string title() const override;
+  std::string name() const override;
+  std::vector<std::string> inputs() const override { return logs_; }
+  void open(const Stop& stop) override;
+  bool feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) override;
+  source::SourceReport report() const override { return log_->report(); }
+
+ private:
+  std::vector<std::string> logs_;
+  double speed_;
+  source::SourceOptions options_;
+  std::optional<source::ReadAhead> log_;
+};
+
+}  // namespace omnimapper::mapper

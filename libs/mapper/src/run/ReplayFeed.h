@@ -1,0 +1,62 @@
+#pragma once
+
+#include <omnimapper/live/Journal.h>
+#include <omnimapper/source/ReadAhead.h>
+
+#include <optional>
+
+#include "run/Feed.h"
+
+namespace omnimapper::mapper {
+
+/// A journal that is followed, event by event.
+struct ReplayCursor {
+  live::Journal journal;
+  std::size_t next = 0;       ///< event
+  bool has_departed = false;  ///< what the engine did is not what the journal says
+
+  bool isNext(live::JournalEvent::Kind kind) const {
+    return next < journal.events.size() && journal.events[next].kind == kind;
+  }
+};
+
+/// Takes what the journal says was taken. Where the run departs from it, goes on as on a log.
+class ReplaySchedule : public Schedule {
+ public:
+  explicit ReplaySchedule(std::shared_ptr<ReplayCursor> cursor) : cursor_(std::move(cursor)) {}
+
+ private:
+  bool takesBundleBeforeEnd(const FrameBundle& oldest, std::size_t waiting) override;
+  bool takesJobBeforeEnd(bool is_due, bool is_done) override;
+  bool takes(live::JournalEvent::Kind kind);
+
+  std::shared_ptr<ReplayCursor> cursor_;
+};
+
+/// What a live run recorded, given to the engine in the order in which it was mapped: the map is the same, byte for
+/// byte.
+class ReplayFeed : public Feed {
+ public:
+  explicit ReplayFeed(std::string journal) : path_(std::move(journal)) {}
+
+  std::string title() const override;
+  std::string name() const override { return path_; }
+  std::vector<std::string> inputs() const override;
+  std::unique_ptr<Schedule> schedule() override;
+  void open(const Stop& stop) override;
+  bool feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) override;
+  source::SourceReport report() const override;
+
+ private:
+  mrpt::obs::CObservation::Ptr read(std::uint64_t number, const Stop& stop);
+
+  std::string path_;
+  std::shared_ptr<ReplayCursor> cursor_ = std::make_shared<ReplayCursor>();
+  std::size_t file_ = 0;                  // that is read
+  std::uint64_t next_ = 0;                // observation to be read
+  std::optional<source::ReadAhead> log_;  // of that file
+  source::SourceReport of_earlier_;       // files
+  bool ended_early_ = false;
+};
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,99 @@
+#include <omnimapper/map/SessionFigures.h>
+#include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/mapper/SessionAlignment.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+// The most first; empty without landmarks.
+std::string landmarkLine(const std::map<std::string, std::size_t>& counts) {
+  std::vector<std::pair<std::string, std::size_t>> rows(counts.begin(), counts.end());
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [label, count] : rows) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + label;
+  return text.empty() ? "" : "landmarks         " + text + "\n";
+}
+
+// What is in the output folder beside the outputs; empty without any.
+std::string foreignLine(const std::vector<std::string>& files) {
+  constexpr std::size_t kMost = 4;
+  if (files.empty()) return "";
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kMost, files.size()); ++i) names += (i > 0 ? ", " : "") + files[i];
+  if (files.size() > kMost) names += " and " + std::to_string(files.size() - kMost) + " more";
+  const bool was_renamed =
+      std::any_of(files.begin(), files.end(), [](const auto& name) { return name.find('~') != std::string::npos; });
+  return "also there        " + names + " (of no run; left there" + (was_renamed ? ", NAME~ is what was NAME" : "") +
+         ")\n";
+}
+
+// Of a run on sensors: how they were, what became of their observations, and what was recorded.
+std::string liveLines(const LiveFigures& live) {
+  std::string sensors;
+  for (const auto& sensor : live.sensors) {
+    sensors += (sensors.empty() ? "" : ", ") + sensor.name + " " + std::to_string(sensor.observations);
+    if (sensor.reopened > 0) sensors += " (came back " + std::to_string(sensor.reopened) + " times)";
+  }
+  constexpr double kMegabyte = 1e6;
+  const double megabytes = static_cast<double>(live.recorded_bytes) / kMegabyte;
+  char text[512];
+  std::snprintf(
+      text, sizeof text,
+      "observations      %llu arrived: %llu mapped, %llu dropped for newer frames, %llu not kept, %llu unusable\n"
+      "latency           %.2f s from stamp to map, 99 %% below %.2f s\n",
+      static_cast<unsigned long long>(live.arrived), static_cast<unsigned long long>(live.given),
+      static_cast<unsigned long long>(live.dropped), static_cast<unsigned long long>(live.not_kept),
+      static_cast<unsigned long long>(live.unusable), live.latency_median, live.latency_99);
+  std::string lines = "sensors           " + sensors + "\n" + text;
+  if (live.recording.empty()) return lines;
+  std::snprintf(text, sizeof text, "recording         %.1f MB, on the disk %.1f MB; the reach was %.0f MB/s: %s\n",
+                megabytes, static_cast<double>(live.bytes_on_disk) / kMegabyte,
+                live.recorder_seconds > 0 ? megabytes / live.recorder_seconds : 0.0, live.recording.front().c_str());
+  return lines + text;
+}
+
+}  // namespace
+
+std::string toText(const RunResult& result) {
+  std::string sessions;
+  if (result.localized > 0) {
+    char located[128];
+    std::snprintf(located, sizeof located, "located           %.1f %% of %zu key frames\n",
+                  100.0 * static_cast<double>(result.located) / static_cast<double>(result.localized),
+                  result.localized);
+    sessions = located;
+  } else if (result.sessions.size() > 1) {
+    const auto& session = result.sessions.back();
+    sessions = "sessions          " + std::to_string(result.sessions.size()) + ", of " +
+               std::to_string(result.new_key_frames) + " key frames the new one; " + joinedText(session) + "\n";
+  }
+  const std::size_t of_map = result.localized > 0 ? result.key_frames - result.new_key_frames : 0;
+  const std::string held = of_map > 0 ? " (and " + std::to_string(of_map) + " of the map, which stays as it is)" : "";
+  // A key frame that was located takes its factors with it when it leaves the window: their count would tell nothing.
+  const std::string factors = result.localized > 0 ? "" : "factors           " + std::to_string(result.factors) + "\n";
+  const char* scope = result.localized == 0 && result.sessions.size() > 1 ? " in the new session" : "";
+  char text[512];
+  std::snprintf(text, sizeof text,
+                "key frames        %zu%s\n"
+                "%s"
+                "%-17s %zu accepted, %zu refused%s (reasons: report.html)\n"
+                "way               %.1f m in %.1f s%s\n"
+                "wall time         %.2f s (%.0f times the log's own pace)\n",
+                result.key_frames - of_map, held.c_str(), factors.c_str(),
+                result.localized > 0 ? "matches with map" : "loop closures", result.closures, result.refused_closures,
+                scope, result.way, result.log_seconds, scope, result.wall_seconds,
+                result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
+  const std::string verdict =
+      result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";
+  const std::string level = result.level ? "level             " + sentenceOf(*result.level) + "\n" : "";
+  return sessions + text + (result.live ? liveLines(*result.live) : "") + landmarkLine(result.landmarks) + level +
+         verdict + "outputs           " + result.output_folder +
+         (result.took_place ? " (in the place of the run that was there)" : "") + "\n" +
+         foreignLine(result.foreign_files);
+}
+
+}  // namespace omnimapper::mapper

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <mrpt/img/CImage.h>
+
+namespace omnimapper::source {
+
+/// How colour images inside a rawlog are kept.
+enum class ColourImages {
+  lossless,
+  jpeg,  ///< quality 95: a twentieth of the room, and of the time
+};
+
+/// How MRPT writes images, in the whole process, while this lives.
+class ImageSettings {
+ public:
+  explicit ImageSettings(ColourImages images)
+      : was_lossless_(CImage::DISABLE_JPEG_COMPRESSION()), old_quality_(CImage::SERIALIZATION_JPEG_QUALITY()) {
+    constexpr int kQuality = 95;
+    CImage::DISABLE_JPEG_COMPRESSION(images == ColourImages::lossless);
+    CImage::SERIALIZATION_JPEG_QUALITY(kQuality);
+  }
+  ~ImageSettings() {
+    CImage::DISABLE_JPEG_COMPRESSION(was_lossless_);
+    CImage::SERIALIZATION_JPEG_QUALITY(old_quality_);
+  }
+  ImageSettings(const ImageSettings&) = delete;
+  ImageSettings& operator=(const ImageSettings&) = delete;
+
+ private:
+  using CImage = mrpt::img::CImage;
+  bool was_lossless_;
+  int old_quality_;
+};
+
+}  // namespace omnimapper::source
