@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <thread>
 
 namespace omnimapper::players {
@@ -68,6 +69,16 @@ bool HokuyoPlayer::waitForHost(const Stop& stop) {
   return true;
 }
 
+bool HokuyoPlayer::waitForStart(CommonStart& start, const Stop& stop) {
+  if (!start.clock() && !waitForHost(stop)) return false;
+  start.ready();
+  while (!start.clock()) {
+    if (stop()) return false;
+    serve(kLongestWait);
+  }
+  return true;
+}
+
 void HokuyoPlayer::play(const PlayClock& clock, const Stop& stop) {
   for (std::size_t index = 0; index < scans_.size(); ++index) {
     if (!serveUntil(clock.hostTime(scans_[index]->timestamp), stop)) return;
@@ -118,7 +129,7 @@ void HokuyoPlayer::writeRecord(const std::string& path) const {
   for (const auto& scan : played_)
     text += std::to_string(scan.index) + " " + base::formatUnix(scan.log) + " " + base::formatUnix(scan.host) + " " +
             base::formatUnix(scan.sent) + " " + std::to_string(scan.device_ms) + (scan.was_sent ? " 1\n" : " 0\n");
-  base::writeFile(path, text);
+  base::writeFile(path, [&](std::ostream& out) { out << text; });
 }
 
 }  // namespace omnimapper::players

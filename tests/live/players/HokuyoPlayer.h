@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "CommonStart.h"
 #include "Fault.h"
 #include "Link.h"
 #include "PlayClock.h"
@@ -37,6 +41,8 @@ class HokuyoPlayer {
 
   /// Answers the host until it has wanted scans for 0.2 s on end: MRPT's driver starts twice. False if stopped before.
   bool waitForHost(const Stop& stop);
+  /// As that, then until the start of all players is known.
+  bool waitForStart(CommonStart& start, const Stop& stop);
   /// Sends every scan when it is due, and answers the host, to the end of the log or until it is stopped.
   void play(const PlayClock& clock, const Stop& stop);
   /// Answers the host on, with no more scans, for so long [s].
