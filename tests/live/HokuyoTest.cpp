@@ -41,11 +41,12 @@ class HokuyoTest : public ::testing::Test {
   void open(const std::string& more = "") {
     const std::string address = run->addresses().at(0);
     const auto colon = address.find(':');
-    const std::string where = colon == std::string::npos
-                                  ? "COM_port_LIN = " + address
-                                  : "IP_DIR = " + address.substr(0, colon) + "\nPORT_DIR = " + address.substr(colon + 1);
+    const std::string where = colon == std::string::npos ? "COM_port_LIN = " + address
+                                                         : "IP_DIR = " + address.substr(0, colon) +
+                                                               "\nPORT_DIR = " + address.substr(colon + 1);
     const auto config = base::Config::fromText(
-        "[live]\nsensors = front\n[front]\ndriver = CHokuyoURG\nsensorLabel = laser\n" + where + "\n" + more, "robot.ini");
+        "[live]\nsensors = front\n[front]\ndriver = CHokuyoURG\nsensorLabel = laser\n" + where + "\n" + more,
+        "robot.ini");
     options.sensors = {"front"};
     source = std::make_unique<LiveSource>(readSensors(options, config), options, nullptr);
     source->open({});
@@ -78,8 +79,7 @@ class HokuyoTest : public ::testing::Test {
     if (truth.getScanSize() != scan.getScanSize()) return false;
     for (std::size_t beam = 0; beam < truth.getScanSize(); ++beam) {
       if (truth.getScanRangeValidity(beam) != scan.getScanRangeValidity(beam)) return false;
-      if (truth.getScanRangeValidity(beam) &&
-          std::abs(truth.getScanRange(beam) - scan.getScanRange(beam)) > 0.000501)
+      if (truth.getScanRangeValidity(beam) && std::abs(truth.getScanRange(beam) - scan.getScanRange(beam)) > 0.000501)
         return false;
     }
     return true;
@@ -120,6 +120,25 @@ TEST_F(HokuyoTest, overATerminalEveryScanComesToTheMillimetre) {
   receive();
   EXPECT_EQ(numbers(), upTo(40)) << news;
 }
+
+class FaultyHokuyoTest : public HokuyoTest, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(FaultyHokuyoTest, noScanThatNeverWasIsBelieved) {
+  players::PlayOptions play_options;
+  play_options.hokuyo.faults.push_back(players::parseFault(GetParam()));
+  options.silent_after = 0.3;
+  options.reopen_after = 0.6;
+  play(logOf(60), "127.0.0.1:0", play_options);
+  open();
+  receive(milliseconds(1000));
+  std::string got;
+  for (auto n : numbers()) got += std::to_string(n) + " ";
+  std::cerr << GetParam() << ": " << got << "\n" << news;
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, FaultyHokuyoTest,
+                         ::testing::Values("garbage@10", "half@10", "checksum@10", "slow@10:0.4", "silence@10:1.2",
+                                           "hangup@10:1"));
 
 }  // namespace
 }  // namespace omnimapper::live::hokuyo_test

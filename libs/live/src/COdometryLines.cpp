@@ -32,27 +32,25 @@ const base::OptionTable<OdometryLinesOptions>& OdometryLinesOptions::table() {
 }
 
 std::uint64_t OdometryLineCounts::leftOut() const {
-  return malformed + not_finite + too_large + too_long + too_many + wrong_clock + not_newer + cut_off + other_sender;
+  return malformed + not_finite + too_large + too_long + too_many + wrong_clock + not_newer + cut_off + other_sender +
+         never_fetched;
 }
 
-std::string toText(const OdometryLineCounts& counts) {
-  std::string text = std::to_string(counts.taken) + " lines of odometry were taken";
-  std::string between = "; left out: ";
+std::string OdometryLineCounts::leftOutByReason() const {
+  std::string text;
   const auto add = [&](std::uint64_t count, const char* what) {
-    if (count == 0) return;
-    text += between + std::to_string(count) + " " + what;
-    between = ", ";
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
   };
-  add(counts.malformed, "malformed");
-  add(counts.not_finite, "with a value that is no finite number");
-  add(counts.too_large, "with a value beyond all bounds");
-  add(counts.too_long, "of more than 256 bytes");
-  add(counts.too_many, "beyond max_rate_hz");
-  add(counts.wrong_clock, "whose stamp is further than max_clock_offset_s from the clock of this machine");
-  add(counts.not_newer, "not later than the line before");
-  add(counts.cut_off, "cut off when a client hung up");
-  add(counts.other_sender, "datagrams of a second sender");
-  add(counts.never_fetched, "that nobody fetched");
+  add(malformed, "malformed");
+  add(not_finite, "with a value that is no finite number");
+  add(too_large, "with a value beyond all bounds");
+  add(too_long, "of more than 256 bytes");
+  add(too_many, "beyond max_rate_hz");
+  add(wrong_clock, "whose stamp is further than max_clock_offset_s from the clock of this machine");
+  add(not_newer, "not later than the line before");
+  add(cut_off, "cut off when a client hung up");
+  add(other_sender, "from a second sender of datagrams");
+  add(never_fetched, "that nobody fetched");
   return text;
 }
 

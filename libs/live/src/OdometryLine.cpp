@@ -8,9 +8,9 @@ namespace omnimapper::live {
 
 namespace {
 
-constexpr double kLargestPosition = 1e6;     // [m]
-constexpr double kLargestAngle = 2e3 * M_PI;  // [rad]
-constexpr double kLargestSpeed = 100;        // [m/s], [rad/s]
+constexpr double kLargestPosition = 1e6;               // [m]
+constexpr double kLargestAngle = 2e3 * M_PI;           // [rad]
+constexpr double kLargestSpeed = 100;                  // [m/s], [rad/s]
 constexpr std::int64_t kLatestSecond = 4'102'444'800;  // the year 2100
 constexpr std::int64_t kTicksPerSecond = 10'000'000;
 
@@ -49,7 +49,8 @@ std::optional<base::Stamp> stampOf(std::string_view word) {
       return std::nullopt;
     for (auto digits = decimals.size(); digits < 9; ++digits) billionths *= 10;
   }
-  const base::Stamp stamp = base::stampFromUnix(0) + base::Duration(seconds * kTicksPerSecond + (billionths + 50) / 100);
+  const base::Stamp stamp =
+      base::stampFromUnix(0) + base::Duration(seconds * kTicksPerSecond + (billionths + 50) / 100);
   return base::isValid(stamp) ? std::optional(stamp) : std::nullopt;
 }
 

@@ -74,8 +74,8 @@ void COdometryLines::Receiver::readDatagrams(OdometryLineCounts& counts, const T
   for (int i = 0; i < kMostDatagrams && read < kMostBytes; ++i) {
     sockaddr_in from{};
     socklen_t from_size = sizeof from;
-    const auto size = recvfrom(socket_.get(), bytes_.data(), bytes_.size(), 0, reinterpret_cast<sockaddr*>(&from),
-                               &from_size);
+    const auto size =
+        recvfrom(socket_.get(), bytes_.data(), bytes_.size(), 0, reinterpret_cast<sockaddr*>(&from), &from_size);
     if (size < 0) return;
     read += static_cast<std::size_t>(size);
     if (!isOfCurrentSender(std::uint64_t{from.sin_addr.s_addr} << 16 | from.sin_port, counts)) continue;

@@ -19,8 +19,9 @@ sockaddr_in systemAddress(const SocketAddress& address) {
   system.sin_port = htons(address.port);
   if (inet_pton(AF_INET, address.ip.c_str(), &system.sin_addr) != 1)
     throw base::Error(base::ExitCode::out_of_range,
-                      "\"" + address.ip + "\" is no IPv4 address: write numbers, such as 127.0.0.1 for this machine "
-                      "alone or 0.0.0.0 for everybody who reaches it.");
+                      "\"" + address.ip +
+                          "\" is no IPv4 address: write numbers, such as 127.0.0.1 for this machine "
+                          "alone or 0.0.0.0 for everybody who reaches it.");
   return system;
 }
 

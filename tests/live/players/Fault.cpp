@@ -10,15 +10,16 @@ namespace omnimapper::players {
 
 Fault parseFault(const std::string& text) {
   using Kind = Fault::Kind;
-  static const std::map<std::string, Kind> kinds{{"garbage", Kind::garbage}, {"half", Kind::half},
+  static const std::map<std::string, Kind> kinds{{"garbage", Kind::garbage},   {"half", Kind::half},
                                                  {"checksum", Kind::checksum}, {"slow", Kind::slow},
-                                                 {"silence", Kind::silence}, {"hangup", Kind::hangup}};
+                                                 {"silence", Kind::silence},   {"hangup", Kind::hangup}};
   static const std::regex form(R"((\w+)@(\d{1,9})(?::(\d{1,6}(?:\.\d{1,6})?))?)");
   std::smatch match;
   if (!std::regex_match(text, match, form) || kinds.count(match[1]) == 0)
     throw base::Error(base::ExitCode::command_line,
-                      "\"" + text + "\" is no fault: write KIND@SCAN or KIND@SCAN:SECONDS, with garbage, half, "
-                      "checksum, slow, silence or hangup, such as silence@50:2.5");
+                      "\"" + text +
+                          "\" is no fault: write KIND@SCAN or KIND@SCAN:SECONDS, with garbage, half, "
+                          "checksum, slow, silence or hangup, such as silence@50:2.5");
   Fault fault{kinds.at(match[1]), std::stoul(match[2]), match[3].matched ? std::stod(match[3]) : 0};
   if (fault.kind >= Kind::slow && !match[3].matched) fault.seconds = 1;
   return fault;

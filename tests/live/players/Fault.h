@@ -17,7 +17,7 @@ struct Fault {
     hangup,    ///< the connection ends; nobody can connect for so many seconds
   };
   Kind kind = Kind::garbage;
-  std::size_t at = 0;   ///< number of the scan in the log, from 0
+  std::size_t at = 0;  ///< number of the scan in the log, from 0
   double seconds = 0;  ///< of slow, silence and hangup
 };
 

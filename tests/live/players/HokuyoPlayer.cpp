@@ -92,8 +92,8 @@ void HokuyoPlayer::linger(double seconds, const Stop& stop) {
 
 void HokuyoPlayer::playScan(std::size_t index, const PlayClock& clock, const Stop& stop) {
   const auto& scan = *scans_[index];
-  const auto fault = std::find_if(options_.faults.begin(), options_.faults.end(),
-                                  [&](const Fault& each) { return each.at == index; });
+  const auto fault =
+      std::find_if(options_.faults.begin(), options_.faults.end(), [&](const Fault& each) { return each.at == index; });
   const auto* now_wrong = fault == options_.faults.end() ? nullptr : &*fault;
   const auto seconds = base::durationFromSeconds(now_wrong ? now_wrong->seconds : 0);
   PlayedScan played{index, scan.timestamp, clock.hostTime(scan.timestamp), live::hostNow(), 0, false};
@@ -118,7 +118,8 @@ bool HokuyoPlayer::sendWith(const Fault* fault, const std::string& message, cons
   const auto begin = live::hostNow();
   const std::size_t piece = message.size() / kPieces + 1;
   for (std::size_t i = 0; i * piece < message.size(); ++i) {
-    if (!serveUntil(begin + base::durationFromSeconds(fault->seconds * static_cast<double>(i) / kPieces), stop)) return false;
+    if (!serveUntil(begin + base::durationFromSeconds(fault->seconds * static_cast<double>(i) / kPieces), stop))
+      return false;
     if (!link_->send(message.substr(i * piece, piece))) return false;
   }
   return true;

@@ -22,12 +22,12 @@ struct HokuyoPlayerOptions {
 
 /// One scan of the log and what became of it.
 struct PlayedScan {
-  std::size_t index = 0;       ///< in the log, from 0
-  base::Stamp log;             ///< its stamp there
-  base::Stamp host;            ///< when it was measured on this machine's clock: due by the PlayClock
-  base::Stamp sent;            ///< when its first byte was sent
+  std::size_t index = 0;        ///< in the log, from 0
+  base::Stamp log;              ///< its stamp there
+  base::Stamp host;             ///< when it was measured on this machine's clock: due by the PlayClock
+  base::Stamp sent;             ///< when its first byte was sent
   std::uint32_t device_ms = 0;  ///< the stamp that the device gave it, 24 bits
-  bool was_sent = false;       ///< false where the host did not ask for it, did not read, or a fault lost it
+  bool was_sent = false;        ///< false where the host did not ask for it, did not read, or a fault lost it
 };
 
 /// Plays scans as a Hokuyo of SCIP 2.0 would measure them.
@@ -68,7 +68,7 @@ class HokuyoPlayer {
   std::unique_ptr<Link> link_;
   HokuyoPlayerOptions options_;
   ScipDevice device_;
-  base::Stamp started_;     // where the clock of the device says first_time_ms
+  base::Stamp started_;  // where the clock of the device says first_time_ms
   base::Stamp silent_until_, cut_until_;
   std::vector<PlayedScan> played_;
 };

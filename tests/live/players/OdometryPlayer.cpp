@@ -1,8 +1,8 @@
 #include "OdometryPlayer.h"
 
-#include <omnimapper/live/HostClock.h>
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <omnimapper/live/HostClock.h>
 #include <sys/socket.h>
 
 #include <cstdio>

@@ -14,16 +14,16 @@ namespace omnimapper::players {
 
 /// One reading of wheel odometry, as a robot's own program would send it.
 struct OdometryReading {
-  base::Stamp log;                                   ///< its stamp in the log
-  mrpt::poses::CPose2D odom_from_base;               ///< [m, rad] cumulative
-  std::optional<mrpt::math::TTwist2D> velocity;      ///< of the base in its own frame [m/s, rad/s]
+  base::Stamp log;                               ///< its stamp in the log
+  mrpt::poses::CPose2D odom_from_base;           ///< [m, rad] cumulative
+  std::optional<mrpt::math::TTwist2D> velocity;  ///< of the base in its own frame [m/s, rad/s]
 };
 
 /// What of a log can be played.
 struct PlayedLog {
   using Scans = std::vector<mrpt::obs::CObservation2DRangeScan::Ptr>;
 
-  std::map<std::string, Scans> lasers;  ///< by label, each by rising stamp
+  std::map<std::string, Scans> lasers;    ///< by label, each by rising stamp
   std::vector<OdometryReading> odometry;  ///< by rising stamp
 
   /// Scans and odometry of these; motions (CObservationRelativeMotion) are added up where there is no other odometry.

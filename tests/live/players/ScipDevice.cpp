@@ -110,9 +110,12 @@ std::string ScipDevice::startMeasuring(const std::string& command, const std::st
 std::string ScipDevice::timeMode(const std::string& command, std::uint32_t now_ms) {
   switch (command[2]) {
     case '0':
-    case '2': return plain(command, "00");
-    case '1': return head(command, "00") + withScipSum(encodeScip(now_ms, 4)) + "\n";
-    default: return plain(command, "01");
+    case '2':
+      return plain(command, "00");
+    case '1':
+      return head(command, "00") + withScipSum(encodeScip(now_ms, 4)) + "\n";
+    default:
+      return plain(command, "01");
   }
 }
 
@@ -142,7 +145,8 @@ std::string ScipDevice::measured(const HokuyoScan& scan, std::uint32_t now_ms) {
     return "";
   }
   request_->until_next = request_->interval;
-  std::string echo = request_->name + padded(request_->first, 4) + padded(request_->last, 4) + padded(request_->cluster, 2);
+  std::string echo =
+      request_->name + padded(request_->first, 4) + padded(request_->last, 4) + padded(request_->cluster, 2);
   const bool is_single = request_->is_single;
   const bool is_last = request_->remaining == 1;
   if (request_->remaining > 0) --request_->remaining;

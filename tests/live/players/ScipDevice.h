@@ -9,8 +9,8 @@
 namespace omnimapper::players {
 
 /// The SCIP 2.0 side of a Hokuyo: bytes of the host in, bytes of the device out; it neither reads clocks nor sockets.
-/// It knows SCIP2.0, VV, PP, II, BM, QT, RS, RT, TM, SS, CR, HS, MD, MS, ME, GD, GS and GE, and refuses all else with status
-/// 0E. It speaks SCIP 2.0 from the start, as all models since the UTM do.
+/// It knows SCIP2.0, VV, PP, II, BM, QT, RS, RT, TM, SS, CR, HS, MD, MS, ME, GD, GS and GE, and refuses all else with
+/// status 0E. It speaks SCIP 2.0 from the start, as all models since the UTM do.
 class ScipDevice {
  public:
   explicit ScipDevice(HokuyoModel model) : model_(std::move(model)) {}
@@ -29,14 +29,14 @@ class ScipDevice {
  private:
   /// MDSSSSEEEECCIRR and its kin.
   struct Request {
-    std::string name;               // "MD"
-    int first = 0, last = 0;        // steps
-    int cluster = 1;                // steps that share a value, the smallest of them
-    int interval = 0;               // scans left out after each
-    int remaining = 0;              // scans; 0: all that come
-    std::string text;               // as the host added it, with its semicolon
-    int until_next = 0;             // scans to be left out before the next
-    bool is_single = false;         // GD and its kin
+    std::string name;         // "MD"
+    int first = 0, last = 0;  // steps
+    int cluster = 1;          // steps that share a value, the smallest of them
+    int interval = 0;         // scans left out after each
+    int remaining = 0;        // scans; 0: all that come
+    std::string text;         // as the host added it, with its semicolon
+    int until_next = 0;       // scans to be left out before the next
+    bool is_single = false;   // GD and its kin
   };
 
   std::string answer(const std::string& command, std::uint32_t now_ms);

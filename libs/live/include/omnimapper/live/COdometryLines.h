@@ -2,6 +2,7 @@
 
 #include <mrpt/hwdrivers/CGenericSensor.h>
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/live/CheckedSensor.h>
 #include <omnimapper/live/OdometryLine.h>
 
 #include <cstdint>
@@ -17,7 +18,7 @@ struct OdometryLinesOptions {
   std::string bind = "127.0.0.1";
   int port = 7700;
   Protocol protocol = Protocol::tcp;
-  int max_rate = 1000;          ///< [1/s]
+  int max_rate = 1000;           ///< [1/s]
   double max_clock_offset = 10;  ///< [s]
 
   static const base::OptionTable<OdometryLinesOptions>& table();
@@ -40,13 +41,12 @@ struct OdometryLineCounts {
 
   /// All lines and datagrams that were left out.
   std::uint64_t leftOut() const;
+  /// Those of each kind that is not 0: "2 malformed, 1 of more than 256 bytes".
+  std::string leftOutByReason() const;
 };
 
-/// One sentence: "120 lines of odometry were taken; left out: 2 malformed, 1 too long".
-std::string toText(const OdometryLineCounts& counts);
-
 /// Odometry of a robot's own program, as lines of text over TCP or UDP: parseOdometryLine() has their form,
-/// doc/odometry_lines.md an example. Each becomes a CObservationOdometry with the label of the sensor. A line that
+/// doc/live.md an example. Each becomes a CObservationOdometry with the label of the sensor. A line that
 /// cannot be believed is left out and counted; 256 bytes of a line are kept at most.
 ///
 /// One client counts at a time. TCP: whoever connects last; the connection before is closed, for a robot may connect
@@ -55,7 +55,7 @@ std::string toText(const OdometryLineCounts& counts);
 ///
 /// It has no thread of its own: doProcess() takes what has arrived, at most 256 KiB, and never waits. counts() and
 /// port() may be called from any thread.
-class COdometryLines : public mrpt::hwdrivers::CGenericSensor {
+class COdometryLines : public mrpt::hwdrivers::CGenericSensor, public CheckedSensor {
   DEFINE_GENERIC_SENSOR(COdometryLines)
  public:
   COdometryLines();
@@ -68,6 +68,9 @@ class COdometryLines : public mrpt::hwdrivers::CGenericSensor {
   void doProcess() override;
 
   OdometryLineCounts counts() const;
+  std::uint64_t leftOut() const override { return counts().leftOut(); }
+  std::string leftOutByReason() const override { return counts().leftOutByReason(); }
+  bool waitsForOthers() const override { return true; }
   /// Where it listens, 0 before initialize(); tells which port the system chose for `port = 0`.
   std::uint16_t port() const;
 

@@ -24,9 +24,9 @@ struct OdometryLine {
   std::optional<LineFault> fault;  ///< if it is there, nothing else counts
 };
 
-/// Reads `stamp x y yaw` or `stamp x y yaw vx vy omega`: seconds since 1970, UTC, with at most 9 decimals, or "-"; odom_from_base in m
-/// and rad; the velocity of the base in its own frame in m/s and rad/s. Blanks or tabs part the words. The line is
-/// given without its end. Never throws.
+/// Reads `stamp x y yaw` or `stamp x y yaw vx vy omega`: seconds since 1970, UTC, with at most 9 decimals, or "-";
+/// odom_from_base in m and rad; the velocity of the base in its own frame in m/s and rad/s. Blanks or tabs part the
+/// words. The line is given without its end. Never throws.
 OdometryLine parseOdometryLine(std::string_view line);
 
 }  // namespace omnimapper::live
