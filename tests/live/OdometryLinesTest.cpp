@@ -5,10 +5,17 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/live/COdometryLines.h>
 #include <omnimapper/live/HostClock.h>
+#include <omnimapper/live/LiveSource.h>
 #include <omnimapper/live/Socket.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Program.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
 #include <thread>
 
 namespace omnimapper::live::odometry_lines_test {
@@ -262,6 +269,87 @@ TEST_F(OdometryLinesTest, whatIsWrongIsNamed) {
   EXPECT_NE(problemOf("port = " + std::to_string(boundPort(taken)) + "\n").find("another program uses this port"),
             std::string::npos);
   EXPECT_EQ(sensor.getState(), mrpt::hwdrivers::CGenericSensor::ssError);
+}
+
+/// Through a LiveSource, at a port that is free.
+class LiveOdometryTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    options.sensors = {"wheels"};
+    options.silent_after = 0.1;
+    options.reopen_after = 0.2;
+    const auto config = base::Config::fromText(
+        "[live]\nsensors = wheels\n[wheels]\ndriver = COdometryLines\nport = " + std::to_string(port) + "\n",
+        "robot.ini");
+    source = std::make_unique<LiveSource>(readSensors(options, config), options, nullptr);
+    source->open({});
+  }
+  // The positions of those that come until there are `count`, or for 3 s.
+  std::vector<double> take(std::size_t count) {
+    std::vector<double> all;
+    while (all.size() < count) {
+      const auto next = source->next(std::chrono::seconds(3));
+      if (!next) break;
+      all.push_back(dynamic_cast<const CObservationOdometry&>(*next->observation).odometry.x());
+    }
+    return all;
+  }
+  std::string news() {
+    std::string all;
+    for (const auto& sentence : source->takeNews()) all += sentence + "\n";
+    return all;
+  }
+
+  const std::uint16_t port = boundPort(listenTcp({}));
+  LiveOptions options;
+  std::unique_ptr<LiveSource> source;
+};
+
+TEST_F(LiveOdometryTest, aProgramThatSaysNothingForLongStaysConnected) {
+  Client client(port);
+  client.send("- 1 0 0\n");
+  EXPECT_EQ(take(1), (Positions{1}));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const auto silence = news();
+  EXPECT_NE(silence.find("is silent"), std::string::npos) << silence;
+  EXPECT_EQ(silence.find("is lost"), std::string::npos) << silence;
+  EXPECT_FALSE(client.wasClosed());
+  client.send("- 2 0 0\n");
+  EXPECT_EQ(take(1), (Positions{2}));
+  EXPECT_NE(news().find("is back"), std::string::npos);
+}
+
+TEST_F(LiveOdometryTest, whatIsLeftOutIsToldOnceAndThenByTwos) {
+  Client client(port);
+  std::string all;
+  for (int i = 0; i < 100; ++i) {
+    client.send("- x 0 0\n- " + std::to_string(i) + " 0 0\n");
+    take(1);
+    all += news();
+  }
+  EXPECT_NE(all.find("left out: 1 malformed"), std::string::npos) << all;
+  const auto sentences = std::count(all.begin(), all.end(), '\n');
+  EXPECT_GE(sentences, 4) << all;
+  EXPECT_LE(sentences, 7) << "1, 2, 4, ... 64\n" << all;
+  EXPECT_EQ(source->sensors().at(0).left_out, 100u);
+}
+
+// The example of doc/live.md, as it stands there but for the port.
+TEST_F(LiveOdometryTest, theExampleInPythonSendsOdometry) {
+  if (std::system("python3 -c 0 2> /dev/null") != 0) GTEST_SKIP() << "python3 is not on this machine";
+  std::ifstream file(testing::sourceFile("doc/live.md"));
+  std::string page((std::istreambuf_iterator<char>(file)), {});
+  const std::string fence = "```python\n", kPort = "7700";
+  const auto begin = page.find(fence) + fence.size();
+  std::string script = page.substr(begin, page.find("```", begin) - begin);
+  ASSERT_NE(script.find(kPort), std::string::npos) << script;
+  script.replace(script.find(kPort), kPort.size(), std::to_string(port));
+  testing::Program robot({"python3", "-c", script});
+  const auto positions = take(5);
+  ASSERT_EQ(positions.size(), 5u) << testing::toString(robot.wait());
+  EXPECT_LT(positions[0], 0.2);
+  EXPECT_GT(positions[4], positions[0]);
+  robot.send(SIGKILL);
 }
 
 }  // namespace
