@@ -23,6 +23,11 @@ const char* insteadOf(const std::string& driver) {
   return driver == "CKinect" ? "KinectSensor" : nullptr;
 }
 
+// Drivers of MRPT that are read over a connection of ours, which checks what comes.
+std::string checkedDriver(const std::string& driver) {
+  return driver == "CHokuyoURG" ? "CCheckedHokuyo" : driver;
+}
+
 [[noreturn]] void throwNoDriver(const SensorSection& section) {
   throw base::Error(base::ExitCode::unknown_key, section.file + ": sensor [" + section.name +
                                                      "] has no key driver; name the class that reads it, such "
@@ -132,7 +137,7 @@ mrpt::hwdrivers::CGenericSensor::Ptr makeSensor(const SensorSection& section) {
                                                           "]: MRPT was built without what " + section.driver +
                                                           " needs; write driver = " + instead);
   }
-  sensor = mrpt::hwdrivers::CGenericSensor::createSensorPtr(section.driver);
+  sensor = mrpt::hwdrivers::CGenericSensor::createSensorPtr(checkedDriver(section.driver));
   if (!sensor)
     throw base::Error(base::ExitCode::unknown_plugin,
                       section.file + ": sensor [" + section.name + "]: there is no driver " + section.driver +

@@ -1,9 +1,11 @@
 #include "SensorThread.h"
 
-#include <mrpt/core/Clock.h>
 #include <omnimapper/base/Exceptions.h>
+#include <omnimapper/live/CheckedSensor.h>
+#include <omnimapper/live/HostClock.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -47,6 +49,8 @@ struct SensorThread::Shared {
   bool stopping = false, was_open = false, failed_to_open = false, ended = false;
   SensorFigures figures;
   Clock::time_point last_arrival = Clock::now();
+  std::uint64_t left_out_before = 0;  // by drivers of this sensor before the present one
+  std::uint64_t tells_left_out_at = 1;
   std::deque<Clock::time_point> arrived;  // in the last seconds
   std::deque<double> gaps;                // [s] between the last arrivals
   std::vector<std::string> news;
@@ -70,8 +74,10 @@ struct SensorThread::Shared {
 
   void opened() {
     const std::lock_guard lock(mutex);
-    last_arrival = Clock::now();
-    if (!was_open) figures.state = State::working;
+    if (!was_open) {
+      figures.state = State::working;
+      last_arrival = Clock::now();
+    }
     was_open = true;
     changed.notify_all();
   }
@@ -100,6 +106,14 @@ struct SensorThread::Shared {
     figures.clock_jumps = clock.jumps();
     figures.clock_offset = clock.offset();
   }
+  // Told once, and each time that there are twice as many.
+  void leftOut(const CheckedSensor& driver) {
+    const std::lock_guard lock(mutex);
+    figures.left_out = left_out_before + driver.leftOut();
+    if (figures.left_out < tells_left_out_at) return;
+    tell("sends what is not believed, and left out: " + driver.leftOutByReason());
+    tells_left_out_at = 2 * figures.left_out;
+  }
   // What a driver threw. The first failure of a sensor that was never open ends the thread.
   void failed(const std::string& reason) {
     const std::lock_guard lock(mutex);
@@ -123,6 +137,11 @@ void SensorThread::start() {
 }
 
 void SensorThread::run(const std::shared_ptr<Shared>& shared) {
+  // MRPT's sockets write to devices that have hung up, which would end the program.
+  sigset_t broken_pipe;
+  sigemptyset(&broken_pipe);
+  sigaddset(&broken_pipe, SIGPIPE);
+  pthread_sigmask(SIG_BLOCK, &broken_pipe, nullptr);
   while (!shared->isStopping()) {
     try {
       readDriver(*shared);
@@ -132,6 +151,7 @@ void SensorThread::run(const std::shared_ptr<Shared>& shared) {
     {
       const std::lock_guard lock(shared->mutex);
       if (shared->failed_to_open) break;
+      shared->left_out_before = shared->figures.left_out;
     }
     shared->sleep(kBetweenAttempts);
   }
@@ -144,7 +164,11 @@ void SensorThread::run(const std::shared_ptr<Shared>& shared) {
 // Until the sensor fails, falls silent, or is to stop.
 void SensorThread::readDriver(Shared& shared) {
   const auto driver = makeSensor(shared.section);
+  const auto* checked = dynamic_cast<const CheckedSensor*>(driver.get());
+  const bool waits_for_others = checked && checked->waitsForOthers();
   driver->initialize();
+  if (driver->getState() == mrpt::hwdrivers::CGenericSensor::ssError)
+    throw std::runtime_error("its driver cannot set it up");
   shared.opened();
   const double rate = driver->getProcessRate();
   constexpr double kMostOften = 500;  // [Hz]
@@ -153,7 +177,8 @@ void SensorThread::readDriver(Shared& shared) {
   while (!shared.isStopping()) {
     const auto begin = Clock::now();
     driver->doProcess();
-    const auto arrival = mrpt::Clock::now();
+    const auto arrival = hostNow();
+    if (checked) shared.leftOut(*checked);
     std::size_t count = 0;
     for (const auto& [stamp, object] : driver->getObservations()) {
       if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
@@ -168,7 +193,7 @@ void SensorThread::readDriver(Shared& shared) {
       silent_since = Clock::now();
     } else if (driver->getState() == mrpt::hwdrivers::CGenericSensor::ssError) {
       throw std::runtime_error("its driver says that it failed");
-    } else if (secondsSince(silent_since) > shared.reopensAfter()) {
+    } else if (!waits_for_others && secondsSince(silent_since) > shared.reopensAfter()) {
       throw std::runtime_error("it has sent nothing for " + inSeconds(secondsSince(silent_since)));
     }
     const auto spent = Clock::now() - begin;

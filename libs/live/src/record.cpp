@@ -1,4 +1,5 @@
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/live/HostClock.h>
 #include <omnimapper/live/record.h>
 
 #include <chrono>
@@ -26,7 +27,7 @@ base::ExitCode Recorded::code() const {
 }
 
 std::string nameByTime() {
-  const std::time_t now = std::time(nullptr);
+  const auto now = static_cast<std::time_t>(base::unixSeconds(hostNow()));
   std::tm parts{};
   localtime_r(&now, &parts);
   char text[32];

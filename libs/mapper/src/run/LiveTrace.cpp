@@ -1,6 +1,6 @@
 #include "run/LiveTrace.h"
 
-#include <mrpt/core/Clock.h>
+#include <omnimapper/live/HostClock.h>
 
 #include <algorithm>
 #include <chrono>
@@ -34,7 +34,7 @@ double LatencyCounts::quantile(double quantile) const {
 }
 
 void LiveSchedule::mapped(base::Stamp stamp) {
-  trace_->latencies.add(base::secondsBetween(stamp, mrpt::Clock::now()));
+  trace_->latencies.add(base::secondsBetween(stamp, live::hostNow()));
 }
 
 bool LiveSchedule::takesBundleBeforeEnd(const FrameBundle& oldest, std::size_t) {

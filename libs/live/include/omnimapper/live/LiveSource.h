@@ -43,8 +43,9 @@ struct SensorFigures {
   double rate = 0;          ///< [Hz] over the last seconds
   double clock_offset = 0;  ///< [s] that is added to its stamps
   std::size_t clock_jumps = 0;
-  std::size_t reopened = 0;  ///< how often it came back
-  std::string problem;       ///< the driver's words, where it is lost
+  std::size_t reopened = 0;    ///< how often it came back
+  std::uint64_t left_out = 0;  ///< messages or lines that its driver did not believe, where it checks them
+  std::string problem;         ///< the driver's words, where it is lost
 };
 
 std::string toString(SensorFigures::State state);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace omnimapper::players {
+
+/// What goes wrong between a played device and its host, once.
+struct Fault {
+  enum class Kind {
+    garbage,   ///< 300 random bytes come before the message of the scan
+    half,      ///< only the first half of the message comes
+    checksum,  ///< the first range of the message is altered on its way; its sum is not
+    slow,      ///< the message comes in 8 pieces over so many seconds
+    silence,   ///< for so many seconds nothing comes; scans are lost
+    hangup,    ///< the connection ends; nobody can connect for so many seconds
+  };
+  Kind kind = Kind::garbage;
+  std::size_t at = 0;  ///< number of the scan in the log, from 0
+  double seconds = 0;  ///< of slow, silence and hangup
+};
+
+/// Reads "KIND@SCAN" or "KIND@SCAN:SECONDS", such as "silence@50:2.5". Throws Error(command_line) on anything else.
+Fault parseFault(const std::string& text);
+
+/// The message as it arrives with a fault of the kinds garbage, half or checksum. The same seed gives the same bytes.
+std::string damaged(const std::string& message, Fault::Kind kind, std::uint64_t seed);
+
+}  // namespace omnimapper::players

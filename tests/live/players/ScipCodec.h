@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+/// What tests and benchmarks play logs with in place of sensors.
+namespace omnimapper::players {
+
+/// The encoding of SCIP 2.0, "Communication Protocol Specification for SCIP2.0 Standard", Hokuyo C-42-03320B: six bits
+/// a character, the highest first, each plus 0x30.
+std::string encodeScip(std::uint32_t value, int characters);
+
+/// The sum of a line: its bytes added up, the lowest six bits plus 0x30.
+char scipSum(std::string_view line);
+
+/// "LINE", its sum, line feed.
+std::string withScipSum(std::string_view line);
+
+/// A line of information such as "DMIN:20": a semicolon, which the sum leaves out, the sum, line feed.
+std::string scipInformation(std::string_view line);
+
+/// Data in lines of 64 characters, each with its sum and a line feed.
+std::string scipBlock(std::string_view data);
+
+}  // namespace omnimapper::players
