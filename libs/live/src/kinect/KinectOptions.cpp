@@ -1,7 +1,49 @@
 #include <mrpt/core/bits_math.h>
 #include <omnimapper/live/KinectOptions.h>
 
+#include <algorithm>
+
+#include "readDriverSection.h"
+
 namespace omnimapper::live {
+
+namespace {
+
+using Numbers = std::vector<double KinectOptions::*>;
+
+// Of one camera: whether the section tells its focal lengths and centre, all of them or none.
+bool tellsCamera(const mrpt::config::CConfigFileBase& ini, const std::string& section, const std::string& camera) {
+  const std::vector<std::string> keys{camera + "_fx_px", camera + "_fy_px", camera + "_cx_px", camera + "_cy_px"};
+  const auto is_there = [&](const std::string& key) { return ini.keyExists(section, key); };
+  const auto count = std::count_if(keys.begin(), keys.end(), is_there);
+  if (count == 0) return false;
+  const auto missing = std::find_if_not(keys.begin(), keys.end(), is_there);
+  if (missing == keys.end()) return true;
+  throw base::Error(base::ExitCode::out_of_range,
+                    "[" + section + "] has no " + *missing + " beside what it has of the " + camera +
+                        " camera; name all four of " + keys[0] + ", " + keys[1] + ", " + keys[2] + " and " + keys[3] +
+                        ", or none of them for the defaults");
+}
+
+}  // namespace
+
+KinectOptions KinectOptions::read(const mrpt::config::CConfigFileBase& ini, const std::string& section) {
+  auto options = readDriverSection<KinectOptions>(ini, section);
+  const auto forgetLens = [&](const std::string& camera, const Numbers& lens) {
+    const std::vector<std::string> names{"_k1", "_k2", "_p1", "_p2", "_k3"};
+    for (std::size_t i = 0; i < lens.size(); ++i) {
+      if (!ini.keyExists(section, camera + names[i])) options.*lens[i] = 0;
+    }
+  };
+  using Options = KinectOptions;
+  if (tellsCamera(ini, section, "depth"))
+    forgetLens("depth",
+               {&Options::depth_k1, &Options::depth_k2, &Options::depth_p1, &Options::depth_p2, &Options::depth_k3});
+  if (tellsCamera(ini, section, "picture"))
+    forgetLens("picture", {&Options::picture_k1, &Options::picture_k2, &Options::picture_p1, &Options::picture_p2,
+                           &Options::picture_k3});
+  return options;
+}
 
 mrpt::poses::CPose3D KinectOptions::baseFromSensor() const {
   return {pose_x, pose_y, pose_z, mrpt::DEG2RAD(pose_yaw), mrpt::DEG2RAD(pose_pitch), mrpt::DEG2RAD(pose_roll)};
@@ -23,12 +65,17 @@ const base::OptionTable<KinectOptions>& KinectOptions::table() {
           .number("pose_pitch", &Options::pose_pitch, {}, "Depth camera on the robot [deg]: turn about y, down.")
           .number("pose_roll", &Options::pose_roll, {}, "Depth camera on the robot [deg]: turn about x.")
           .flag("grab_image", &Options::grab_image, "Take the colour picture along with the depths.")
-          .flag("grab_IMU", &Options::grab_imu, "Read the accelerometer; false also leaves the motor's USB device alone.")
+          .flag("grab_IMU", &Options::grab_imu,
+                "Read the accelerometer; false also leaves the motor's USB device alone.")
           .number("imu_rate_hz", &Options::imu_rate, {0.1, 100}, "How often the accelerometer is read.")
-          .choice("registration", &Options::registration,
-                  {{"ours", Options::Registration::ours}, {"device", Options::Registration::device}},
-                  "ours: depths and picture as the two cameras see them, with their calibration; device: libfreenect "
-                  "moves the depths into the picture by the calibration that the device holds, which was never tried.")
+          .choice(
+              "registration", &Options::registration,
+              {{"none", Options::Registration::none},
+               {"ours", Options::Registration::ours},
+               {"device", Options::Registration::device}},
+              "Whose view the depths are of: none, that of the depth camera, as they are measured; ours, that of the "
+              "colour camera, into which the calibration of this section moves them; device, the same by the "
+              "calibration that the device holds, which was never tried on one.")
           .number("tilt_deg", &Options::tilt, {-30, 30},
                   "Angle above the horizon to which the motor turns the head at the start; empty: it stays as it is.")
           .choice("led", &Options::led,
@@ -53,7 +100,8 @@ const base::OptionTable<KinectOptions>& KinectOptions::table() {
           .number("depth_fy_px", &Options::depth_fy, focal, "Focal length of the depth camera, along the rows.")
           .number("depth_cx_px", &Options::depth_cx, centre, "Column of the depth camera's optical axis.")
           .number("depth_cy_px", &Options::depth_cy, centre, "Row of the depth camera's optical axis.")
-          .number("depth_k1", &Options::depth_k1, lens, "Depth camera's lens, OpenCV's model: first radial coefficient.")
+          .number("depth_k1", &Options::depth_k1, lens,
+                  "Depth camera's lens, OpenCV's model: first radial coefficient.")
           .number("depth_k2", &Options::depth_k2, lens, "Depth camera's lens: second radial coefficient.")
           .number("depth_p1", &Options::depth_p1, lens, "Depth camera's lens: first tangential coefficient.")
           .number("depth_p2", &Options::depth_p2, lens, "Depth camera's lens: second tangential coefficient.")

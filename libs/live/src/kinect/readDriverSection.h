@@ -9,15 +9,15 @@
 
 namespace omnimapper::live {
 
-/// Throws Error(unknown_key) if the section holds a key that is neither in `specs` nor one that every section of a driver
-/// may have.
+/// Throws Error(unknown_key) if the section holds a key that is neither in `specs` nor one that every section of a
+/// driver may have.
 void refuseUnknownKeys(const mrpt::config::CConfigFileBase& ini, const std::string& section,
                        const std::vector<base::OptionSpec>& specs);
 
 /// The options of a driver from its section of an INI that MRPT hands over in loadConfig(). Throws Error unknown_key,
 /// wrong_type or out_of_range, naming section, key, value and what fits.
 template <class Struct>
-Struct readSensorSection(const mrpt::config::CConfigFileBase& ini, const std::string& section) {
+Struct readDriverSection(const mrpt::config::CConfigFileBase& ini, const std::string& section) {
   const auto& table = Struct::table();
   refuseUnknownKeys(ini, section, table.specs());
   Struct result;

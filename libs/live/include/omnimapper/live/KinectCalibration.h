@@ -5,11 +5,11 @@
 
 namespace omnimapper::live {
 
-/// The two cameras of a Kinect of the first generation (Xbox 360), and what its raw depth means. Focal lengths, centres,
-/// lenses and the raw depth are by default those of one device, which N. Burrus published ("Kinect calibration",
-/// nicolas.burrus.name, 2010; also openkinect.org, "Imaging Information"); another device differs by some percent of the
-/// depth and some pixels. The colour camera stands by default 2.5 cm to the right of the depth camera, without a turn, as
-/// the frames of ROS's openni_launch have it. omnimapper-calibrate measures all of these.
+/// The two cameras of a Kinect of the first generation (Xbox 360), and what its raw depth means. Focal lengths,
+/// centres, lenses and the raw depth are by default those of one device, which N. Burrus published ("Kinect
+/// calibration", nicolas.burrus.name, 2010; also openkinect.org, "Imaging Information"); another device differs by some
+/// percent of the depth and some pixels. The colour camera stands by default 2.5 cm to the right of the depth camera,
+/// without a turn, as the frames of ROS's openni_launch have it. omnimapper-calibrate measures all of these.
 struct KinectCalibration {
   /// 1 / depth [1/m] = inverse_depth_at_zero + inverse_depth_step * raw, for raw from 0 to 2046.
   double inverse_depth_at_zero = 3.3309495161, inverse_depth_step = -0.0030711016;
@@ -31,8 +31,8 @@ struct KinectCalibration {
   double picture_x = 0, picture_y = -0.025, picture_z = 0;
   double picture_yaw = -1.5707963267948966, picture_pitch = 0, picture_roll = -1.5707963267948966;
 
-  /// Depth along the optical axis [m] of a raw value of 11 bits; 0 where the raw value means no depth: 2047, and what the
-  /// calibration puts at infinity or behind the camera.
+  /// Depth along the optical axis [m] of a raw value of 11 bits; 0 where the raw value means no depth: 2047, and what
+  /// the calibration puts at infinity or behind the camera.
   double depthOf(int raw) const;
   /// The raw value nearest to a depth [m] in its inverse; 2047 for what no raw value from 0 to 2046 means.
   int rawOf(double depth) const;

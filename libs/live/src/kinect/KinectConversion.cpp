@@ -1,0 +1,128 @@
+#include <omnimapper/live/KinectConversion.h>
+
+#include <cmath>
+
+#include "KinectLens.h"
+
+namespace omnimapper::live {
+
+namespace {
+
+constexpr double kUnit = 0.0002;  // [m] so that 13 m fit into 16 bits, and half of one is a tenth of the device's steps
+constexpr double kMillimetre = 0.001;
+constexpr std::size_t kPixels = static_cast<std::size_t>(kKinectWidth) * kKinectHeight;
+
+// From the optical frame (x right, y down, z forward) to MRPT's of a sensor (x forward, y left, z up).
+const mrpt::poses::CPose3D& sensorFromOpticalAxes() {
+  static const mrpt::poses::CPose3D pose(0, 0, 0, -M_PI / 2, 0, -M_PI / 2);
+  return pose;
+}
+
+std::uint16_t unitsOf(double metres) {
+  return static_cast<std::uint16_t>(std::lround(metres / kUnit));
+}
+
+mrpt::img::CImage imageOf(const std::uint8_t* red_green_blue) {
+  mrpt::img::CImage image(kKinectWidth, kKinectHeight, mrpt::img::CH_RGB);
+  for (unsigned row = 0; row < kKinectHeight; ++row) {
+    auto* to = image.ptrLine<std::uint8_t>(row);  // blue first
+    for (int column = 0; column < kKinectWidth; ++column, to += 3, red_green_blue += 3) {
+      to[0] = red_green_blue[2];
+      to[1] = red_green_blue[1];
+      to[2] = red_green_blue[0];
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+KinectConversion::KinectConversion(const KinectOptions& options) : options_(options) {
+  const bool is_raw = options.registration != KinectOptions::Registration::device;
+  const int values = is_raw ? kKinectNoDepth + 1 : 1 << 16;
+  for (int value = 0; value < values; ++value) {
+    const double depth = is_raw ? options.depthOf(value) : value * kMillimetre;
+    metres_.push_back(depth <= options.max_range ? depth : 0);
+    units_.push_back(unitsOf(metres_.back()));
+  }
+  // The colour camera's frame is optical, the depth camera's in the INI is not.
+  const auto depth_from_picture = (mrpt::poses::CPose3D() - sensorFromOpticalAxes()) + options.depthFromPicture();
+  const Eigen::Matrix3d picture_from_depth = depth_from_picture.getRotationMatrix().asEigen().transpose();
+  const Eigen::Vector3d picture_in_depth(depth_from_picture.x(), depth_from_picture.y(), depth_from_picture.z());
+  depth_in_picture_ = (-(picture_from_depth * picture_in_depth)).cast<float>();
+  const auto camera = options.depthCamera();
+  rays_.reserve(kPixels);
+  for (int row = 0; row < kKinectHeight; ++row) {
+    for (int column = 0; column < kKinectWidth; ++column) {
+      const auto direction =
+          beforeLens(camera, {(column - camera.cx()) / camera.fx(), (row - camera.cy()) / camera.fy()});
+      rays_.emplace_back(Eigen::Vector3f::Zero());
+      if (direction) rays_.back() = (picture_from_depth * direction->homogeneous()).cast<float>();
+    }
+  }
+}
+
+// Whether it is ours to move the depths into the picture. Without pictures they stay where they are.
+bool KinectConversion::isMoved() const {
+  return options_.registration == KinectOptions::Registration::ours && options_.grab_image;
+}
+
+std::optional<KinectConversion::Place> KinectConversion::placeInPicture(int column, int row, double depth) const {
+  const Eigen::Vector3f& ray = rays_[static_cast<std::size_t>(row) * kKinectWidth + static_cast<std::size_t>(column)];
+  const Eigen::Vector3d point = depth * ray.cast<double>() + depth_in_picture_.cast<double>();
+  if (ray.isZero() || !(point.z() > 0)) return std::nullopt;
+  const auto camera = options_.pictureCamera();
+  const Eigen::Vector2d image = throughLens(camera, point.head<2>() / point.z());
+  const double u = camera.fx() * image.x() + camera.cx(), v = camera.fy() * image.y() + camera.cy();
+  if (!(u >= -0.5 && v >= -0.5 && u < kKinectWidth - 0.5 && v < kKinectHeight - 0.5)) return std::nullopt;
+  return Place{static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)), point.z()};
+}
+
+// Of what several pixels of the depth camera show in one of the picture, the nearest counts.
+void KinectConversion::moveIntoPicture(const std::uint16_t* depths, mrpt::math::CMatrix_u16& image) const {
+  image.fill(0);
+  for (int row = 0; row < kKinectHeight; ++row) {
+    for (int column = 0; column < kKinectWidth; ++column, ++depths) {
+      const double depth = *depths < metres_.size() ? metres_[*depths] : 0;
+      if (depth == 0) continue;
+      const auto place = placeInPicture(column, row, depth);
+      if (!place || place->depth > options_.max_range) continue;
+      const std::uint16_t units = unitsOf(place->depth);
+      auto& kept = image(place->row, place->column);
+      if (kept == 0 || units < kept) kept = units;
+    }
+  }
+}
+
+void KinectConversion::fillCameras(mrpt::obs::CObservation3DRangeScan& scan) const {
+  const bool is_of_depth_camera = options_.registration != KinectOptions::Registration::device && !isMoved();
+  scan.cameraParamsIntensity = options_.pictureCamera();
+  scan.cameraParams = is_of_depth_camera ? options_.depthCamera() : options_.pictureCamera();
+  scan.relativePoseIntensityWRTDepth = is_of_depth_camera ? options_.depthFromPicture() : sensorFromOpticalAxes();
+  scan.sensorPose = options_.baseFromSensor();
+  if (!is_of_depth_camera)
+    scan.sensorPose =
+        scan.sensorPose + options_.depthFromPicture() + (mrpt::poses::CPose3D() - sensorFromOpticalAxes());
+}
+
+mrpt::obs::CObservation3DRangeScan::Ptr KinectConversion::observation(const std::uint16_t* depths,
+                                                                      const std::uint8_t* picture) const {
+  auto scan = mrpt::obs::CObservation3DRangeScan::Create();
+  fillCameras(*scan);
+  scan->maxRange = static_cast<float>(options_.max_range);
+  scan->range_is_depth = true;
+  scan->rangeUnits = static_cast<float>(kUnit);
+  scan->hasRangeImage = true;
+  scan->rangeImage_setSize(kKinectHeight, kKinectWidth);
+  if (isMoved()) {
+    moveIntoPicture(depths, scan->rangeImage);
+  } else {
+    auto* to = scan->rangeImage.data();
+    for (std::size_t i = 0; i < kPixels; ++i) to[i] = depths[i] < units_.size() ? units_[depths[i]] : 0;
+  }
+  scan->hasIntensityImage = picture != nullptr;
+  if (picture) scan->intensityImage = imageOf(picture);
+  return scan;
+}
+
+}  // namespace omnimapper::live
