@@ -138,6 +138,11 @@ mrpt::hwdrivers::CGenericSensor::Ptr makeSensor(const SensorSection& section) {
                                                           " needs; write driver = " + instead);
   }
   sensor = mrpt::hwdrivers::CGenericSensor::createSensorPtr(checkedDriver(section.driver));
+  if (!sensor && section.driver == "KinectSensor")
+    throw base::Error(base::ExitCode::unknown_plugin,
+                      section.file + ": sensor [" + section.name +
+                          "]: this was built without libfreenect, which KinectSensor needs; install libfreenect-dev, "
+                          "and configure and build again");
   if (!sensor)
     throw base::Error(base::ExitCode::unknown_plugin,
                       section.file + ": sensor [" + section.name + "]: there is no driver " + section.driver +

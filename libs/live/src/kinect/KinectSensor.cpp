@@ -35,7 +35,8 @@ struct KinectSensor::Open {
   KinectConversion conversion;
   FramePairing pairing;
   TickClock clock;
-  HostClock::time_point last_depths = HostClock::now();
+  bool has_depths = false;
+  HostClock::time_point last_depths = HostClock::now();  // or the opening
   FreenectDevice device;
 };
 
@@ -81,6 +82,7 @@ void KinectSensor::doProcess() {
 
 void KinectSensor::add(FreenectMessage& message) {
   if (message.kind == FreenectMessage::Kind::acceleration) {
+    if (!open_->has_depths) return;  // what has no depths is not back yet
     auto imu = mrpt::obs::CObservationIMU::Create();
     imu->timestamp = message.arrival;
     imu->sensorLabel = m_sensorLabel + "_IMU";
@@ -97,6 +99,7 @@ void KinectSensor::add(FreenectMessage& message) {
     open_->pairing.addPicture(time.seconds, std::move(message.picture));
   } else {
     open_->last_depths = HostClock::now();
+    open_->has_depths = true;
     open_->pairing.add({time.seconds, time.stamp, std::move(message.depths), {}});
   }
 }

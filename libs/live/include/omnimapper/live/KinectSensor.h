@@ -11,8 +11,9 @@ struct FreenectMessage;
 
 /// A Kinect of the first generation as a driver of MRPT, by libfreenect, for which Debian's MRPT has none. It hands out
 /// CObservation3DRangeScan under its sensorLabel (KINECT by default), and CObservationIMU with accelerations alone
-/// under that with _IMU: [m/s^2], x forward, y left, z up as the depth camera stands, 9.8 upwards at rest. Stamps are
-/// of the host's clock, their differences of the device's. Keys of its section: KinectOptions.
+/// under that with _IMU: [m/s^2], x forward, y left, z up as the depth camera stands, 9.8 upwards at rest, none before
+/// the first depth image. Stamps are of the host's clock, their differences of the device's. Keys of its section:
+/// KinectOptions.
 class KinectSensor : public mrpt::hwdrivers::CGenericSensor {
   DEFINE_GENERIC_SENSOR(KinectSensor)
  public:
