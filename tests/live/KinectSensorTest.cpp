@@ -236,5 +236,17 @@ TEST_F(KinectSensorTest, aWrongKeyIsRefusedWhereTheSensorIsMade) {
   }
 }
 
+TEST(KinectWithoutLibfreenect, whoeverNamesTheDriverIsToldWhatToInstall) {
+  if (!kFakenect.empty()) GTEST_SKIP() << "this was built with libfreenect; a build without it runs this test";
+  const auto config = base::Config::fromText(kSection, "robot.ini");
+  try {
+    makeSensor(readSensors(config.section("live").read<LiveOptions>(), config).at(0));
+    ADD_FAILURE();
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
+    EXPECT_NE(std::string(error.what()).find("libfreenect-dev"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace omnimapper::live::kinect_sensor_test
