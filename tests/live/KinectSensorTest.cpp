@@ -179,6 +179,7 @@ TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
 
 TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
   const auto images = simulatedScans(1);
+  images[0]->hasIntensityImage = false;
   makeSession([&](source::RawlogWriter& log) {
     // Half a second with depths, two without, and half a second with them again.
     for (int i = 0; i < 60; ++i) {

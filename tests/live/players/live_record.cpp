@@ -1,7 +1,6 @@
 // live-record INI FOLDER SECONDS [COUNT [WORDS]]: reads the sensors of an INI for so long, or until so many
 // observations came, or until a sentence with these words was told. Records them in FOLDER/log.rawlog and prints what
 // is told about them, one sentence a line.
-#include <mrpt/img/CImage.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/live/LiveSource.h>
 
@@ -19,7 +18,6 @@ int main(int argc, char** argv) try {
   const auto config = base::Config::fromFile(argv[1]);
   const auto options = config.section("live").read<live::LiveOptions>();
   std::filesystem::create_directories(argv[2]);
-  mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(options.images == live::LiveOptions::Images::lossless);
   live::LiveSource source(live::readSensors(options, config), options,
                           std::make_unique<live::Recorder>(argv[2], "log", live::RecorderOptions()));
   source.open({});

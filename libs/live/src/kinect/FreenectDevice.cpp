@@ -1,6 +1,6 @@
 #include "FreenectDevice.h"
 
-#include <mrpt/core/Clock.h>
+#include <omnimapper/live/HostClock.h>
 #include <sys/time.h>
 
 #include <utility>
@@ -158,7 +158,7 @@ void FreenectDevice::onPicture(freenect_device* device, void* picture, std::uint
 
 void FreenectDevice::add(FreenectMessage message) {
   constexpr std::size_t kMost = 64;  // a second: a reader that is slower than this loses the oldest
-  message.arrival = mrpt::Clock::now();
+  message.arrival = hostNow();
   {
     const std::lock_guard lock(mutex_);
     messages_.push_back(std::move(message));
