@@ -1,0 +1,136 @@
+#include "LiveRun.h"
+
+// A robot in a room with furniture, 27 s: its laser by MRPT's driver and its odometry, mapped while it drives.
+namespace {
+
+using namespace runs;
+using omnimapper::testing::Program;
+using omnimapper::testing::runProgram;
+using omnimapper::testing::sourceFile;
+using std::chrono::milliseconds;
+
+const std::string kBox = sourceFile("rawlogs/box/box.rawlog"), kTruth = sourceFile("rawlogs/box/truth.tum");
+constexpr std::size_t kScans = 268, kOdometry = 536;  // in the log
+
+void sleep(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+// Until the player has played all.
+Ended playAndMap(LiveRun& run, const Words& more = {}, const ProgramOptions& options = {}) {
+  run.play(kBox, kTruth);
+  Program mapper(run.live(more), options);
+  run.player->wait();
+  sleep(0.5);
+  mapper.send(SIGINT);
+  return mapper.wait();
+}
+
+TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
+  LiveRun run(2);
+  const auto ended = playAndMap(run);
+  ASSERT_TRUE(endedWith(ExitCode::ok, ended));
+  const auto summary = run.summary().at("live");
+  EXPECT_EQ(summary.at("arrived"), kScans + kOdometry);
+  EXPECT_EQ(summary.at("given"), kScans + kOdometry);
+  EXPECT_EQ(summary.at("dropped"), 0);
+  EXPECT_EQ(summary.at("recording").at("observations"), kScans + kOdometry);
+  EXPECT_LT(summary.at("latency_s").at("median"), 1.0);
+  EXPECT_FALSE(fs::exists(run.out() + "/checkpoint.omnimap")) << "the map itself is there";
+
+  const auto offline = run.folder / "offline";
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({run.recorded(".rawlog")}, offline)));
+  const double live_error = errorOf(run.out() + "/trajectory.tum", run.folder / "truth.tum");
+  const double offline_error = errorOf(offline + "/trajectory.tum", run.folder / "truth.tum");
+  EXPECT_LE(live_error, 1.2 * offline_error + 0.003) << "offline " << offline_error;
+
+  const auto again = run.folder / "again";
+  ASSERT_TRUE(endedWith(ExitCode::ok, runProgram(run.command({"--replay", run.recorded(".journal"), "-o", again}))));
+  EXPECT_EQ(readFile(again + "/map.omnimap"), readFile(run.out() + "/map.omnimap"));
+}
+
+TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
+  LiveRun run(2);
+  run.play(kBox);
+  Program mapper(run.live());
+  sleep(8);
+  mapper.send(SIGKILL);
+  mapper.wait();
+  EXPECT_TRUE(fs::exists(run.out() + "/checkpoint.omnimap"));
+  const auto again = run.folder / "again";
+  ASSERT_TRUE(endedWith(ExitCode::ok, runProgram(run.command({"--replay", run.recorded(".journal"), "-o", again}))));
+  const auto summary = nlohmann::json::parse(std::ifstream(again + "/summary.json"));
+  // Begun within two seconds; of the time since then all but the last second, at twice the pace of the log.
+  EXPECT_GT(summary.at("log_s"), 2 * (8 - 2 - 1) - 1);
+  // And a map goes on from the checkpoint.
+  EXPECT_TRUE(endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out() + "/checkpoint.omnimap"})));
+}
+
+TEST(LiveRun, goesOnWithoutALaserUntilItIsBack) {
+  LiveRun run(2, {"hangup@60:4"});
+  const auto ended = playAndMap(run);
+  ASSERT_TRUE(endedWith(ExitCode::ok, ended, {"[laser] is lost", "[laser] is back"}));
+  for (const auto& sensor : run.summary().at("live").at("sensors")) {
+    const bool is_laser = sensor.at("name") == "laser";
+    EXPECT_EQ(sensor.at("reopened"), is_laser ? 1 : 0);
+    if (!is_laser) EXPECT_EQ(sensor.at("observations"), kOdometry);
+  }
+  EXPECT_LT(errorOf(run.out() + "/trajectory.tum", run.folder / "truth.tum"), 0.05);
+}
+
+TEST(LiveRun, onAFullDiskTheMapIsMadeAllTheSame) {
+  LiveRun run(4);
+  const auto ended = playAndMap(run, {"--set", "live.compression=0", "--set", "live.checkpoint_s=0", "--set",
+                                      "mapper.output_plugins=trajectory,summary"},
+                                {120, 150000});
+  ASSERT_TRUE(endedWith(ExitCode::disk_full, ended, {"recording ended"}));
+  EXPECT_TRUE(fs::exists(run.out() + "/trajectory.tum"));
+  // What was recorded until then can be read.
+  EXPECT_TRUE(endedWith(ExitCode::ok, map({run.recorded(".rawlog")}, run.folder / "recorded")));
+}
+
+TEST(LiveRun, recordsWithoutMapping) {
+  LiveRun run(4);
+  run.play(kBox);
+  Program recorder(run.command({"--record-only", "-o", run.out()}));
+  run.player->wait();
+  sleep(0.3);
+  recorder.send(SIGTERM);
+  const auto ended = recorder.wait();
+  ASSERT_TRUE(endedWith(ExitCode::ok, ended));
+  EXPECT_NE(ended.out.find("MB/s"), std::string::npos) << ended.out;
+  const auto rawlogs = filesIn(run.out(), ".rawlog");
+  ASSERT_EQ(rawlogs.size(), 1u);
+  EXPECT_TRUE(endedWith(ExitCode::ok, map({rawlogs.front()}, run.folder / "map")));
+}
+
+TEST(LiveRun, checksTheSensors) {
+  LiveRun run(2);
+  run.play(kBox);
+  const auto ended = runProgram(run.command({"--check", "--live"}));
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended));
+  EXPECT_NE(ended.out.find("Nothing is wrong with it"), std::string::npos) << ended.out;
+}
+
+TEST(LiveRun, aSensorThatIsNotThereIsNamedAndNothingIsWritten) {
+  LiveRun run(1);
+  const auto ended = runProgram(run.live());
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ended, {"sensor [laser]", "cannot be opened"}));
+  EXPECT_FALSE(fs::exists(run.out()));
+  EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({"-i", sourceFile("ini/laser2d.ini"), "--live", "-o", run.out()}),
+                        {"[live] sensors"}));
+  EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({"-i", sourceFile("ini/laser2d.ini"), "--live", "-r", kBox, "-o",
+                                                           run.out()})));
+}
+
+TEST(LiveRun, aJournalOfAnotherIniIsMappedAsALog) {
+  LiveRun run(4);
+  ASSERT_TRUE(endedWith(ExitCode::ok, playAndMap(run)));
+  const auto again = run.folder / "again";
+  const auto ended = runProgram(run.command(
+      {"--replay", run.recorded(".journal"), "-o", again, "--set", "trigger.distance_m=0.2", "--set", "trigger.angle_deg=5"}));
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"with this INI the mapper does not do what it did live"}));
+  EXPECT_TRUE(fs::exists(again + "/map.omnimap"));
+}
+
+}  // namespace
