@@ -47,7 +47,10 @@ class FrontEndOfComments : public ::testing::Test {
     settings_.engine.window = 0.5;
     chain_.beginSession({0, "test", {}, true}, std::nullopt, false);
   }
-  void make() { front_end_ = std::make_unique<FrontEnd>(settings_, SensorPoses(), plugins_, chain_, pool_, state_); }
+  void make() {
+    schedule_ = std::make_unique<Schedule>();
+    front_end_ = std::make_unique<FrontEnd>(settings_, SensorPoses(), plugins_, chain_, pool_, *schedule_, state_);
+  }
   void add(double seconds) {
     auto comment = CObservationComment::Create();
     comment->timestamp = at(seconds);
@@ -73,6 +76,7 @@ class FrontEndOfComments : public ::testing::Test {
   Fragile* source_;
   RunState state_;
   PoseChain chain_{Motion::planar, plugins_.pose, state_.map, state_.graph};
+  std::unique_ptr<Schedule> schedule_;
   std::unique_ptr<FrontEnd> front_end_;
   base::WorkerPool pool_{1};
 };

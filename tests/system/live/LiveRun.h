@@ -11,8 +11,8 @@
 
 #include "../Runs.h"
 
-/// omnimapper-graphslam --live before the sensors that omnimapper-play is in place of: a Hokuyo on Ethernet, and a robot
-/// that sends its odometry.
+/// omnimapper-graphslam --live before the sensors that omnimapper-play is in place of: a Hokuyo on Ethernet, and a
+/// robot that sends its odometry.
 namespace runs {
 
 inline std::vector<std::string> filesIn(const std::string& folder, const std::string& extension) {

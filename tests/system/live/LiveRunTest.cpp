@@ -63,7 +63,8 @@ TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
   // Begun within two seconds; of the time since then all but the last second, at twice the pace of the log.
   EXPECT_GT(summary.at("log_s"), 2 * (8 - 2 - 1) - 1);
   // And a map goes on from the checkpoint.
-  EXPECT_TRUE(endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out() + "/checkpoint.omnimap"})));
+  EXPECT_TRUE(
+      endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out() + "/checkpoint.omnimap"})));
 }
 
 TEST(LiveRun, goesOnWithoutALaserUntilItIsBack) {
@@ -80,8 +81,9 @@ TEST(LiveRun, goesOnWithoutALaserUntilItIsBack) {
 
 TEST(LiveRun, onAFullDiskTheMapIsMadeAllTheSame) {
   LiveRun run(4);
-  const auto ended = playAndMap(run, {"--set", "live.compression=0", "--set", "live.checkpoint_s=0", "--set",
-                                      "mapper.output_plugins=trajectory,summary"},
+  const auto ended = playAndMap(run,
+                                {"--set", "live.compression=0", "--set", "live.checkpoint_s=0", "--set",
+                                 "mapper.output_plugins=trajectory,summary"},
                                 {120, 150000});
   ASSERT_TRUE(endedWith(ExitCode::disk_full, ended, {"recording ended"}));
   EXPECT_TRUE(fs::exists(run.out() + "/trajectory.tum"));
@@ -117,18 +119,19 @@ TEST(LiveRun, aSensorThatIsNotThereIsNamedAndNothingIsWritten) {
   const auto ended = runProgram(run.live());
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ended, {"sensor [laser]", "cannot be opened"}));
   EXPECT_FALSE(fs::exists(run.out()));
-  EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({"-i", sourceFile("ini/laser2d.ini"), "--live", "-o", run.out()}),
+  EXPECT_TRUE(endedWith(ExitCode::command_line,
+                        graphslam({"-i", sourceFile("ini/laser2d.ini"), "--live", "-o", run.out()}),
                         {"[live] sensors"}));
-  EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({"-i", sourceFile("ini/laser2d.ini"), "--live", "-r", kBox, "-o",
-                                                           run.out()})));
+  EXPECT_TRUE(endedWith(ExitCode::command_line,
+                        graphslam({"-i", sourceFile("ini/laser2d.ini"), "--live", "-r", kBox, "-o", run.out()})));
 }
 
 TEST(LiveRun, aJournalOfAnotherIniIsMappedAsALog) {
   LiveRun run(4);
   ASSERT_TRUE(endedWith(ExitCode::ok, playAndMap(run)));
   const auto again = run.folder / "again";
-  const auto ended = runProgram(run.command(
-      {"--replay", run.recorded(".journal"), "-o", again, "--set", "trigger.distance_m=0.2", "--set", "trigger.angle_deg=5"}));
+  const auto ended = runProgram(run.command({"--replay", run.recorded(".journal"), "-o", again, "--set",
+                                             "trigger.distance_m=0.2", "--set", "trigger.angle_deg=5"}));
   EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"with this INI the mapper does not do what it did live"}));
   EXPECT_TRUE(fs::exists(again + "/map.omnimap"));
 }
