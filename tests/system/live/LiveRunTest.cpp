@@ -1,3 +1,6 @@
+#include <omnimapper/live/HostClock.h>
+#include <omnimapper/source/RawlogSource.h>
+
 #include "LiveRun.h"
 
 // A robot in a room with furniture, 27 s: its laser by MRPT's driver and its odometry, mapped while it drives.
@@ -27,7 +30,7 @@ Ended playAndMap(LiveRun& run, const Words& more = {}, const ProgramOptions& opt
 }
 
 TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
-  LiveRun run(2);
+  LiveRun run(4);
   const auto ended = playAndMap(run);
   ASSERT_TRUE(endedWith(ExitCode::ok, ended));
   const auto summary = run.summary().at("live");
@@ -47,34 +50,45 @@ TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
   const auto again = run.folder / "again";
   ASSERT_TRUE(endedWith(ExitCode::ok, runProgram(run.command({"--replay", run.recorded(".journal"), "-o", again}))));
   EXPECT_EQ(readFile(again + "/map.omnimap"), readFile(run.out() + "/map.omnimap"));
+
+  const auto other = runProgram(run.command({"--replay", run.recorded(".journal"), "-o", run.folder / "other", "--set",
+                                             "trigger.distance_m=0.2", "--set", "trigger.angle_deg=5"}));
+  EXPECT_TRUE(endedWith(ExitCode::ok, other, {"with this INI the mapper does not do what it did live"}));
 }
 
 TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
-  LiveRun run(2);
+  constexpr double kPace = 2, kSeconds = 4;
+  LiveRun run(kPace);
   run.play(kBox);
   Program mapper(run.live());
-  sleep(8);
+  while (mapper.isRunning() && run.recorded(".journal").empty()) sleep(0.01);
+  sleep(kSeconds);
   mapper.send(SIGKILL);
   mapper.wait();
+  const auto killed = omnimapper::live::hostNow();
+  omnimapper::source::RawlogSource recorded(run.recorded(".rawlog"));
+  omnimapper::base::Stamp last;
+  while (const auto observation = recorded.next()) last = observation->timestamp;
+  EXPECT_LT(omnimapper::base::secondsBetween(last, killed), 1.2) << "of which a tenth or two on a busy machine";
   EXPECT_TRUE(fs::exists(run.out() + "/checkpoint.omnimap"));
   const auto again = run.folder / "again";
   ASSERT_TRUE(endedWith(ExitCode::ok, runProgram(run.command({"--replay", run.recorded(".journal"), "-o", again}))));
-  const auto summary = nlohmann::json::parse(std::ifstream(again + "/summary.json"));
-  // Begun within two seconds; of the time since then all but the last second, at twice the pace of the log.
-  EXPECT_GT(summary.at("log_s"), 2 * (8 - 2 - 1) - 1);
+  EXPECT_GT(nlohmann::json::parse(std::ifstream(again + "/summary.json")).at("key_frames"), 3);
   // And a map goes on from the checkpoint.
   EXPECT_TRUE(
       endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out() + "/checkpoint.omnimap"})));
 }
 
 TEST(LiveRun, goesOnWithoutALaserUntilItIsBack) {
-  LiveRun run(2, {"hangup@60:4"});
+  LiveRun run(4, {"hangup@60:2"});
   const auto ended = playAndMap(run);
   ASSERT_TRUE(endedWith(ExitCode::ok, ended, {"[laser] is lost", "[laser] is back"}));
   for (const auto& sensor : run.summary().at("live").at("sensors")) {
     const bool is_laser = sensor.at("name") == "laser";
     EXPECT_EQ(sensor.at("reopened"), is_laser ? 1 : 0);
-    if (!is_laser) EXPECT_EQ(sensor.at("observations"), kOdometry);
+    if (!is_laser) {
+      EXPECT_EQ(sensor.at("observations"), kOdometry);
+    }
   }
   EXPECT_LT(errorOf(run.out() + "/trajectory.tum", run.folder / "truth.tum"), 0.05);
 }
@@ -92,7 +106,7 @@ TEST(LiveRun, onAFullDiskTheMapIsMadeAllTheSame) {
 }
 
 TEST(LiveRun, recordsWithoutMapping) {
-  LiveRun run(4);
+  LiveRun run(8);
   run.play(kBox);
   Program recorder(run.command({"--record-only", "-o", run.out()}));
   run.player->wait();
@@ -124,16 +138,6 @@ TEST(LiveRun, aSensorThatIsNotThereIsNamedAndNothingIsWritten) {
                         {"[live] sensors"}));
   EXPECT_TRUE(endedWith(ExitCode::command_line,
                         graphslam({"-i", sourceFile("ini/laser2d.ini"), "--live", "-r", kBox, "-o", run.out()})));
-}
-
-TEST(LiveRun, aJournalOfAnotherIniIsMappedAsALog) {
-  LiveRun run(4);
-  ASSERT_TRUE(endedWith(ExitCode::ok, playAndMap(run)));
-  const auto again = run.folder / "again";
-  const auto ended = runProgram(run.command({"--replay", run.recorded(".journal"), "-o", again, "--set",
-                                             "trigger.distance_m=0.2", "--set", "trigger.angle_deg=5"}));
-  EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"with this INI the mapper does not do what it did live"}));
-  EXPECT_TRUE(fs::exists(again + "/map.omnimap"));
 }
 
 }  // namespace

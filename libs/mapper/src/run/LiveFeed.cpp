@@ -98,7 +98,7 @@ bool LiveFeed::giveNext(Engine& engine, SensorSamples& samples, milliseconds pat
 
 // What is due beside mapping, some times a second.
 void LiveFeed::attend(Engine& engine, base::Progress& progress) {
-  constexpr milliseconds kBetween(50), kBetweenFlushes(500);
+  constexpr milliseconds kBetween(50), kBetweenFlushes(200);
   const auto now = Clock::now();
   if (now - attended_ < kBetween) return;
   attended_ = now;
