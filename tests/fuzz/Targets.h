@@ -24,14 +24,13 @@ void laserScans(const std::uint8_t* data, std::size_t size);
 void clouds(const std::uint8_t* data, std::size_t size);
 /// Bytes of a log to the classes of `obs`.
 void observations(const std::uint8_t* data, std::size_t size);
+/// What comes over a network or a serial port: lines of odometry, and messages of a Hokuyo.
+void sensorBytes(const std::uint8_t* data, std::size_t size);
 
 /// By the names of their programs and of their folders in corpus/.
 inline std::map<std::string, Target> targets() {
-  return {{"depth_images", depthImages},
-          {"range_scans", rangeScans},
-          {"laser_scans", laserScans},
-          {"clouds", clouds},
-          {"observations", observations}};
+  return {{"depth_images", depthImages},  {"range_scans", rangeScans},  {"laser_scans", laserScans}, {"clouds", clouds},
+          {"observations", observations}, {"sensor_bytes", sensorBytes}};
 }
 
 inline void require(bool holds, const char* what) {

@@ -32,14 +32,9 @@ players::PlayedLog logOf(std::size_t count, double rate = 40) {
 
 class HokuyoTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    options.silent_after = 0.2;
-    options.reopen_after = 0.8;
-  }
-
-  void play(players::PlayedLog log, const std::string& address, const std::vector<std::string>& faults = {}) {
+  void play(players::PlayedLog log, const std::string& address, const std::vector<std::string>& faults = {},
+            players::PlayOptions play_options = {}) {
     scans = log.lasers.at("laser");
-    players::PlayOptions play_options;
     play_options.hokuyos = {address};
     play_options.linger = 60;  // until it is stopped
     for (const auto& fault : faults) play_options.hokuyo.faults.push_back(players::parseFault(fault));
@@ -47,14 +42,15 @@ class HokuyoTest : public ::testing::Test {
     run->start();
   }
 
-  void open() {
+  void open(const std::string& keys = "") {
     const std::string address = run->addresses().at(0);
     const auto colon = address.find(':');
     const std::string where = colon == std::string::npos ? "COM_port_LIN = " + address
                                                          : "IP_DIR = " + address.substr(0, colon) +
                                                                "\nPORT_DIR = " + address.substr(colon + 1);
     const auto config = base::Config::fromText(
-        "[live]\nsensors = front\n[front]\ndriver = CHokuyoURG\nsensorLabel = laser\n" + where + "\n", "robot.ini");
+        "[live]\nsensors = front\n[front]\ndriver = CHokuyoURG\nsensorLabel = laser\n" + where + "\n" + keys,
+        "robot.ini");
     options.sensors = {"front"};
     source = std::make_unique<LiveSource>(readSensors(options, config), options, nullptr);
     source->open({});
@@ -162,10 +158,11 @@ void expectGap(const std::vector<std::size_t>& numbers, std::size_t first, std::
 }
 
 TEST_F(HokuyoTest, aLaserThatFellSilentIsBack) {
-  play(logOf(140), "127.0.0.1:0", {"silence@10:1.2"});
+  options.reopen_after = 1;
+  play(logOf(110), "127.0.0.1:0", {"silence@10:1.2"});
   open();
   receive();
-  expectGap(numbers, 10, 140);
+  expectGap(numbers, 10, 110);
   EXPECT_NE(news.find("is lost: "), std::string::npos) << news;
   EXPECT_NE(news.find("is back"), std::string::npos) << news;
   EXPECT_GE(figures.reopened, 1u);
@@ -175,34 +172,66 @@ TEST_F(HokuyoTest, aLaserThatHungUpIsBack) {
   for (const auto& address : {std::string("127.0.0.1:0"), folder / "laser"}) {
     numbers.clear();
     news.clear();
-    play(logOf(80), address, {"hangup@10:0.7"});
+    play(logOf(60), address, {"hangup@10:0.3"});
     open();
     receive();
-    expectGap(numbers, 10, 80);
+    expectGap(numbers, 10, 60);
     EXPECT_NE(news.find("has hung up"), std::string::npos) << news;
     EXPECT_NE(news.find("is back"), std::string::npos) << news;
   }
 }
 
 TEST_F(HokuyoTest, oneThatAcceptsAgainAtOnceIsBack) {
-  play(logOf(60), "127.0.0.1:0", {"hangup@10:0.001"});
+  play(logOf(50), "127.0.0.1:0", {"hangup@10:0.001"});
   open();
   receive();
-  expectGap(numbers, 10, 60);
+  expectGap(numbers, 10, 50);
 }
 
 TEST_F(HokuyoTest, aLaserThatAnswersSlowlyIsOpened) {
   players::PlayOptions play_options;
-  play_options.hokuyos = {"127.0.0.1:0"};
-  play_options.hokuyo.answer_delay = 0.05;
-  play_options.linger = 60;
-  auto log = logOf(20);
-  scans = log.lasers.at("laser");
-  run = std::make_unique<players::PlayRun>(std::move(log), play_options);
-  run->start();
-  open();
+  play_options.hokuyo.answer_delay = 0.12;
+  play(logOf(20), "127.0.0.1:0", {}, play_options);
+  open("comms_timeout_ms = 300\n");
   receive();
   EXPECT_EQ(numbers, allOf(20)) << news;
+}
+
+TEST_F(HokuyoTest, theKeysOfMrptsDriverAreHeeded) {
+  auto log = logOf(40, 80);
+  for (const auto& scan : log.lasers.at("laser")) {
+    scan->setScanHasIntensity(true);
+    for (std::size_t beam = 0; beam < scan->getScanSize(); ++beam)
+      scan->setScanIntensity(beam, static_cast<int>(100 * beam));
+  }
+  log.lasers.at("laser").resize(39);  // the last one has an even number
+  play(std::move(log), "127.0.0.1:0");
+  open("intensity = true\nscan_interval = 1\npose_x = 0.25\npose_yaw = 90\n");
+  receive();
+  for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], 2 * i) << news;
+  ASSERT_EQ(received.size(), 20u);
+  ASSERT_TRUE(received[0]->hasIntensity());
+  EXPECT_EQ(received[0]->getScanIntensity(7), 700);
+  EXPECT_EQ(received[0]->sensorPose.x(), 0.25);
+  EXPECT_NEAR(received[0]->sensorPose.yaw(), M_PI / 2, 1e-6);
+}
+
+TEST_F(HokuyoTest, aRecordedLogComesToTheMillimetre) {
+  const auto path = testing::sharedData("laser2d/driving_in_office.rawlog");
+  OMNIMAPPER_NEEDS(path);
+  auto log = players::PlayedLog::read(*path);
+  ASSERT_EQ(log.lasers.size(), 1u);
+  auto laser = log.lasers.begin()->second;
+  laser.resize(60);
+  log.lasers = {{"laser", laser}};
+  log.odometry.clear();
+  players::PlayOptions play_options;
+  play_options.pace = 4;
+  play(std::move(log), "127.0.0.1:0", {}, play_options);
+  open();
+  receive();
+  EXPECT_EQ(numbers, allOf(60)) << news;
+  EXPECT_NEAR(received[0]->aperture, scans[0]->aperture, 0.01);
 }
 
 // Whoever accepts a connection and says nothing is no laser.

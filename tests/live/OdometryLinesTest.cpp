@@ -271,6 +271,20 @@ TEST_F(OdometryLinesTest, whatIsWrongIsNamed) {
   EXPECT_EQ(sensor.getState(), mrpt::hwdrivers::CGenericSensor::ssError);
 }
 
+// A row of the table for each key, with its default.
+TEST(OdometryLinesOptions, thePageHasThemAll) {
+  std::ifstream file(testing::sourceFile("doc/live.md"));
+  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  for (const auto& spec : OdometryLinesOptions::table().specs()) {
+    const auto row = page.find("| `" + spec.key + "` | ");
+    ASSERT_NE(row, std::string::npos) << spec.key;
+    const auto value = page.find("| ", row + 3 + spec.key.size()) + 2;
+    const std::string quoted = "`" + spec.default_value + "` |", plain = spec.default_value + " |";
+    EXPECT_TRUE(page.compare(value, quoted.size(), quoted) == 0 || page.compare(value, plain.size(), plain) == 0)
+        << spec.key << ": " << page.substr(value, 20);
+  }
+}
+
 /// Through a LiveSource, at a port that is free.
 class LiveOdometryTest : public ::testing::Test {
  protected:

@@ -8,6 +8,7 @@ namespace omnimapper::live {
 namespace {
 
 constexpr std::size_t kLongestMessage = 64 * 1024;
+constexpr std::size_t kStampLine = 4, kDataLine = 64;  // characters, without the sum
 constexpr std::string_view kEnd = "\n\n";
 
 bool hasSum(std::string_view line, char sum) {
@@ -23,16 +24,28 @@ bool isSoundLine(std::string_view line) {
   return hasSum(text, line.back()) || (text.back() == ';' && hasSum(text.substr(0, text.size() - 1), line.back()));
 }
 
-/// Echo, status, data. An older laser answers its first command by a status of one character and no sum.
+/// Numbers of six bits a character, and their sum.
+bool isSoundData(std::string_view line) {
+  return line.size() <= kDataLine + 1 &&
+         std::all_of(line.begin(), line.end(), [](char byte) { return byte >= 0x30 && byte < 0x70; });
+}
+
+/// Echo, status; then lines of information, or those of a scan: its stamp, and data in lines of 64 characters. An older
+/// laser answers its first command by a status of one character and no sum.
 bool isSound(std::string_view message) {
   auto end = message.find('\n');
   if (end == std::string_view::npos || end == 0) return false;
+  const bool is_scan = message[0] == 'M' || message[0] == 'G';
   message.remove_prefix(end + 1);
   if (message.size() == 1) return true;
-  while (!message.empty()) {
+  for (int number = 0; !message.empty(); ++number) {
     end = std::min(message.find('\n'), message.size());
-    if (!isSoundLine(message.substr(0, end))) return false;
+    const auto line = message.substr(0, end);
     message.remove_prefix(std::min(end + 1, message.size()));
+    if (!isSoundLine(line)) return false;
+    if (!is_scan || number == 0) continue;
+    if (!isSoundData(line) || (number == 1 && line.size() != kStampLine + 1)) return false;
+    if (number > 1 && !message.empty() && line.size() != kDataLine + 1) return false;
   }
   return true;
 }

@@ -6,9 +6,10 @@
 
 namespace omnimapper::live {
 
-/// Passes on the messages of a Hokuyo (SCIP 2.0) whose sums are right, and nothing else. A message begins with the echo
-/// of the command that it answers and ends with two line feeds; each line but the echo ends with a sum. MRPT's driver
-/// skips the sums.
+/// Passes on the messages of a Hokuyo (SCIP 2.0) whose sums and form are right, and nothing else. A message begins with
+/// the echo of the command that it answers and ends with two line feeds; each line but the echo ends with a sum, of six
+/// bits: it finds every altered byte, and all but one in 64 of those of several in a line. MRPT's driver skips the
+/// sums.
 class ScipCheck {
  public:
   /// The command that was sent last, with its line feed or without: only its answers are passed on.

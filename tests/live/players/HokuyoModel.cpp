@@ -24,7 +24,7 @@ HokuyoModel HokuyoModel::fitting(const mrpt::obs::CObservation2DRangeScan& scan,
   const double spacing = scan.aperture / (beams - 1);
   model.steps_per_turn = static_cast<int>(std::lround(2 * M_PI / spacing));
   const double outermost_error = std::abs(2 * M_PI / model.steps_per_turn - spacing) * (beams - 1) / 2;
-  if (outermost_error > spacing / 2)
+  if (outermost_error > spacing / 10)
     refuse(scan, "the outermost of its " + std::to_string(beams) + " beams would be off by " +
                      base::brief(outermost_error * 180 / M_PI, 2) + " degrees, for a full turn is no multiple of " +
                      base::brief(spacing * 180 / M_PI, 4) + " degrees.");

@@ -19,8 +19,8 @@ struct HokuyoModel {
   int steps() const { return last - first + 1; }
 
   /// The model whose steps are the beams of the scan, `rate` [1/s] of them. Throws Error(unreadable_input) if the
-  /// spacing of the beams divides no full turn, so that the outermost would be off by more than half a step, for more
-  /// steps than four digits count, and for ranges beyond the 262 m that three characters hold.
+  /// spacing of the beams divides no full turn, so that the outermost would be off by more than a tenth of a step, for
+  /// more steps than four digits count, and for ranges beyond the 262 m that three characters hold.
   static HokuyoModel fitting(const mrpt::obs::CObservation2DRangeScan& scan, double rate);
 };
 

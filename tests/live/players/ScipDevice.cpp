@@ -98,7 +98,7 @@ std::string ScipDevice::startMeasuring(const std::string& command, const std::st
   if (request.is_single && !laser_is_on_) return plain(echo, "10");
   request.first = *first;
   request.last = *last;
-  request.cluster = std::max(1, *cluster);
+  request.cluster = *cluster;
   request.interval = *interval;
   request.remaining = *count;
   request_ = request;
@@ -163,8 +163,9 @@ std::string ScipDevice::data(const HokuyoScan& scan) const {
   const std::uint32_t largest = characters == 2 ? 4095 : (1U << 18) - 1;
   const bool has_intensities = request_->name[1] == 'E';
   std::string text;
-  for (int step = request_->first; step <= request_->last; step += request_->cluster) {
-    const int end = std::min(step + request_->cluster, request_->last + 1);
+  const int together = std::max(1, request_->cluster);
+  for (int step = request_->first; step <= request_->last; step += together) {
+    const int end = std::min(step + together, request_->last + 1);
     std::uint32_t smallest = largest, intensity = 0;
     for (int each = step; each < end; ++each) {
       const auto index = static_cast<std::size_t>(each - model_.first);

@@ -31,7 +31,7 @@ class ScipDevice {
   struct Request {
     std::string name;         // "MD"
     int first = 0, last = 0;  // steps
-    int cluster = 1;          // steps that share a value, the smallest of them
+    int cluster = 1;          // steps that share a value, the smallest of them; 0: as 1
     int interval = 0;         // scans left out after each
     int remaining = 0;        // scans; 0: all that come
     std::string text;         // as the host added it, with its semicolon

@@ -1,0 +1,56 @@
+#include <LineBuffer.h>
+#include <ScipCheck.h>
+#include <omnimapper/live/OdometryLine.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "../Input.h"
+#include "../Targets.h"
+
+namespace omnimapper::fuzz {
+
+namespace {
+
+void readOdometry(std::string_view bytes, std::size_t piece) {
+  live::LineBuffer buffer;
+  const auto take = [](std::string_view text) {
+    require(text.size() <= live::LineBuffer::kLongest, "a line that is too long");
+    const auto line = live::parseOdometryLine(text);
+    if (line.fault) return;
+    const auto& pose = line.odometry.odometry;
+    require(std::abs(pose.x()) <= 1e6 && std::abs(pose.y()) <= 1e6, "a position beyond all bounds");
+    require(std::abs(pose.phi()) < 7000, "an angle beyond all bounds");
+    require(!line.odometry.hasVelocities || std::abs(line.odometry.velocityLocal.vx) <= 100,
+            "a speed beyond all bounds");
+    require(!line.stamp || base::isValid(*line.stamp), "a stamp that is none");
+  };
+  for (std::size_t begin = 0; begin < bytes.size(); begin += piece) buffer.add(bytes.substr(begin, piece), take, [] {});
+}
+
+void readHokuyo(std::string_view bytes, std::size_t piece) {
+  // The first line is the command.
+  const std::string_view command = bytes.substr(0, bytes.find('\n'));
+  live::ScipCheck check;
+  check.setCommand(command);
+  for (std::size_t begin = 0; begin < bytes.size(); begin += piece) check.add(bytes.substr(begin, piece));
+  const std::string sound = check.take();
+  require(sound.empty() || sound.compare(0, command.size(), command) == 0, "a message without its echo");
+  require(sound.empty() || sound.substr(sound.size() - 2) == "\n\n", "a message without its end");
+  live::ScipCheck again;
+  again.setCommand(command);
+  again.add(sound);
+  require(again.take() == sound && again.damaged() == 0, "a sound message that is not");
+}
+
+}  // namespace
+
+void sensorBytes(const std::uint8_t* data, std::size_t size) {
+  Input input(data, size);
+  const bool is_hokuyo = input.flag();
+  const auto piece = static_cast<std::size_t>(1 + input.take<std::uint8_t>());
+  const std::string_view bytes(reinterpret_cast<const char*>(input.rest()), input.left());
+  is_hokuyo ? readHokuyo(bytes, piece) : readOdometry(bytes, piece);
+}
+
+}  // namespace omnimapper::fuzz
