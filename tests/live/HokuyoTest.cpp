@@ -159,10 +159,10 @@ void expectGap(const std::vector<std::size_t>& numbers, std::size_t first, std::
 
 TEST_F(HokuyoTest, aLaserThatFellSilentIsBack) {
   options.reopen_after = 1;
-  play(logOf(110), "127.0.0.1:0", {"silence@10:1.2"});
+  play(logOf(130), "127.0.0.1:0", {"silence@10:1.6"});
   open();
   receive();
-  expectGap(numbers, 10, 110);
+  expectGap(numbers, 10, 130);
   EXPECT_NE(news.find("is lost: "), std::string::npos) << news;
   EXPECT_NE(news.find("is back"), std::string::npos) << news;
   EXPECT_GE(figures.reopened, 1u);

@@ -1,4 +1,5 @@
 #include <mrpt/io/CStream.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/live/CCheckedHokuyo.h>
 #include <omnimapper/live/HostClock.h>
 
@@ -70,6 +71,7 @@ CCheckedHokuyo::~CCheckedHokuyo() {
 
 void CCheckedHokuyo::initialize() {
   m_state = ssError;
+  logging_enable_console_output = false;  // what is wrong is thrown
   damaged_before_ = leftOut();
   const int patience = std::max(m_comms_timeout_ms, 100);
   stream_ = std::make_shared<Stream>(m_ip_dir.empty() ? Cable::toSerialPort(m_com_port)
@@ -125,7 +127,7 @@ std::uint64_t CCheckedHokuyo::leftOut() const {
 }
 
 std::string CCheckedHokuyo::leftOutByReason() const {
-  return std::to_string(leftOut()) + " damaged messages";
+  return base::counted(leftOut(), "damaged message");
 }
 
 }  // namespace omnimapper::live
