@@ -115,7 +115,7 @@ class PlayTest : public ::testing::Test {
 };
 
 TEST_F(PlayTest, laserAndOdometryComeAsInTheLogByOneClock) {
-  const auto log = writeLog(folder / "log.rawlog", folder / "truth.tum", 12);
+  const auto log = writeLog(folder / "log.rawlog", folder / "truth.tum", 8);
   play(log, "tcp");
   ASSERT_TRUE(base::isValid(host_start));
   EXPECT_EQ(left_out, 0u);
@@ -145,7 +145,7 @@ TEST_F(PlayTest, laserAndOdometryComeAsInTheLogByOneClock) {
 }
 
 TEST_F(PlayTest, odometryComesByDatagramsToo) {
-  const auto log = writeLog(folder / "log.rawlog", folder / "truth.tum", 5);
+  const auto log = writeLog(folder / "log.rawlog", folder / "truth.tum", 3);
   play(log, "udp");
   ASSERT_GE(odometry.size(), log.odometry.size());
   for (std::size_t i = 0; i < log.odometry.size(); ++i)
