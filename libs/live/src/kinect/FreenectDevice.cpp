@@ -157,7 +157,9 @@ void FreenectDevice::onPicture(freenect_device* device, void* picture, std::uint
 }
 
 void FreenectDevice::add(FreenectMessage message) {
-  constexpr std::size_t kMost = 64;  // a second: a reader that is slower than this loses the oldest
+  // A fifth of a second: a reader that is slower than the cameras loses the oldest, and what it gets is never so old
+  // that the cameras' clock would seem to be another.
+  constexpr std::size_t kMost = 12;
   message.arrival = hostNow();
   {
     const std::lock_guard lock(mutex_);
