@@ -2,8 +2,11 @@
 #include <mrpt/config/CConfigFileMemory.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/live/KinectOptions.h>
+#include <omnimapper/testing/Fixtures.h>
 
-#include <optional>
+#include <cmath>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -78,6 +81,17 @@ TEST(KinectOptions, aCalibrationWithoutALensHasNone) {
   EXPECT_EQ(options.depth_k2, 0) << "and not that of the usual device";
   EXPECT_NE(options.picture_k1, 0) << "the other camera is the usual one still";
   EXPECT_EQ(options.depthCamera().fx(), 580);
+}
+
+TEST(KinectOptions, theirPageHasAllOfThem) {
+  std::ifstream file(testing::sourceFile("doc/live.md"));
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  for (const auto& spec : KinectOptions::table().specs()) {
+    std::string range;
+    for (const char c : spec.range) range += c == '|' ? std::string("\\|") : std::string(1, c);
+    const std::string row = "| `" + spec.key + "` | " + spec.default_value + " | " + range + " | " + spec.help + " |\n";
+    EXPECT_NE(page.find(row), std::string::npos) << row;
+  }
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/live/KinectCalibration.h>
 #include <omnimapper/live/LiveSource.h>
-#include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/RgbdFolder.h>
 #include <omnimapper/testing/Fixtures.h>
@@ -16,6 +15,7 @@
 #include <functional>
 
 #include "Observations.h"
+#include "RangeScans.h"
 
 /// The driver of the Kinect before libfreenect's fakenect, which plays what a log holds.
 namespace omnimapper::live::kinect_sensor_test {
@@ -23,23 +23,9 @@ namespace {
 
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationIMU;
-using Scans = std::vector<CObservation3DRangeScan::Ptr>;
 
 const std::string kFakenect = OMNIMAPPER_FAKENECT_FOLDER;  // of the libfreenect.so that plays
 const std::string kSection = "[live]\nsensors = kinect\n[kinect]\ndriver = KinectSensor\nsensorLabel = KINECT\n";
-
-// Depths and pictures of the simulated home, a tenth of a second apart.
-Scans simulatedScans(std::size_t count) {
-  Scans scans;
-  source::RawlogSource log(testing::sourceFile("rawlogs/home_30s/home_30s.rawlog"));
-  while (const auto observation = scans.size() < count ? log.next() : nullptr) {
-    auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
-    if (!scan) continue;
-    scan->timestamp = observations::at(0.1 * static_cast<double>(scans.size()));
-    scans.push_back(scan);
-  }
-  return scans;
-}
 
 CObservationIMU accelerationAt(double seconds, double forward, double left, double up) {
   CObservationIMU imu;
@@ -75,16 +61,6 @@ class KinectSensorTest : public ::testing::Test {
                                 std::to_string(count), words});
   }
 
-  template <class Observation>
-  std::vector<std::shared_ptr<Observation>> recorded() const {
-    std::vector<std::shared_ptr<Observation>> all;
-    source::RawlogSource log(folder / "out/log.rawlog");
-    while (const auto observation = log.next()) {
-      if (auto one = std::dynamic_pointer_cast<Observation>(observation)) all.push_back(one);
-    }
-    return all;
-  }
-
   static void expectSameDepths(const CObservation3DRangeScan& seen, const CObservation3DRangeScan& played) {
     const KinectCalibration calibration;
     std::size_t count = 0;
@@ -101,20 +77,11 @@ class KinectSensorTest : public ::testing::Test {
     }
     EXPECT_GT(count, 10000u) << "pixels with depths";
   }
-  static void expectSamePicture(const CObservation3DRangeScan& seen, const CObservation3DRangeScan& played) {
-    ASSERT_TRUE(seen.hasIntensityImage);
-    for (unsigned row = 0; row < 480; ++row) {
-      const auto* a = seen.intensityImage.ptrLine<std::uint8_t>(row);
-      const auto* b = played.intensityImage.ptrLine<std::uint8_t>(row);
-      ASSERT_TRUE(std::equal(a, a + 3 * 640, b)) << row;
-    }
-  }
-
   testing::ScratchFolder folder;
 };
 
 TEST_F(KinectSensorTest, whatIsPlayedArrivesToTheQuantization) {
-  const auto played = simulatedScans(8);
+  const auto played = range_scans::simulated(8);
   makeSession([&](source::RawlogWriter& log) {
     for (std::size_t i = 0; i < played.size(); ++i) {
       log.add(accelerationAt(0.1 * static_cast<double>(i), 0.5, -1.25, 9.7));
@@ -124,19 +91,19 @@ TEST_F(KinectSensorTest, whatIsPlayedArrivesToTheQuantization) {
   const auto begin = mrpt::Clock::now();
   const auto ended = record("registration = none\nimu_rate_hz = 20\n", 1000);
   ASSERT_EQ(ended.code, 0) << testing::toString(ended);
-  const auto scans = recorded<CObservation3DRangeScan>();
+  const auto scans = range_scans::recorded<CObservation3DRangeScan>(folder / "out/log.rawlog");
   ASSERT_GE(scans.size(), played.size() - 2) << testing::toString(ended);
   for (std::size_t i = 0; i < std::min(scans.size(), played.size()); ++i) {
     SCOPED_TRACE(i);
     EXPECT_EQ(scans[i]->sensorLabel, "KINECT");
     expectSameDepths(*scans[i], *played[i]);
-    expectSamePicture(*scans[i], *played[i]);
+    EXPECT_TRUE(range_scans::isSamePicture(*scans[i], *played[i]));
     EXPECT_GT(base::secondsBetween(begin, scans[i]->timestamp), 0);
     EXPECT_GT(base::secondsBetween(scans[i]->timestamp, mrpt::Clock::now()), 0);
     const auto before = i > 0 ? scans[i - 1]->timestamp : scans[i]->timestamp - base::durationFromSeconds(0.1);
     EXPECT_NEAR(base::secondsBetween(before, scans[i]->timestamp), 0.1, 0.05);
   }
-  const auto accelerations = recorded<CObservationIMU>();
+  const auto accelerations = range_scans::recorded<CObservationIMU>(folder / "out/log.rawlog");
   ASSERT_GE(accelerations.size(), 4u);
   for (const auto& imu : accelerations) {
     constexpr double kCount = 9.80665 / 819;
@@ -161,24 +128,24 @@ TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
     for (int i = 0; i < 18 && std::getline(from, line); ++i) to << line << "\n";
   }
   makeSession(folder / "log");
-  Scans played;
+  range_scans::Scans played;
   source::RgbdFolderOptions options;
   options.intrinsics = "freiburg1";
   source::RgbdFolder images(folder / "log", options);
   while (const auto one = images.next()) played.push_back(std::dynamic_pointer_cast<CObservation3DRangeScan>(one));
   const auto ended = record("registration = none\ngrab_IMU = false\n", 1000);
   ASSERT_EQ(ended.code, 0) << testing::toString(ended);
-  const auto scans = recorded<CObservation3DRangeScan>();
+  const auto scans = range_scans::recorded<CObservation3DRangeScan>(folder / "out/log.rawlog");
   ASSERT_GE(scans.size(), played.size() - 2) << testing::toString(ended);
   for (std::size_t i = 0; i < std::min(scans.size(), played.size()); ++i) {
     SCOPED_TRACE(i);
     expectSameDepths(*scans[i], *played[i]);
-    if (played[i]->hasIntensityImage) expectSamePicture(*scans[i], *played[i]);
+    EXPECT_TRUE(!played[i]->hasIntensityImage || range_scans::isSamePicture(*scans[i], *played[i]));
   }
 }
 
 TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
-  const auto images = simulatedScans(1);
+  const auto images = range_scans::simulated(1);
   images[0]->hasIntensityImage = false;
   makeSession([&](source::RawlogWriter& log) {
     // Half a second with depths, two without, and half a second with them again.
@@ -199,7 +166,7 @@ TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
   EXPECT_NE(ended.out.find("sensor [kinect] is lost: USB says that the Kinect is gone", back), std::string::npos)
       << "at the end of the session: " << ended.out;
   EXPECT_NE(ended.out.find("reopened 1"), std::string::npos) << ended.out;
-  const auto scans = recorded<CObservation3DRangeScan>();
+  const auto scans = range_scans::recorded<CObservation3DRangeScan>(folder / "out/log.rawlog");
   ASSERT_GE(scans.size(), 12u);
   double longest = 0;
   for (std::size_t i = 1; i < scans.size(); ++i) {

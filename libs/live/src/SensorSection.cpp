@@ -23,9 +23,16 @@ const char* insteadOf(const std::string& driver) {
   return driver == "CKinect" ? "KinectSensor" : nullptr;
 }
 
-// Drivers of MRPT that are read over a connection of ours, which checks what comes.
+// Drivers of MRPT that are read through checks of ours.
 std::string checkedDriver(const std::string& driver) {
-  return driver == "CHokuyoURG" ? "CCheckedHokuyo" : driver;
+  if (driver == "CHokuyoURG") return "CCheckedHokuyo";
+  return driver == "COpenNI2Sensor" ? "CCheckedOpenNI2" : driver;
+}
+
+// What was not installed where a driver was left out of the build.
+std::string packageOf(const std::string& driver) {
+  if (driver == "KinectSensor") return "libfreenect-dev";
+  return driver == "COpenNI2Sensor" ? "libopenni2-dev" : "";
 }
 
 [[noreturn]] void throwNoDriver(const SensorSection& section) {
@@ -138,11 +145,11 @@ mrpt::hwdrivers::CGenericSensor::Ptr makeSensor(const SensorSection& section) {
                                                           " needs; write driver = " + instead);
   }
   sensor = mrpt::hwdrivers::CGenericSensor::createSensorPtr(checkedDriver(section.driver));
-  if (!sensor && section.driver == "KinectSensor")
+  const std::string package = packageOf(section.driver);
+  if (!sensor && !package.empty())
     throw base::Error(base::ExitCode::unknown_plugin,
-                      section.file + ": sensor [" + section.name +
-                          "]: this was built without libfreenect, which KinectSensor needs; install libfreenect-dev, "
-                          "and configure and build again");
+                      section.file + ": sensor [" + section.name + "]: this was built without what " + section.driver +
+                          " needs; install " + package + ", and configure and build again");
   if (!sensor)
     throw base::Error(base::ExitCode::unknown_plugin,
                       section.file + ": sensor [" + section.name + "]: there is no driver " + section.driver +

@@ -72,8 +72,8 @@ void FreenectDevice::open() {
     throw kinectError((options_.serial.empty()
                            ? "the Kinect cannot be opened"
                            : "the Kinect with the serial " + options_.serial + " cannot be opened") +
-                      std::string(": another program has it, or this user may not use it; Debian's udev rules let the "
-                                  "group plugdev use it"));
+                      std::string(": another program has it, or this user may not use it; Debian's libfreenect0.5 "
+                                  "brings the udev rules that let everybody use it"));
   }
   freenect_set_user(device_, this);
   if (options_.tilt && freenect_set_tilt_degs(device_, *options_.tilt / base::option_text::kRadiansPerDegree) < 0)
@@ -157,7 +157,9 @@ void FreenectDevice::onPicture(freenect_device* device, void* picture, std::uint
 }
 
 void FreenectDevice::add(FreenectMessage message) {
-  constexpr std::size_t kMost = 64;  // a second: a reader that is slower than this loses the oldest
+  // A fifth of a second: a reader that is slower than the cameras loses the oldest, and what it gets is never so old
+  // that the cameras' clock would seem to be another.
+  constexpr std::size_t kMost = 12;
   message.arrival = hostNow();
   {
     const std::lock_guard lock(mutex_);

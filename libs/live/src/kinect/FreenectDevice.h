@@ -30,7 +30,8 @@ struct FreenectMessage {
   std::array<double, 3> acceleration{};  ///< [m/s^2] along the device's axes: left, up, forward; at rest up is positive
 };
 
-/// An open Kinect, by libfreenect. A thread takes what USB brings, so that nothing is lost while the reader works.
+/// An open Kinect, by libfreenect. A thread takes what USB brings while the reader works, and keeps a fifth of a
+/// second of it.
 class FreenectDevice {
  public:
   /// Opens it and starts its cameras. Throws Error(unreadable_input) if that cannot be.

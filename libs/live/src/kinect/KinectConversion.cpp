@@ -37,7 +37,8 @@ mrpt::img::CImage imageOf(const std::uint8_t* red_green_blue) {
 
 }  // namespace
 
-KinectConversion::KinectConversion(const KinectOptions& options) : options_(options) {
+KinectConversion::KinectConversion(const KinectOptions& options)
+    : options_(options), picture_camera_(options.pictureCamera()) {
   const bool is_raw = options.registration != KinectOptions::Registration::device;
   const int values = is_raw ? kKinectNoDepth + 1 : 1 << 16;
   for (int value = 0; value < values; ++value) {
@@ -71,9 +72,9 @@ std::optional<KinectConversion::Place> KinectConversion::placeInPicture(int colu
   const Eigen::Vector3f& ray = rays_[static_cast<std::size_t>(row) * kKinectWidth + static_cast<std::size_t>(column)];
   const Eigen::Vector3d point = depth * ray.cast<double>() + depth_in_picture_.cast<double>();
   if (ray.isZero() || !(point.z() > 0)) return std::nullopt;
-  const auto camera = options_.pictureCamera();
-  const Eigen::Vector2d image = throughLens(camera, point.head<2>() / point.z());
-  const double u = camera.fx() * image.x() + camera.cx(), v = camera.fy() * image.y() + camera.cy();
+  const Eigen::Vector2d image = throughLens(picture_camera_, point.head<2>() / point.z());
+  const double u = picture_camera_.fx() * image.x() + picture_camera_.cx();
+  const double v = picture_camera_.fy() * image.y() + picture_camera_.cy();
   if (!(u >= -0.5 && v >= -0.5 && u < kKinectWidth - 0.5 && v < kKinectHeight - 0.5)) return std::nullopt;
   return Place{static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)), point.z()};
 }
@@ -96,8 +97,8 @@ void KinectConversion::moveIntoPicture(const std::uint16_t* depths, mrpt::math::
 
 void KinectConversion::fillCameras(mrpt::obs::CObservation3DRangeScan& scan) const {
   const bool is_of_depth_camera = options_.registration != KinectOptions::Registration::device && !isMoved();
-  scan.cameraParamsIntensity = options_.pictureCamera();
-  scan.cameraParams = is_of_depth_camera ? options_.depthCamera() : options_.pictureCamera();
+  scan.cameraParamsIntensity = picture_camera_;
+  scan.cameraParams = is_of_depth_camera ? options_.depthCamera() : picture_camera_;
   scan.relativePoseIntensityWRTDepth = is_of_depth_camera ? options_.depthFromPicture() : sensorFromOpticalAxes();
   scan.sensorPose = options_.baseFromSensor();
   if (!is_of_depth_camera)

@@ -34,6 +34,7 @@ class KinectConversion {
   void moveIntoPicture(const std::uint16_t* depths, mrpt::math::CMatrix_u16& image) const;
 
   KinectOptions options_;
+  mrpt::img::TCamera picture_camera_;
   std::vector<double> metres_;         // of a value of the device; 0: none
   std::vector<std::uint16_t> units_;   // the same in rangeUnits
   std::vector<Eigen::Vector3f> rays_;  // of the depth camera's pixels in the colour camera's frame; 0: none
