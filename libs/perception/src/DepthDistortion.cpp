@@ -28,8 +28,24 @@ double shareOf(int pixel, int size) {
   return (2.0 * pixel + 1) / size - 1;
 }
 
+constexpr float kSaturatedUnits = 65535;
+
+// `error` is by how much the inverse of each range is too small [1/m]. Without a branch, so that it is vectorized.
+void correctRanges(const float* error, float metres_per_unit, std::size_t count, std::uint16_t* units) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float range = units[i];
+    // A range at infinity or beyond would divide by zero; it comes out saturated and is dropped.
+    const float share = std::max(1 + range * metres_per_unit * error[i], range * (1 / kSaturatedUnits));
+    const int corrected = static_cast<int>(range / share + 0.5F);
+    const int kept = corrected < 65535 ? corrected : 0;
+    units[i] = static_cast<std::uint16_t>(units[i] == 65535 ? 65535 : kept);
+  }
+}
+
+}  // namespace
+
 // What the table of an image depends on beside the coefficients.
-struct ImageKey {
+struct DepthDistortion::ImageKey {
   int width, height;
   bool is_depth;
   std::array<double, 4> camera;  // of ranges alone
@@ -50,22 +66,6 @@ struct ImageKey {
     return is_depth ? 1 : std::hypot(1, (u - camera[2]) / camera[0], (v - camera[3]) / camera[1]);
   }
 };
-
-constexpr float kSaturatedUnits = 65535;
-
-// `error` is by how much the inverse of each range is too small [1/m]. Without a branch, so that it is vectorized.
-void correctRanges(const float* error, float metres_per_unit, std::size_t count, std::uint16_t* units) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const float range = units[i];
-    // A range at infinity or beyond would divide by zero; it comes out saturated and is dropped.
-    const float share = std::max(1 + range * metres_per_unit * error[i], range * (1 / kSaturatedUnits));
-    const int corrected = static_cast<int>(range / share + 0.5F);
-    const int kept = corrected < 65535 ? corrected : 0;
-    units[i] = static_cast<std::uint16_t>(units[i] == 65535 ? 65535 : kept);
-  }
-}
-
-}  // namespace
 
 struct DepthDistortion::Table {
   ImageKey key;

@@ -15,21 +15,21 @@ namespace {
 
 using perception::DepthDistortion;
 
-constexpr std::size_t kFewestImages = 12, kFewestPatches = 8;
+constexpr std::size_t kFewestImages = 12, kFewestPatches = 8, kFewestOfPart = 3;
 constexpr double kLooseBound = 0.010, kTightBound = 0.006;  // [1/m] of the growth, without and with a distortion
 
 [[noreturn]] void refuseCalibration(const std::string& why) {
   throw base::Error(base::ExitCode::nothing_to_map, why + "; nothing was written");
 }
 
-bool isHeldBack(std::size_t image) {
+bool isImageHeldBack(std::size_t image) {
   return image % 3 == 1;
 }
 
 std::vector<FlatPatch> patchesOf(const std::vector<DepthCells>& images, bool held_back, const DepthDistortion& known) {
   std::vector<FlatPatch> all;
   for (std::size_t i = 0; i < images.size(); ++i) {
-    if (isHeldBack(i) != held_back) continue;
+    if (isImageHeldBack(i) != held_back) continue;
     for (auto& patch : growPatches(images[i], known, known.isNone() ? kLooseBound : kTightBound)) {
       patch.image = i;
       all.push_back(std::move(patch));
@@ -41,7 +41,6 @@ std::vector<FlatPatch> patchesOf(const std::vector<DepthCells>& images, bool hel
 // Of a part of the image, how many images show a plane there.
 void refuseWhatIsNotCovered(const std::vector<FlatPatch>& patches) {
   constexpr int kColumns = 8, kRows = 6;
-  constexpr std::size_t kFewest = 3;
   constexpr double kLeastShare = 0.6;
   std::map<int, std::set<std::size_t>> images_of_part;
   for (const auto& patch : patches) {
@@ -52,7 +51,7 @@ void refuseWhatIsNotCovered(const std::vector<FlatPatch>& patches) {
     }
   }
   const auto covered = std::count_if(images_of_part.begin(), images_of_part.end(),
-                                     [](const auto& part) { return part.second.size() >= kFewest; });
+                                     [](const auto& part) { return part.second.size() >= kFewestOfPart; });
   const double share = static_cast<double>(covered) / (kColumns * kRows);
   if (share >= kLeastShare) return;
   refuseCalibration("planes cover " + base::fixed(100 * share, 0) + " % of the image in three images or more, of " +
@@ -122,6 +121,7 @@ DepthCalibration calibrateDepth(const std::vector<DepthCells>& images, int degre
                       std::to_string(kFewestImages) +
                       " that are needed; record half a minute in which the camera turns and moves before walls, floors "
                       "or tables");
+  result.cell_pixels = images.front().width / images.front().columns;
   const auto held = patchesOf(images, true, {});
   result.held_images = (images.size() + 1) / 3;
   result.held_patches = held.size();

@@ -22,6 +22,7 @@ struct DepthCalibration {
   DistortionFit fit;
   std::size_t images = 0, held_images = 0;    ///< held back: of `images`
   std::size_t patches = 0, held_patches = 0;  ///< planes: those of the estimate, and those held back
+  int cell_pixels = 0;                        ///< a side of a cell
   double nearest = 0, farthest = 0;           ///< [m] between them are nine tenths of the samples
   HeldFlatness before, after;
   std::size_t flatter_images = 0;  ///< of before.rms_of_image

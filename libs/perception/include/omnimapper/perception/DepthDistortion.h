@@ -47,6 +47,7 @@ class DepthDistortion {
   void applyTo(mrpt::obs::CObservation3DRangeScan& scan) const;
 
  private:
+  struct ImageKey;
   struct Table;
   std::shared_ptr<const Table> tableOf(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
