@@ -62,7 +62,8 @@ std::vector<DepthCells> DepthImageChooser::take() {
 namespace {
 
 void readTold(const std::string& ini, const perception::CameraCalibration& known, DepthLog& log) {
-  const auto section = base::Config::fromFile(ini).section("calibration");
+  const auto config = base::Config::fromFile(ini);
+  const auto section = config.section("calibration");
   for (const auto& spec : perception::CameraCalibrationOptions::table().specs()) {
     std::string text;
     if (spec.key == "label" || spec.key == "depth_distortion_per_m" || !section.find(spec.key, text)) continue;

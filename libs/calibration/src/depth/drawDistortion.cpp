@@ -74,8 +74,8 @@ void drawDistortion(const DepthCalibration& calibration, const DepthLog& log, st
   drawMap(svg, first + right, size, kMost, "after" + rms(calibration.after), mediansOf(calibration.after));
   drawMap(svg, first + down, size, kMost, "what is added",
           overImage([&](double x, double y) { return fit.distortion.at(x, y); }));
-  drawMap(svg, first + right + down, size, kMost, "its standard deviation",
-          overImage([&](double x, double y) { return fit.sigmaAt(x, y); }));
+  drawMap(svg, first + right + down, size, kMost, "its standard deviation, 5 times",
+          overImage([&](double x, double y) { return 5 * fit.sigmaAt(x, y); }));
 }
 
 }  // namespace omnimapper::calibration
