@@ -15,6 +15,7 @@ namespace {
 std::vector<std::string> warningsOf(const CalibrationLog& log) {
   std::vector<std::string> all;
   if (!log.report.message.empty()) all.push_back(log.report.message);
+  for (auto& sentence : log.report.unusableText()) all.push_back(std::move(sentence));
   if (log.left_out > 0)
     all.push_back(base::counted(log.left_out, "image") + " of the camera left out, the first because " +
                   log.why_left_out);

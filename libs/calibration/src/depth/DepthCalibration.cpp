@@ -86,6 +86,26 @@ HeldFlatness flatnessOf(const std::vector<FlatPatch>& patches, const DepthDistor
   return flatness;
 }
 
+// Over the image [1/m].
+double rmsBetween(const DepthDistortion& a, const DepthDistortion& b) {
+  constexpr int kSide = 20;
+  double squares = 0;
+  for (int row = 0; row < kSide; ++row) {
+    for (int column = 0; column < kSide; ++column) {
+      const double x = (2.0 * column + 1) / kSide - 1, y = (2.0 * row + 1) / kSide - 1;
+      squares += std::pow(a.at(x, y) - b.at(x, y), 2);
+    }
+  }
+  return std::sqrt(squares) / kSide;
+}
+
+double differenceOfHalves(const std::vector<FlatPatch>& patches, std::size_t images, int degree,
+                          const std::function<bool()>& stop) {
+  std::vector<FlatPatch> first, second;
+  for (const auto& patch : patches) (2 * patch.image < images ? first : second).push_back(patch);
+  return rmsBetween(fitDistortion(first, degree, stop).distortion, fitDistortion(second, degree, stop).distortion);
+}
+
 void setDepths(const std::vector<FlatPatch>& patches, DepthCalibration& result) {
   std::vector<double> inverse;
   for (const auto& patch : patches)
@@ -138,12 +158,14 @@ DepthCalibration calibrateDepth(const std::vector<DepthCells>& images, int degre
     if (round + 1 < kRounds) patches = patchesOf(images, false, result.fit.distortion);
   }
   result.patches = patches.size();
+  result.rms = rmsBetween(result.fit.distortion, {});
   setDepths(patches, result);
   result.before = flatnessOf(held, {}, result.fit.scale);
   result.after = flatnessOf(held, result.fit.distortion, result.fit.scale);
   for (std::size_t i = 0; i < result.before.rms_of_image.size(); ++i)
     result.flatter_images += result.after.rms_of_image[i] < result.before.rms_of_image[i];
   refuseWhatIsNoBetter(result);
+  result.halves_differ_rms = differenceOfHalves(patches, images.size(), degree, stop);
   return result;
 }
 

@@ -20,6 +20,9 @@ struct HeldFlatness {
 
 struct DepthCalibration {
   DistortionFit fit;
+  /// Root mean square over the image of the distortion, and of the difference between those that the first and the
+  /// second half of the images give alone [1/m].
+  double rms = 0, halves_differ_rms = 0;
   std::size_t images = 0, held_images = 0;    ///< held back: of `images`
   std::size_t patches = 0, held_patches = 0;  ///< planes: those of the estimate, and those held back
   int cell_pixels = 0;                        ///< a side of a cell

@@ -93,6 +93,9 @@ std::string depthReport(const DepthCalibration& calibration, const DepthLog& log
       << "                1/1000     mm at    mm at    mm at\n"
       << "                of 1/m       1 m      2 m      3 m\n";
   writeRow(out, "largest", overview.largest);
+  writeRow(out, "rms", c.rms);
+  writeRow(out, "halves", c.halves_differ_rms);
+  out << "  (\"halves\" is the rms difference between what the two halves of the log give alone)\n";
   out << "planes of images held back, of which each has its own fit; rms over cells of " << c.cell_pixels << " x "
       << c.cell_pixels << " px\n";
   writeRow(out, "before", c.before.rms);
@@ -128,6 +131,8 @@ std::string depthJson(const DepthCalibration& calibration, const DepthLog& log) 
   for (Eigen::Index i = 0; i < c.fit.covariance.rows(); ++i)
     json["sigmas_per_m"].push_back(std::sqrt(std::max(0.0, c.fit.covariance(i, i))));
   json["largest_per_m"] = overview.largest;
+  json["rms_per_m"] = c.rms;
+  json["halves_differ_rms_per_m"] = c.halves_differ_rms;
   json["sigma_by_part_per_m"] = overview.sigmas;
   json["sure_share"] = overview.sure;
   json["held_back_before_rms_per_m"] = c.before.rms;
@@ -140,6 +145,7 @@ std::string depthJson(const DepthCalibration& calibration, const DepthLog& log) 
 std::vector<std::string> depthWarnings(const DepthCalibration& calibration, const DepthLog& log) {
   std::vector<std::string> all;
   if (!log.report.message.empty()) all.push_back(log.report.message);
+  for (auto& sentence : log.report.unusableText()) all.push_back(std::move(sentence));
   if (log.left_out > 0)
     all.push_back(base::counted(log.left_out, "depth image") + " left out, the first because " + log.why_left_out);
   constexpr double kOneDepth = 1.5, kUnsure = 2e-3;  // [-] [1/m]
@@ -147,6 +153,13 @@ std::vector<std::string> depthWarnings(const DepthCalibration& calibration, cons
     all.push_back("all planes are " + fixed(calibration.nearest, 1) + " to " + fixed(calibration.farthest, 1) +
                   " m away, so it is not tested that the error grows with the square of the depth: record planes from "
                   "near and far");
+  // Each half knows it by 1/sqrt(2) less well than the whole, so half of their difference is the error of the whole.
+  constexpr double kMuch = 2.0 / 3;
+  if (calibration.halves_differ_rms > kMuch * calibration.rms)
+    all.push_back("the two halves of the log give distortions that differ by " +
+                  fixed(1000 * calibration.halves_differ_rms, 1) + " of " + fixed(1000 * calibration.rms, 1) +
+                  " in 1/1000 of 1/m, so what is corrected may be wrong by a third or more: record longer, and more "
+                  "planes in every part of the image");
   if (overviewOf(calibration.fit).worst_sigma > kUnsure)
     all.push_back(
         "in a part of the image the distortion is hardly known (report.txt tells where): record planes that "

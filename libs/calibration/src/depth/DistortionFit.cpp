@@ -123,40 +123,64 @@ std::vector<double> solve(const std::vector<FlatPatch>& patches, int degree, dou
   return coefficients;
 }
 
-// Of the coefficients, planes eliminated.
-Eigen::MatrixXd covarianceOf(const std::vector<FlatPatch>& patches, const DepthDistortion& distortion, double scale) {
+/// What images that follow one another tell of the coefficients, planes eliminated.
+struct Witness {
+  Eigen::MatrixXd information;  // [m^2]
+  Eigen::VectorXd gradient;     // [m]
+};
+
+Witness& operator+=(Witness& sum, const Witness& other) {
+  sum.information += other.information;
+  sum.gradient += other.gradient;
+  return sum;
+}
+
+Witness witnessOf(const FlatPatch& patch, const DepthDistortion& distortion, double scale) {
   const auto terms = static_cast<Eigen::Index>(distortion.coefficients().size());
-  Eigen::MatrixXd information = Eigen::MatrixXd::Identity(terms, terms) / (kPrior * kPrior), spread = information;
-  std::map<std::size_t, Eigen::VectorXd> gradients;  // of each image
-  for (const auto& patch : patches) {
-    const auto misses = missesOf(patch, distortion, kLoss * scale);
-    const auto count = static_cast<Eigen::Index>(misses.size());
-    Eigen::MatrixXd products(count, terms);
-    Eigen::MatrixX3d plane(count, 3);
-    Eigen::VectorXd weights(count), residuals(count), row(terms);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const auto& s = patch.samples[static_cast<std::size_t>(i)];
-      DepthDistortion::evaluate(distortion.degree(), s.x, s.y, row.data());
-      products.row(i) = row.transpose();
-      plane.row(i) << 1, s.x, s.y;
-      residuals[i] = misses[static_cast<std::size_t>(i)];
-      weights[i] = 1 / (std::pow(residuals[i] / (kLoss * scale), 2) + 1);
-    }
-    weights /= scale * scale;
-    const Eigen::MatrixX3d weighted_plane = weights.asDiagonal() * plane;
-    const Eigen::LDLT<Eigen::Matrix3d> normal(weighted_plane.transpose() * plane);
-    products -= plane * normal.solve(weighted_plane.transpose() * products);
-    const Eigen::MatrixXd weighted = weights.asDiagonal() * products;
-    information += weighted.transpose() * products;
-    auto& gradient = gradients.emplace(patch.image, Eigen::VectorXd::Zero(terms)).first->second;
-    gradient += weighted.transpose() * residuals;
+  const auto misses = missesOf(patch, distortion, kLoss * scale);
+  const auto count = static_cast<Eigen::Index>(misses.size());
+  Eigen::MatrixXd products(count, terms);
+  Eigen::MatrixX3d plane(count, 3);
+  Eigen::VectorXd weights(count), residuals(count), row(terms);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& s = patch.samples[static_cast<std::size_t>(i)];
+    DepthDistortion::evaluate(distortion.degree(), s.x, s.y, row.data());
+    products.row(i) = row.transpose();
+    plane.row(i) << 1, s.x, s.y;
+    residuals[i] = misses[static_cast<std::size_t>(i)];
+    weights[i] = 1 / (std::pow(residuals[i] / (kLoss * scale), 2) + 1);
   }
-  const auto images = static_cast<double>(gradients.size());
-  for (const auto& [image, gradient] : gradients)
-    spread += images / std::max(1.0, images - 1) * gradient * gradient.transpose();
-  const Eigen::LDLT<Eigen::MatrixXd> factored(information);
-  const Eigen::MatrixXd left = factored.solve(spread);
-  return factored.solve(left.transpose());
+  weights /= scale * scale;
+  const Eigen::MatrixX3d weighted_plane = weights.asDiagonal() * plane;
+  const Eigen::LDLT<Eigen::Matrix3d> normal(weighted_plane.transpose() * plane);
+  products -= plane * normal.solve(weighted_plane.transpose() * products);
+  const Eigen::MatrixXd weighted = weights.asDiagonal() * products;
+  return {weighted.transpose() * products, weighted.transpose() * residuals};
+}
+
+// Jackknife over blocks: by how much the coefficients change where a block is left out, in one step of Newton's.
+Eigen::MatrixXd covarianceOf(const std::vector<FlatPatch>& patches, const DepthDistortion& distortion, double scale) {
+  constexpr std::size_t kBlocks = 10;
+  const auto terms = static_cast<Eigen::Index>(distortion.coefficients().size());
+  const Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(terms, terms) / (kPrior * kPrior);
+  std::size_t images = 1;
+  for (const auto& patch : patches) images = std::max(images, patch.image + 1);
+  std::map<std::size_t, Witness> blocks;
+  const Witness nothing{Eigen::MatrixXd::Zero(terms, terms), Eigen::VectorXd::Zero(terms)};
+  Witness all = nothing;
+  for (const auto& patch : patches) {
+    const auto witness = witnessOf(patch, distortion, scale);
+    blocks.emplace(patch.image * kBlocks / images, nothing).first->second += witness;
+    all += witness;
+  }
+  const auto known = (prior + all.information).ldlt();
+  Eigen::MatrixXd covariance = known.solve(known.solve(prior).transpose());
+  const auto count = static_cast<double>(blocks.size());
+  for (const auto& [block, witness] : blocks) {
+    const Eigen::VectorXd change = (prior + all.information - witness.information).ldlt().solve(witness.gradient);
+    covariance += (count - 1) / count * change * change.transpose();
+  }
+  return covariance;
 }
 
 }  // namespace

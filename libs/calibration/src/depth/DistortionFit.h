@@ -19,9 +19,11 @@ struct DistortionFit {
   double sigmaAt(double x, double y) const;
 };
 
-/// The distortion that makes the patches flat, each with a plane of its own. The covariance takes each image as one
-/// witness, for its samples share what is not flat in the scene (the sandwich estimator of Huber and White), and a weak
-/// prior of 0.02/m holds what the patches do not show. Throws Error(interrupted) if it is stopped.
+/// The distortion that makes the patches flat, each with a plane of its own. A weak prior of 0.02/m on each coefficient
+/// holds what the patches do not show. The covariance is that of a jackknife over ten blocks of images that follow one
+/// another, because such images show the same scene, whose parts that are not quite flat mislead all of them alike.
+/// Source: Kuensch: The jackknife and the bootstrap for general stationary observations, Annals of Statistics 17(3),
+/// 1989. Throws Error(interrupted) if it is stopped.
 DistortionFit fitDistortion(const std::vector<FlatPatch>& patches, int degree, const std::function<bool()>& stop);
 
 }  // namespace omnimapper::calibration
