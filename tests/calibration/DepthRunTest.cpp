@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "BentDepths.h"
@@ -208,6 +209,37 @@ TEST_F(DepthRunTest, ALogWithoutDepthsIsRefused) {
   EXPECT_NE(refusal().find("'front'"), std::string::npos);
 }
 
+TEST_F(DepthRunTest, ImagesWhoseUnitIsNoLengthAreRefused) {
+  for (const float unit : {std::numeric_limits<float>::quiet_NaN(), 0.F, -0.001F}) {
+    write({}, kImages, [&](int, CObservation3DRangeScan& scan) { scan.rangeUnits = unit; });
+    EXPECT_NE(refusal().find("'camera'"), std::string::npos) << unit;
+  }
+}
+
+TEST_F(DepthRunTest, OfADamagedLogWhatCanBeReadIsUsedAndTold) {
+  BentDepths depths;
+  depths.distortion = bentAsAKinect();
+  write(depths, 2 * kImages);
+  const auto log = request_.logs.front();
+  const auto size = std::filesystem::file_size(log);
+  std::filesystem::resize_file(log, size / 10 * 6);
+  const auto result = run();
+  EXPECT_EQ(result.code, base::ExitCode::damaged_input);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.front().find("camera.rawlog"), std::string::npos) << result.warnings.front();
+  std::filesystem::remove_all(request_.output);
+  std::filesystem::resize_file(log, size / 10);
+  EXPECT_NE(refusal().find("that differ of 12"), std::string::npos);
+  std::ofstream(log) << "This is no log.";
+  try {
+    run();
+    ADD_FAILURE() << "it was taken";
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::unreadable_input) << error.what();
+    EXPECT_NE(std::string(error.what()).find("camera.rawlog"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(DepthRunTest, PlacesWithoutDepthChangeLittleAndOtherSizesAreCounted) {
   BentDepths depths;
   depths.distortion = bentAsAKinect();
@@ -324,6 +356,8 @@ TEST_F(DepthRunTest, OfARealXtionPlanesGetAQuarterFlatter) {
   const auto result = run();
   const auto json = nlohmann::json::parse(read("summary.json"));
   EXPECT_LT(json["held_back_after_rms_per_m"], 0.75 * json["held_back_before_rms_per_m"].get<double>()) << result.text;
+  // The halves of the log show the cabinet from two sides.
+  EXPECT_LT(json["halves_differ_rms_per_m"], 0.25 * json["rms_per_m"].get<double>()) << result.text;
 }
 
 TEST_F(DepthRunTest, OfARealKinectPlanesGetFlatter) {

@@ -95,7 +95,7 @@ std::string depthReport(const DepthCalibration& calibration, const DepthLog& log
   writeRow(out, "largest", overview.largest);
   writeRow(out, "rms", c.rms);
   writeRow(out, "halves", c.halves_differ_rms);
-  out << "  (\"halves\" is the rms difference between what the two halves of the log give alone)\n";
+  out << "rms is over the image; \"halves\" is the rms difference between what the two halves of the log give alone\n";
   out << "planes of images held back, of which each has its own fit; rms over cells of " << c.cell_pixels << " x "
       << c.cell_pixels << " px\n";
   writeRow(out, "before", c.before.rms);

@@ -65,16 +65,18 @@ void drawDistortion(const DepthCalibration& calibration, const DepthLog& log, st
   constexpr double kMost = 0.005;  // [1/m]
   draw::Svg svg(out, 2 * width + 3 * rim, 2 * height + top + gap + rim);
   svg.text({rim, 24},
-           "inverse depths: dark blue -5/1000 of 1/m, red 5/1000 (20 mm at 2 m); planes that were held back, medians, "
-           "before and after",
+           "Errors of inverse depths over the image: dark blue -5/1000 of 1/m, green 0, red 5/1000 (20 mm at 2 m), "
+           "grey not seen.",
            draw::Svg::Anchor::start, 14);
   const Eigen::Vector2d size(width, height), right(width + rim, 0), down(0, height + gap), first(rim, top);
   const auto rms = [](const HeldFlatness& held) { return ": " + base::fixed(1000 * held.rms, 2) + "/1000 rms"; };
-  drawMap(svg, first, size, kMost, "before" + rms(calibration.before), mediansOf(calibration.before));
-  drawMap(svg, first + right, size, kMost, "after" + rms(calibration.after), mediansOf(calibration.after));
-  drawMap(svg, first + down, size, kMost, "what is added",
+  drawMap(svg, first, size, kMost,
+          "planes held back, median distance from their planes, before" + rms(calibration.before),
+          mediansOf(calibration.before));
+  drawMap(svg, first + right, size, kMost, "the same, after" + rms(calibration.after), mediansOf(calibration.after));
+  drawMap(svg, first + down, size, kMost, "the distortion: what is added to inverse depths",
           overImage([&](double x, double y) { return fit.distortion.at(x, y); }));
-  drawMap(svg, first + right + down, size, kMost, "its standard deviation, 5 times",
+  drawMap(svg, first + right + down, size, kMost, "its standard deviation, 5 times enlarged",
           overImage([&](double x, double y) { return 5 * fit.sigmaAt(x, y); }));
 }
 
