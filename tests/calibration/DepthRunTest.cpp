@@ -24,7 +24,7 @@ namespace {
 using mrpt::obs::CObservation3DRangeScan;
 using perception::DepthDistortion;
 
-constexpr int kImages = 30;
+constexpr int kImages = 24;
 
 /// Over the image [1/m].
 double rmsOf(const std::function<double(double x, double y)>& value) {
