@@ -123,19 +123,19 @@ std::vector<double> solve(const std::vector<FlatPatch>& patches, int degree, dou
   return coefficients;
 }
 
-/// What images that follow one another tell of the coefficients, planes eliminated.
-struct Witness {
+/// Of the coefficients, with the parameters of the planes eliminated.
+struct NormalEquations {
   Eigen::MatrixXd information;  // [m^2]
   Eigen::VectorXd gradient;     // [m]
 };
 
-Witness& operator+=(Witness& sum, const Witness& other) {
+NormalEquations& operator+=(NormalEquations& sum, const NormalEquations& other) {
   sum.information += other.information;
   sum.gradient += other.gradient;
   return sum;
 }
 
-Witness witnessOf(const FlatPatch& patch, const DepthDistortion& distortion, double scale) {
+NormalEquations normalEquationsOf(const FlatPatch& patch, const DepthDistortion& distortion, double scale) {
   const auto terms = static_cast<Eigen::Index>(distortion.coefficients().size());
   const auto misses = missesOf(patch, distortion, kLoss * scale);
   const auto count = static_cast<Eigen::Index>(misses.size());
@@ -165,19 +165,19 @@ Eigen::MatrixXd covarianceOf(const std::vector<FlatPatch>& patches, const DepthD
   const Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(terms, terms) / (kPrior * kPrior);
   std::size_t images = 1;
   for (const auto& patch : patches) images = std::max(images, patch.image + 1);
-  std::map<std::size_t, Witness> blocks;
-  const Witness nothing{Eigen::MatrixXd::Zero(terms, terms), Eigen::VectorXd::Zero(terms)};
-  Witness all = nothing;
+  std::map<std::size_t, NormalEquations> blocks;
+  const NormalEquations nothing{Eigen::MatrixXd::Zero(terms, terms), Eigen::VectorXd::Zero(terms)};
+  NormalEquations all = nothing;
   for (const auto& patch : patches) {
-    const auto witness = witnessOf(patch, distortion, scale);
-    blocks.emplace(patch.image * kBlocks / images, nothing).first->second += witness;
-    all += witness;
+    const auto of_patch = normalEquationsOf(patch, distortion, scale);
+    blocks.emplace(patch.image * kBlocks / images, nothing).first->second += of_patch;
+    all += of_patch;
   }
   const auto known = (prior + all.information).ldlt();
   Eigen::MatrixXd covariance = known.solve(known.solve(prior).transpose());
   const auto count = static_cast<double>(blocks.size());
-  for (const auto& [block, witness] : blocks) {
-    const Eigen::VectorXd change = (prior + all.information - witness.information).ldlt().solve(witness.gradient);
+  for (const auto& [block, of_block] : blocks) {
+    const Eigen::VectorXd change = (prior + all.information - of_block.information).ldlt().solve(of_block.gradient);
     covariance += (count - 1) / count * change * change.transpose();
   }
   return covariance;
