@@ -181,11 +181,13 @@ TEST_F(CalibrationRunTest, WhatAnIniToldBeforeIsToldAgain) {
   write(log);
   request_.ini = folder_ / "before.ini";
   std::ofstream(request_.ini) << "[calibration]\ndepth_scale = 1.02\npicture_fx_px = 265\npicture_fy_px = 265\n"
-                                 "depth_fx_px = 265\ndepth_fy_px = 265\n";
+                                 "depth_fx_px = 265\ndepth_fy_px = 265\n"
+                                 "depth_distortion_per_m = 0.0001, 0, -0.0002\n";
   const auto result = run();
   const auto camera = corrected(log);
   EXPECT_NEAR(camera.picture[0], 260, 1.3) << result.text;
   EXPECT_NEAR(camera.depth_scale, 1.02, 1e-6) << "nothing measures metres";
+  EXPECT_NE(read("calibration.ini").find("depth_distortion_per_m = 0.0001, 0, -0.0002\n"), std::string::npos);
 }
 
 TEST_F(CalibrationRunTest, ACameraAtRestIsRefusedWithARemedy) {

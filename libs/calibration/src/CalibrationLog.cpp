@@ -137,6 +137,7 @@ CalibrationLog readCalibrationLog(const CalibrationRequest& request, base::Progr
       const auto units = static_cast<double>(scan->rangeUnits);
       known.applyTo(*scan);  // the log's own copy is not needed any more
       result.is_corrected = true;
+      result.depth_distortion = known.depthDistortion().coefficients();
       result.corrected_scale = static_cast<double>(scan->rangeUnits) / units;
     }
     chooser.add(scan);

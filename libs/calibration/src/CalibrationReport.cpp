@@ -6,11 +6,12 @@
 #include <omnimapper/geometry/OpticalFrame.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
+
+#include "Outputs.h"
 
 namespace omnimapper::calibration {
 
@@ -89,13 +90,6 @@ void writeHeldBack(std::ostream& out, const std::string& name, const HeldBack& h
       << " mm rms at 1 m; cost " << fixed(held.cost, 4) << "\n";
 }
 
-// Whether an INI gives it back as it is: a stranger's log may hold line breaks and what begins a comment.
-bool isPlain(const std::string& label) {
-  return std::all_of(label.begin(), label.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/' || c == ':';
-  });
-}
-
 }  // namespace
 
 std::string calibrationIni(const Calibration& calibration, const CalibrationLog& log, const std::string& title) {
@@ -104,10 +98,10 @@ std::string calibrationIni(const Calibration& calibration, const CalibrationLog&
   out << base::kWrittenFromALog << ", " << title << ", by omnimapper-calibrate; report.txt says how well.\n"
       << "; omnimapper-graphslam -i INI -i calibration.ini -r LOG -o FOLDER\n"
       << "[calibration]\n"
-      << (isPlain(log.label) ? "label = " + log.label : "; of every camera: the label of this one cannot stand here")
-      << "\n";
+      << labelLine(log.label);
   // What an INI told before is told again, so that this one stands alone.
   const bool tells_all = log.is_corrected;
+  out << distortionLine(log.depth_distortion);
   if (!calibration.is_better && !tells_all) return out.str();
   const auto is_told = [&](Group group) { return tells_all || isTold(calibration, group); };
   const bool focal = is_told(Group::focal), centre = is_told(Group::centre), lens = is_told(Group::lens);

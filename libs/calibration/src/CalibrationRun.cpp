@@ -3,33 +3,19 @@
 #include <omnimapper/base/OutputFolder.h>
 #include <omnimapper/calibration/CalibrationRun.h>
 
-#include <filesystem>
-
 #include "Calibration.h"
 #include "CalibrationLog.h"
 #include "CalibrationReport.h"
+#include "Outputs.h"
 
 namespace omnimapper::calibration {
 
 namespace {
 
-std::string titleOf(const std::vector<std::string>& logs) {
-  std::string title;
-  for (const auto& log : logs) title += (title.empty() ? "" : " + ") + log.substr(log.find_last_of('/') + 1);
-  return title;
-}
-
-// Its files would take the place of the map's.
-void refuseFolderOfMap(const std::string& folder) {
-  std::error_code none;
-  if (std::filesystem::exists(folder + "/map.omnimap", none))
-    throw base::Error(base::ExitCode::unwritable_output,
-                      folder + ": a map is in this folder, which a calibration would replace; give it one of its own");
-}
-
 std::vector<std::string> warningsOf(const CalibrationLog& log) {
   std::vector<std::string> all;
   if (!log.report.message.empty()) all.push_back(log.report.message);
+  for (auto& sentence : log.report.unusableText()) all.push_back(std::move(sentence));
   if (log.left_out > 0)
     all.push_back(base::counted(log.left_out, "image") + " of the camera left out, the first because " +
                   log.why_left_out);

@@ -37,6 +37,30 @@ void set(mrpt::img::TCamera& camera, const CameraNumbers& numbers) {
     if (numbers[i]) camera.dist[i - 4] = *numbers[i];
 }
 
+std::vector<double> numbersOf(const std::vector<std::string>& texts) {
+  constexpr double kMost = 1;  // [1/m], which would be an error of 1 m at 1 m
+  std::vector<double> numbers;
+  for (const auto& text : texts) {
+    double number = 0;
+    const auto bad = base::option_text::parse(text, {-kMost, kMost}, number);
+    if (bad)
+      throw base::Error(
+          bad->kind == base::BadValue::Kind::type ? base::ExitCode::wrong_type : base::ExitCode::out_of_range,
+          "[calibration] depth_distortion_per_m: '" + text + "' is not " + bad->expected);
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+DepthDistortion distortionOf(const std::vector<std::string>& texts) {
+  auto numbers = numbersOf(texts);
+  try {
+    return DepthDistortion(std::move(numbers));
+  } catch (const base::Error& error) {
+    throw base::Error(error.code(), std::string("[calibration] depth_distortion_per_m: ") + error.what());
+  }
+}
+
 }  // namespace
 
 const base::OptionTable<Options>& Options::table() {
@@ -65,6 +89,9 @@ const base::OptionTable<Options>& Options::table() {
           .number("picture_p2", &Options::picture_p2, lens, "Its second tangential coefficient.")
           .number("picture_k3", &Options::picture_k3, lens, "Its third radial coefficient.")
           .number("depth_scale", &Options::depth_scale, scale, "True depth over the depth that the log tells.")
+          .list("depth_distortion_per_m", &Options::depth_distortion,
+                "By how much inverse depths are too small over the image: coefficients of products of Legendre "
+                "polynomials, as omnimapper-calibrate depth writes them; applied before depth_scale.")
           .number("picture_x_m", &Options::picture_x, place,
                   "Picture's camera in the depth camera's frame (x forward, y left, z up), as MRPT keeps it: forward.")
           .number("picture_y_m", &Options::picture_y, place, "Picture's camera in that frame: left.")
@@ -75,7 +102,8 @@ const base::OptionTable<Options>& Options::table() {
   return table;
 }
 
-CameraCalibration::CameraCalibration(const Options& options) : options_(options), tells_(true) {
+CameraCalibration::CameraCalibration(const Options& options)
+    : options_(options), depth_distortion_(distortionOf(options.depth_distortion)), tells_(true) {
   const std::array<Number, 6> pose{options.picture_x,   options.picture_y,     options.picture_z,
                                    options.picture_yaw, options.picture_pitch, options.picture_roll};
   const auto told = std::count_if(pose.begin(), pose.end(), [](const Number& n) { return n.has_value(); });
@@ -98,6 +126,7 @@ CameraCalibration CameraCalibration::read(const base::Config& config) {
 
 void CameraCalibration::applyTo(mrpt::obs::CObservation3DRangeScan& scan) const {
   set(scan.cameraParams, depthNumbers(options_));
+  depth_distortion_.applyTo(scan);  // while the units are the log's
   set(scan.cameraParamsIntensity, pictureNumbers(options_));
   if (options_.depth_scale)
     scan.rangeUnits = static_cast<float>(static_cast<double>(scan.rangeUnits) * *options_.depth_scale);

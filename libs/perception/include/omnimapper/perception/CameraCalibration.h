@@ -4,9 +4,11 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/perception/DepthDistortion.h>
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace omnimapper::perception {
 
@@ -21,6 +23,7 @@ struct CameraCalibrationOptions {
   Number picture_fx, picture_fy, picture_cx, picture_cy;              ///< [px]
   Number picture_k1, picture_k2, picture_p1, picture_p2, picture_k3;  ///< lens
   Number depth_scale;                                                 ///< true depth over the log's
+  std::vector<std::string> depth_distortion;  ///< coefficients of DepthDistortion [1/m], in numbers as they are written
   /// depth_from_picture as MRPT has it in relativePoseIntensityWRTDepth, whose picture's frame is optical (x right, y
   /// down, z forward) while the depth camera's is not (x forward, y left, z up). [m] [rad], about z, then y, then x.
   Number picture_x, picture_y, picture_z, picture_yaw, picture_pitch, picture_roll;
@@ -33,7 +36,8 @@ class CameraCalibration {
  public:
   /// Changes nothing.
   CameraCalibration() = default;
-  /// Throws Error(out_of_range) for a pose of the picture of which only a part is told.
+  /// Throws Error(out_of_range) for a pose of the picture of which only a part is told, and for a distortion of the
+  /// depths that DepthDistortion refuses, Error(wrong_type) for one that is no numbers.
   explicit CameraCalibration(const CameraCalibrationOptions& options);
   /// Of [calibration] of `config`; without that section it changes nothing.
   static CameraCalibration read(const base::Config& config);
@@ -41,11 +45,14 @@ class CameraCalibration {
   /// Whether it changes observations of that label.
   bool isOf(const std::string& label) const { return tells_ && (options_.label.empty() || options_.label == label); }
   const std::string& label() const { return options_.label; }
-  /// Changes the cameras, their places and the units of the depths; the images stay as they are.
+  const DepthDistortion& depthDistortion() const { return depth_distortion_; }
+  /// Changes the cameras, their places and the units of the depths. The depth image stays as it is without a
+  /// distortion of the depths; with one it is corrected first, as the log tells it, and then scaled. Thread-safe.
   void applyTo(mrpt::obs::CObservation3DRangeScan& scan) const;
 
  private:
   CameraCalibrationOptions options_;
+  DepthDistortion depth_distortion_;
   bool tells_ = false;
 };
 
