@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 
 # The system tests: programs, installed package and scripts, optimised, as users have them.
-readonly system_tests=(system system-mapping system-mapping-2 system-input system-robust system-simulate system-perceive system-viewer fuzz-runs-share package scripts)
+readonly system_tests=(system system-mapping system-mapping-2 system-input system-live system-robust system-simulate system-perceive system-viewer fuzz-runs-share package scripts)
 # Unit tests that run in the optimized build alone, unless scripts/test is asked to be --thorough: the simulator reads
 # nothing that a stranger made, and takes an eighth of the sanitizers' build; calibration reads logs by the library source,
 # which is tested under the sanitizers, and would adjust its bundles there for minutes.
