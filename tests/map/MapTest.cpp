@@ -64,6 +64,15 @@ TEST(DenseTrajectory, spreadsADriftEvenlyInTime) {
   EXPECT_EQ(path[2].stamp, at(0.5));
 }
 
+TEST(NewestPose, isThatOfTheLastFrameBehindTheLastKeyFrame) {
+  auto newest = keyFrame(1, 1, CPose3D(2, 1, 0, M_PI / 2, 0, 0));
+  EXPECT_NEAR(map::newestPose(mapOf({newest})).x(), 2, 1e-12);
+  newest.dependents = {{at(1.1), CPose3D(0.1, 0, 0, 0, 0, 0)}, {at(1.2), CPose3D(0.3, 0, 0, 0, 0, 0)}};
+  const auto pose = map::newestPose(mapOf({keyFrame(0, 0, CPose3D()), newest}));
+  EXPECT_NEAR(pose.x(), 2, 1e-12);
+  EXPECT_NEAR(pose.y(), 1.3, 1e-12);
+}
+
 TEST(DenseTrajectory, aDriftKeepsItsDirectionInTheMapWhileTheRobotTurns) {
   // The robot turns a half circle on the spot while the optimised end lies 0.2 m along the map's x.
   map::KeyFrame first = keyFrame(0, 0, {});

@@ -97,7 +97,7 @@ class MrptScene : public LiveScene {
       replace(*accepted_, closureLines(closures, true));
       replace(*refused_, closureLines(closures, false));
       replace(*landmarks_, landmarkObjects(shapesOf(view), false));
-      pose_->setPose(view.map.key_frames.back().map_from_base);
+      pose_->setPose(map::newestPose(view.map));
       pose_->setScale(static_cast<float>(std::min(1.0, sight.distance / kAxesInView)));
       const auto count =
           std::count_if(closures.begin(), closures.end(), [](const Closure& c) { return c.decision->accepted; });
@@ -109,6 +109,15 @@ class MrptScene : public LiveScene {
                               0, font);
     }
     if (options_.follow) lookFrom(sight);
+    window_->forceRepaint();
+  }
+
+  void move(const mrpt::poses::CPose3D& map_from_base) override {
+    {
+      mrpt::opengl::COpenGLScene::Ptr scene;
+      mrpt::gui::CDisplayWindow3DLocker lock(*window_, scene);
+      pose_->setPose(map_from_base);
+    }
     window_->forceRepaint();
   }
 

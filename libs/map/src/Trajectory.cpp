@@ -59,4 +59,10 @@ std::vector<StampedPose> denseTrajectory(const Map& map) {
   return trajectory;
 }
 
+mrpt::poses::CPose3D newestPose(const Map& map) {
+  const KeyFrame& newest = map.key_frames.back();
+  return newest.dependents.empty() ? newest.map_from_base
+                                   : newest.map_from_base + newest.dependents.back().keyframe_from_base;
+}
+
 }  // namespace omnimapper::map

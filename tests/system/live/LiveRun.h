@@ -44,7 +44,8 @@ class LiveRun {
     odometry_port_ = boundPort(listenTcp({}));
     std::ofstream(folder / "live.ini") << "[live]\nsensors = laser, wheels\ncheckpoint_s = 2\n"
                                        << "[laser]\ndriver = CHokuyoURG\nsensorLabel = laser\nIP_DIR = 127.0.0.1\n"
-                                       << "pose_x = 0.15\npose_z = 0.35\nPORT_DIR = " << laser_port_ << "\n[wheels]\ndriver = COdometryLines\n"
+                                       << "pose_x = 0.15\npose_z = 0.35\nPORT_DIR = " << laser_port_
+                                       << "\n[wheels]\ndriver = COdometryLines\n"
                                        << "sensorLabel = odometry\nport = " << odometry_port_ << "\n";
   }
 

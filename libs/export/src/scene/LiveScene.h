@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt/poses/CPose3D.h>
 #include <omnimapper/plugin/View.h>
 
 #include <string>
@@ -15,6 +16,8 @@ class LiveScene {
   virtual ~LiveScene() = default;
   virtual bool isOpen() const = 0;
   virtual void show(const mapper::View& view) = 0;
+  /// The robot is there now.
+  virtual void move(const mrpt::poses::CPose3D& map_from_base) = 0;
 };
 
 }  // namespace omnimapper::exports

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/map/Trajectory.h>
 
 #include <algorithm>
 #include <chrono>
@@ -73,6 +74,13 @@ void LiveWindow::update(const mapper::View& view) {
 
 void LiveWindow::keyFrameAdded(const mapper::View& view) {
   if (Clock::now() >= next_) update(view);
+}
+
+void LiveWindow::frameAdded(const mapper::View& view) {
+  constexpr auto kShortest = std::chrono::milliseconds(33);
+  if (Clock::now() < next_move_ || !isOpen()) return;
+  scene_->move(map::newestPose(view.map));
+  next_move_ = Clock::now() + kShortest;
 }
 
 void LiveWindow::finish(const mapper::View& view) {

@@ -23,8 +23,8 @@ struct LiveWindowOptions {
 class LiveScene;
 
 /// A 3D window of MRPT that shows the map while it grows: occupancy grid, points, trajectory, closures,
-/// landmarks, the newest pose. Drawn anew after each solve, and up to five times a second between. It may be closed at
-/// any time; the run goes on.
+/// landmarks, the newest pose. Drawn anew after each solve, and up to five times a second between; the pose moves with
+/// every frame, up to 30 times a second. It may be closed at any time; the run goes on.
 class LiveWindow : public mapper::OutputPlugin {
  public:
   /// Throws Error(command_line) if there is no display to open a window on, Error(plugin_library) if
@@ -33,6 +33,7 @@ class LiveWindow : public mapper::OutputPlugin {
   ~LiveWindow() override;
   void update(const mapper::View& view) override;
   void keyFrameAdded(const mapper::View& view) override;
+  void frameAdded(const mapper::View& view) override;
   /// Shows the final map.
   void finish(const mapper::View& view) override;
   /// Whether the window is open and to be kept so.
@@ -45,6 +46,7 @@ class LiveWindow : public mapper::OutputPlugin {
   std::unique_ptr<LiveScene> scene_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point next_ = Clock::now();  // before it nothing is drawn but what a solve has moved
+  Clock::time_point next_move_ = next_;
 };
 
 class LiveWindowFactory : public mapper::OutputPluginFactory {

@@ -50,7 +50,11 @@ void BackEnd::beginSession(const map::Session& session, const std::optional<Sess
 
 bool BackEnd::process(FrameBundle& bundle) {
   if (bundle.observations.empty()) {
-    if (!chain_.attach(bundle.stamp)) ++state_.counts.unconnected;
+    if (!chain_.attach(bundle.stamp)) {
+      ++state_.counts.unconnected;
+      return false;
+    }
+    for (auto& [section, plugin] : plugins_.output) plugin->frameAdded(state_.view());
     return false;
   }
   const auto place = chain_.place(bundle.stamp);

@@ -19,6 +19,9 @@ class OutputPlugin {
   virtual void update(const View& /*view*/) {}
   /// After each key frame, for what is shown live between solves, too. It must not take long.
   virtual void keyFrameAdded(const View& /*view*/) {}
+  /// After each frame of the reference sensor that is no key frame, for where the robot is shown live. It must not take
+  /// long.
+  virtual void frameAdded(const View& /*view*/) {}
   /// Once, at the end of the run. Throws base::Error if an output cannot be written.
   virtual void finish(const View& view) = 0;
   /// Whether somebody may still look at it: the run ends when this says no, and all is written by then.
