@@ -96,7 +96,7 @@ class PlayTest : public ::testing::Test {
     source->close();
     program.send(SIGINT);
     const auto ended = program.wait();
-    EXPECT_EQ(ended.code, 130) << testing::toString(ended);
+    EXPECT_TRUE(ended.code == 130 || ended.code == 0) << testing::toString(ended);  // 0: the log was over
     std::istringstream words(ended.out);
     for (std::string word; words >> word;)
       if (word == "host_start" && words >> word) host_start = base::parseUnix(word);
@@ -137,7 +137,7 @@ TEST_F(PlayTest, laserAndOdometryComeAsInTheLogByOneClock) {
     late.push_back(base::secondsBetween(played[i]->timestamp, inLog(log, scans[i]->timestamp)) / kPace);
   }
   std::sort(late.begin(), late.end());
-  EXPECT_NEAR(late[late.size() / 2], 0, 0.03);
+  EXPECT_NEAR(late[late.size() / 2], 0, testing::kIsSanitized ? 0.1 : 0.03);
   // The truth has the host's stamps.
   const auto truth = eval::readTum(folder / "truth.tum"), shifted = eval::readTum(folder / "host.tum");
   ASSERT_EQ(truth.size(), shifted.size());
