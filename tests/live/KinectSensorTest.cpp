@@ -81,7 +81,7 @@ class KinectSensorTest : public ::testing::Test {
 };
 
 TEST_F(KinectSensorTest, whatIsPlayedArrivesToTheQuantization) {
-  const auto played = range_scans::simulated(8);
+  const auto played = range_scans::simulated(6);
   makeSession([&](source::RawlogWriter& log) {
     for (std::size_t i = 0; i < played.size(); ++i) {
       log.add(accelerationAt(0.1 * static_cast<double>(i), 0.5, -1.25, 9.7));
@@ -118,14 +118,14 @@ TEST_F(KinectSensorTest, whatIsPlayedArrivesToTheQuantization) {
 TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
   const auto real = testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(real);
-  // Half a second of it: three lines are comments.
+  // A third of a second of it: three lines are comments.
   std::filesystem::create_directories(folder / "log");
   for (const char* name : {"depth", "rgb"}) std::filesystem::create_symlink(*real + "/" + name, folder / "log/" + name);
   for (const char* name : {"depth.txt", "rgb.txt"}) {
     std::ifstream from(*real + "/" + name);
     std::ofstream to(folder / "log/" + name);
     std::string line;
-    for (int i = 0; i < 18 && std::getline(from, line); ++i) to << line << "\n";
+    for (int i = 0; i < 13 && std::getline(from, line); ++i) to << line << "\n";
   }
   makeSession(folder / "log");
   range_scans::Scans played;

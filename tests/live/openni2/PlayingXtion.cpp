@@ -1,6 +1,7 @@
 // A driver of OpenNI2 that plays the depths and pictures of a rawlog as an Xtion. Environment: OMNIMAPPER_PLAYED_LOG is
-// the rawlog, of 640 x 480 images; at its end the device is unplugged, and after OMNIMAPPER_UNPLUGGED_S seconds, if
-// that is told, plugged in again. For tests: OpenNI2 loads it from a folder of the build alone.
+// the rawlog, of 640 x 480 images. At its end the device is unplugged, and after OMNIMAPPER_UNPLUGGED_S seconds, if
+// that is told, plugged in again; if that is "never", it stays where it is and sends nothing until it is opened anew.
+// For tests: OpenNI2 loads it from a folder of the build alone.
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/serialization/CArchive.h>
@@ -263,10 +264,11 @@ class Driver : public oni::driver::DriverBase {
  private:
   // From a thread of its own: OpenNI2 stops the streams in this call.
   void unplug() {
+    const char* seconds = std::getenv("OMNIMAPPER_UNPLUGGED_S");
+    if (seconds && std::string(seconds) == "never") return;
     if (cable_.joinable()) cable_.join();
-    cable_ = std::thread([this] {
+    cable_ = std::thread([this, seconds] {
       deviceDisconnected(&info_);
-      const char* seconds = std::getenv("OMNIMAPPER_UNPLUGGED_S");
       if (!seconds) return;
       const auto back = Clock::now() + std::chrono::duration<double>(std::atof(seconds));
       while (!stopping_ && Clock::now() < back) std::this_thread::sleep_for(std::chrono::milliseconds(20));
