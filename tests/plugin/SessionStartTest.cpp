@@ -65,10 +65,9 @@ TEST_F(PlacedSession, MovesAsAWholeAndIsHeldThere) {
 TEST_F(PlacedSession, TakesLandmarksOfItsOwnWithItAndLeavesThoseOfTheMap) {
   const auto add_point = [&](const Eigen::Vector2d& place) {
     map::Landmark landmark;
-    landmark.id = {graph_.session(), graph_.session()};
-    landmark.variables = {graph_.addVariable(graph::point2(), place)};
-    const auto variable = landmark.variables.front();
-    map_.landmarks.insert(std::move(landmark));
+    const auto variable = graph_.addVariable(graph::point2(), place);
+    landmark.variables = {variable};
+    map_.landmarks.add(graph_.session(), std::move(landmark));
     return variable;
   };
   const auto own = add_point({3, 1});
