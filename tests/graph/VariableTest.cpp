@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "Worlds.h"
+#include "omnimapper/graph/PlacedVariable.h"
 #include "omnimapper/graph/Variable.h"
 
 namespace omnimapper::graph::variable_test {
@@ -64,6 +65,31 @@ TEST_P(VariableTest, MinusUndoesPlusAndPlusUndoesMinus) {
     const Eigen::VectorXd reached = plus(*c.kind, c.x, minus(*c.kind, c.y, c.x));
     EXPECT_LT(minus(*c.kind, reached, c.y).norm(), 2e-14);
   }
+}
+
+TEST_P(VariableTest, MovedThereAndBackIsWhereItWas) {
+  const auto& kind = dynamic_cast<const PlacedVariable&>(*draw().kind);
+  for (int i = 0; i < 20; ++i) {
+    const Case c = draw();
+    const Eigen::Vector3d by = noise_.vector(3);
+    const geometry::Se3 there{Eigen::Quaterniond(Eigen::AngleAxisd(by.z(), Eigen::Vector3d::UnitZ())),
+                              {by.x(), by.y(), 0}};
+    Eigen::VectorXd moved = c.x;
+    kind.move(there, moved.data(), moved.data());
+    EXPECT_GT((moved - c.x).norm(), 1e-3);
+    kind.move(inverse(there), moved.data(), moved.data());
+    EXPECT_LT(minus(kind, moved, c.x).norm(), 1e-12);
+  }
+}
+
+TEST(PlacedVariable, APointAndAPoseAreTurnedAndShiftedTogether) {
+  const geometry::Se3 by{Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ())), {10, 5, 0}};
+  Eigen::Vector2d point(3, 1);
+  Eigen::Vector3d pose(3, 1, M_PI);
+  dynamic_cast<const PlacedVariable&>(*point2()).move(by, point.data(), point.data());
+  dynamic_cast<const PlacedVariable&>(*se2()).move(by, pose.data(), pose.data());
+  EXPECT_LT((point - Eigen::Vector2d(9, 8)).norm(), 1e-12);
+  EXPECT_LT((pose - Eigen::Vector3d(9, 8, -M_PI / 2)).norm(), 1e-12);
 }
 
 TEST_P(VariableTest, PlusInPlaceIsPlus) {

@@ -136,6 +136,23 @@ TEST_F(Continue, AStartThatIsWrongByFarIsSetRightInTheWholeMap) {
   EXPECT_LT(testing::trajectoryError(both->view(), log), 0.1);
 }
 
+// Walls fit many places, and a single one that ties a session to the wrong place would hide it from those who seek it.
+TEST_F(Continue, ALogThatBeginsWhereNobodySaidIsFoundAndHasItsWallsOnce) {
+  ini_ += "[laser_lines]\nclass = LaserLineExtractor\n[planes]\nclass = PlaneLandmarksPlugin\n";
+  settings_ = {"mapper.measurement_plugins=planes,loop_closure", "perception.extractors=laser_points,laser_lines"};
+  const SimulatedLog log(ring(1.5));  // ends half a lap from where it began, and there the session should begin
+  const auto before = map(log.observations());
+  const auto walls = [](const View& view) {
+    int count = 0;
+    for (const auto& [id, landmark] : view.map.landmarks) count += landmark.state == map::Landmark::State::active;
+    return count;
+  };
+  const auto both = goOn(*before, log.observations());
+  ASSERT_TRUE(both->view().map.sessions[1].joined);
+  EXPECT_LT(testing::trajectoryError(both->view(), log), 0.1);
+  EXPECT_LE(walls(both->view()), walls(before->view()) + 1);
+}
+
 TEST_F(Continue, AStartThatIsOffIsSetRight) {
   const SimulatedLog log(ring(2));
   const auto [first, second] = cut(log, 0.5);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/plugin/Batch.h>
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugin/SessionStart.h>
@@ -59,6 +60,22 @@ TEST_F(PlacedSession, MovesAsAWholeAndIsHeldThere) {
   ASSERT_EQ(factors.size(), 1U);
   EXPECT_LT(graph_.whitenedResidual(factors[0]).norm(), 1e-12);
   EXPECT_NEAR(graph_.factor(factors[0]).noise.covariance()(0, 0), 25 * 25, 1e-9);
+}
+
+TEST_F(PlacedSession, TakesLandmarksOfItsOwnWithItAndLeavesThoseOfTheMap) {
+  const auto add_point = [&](const Eigen::Vector2d& place) {
+    map::Landmark landmark;
+    const auto variable = graph_.addVariable(graph::point2(), place);
+    landmark.variables = {variable};
+    map_.landmarks.add(graph_.session(), std::move(landmark));
+    return variable;
+  };
+  const auto own = add_point({3, 1});
+  graph_.setSession(0);
+  const auto of_map = add_point({3, 1});
+  placeSession({second_, {CPose3D(10, 5, 0, M_PI / 2, 0, 0), 25, 3}}, graph_, map_);
+  EXPECT_LT((graph_.value(own) - Eigen::Vector2d(9, 6)).norm(), 1e-12);
+  EXPECT_EQ(graph_.value(of_map), Eigen::Vector2d(3, 1));
 }
 
 TEST_F(PlacedSession, OneThatIsJoinedOrOfThePastIsNotMoved) {

@@ -1,10 +1,16 @@
 #include "omnimapper/graph/VariableKinds.h"
 
+#include <omnimapper/geometry/Angle.h>
+
+#include <cmath>
+
+#include "omnimapper/graph/PlacedVariable.h"
+
 namespace omnimapper::graph {
 
 namespace {
 
-class Se2Variable : public Variable {
+class Se2Variable : public PlacedVariable {
  public:
   std::string_view kind() const override { return "se2"; }
   int ambientSize() const override { return 3; }
@@ -15,9 +21,16 @@ class Se2Variable : public Variable {
   void minus(const double* y, const double* x, double* delta) const override {
     Eigen::Map<Eigen::Vector3d>{delta} = geometry::minus(se2FromValue(y), se2FromValue(x));
   }
+  void move(const geometry::Se3& a_from_b, const double* x, double* y) const override {
+    const geometry::Se2 pose = se2FromValue(x);
+    const Eigen::Vector3d position = a_from_b * Eigen::Vector3d(pose.x, pose.y, 0);
+    const Eigen::Matrix3d rotation = a_from_b.rotation.toRotationMatrix();
+    const double turn = std::atan2(rotation(1, 0), rotation(0, 0));
+    Eigen::Map<Eigen::Vector3d>{y} = Eigen::Vector3d(position.x(), position.y(), geometry::wrapToPi(pose.yaw + turn));
+  }
 };
 
-class Se3Variable : public Variable {
+class Se3Variable : public PlacedVariable {
  public:
   std::string_view kind() const override { return "se3"; }
   int ambientSize() const override { return 7; }
@@ -29,10 +42,13 @@ class Se3Variable : public Variable {
   void minus(const double* y, const double* x, double* delta) const override {
     Eigen::Map<geometry::Vector6d>{delta} = geometry::minus(se3FromValue(y), se3FromValue(x));
   }
+  void move(const geometry::Se3& a_from_b, const double* x, double* y) const override {
+    Eigen::Map<Eigen::Matrix<double, 7, 1>>{y} = toValue(a_from_b * se3FromValue(x));
+  }
 };
 
 template <int n>
-class PointVariable : public Variable {
+class PointVariable : public PlacedVariable {
  public:
   std::string_view kind() const override { return n == 2 ? "point2" : "point3"; }
   int ambientSize() const override { return n; }
@@ -42,6 +58,11 @@ class PointVariable : public Variable {
   }
   void minus(const double* y, const double* x, double* delta) const override {
     for (int i = 0; i < n; ++i) delta[i] = y[i] - x[i];
+  }
+  void move(const geometry::Se3& a_from_b, const double* x, double* y) const override {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    point.head<n>() = Eigen::Map<const Eigen::Matrix<double, n, 1>>(x);
+    Eigen::Map<Eigen::Matrix<double, n, 1>>{y} = (a_from_b * point).template head<n>();
   }
 };
 

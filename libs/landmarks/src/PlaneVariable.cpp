@@ -1,10 +1,11 @@
+#include <omnimapper/graph/PlacedVariable.h>
 #include <omnimapper/landmarks/PlaneVariable.h>
 
 namespace omnimapper::landmarks {
 
 namespace {
 
-class PlaneVariable : public graph::Variable {
+class PlaneVariable : public graph::PlacedVariable {
  public:
   std::string_view kind() const override { return "plane"; }
   int ambientSize() const override { return 4; }
@@ -15,6 +16,9 @@ class PlaneVariable : public graph::Variable {
   }
   void minus(const double* y, const double* x, double* delta) const override {
     Eigen::Map<Eigen::Vector3d>{delta} = geometry::minus(planeFromValue(y), planeFromValue(x));
+  }
+  void move(const geometry::Se3& a_from_b, const double* x, double* y) const override {
+    Eigen::Map<Eigen::Vector4d>{y} = toValue(a_from_b * planeFromValue(x));
   }
   Eigen::VectorXd hyperplane(const double* value) const override { return Eigen::Map<const Eigen::Vector4d>(value); }
 };

@@ -1,4 +1,5 @@
 #include <omnimapper/geometry/Angle.h>
+#include <omnimapper/graph/PlacedVariable.h>
 #include <omnimapper/landmarks/WallVariable.h>
 
 #include <Eigen/Geometry>
@@ -8,7 +9,7 @@ namespace omnimapper::landmarks {
 
 namespace {
 
-class WallVariable : public graph::Variable {
+class WallVariable : public graph::PlacedVariable {
  public:
   std::string_view kind() const override { return "wall"; }
   int ambientSize() const override { return 4; }
@@ -21,6 +22,13 @@ class WallVariable : public graph::Variable {
   }
   void minus(const double* y, const double* x, double* delta) const override {
     Eigen::Map<Eigen::Vector2d>{delta} = wallChange(wallFromValue(x), wallFromValue(y));
+  }
+  void move(const geometry::Se3& a_from_b, const double* x, double* y) const override {
+    const geometry::Segment2 wall = wallFromValue(x);
+    const auto moved = [&](const Eigen::Vector2d& end) -> Eigen::Vector2d {
+      return (a_from_b * Eigen::Vector3d(end.x(), end.y(), 0)).head<2>();
+    };
+    Eigen::Map<Eigen::Vector4d>{y} = toValue(geometry::Segment2{moved(wall.from), moved(wall.to)});
   }
   Eigen::VectorXd hyperplane(const double* value) const override {
     const geometry::Segment2 wall = wallFromValue(value);

@@ -1,4 +1,6 @@
 #include <omnimapper/geometry/Angle.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/graph/PlacedVariable.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugin/SessionStart.h>
@@ -54,6 +56,16 @@ std::string whyFixed(const SessionPlace& place, const graph::Graph& graph, const
   return {};
 }
 
+namespace {
+void movePlaced(base::VariableId id, const geometry::Se3& by, graph::Graph& graph) {
+  const auto* kind = dynamic_cast<const graph::PlacedVariable*>(graph.variable(id).kind.get());
+  if (!kind) return;
+  Eigen::VectorXd value = graph.value(id);
+  kind->move(by, value.data(), value.data());
+  graph.setValue(id, value);
+}
+}  // namespace
+
 void placeSession(const SessionPlace& place, graph::Graph& graph, map::Map& map) {
   const auto& session = map.sessions.back();
   const Motion motion =
@@ -71,6 +83,12 @@ void placeSession(const SessionPlace& place, graph::Graph& graph, map::Map& map)
     anchor_moved = anchor_moved || frame.pose == session.anchor;
   }
   if (!anchor_moved) move(session.anchor);
+  const geometry::Se3 by = geometry::fromMrpt(new_from_old);
+  for (const auto& [id, landmark] : map.landmarks) {
+    for (const auto variable : landmark.variables) {
+      if (variable.session == session.number && graph.contains(variable)) movePlaced(variable, by, graph);
+    }
+  }
   const std::vector<base::FactorId> factors = graph.factorsOf(session.anchor);
   for (const auto id : factors) {
     if (graph.factor(id).variables.size() == 1) graph.removeFactor(id);

@@ -39,6 +39,11 @@ bool LoopClosurePlugin::wants(const mrpt::obs::CObservation& observation) const 
   return std::find(labels.begin(), labels.end(), observation.sensorLabel) != labels.end();
 }
 
+bool LoopClosurePlugin::isSeeking() const {
+  constexpr int kPatience = 20;  // key frames
+  return places_ && frames_without_scan_ < kPatience;
+}
+
 std::unique_ptr<const mapper::Prepared> LoopClosurePlugin::prepare(const mrpt::obs::CObservation& observation) const {
   auto prepared = std::make_unique<PreparedScan>();
   prepared->scan = std::make_shared<const matching::ScanWithNormals>(
@@ -52,6 +57,7 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   const auto& scan = dynamic_cast<const PreparedScan&>(*observed.prepared).scan;
   const std::size_t index = remember(frame, scan, view, history);
   if (scan->empty()) return {};
+  frames_without_scan_ = 0;
   seekInMap(observed.observation.sensorLabel, history, index, view);
   closures_.noteSolves(view.solves.size());
   seekGlobally(observed.observation.sensorLabel, history, index, view);
@@ -214,6 +220,7 @@ void LoopClosurePlugin::retired(const map::KeyFrame& frame) {
 }
 
 mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, const mapper::View& view) {
+  ++frames_without_scan_;
   mapper::FollowUp follow_up;
   follow_up.batch = closures_.proposedAgain(view, context_.section);
   for (auto& search : searches_) follow_up.jobs.push_back({"loop closure of " + toString(frame.id), std::move(search)});

@@ -2,6 +2,7 @@
 
 #include <omnimapper/matching/ScanMatcherOptions.h>
 #include <omnimapper/plugin/PluginFactory.h>
+#include <omnimapper/plugin/SessionSeeking.h>
 
 #include <map>
 #include <memory>
@@ -22,11 +23,13 @@ namespace omnimapper::plugins {
 /// covariance of the estimate allows them to be; a session that nothing ties to the saved map, in all of it. Scans are
 /// matched in the plane of the base; in a spatial map z, roll and pitch stay open. The motion from key frame to key
 /// frame is ScanOdometryPlugin's.
-class LoopClosurePlugin : public mapper::MeasurementPlugin {
+class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::SeeksSession {
  public:
   LoopClosurePlugin(const LoopClosureOptions& options, const matching::ScanMatcherOptions& matching,
                     const mapper::PluginContext& context);
 
+  /// While scans come: without them nothing is sought.
+  bool isSeeking() const override;
   bool wants(const mrpt::obs::CObservation& observation) const override;
   std::unique_ptr<const mapper::Prepared> prepare(const mrpt::obs::CObservation& observation) const override;
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
@@ -87,6 +90,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin {
   std::map<std::string, SoughtGlobally> sought_globally_;  // by label
   std::vector<GlobalLoopSearch> global_searches_;          // of the key frame being measured
   std::shared_ptr<const ScanDatabase> places_;             // of a map that is continued
+  int frames_without_scan_ = 0;                            // since the last scan, or the start
   std::map<std::string, Sought> sought_in_map_;            // by label
   std::vector<GlobalRelocalization> map_searches_;         // of the key frame being measured
 };

@@ -18,13 +18,15 @@ namespace omnimapper::plugins {
 using geometry::Plane3;
 
 PlaneAssociator::PlaneAssociator(const PlaneLandmarksOptions& options, const mapper::PluginContext& context,
-                                 const PlaneLandmarkIndex& known, const map::KeyFrame& frame, const mapper::View& view)
+                                 const PlaneLandmarkIndex& known, const map::KeyFrame& frame, const mapper::View& view,
+                                 bool others_seek)
     : options_(options),
       context_(context),
       known_(known),
       form_(known.form()),
       frame_(frame),
       view_(view),
+      others_seek_(others_seek),
       map_from_base_(geometry::fromMrpt(mapper::poseOf(view.graph, frame.pose))) {
   const auto pose = view.jointCovariance({frame.pose});
   if (pose) pose_sigma_ = std::sqrt(pose->topLeftCorner<2, 2>().trace());
@@ -74,6 +76,7 @@ std::vector<mapper::Pairing> PlaneAssociator::pairingsOf(const std::vector<Plane
   std::vector<mapper::Pairing> pairings;
   // Where nothing is learnt any more, what may be noise must not hold a pose as if it were exact.
   const auto isOf = [&](const PlaneLandmarkIndex::Surface& surface) {
+    if (others_seek_ && !view_.areJoined(frame_.id.session, surface.id.session)) return false;
     return !view_.map_is_held || !dynamic_cast<const PlanePayload&>(*surface.payload).is_candidate;
   };
   for (std::size_t i = 0; i < sightings.size(); ++i) {

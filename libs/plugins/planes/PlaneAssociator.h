@@ -22,7 +22,8 @@ namespace omnimapper::plugins {
 class PlaneAssociator {
  public:
   PlaneAssociator(const PlaneLandmarksOptions& options, const mapper::PluginContext& context,
-                  const PlaneLandmarkIndex& known, const map::KeyFrame& frame, const mapper::View& view);
+                  const PlaneLandmarkIndex& known, const map::KeyFrame& frame, const mapper::View& view,
+                  bool others_seek);
 
   Eigen::Vector3d upInBase() const { return map_from_base_.rotation.conjugate() * Eigen::Vector3d::UnitZ(); }
   /// To be called once.
@@ -68,6 +69,7 @@ class PlaneAssociator {
   const landmarks::PlaneParametrization& form_;
   const map::KeyFrame& frame_;
   const mapper::View& view_;
+  const bool others_seek_;  // where the newest session lies: it is tied to no other by what is measured here
   geometry::Se3 map_from_base_;
   double pose_sigma_ = 0;                                                  // [m] of the base in the map
   std::map<base::KeyFrameId, std::pair<double, double>> variances_since_;  // of the way [m^2], of the turn [rad^2]

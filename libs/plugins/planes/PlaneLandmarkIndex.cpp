@@ -50,13 +50,16 @@ void PlaneLandmarkIndex::update(const mapper::View& view) {
       continue;
     }
     ++at;
-    if (surface.payload == landmark->payload && surface.solve == view.solves.size() + 1) continue;
+    const auto plane = form().plane(view.graph.value(landmark->variables.front()));
+    const bool is_solved = surface.solve != view.solves.size() + 1;
+    // Between solutions nothing moves but a session as a whole, and patches are but added.
+    const bool is_placed = plane.normal != surface.plane.normal || plane.distance != surface.plane.distance;
+    if (surface.payload == landmark->payload && !is_solved && !is_placed) continue;
     const auto& payload = dynamic_cast<const PlanePayload&>(*landmark->payload);
     surface.variable = landmark->variables.front();
-    surface.plane = form().plane(view.graph.value(surface.variable));
+    surface.plane = plane;
     const landmarks::PlaneAxes axes(surface.plane);
-    // Between solutions nothing moves, and patches are but added.
-    const bool has_moved = surface.solve != view.solves.size() + 1 || surface.patches > payload.patches.size();
+    const bool has_moved = is_solved || is_placed || surface.patches > payload.patches.size();
     if (has_moved) {
       surface.patches = 0;
       surface.hull.clear();

@@ -99,7 +99,7 @@ bool PlaneLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) con
 mapper::Batch PlaneLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                             const mapper::View& view) {
   known_->update(view);
-  PlaneAssociator moment(options_, context_, *known_, frame, view);
+  PlaneAssociator moment(options_, context_, *known_, frame, view, others_seek_);
   return moment.take(planeMeasurements(observed.observation, moment.upInBase(), known_->form(), options_));
 }
 

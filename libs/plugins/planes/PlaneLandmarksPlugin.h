@@ -3,6 +3,7 @@
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/plugin/Association.h>
 #include <omnimapper/plugin/PluginFactory.h>
+#include <omnimapper/plugin/SessionSeeking.h>
 
 #include <cstdint>
 #include <memory>
@@ -47,7 +48,7 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
 /// (CObservationPlanes) and by the lines of 2D lasers (CObservationLaserLines) alike: one wall is one landmark, whoever
 /// sees it. A landmark that only lines of one height have shown is held upright, weakly. Coplanar surfaces that are
 /// apart are landmarks of their own; landmarks that turn out to be one are merged. Opposite faces of a wall are two.
-class PlaneLandmarksPlugin : public mapper::MeasurementPlugin {
+class PlaneLandmarksPlugin : public mapper::MeasurementPlugin, public mapper::LeavesSeeking {
  public:
   PlaneLandmarksPlugin(const PlaneLandmarksOptions& options, const mapper::PluginContext& context);
   ~PlaneLandmarksPlugin() override;
@@ -59,12 +60,14 @@ class PlaneLandmarksPlugin : public mapper::MeasurementPlugin {
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
   mapper::Batch atEnd(const mapper::View& view) override;
   void restore(const map::MapSection* saved, const mapper::View& view) override;
+  void leaveSeeking(bool others_seek) override { others_seek_ = others_seek; }
 
  private:
   PlaneLandmarksOptions options_;
   mapper::PluginContext context_;
   std::unique_ptr<class PlaneLandmarkIndex> known_;
   std::size_t merged_at_solve_ = 0;
+  bool others_seek_ = false;  // the newest session in the map
 };
 
 class PlaneLandmarksPluginFactory : public mapper::MeasurementPluginFactory {

@@ -1,4 +1,8 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/graph/PlacedVariable.h>
+#include <omnimapper/landmarks/PlaneVariable.h>
+#include <omnimapper/plugin/PoseFactors.h>
 
 #include <sstream>
 
@@ -61,6 +65,45 @@ TEST_F(PlaneMaps, ASessionOfUnknownPlaceIsTiedOnlyByWhatIsTested) {
   ASSERT_EQ(active().size(), 1U);
   EXPECT_EQ(run_.decisions.back().reason, "waits for the consistency test");
   EXPECT_EQ(active()[0].evidence, 1U);
+}
+
+// A wall fits many places: whoever can tell them apart ties the session, and then it is the same wall.
+TEST_F(PlaneMaps, ASessionThatOthersSeekInTheMapKeepsItsLandmarksToItselfUntilItIsJoined) {
+  driveTo({});
+  for (int i = 0; i < 3; ++i) see(planesOf({wallPlane(3, -1, 1)}));
+  run_.map.sessions = {{0, "first", {}, true}, {1, "second", {}, false}};
+  run_.graph.setSession(1);
+  driveTo({});
+  plugin_->leaveSeeking(true);
+  for (int i = 0; i < 3; ++i) see(planesOf({wallPlane(3, -1, 1)}));
+  ASSERT_EQ(active().size(), 2U);
+  EXPECT_EQ(active()[1].evidence, 3U);
+  for (const auto& [id, record] : run_.graph.factors()) EXPECT_FALSE(record.tags.hypothesis);
+  run_.map.sessions[1].joined = true;
+  plugin_->leaveSeeking(false);
+  commit();
+  ASSERT_EQ(active().size(), 1U);
+  EXPECT_EQ(active()[0].evidence, 6U);
+}
+
+// Between two solves nothing else moves what was seen.
+TEST_F(PlaneMaps, AreKnownAgainWhereTheirSessionWasPlaced) {
+  driveTo({});
+  see(planesOf({wallPlane(3, -1, 1)}));
+  const CPose3D moved(10, 5, 0, M_PI / 2, 0, 0);
+  const map::KeyFrame& frame = run_.map.key_frames.back();
+  run_.graph.setValue(frame.pose, mapper::poseValue(run_.motion, moved));
+  run_.map.key_frames.edit(frame.id).map_from_base = moved;
+  const auto* kind = dynamic_cast<const graph::PlacedVariable*>(landmarks::planeVariable().get());
+  ASSERT_NE(kind, nullptr);
+  const auto variable = active()[0].variables.front();
+  Eigen::VectorXd value = run_.graph.value(variable);
+  kind->move(geometry::fromMrpt(moved), value.data(), value.data());
+  run_.graph.setValue(variable, value);
+  run_.uncertainty = mapper::Uncertainty(run_.graph);
+  see(planesOf({wallPlane(3, -1, 1)}));
+  ASSERT_EQ(active().size(), 1U);
+  EXPECT_EQ(active()[0].evidence, 2U);
 }
 
 // That they look like one may be chance while it is not known how the sessions lie to each other.

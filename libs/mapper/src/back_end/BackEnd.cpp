@@ -1,6 +1,7 @@
 #include "back_end/BackEnd.h"
 
 #include <omnimapper/mapper/SessionAlignment.h>
+#include <omnimapper/plugin/SessionSeeking.h>
 
 #include <algorithm>
 #include <iterator>
@@ -28,6 +29,19 @@ RawImages imagesThatOutputsNeed(const PluginSet& plugins) {
   RawImages most = RawImages::none;
   for (const auto& [section, plugin] : plugins.output) most = std::max(most, plugin->needsOfImages());
   return most;
+}
+
+// Who is surer than others of where a session lies ties it first.
+void tellWhoSeeks(const PluginSet& plugins, const map::Map& map) {
+  const auto is_seeking = [](const auto& named) {
+    const auto* seeker = dynamic_cast<const SeeksSession*>(named.plugin.get());
+    return seeker && seeker->isSeeking();
+  };
+  const bool any_seeks =
+      !map.sessions.back().joined && std::any_of(plugins.measurement.begin(), plugins.measurement.end(), is_seeking);
+  for (const auto& [section, plugin] : plugins.measurement) {
+    if (auto* other = dynamic_cast<LeavesSeeking*>(plugin.get())) other->leaveSeeking(any_seeks);
+  }
 }
 
 }  // namespace
@@ -114,6 +128,7 @@ BackEnd::Gathered BackEnd::gather(FrameBundle& bundle, base::KeyFrameId id) {
 }
 
 void BackEnd::measure(base::KeyFrameId id, const std::vector<Perceived>& perceived) {
+  tellWhoSeeks(plugins_, state_.map);
   for (std::size_t i = 0; i < plugins_.measurement.size(); ++i) {
     auto& [section, plugin] = plugins_.measurement[i];
     for (const auto& one : perceived) {
