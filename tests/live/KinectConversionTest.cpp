@@ -57,13 +57,13 @@ TEST(KinectConversion, theInverseIsTheNearestRawValue) {
 TEST(KinectConversion, theColourCameraSeesAPointWorkedByHand) {
   // At 2 m the pixel (440, 300) is 0.4 m right and 0.2 m below, of the colour camera 0.375 m right: 310 + 500 * 0.1875
   // and 250 + 500 * 0.1.
-  const auto place = KinectConversion(plain()).placeInPicture(440, 300, 2);
+  const auto place = KinectConversion(plain(Registration::none)).placeInPicture(440, 300, 2);
   ASSERT_TRUE(place);
   EXPECT_EQ(place->column, 404);  // 403.75
   EXPECT_EQ(place->row, 300);
   EXPECT_NEAR(place->depth, 2, 1e-6);
   // Of a colour camera 10 cm before it, turned by 0.1 rad to the left, it is 0.375 cos - 1.9 sin ... right of the axis.
-  auto turned = plain();
+  auto turned = plain(Registration::none);
   turned.picture_x = 0.1;
   turned.picture_yaw += 0.1;
   const auto other = KinectConversion(turned).placeInPicture(440, 300, 2);
@@ -73,7 +73,7 @@ TEST(KinectConversion, theColourCameraSeesAPointWorkedByHand) {
   EXPECT_NEAR(other->depth, forward, 1e-6);
   EXPECT_EQ(other->column, std::lround(310 + 500 * right / forward));
   EXPECT_EQ(other->row, std::lround(250 + 500 * 0.2 / forward));
-  EXPECT_FALSE(KinectConversion(plain()).placeInPicture(0, 240, 0.2)) << "left of the picture";
+  EXPECT_FALSE(KinectConversion(plain(Registration::none)).placeInPicture(0, 240, 0.2)) << "left of the picture";
 }
 
 TEST(KinectConversion, depthsAreMovedIntoThePictureAndTheNearestCounts) {
@@ -147,19 +147,21 @@ TEST(KinectConversion, aLensIsUndone) {
   for (const auto& camera : {options.depthCamera(), options.pictureCamera()}) {
     for (int row = 0; row < 480; row += 40) {
       for (int column = 0; column < 640; column += 40) {
-        const Eigen::Vector2d image((column - camera.cx()) / camera.fx(), (row - camera.cy()) / camera.fy());
+        const OnPlane image{(column - camera.cx()) / camera.fx(), (row - camera.cy()) / camera.fy()};
         const auto direction = beforeLens(camera, image);
         ASSERT_TRUE(direction) << column << " " << row;
-        EXPECT_LT((throughLens(camera, *direction) - image).norm(), 1e-7);
+        const OnPlane again = throughLens(camera, *direction);
+        EXPECT_NEAR(again.x, image.x, 1e-7);
+        EXPECT_NEAR(again.y, image.y, 1e-7);
       }
     }
   }
   // x = 0.2, y = 0.1, r^2 = 0.05: radial 1 + 0.1 * 0.05 = 1.005, tangential x 2 * 0.01 * 0.02 + 0.02 * (0.05 + 0.08).
   mrpt::img::TCamera camera;
   camera.dist = {0.1, 0, 0.01, 0.02, 0, 0, 0, 0};
-  const Eigen::Vector2d image = throughLens(camera, {0.2, 0.1});
-  EXPECT_NEAR(image.x(), 0.2 * 1.005 + 0.0004 + 0.0026, 1e-12);
-  EXPECT_NEAR(image.y(), 0.1 * 1.005 + 0.01 * 0.07 + 2 * 0.02 * 0.02, 1e-12);
+  const OnPlane image = throughLens(camera, {0.2, 0.1});
+  EXPECT_NEAR(image.x, 0.2 * 1.005 + 0.0004 + 0.0026, 1e-12);
+  EXPECT_NEAR(image.y, 0.1 * 1.005 + 0.01 * 0.07 + 2 * 0.02 * 0.02, 1e-12);
 }
 
 }  // namespace

@@ -56,9 +56,10 @@ class KinectSensorTest : public ::testing::Test {
   // Reads the Kinect until so many observations came, or a sentence with these words.
   testing::Ended record(const std::string& keys, int count, const std::string& words = "is gone") {
     std::ofstream(folder / "live.ini") << kSection << keys;
-    return testing::runProgram({"env", "LD_LIBRARY_PATH=" + kFakenect, "FAKENECT_PATH=" + folder / "session",
-                                testing::ownProgram("live-record"), folder / "live.ini", folder / "out", "60",
-                                std::to_string(count), words});
+    // fakenect looks for the end of a line in bytes that end without a zero.
+    return testing::runProgram({"env", "ASAN_OPTIONS=strict_string_checks=0", "LD_LIBRARY_PATH=" + kFakenect,
+                                "FAKENECT_PATH=" + folder / "session", testing::ownProgram("live-record"),
+                                folder / "live.ini", folder / "out", "60", std::to_string(count), words});
   }
 
   static void expectSameDepths(const CObservation3DRangeScan& seen, const CObservation3DRangeScan& played) {

@@ -38,7 +38,7 @@ mrpt::img::CImage imageOf(const std::uint8_t* red_green_blue) {
 }  // namespace
 
 KinectConversion::KinectConversion(const KinectOptions& options)
-    : options_(options), picture_camera_(options.pictureCamera()) {
+    : options_(options), depth_camera_(options.depthCamera()), picture_camera_(options.pictureCamera()) {
   const bool is_raw = options.registration != KinectOptions::Registration::device;
   const int values = is_raw ? kKinectNoDepth + 1 : 1 << 16;
   for (int value = 0; value < values; ++value) {
@@ -47,20 +47,29 @@ KinectConversion::KinectConversion(const KinectOptions& options)
     units_.push_back(unitsOf(metres_.back()));
   }
   // The colour camera's frame is optical, the depth camera's in the INI is not.
-  const auto depth_from_picture = (mrpt::poses::CPose3D() - sensorFromOpticalAxes()) + options.depthFromPicture();
-  const Eigen::Matrix3d picture_from_depth = depth_from_picture.getRotationMatrix().asEigen().transpose();
-  const Eigen::Vector3d picture_in_depth(depth_from_picture.x(), depth_from_picture.y(), depth_from_picture.z());
-  depth_in_picture_ = (-(picture_from_depth * picture_in_depth)).cast<float>();
-  const auto camera = options.depthCamera();
+  const auto picture_from_depth = (mrpt::poses::CPose3D() - options.depthFromPicture()) + sensorFromOpticalAxes();
+  const auto& rotation = picture_from_depth.getRotationMatrix();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rotation_[row][column] = rotation(row, column);
+  }
+  translation_ = {picture_from_depth.x(), picture_from_depth.y(), picture_from_depth.z()};
+  if (!isMoved()) return;
   rays_.reserve(kPixels);
   for (int row = 0; row < kKinectHeight; ++row) {
-    for (int column = 0; column < kKinectWidth; ++column) {
-      const auto direction =
-          beforeLens(camera, {(column - camera.cx()) / camera.fx(), (row - camera.cy()) / camera.fy()});
-      rays_.emplace_back(Eigen::Vector3f::Zero());
-      if (direction) rays_.back() = (picture_from_depth * direction->homogeneous()).cast<float>();
-    }
+    for (int column = 0; column < kKinectWidth; ++column) rays_.push_back(rayOf(column, row));
   }
+}
+
+// Of a pixel of the depth camera, in the colour camera's frame; 0 where the lens shows nothing.
+KinectConversion::Ray KinectConversion::rayOf(int column, int row) const {
+  const auto& camera = depth_camera_;
+  const auto in_depth = beforeLens(camera, {(column - camera.cx()) / camera.fx(), (row - camera.cy()) / camera.fy()});
+  if (!in_depth) return {0, 0, 0};
+  const auto along = [&](int axis) {
+    const auto& r = rotation_[axis];
+    return static_cast<float>(r[0] * in_depth->x + r[1] * in_depth->y + r[2]);
+  };
+  return {along(0), along(1), along(2)};
 }
 
 // Whether it is ours to move the depths into the picture. Without pictures they stay where they are.
@@ -69,36 +78,38 @@ bool KinectConversion::isMoved() const {
 }
 
 std::optional<KinectConversion::Place> KinectConversion::placeInPicture(int column, int row, double depth) const {
-  const Eigen::Vector3f& ray = rays_[static_cast<std::size_t>(row) * kKinectWidth + static_cast<std::size_t>(column)];
-  const Eigen::Vector3d point = depth * ray.cast<double>() + depth_in_picture_.cast<double>();
-  if (ray.isZero() || !(point.z() > 0)) return std::nullopt;
-  const Eigen::Vector2d image = throughLens(picture_camera_, point.head<2>() / point.z());
-  const double u = picture_camera_.fx() * image.x() + picture_camera_.cx();
-  const double v = picture_camera_.fy() * image.y() + picture_camera_.cy();
+  return placeOf(rayOf(column, row), depth);
+}
+
+std::optional<KinectConversion::Place> KinectConversion::placeOf(Ray ray, double depth) const {
+  const double z = depth * static_cast<double>(ray.z) + translation_[2];
+  if ((ray.x == 0 && ray.y == 0 && ray.z == 0) || !(z > 0)) return std::nullopt;
+  const OnPlane image = throughLens(picture_camera_, {(depth * static_cast<double>(ray.x) + translation_[0]) / z,
+                                                      (depth * static_cast<double>(ray.y) + translation_[1]) / z});
+  const double u = picture_camera_.fx() * image.x + picture_camera_.cx();
+  const double v = picture_camera_.fy() * image.y + picture_camera_.cy();
   if (!(u >= -0.5 && v >= -0.5 && u < kKinectWidth - 0.5 && v < kKinectHeight - 0.5)) return std::nullopt;
-  return Place{static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)), point.z()};
+  return Place{static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)), z};
 }
 
 // Of what several pixels of the depth camera show in one of the picture, the nearest counts.
 void KinectConversion::moveIntoPicture(const std::uint16_t* depths, mrpt::math::CMatrix_u16& image) const {
   image.fill(0);
-  for (int row = 0; row < kKinectHeight; ++row) {
-    for (int column = 0; column < kKinectWidth; ++column, ++depths) {
-      const double depth = *depths < metres_.size() ? metres_[*depths] : 0;
-      if (depth == 0) continue;
-      const auto place = placeInPicture(column, row, depth);
-      if (!place || place->depth > options_.max_range) continue;
-      const std::uint16_t units = unitsOf(place->depth);
-      auto& kept = image(place->row, place->column);
-      if (kept == 0 || units < kept) kept = units;
-    }
+  for (const Ray& ray : rays_) {
+    const std::uint16_t value = *depths++;
+    const double depth = value < metres_.size() ? metres_[value] : 0;
+    const auto place = depth > 0 ? placeOf(ray, depth) : std::nullopt;
+    if (!place || place->depth > options_.max_range) continue;
+    const std::uint16_t units = unitsOf(place->depth);
+    auto& kept = image(place->row, place->column);
+    if (kept == 0 || units < kept) kept = units;
   }
 }
 
 void KinectConversion::fillCameras(mrpt::obs::CObservation3DRangeScan& scan) const {
   const bool is_of_depth_camera = options_.registration != KinectOptions::Registration::device && !isMoved();
   scan.cameraParamsIntensity = picture_camera_;
-  scan.cameraParams = is_of_depth_camera ? options_.depthCamera() : picture_camera_;
+  scan.cameraParams = is_of_depth_camera ? depth_camera_ : picture_camera_;
   scan.relativePoseIntensityWRTDepth = is_of_depth_camera ? options_.depthFromPicture() : sensorFromOpticalAxes();
   scan.sensorPose = options_.baseFromSensor();
   if (!is_of_depth_camera)

@@ -3,7 +3,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/live/KinectOptions.h>
 
-#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -29,16 +29,23 @@ class KinectConversion {
   std::optional<Place> placeInPicture(int column, int row, double depth) const;
 
  private:
+  struct Ray {
+    float x, y, z;
+  };
   bool isMoved() const;
+  Ray rayOf(int column, int row) const;
+  std::optional<Place> placeOf(Ray ray, double depth) const;
   void fillCameras(mrpt::obs::CObservation3DRangeScan& scan) const;
   void moveIntoPicture(const std::uint16_t* depths, mrpt::math::CMatrix_u16& image) const;
 
   KinectOptions options_;
-  mrpt::img::TCamera picture_camera_;
-  std::vector<double> metres_;         // of a value of the device; 0: none
-  std::vector<std::uint16_t> units_;   // the same in rangeUnits
-  std::vector<Eigen::Vector3f> rays_;  // of the depth camera's pixels in the colour camera's frame; 0: none
-  Eigen::Vector3f depth_in_picture_;   // [m]
+  mrpt::img::TCamera depth_camera_, picture_camera_;
+  std::vector<double> metres_;        // of a value of the device; 0: none
+  std::vector<std::uint16_t> units_;  // the same in rangeUnits
+  /// picture_from_depth, of optical frames.
+  std::array<std::array<double, 3>, 3> rotation_;
+  std::array<double, 3> translation_;  // [m]
+  std::vector<Ray> rays_;              // of the depth camera's pixels in the colour camera's frame, if depths are moved
 };
 
 }  // namespace omnimapper::live
