@@ -58,6 +58,24 @@ TEST(SensorClock, aBurstThatWasHeldUpIsNoJump) {
   EXPECT_EQ(clock.jumps(), 0u);
 }
 
+// A machine that was busy for four seconds took in no image in time.
+TEST(SensorClock, aBusyMachineIsNoJump) {
+  SensorClock clock({}, kMaxOff);
+  for (int i = 0; i < 300; ++i) {
+    const double stamp = 0.1 * i, latency = i >= 100 && i < 140 ? 0.7 : 0.01;
+    EXPECT_NEAR(secondsOf(clock.corrected(at(stamp), at(stamp + latency))), stamp, 1e-6);
+  }
+  EXPECT_EQ(clock.jumps(), 0u);
+}
+
+TEST(SensorClock, aClockThatIsBehindFromTheStartIsFoundAfterTen) {
+  SensorClock clock({}, kMaxOff);
+  double last = 0;
+  for (int i = 0; i < 11; ++i) last = secondsOf(clock.corrected(at(0.1 * i - 2), at(0.1 * i)));
+  EXPECT_NEAR(last, 1.0, 1e-3);
+  EXPECT_EQ(clock.jumps(), 1u);
+}
+
 TEST(SensorClock, doesAsItsOptionsSay) {
   SensorOptions options;
   options.clock = Clock::arrival;

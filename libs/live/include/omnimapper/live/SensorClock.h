@@ -27,8 +27,13 @@ class SensorClock {
 
   SensorOptions options_;
   double max_off_;
-  double offset_ = 0;          // [s] of the host's clock to the driver's
-  std::deque<double> newest_;  // [s] of arrivals to stamps
+  double offset_ = 0;  // [s] of the host's clock to the driver's
+  struct Arrival {
+    base::Stamp arrival;
+    double off;  // [s] of it to the stamp
+  };
+  std::deque<Arrival> newest_;  // the last ten, or those of the last seconds
+  bool is_new_ = true;          // until there were ten
   base::Stamp last_arrival_{};
   std::size_t jumps_ = 0;
 };
