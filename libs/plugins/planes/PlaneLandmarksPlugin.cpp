@@ -99,7 +99,9 @@ bool PlaneLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) con
 mapper::Batch PlaneLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                             const mapper::View& view) {
   known_->update(view);
-  PlaneAssociator moment(options_, context_, *known_, frame, view, others_seek_);
+  // Who localizes says where it begins, and must be located soon; what is tied wrongly there harms no map.
+  const bool is_left_to_others = others_seek_ && !view.map_is_held;
+  PlaneAssociator moment(options_, context_, *known_, frame, view, is_left_to_others);
   return moment.take(planeMeasurements(observed.observation, moment.upInBase(), known_->form(), options_));
 }
 
