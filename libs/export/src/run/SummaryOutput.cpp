@@ -122,7 +122,8 @@ Json liveOf(const mapper::LiveFigures& live) {
                        {"observations", sensor.observations},
                        {"clock_offset_s", sensor.clock_offset},
                        {"clock_jumps", sensor.clock_jumps},
-                       {"reopened", sensor.reopened}});
+                       {"reopened", sensor.reopened},
+                       {"left_out", sensor.left_out}});
   }
   return {{"sensors", sensors},
           {"arrived", live.arrived},

@@ -122,7 +122,7 @@ LiveFigures LiveFeed::figures() const {
   LiveFigures figures;
   for (const auto& sensor : sensors_->sensors())
     figures.sensors.push_back({sensor.name, toString(sensor.state), sensor.observations, sensor.clock_offset,
-                               sensor.clock_jumps, sensor.reopened});
+                               sensor.clock_jumps, sensor.reopened, sensor.left_out});
   const auto counts = sensors_->counts();
   figures.arrived = counts.arrived;
   figures.given = counts.given;

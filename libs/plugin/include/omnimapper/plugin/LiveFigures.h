@@ -15,6 +15,7 @@ struct LiveFigures {
     double clock_offset = 0;  ///< [s] that was added to its stamps
     std::uint64_t clock_jumps = 0;
     std::uint64_t reopened = 0;  ///< how often it came back
+    std::uint64_t left_out = 0;  ///< messages or lines of it that were not believed
   };
   std::vector<Sensor> sensors;
   /// Each observation that arrived was given to the mapper, dropped for a newer frame of its camera, not kept because

@@ -32,8 +32,8 @@ struct SessionPlace {
 /// Why it cannot be placed: it is not the newest, or joined; empty if it can.
 std::string whyFixed(const SessionPlace& place, const graph::Graph& graph, const map::Map& map);
 
-/// Moves the session as a whole, so that its key frame is there: key frames, anchor, landmarks of its own, and the guess
-/// that holds it.
+/// Moves the session as a whole, so that its key frame is there: key frames, anchor, landmarks of its own, and the
+/// guess that holds it.
 void placeSession(const SessionPlace& place, graph::Graph& graph, map::Map& map);
 
 }  // namespace omnimapper::mapper
