@@ -68,6 +68,16 @@ TEST(SensorClock, aBusyMachineIsNoJump) {
   EXPECT_EQ(clock.jumps(), 0u);
 }
 
+// Nor one that was too busy for a minute: no latency is like the one before.
+TEST(SensorClock, aMachineThatIsTooBusyIsNoJump) {
+  SensorClock clock({}, kMaxOff);
+  for (int i = 0; i < 1000; ++i) {
+    const double stamp = 0.1 * i, latency = i >= 100 && i < 700 ? 0.6 + 0.08 * (i % 20) : 0.01;
+    EXPECT_NEAR(secondsOf(clock.corrected(at(stamp), at(stamp + latency))), stamp, 1e-6);
+  }
+  EXPECT_EQ(clock.jumps(), 0u);
+}
+
 TEST(SensorClock, aClockThatIsBehindFromTheStartIsFoundAfterTen) {
   SensorClock clock({}, kMaxOff);
   double last = 0;

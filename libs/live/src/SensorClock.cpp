@@ -33,16 +33,17 @@ base::Stamp SensorClock::corrected(base::Stamp stamp, base::Stamp arrival) {
 }
 
 // What comes from the future, or a minute late, is by another clock at once. What comes a little late may have been
-// held up on its way, by a busy machine for seconds, unless it is all late from the start.
+// held up on its way, by a busy machine for many seconds: then it is late by now more, now less. By another clock all
+// of it is late by as much.
 bool SensorClock::hasJumped(double off) const {
   constexpr double kNoLatency = 60;  // [s]
   const double late = off - offset_;
   if (late < -max_off_ || late > kNoLatency) return true;
   const bool is_new = is_new_ && newest_.size() == kMany;
   if (!is_new && base::secondsBetween(newest_.front().arrival, newest_.back().arrival) < kLong) return false;
-  const auto earliest =
-      std::min_element(newest_.begin(), newest_.end(), [](const auto& a, const auto& b) { return a.off < b.off; });
-  return newest_.size() >= kMany && earliest->off - offset_ > max_off_;
+  const auto [least, most] =
+      std::minmax_element(newest_.begin(), newest_.end(), [](const auto& a, const auto& b) { return a.off < b.off; });
+  return newest_.size() >= kMany && least->off - offset_ > max_off_ && most->off - least->off < max_off_;
 }
 
 }  // namespace omnimapper::live
