@@ -54,7 +54,7 @@ int run(Arguments& arguments) {
   if (arguments.record_only) return recordSensors(arguments, config, progress, stop);
   const bool is_of_logs = !arguments.run.live && arguments.run.replay.empty();
   program::require({{"-i INI", !arguments.inis.empty()},
-                    {"-r LOG, --live or --replay JOURNAL", !is_of_logs || !arguments.run.logs.empty()},
+                    {"-r LOG", !is_of_logs || !arguments.run.logs.empty()},
                     {"-o FOLDER", !arguments.run.output_folder.empty()}});
   if (arguments.gui) addOutput("live_window", "LiveWindow", config, arguments.run);
   if (!arguments.run.localize_map.empty()) addOutput("localization", "LocalizationOutput", config, arguments.run);

@@ -180,7 +180,8 @@ TEST_F(Continue, KilledAtAnyMomentTheOldMapOrTheNewOneIsThere) {
 TEST_F(Continue, InterruptedTheOldMapStaysAndTheOtherHasAllOfIt) {
   const std::string folder = folderWithFirst("interrupted");
   Program program(mappingCommand({file("b.rawlog")}, folder, {"--continue", folder, "--speed", "10"}));
-  std::this_thread::sleep_for(std::chrono::duration<double>(2));
+  while (program.isRunning() && !program.hasOpen(file("b.rawlog"))) std::this_thread::yield();
+  std::this_thread::sleep_for(std::chrono::duration<double>(1.5));
   program.send(SIGINT);
   EXPECT_TRUE(endedWith(ExitCode::interrupted, program.wait(), {"interrupted"}));
   const auto before = loadMap(file("first")), after = loadMap(folder + "/interrupted");
