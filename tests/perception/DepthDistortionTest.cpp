@@ -2,9 +2,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/perception/CameraCalibration.h>
 #include <omnimapper/perception/DepthDistortion.h>
-#include <omnimapper/testing/Fixtures.h>
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -144,23 +142,6 @@ TEST(DepthDistortion, ABadOneOfAnIniIsRefusedByFileAndKey) {
   EXPECT_EQ(code("0.1, 0.2, wide", "'wide'"), base::ExitCode::wrong_type);
   EXPECT_EQ(code("0.1, 0.2, nan", "'nan'"), base::ExitCode::wrong_type);
   EXPECT_EQ(code("0.1, 0.2, 3", "'3'"), base::ExitCode::out_of_range);
-}
-
-// Of 640 x 480 pixels, the fastest of many.
-TEST(DepthDistortion, TakesLessThanAMillisecond) {
-  if (testing::kIsSanitized) GTEST_SKIP() << "a sanitizer's build is some ten times slower";
-  const DepthDistortion distortion(std::vector<double>(12, 0.001));
-  auto scan = scans::rangeScan([](int x, int y) { return 1 + 0.001 * (x + y); }, 640, 480);
-  double best = 1e9;  // [ms]
-  for (int i = 0; i < 50; ++i) {
-    auto copy = scan;
-    const auto begin = std::chrono::steady_clock::now();
-    distortion.applyTo(copy);
-    best = std::min(best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
-  }
-  EXPECT_LT(best, 1);
-  RecordProperty("milliseconds", std::to_string(best));
-  if (best < 1) std::cout << "640 x 480 pixels in " << best << " ms\n";
 }
 
 }  // namespace
