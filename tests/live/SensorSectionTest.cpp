@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <mrpt/hwdrivers/CHokuyoURG.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/live/SensorSection.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -67,19 +67,11 @@ TEST(SensorSection, whatIsMissingIsNamed) {
   EXPECT_EQ(refusal->code, base::ExitCode::plugin_library);
 }
 
-TEST(SensorSection, aDriverIsMadeWithItsKeys) {
-  const auto sensors = sensorsOf("[live]\nsensors = front\n" + kLaser);
-  const auto driver = makeSensor(sensors.at(0));
-  ASSERT_TRUE(driver);
-  EXPECT_TRUE(dynamic_cast<mrpt::hwdrivers::CHokuyoURG*>(driver.get()));
-  EXPECT_EQ(driver->getSensorLabel(), "LASER");
-}
-
 TEST(SensorSection, aDriverThatIsNotThereIsNamed) {
   for (const char* driver : {"CNoSuchDriver", "CKinect"}) {
     const auto sensors = sensorsOf("[live]\nsensors = eye\n[eye]\ndriver = " + std::string(driver) + "\n");
     try {
-      makeSensor(sensors.at(0));
+      makeDriver(sensors.at(0));
       ADD_FAILURE() << driver;
     } catch (const base::Error& error) {
       EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);

@@ -243,8 +243,8 @@ TEST(HouseRules, testFoldersMirrorTheLibraries) {
     const std::string name = file.stem();
     if (projectPath(file).rfind("tests/bench/", 0) == 0 || projectPath(file).rfind("tests/testing/", 0) == 0 ||
         projectPath(file).rfind("tests/system/package/", 0) == 0 ||
-        projectPath(file).rfind("tests/live/players/", 0) == 0 ||
-        projectPath(file).rfind("tests/live/openni2/", 0) == 0 ||
+        projectPath(file).rfind("tests/drivers/players/", 0) == 0 ||
+        projectPath(file).rfind("tests/drivers/openni2/", 0) == 0 ||
         projectPath(file).rfind("tests/fuzz/targets/", 0) == 0 || projectPath(file).rfind("tests/fuzz/runs/", 0) == 0 ||
         name == "LibFuzzer") {
       continue;

@@ -83,6 +83,33 @@ file(RENAME "${window}" "${SCRATCH}/taken_away.so")
 expect_gui_error("libomnimapper-window.so belongs beside")
 file(RENAME "${SCRATCH}/taken_away.so" "${window}")
 
+# The drivers of sensors are loaded for live runs alone. A run of a log does without their library; a live one says so.
+file(GLOB_RECURSE drivers "${prefix}/libomnimapper-drivers.so*")
+file(MAKE_DIRECTORY "${SCRATCH}/drivers")
+list(GET drivers 0 first_driver)
+get_filename_component(library_folder "${first_driver}" DIRECTORY)
+file(COPY ${drivers} DESTINATION "${SCRATCH}/drivers")
+file(REMOVE ${drivers})
+run("${prefix}/bin/omnimapper-graphslam" -i "${INI}" -r "${log}" -o "${SCRATCH}/without_drivers" -q)
+file(WRITE "${SCRATCH}/live.ini" "
+[live]
+sensors = laser
+[laser]
+driver      = CHokuyoURG
+COM_port_LIN = /dev/ttyACM0
+")
+function(expect_live_error text)
+  execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -q --record-only -i "${SCRATCH}/live.ini"
+    -o "${SCRATCH}/live" RESULT_VARIABLE result ERROR_VARIABLE error)
+  if(result EQUAL 0 OR NOT error MATCHES "${text}")
+    message(FATAL_ERROR "--record-only ended with ${result} and no word of '${text}':\n${error}")
+  endif()
+endfunction()
+expect_live_error("libomnimapper-drivers.so belongs beside")
+file(GLOB drivers "${SCRATCH}/drivers/*")
+file(COPY ${drivers} DESTINATION "${library_folder}")
+expect_live_error("sensor .laser. .CHokuyoURG. cannot be opened")
+
 # Features are found beside the program alone. One that is taken away is missed by whoever names its plugin, and by nobody
 # else; a library of that name in the current folder, or where the environment has the loader look, is no feature.
 file(GLOB_RECURSE planes "${prefix}/libomnimapper-planes.so")

@@ -1,8 +1,7 @@
 #include <dlfcn.h>
-#include <mrpt/system/COutputLogger.h>
-#include <omnimapper/base/Exceptions.h>
 #include <omnimapper/base/InputFile.h>
 #include <omnimapper/base/Names.h>
+#include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/live/SensorSection.h>
 
 #include <algorithm>
@@ -17,23 +16,6 @@ namespace {
 using mrpt::config::CConfigFileMemory;
 
 const std::string kDriver = "driver", kLabel = "sensorLabel";
-
-// Drivers that MRPT has in name alone where a library was missing when it was built, and what reads the device instead.
-const char* insteadOf(const std::string& driver) {
-  return driver == "CKinect" ? "KinectSensor" : nullptr;
-}
-
-// Drivers of MRPT that are read through checks of ours.
-std::string checkedDriver(const std::string& driver) {
-  if (driver == "CHokuyoURG") return "CCheckedHokuyo";
-  return driver == "COpenNI2Sensor" ? "CCheckedOpenNI2" : driver;
-}
-
-// What was not installed where a driver was left out of the build.
-std::string packageOf(const std::string& driver) {
-  if (driver == "KinectSensor") return "libfreenect-dev";
-  return driver == "COpenNI2Sensor" ? "libopenni2-dev" : "";
-}
 
 [[noreturn]] void throwNoDriver(const SensorSection& section) {
   throw base::Error(base::ExitCode::unknown_key, section.file + ": sensor [" + section.name +
@@ -54,6 +36,7 @@ SensorSection sectionOf(const std::string& name, const std::string& file,
 }
 
 void loadLibraries(const LiveOptions& options, const base::Config& config) {
+  if (!options.libraries.empty()) loadDrivers();  // theirs are classes of what it brings
   for (const auto& library : options.libraries) {
     if (!config.isTrusted("live", "libraries"))
       throw base::Error(base::ExitCode::plugin_library,
@@ -135,35 +118,6 @@ std::vector<SensorSection> readSensors(const LiveOptions& options, const base::C
                           "(driver = CHokuyoURG), or name an INI of rawlog-grabber in [live] grabber");
   refuseSharedLabels(sensors);
   return sensors;
-}
-
-mrpt::hwdrivers::CGenericSensor::Ptr makeSensor(const SensorSection& section) {
-  mrpt::hwdrivers::CGenericSensor::Ptr sensor;
-  if (const char* instead = insteadOf(section.driver)) {
-    throw base::Error(base::ExitCode::unknown_plugin, section.file + ": sensor [" + section.name +
-                                                          "]: MRPT was built without what " + section.driver +
-                                                          " needs; write driver = " + instead);
-  }
-  sensor = mrpt::hwdrivers::CGenericSensor::createSensorPtr(checkedDriver(section.driver));
-  const std::string package = packageOf(section.driver);
-  if (!sensor && !package.empty())
-    throw base::Error(base::ExitCode::unknown_plugin,
-                      section.file + ": sensor [" + section.name + "]: this was built without what " + section.driver +
-                          " needs; install " + package + ", and configure and build again");
-  if (!sensor)
-    throw base::Error(base::ExitCode::unknown_plugin,
-                      section.file + ": sensor [" + section.name + "]: there is no driver " + section.driver +
-                          "; it is a class of mrpt::hwdrivers, such as CHokuyoURG, or of a library that "
-                          "[live] libraries names");
-  if (auto* logger = dynamic_cast<mrpt::system::COutputLogger*>(sensor.get()))
-    logger->setMinLoggingLevel(mrpt::system::LVL_ERROR);
-  try {
-    sensor->loadConfig(*section.ini, section.name);
-  } catch (const std::exception& error) {
-    throw base::Error(base::ExitCode::out_of_range,
-                      section.file + ": sensor [" + section.name + "]: " + base::sentenceOf(error));
-  }
-  return sensor;
 }
 
 }  // namespace omnimapper::live

@@ -1,8 +1,8 @@
 #include "SensorThread.h"
 
 #include <omnimapper/base/Exceptions.h>
-#include <omnimapper/live/CheckedSensor.h>
 #include <omnimapper/live/HostClock.h>
+#include <omnimapper/live/SensorDriver.h>
 
 #include <algorithm>
 #include <csignal>
@@ -107,7 +107,7 @@ struct SensorThread::Shared {
     figures.clock_offset = clock.offset();
   }
   // Told once, and each time that there are twice as many.
-  void leftOut(const CheckedSensor& driver) {
+  void leftOut(const SensorDriver& driver) {
     const std::lock_guard lock(mutex);
     figures.left_out = left_out_before + driver.leftOut();
     if (figures.left_out < tells_left_out_at) return;
@@ -163,24 +163,20 @@ void SensorThread::run(const std::shared_ptr<Shared>& shared) {
 
 // Until the sensor fails, falls silent, or is to stop.
 void SensorThread::readDriver(Shared& shared) {
-  const auto driver = makeSensor(shared.section);
-  const auto* checked = dynamic_cast<const CheckedSensor*>(driver.get());
-  const bool waits_for_others = checked && checked->waitsForOthers();
-  driver->initialize();
-  if (driver->getState() == mrpt::hwdrivers::CGenericSensor::ssError)
-    throw std::runtime_error("its driver cannot set it up");
+  const auto driver = makeDriver(shared.section);
+  driver->open();
   shared.opened();
-  const double rate = driver->getProcessRate();
+  const double rate = driver->rate();
   constexpr double kMostOften = 500;  // [Hz]
   const std::chrono::duration<double> period(1 / (rate > 0 ? std::min(rate, kMostOften) : kMostOften));
   auto silent_since = Clock::now();
   while (!shared.isStopping()) {
     const auto begin = Clock::now();
-    driver->doProcess();
+    const auto objects = driver->read();
     const auto arrival = hostNow();
-    if (checked) shared.leftOut(*checked);
+    shared.leftOut(*driver);
     std::size_t count = 0;
-    for (const auto& [stamp, object] : driver->getObservations()) {
+    for (const auto& object : objects) {
       if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
         shared.arrivals->add(*observation, arrival, shared.clock);
         ++count;
@@ -191,9 +187,9 @@ void SensorThread::readDriver(Shared& shared) {
     if (count > 0) {
       shared.arrivedNow(count);
       silent_since = Clock::now();
-    } else if (driver->getState() == mrpt::hwdrivers::CGenericSensor::ssError) {
+    } else if (driver->hasFailed()) {
       throw std::runtime_error("its driver says that it failed");
-    } else if (!waits_for_others && secondsSince(silent_since) > shared.reopensAfter()) {
+    } else if (!driver->waitsForOthers() && secondsSince(silent_since) > shared.reopensAfter()) {
       throw std::runtime_error("it has sent nothing for " + inSeconds(secondsSince(silent_since)));
     }
     const auto spent = Clock::now() - begin;

@@ -1,5 +1,6 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/live/HostClock.h>
+#include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/live/record.h>
 
 #include <chrono>
@@ -39,7 +40,7 @@ Recorded record(const LiveOptions& options, const base::Config& config, const st
                 base::Progress& progress, const std::function<bool()>& stop) {
   using Clock = std::chrono::steady_clock;
   const auto sections = readSensors(options, config);
-  for (const auto& section : sections) makeSensor(section);  // refused now rather than when files are there
+  for (const auto& section : sections) makeDriver(section);  // refused now rather than when files are there
   base::makeWritableFolder(folder);
   LiveSource source(sections, options, std::make_unique<Recorder>(folder, nameByTime(), recorderOptions(options)));
   const auto remember = [&](Recorded& recorded) {

@@ -1,6 +1,6 @@
-#include <LineBuffer.h>
-#include <ScipCheck.h>
-#include <omnimapper/live/OdometryLine.h>
+#include <hokuyo/ScipCheck.h>
+#include <odometry/LineBuffer.h>
+#include <omnimapper/drivers/OdometryLine.h>
 
 #include <cmath>
 #include <string_view>
@@ -13,10 +13,10 @@ namespace omnimapper::fuzz {
 namespace {
 
 void readOdometry(std::string_view bytes, std::size_t piece) {
-  live::LineBuffer buffer;
+  drivers::LineBuffer buffer;
   const auto take = [](std::string_view text) {
-    require(text.size() <= live::LineBuffer::kLongest, "a line that is too long");
-    const auto line = live::parseOdometryLine(text);
+    require(text.size() <= drivers::LineBuffer::kLongest, "a line that is too long");
+    const auto line = drivers::parseOdometryLine(text);
     if (line.fault) return;
     const auto& pose = line.odometry.odometry;
     require(std::abs(pose.x()) <= 1e6 && std::abs(pose.y()) <= 1e6, "a position beyond all bounds");
@@ -31,13 +31,13 @@ void readOdometry(std::string_view bytes, std::size_t piece) {
 void readHokuyo(std::string_view bytes, std::size_t piece) {
   // The first line is the command.
   const std::string_view command = bytes.substr(0, bytes.find('\n'));
-  live::ScipCheck check;
+  drivers::ScipCheck check;
   check.setCommand(command);
   for (std::size_t begin = 0; begin < bytes.size(); begin += piece) check.add(bytes.substr(begin, piece));
   const std::string sound = check.take();
   require(sound.empty() || sound.compare(0, command.size(), command) == 0, "a message without its echo");
   require(sound.empty() || sound.substr(sound.size() - 2) == "\n\n", "a message without its end");
-  live::ScipCheck again;
+  drivers::ScipCheck again;
   again.setCommand(command);
   again.add(sound);
   require(again.take() == sound && again.damaged() == 0, "a sound message that is not");

@@ -1,12 +1,10 @@
 #include "scene/LiveWindow.h"
 
-#include <dlfcn.h>
-#include <omnimapper/base/Error.h>
+#include <omnimapper/base/LibraryBeside.h>
 #include <omnimapper/map/Trajectory.h>
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 #include "scene/LiveScene.h"
 
@@ -31,23 +29,10 @@ const base::OptionTable<LiveWindowOptions>& LiveWindowOptions::table() {
 
 namespace {
 
-// Path of a library beside the one that holds this function: no other folder is searched.
-std::string pathBeside(const std::string& file) {
-  Dl_info here;
-  if (::dladdr(reinterpret_cast<const void*>(&pathBeside), &here) == 0) return file;
-  return (std::filesystem::absolute(here.dli_fname).parent_path() / file).string();
-}
-
 // Never unloaded: MRPT's thread may paint until the program ends.
 std::unique_ptr<LiveScene> openScene(const LiveWindowOptions& options, const std::string& title) {
-  constexpr const char* kLibrary = "libomnimapper-window.so";
-  void* library = ::dlopen(pathBeside(kLibrary).c_str(), RTLD_NOW);
-  void* open = library ? ::dlsym(library, "omnimapperOpenLiveScene") : nullptr;
-  if (!open) {
-    throw base::Error(base::ExitCode::plugin_library,
-                      std::string("the live window cannot be opened: ") + ::dlerror() + ". " + kLibrary +
-                          " belongs beside the other libraries of OmniMapper. Install it, or leave out --gui.");
-  }
+  void* open = base::functionOfLibrary("libomnimapper-window.so", "omnimapperOpenLiveScene",
+                                       "the live window cannot be opened", "Install it, or leave out --gui.");
   return std::unique_ptr<LiveScene>(reinterpret_cast<decltype(&omnimapperOpenLiveScene)>(open)(options, title));
 }
 

@@ -1,6 +1,7 @@
 #include "run/LiveFeed.h"
 
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/live/record.h>
 #include <omnimapper/plugin/DecisionLog.h>
 
@@ -27,7 +28,7 @@ LiveFeed::LiveFeed(const live::LiveOptions& options, std::vector<std::string> la
       sections_(live::readSensors(options, config)),
       title_(live::nameByTime()),
       name_("the sensors of " + config.file()) {
-  for (const auto& section : sections_) live::makeSensor(section);  // refused now rather than when all is under way
+  for (const auto& section : sections_) live::makeDriver(section);  // refused now rather than when all is under way
 }
 
 void LiveFeed::begin(const std::string& output_folder, const Stop& stop) {

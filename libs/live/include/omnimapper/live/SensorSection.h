@@ -1,7 +1,6 @@
 #pragma once
 
 #include <mrpt/config/CConfigFileMemory.h>
-#include <mrpt/hwdrivers/CGenericSensor.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/live/LiveOptions.h>
@@ -36,16 +35,11 @@ struct SensorSection {
 /// The sensors that [live] names, in the order in which they are to be opened: those of its list, then those of its
 /// grabber INI, in the order of that file. Loads its libraries first. Throws Error: command_line if there is none,
 /// unknown_key for a section that is not there or has no driver, out_of_range for a label that two sensors have,
-/// unreadable_input for a grabber INI that cannot be read, unknown_plugin for a class that no library registers
-/// (naming ours where MRPT was built without it), plugin_library for a library that cannot be loaded.
+/// unreadable_input for a grabber INI that cannot be read, plugin_library for a library that cannot be loaded.
 std::vector<SensorSection> readSensors(const LiveOptions& options, const base::Config& config);
 
 /// The sensors of an INI of MRPT's rawlog-grabber: every section but [global] that is not marked
 /// `rawlog-grabber-ignore = true`. Throws Error(unreadable_input, unknown_key) as readSensors().
 std::vector<SensorSection> readGrabberIni(const std::string& path);
-
-/// A driver with its keys, not opened yet. Throws Error(unknown_plugin) for a class that nobody registered, and
-/// Error(out_of_range) with the driver's own words where its keys do not suit it.
-mrpt::hwdrivers::CGenericSensor::Ptr makeSensor(const SensorSection& section);
 
 }  // namespace omnimapper::live

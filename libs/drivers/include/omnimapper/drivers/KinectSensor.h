@@ -1,0 +1,42 @@
+#pragma once
+
+#include <mrpt/hwdrivers/CGenericSensor.h>
+#include <omnimapper/drivers/KinectOptions.h>
+
+#include <memory>
+
+namespace omnimapper::drivers {
+
+struct FreenectMessage;
+
+/// A Kinect of the first generation as a driver of MRPT, by libfreenect, for which Debian's MRPT has none. It hands out
+/// CObservation3DRangeScan under its sensorLabel (KINECT by default), and CObservationIMU with accelerations alone
+/// under that with _IMU: [m/s^2], x forward, y left, z up as the depth camera stands, 9.8 upwards at rest, none before
+/// the first depth image. Stamps are of the host's clock, their differences of the device's. Keys of its section:
+/// KinectOptions.
+class KinectSensor : public mrpt::hwdrivers::CGenericSensor {
+  DEFINE_GENERIC_SENSOR(KinectSensor)
+ public:
+  KinectSensor();
+  ~KinectSensor() override;
+
+  /// Throws base::Error(unreadable_input) if there is no Kinect or it does not start.
+  void initialize() override;
+  /// Returns after the next depth image, or a tenth of a second. Throws base::Error(unreadable_input) if the Kinect is
+  /// lost or its depth camera silent.
+  void doProcess() override;
+
+ protected:
+  /// Throws base::Error as KinectOptions::read().
+  void loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& ini, const std::string& section) override;
+
+ private:
+  struct Open;
+  void add(FreenectMessage& message);
+  bool handOut();
+
+  KinectOptions options_;
+  std::unique_ptr<Open> open_;
+};
+
+}  // namespace omnimapper::drivers

@@ -1,0 +1,133 @@
+#include <mrpt/io/CStream.h>
+#include <omnimapper/base/Numbers.h>
+#include <omnimapper/drivers/CCheckedHokuyo.h>
+#include <omnimapper/live/HostClock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "hokuyo/Cable.h"
+#include "hokuyo/LaserClock.h"
+#include "hokuyo/ScipCheck.h"
+
+IMPLEMENTS_GENERIC_SENSOR(CCheckedHokuyo, omnimapper::drivers)
+
+namespace omnimapper::drivers {
+
+/// What MRPT's driver reads: sound answers to the command that it wrote last.
+class CCheckedHokuyo::Stream : public mrpt::io::CStream {
+ public:
+  Stream(Cable cable, int patience) : cable_(std::move(cable)), patience_(patience) {}
+
+  std::size_t Read(void* buffer, std::size_t count) override {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_);
+    while (sound_.empty() && cable_.isOpen()) {
+      const auto left = end - std::chrono::steady_clock::now();
+      if (left.count() <= 0) break;
+      check_.add(
+          cable_.receive(static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()) + 1));
+      sound_ = check_.take();
+    }
+    const auto size = sound_.copy(static_cast<char*>(buffer), count);
+    sound_.erase(0, size);
+    return size;
+  }
+  std::size_t Write(const void* buffer, std::size_t count) override {
+    const std::string_view command(static_cast<const char*>(buffer), count);
+    check_.setCommand(command);
+    sound_.clear();
+    return cable_.send(command) ? count : 0;
+  }
+  std::uint64_t Seek(std::int64_t, mrpt::io::CStream::TSeekOrigin) override { return 0; }
+  std::uint64_t getTotalBytesCount() const override { return 0; }
+  std::uint64_t getPosition() const override { return 0; }
+
+  // Sends a command, and leaves out what comes for a moment.
+  void sendAndForget(std::string_view command) {
+    cable_.send(command);
+    for (int i = 0; i < 20 && !cable_.receive(20).empty(); ++i) {
+    }
+  }
+
+  Cable& cable() { return cable_; }
+  std::uint64_t damaged() const { return check_.damaged(); }
+
+ private:
+  Cable cable_;
+  const int patience_;
+  ScipCheck check_;
+  std::string sound_;
+};
+
+CCheckedHokuyo::CCheckedHokuyo() = default;
+
+CCheckedHokuyo::~CCheckedHokuyo() {
+  // MRPT's would write to it once more, and complain.
+  if (stream_ && !stream_->cable().isOpen()) bindIO(nullptr);
+}
+
+void CCheckedHokuyo::initialize() {
+  m_state = ssError;
+  logging_enable_console_output = false;  // what is wrong is thrown
+  damaged_before_ = leftOut();
+  const int patience = std::max(m_comms_timeout_ms, 100);
+  stream_ = std::make_shared<Stream>(m_ip_dir.empty() ? Cable::toSerialPort(m_com_port)
+                                                      : Cable::toHost(m_ip_dir, static_cast<std::uint16_t>(m_port_dir)),
+                                     patience);
+  bindIO(stream_);
+  quieten();
+  clock_ = std::make_unique<LaserClock>();
+  if (!turnOn()) throw std::runtime_error("the laser does not answer as one that speaks SCIP 2.0");
+  requireSoundProperties();
+  m_state = ssWorking;
+}
+
+// It may measure since a program that is gone, and a serial one may have either of two rates.
+void CCheckedHokuyo::quieten() {
+  auto& cable = stream_->cable();
+  if (cable.isSerial()) {
+    for (const int rate : {115200, 19200}) {
+      cable.setBaudRate(rate);
+      stream_->sendAndForget("QT\n");
+    }
+    stream_->sendAndForget("SS115200\n");
+    cable.setBaudRate(115200);
+  }
+  stream_->sendAndForget("QT\n");
+}
+
+void CCheckedHokuyo::requireSoundProperties() const {
+  const auto& its = m_sensor_info;
+  constexpr int kMostSteps = 10'000;  // of four digits
+  if (its.scans_per_360deg < 1 || its.scans_per_360deg > 10 * kMostSteps || its.scan_first < 0 ||
+      its.scan_last <= its.scan_first || its.scan_last >= kMostSteps || !(its.d_max > 0))
+    throw std::runtime_error("the laser describes itself by numbers that no laser has");
+}
+
+void CCheckedHokuyo::doProcessSimple(bool& is_there, mrpt::obs::CObservation2DRangeScan& scan, bool& has_failed) {
+  if (!stream_ || !m_stream || !stream_->cable().isOpen()) throw std::runtime_error("the laser has hung up");
+  CHokuyoURG::doProcessSimple(is_there, scan, has_failed);
+  if (!is_there) {
+    if (!m_stream) throw std::runtime_error("the laser has stopped measuring");
+    return;
+  }
+  const auto beams = static_cast<float>(scan.getScanSize());
+  scan.aperture *= (beams - 1) / beams;
+  const auto arrival = live::hostNow();
+  std::uint32_t device_ms = 0;
+  for (std::size_t i = 0; i < 4; ++i) device_ms = device_ms << 6 | ((m_rcv_data.at(i) - 0x30) & 0x3f);
+  scan.timestamp = m_disable_firmware_timestamp ? arrival : clock_->stampOf(device_ms, arrival);
+}
+
+std::uint64_t CCheckedHokuyo::leftOut() const {
+  return damaged_before_ + (stream_ ? stream_->damaged() : 0);
+}
+
+std::string CCheckedHokuyo::leftOutByReason() const {
+  return base::counted(leftOut(), "damaged message");
+}
+
+}  // namespace omnimapper::drivers

@@ -1,0 +1,50 @@
+#include "hokuyo/LaserClock.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace omnimapper::drivers {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::uint32_t kLastDeviceTime = (1U << 24) - 1;
+constexpr int kFirstMessages = 10;  // whose latencies vary
+constexpr auto kWindow = std::chrono::seconds(10);
+constexpr auto kLargestStep = milliseconds(2);                                          // in a window; 200 ppm
+constexpr auto kRestartedLate = milliseconds(100), kRestartedEarly = milliseconds(20);  // no clock drifts so far
+constexpr auto kNewer = milliseconds(1);
+
+}  // namespace
+
+base::Stamp LaserClock::stampOf(std::uint32_t device_ms, base::Stamp arrival) {
+  if (messages_ == 0) {
+    expected_ = last_ = since_ = arrival;
+    last_ -= kNewer;
+  } else {
+    expected_ += milliseconds((device_ms - device_ms_) & kLastDeviceTime);
+  }
+  device_ms_ = device_ms & kLastDeviceTime;
+  ++messages_;
+  follow(arrival - expected_, arrival);
+  last_ = std::max(expected_, last_ + kNewer);
+  return last_;
+}
+
+void LaserClock::follow(base::Duration lag, base::Stamp arrival) {
+  if (lag < -kRestartedEarly || (messages_ <= kFirstMessages && lag < base::Duration::zero())) {
+    expected_ = since_ = arrival;
+    shortest_lag_ = base::Duration::max();
+    return;
+  }
+  if (messages_ == 1) shortest_lag_ = base::Duration::max();
+  shortest_lag_ = std::min(shortest_lag_, lag);
+  if (arrival - since_ < kWindow) return;
+  expected_ += shortest_lag_ > kRestartedLate ? shortest_lag_
+                                              : std::clamp<base::Duration>(shortest_lag_, -kLargestStep, kLargestStep);
+  shortest_lag_ = base::Duration::max();
+  since_ = arrival;
+}
+
+}  // namespace omnimapper::drivers

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <mrpt/img/TCamera.h>
+
+#include <optional>
+
+namespace omnimapper::drivers {
+
+/// On the plane at the distance 1: x right, y down.
+struct OnPlane {
+  double x, y;
+};
+
+/// Where a lens images a direction: OpenCV's model (plumb_bob), as in its page "Camera Calibration and 3D
+/// Reconstruction".
+OnPlane throughLens(const mrpt::img::TCamera& camera, OnPlane direction);
+
+/// The direction that a lens images there; none where it images none.
+std::optional<OnPlane> beforeLens(const mrpt::img::TCamera& camera, OnPlane image);
+
+}  // namespace omnimapper::drivers

@@ -1,0 +1,94 @@
+#include <mrpt/hwdrivers/CGenericSensor.h>
+#include <mrpt/system/COutputLogger.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Exceptions.h>
+#include <omnimapper/drivers/CheckedSensor.h>
+#include <omnimapper/live/SensorDriver.h>
+
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+namespace omnimapper::drivers {
+
+namespace {
+
+using mrpt::hwdrivers::CGenericSensor;
+
+class MrptDriver : public live::SensorDriver {
+ public:
+  explicit MrptDriver(CGenericSensor::Ptr sensor)
+      : sensor_(std::move(sensor)), checked_(dynamic_cast<const CheckedSensor*>(sensor_.get())) {}
+
+  void open() override {
+    sensor_->initialize();
+    if (hasFailed()) throw std::runtime_error("its driver cannot set it up");
+  }
+  double rate() const override { return sensor_->getProcessRate(); }
+  std::vector<mrpt::serialization::CSerializable::Ptr> read() override {
+    sensor_->doProcess();
+    std::vector<mrpt::serialization::CSerializable::Ptr> objects;
+    for (const auto& [stamp, object] : sensor_->getObservations()) objects.push_back(object);
+    return objects;
+  }
+  bool hasFailed() const override { return sensor_->getState() == CGenericSensor::ssError; }
+  std::uint64_t leftOut() const override { return checked_ ? checked_->leftOut() : 0; }
+  std::string leftOutByReason() const override { return checked_ ? checked_->leftOutByReason() : ""; }
+  bool waitsForOthers() const override { return checked_ && checked_->waitsForOthers(); }
+
+ private:
+  CGenericSensor::Ptr sensor_;
+  const CheckedSensor* checked_;  // null for a driver that is none
+};
+
+// Drivers that MRPT has in name alone where a library was missing when it was built, and what reads the device instead.
+const char* insteadOf(const std::string& driver) {
+  return driver == "CKinect" ? "KinectSensor" : nullptr;
+}
+
+// Drivers of MRPT that are read through checks of ours.
+std::string checkedDriver(const std::string& driver) {
+  if (driver == "CHokuyoURG") return "CCheckedHokuyo";
+  return driver == "COpenNI2Sensor" ? "CCheckedOpenNI2" : driver;
+}
+
+// What was not installed where a driver was left out of the build.
+std::string packageOf(const std::string& driver) {
+  if (driver == "KinectSensor") return "libfreenect-dev";
+  return driver == "COpenNI2Sensor" ? "libopenni2-dev" : "";
+}
+
+base::Error noDriver(const std::string& where, const std::string& driver) {
+  using base::ExitCode;
+  if (const std::string package = packageOf(driver); !package.empty())
+    return base::Error(ExitCode::unknown_plugin, where + "this was built without what " + driver + " needs; install " +
+                                                     package + ", and configure and build again");
+  return base::Error(ExitCode::unknown_plugin, where + "there is no driver " + driver +
+                                                   "; it is a class of mrpt::hwdrivers, such as CHokuyoURG, or of a "
+                                                   "library that [live] libraries names");
+}
+
+std::unique_ptr<live::SensorDriver> makeDriver(const live::SensorSection& section) {
+  const std::string where = section.file + ": sensor [" + section.name + "]: ";
+  if (const char* instead = insteadOf(section.driver))
+    throw base::Error(base::ExitCode::unknown_plugin,
+                      where + "MRPT was built without what " + section.driver + " needs; write driver = " + instead);
+  auto sensor = CGenericSensor::createSensorPtr(checkedDriver(section.driver));
+  if (!sensor) throw noDriver(where, section.driver);
+  if (auto* logger = dynamic_cast<mrpt::system::COutputLogger*>(sensor.get()))
+    logger->setMinLoggingLevel(mrpt::system::LVL_ERROR);
+  try {
+    sensor->loadConfig(*section.ini, section.name);
+  } catch (const std::exception& error) {
+    throw base::Error(base::ExitCode::out_of_range, where + base::sentenceOf(error));
+  }
+  return std::make_unique<MrptDriver>(std::move(sensor));
+}
+
+}  // namespace
+
+}  // namespace omnimapper::drivers
+
+extern "C" omnimapper::live::SensorDriver* omnimapperMakeDriver(const omnimapper::live::SensorSection& section) {
+  return omnimapper::drivers::makeDriver(section).release();
+}

@@ -1,0 +1,121 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/drivers/COdometryLines.h>
+
+#include <utility>
+
+#include "odometry/OdometryReceiver.h"
+
+IMPLEMENTS_GENERIC_SENSOR(COdometryLines, omnimapper::drivers)
+
+namespace omnimapper::drivers {
+
+namespace {
+
+constexpr std::size_t kMostUnfetched = 10'000;
+
+}  // namespace
+
+const base::OptionTable<OdometryLinesOptions>& OdometryLinesOptions::table() {
+  using Options = OdometryLinesOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("bind", &Options::bind,
+                "Address of this machine at which lines are taken: 127.0.0.1 from this machine alone, 0.0.0.0 from "
+                "everybody who reaches it.")
+          .integer("port", &Options::port, {0, 65535}, "Port at which lines are taken; 0 lets the system choose.")
+          .choice("protocol", &Options::protocol, {{"tcp", Protocol::tcp}, {"udp", Protocol::udp}},
+                  "Whether lines come over a TCP connection or in UDP datagrams.")
+          .integer("max_rate_hz", &Options::max_rate, {1, 100'000}, "Lines beyond so many in a second are left out.")
+          .number("max_clock_offset_s", &Options::max_clock_offset, base::Range::positive(),
+                  "A line is left out if its stamp differs from the clock of this machine by more.");
+  return table;
+}
+
+std::uint64_t OdometryLineCounts::leftOut() const {
+  return malformed + not_finite + too_large + too_long + too_many + wrong_clock + not_newer + cut_off + other_sender +
+         never_fetched;
+}
+
+std::string OdometryLineCounts::leftOutByReason() const {
+  std::string text;
+  const auto add = [&](std::uint64_t count, const char* what) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  add(malformed, "malformed");
+  add(not_finite, "with a value that is no finite number");
+  add(too_large, "with a value beyond all bounds");
+  add(too_long, "of more than 256 bytes");
+  add(too_many, "beyond max_rate_hz");
+  add(wrong_clock, "whose stamp is further than max_clock_offset_s from the clock of this machine");
+  add(not_newer, "not later than the line before");
+  add(cut_off, "cut off when a client hung up");
+  add(other_sender, "from a second sender of datagrams");
+  add(never_fetched, "that nobody fetched");
+  return text;
+}
+
+COdometryLines::COdometryLines() {
+  m_sensorLabel = "odometry";
+}
+
+COdometryLines::~COdometryLines() = default;
+
+void COdometryLines::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& config,
+                                               const std::string& section) {
+  const auto& specs = OdometryLinesOptions::table().specs();
+  OdometryLinesOptions options;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (!config.keyExists(section, specs[i].key)) continue;
+    const std::string text = config.read_string(section, specs[i].key, "");
+    if (const auto bad = OdometryLinesOptions::table().set(options, i, text))
+      throw base::Error(
+          bad->kind == base::BadValue::Kind::type ? base::ExitCode::wrong_type : base::ExitCode::out_of_range,
+          "[" + section + "] " + specs[i].key + " = " + text + ": expected " + bad->expected);
+  }
+  options_ = options;
+}
+
+void COdometryLines::initialize() {
+  const std::lock_guard lock(mutex_);
+  receiver_.reset();  // frees the port that it had
+  m_state = ssError;
+  receiver_ = std::make_unique<Receiver>(options_);
+  m_state = ssWorking;
+}
+
+void COdometryLines::doProcess() {
+  const std::lock_guard lock(mutex_);
+  if (!receiver_) return;
+  receiver_->receive(counts_, [&](const mrpt::obs::CObservationOdometry::Ptr& odometry) {
+    if (unfetched_ >= kMostUnfetched) boundUnfetched();
+    odometry->sensorLabel = m_sensorLabel;
+    appendObservation(odometry);
+    ++unfetched_;
+  });
+}
+
+// The list of MRPT's base class grows without bound where nobody fetches it.
+void COdometryLines::boundUnfetched() {
+  const auto waiting = getObservations();
+  unfetched_ = 0;
+  if (waiting.size() >= kMostUnfetched / 2) {
+    counts_.never_fetched += waiting.size();
+    return;
+  }
+  const auto decimation = std::exchange(m_grab_decimation, 1);  // they have passed it
+  for (const auto& [stamp, observation] : waiting) appendObservation(observation);
+  m_grab_decimation = decimation;
+  unfetched_ = waiting.size();
+}
+
+OdometryLineCounts COdometryLines::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+std::uint16_t COdometryLines::port() const {
+  const std::lock_guard lock(mutex_);
+  return receiver_ ? receiver_->port() : 0;
+}
+
+}  // namespace omnimapper::drivers

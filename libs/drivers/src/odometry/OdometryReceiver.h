@@ -1,0 +1,49 @@
+#pragma once
+
+#include <omnimapper/drivers/COdometryLines.h>
+#include <omnimapper/live/Socket.h>
+
+#include <chrono>
+#include <functional>
+#include <vector>
+
+#include "odometry/LineBuffer.h"
+
+namespace omnimapper::drivers {
+
+/// The connections of COdometryLines: bytes become lines, and lines that can be believed are handed on.
+class COdometryLines::Receiver {
+ public:
+  using Take = std::function<void(mrpt::obs::CObservationOdometry::Ptr)>;
+
+  /// Listens; throws as COdometryLines::initialize().
+  explicit Receiver(const OdometryLinesOptions& options);
+
+  std::uint16_t port() const { return boundPort(socket_); }
+  /// Reads what has arrived and calls take(odometry), with its stamp, for each line that is believed.
+  void receive(OdometryLineCounts& counts, const Take& take);
+
+ private:
+  using Monotonic = std::chrono::steady_clock;
+
+  void acceptClients(OdometryLineCounts& counts);
+  void readClient(OdometryLineCounts& counts, const Take& take);
+  void readDatagrams(OdometryLineCounts& counts, const Take& take);
+  bool isOfCurrentSender(std::uint64_t sender, OdometryLineCounts& counts);
+  void beginClient(OdometryLineCounts& counts);
+  void takeLine(std::string_view line, OdometryLineCounts& counts, const Take& take);
+  bool isWithinRate();
+  LineBuffer& addTo(LineBuffer& buffer, std::string_view bytes, OdometryLineCounts& counts, const Take& take);
+
+  OdometryLinesOptions options_;
+  live::Descriptor socket_, client_;
+  LineBuffer line_;
+  std::vector<char> bytes_;
+  base::Stamp newest_;           // of this client
+  std::uint64_t sender_ = 0;     // UDP: address and port; 0: none yet
+  Monotonic::time_point heard_;  // UDP: the last datagram of that sender
+  double allowance_;             // lines that may still come at once
+  Monotonic::time_point allowed_;
+};
+
+}  // namespace omnimapper::drivers

@@ -1,0 +1,16 @@
+#include <omnimapper/base/AtLoad.h>
+#include <omnimapper/drivers/CCheckedHokuyo.h>
+#include <omnimapper/drivers/COdometryLines.h>
+
+namespace omnimapper::drivers {
+
+namespace {
+
+const base::AtLoad kRegister([] {
+  CCheckedHokuyo::doRegister();
+  COdometryLines::doRegister();
+});
+
+}  // namespace
+
+}  // namespace omnimapper::drivers

@@ -1,0 +1,257 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <omnimapper/base/Config.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/live/LiveSource.h>
+#include <omnimapper/live/Socket.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/SimulatedLog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "PlayRun.h"
+
+// Played Hokuyos, read by MRPT's own driver through a LiveSource.
+namespace omnimapper::drivers::hokuyo_test {
+namespace {
+
+using namespace live;
+
+using mrpt::obs::CObservation2DRangeScan;
+
+/// Scans of a robot in a room, the first `count` of them, so many a second.
+players::PlayedLog logOf(std::size_t count, double rate = 40) {
+  testing::SimulatedLogOptions options;
+  options.place = testing::SimulatedLogOptions::Place::box;
+  options.lasers[0].rate = rate;
+  auto log = players::PlayedLog::of(testing::SimulatedLog(options).observations());
+  log.lasers.at("laser").resize(count);
+  log.odometry.clear();  // only the laser is played
+  return log;
+}
+
+class HokuyoTest : public ::testing::Test {
+ protected:
+  void play(players::PlayedLog log, const std::string& address, const std::vector<std::string>& faults = {},
+            players::PlayOptions play_options = {}) {
+    scans = log.lasers.at("laser");
+    play_options.hokuyos = {address};
+    play_options.linger = 60;  // until it is stopped
+    for (const auto& fault : faults) play_options.hokuyo.faults.push_back(players::parseFault(fault));
+    run = std::make_unique<players::PlayRun>(std::move(log), play_options);
+    run->start();
+  }
+
+  void open(const std::string& keys = "") {
+    const std::string address = run->addresses().at(0);
+    const auto colon = address.find(':');
+    const std::string where = colon == std::string::npos ? "COM_port_LIN = " + address
+                                                         : "IP_DIR = " + address.substr(0, colon) +
+                                                               "\nPORT_DIR = " + address.substr(colon + 1);
+    const auto config = base::Config::fromText(
+        "[live]\nsensors = front\n[front]\ndriver = CHokuyoURG\nsensorLabel = laser\n" + where + "\n" + keys,
+        "robot.ini");
+    options.sensors = {"front"};
+    source = std::make_unique<LiveSource>(readSensors(options, config), options, nullptr);
+    source->open({});
+  }
+
+  // Up to the last scan of the log; without that one until nothing has come for 5 s.
+  void receive() {
+    for (std::size_t last = scans.size(); last != scans.size() - 1;) {
+      const auto next = source->next(std::chrono::seconds(5));
+      for (auto& sentence : source->takeNews()) news += sentence + "\n";
+      if (!next) break;
+      received.push_back(std::dynamic_pointer_cast<CObservation2DRangeScan>(next->observation));
+      last = numberOf(*received.back());
+      numbers.push_back(last);
+    }
+    figures = source->sensors().at(0);
+    source->close();
+    run->stop();
+    run->wait();
+  }
+
+  // The scan of the log that this one is, to the millimetre; kNone: a scan that never was.
+  std::size_t numberOf(const CObservation2DRangeScan& scan) const {
+    for (std::size_t number = 0; number < scans.size(); ++number)
+      if (isSame(*scans[number], scan)) return number;
+    return kNone;
+  }
+  static bool isSame(const CObservation2DRangeScan& truth, const CObservation2DRangeScan& scan) {
+    if (truth.getScanSize() != scan.getScanSize()) return false;
+    for (std::size_t beam = 0; beam < truth.getScanSize(); ++beam) {
+      if (truth.getScanRangeValidity(beam) != scan.getScanRangeValidity(beam)) return false;
+      if (truth.getScanRangeValidity(beam) &&
+          std::abs(truth.getScanRange(beam) - scan.getScanRange(beam)) > kHalfMillimetre)
+        return false;
+    }
+    return true;
+  }
+
+  static constexpr std::size_t kNone = 9999;
+  static constexpr double kHalfMillimetre = 0.000501;  // [m], and the rounding of floats
+
+  testing::ScratchFolder folder;
+  LiveOptions options;
+  players::PlayedLog::Scans scans;
+  std::unique_ptr<players::PlayRun> run;
+  std::unique_ptr<LiveSource> source;
+  std::vector<CObservation2DRangeScan::Ptr> received;
+  std::vector<std::size_t> numbers;  // of those
+  std::string news;
+  SensorFigures figures;
+};
+
+/// From 0 to count - 1 without some.
+std::vector<std::size_t> allOf(std::size_t count, const std::set<std::size_t>& without = {}) {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < count; ++i)
+    if (without.count(i) == 0) all.push_back(i);
+  return all;
+}
+
+TEST_F(HokuyoTest, everyScanComesToTheMillimetreWithTheTimeItWasDue) {
+  play(logOf(60), "127.0.0.1:0");
+  open();
+  receive();
+  ASSERT_EQ(numbers, allOf(60)) << news;
+  const auto& played = run->hokuyo(0).played();
+  std::vector<double> late;
+  for (std::size_t i = 0; i < 60; ++i) late.push_back(base::secondsBetween(played[i].host, received[i]->timestamp));
+  std::sort(late.begin(), late.end());
+  // A machine that is busy holds some up, and the clock of the laser has whole milliseconds.
+  EXPECT_GT(late.front(), -0.002);
+  EXPECT_LT(late[30], 0.1);
+  EXPECT_NEAR(received[0]->aperture, scans[0]->aperture, 1e-4);
+  EXPECT_EQ(figures.left_out, 0u);
+}
+
+TEST_F(HokuyoTest, aTerminalGivesTheSame) {
+  play(logOf(40, 80), folder / "laser");
+  open();
+  receive();
+  EXPECT_EQ(numbers, allOf(40)) << news;
+}
+
+TEST_F(HokuyoTest, whatIsDamagedOnItsWayIsLeftOutAndCounted) {
+  for (const auto& address : {std::string("127.0.0.1:0"), folder / "laser"}) {
+    numbers.clear();
+    news.clear();
+    play(logOf(60, 80), address, {"garbage@10", "half@20", "checksum@30", "slow@40:0.1"});
+    open();
+    receive();
+    EXPECT_EQ(numbers, allOf(60, {20, 30})) << address << "\n" << news;
+    EXPECT_EQ(figures.left_out, 3u) << "garbage, the half and the wrong sum; " << news;
+    EXPECT_NE(news.find("damaged message"), std::string::npos) << news;
+    EXPECT_EQ(news.find("is lost"), std::string::npos) << news;
+  }
+}
+
+/// Scans are lost while the laser is away, those from `first` on, and no others.
+void expectGap(const std::vector<std::size_t>& numbers, std::size_t first, std::size_t count) {
+  std::vector<std::size_t> expected = allOf(first);
+  ASSERT_GT(numbers.size(), first);
+  for (std::size_t number = numbers[first]; number < count; ++number) expected.push_back(number);
+  EXPECT_EQ(numbers, expected);
+  EXPECT_GT(numbers[first], first) << "the fault was none";
+}
+
+TEST_F(HokuyoTest, aLaserThatFellSilentIsBack) {
+  options.reopen_after = 1;
+  play(logOf(130), "127.0.0.1:0", {"silence@10:1.6"});
+  open();
+  receive();
+  expectGap(numbers, 10, 130);
+  EXPECT_NE(news.find("is lost: "), std::string::npos) << news;
+  EXPECT_NE(news.find("is back"), std::string::npos) << news;
+  EXPECT_GE(figures.reopened, 1u);
+}
+
+TEST_F(HokuyoTest, aLaserThatHungUpIsBack) {
+  for (const auto& address : {std::string("127.0.0.1:0"), folder / "laser"}) {
+    numbers.clear();
+    news.clear();
+    play(logOf(60), address, {"hangup@10:0.3"});
+    open();
+    receive();
+    expectGap(numbers, 10, 60);
+    EXPECT_NE(news.find("has hung up"), std::string::npos) << news;
+    EXPECT_NE(news.find("is back"), std::string::npos) << news;
+  }
+}
+
+TEST_F(HokuyoTest, oneThatAcceptsAgainAtOnceIsBack) {
+  play(logOf(50), "127.0.0.1:0", {"hangup@10:0.001"});
+  open();
+  receive();
+  expectGap(numbers, 10, 50);
+}
+
+TEST_F(HokuyoTest, aLaserThatAnswersSlowlyIsOpened) {
+  players::PlayOptions play_options;
+  play_options.hokuyo.answer_delay = 0.12;
+  play(logOf(20), "127.0.0.1:0", {}, play_options);
+  open("comms_timeout_ms = 300\n");
+  receive();
+  EXPECT_EQ(numbers, allOf(20)) << news;
+}
+
+TEST_F(HokuyoTest, theKeysOfMrptsDriverAreHeeded) {
+  auto log = logOf(40, 80);
+  for (const auto& scan : log.lasers.at("laser")) {
+    scan->setScanHasIntensity(true);
+    for (std::size_t beam = 0; beam < scan->getScanSize(); ++beam)
+      scan->setScanIntensity(beam, static_cast<int>(100 * beam));
+  }
+  log.lasers.at("laser").resize(39);  // the last one has an even number
+  play(std::move(log), "127.0.0.1:0");
+  open("intensity = true\nscan_interval = 1\npose_x = 0.25\npose_yaw = 90\n");
+  receive();
+  for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], 2 * i) << news;
+  ASSERT_EQ(received.size(), 20u);
+  ASSERT_TRUE(received[0]->hasIntensity());
+  EXPECT_EQ(received[0]->getScanIntensity(7), 700);
+  EXPECT_EQ(received[0]->sensorPose.x(), 0.25);
+  EXPECT_NEAR(received[0]->sensorPose.yaw(), M_PI / 2, 1e-6);
+}
+
+TEST_F(HokuyoTest, aRecordedLogComesToTheMillimetre) {
+  const auto path = testing::sharedData("laser2d/driving_in_office.rawlog");
+  OMNIMAPPER_NEEDS(path);
+  auto log = players::PlayedLog::read(*path);
+  ASSERT_EQ(log.lasers.size(), 1u);
+  auto laser = log.lasers.begin()->second;
+  laser.resize(40);
+  log.lasers = {{"laser", laser}};
+  log.odometry.clear();
+  players::PlayOptions play_options;
+  play_options.pace = 8;
+  play(std::move(log), "127.0.0.1:0", {}, play_options);
+  open();
+  receive();
+  EXPECT_EQ(numbers, allOf(40)) << news;
+  EXPECT_NEAR(received[0]->aperture, scans[0]->aperture, 0.01);
+}
+
+// Whoever accepts a connection and says nothing is no laser.
+TEST_F(HokuyoTest, oneThatNeverAnswersIsAnError) {
+  const auto silent = listenTcp({});
+  const auto config =
+      base::Config::fromText("[live]\nsensors = front\n[front]\ndriver = CHokuyoURG\nIP_DIR = 127.0.0.1\nPORT_DIR = " +
+                                 std::to_string(boundPort(silent)) + "\n",
+                             "robot.ini");
+  options.sensors = {"front"};
+  LiveSource source(readSensors(options, config), options, nullptr);
+  try {
+    source.open({});
+    ADD_FAILURE();
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("does not answer"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace omnimapper::drivers::hokuyo_test

@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/drivers/KinectCalibration.h>
+#include <omnimapper/live/LiveSource.h>
+#include <omnimapper/live/SensorDriver.h>
+#include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Program.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "../live/Observations.h"
+#include "RangeScans.h"
+
+/// The driver of the Kinect before libfreenect's fakenect, which plays what a log holds.
+namespace omnimapper::drivers::kinect_sensor_test {
+namespace {
+
+using namespace live;
+
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationIMU;
+
+const std::string kFakenect = OMNIMAPPER_FAKENECT_FOLDER;  // of the libfreenect.so that plays
+const std::string kSection = "[live]\nsensors = kinect\n[kinect]\ndriver = KinectSensor\nsensorLabel = KINECT\n";
+
+CObservationIMU accelerationAt(double seconds, double forward, double left, double up) {
+  CObservationIMU imu;
+  imu.timestamp = live::observations::at(seconds);
+  imu.sensorLabel = "imu";
+  imu.set(mrpt::obs::IMU_X_ACC, forward);
+  imu.set(mrpt::obs::IMU_Y_ACC, left);
+  imu.set(mrpt::obs::IMU_Z_ACC, up);
+  return imu;
+}
+
+class KinectSensorTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kFakenect + "/libfreenect.so.0.5"))
+      GTEST_SKIP() << "this was built without libfreenect (Debian's libfreenect-dev), or its fakenect is not there";
+  }
+
+  void makeSession(const std::string& log) {
+    const auto ended = testing::runProgram({testing::ownProgram("fakenect-session"), log, folder / "session"});
+    ASSERT_EQ(ended.code, 0) << testing::toString(ended);
+  }
+  void makeSession(const std::function<void(source::RawlogWriter&)>& fill) {
+    source::writeRawlog(folder / "played.rawlog", fill);
+    makeSession(folder / "played.rawlog");
+  }
+
+  // Reads the Kinect until so many observations came, or a sentence with these words.
+  testing::Ended record(const std::string& keys, int count, const std::string& words = "is gone") {
+    std::ofstream(folder / "live.ini") << kSection << keys;
+    // fakenect looks for the end of a line in bytes that end without a zero.
+    return testing::runProgram({"env", "ASAN_OPTIONS=strict_string_checks=0", "LD_LIBRARY_PATH=" + kFakenect,
+                                "FAKENECT_PATH=" + folder / "session", testing::ownProgram("live-record"),
+                                folder / "live.ini", folder / "out", "60", std::to_string(count), words});
+  }
+
+  static void expectSameDepths(const CObservation3DRangeScan& seen, const CObservation3DRangeScan& played) {
+    const KinectCalibration calibration;
+    std::size_t count = 0;
+    for (int row = 0; row < 480; ++row) {
+      for (int column = 0; column < 640; ++column) {
+        const double depth = played.rangeImage(row, column) * static_cast<double>(played.rangeUnits);
+        const double got = seen.rangeImage(row, column) * static_cast<double>(seen.rangeUnits);
+        const double quantized = calibration.depthOf(calibration.rawOf(depth));
+        ASSERT_NEAR(got, quantized, 1.01e-4) << column << " " << row;
+        if (quantized == 0) continue;
+        ASSERT_NEAR(got, depth, 0.55 * 0.0030711016 * depth * depth + 1.01e-4) << column << " " << row;
+        ++count;
+      }
+    }
+    EXPECT_GT(count, 10000u) << "pixels with depths";
+  }
+  testing::ScratchFolder folder;
+};
+
+TEST_F(KinectSensorTest, whatIsPlayedArrivesToTheQuantization) {
+  const auto played = range_scans::simulated(6);
+  makeSession([&](source::RawlogWriter& log) {
+    for (std::size_t i = 0; i < played.size(); ++i) {
+      log.add(accelerationAt(0.1 * static_cast<double>(i), 0.5, -1.25, 9.7));
+      log.add(*played[i]);
+    }
+  });
+  const auto begin = mrpt::Clock::now();
+  const auto ended = record("registration = none\nimu_rate_hz = 20\n", 1000);
+  ASSERT_EQ(ended.code, 0) << testing::toString(ended);
+  const auto scans = range_scans::recorded<CObservation3DRangeScan>(folder / "out/log.rawlog");
+  ASSERT_GE(scans.size(), played.size() - 2) << testing::toString(ended);
+  for (std::size_t i = 0; i < std::min(scans.size(), played.size()); ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(scans[i]->sensorLabel, "KINECT");
+    expectSameDepths(*scans[i], *played[i]);
+    EXPECT_TRUE(range_scans::isSamePicture(*scans[i], *played[i]));
+    EXPECT_GT(base::secondsBetween(begin, scans[i]->timestamp), 0);
+    EXPECT_GT(base::secondsBetween(scans[i]->timestamp, mrpt::Clock::now()), 0);
+    const auto before = i > 0 ? scans[i - 1]->timestamp : scans[i]->timestamp - base::durationFromSeconds(0.1);
+    EXPECT_NEAR(base::secondsBetween(before, scans[i]->timestamp), 0.1, 0.05);
+  }
+  const auto accelerations = range_scans::recorded<CObservationIMU>(folder / "out/log.rawlog");
+  ASSERT_GE(accelerations.size(), 4u);
+  for (const auto& imu : accelerations) {
+    constexpr double kCount = 9.80665 / 819;
+    EXPECT_EQ(imu->sensorLabel, "KINECT_IMU");
+    EXPECT_NEAR(imu->get(mrpt::obs::IMU_X_ACC), 0.5, kCount);
+    EXPECT_NEAR(imu->get(mrpt::obs::IMU_Y_ACC), -1.25, kCount);
+    EXPECT_NEAR(imu->get(mrpt::obs::IMU_Z_ACC), 9.7, kCount);
+    EXPECT_FALSE(imu->has(mrpt::obs::IMU_YAW_VEL));
+  }
+}
+
+TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
+  const auto real = testing::sharedData("rgbd/tum_fr1_rpy");
+  OMNIMAPPER_NEEDS(real);
+  // A third of a second of it: three lines are comments.
+  std::filesystem::create_directories(folder / "log");
+  for (const char* name : {"depth", "rgb"}) std::filesystem::create_symlink(*real + "/" + name, folder / "log/" + name);
+  for (const char* name : {"depth.txt", "rgb.txt"}) {
+    std::ifstream from(*real + "/" + name);
+    std::ofstream to(folder / "log/" + name);
+    std::string line;
+    for (int i = 0; i < 13 && std::getline(from, line); ++i) to << line << "\n";
+  }
+  makeSession(folder / "log");
+  range_scans::Scans played;
+  source::RgbdFolderOptions options;
+  options.intrinsics = "freiburg1";
+  source::RgbdFolder images(folder / "log", options);
+  while (const auto one = images.next()) played.push_back(std::dynamic_pointer_cast<CObservation3DRangeScan>(one));
+  const auto ended = record("registration = none\ngrab_IMU = false\n", 1000);
+  ASSERT_EQ(ended.code, 0) << testing::toString(ended);
+  const auto scans = range_scans::recorded<CObservation3DRangeScan>(folder / "out/log.rawlog");
+  ASSERT_GE(scans.size(), played.size() - 2) << testing::toString(ended);
+  for (std::size_t i = 0; i < std::min(scans.size(), played.size()); ++i) {
+    SCOPED_TRACE(i);
+    expectSameDepths(*scans[i], *played[i]);
+    EXPECT_TRUE(!played[i]->hasIntensityImage || range_scans::isSamePicture(*scans[i], *played[i]));
+  }
+}
+
+TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
+  const auto images = range_scans::simulated(1);
+  images[0]->hasIntensityImage = false;
+  makeSession([&](source::RawlogWriter& log) {
+    // Half a second with depths, two without, and half a second with them again.
+    for (int i = 0; i < 60; ++i) {
+      log.add(accelerationAt(0.05 * i, 0, 0, 9.8));
+      if (i >= 10 && i < 50) continue;
+      auto scan = *images[0];
+      scan.timestamp = live::observations::at(0.05 * i);
+      log.add(scan);
+    }
+  });
+  const auto ended = record("grab_image = false\nsilence_s = 0.5\n", 1000);
+  ASSERT_EQ(ended.code, 0) << testing::toString(ended);
+  EXPECT_NE(ended.out.find("sensor [kinect] is lost: the Kinect has sent no depth image for 0.5 s"), std::string::npos)
+      << ended.out;
+  const auto back = ended.out.find("sensor [kinect] is back");
+  ASSERT_NE(back, std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("sensor [kinect] is lost: USB says that the Kinect is gone", back), std::string::npos)
+      << "at the end of the session: " << ended.out;
+  EXPECT_NE(ended.out.find("reopened 1"), std::string::npos) << ended.out;
+  const auto scans = range_scans::recorded<CObservation3DRangeScan>(folder / "out/log.rawlog");
+  ASSERT_GE(scans.size(), 12u);
+  double longest = 0;
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    const double step = base::secondsBetween(scans[i - 1]->timestamp, scans[i]->timestamp);
+    EXPECT_GT(step, 0) << i;
+    longest = std::max(longest, step);
+  }
+  EXPECT_GT(longest, 1.5);
+}
+
+// The machine of the tests has no Kinect, and libfreenect itself says so.
+TEST_F(KinectSensorTest, withoutAKinectItCannotBeOpened) {
+  const auto config = base::Config::fromText(kSection, "robot.ini");
+  const auto options = config.section("live").read<LiveOptions>();
+  LiveSource source(readSensors(options, config), options, nullptr);
+  try {
+    source.open({});
+    GTEST_SKIP() << "there is a Kinect on this machine";
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::unreadable_input);
+    EXPECT_NE(std::string(error.what()).find("[kinect] (KinectSensor) cannot be opened"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(KinectSensorTest, aWrongKeyIsRefusedWhereTheSensorIsMade) {
+  const auto config = base::Config::fromText(kSection + "max_range_m = 20\n", "robot.ini");
+  const auto options = config.section("live").read<LiveOptions>();
+  try {
+    makeDriver(readSensors(options, config).at(0));
+    ADD_FAILURE();
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::out_of_range);
+    EXPECT_NE(std::string(error.what()).find("[kinect]: max_range_m = 20"), std::string::npos) << error.what();
+  }
+}
+
+TEST(KinectWithoutLibfreenect, whoeverNamesTheDriverIsToldWhatToInstall) {
+  if (!kFakenect.empty()) GTEST_SKIP() << "this was built with libfreenect; a build without it runs this test";
+  const auto config = base::Config::fromText(kSection, "robot.ini");
+  try {
+    makeDriver(readSensors(config.section("live").read<LiveOptions>(), config).at(0));
+    ADD_FAILURE();
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
+    EXPECT_NE(std::string(error.what()).find("libfreenect-dev"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace omnimapper::drivers::kinect_sensor_test
