@@ -91,7 +91,16 @@ TEST(Recorder, aRecordingIsNeverOverwritten) {
   const testing::ScratchFolder folder;
   { Recorder first(folder.path(), "log", {}); }
   EXPECT_THROW(Recorder(folder.path(), "log", {}), base::Error);
-  EXPECT_THROW(Recorder(folder / "no_folder", "log", {}), base::Error);
+  EXPECT_THROW(Recorder(folder / "log.rawlog", "log", {}), base::Error) << "a file is no folder";
+}
+
+TEST(Recorder, whatIsDiscardedLeavesNothingOfItsOwn) {
+  const testing::ScratchFolder folder;
+  Recorder(folder / "new", "log", {}).discard();
+  EXPECT_FALSE(fs::exists(folder / "new"));
+  Recorder(folder.path(), "log", {}).discard();
+  EXPECT_TRUE(fs::exists(folder.path())) << "it was there before";
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(Recorder, saysWhenItsQueueIsFull) {

@@ -54,6 +54,17 @@ LiveSource::~LiveSource() {
 }
 
 void LiveSource::open(const std::function<bool()>& stop) {
+  try {
+    openAll(stop);
+  } catch (...) {
+    close();
+    auto* recorder = parts_->arrivals->recorder();
+    if (recorder && counts().arrived == 0) recorder->discard();
+    throw;
+  }
+}
+
+void LiveSource::openAll(const std::function<bool()>& stop) {
   parts_->images.emplace(parts_->options.images);
   parts_->threads.reserve(parts_->sections.size());
   for (const auto& section : parts_->sections) {

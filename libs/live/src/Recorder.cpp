@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <mrpt/serialization/CSerializable.h>
+#include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/live/Recorder.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -56,6 +58,9 @@ RecorderOptions recorderOptions(const LiveOptions& options) {
 
 Recorder::Recorder(const std::string& folder, const std::string& name, const RecorderOptions& options)
     : folder_(folder), name_(name), options_(options) {
+  std::error_code none;
+  has_made_folder_ = !std::filesystem::exists(folder, none);
+  base::makeWritableFolder(folder);
   openNext();
   thread_ = std::thread([this] { run(); });
 }
@@ -86,6 +91,13 @@ void Recorder::close() {
   if (thread_.joinable()) thread_.join();
   if (file_ >= 0) ::close(file_);
   file_ = -1;
+}
+
+void Recorder::discard() {
+  close();
+  std::error_code none;
+  for (const auto& file : files()) std::filesystem::remove(folder_ + "/" + file, none);
+  if (has_made_folder_) std::filesystem::remove(folder_, none);
 }
 
 Recorder::Figures Recorder::figures() const {

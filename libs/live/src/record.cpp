@@ -1,4 +1,3 @@
-#include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/live/HostClock.h>
 #include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/live/record.h>
@@ -6,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 
 namespace omnimapper::live {
 
@@ -41,23 +39,8 @@ Recorded record(const LiveOptions& options, const base::Config& config, const st
   using Clock = std::chrono::steady_clock;
   const auto sections = readSensors(options, config);
   for (const auto& section : sections) makeDriver(section);  // refused now rather than when files are there
-  base::makeWritableFolder(folder);
   LiveSource source(sections, options, std::make_unique<Recorder>(folder, nameByTime(), recorderOptions(options)));
-  const auto remember = [&](Recorded& recorded) {
-    for (const auto& file : source.recorder()->files()) recorded.files.push_back(folder + "/" + file);
-    recorded.failure = source.recorder()->failure();
-  };
-  try {
-    source.open(stop);
-  } catch (...) {
-    source.close();
-    Recorded none;
-    remember(none);
-    std::error_code error;
-    for (const auto& file : none.files)
-      if (source.counts().arrived == 0) std::filesystem::remove(file, error);
-    throw;
-  }
+  source.open(stop);
   const auto begin = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   while (!stop() && source.recorder()->failure().empty() && (seconds == 0 || elapsed() < seconds)) {
@@ -75,7 +58,8 @@ Recorded record(const LiveOptions& options, const base::Config& config, const st
   recorded.counts = source.counts();
   recorded.figures = source.recorder()->figures();
   recorded.has_left_behind = source.hasLeftBehind();
-  remember(recorded);
+  for (const auto& file : source.recorder()->files()) recorded.files.push_back(folder + "/" + file);
+  recorded.failure = source.recorder()->failure();
   return recorded;
 }
 

@@ -88,6 +88,11 @@ void Engine::finish() {
   if (failed) std::rethrow_exception(failed);
 }
 
+void Engine::judge() {
+  const auto timer = state_.times.measure(Stage::engine);
+  if (!state_.map_is_held && !state_.map.key_frames.empty()) back_end_.judgeMap();
+}
+
 std::vector<std::string> Engine::idlePlugins() const {
   std::vector<std::string> idle;
   for (const auto& [section, plugin] : plugins_.measurement) {

@@ -42,6 +42,8 @@ class Engine {
   /// The end of the log: everything still queued is worked off, jobs in order, the graph is solved to the end, and the
   /// map is judged.
   void finish();
+  /// What is to be said for or against the map as far as it has grown; finish() judges the whole one.
+  void judge();
   /// Calls every output plugin's finish(), and gives the errors of those that could not write theirs.
   std::vector<base::Error> writeOutputs();
   /// Whether somebody may still look at an output.

@@ -6,18 +6,19 @@
 
 namespace omnimapper::players {
 
-/// What goes wrong between a played device and its host, once.
+/// What goes wrong between a player and its host, once. A laser sends messages, each of a scan; odometry comes as
+/// lines.
 struct Fault {
   enum class Kind {
-    garbage,   ///< 300 random bytes come before the message of the scan
+    garbage,   ///< 300 random bytes come before the message
     half,      ///< only the first half of the message comes
-    checksum,  ///< the first range of the message is altered on its way; its sum is not
-    slow,      ///< the message comes in 8 pieces over so many seconds
-    silence,   ///< for so many seconds nothing comes; scans are lost
+    checksum,  ///< the first range of the message is altered on its way; its sum is not. Lasers alone
+    slow,      ///< the message comes in 8 pieces over so many seconds. Lasers alone
+    silence,   ///< for so many seconds nothing comes, and is lost
     hangup,    ///< the connection ends; nobody can connect for so many seconds
   };
   Kind kind = Kind::garbage;
-  std::size_t at = 0;  ///< number of the scan in the log, from 0
+  std::size_t at = 0;  ///< number of the scan, or of the line, in the log, from 0
   double seconds = 0;  ///< of slow, silence and hangup
 };
 

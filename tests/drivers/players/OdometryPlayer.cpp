@@ -5,6 +5,7 @@
 #include <omnimapper/live/HostClock.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace omnimapper::players {
@@ -59,12 +60,23 @@ void OdometryPlayer::play(CommonStart& start, const Stop& stop) {
   while (!start.clock())
     if (!waitUntil(live::hostNow() + base::durationFromSeconds(0.01), stop)) return;
   const auto clock = *start.clock();
-  for (const auto& reading : readings_) {
-    const auto host = clock.hostTime(reading.log);
+  auto away_until = clock.hostStart();
+  for (std::size_t i = 0; i < readings_.size(); ++i) {
+    const auto host = clock.hostTime(readings_[i].log);
     if (!waitUntil(host, stop)) return;
-    if (!socket_ && !tryToConnect()) continue;
-    if (send(odometryLine(reading, host, start.pace()))) ++sent_;
+    const auto* fault = faultAt(i);
+    if (fault && fault->seconds > 0) away_until = host + base::durationFromSeconds(fault->seconds);
+    if (fault && fault->kind == Fault::Kind::hangup) socket_.close();
+    if (host < away_until || (!socket_ && !tryToConnect())) continue;
+    const std::string line = odometryLine(readings_[i], host, start.pace());
+    if (send(fault ? damaged(line, fault->kind, i) : line)) ++sent_;
   }
+}
+
+const Fault* OdometryPlayer::faultAt(std::size_t number) const {
+  const auto found =
+      std::find_if(options_.faults.begin(), options_.faults.end(), [&](const Fault& one) { return one.at == number; });
+  return found == options_.faults.end() ? nullptr : &*found;
 }
 
 bool OdometryPlayer::send(const std::string& line) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "CommonStart.h"
+#include "Fault.h"
 #include "PlayedLog.h"
 
 namespace omnimapper::players {
@@ -14,9 +15,10 @@ namespace omnimapper::players {
 struct OdometryPlayerOptions {
   live::SocketAddress to{"127.0.0.1", 7700};
   bool udp = false;
+  std::vector<Fault> faults;  ///< without checksum and slow, which are of lasers
 };
 
-/// Sends odometry as the lines that live::COdometryLines takes: what a robot's own program would do.
+/// Sends odometry as the lines that drivers::COdometryLines takes: what a robot's own program would do.
 class OdometryPlayer {
  public:
   OdometryPlayer(std::vector<OdometryReading> readings, OdometryPlayerOptions options);
@@ -32,6 +34,7 @@ class OdometryPlayer {
 
  private:
   bool tryToConnect();
+  const Fault* faultAt(std::size_t number) const;
   bool send(const std::string& line);
 
   std::vector<OdometryReading> readings_;

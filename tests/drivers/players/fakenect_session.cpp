@@ -1,6 +1,7 @@
-// fakenect-session LOG FOLDER: what a Kinect would have sent, as a session that libfreenect's fakenect plays. LOG is a
-// rawlog or a folder of depth and colour images. Of its 640 x 480 images with depths each is written in raw values of
-// 11 bits by the default calibration, with its picture; of its inertial observations the accelerations.
+// fakenect-session LOG FOLDER [PACE]: what a Kinect would have sent, as a session that libfreenect's fakenect plays.
+// LOG is a rawlog or a folder of depth and colour images. Of its 640 x 480 images with depths each is written in raw
+// values of 11 bits by the default calibration, with its picture; of its inertial observations the accelerations. PACE:
+// times as fast as it was recorded.
 #include <libfreenect.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
@@ -14,6 +15,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -24,7 +26,7 @@ using mrpt::obs::CObservation3DRangeScan;
 
 class Session {
  public:
-  explicit Session(const std::string& folder) : folder_(folder) {
+  Session(const std::string& folder, double pace) : folder_(folder), pace_(pace) {
     std::filesystem::create_directories(folder);
     index_.open(folder + "/INDEX.txt");
   }
@@ -69,7 +71,8 @@ class Session {
 
  private:
   void write(char kind, const char* extension, base::Stamp stamp, const std::string& bytes) {
-    const double seconds = base::unixSeconds(stamp);
+    if (!begin_) begin_ = base::unixSeconds(stamp);
+    const double seconds = *begin_ + (base::unixSeconds(stamp) - *begin_) / pace_;
     const double ticks = std::round(std::fmod(seconds, 4294967296 / 60e6) * 60e6);
     char name[80];
     std::snprintf(name, sizeof name, "%c-%.6f-%.0f%s", kind, seconds, ticks, extension);
@@ -80,20 +83,22 @@ class Session {
   }
 
   std::string folder_;
+  double pace_;
+  std::optional<double> begin_;  // [s] since 1970
   std::ofstream index_;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 3) return 2;
+  if (argc != 3 && argc != 4) return 2;
   std::unique_ptr<source::ObservationSource> log;
   if (std::filesystem::is_directory(argv[1])) {
     log = std::make_unique<source::RgbdFolder>(argv[1]);
   } else {
     log = std::make_unique<source::RawlogSource>(argv[1]);
   }
-  Session session(argv[2]);
+  Session session(argv[2], argc == 4 ? std::stod(argv[3]) : 1);
   while (const auto observation = log->next()) {
     if (const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation)) {
       session.add(*scan);

@@ -16,7 +16,7 @@ std::atomic<bool> interrupted{false};
 
 struct Arguments {
   std::string log, odometry, start, truth, shifted_truth, record;
-  std::vector<std::string> faults;
+  std::vector<std::string> faults, odometry_faults;
   bool udp = false;
   players::PlayOptions play;
 };
@@ -31,6 +31,8 @@ void declare(CLI::App& app, Arguments& its) {
   app.add_option("--start", its.start, "Unix time [s] of the log's first stamp; without it: when all hosts are there");
   app.add_option("--fault", its.faults,
                  "KIND@SCAN:SECONDS, KIND one of garbage, half, checksum, slow, silence and hangup");
+  app.add_option("--odometry-fault", its.odometry_faults,
+                 "KIND@LINE:SECONDS, KIND one of garbage, half, silence and hangup");
   app.add_option("--answer-delay", its.play.hokuyo.answer_delay, "Seconds before each answer of a laser");
   app.add_option("--linger", its.play.linger, "Seconds that lasers answer on after their last scan");
   app.add_option("--truth", its.truth, "Trajectory file of the log, to be written with the stamps of the host");
@@ -40,8 +42,10 @@ void declare(CLI::App& app, Arguments& its) {
 
 void play(Arguments& its) {
   for (const auto& fault : its.faults) its.play.hokuyo.faults.push_back(players::parseFault(fault));
-  if (!its.odometry.empty())
-    its.play.odometry = players::OdometryPlayerOptions{players::parseSocketAddress(its.odometry), its.udp};
+  if (!its.odometry.empty()) {
+    its.play.odometry = players::OdometryPlayerOptions{players::parseSocketAddress(its.odometry), its.udp, {}};
+    for (const auto& fault : its.odometry_faults) its.play.odometry->faults.push_back(players::parseFault(fault));
+  }
   if (!its.start.empty()) its.play.host_start = base::parseUnix(its.start);
   auto log = players::PlayedLog::read(its.log);
   const auto log_start = log.start();

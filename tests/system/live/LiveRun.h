@@ -36,8 +36,9 @@ inline double errorOf(const std::string& trajectory, const std::string& truth) {
 
 class LiveRun {
  public:
-  /// `faults`: of the player. Nothing runs yet.
-  explicit LiveRun(double pace, Words faults = {}) : pace_(pace), faults_(std::move(faults)) {
+  /// `faults`: of the played laser and of the played odometry. Nothing runs yet.
+  explicit LiveRun(double pace, Words faults = {}, Words odometry_faults = {})
+      : pace_(pace), faults_(std::move(faults)), odometry_faults_(std::move(odometry_faults)) {
     using omnimapper::live::boundPort;
     using omnimapper::live::listenTcp;
     laser_port_ = boundPort(listenTcp({}));
@@ -61,6 +62,7 @@ class LiveRun {
                 std::to_string(pace_)};
     if (!truth.empty()) words.insert(words.end(), {"--truth", truth, "--shifted-truth", folder / "truth.tum"});
     for (const auto& fault : faults_) words.insert(words.end(), {"--fault", fault});
+    for (const auto& fault : odometry_faults_) words.insert(words.end(), {"--odometry-fault", fault});
     player.emplace(words);
     for (int i = 0; i < 200 && player->isRunning() && !isListenedAt(laser_port_); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(25));
@@ -97,7 +99,7 @@ class LiveRun {
   }
 
   double pace_;
-  Words faults_;
+  Words faults_, odometry_faults_;
   std::uint16_t laser_port_ = 0, odometry_port_ = 0;
 };
 

@@ -47,6 +47,8 @@ class Feed {
   virtual source::SourceReport report() const = 0;
   /// What the program ends with if nothing else is wrong.
   virtual base::ExitCode code() const { return report().exitCode(); }
+  /// Half a sentence for the user of a run that has no map: what of it was written all the same.
+  virtual std::string whatStays() const { return "nothing was written"; }
   /// Names in the output folder that are the feed's own.
   virtual std::vector<std::string> files() const { return {}; }
 };

@@ -1,20 +1,17 @@
 #include "run/LiveFeed.h"
 
-#include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/live/record.h>
 #include <omnimapper/plugin/DecisionLog.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <thread>
 
 namespace omnimapper::mapper {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Kind = live::JournalEvent::Kind;
 using std::chrono::milliseconds;
 
@@ -36,22 +33,12 @@ void LiveFeed::begin(const std::string& output_folder, const Stop& stop) {
   const std::string folder = output_folder + "/" + kRecording;
   std::unique_ptr<live::Recorder> recorder;
   if (options_.record) {
-    base::makeWritableFolder(folder);
     recorder = std::make_unique<live::Recorder>(folder, title_, live::recorderOptions(options_));
-    trace_->journal.emplace(folder + "/" + title_ + ".journal");
   }
   sensors_ = std::make_unique<live::LiveSource>(sections_, options_, std::move(recorder));
-  try {
-    sensors_->open(stop);
-  } catch (...) {
-    sensors_->close();
-    if (options_.record && sensors_->counts().arrived == 0) {
-      std::error_code none;
-      for (const char* extension : {".rawlog", ".journal"}) fs::remove(folder + "/" + title_ + extension, none);
-      fs::remove(folder, none);
-    }
-    throw;
-  }
+  sensors_->open(stop);
+  if (options_.record) trace_->journal.emplace(folder + "/" + title_ + ".journal");
+  recording_ = options_.record ? folder : "";
 }
 
 bool LiveFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) {
@@ -115,8 +102,18 @@ void LiveFeed::attend(Engine& engine, base::Progress& progress) {
       engine.warn("the journal of the recording cannot be written any more: a replay ends there");
     }
   }
+  if (now >= next_judgement_ && !has_ended_) judge(engine);
   engine.setLive(figures());
   progress.reportState(stateText(engine.view()));
+}
+
+// The larger the map the longer that takes, and mapping waits for it.
+void LiveFeed::judge(Engine& engine) {
+  constexpr auto kShortest = std::chrono::seconds(5);
+  constexpr int kShare = 200;  // of the time at most one part in so many
+  const auto begin = Clock::now();
+  engine.judge();
+  next_judgement_ = Clock::now() + std::max<Clock::duration>(kShortest, kShare * (Clock::now() - begin));
 }
 
 LiveFigures LiveFeed::figures() const {
@@ -145,13 +142,14 @@ LiveFigures LiveFeed::figures() const {
 
 std::string LiveFeed::stateText(const View& view) const {
   const auto counts = sensors_->counts();
-  char text[160];
+  char text[192];
   std::snprintf(text, sizeof text,
                 "; %zu key frames, %zu closures; %.2f s late (99 %%: %.2f s), %llu waiting, %llu dropped",
                 view.map.key_frames.size(), countClosures(view.decisions).accepted, trace_->latencies.quantile(0.5),
                 trace_->latencies.quantile(0.99), static_cast<unsigned long long>(counts.waiting),
                 static_cast<unsigned long long>(counts.dropped));
-  return sensors_->sensorsText() + text;
+  const std::string verdict = view.verdict.evidence.empty() ? "" : "; map: " + toString(view.verdict.answer);
+  return sensors_->sensorsText() + text + verdict;
 }
 
 source::SourceReport LiveFeed::report() const {
@@ -163,6 +161,10 @@ source::SourceReport LiveFeed::report() const {
 base::ExitCode LiveFeed::code() const {
   const auto* recorder = sensors_->recorder();
   return recorder && !recorder->failure().empty() ? base::ExitCode::disk_full : report().exitCode();
+}
+
+std::string LiveFeed::whatStays() const {
+  return recording_.empty() ? Feed::whatStays() : "no map was written; what came is recorded in " + recording_;
 }
 
 std::vector<std::string> LiveFeed::files() const {

@@ -29,23 +29,25 @@ class LiveFeed : public Feed {
   void published() override { checkpoints_->remove(); }
   source::SourceReport report() const override;
   base::ExitCode code() const override;
+  std::string whatStays() const override;
   std::vector<std::string> files() const override;
 
  private:
   using Clock = std::chrono::steady_clock;
   bool giveNext(Engine& engine, SensorSamples& samples, std::chrono::milliseconds patience);
   void attend(Engine& engine, base::Progress& progress);
+  void judge(Engine& engine);
   LiveFigures figures() const;
   std::string stateText(const View& view) const;
 
   live::LiveOptions options_;
   std::vector<std::string> labels_;
   std::vector<live::SensorSection> sections_;
-  std::string title_, name_;
+  std::string title_, name_, recording_;  // its folder, empty without
   std::shared_ptr<LiveTrace> trace_ = std::make_shared<LiveTrace>();
   std::unique_ptr<live::LiveSource> sensors_;
   std::optional<Checkpoints> checkpoints_;
-  Clock::time_point attended_ = Clock::now(), flushed_ = attended_;
+  Clock::time_point attended_ = Clock::now(), flushed_ = attended_, next_judgement_ = attended_;
   bool has_ended_ = false, has_told_journal_ = false;
 };
 

@@ -50,7 +50,7 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
 }
 
 // An empty map is not written: it would take the place of a good one.
-[[noreturn]] void failWithNothingToMap(const std::string& name, const std::string& ini, const RunResult& result,
+[[noreturn]] void failWithNothingToMap(const Feed& feed, const std::string& ini, const RunResult& result,
                                        const std::vector<std::string>& unknown_labels,
                                        const std::string& missing_extractors) {
   std::string labels;
@@ -59,20 +59,21 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
   const std::string how = result.code == base::ExitCode::interrupted ? "interrupted before the first" : "no";
   throw base::Error(
       is_whole ? base::ExitCode::nothing_to_map : result.code,
-      name + ": nothing to map: " + how + " observation that a measurement plugin of " + ini + " wants" +
-          (is_whole ? " (see its [source], [perception] extractors and [mapper] measurement_plugins)" : "") +
-          "; nothing was written. omnimapper-graphslam --check names the INIs that fit this log.\n" +
-          missing_extractors + labels + "What was read:\n" + result.source.text());
+      feed.name() + ": nothing to map: " + how + " observation that a measurement plugin of " + ini + " wants" +
+          (is_whole ? " (see its [source], [perception] extractors and [mapper] measurement_plugins)" : "") + "; " +
+          feed.whatStays() + ". omnimapper-graphslam --check names the INIs that fit this log.\n" + missing_extractors +
+          labels + "What was read:\n" + result.source.text());
 }
 
 // What stands still in the map though it moved is wrong by as much.
-[[noreturn]] void failWithNoMotion(const std::string& name, const std::string& ini, const RunResult& result,
+[[noreturn]] void failWithNoMotion(const Feed& feed, const std::string& ini, const RunResult& result,
                                    const std::vector<std::string>& idle) {
   throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::nothing_to_map : result.code,
-                    name + ": nothing to map: it does not tell how the sensors moved: there is nothing in it for " +
-                        base::option_text::format(idle) + " of " + ini +
-                        "; nothing was written. omnimapper-graphslam --check names the INIs that fit this log.\n" +
-                        "What was read:\n" + result.source.text());
+                    feed.name() +
+                        ": nothing to map: it does not tell how the sensors moved: there is nothing in it for " +
+                        base::option_text::format(idle) + " of " + ini + "; " + feed.whatStays() +
+                        ". omnimapper-graphslam --check names the INIs that fit this log.\n" + "What was read:\n" +
+                        result.source.text());
 }
 
 // The trajectory is written all the same: in the map's frame only by what [session] start says.
@@ -343,10 +344,10 @@ RunResult Run::report() {
       if (const auto sentence = missingFor(section); !sentence.empty())
         missing += "[" + section + "]: " + sentence + ".\n";
     }
-    failWithNothingToMap(feed_->name(), config_.file(), outcome, unknown_labels, missing);
+    failWithNothingToMap(*feed_, config_.file(), outcome, unknown_labels, missing);
   }
   if (const auto idle = engine_->idleSources(); !idle.empty() && !localizes() && outcome.new_key_frames > 1)
-    failWithNoMotion(feed_->name(), config_.file(), outcome, idle);
+    failWithNoMotion(*feed_, config_.file(), outcome, idle);
   progress_.report(1.0, "writing the outputs");
   publish(engine_->writeOutputs(), outcome);
   feed_->published();

@@ -61,7 +61,7 @@ class LiveSource {
   LiveSource& operator=(const LiveSource&) = delete;
 
   /// Opens the sensors in their order. Throws Error(unreadable_input), naming section and reason, if one cannot be
-  /// opened, and Error(interrupted) if `stop` says so.
+  /// opened, and Error(interrupted) if `stop` says so; then all are closed, and a recording of nothing is removed.
   void open(const std::function<bool()>& stop);
   /// Stops the sensors in reverse order, and ends the recording. A driver that does not return within two seconds is
   /// left behind; its process must end without waiting for it.
@@ -88,6 +88,8 @@ class LiveSource {
 
  private:
   struct Parts;
+  void openAll(const std::function<bool()>& stop);
+
   std::unique_ptr<Parts> parts_;
 };
 

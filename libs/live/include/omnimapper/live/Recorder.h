@@ -34,8 +34,8 @@ RecorderOptions recorderOptions(const LiveOptions& options);
 /// gzip, so that all but the last second can be read of a file whose writer was killed.
 class Recorder {
  public:
-  /// Files are named NAME.rawlog, NAME_001.rawlog and so on, in `folder`. Throws Error(unwritable_output) if the first
-  /// cannot be made, or is there already.
+  /// Files are named NAME.rawlog, NAME_001.rawlog and so on, in `folder`, which is made if it is missing. Throws
+  /// Error(unwritable_output) if the first cannot be made, or is there already.
   Recorder(const std::string& folder, const std::string& name, const RecorderOptions& options);
   /// As close().
   ~Recorder();
@@ -48,6 +48,8 @@ class Recorder {
   void add(const Encoded& observation);
   /// Writes what waits and ends.
   void close();
+  /// Ends, and removes its files, and its folder if it made that and nothing else is in it.
+  void discard();
 
   struct Figures {
     std::uint64_t observations = 0;
@@ -68,6 +70,7 @@ class Recorder {
   std::string compressed(const std::vector<Encoded>& block, std::size_t bytes) const;
 
   const std::string folder_, name_;
+  bool has_made_folder_ = false;
   const RecorderOptions options_;
   int file_ = -1;
   std::uint64_t file_bytes_ = 0;  // of whole blocks in it
