@@ -33,12 +33,11 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
                             "map the sensors of [live] until Ctrl-C, and record them in the folder recording of -o");
   auto* record =
       app.add_flag("--record-only", arguments.record_only, "record the sensors of [live] into -o, map nothing");
-  app.add_option("--replay", arguments.run.replay,
-                 "journal (recording/TIME.journal) of a --live run: makes the same map again")
-      ->type_name("JOURNAL")
-      ->excludes(live);
-  live->excludes(rawlogs);
-  record->excludes(rawlogs)->excludes(live);
+  auto* replay = app.add_option("--replay", arguments.run.replay,
+                                "journal (recording/TIME.journal) of a --live run: makes the same map again")
+                     ->type_name("JOURNAL");
+  live->excludes(rawlogs)->excludes(replay);
+  replay->excludes(rawlogs);
   app.add_option("-o,--output", arguments.run.output_folder, "folder for the outputs, made if missing");
   app.add_option_function<std::vector<std::string>>(
          "--check",
@@ -47,20 +46,24 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
            for (const auto& log : logs)
              if (!log.empty()) arguments.checked_logs.push_back(log);
          },
-         "judge a log (or those of -r, or with --live ten seconds of the sensors), map nothing: what is wrong, "
-         "what to set; -o keeps it")
+         "check a log (or those of -r, or with --live ten seconds of sensor data), map nothing: what is wrong, "
+         "what to set; -o keeps the report")
       ->expected(0, CLI::detail::expected_max_vector_size)
       ->type_name("LOG");
-  app.add_option("--continue", arguments.run.continue_map, "map (or its folder) that the logs go on from: [session]");
-  app.add_option("--localize", arguments.run.localize_map,
-                 "map (or its folder) that stays as it is: only where the robot is in it is sought: [session]");
+  auto* go_on = app.add_option("--continue", arguments.run.continue_map,
+                               "map (or its folder) that the logs go on from: [session]");
+  auto* localize = app.add_option("--localize", arguments.run.localize_map,
+                                  "map (or its folder) to find the robot in; the map itself is not changed: [session]");
   app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
   app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the map does not depend on them")
       ->check(CLI::Range(1, 256));
-  app.add_option("--speed", arguments.run.speed, "replay at so many times the log's pace; 0: as fast as possible")
-      ->check(omnimapper::program::notNegative());
+  app.add_option("--speed", arguments.run.speed, "map a log at so many times its pace; 0: as fast as possible")
+      ->check(omnimapper::program::notNegative())
+      ->excludes(live)
+      ->excludes(replay);
   app.add_flag("--strict", arguments.run.strict, "end with code 17 if the map contradicts itself");
-  app.add_flag("--gui", arguments.gui, "show the map while it grows");
+  auto* gui = app.add_flag("--gui", arguments.gui, "show the map while it grows");
+  for (auto* other : {rawlogs, live, replay, go_on, localize, gui}) record->excludes(other);
   app.add_flag("--list-plugins", arguments.list_plugins,
                "list the plugin classes, with -i those of its libraries too, and leave");
   app.add_option("--print-ini", arguments.print_ini, "print the documented section of a plugin class and leave");

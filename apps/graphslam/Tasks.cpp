@@ -44,7 +44,7 @@ int checkLogs(const Arguments& arguments, const base::Config& config, std::optio
     folder.emplace();
     const auto options = config.section("live").read<live::LiveOptions>();
     const auto recorded = live::record(options, config, folder->path(), kSeconds, *progress, stop);
-    heading = live::toText(recorded) + "\n";
+    heading = live::toText(recorded) + (recorded.failure.empty() ? "" : recorded.failure + "\n") + "\n";
     logs = recorded.files;
   }
   program::require({{"--check LOG", !logs.empty()}});

@@ -78,12 +78,10 @@ int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("", "omnimapper-graphslam");
   addOptions(app, arguments);
-  return program::run(app, argc, argv, [&] {
-    const int code = run(arguments);
-    if (!arguments.gui && !arguments.run.live) return code;
-    // MRPT's window thread may still paint, and a driver that hangs was left behind: what they use must not go before
-    // they do, and they cannot be waited for.
-    std::cout.flush();
-    std::_Exit(code);
-  });
+  const int code = program::run(app, argc, argv, [&] { return run(arguments); });
+  if (!arguments.gui && !arguments.run.live && !arguments.record_only) return code;
+  // MRPT's window thread may still paint, and a driver that hangs was abandoned: what they use must not go before they
+  // do, and they cannot be waited for.
+  std::cout.flush();
+  std::_Exit(code);
 }

@@ -48,8 +48,8 @@ TEST(Journal, refusesWhatIsNone) {
     }
     return "";
   };
-  EXPECT_NE(problemOf("").find("no journal"), std::string::npos);
-  EXPECT_NE(problemOf("omnimapper journal 2\n").find("no journal"), std::string::npos);
+  EXPECT_NE(problemOf("").find("not a journal"), std::string::npos);
+  EXPECT_NE(problemOf("omnimapper journal 2\n").find("not a journal"), std::string::npos);
   for (const char* line : {"x", "a", "a ", "a -1", "a 1 2", "b 1", "a 99999999999999999999"})
     EXPECT_NE(problemOf("omnimapper journal 1\na 0\n" + std::string(line) + "\n").find("line 3"), std::string::npos)
         << line;

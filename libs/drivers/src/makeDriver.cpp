@@ -2,6 +2,7 @@
 #include <mrpt/system/COutputLogger.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Exceptions.h>
+#include <omnimapper/base/Names.h>
 #include <omnimapper/drivers/CheckedSensor.h>
 #include <omnimapper/live/SensorDriver.h>
 
@@ -24,6 +25,7 @@ class MrptDriver : public live::SensorDriver {
     sensor_->initialize();
     if (hasFailed()) throw std::runtime_error("its driver cannot set it up");
   }
+  std::string label() const override { return base::sensorName(sensor_->getSensorLabel()); }
   double rate() const override { return sensor_->getProcessRate(); }
   std::vector<mrpt::serialization::CSerializable::Ptr> read() override {
     sensor_->doProcess();

@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <omnimapper/base/Names.h>
@@ -21,7 +22,8 @@ bool isOfCamera(const mrpt::obs::CObservation& observation) {
          dynamic_cast<const CObservationImage*>(&observation) ||
          dynamic_cast<const CObservationStereoImages*>(&observation) ||
          dynamic_cast<const CObservationPointCloud*>(&observation) ||
-         dynamic_cast<const CObservationVelodyneScan*>(&observation);
+         dynamic_cast<const CObservationVelodyneScan*>(&observation) ||
+         dynamic_cast<const CObservationRotatingScan*>(&observation);
 }
 
 }  // namespace
@@ -36,6 +38,7 @@ void Arrivals::add(mrpt::obs::CObservation& observation, base::Stamp arrival, Se
   const bool is_camera = isOfCamera(observation);
   {
     const std::lock_guard lock(mutex_);
+    if (is_closed_) return;
     ++counts_.arrived;
     if (is_camera && recorder_ && !recorder_->hasRoomFor(encoded->size())) {
       ++counts_.not_kept;
@@ -72,14 +75,39 @@ void Arrivals::addOther(const std::string& class_name) {
   ++report_.other_objects[class_name];
 }
 
-std::optional<LiveObservation> Arrivals::next(std::chrono::milliseconds patience) {
+std::optional<Arrivals::Waiting> Arrivals::takeFirst(std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
   if (!arrived_.wait_for(lock, patience, [this] { return !waiting_.empty(); })) return std::nullopt;
-  const Waiting first = std::move(waiting_.front());
+  Waiting first = std::move(waiting_.front());
   waiting_.pop_front();
   ++counts_.given;
-  lock.unlock();
-  return LiveObservation{decode(first.encoded), first.number};
+  return first;
+}
+
+// One of a class that its library encodes and cannot read again costs only itself.
+std::optional<LiveObservation> Arrivals::next(std::chrono::milliseconds patience) {
+  while (const auto first = takeFirst(patience)) {
+    try {
+      return LiveObservation{decode(first->encoded), first->number};
+    } catch (const std::exception&) {
+      const std::lock_guard lock(mutex_);
+      --counts_.given;
+      ++counts_.unusable;
+      report_.countUnusable(first->label, "they cannot be read again from their recording", base::Stamp());
+    }
+  }
+  return std::nullopt;
+}
+
+void Arrivals::discardWaiting() {
+  const std::lock_guard lock(mutex_);
+  counts_.given += waiting_.size();
+  waiting_.clear();
+}
+
+void Arrivals::close() {
+  const std::lock_guard lock(mutex_);
+  is_closed_ = true;
 }
 
 std::vector<std::uint64_t> Arrivals::takeDropped() {

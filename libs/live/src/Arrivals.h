@@ -35,6 +35,10 @@ class Arrivals {
 
   /// The oldest that waits, as a reader of the recording would get it; waits so long for one.
   std::optional<LiveObservation> next(std::chrono::milliseconds patience);
+  /// Lets go what waits, for nobody maps it; it counts as given.
+  void discardWaiting();
+  /// From now on nothing is taken any more.
+  void close();
   /// Numbers of those that were left out since the last call, for newer ones of their cameras.
   std::vector<std::uint64_t> takeDropped();
 
@@ -51,6 +55,7 @@ class Arrivals {
     Encoded encoded;
   };
   void makeRoomFor(const std::string& label);
+  std::optional<Waiting> takeFirst(std::chrono::milliseconds patience);
 
   const LiveOptions options_;
   const std::unique_ptr<Recorder> recorder_;
@@ -61,6 +66,7 @@ class Arrivals {
   std::deque<Waiting> waiting_;
   std::vector<std::uint64_t> dropped_;
   std::uint64_t next_number_ = 0;
+  bool is_closed_ = false;
   source::SourceReport report_;
   LiveCounts counts_;
 };

@@ -41,7 +41,7 @@ std::vector<std::string> rawlogsBeside(const std::string& path) {
     if (!std::filesystem::exists(rawlog)) break;
     rawlogs.push_back(std::move(rawlog));
   }
-  if (rawlogs.empty()) refuse(path, "the recording " + stem + ".rawlog that it is about is not beside it");
+  if (rawlogs.empty()) refuse(path, "the recording " + stem + ".rawlog is missing beside the journal");
   return rawlogs;
 }
 
@@ -75,15 +75,15 @@ bool JournalWriter::flush() {
 
 Journal Journal::read(const std::string& path) {
   if (std::filesystem::path(path).extension() != kExtension)
-    refuse(path, "a journal ends in " + kExtension + ", such as recording" + kExtension);
+    refuse(path, "the name of a journal ends in " + kExtension);
   const std::string text = base::readInput(path, "journal of a live run");
-  if (text.compare(0, kFirstLine.size() + 1, kFirstLine + "\n") != 0) refuse(path, "this is no journal of a live run");
+  if (text.compare(0, kFirstLine.size() + 1, kFirstLine + "\n") != 0) refuse(path, "not a journal of a live run");
   Journal journal;
   std::size_t line = 1;
   for (std::size_t begin = kFirstLine.size() + 1, end; (end = text.find('\n', begin)) != std::string::npos;
        begin = end + 1) {
     const auto event = eventOf(std::string_view(text).substr(begin, end - begin));
-    if (!event) refuse(path, "line " + std::to_string(line + 1) + " is no line of a journal: damaged");
+    if (!event) refuse(path, "line " + std::to_string(line + 1) + " is damaged");
     journal.events.push_back(*event);
     ++line;
   }

@@ -11,7 +11,10 @@ namespace omnimapper::live {
 
 namespace {
 
-constexpr std::chrono::milliseconds kToStop(2000), kStep(100);
+constexpr std::chrono::milliseconds kStep(100);
+constexpr std::chrono::milliseconds kToStop(2000);  // a read() takes a tenth of a second, a laser's last words one
+constexpr std::chrono::milliseconds kToOpen(
+    30000);  // lasers and cameras that start their motors take up to ten seconds
 
 }  // namespace
 
@@ -70,7 +73,12 @@ void LiveSource::openAll(const std::function<bool()>& stop) {
   for (const auto& section : parts_->sections) {
     auto& thread = parts_->threads.emplace_back(section, parts_->options, parts_->arrivals);
     thread.start();
+    const auto begin = std::chrono::steady_clock::now();
     while (!thread.waitUntilOpen(kStep)) {
+      if (std::chrono::steady_clock::now() - begin > kToOpen)
+        throw base::Error(base::ExitCode::unreadable_input,
+                          section.file + ": sensor [" + section.name + "] (" + section.driver +
+                              ") cannot be opened: its driver has not returned for 30 s");
       if (stop && stop())
         throw base::Error(base::ExitCode::interrupted, "interrupted while sensor [" + section.name + "] was opened");
     }
@@ -84,6 +92,7 @@ void LiveSource::openAll(const std::function<bool()>& stop) {
 void LiveSource::close() {
   for (auto thread = parts_->threads.rbegin(); thread != parts_->threads.rend(); ++thread)
     parts_->has_left_behind = !thread->stop(kToStop) || parts_->has_left_behind;
+  parts_->arrivals->close();
   if (auto* recorder = parts_->arrivals->recorder()) recorder->close();
   if (!parts_->has_left_behind) parts_->images.reset();
 }
@@ -94,6 +103,10 @@ bool LiveSource::hasLeftBehind() const {
 
 std::optional<LiveObservation> LiveSource::next(std::chrono::milliseconds patience) {
   return parts_->arrivals->next(patience);
+}
+
+void LiveSource::discardWaiting() {
+  parts_->arrivals->discardWaiting();
 }
 
 std::vector<std::uint64_t> LiveSource::takeDropped() {
@@ -108,7 +121,7 @@ std::vector<std::string> LiveSource::takeNews() {
   const auto* recorder = parts_->arrivals->recorder();
   if (recorder && !parts_->has_told_failure) {
     if (const auto failure = recorder->failure(); !failure.empty()) {
-      all.push_back(failure + "; mapping goes on, and what was recorded until then can be read");
+      all.push_back(failure + "; what was recorded before that can be read");
       parts_->has_told_failure = true;
     }
   }

@@ -2,6 +2,7 @@
 #include <mrpt/serialization/CSerializable.h>
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/live/HostClock.h>
 #include <omnimapper/live/Recorder.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -11,6 +12,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -22,7 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kBlock = std::chrono::milliseconds(900);  // of observations in one member of gzip
-constexpr std::size_t kLargestBlock = 16 << 20;          // [bytes]
+constexpr std::size_t kLargestBlock = 16 << 20;          // [bytes] a third of a second of a VGA camera at 30 Hz
 
 // All of it, or what the system says.
 void writeAll(int file, const std::string& bytes) {
@@ -56,6 +58,15 @@ RecorderOptions recorderOptions(const LiveOptions& options) {
           static_cast<std::size_t>(options.queue_mb * kMega)};
 }
 
+std::string nameByTime() {
+  const auto now = static_cast<std::time_t>(base::unixSeconds(hostNow()));
+  std::tm parts{};
+  localtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d_%H-%M-%S", &parts);
+  return text;
+}
+
 Recorder::Recorder(const std::string& folder, const std::string& name, const RecorderOptions& options)
     : folder_(folder), name_(name), options_(options) {
   std::error_code none;
@@ -77,6 +88,13 @@ bool Recorder::hasRoomFor(std::size_t bytes) const {
 void Recorder::add(const Encoded& observation) {
   const std::lock_guard lock(mutex_);
   if (closing_ || !failure_.empty()) return;
+  constexpr std::size_t kBeyond = 4;  // times the queue: cameras are left out before, so this is what is not of cameras
+  if (waiting_bytes_ > kBeyond * options_.queue_bytes) {
+    failure_ = folder_ + "/" + files_.back() + ": recording ended: the disk does not write what comes";
+    for (const auto& one : waiting_) waiting_bytes_ -= one->size();
+    waiting_.clear();
+    return;
+  }
   waiting_.push_back(observation);
   waiting_bytes_ += observation->size();
   if (waiting_bytes_ >= kLargestBlock) wake_.notify_all();
@@ -159,7 +177,7 @@ void Recorder::run() {
       figures_.bytes += bytes;
       continue;
     }
-    failure_ = folder_ + "/" + files_.back() + ": recording ended: " + failure;
+    if (failure_.empty()) failure_ = folder_ + "/" + files_.back() + ": recording ended: " + failure;
     waiting_.clear();
     waiting_bytes_ = 0;
     return;

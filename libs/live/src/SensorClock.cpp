@@ -13,7 +13,11 @@ constexpr double kLong = 5;        // [s]
 }  // namespace
 
 base::Stamp SensorClock::corrected(base::Stamp stamp, base::Stamp arrival) {
-  if (options_.clock == SensorOptions::Clock::arrival || !base::isValid(stamp)) return arrival;
+  if (options_.clock == SensorOptions::Clock::arrival || !base::isValid(stamp)) {
+    // Several that are read at once arrived one after the other: two of one stamp would count as one.
+    last_given_ = std::max(arrival, last_given_ + base::Duration(1));
+    return last_given_;
+  }
   const base::Stamp told = stamp + base::durationFromSeconds(options_.clock_offset);
   if (options_.clock == SensorOptions::Clock::driver) return told;
   constexpr double kDrift = 1e-4;  // of a quartz, at most

@@ -47,12 +47,14 @@ void loadLibraries(const LiveOptions& options, const base::Config& config) {
   }
 }
 
-void refuseSharedLabels(const std::vector<SensorSection>& sensors) {
+// What a driver refuses is refused now rather than when all is under way.
+void tryDrivers(const std::vector<SensorSection>& sensors) {
   std::set<std::string> labels;
   for (const auto& sensor : sensors) {
-    if (sensor.label.empty() || labels.insert(sensor.label).second) continue;
+    const std::string label = makeDriver(sensor)->label();
+    if (labels.insert(label).second) continue;
     throw base::Error(base::ExitCode::out_of_range,
-                      sensor.file + ": sensor [" + sensor.name + "] has the sensorLabel " + sensor.label +
+                      sensor.file + ": sensor [" + sensor.name + "] has the sensorLabel " + label +
                           " of another sensor; give each its own, by which the map tells them apart");
   }
 }
@@ -62,12 +64,13 @@ void refuseSharedLabels(const std::vector<SensorSection>& sensors) {
 const base::OptionTable<SensorOptions>& SensorOptions::table() {
   static const auto table =
       base::OptionTable<SensorOptions>()
-          .choice("clock", &SensorOptions::clock,
-                  {{"automatic", Clock::automatic}, {"driver", Clock::driver}, {"arrival", Clock::arrival}},
-                  "Time of an observation: the driver's stamp; or when it arrived; automatic takes the driver's and "
-                  "moves it by the offset between the clocks where the stamps are far from their arrival.")
+          .choice(
+              "clock", &SensorOptions::clock,
+              {{"automatic", Clock::automatic}, {"driver", Clock::driver}, {"arrival", Clock::arrival}},
+              "What stamps an observation: driver, the driver's stamp; arrival, the time of its arrival; automatic, "
+              "the driver's stamp, corrected by the estimated offset where its clock is not the host's.")
           .number("clock_offset_s", &SensorOptions::clock_offset, base::Range(),
-                  "Added to every stamp of the driver, such as a known latency with a minus.");
+                  "Added to every stamp of the driver; a known latency is negative.");
   return table;
 }
 
@@ -105,10 +108,8 @@ std::vector<SensorSection> readSensors(const LiveOptions& options, const base::C
     sensors.back().options = config.section(name).read<SensorOptions>(keys);
   }
   if (!options.grabber.empty()) {
-    std::filesystem::path path = options.grabber;
-    if (path.is_relative() && !std::filesystem::exists(path))
-      path = std::filesystem::path(config.firstFile()).parent_path() / path;
-    const auto more = readGrabberIni(path.string());
+    const auto folder = std::filesystem::path(config.firstFile()).parent_path();
+    const auto more = readGrabberIni((folder / options.grabber).string());
     sensors.insert(sensors.end(), more.begin(), more.end());
   }
   if (sensors.empty())
@@ -116,7 +117,7 @@ std::vector<SensorSection> readSensors(const LiveOptions& options, const base::C
                       config.file() +
                           ": --live needs sensors: name them in [live] sensors, each with a section of its own "
                           "(driver = CHokuyoURG), or name an INI of rawlog-grabber in [live] grabber");
-  refuseSharedLabels(sensors);
+  tryDrivers(sensors);
   return sensors;
 }
 

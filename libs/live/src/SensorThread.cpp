@@ -1,5 +1,6 @@
 #include "SensorThread.h"
 
+#include <mrpt/obs/CObservationComment.h>
 #include <omnimapper/base/Exceptions.h>
 #include <omnimapper/live/HostClock.h>
 #include <omnimapper/live/SensorDriver.h>
@@ -18,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using State = SensorFigures::State;
 
-constexpr auto kBetweenAttempts = std::chrono::milliseconds(500);
+constexpr auto kBetweenAttempts = std::chrono::milliseconds(500);  // often enough, and no load for a device
 constexpr auto kRateWindow = std::chrono::seconds(3);
 
 double secondsSince(Clock::time_point begin) {
@@ -84,15 +85,15 @@ struct SensorThread::Shared {
   void arrivedNow(std::size_t count) {
     const std::lock_guard lock(mutex);
     const auto now = Clock::now();
+    const bool was_working = figures.state == State::working && figures.observations > 0;
     if (figures.state == State::lost || figures.state == State::silent) {
       tell("is back after " + inSeconds(std::chrono::duration<double>(now - last_arrival).count()));
       ++figures.reopened;
     }
     figures.state = State::working;
-    figures.problem.clear();
     figures.observations += count;
     constexpr std::size_t kGaps = 10;
-    gaps.push_back(std::chrono::duration<double>(now - last_arrival).count());
+    if (was_working) gaps.push_back(std::chrono::duration<double>(now - last_arrival).count());
     if (gaps.size() > kGaps) gaps.pop_front();
     last_arrival = now;
     arrived.insert(arrived.end(), count, now);
@@ -111,7 +112,7 @@ struct SensorThread::Shared {
     const std::lock_guard lock(mutex);
     figures.left_out = left_out_before + driver.leftOut();
     if (figures.left_out < tells_left_out_at) return;
-    tell("sends what is not believed, and left out: " + driver.leftOutByReason());
+    tell("sent invalid data, which was discarded: " + driver.leftOutByReason());
     tells_left_out_at = 2 * figures.left_out;
   }
   // What a driver threw. The first failure of a sensor that was never open ends the thread.
@@ -120,9 +121,10 @@ struct SensorThread::Shared {
     if (!was_open) {
       failed_to_open = true;
       figures.problem = reason;
-    } else if (figures.state != State::lost || figures.problem != reason) {
-      tell("is lost: " + reason + "; mapping goes on without it, and it is opened again when it answers");
+    } else if (figures.state != State::lost) {
+      tell("is lost: " + reason + "; it is opened again as soon as it answers");
       figures.problem = reason;
+      figures.losses += figures.state != State::silent;
     }
     figures.state = State::lost;
     changed.notify_all();
@@ -137,16 +139,19 @@ void SensorThread::start() {
 }
 
 void SensorThread::run(const std::shared_ptr<Shared>& shared) {
-  // MRPT's sockets write to devices that have hung up, which would end the program.
-  sigset_t broken_pipe;
-  sigemptyset(&broken_pipe);
-  sigaddset(&broken_pipe, SIGPIPE);
-  pthread_sigmask(SIG_BLOCK, &broken_pipe, nullptr);
+  // MRPT's sockets write to devices that have hung up, which would end the program; and a driver that is interrupted
+  // takes that for a failure of its device.
+  sigset_t blocked;
+  sigemptyset(&blocked);
+  for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP}) sigaddset(&blocked, signal);
+  pthread_sigmask(SIG_BLOCK, &blocked, nullptr);
   while (!shared->isStopping()) {
     try {
       readDriver(*shared);
     } catch (const std::exception& error) {
       shared->failed(base::sentenceOf(error));
+    } catch (...) {
+      shared->failed("its driver has thrown what is no std::exception");
     }
     {
       const std::lock_guard lock(shared->mutex);
@@ -156,7 +161,8 @@ void SensorThread::run(const std::shared_ptr<Shared>& shared) {
     shared->sleep(kBetweenAttempts);
   }
   const std::lock_guard lock(shared->mutex);
-  if (!shared->failed_to_open) shared->figures.state = State::stopped;
+  if (shared->figures.state == State::working || shared->figures.state == State::opening)
+    shared->figures.state = State::stopped;
   shared->ended = true;
   shared->changed.notify_all();
 }
@@ -177,7 +183,9 @@ void SensorThread::readDriver(Shared& shared) {
     shared.leftOut(*driver);
     std::size_t count = 0;
     for (const auto& object : objects) {
-      if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
+      const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
+      // A reader of logs takes a comment for no observation, either.
+      if (observation && !std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object)) {
         shared.arrivals->add(*observation, arrival, shared.clock);
         ++count;
       } else if (object) {
@@ -226,6 +234,7 @@ std::vector<std::string> SensorThread::takeNews() {
   const double patience = std::max(shared_->options.silent_after, 2 * shared_->longestGap());
   if (shared_->figures.state == State::working && silence > patience && !shared_->ended) {
     shared_->figures.state = State::silent;
+    ++shared_->figures.losses;
     shared_->tell("is silent: it has sent nothing for " + inSeconds(silence));
   }
   return std::exchange(shared_->news, {});

@@ -1,10 +1,8 @@
-#include <omnimapper/live/HostClock.h>
-#include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/live/record.h>
 
 #include <chrono>
 #include <cstdio>
-#include <ctime>
+#include <thread>
 
 namespace omnimapper::live {
 
@@ -25,26 +23,17 @@ base::ExitCode Recorded::code() const {
   return counts.arrived == 0 ? base::ExitCode::nothing_to_map : base::ExitCode::ok;
 }
 
-std::string nameByTime() {
-  const auto now = static_cast<std::time_t>(base::unixSeconds(hostNow()));
-  std::tm parts{};
-  localtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%d_%H-%M-%S", &parts);
-  return text;
-}
-
 Recorded record(const LiveOptions& options, const base::Config& config, const std::string& folder, double seconds,
                 base::Progress& progress, const std::function<bool()>& stop) {
   using Clock = std::chrono::steady_clock;
-  const auto sections = readSensors(options, config);
-  for (const auto& section : sections) makeDriver(section);  // refused now rather than when files are there
-  LiveSource source(sections, options, std::make_unique<Recorder>(folder, nameByTime(), recorderOptions(options)));
+  LiveSource source(readSensors(options, config), options,
+                    std::make_unique<Recorder>(folder, nameByTime(), recorderOptions(options)));
   source.open(stop);
   const auto begin = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   while (!stop() && source.recorder()->failure().empty() && (seconds == 0 || elapsed() < seconds)) {
-    source.next(std::chrono::milliseconds(20));  // nobody maps it
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    source.discardWaiting();
     for (const auto& sentence : source.takeNews()) progress.tell(sentence);
     source.takeDropped();
     progress.reportState(source.sensorsText() +
@@ -57,7 +46,6 @@ Recorded record(const LiveOptions& options, const base::Config& config, const st
   source.close();
   recorded.counts = source.counts();
   recorded.figures = source.recorder()->figures();
-  recorded.has_left_behind = source.hasLeftBehind();
   for (const auto& file : source.recorder()->files()) recorded.files.push_back(folder + "/" + file);
   recorded.failure = source.recorder()->failure();
   return recorded;
@@ -83,7 +71,7 @@ std::string toText(const Recorded& recorded) {
   text += line;
   if (figures.seconds > 0)
     text +=
-        formatted("reach             %.0f MB/s (what came was %.1f MB/s)\n", megabytes(figures.bytes) / figures.seconds,
+        formatted("write speed       %.0f MB/s (sensors sent %.1f MB/s)\n", megabytes(figures.bytes) / figures.seconds,
                   recorded.seconds > 0 ? megabytes(figures.bytes) / recorded.seconds : 0.0);
   for (const auto& file : recorded.files) text += "rawlog            " + file + "\n";
   return text;

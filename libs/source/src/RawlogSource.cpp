@@ -131,6 +131,7 @@ class RawlogSource::Stream {
   }
 
   void setLogStart(base::Stamp log_start) { selection_.setLogStart(log_start); }
+  void setGate(std::shared_ptr<ObservationGate> gate) { gate_ = std::move(gate); }
   void interrupt() { interrupted_ = true; }
 
  private:
@@ -192,7 +193,7 @@ class RawlogSource::Stream {
       if (report_.missing_images++ == 0) report_.first_missing_image = *missing;
       return false;
     }
-    if (const auto reason = gate_.refuses(observation)) {
+    if (const auto reason = gate_->refuses(observation)) {
       report_.countUnusable(observation.sensorLabel, *reason, observation.timestamp);
       return false;
     }
@@ -207,7 +208,7 @@ class RawlogSource::Stream {
   StepClock steps_;
   Selection selection_;
   std::string images_folder_;
-  ObservationGate gate_;
+  std::shared_ptr<ObservationGate> gate_ = std::make_shared<ObservationGate>();
   std::deque<CObservation::Ptr> waiting_;
   SourceReport report_;
   std::uint64_t rawlog_objects_ = 0;
@@ -236,6 +237,10 @@ std::optional<base::Stamp> RawlogSource::firstStamp() const {
 }
 void RawlogSource::setLogStart(base::Stamp log_start) {
   stream_->setLogStart(log_start);
+}
+
+void RawlogSource::setGate(std::shared_ptr<ObservationGate> gate) {
+  stream_->setGate(std::move(gate));
 }
 
 std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options,

@@ -39,10 +39,12 @@ std::string Checkpoints::finished() {
   return problem;
 }
 
-void Checkpoints::remove() {
+void Checkpoints::removeFor(const std::string& map) {
+  namespace fs = std::filesystem;
   if (written_.valid()) finished();
-  std::error_code none;
-  std::filesystem::remove(path_, none);
+  std::error_code missing, none;
+  const auto written = fs::last_write_time(map, missing);
+  if (count_ > 0 && !missing && written >= fs::last_write_time(path_, none)) fs::remove(path_, none);
 }
 
 }  // namespace omnimapper::mapper

@@ -25,8 +25,8 @@ class Checkpoints {
 
   /// Begins to write one if it is time for it and the last is done. Gives a sentence if that could not be written.
   std::string offer(const View& view);
-  /// The map itself is written: none is needed any more.
-  void remove();
+  /// The run is over: a checkpoint that it wrote is not needed any more if there is the map itself, younger, as `map`.
+  void removeFor(const std::string& map);
   /// Writes done.
   std::size_t count() const { return count_; }
 

@@ -40,8 +40,8 @@ class Feed {
   virtual void begin(const std::string& /*output_folder*/, const Stop& /*stop*/) {}
   /// Gives all to the engine. True if `stop` ended it before its end.
   virtual bool feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) = 0;
-  /// The outputs are in their places.
-  virtual void published() {}
+  /// The outputs are in their places, in this folder.
+  virtual void published(const std::string& /*output_folder*/) {}
 
   /// What was read until now.
   virtual source::SourceReport report() const = 0;

@@ -1,7 +1,5 @@
 #include "run/LiveFeed.h"
 
-#include <omnimapper/live/SensorDriver.h>
-#include <omnimapper/live/record.h>
 #include <omnimapper/plugin/DecisionLog.h>
 
 #include <algorithm>
@@ -24,9 +22,7 @@ LiveFeed::LiveFeed(const live::LiveOptions& options, std::vector<std::string> la
       labels_(std::move(labels)),
       sections_(live::readSensors(options, config)),
       title_(live::nameByTime()),
-      name_("the sensors of " + config.file()) {
-  for (const auto& section : sections_) live::makeDriver(section);  // refused now rather than when all is under way
-}
+      name_("the sensors of " + config.file()) {}
 
 void LiveFeed::begin(const std::string& output_folder, const Stop& stop) {
   checkpoints_.emplace(output_folder + "/" + kCheckpoint, options_.checkpoint);
@@ -42,6 +38,18 @@ void LiveFeed::begin(const std::string& output_folder, const Stop& stop) {
 }
 
 bool LiveFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) {
+  try {
+    feedAll(engine, samples, progress, stop);
+  } catch (...) {  // the map of what came before is finished, and nobody takes what sensors would send meanwhile
+    sensors_->close();
+    engine.setLive(figures());
+    throw;
+  }
+  warnOfSensors(engine);
+  return false;
+}
+
+void LiveFeed::feedAll(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) {
   constexpr milliseconds kPatience(10), kBusy(2);
   const auto waitForWorkers = [&] {
     engine.poll();
@@ -64,7 +72,6 @@ bool LiveFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& prog
   has_ended_ = true;
   attended_ = flushed_ = {};
   attend(engine, progress);
-  return false;
 }
 
 // False if there is nothing.
@@ -77,7 +84,10 @@ bool LiveFeed::giveNext(Engine& engine, SensorSamples& samples, milliseconds pat
   for (const auto number : sensors_->takeDropped()) trace_->note(Kind::drop, number);
   if (!next) return false;
   const auto& label = next->observation->sensorLabel;
-  if (!labels_.empty() && std::find(labels_.begin(), labels_.end(), label) == labels_.end()) return true;
+  if (!labels_.empty() && std::find(labels_.begin(), labels_.end(), label) == labels_.end()) {
+    ++filtered_out_;
+    return true;
+  }
   trace_->note(Kind::add, next->number);
   samples.add(next->observation);
   engine.add(next->observation);
@@ -90,16 +100,15 @@ void LiveFeed::attend(Engine& engine, base::Progress& progress) {
   const auto now = Clock::now();
   if (now - attended_ < kBetween) return;
   attended_ = now;
-  for (const auto& sentence : sensors_->takeNews()) {
-    progress.tell(sentence);
-    engine.warn(sentence);
-  }
+  for (const auto& sentence : sensors_->takeNews()) progress.tell(sentence);
   if (const auto problem = checkpoints_->offer(engine.view()); !problem.empty()) progress.tell(problem);
   if (trace_->journal && now - flushed_ >= kBetweenFlushes) {
     flushed_ = now;
     if (!trace_->journal->flush() && !has_told_journal_) {
       has_told_journal_ = true;
-      engine.warn("the journal of the recording cannot be written any more: a replay ends there");
+      const std::string problem = "the journal of the recording cannot be written any more: a replay ends there";
+      progress.tell(problem);
+      engine.warn(problem);
     }
   }
   if (now >= next_judgement_ && !has_ended_) judge(engine);
@@ -116,14 +125,39 @@ void LiveFeed::judge(Engine& engine) {
   next_judgement_ = Clock::now() + std::max<Clock::duration>(kShortest, kShare * (Clock::now() - begin));
 }
 
+// One sentence for each sensor that did not go well: each single loss was told when it came.
+void LiveFeed::warnOfSensors(Engine& engine) const {
+  if (filtered_out_ > 0)
+    engine.warn("[source] labels left " + std::to_string(filtered_out_) +
+                " observations out of the map; they are recorded");
+  for (const auto& sensor : sensors_->sensors()) {
+    std::string troubles;
+    const auto add = [&](const std::string& trouble) { troubles += (troubles.empty() ? "" : "; ") + trouble; };
+    if (sensor.losses > 0)
+      add("was silent or lost " + std::to_string(sensor.losses) + " times, and came back " +
+          std::to_string(sensor.reopened) + " times" +
+          (sensor.problem.empty() ? "" : " (last: " + sensor.problem + ")"));
+    if (sensor.left_out > 0) add("sent " + std::to_string(sensor.left_out) + " invalid messages, which were discarded");
+    if (sensor.clock_jumps > 0) {
+      char text[120];
+      std::snprintf(text, sizeof text, "has another clock than the host: %.3f s were added to its stamps at last",
+                    sensor.clock_offset);
+      add(text);
+    }
+    if (!troubles.empty()) engine.warn("sensor [" + sensor.name + "] " + troubles);
+  }
+  const auto* recorder = sensors_->recorder();
+  if (recorder && !recorder->failure().empty()) engine.warn(recorder->failure());
+}
+
 LiveFigures LiveFeed::figures() const {
   LiveFigures figures;
   for (const auto& sensor : sensors_->sensors())
     figures.sensors.push_back({sensor.name, toString(sensor.state), sensor.observations, sensor.clock_offset,
                                sensor.clock_jumps, sensor.reopened, sensor.left_out});
   const auto counts = sensors_->counts();
-  figures.arrived = counts.arrived;
-  figures.given = counts.given;
+  figures.arrived = counts.arrived - filtered_out_;
+  figures.given = counts.given - filtered_out_;
   figures.dropped = counts.dropped;
   figures.not_kept = counts.not_kept;
   figures.unusable = counts.unusable;
@@ -160,7 +194,8 @@ source::SourceReport LiveFeed::report() const {
 
 base::ExitCode LiveFeed::code() const {
   const auto* recorder = sensors_->recorder();
-  return recorder && !recorder->failure().empty() ? base::ExitCode::disk_full : report().exitCode();
+  const bool is_cut = (recorder && !recorder->failure().empty()) || has_told_journal_;
+  return is_cut ? base::ExitCode::disk_full : report().exitCode();
 }
 
 std::string LiveFeed::whatStays() const {

@@ -26,7 +26,7 @@ class LiveFeed : public Feed {
   void open(const Stop&) override {}
   void begin(const std::string& output_folder, const Stop& stop) override;
   bool feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) override;
-  void published() override { checkpoints_->remove(); }
+  void published(const std::string& output_folder) override { checkpoints_->removeFor(output_folder + "/map.omnimap"); }
   source::SourceReport report() const override;
   base::ExitCode code() const override;
   std::string whatStays() const override;
@@ -34,9 +34,11 @@ class LiveFeed : public Feed {
 
  private:
   using Clock = std::chrono::steady_clock;
+  void feedAll(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop);
   bool giveNext(Engine& engine, SensorSamples& samples, std::chrono::milliseconds patience);
   void attend(Engine& engine, base::Progress& progress);
   void judge(Engine& engine);
+  void warnOfSensors(Engine& engine) const;
   LiveFigures figures() const;
   std::string stateText(const View& view) const;
 
@@ -48,6 +50,7 @@ class LiveFeed : public Feed {
   std::unique_ptr<live::LiveSource> sensors_;
   std::optional<Checkpoints> checkpoints_;
   Clock::time_point attended_ = Clock::now(), flushed_ = attended_, next_judgement_ = attended_;
+  std::uint64_t filtered_out_ = 0;  // by [source] labels
   bool has_ended_ = false, has_told_journal_ = false;
 };
 

@@ -350,7 +350,7 @@ RunResult Run::report() {
     failWithNoMotion(*feed_, config_.file(), outcome, idle);
   progress_.report(1.0, "writing the outputs");
   publish(engine_->writeOutputs(), outcome);
-  feed_->published();
+  feed_->published(outcome.output_folder);
   outcome.wall_seconds = watch_.seconds();
   showToTheEnd(outcome);
   if (failure_) std::rethrow_exception(failure_);

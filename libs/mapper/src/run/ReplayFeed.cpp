@@ -42,7 +42,14 @@ std::unique_ptr<Schedule> ReplayFeed::schedule() {
 
 void ReplayFeed::open(const Stop& stop) {
   cursor_->journal = live::Journal::read(path_);
-  log_.emplace(source::openRawlogs({cursor_->journal.rawlogs.front()}, {}, stop), stop);
+  of_earlier_.ending = source::SourceReport::Ending::complete;
+  openFile(stop);
+}
+
+void ReplayFeed::openFile(const Stop& stop) {
+  auto file = std::make_unique<source::RawlogSource>(cursor_->journal.rawlogs[file_], source::SourceOptions(), stop);
+  file->setGate(gate_);
+  log_.emplace(std::move(file), stop);
 }
 
 // The observation of that number; null at the end of the recording. Those between were left out.
@@ -53,11 +60,23 @@ mrpt::obs::CObservation::Ptr ReplayFeed::read(std::uint64_t number, const Stop& 
       if (next_++ == number) return observation;
       continue;
     }
-    if (log_->report().exitCode() != base::ExitCode::ok || file_ + 1 == cursor_->journal.rawlogs.size()) return nullptr;
+    const bool is_whole = log_->report().ending == source::SourceReport::Ending::complete;
+    if (!is_whole || file_ + 1 == cursor_->journal.rawlogs.size()) return nullptr;
     of_earlier_.add(log_->report());
-    log_.emplace(source::openRawlogs({cursor_->journal.rawlogs[++file_]}, {}, stop), stop);
+    ++file_;
+    openFile(stop);
   }
   return nullptr;
+}
+
+void ReplayFeed::depart(Engine& engine) {
+  auto& cursor = *cursor_;
+  if (cursor.has_departed) return;
+  cursor.has_departed = true;
+  engine.warn(
+      path_ + ": this run does something else than the live run did at line " + std::to_string(cursor.next + 1) +
+      " of the journal (is the INI, or the map that it goes on from, another one?); from there on the recording "
+      "is mapped like a log");
 }
 
 bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) {
@@ -65,14 +84,14 @@ bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& pr
   const auto& events = cursor.journal.events;
   while (cursor.next < events.size() && !stop()) {
     const auto event = events[cursor.next++];
-    if (event.kind == EventKind::drop || (cursor.has_departed && event.kind != EventKind::add)) continue;
-    if (event.kind != EventKind::add) {
-      cursor.has_departed = true;
-      engine.warn(path_ + ": with this INI the mapper does not do what it did live: from event " +
-                  std::to_string(cursor.next) + " of the journal on the recording is mapped as a log");
-      continue;
-    }
-    const auto observation = read(event.number, stop);
+    if (event.kind == EventKind::drop) continue;
+    // An event of the engine that is left over, or one that it lacks: a live run adds nothing while the engine is busy.
+    if (event.kind != EventKind::add || engine.isBusy()) depart(engine);
+    if (event.kind != EventKind::add) continue;
+    const auto observation = [&] {
+      const auto timer = engine.measure(Stage::source);
+      return read(event.number, stop);
+    }();
     if (!observation) {
       ended_early_ = !stop();
       break;
@@ -91,7 +110,6 @@ bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& pr
 
 source::SourceReport ReplayFeed::report() const {
   auto report = of_earlier_;
-  if (of_earlier_.objects == 0) report.ending = source::SourceReport::Ending::complete;
   auto of_last = log_->report();
   // Of the last file all that the journal speaks of was read.
   if (of_last.ending == source::SourceReport::Ending::open) of_last.ending = source::SourceReport::Ending::complete;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/live/Journal.h>
+#include <omnimapper/source/ObservationGate.h>
 #include <omnimapper/source/ReadAhead.h>
 
 #include <optional>
@@ -48,12 +49,16 @@ class ReplayFeed : public Feed {
   source::SourceReport report() const override;
 
  private:
+  void openFile(const Stop& stop);
   mrpt::obs::CObservation::Ptr read(std::uint64_t number, const Stop& stop);
+  void depart(Engine& engine);
 
   std::string path_;
   std::shared_ptr<ReplayCursor> cursor_ = std::make_shared<ReplayCursor>();
-  std::size_t file_ = 0;                  // that is read
-  std::uint64_t next_ = 0;                // observation to be read
+  std::size_t file_ = 0;    // that is read
+  std::uint64_t next_ = 0;  // observation to be read
+  // What is usable is judged over the whole recording, as it was live.
+  std::shared_ptr<source::ObservationGate> gate_ = std::make_shared<source::ObservationGate>();
   std::optional<source::ReadAhead> log_;  // of that file
   source::SourceReport of_earlier_;       // files
   bool ended_early_ = false;

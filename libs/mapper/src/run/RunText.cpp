@@ -41,16 +41,16 @@ std::string liveLines(const LiveFigures& live) {
   constexpr double kMegabyte = 1e6;
   const double megabytes = static_cast<double>(live.recorded_bytes) / kMegabyte;
   char text[512];
-  std::snprintf(
-      text, sizeof text,
-      "observations      %llu arrived: %llu mapped, %llu dropped for newer frames, %llu not kept, %llu unusable\n"
-      "latency           %.2f s from stamp to map, 99 %% below %.2f s\n",
-      static_cast<unsigned long long>(live.arrived), static_cast<unsigned long long>(live.given),
-      static_cast<unsigned long long>(live.dropped), static_cast<unsigned long long>(live.not_kept),
-      static_cast<unsigned long long>(live.unusable), live.latency_median, live.latency_99);
+  std::snprintf(text, sizeof text,
+                "observations      %llu arrived: %llu mapped, %llu dropped for newer frames, %llu lost as the disk was "
+                "too slow, %llu unusable\n"
+                "latency           %.2f s from stamp to map, 99 %% below %.2f s\n",
+                static_cast<unsigned long long>(live.arrived), static_cast<unsigned long long>(live.given),
+                static_cast<unsigned long long>(live.dropped), static_cast<unsigned long long>(live.not_kept),
+                static_cast<unsigned long long>(live.unusable), live.latency_median, live.latency_99);
   std::string lines = "sensors           " + sensors + "\n" + text;
   if (live.recording.empty()) return lines;
-  std::snprintf(text, sizeof text, "recording         %.1f MB, on the disk %.1f MB; the reach was %.0f MB/s: %s\n",
+  std::snprintf(text, sizeof text, "recording         %.1f MB, on the disk %.1f MB, written at up to %.0f MB/s: %s\n",
                 megabytes, static_cast<double>(live.bytes_on_disk) / kMegabyte,
                 live.recorder_seconds > 0 ? megabytes / live.recorder_seconds : 0.0, live.recording.front().c_str());
   return lines + text;

@@ -43,9 +43,10 @@ struct SensorFigures {
   double rate = 0;          ///< [Hz] over the last seconds
   double clock_offset = 0;  ///< [s] that is added to its stamps
   std::size_t clock_jumps = 0;
+  std::size_t losses = 0;      ///< how often it fell silent or was lost
   std::size_t reopened = 0;    ///< how often it came back
-  std::uint64_t left_out = 0;  ///< messages or lines that its driver did not believe, where it checks them
-  std::string problem;         ///< the driver's words, where it is lost
+  std::uint64_t left_out = 0;  ///< messages or lines that its driver rejected as invalid, where it checks them
+  std::string problem;         ///< why it was lost the last time, in the driver's words; empty if it never was
 };
 
 std::string toString(SensorFigures::State state);
@@ -61,7 +62,8 @@ class LiveSource {
   LiveSource& operator=(const LiveSource&) = delete;
 
   /// Opens the sensors in their order. Throws Error(unreadable_input), naming section and reason, if one cannot be
-  /// opened, and Error(interrupted) if `stop` says so; then all are closed, and a recording of nothing is removed.
+  /// opened or takes longer than 30 s for it, and Error(interrupted) if `stop` says so; then all are closed, and a
+  /// recording of nothing is removed.
   void open(const std::function<bool()>& stop);
   /// Stops the sensors in reverse order, and ends the recording. A driver that does not return within two seconds is
   /// left behind; its process must end without waiting for it.
@@ -71,6 +73,8 @@ class LiveSource {
 
   /// The next observation for the mapper; none if there is none within that time.
   std::optional<LiveObservation> next(std::chrono::milliseconds patience);
+  /// Lets go what waits for the mapper, where nobody maps; it counts as given.
+  void discardWaiting();
   /// Numbers of observations that were dropped since the last call.
   std::vector<std::uint64_t> takeDropped();
   /// One sentence for each thing that happened since the last call: a sensor fell silent, was lost, is back, its clock

@@ -30,6 +30,9 @@ struct RecorderOptions {
 
 RecorderOptions recorderOptions(const LiveOptions& options);
 
+/// A name for the files of a recording that begins now, such as 2026-11-27_07-15-37.
+std::string nameByTime();
+
 /// Writes observations into rawlogs as they come, in a thread of its own: in blocks of a second, each a whole member of
 /// gzip, so that all but the last second can be read of a file whose writer was killed.
 class Recorder {

@@ -34,7 +34,7 @@ class SensorClock {
   };
   std::deque<Arrival> newest_;  // the last ten, or those of the last seconds
   bool is_new_ = true;          // until there were ten
-  base::Stamp last_arrival_{};
+  base::Stamp last_arrival_{}, last_given_{};
   std::size_t jumps_ = 0;
 };
 

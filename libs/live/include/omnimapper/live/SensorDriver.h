@@ -19,6 +19,8 @@ class SensorDriver {
 
   /// Connects to the sensor. Throws what the driver throws, in its words.
   virtual void open() = 0;
+  /// Under which its observations come: the sensorLabel of its section, or the driver's own.
+  virtual std::string label() const = 0;
   /// [Hz] at which it wants read() to be called; 0 if it does not say.
   virtual double rate() const = 0;
   /// Lets the driver work, and takes what it has got since the last call, by stamp. Throws as open().

@@ -33,7 +33,8 @@ struct SensorSection {
 };
 
 /// The sensors that [live] names, in the order in which they are to be opened: those of its list, then those of its
-/// grabber INI, in the order of that file. Loads its libraries first. Throws Error: command_line if there is none,
+/// grabber INI, in the order of that file. Loads its libraries first, and makes each driver once to see
+/// that its keys suit it. Throws Error as makeDriver(); command_line if there is none,
 /// unknown_key for a section that is not there or has no driver, out_of_range for a label that two sensors have,
 /// unreadable_input for a grabber INI that cannot be read, plugin_library for a library that cannot be loaded.
 std::vector<SensorSection> readSensors(const LiveOptions& options, const base::Config& config);

@@ -17,15 +17,11 @@ struct Recorded {
   std::vector<SensorFigures> sensors;
   LiveCounts counts;
   Recorder::Figures figures;
-  double seconds = 0;            ///< that sensors were open
-  std::string failure;           ///< why it ended early; empty if it did not
-  bool has_left_behind = false;  ///< a driver that did not return: the process must end without waiting for it
+  double seconds = 0;   ///< that sensors were open
+  std::string failure;  ///< why it ended early; empty if it did not
 
   base::ExitCode code() const;
 };
-
-/// Such as 2026-11-27_07-15-37: of now, for files.
-std::string nameByTime();
 
 /// Records the sensors of an INI into `folder`, made if missing, until `stop`, the recording fails, or for `seconds`
 /// if that is not 0. Throws Error as readSensors(), LiveSource::open() and Recorder.

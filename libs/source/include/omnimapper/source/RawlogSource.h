@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/source/ObservationGate.h>
 #include <omnimapper/source/ObservationSource.h>
 #include <omnimapper/source/SourceOptions.h>
 
@@ -42,6 +43,8 @@ class RawlogSource : public ObservationSource {
   std::optional<base::Stamp> firstStamp() const;
   /// What start_s and end_s count from if not 1970; by default the log's own first stamp.
   void setLogStart(base::Stamp log_start);
+  /// For a log in several files, read one after the other: the gate that the earlier ones passed. Before next().
+  void setGate(std::shared_ptr<ObservationGate> gate);
 
  private:
   class Stream;
