@@ -20,7 +20,7 @@ namespace omnimapper::live::live_source_test {
 class ScriptedSensor : public mrpt::hwdrivers::CGenericSensor {
   DEFINE_GENERIC_SENSOR(ScriptedSensor)
  public:
-  enum class Does { send, nothing, fail, hang };
+  enum class Does { send, nothing, fail, throw_int, hang };
 
   void initialize() override {
     ++opened;
@@ -41,6 +41,8 @@ class ScriptedSensor : public mrpt::hwdrivers::CGenericSensor {
         break;
       case Does::fail:
         throw std::runtime_error("the plug is out");
+      case Does::throw_int:
+        throw 1;
       case Does::hang:
         while (does == Does::hang) std::this_thread::sleep_for(std::chrono::milliseconds(10));
         break;
@@ -171,7 +173,11 @@ TEST_F(LiveSourceTest, silenceIsToldAndTheSensorIsOpenedAgain) {
   ScriptedSensor::does = Does::send;
   EXPECT_NE(newsWithin(*source, milliseconds(2000), "is back"), "");
   EXPECT_EQ(source->sensors().at(0).state, SensorFigures::State::working);
+  EXPECT_EQ(source->sensors().at(0).losses, 1u);
   EXPECT_GE(ScriptedSensor::opened, 2);
+  // The time that it was away is no interval by which it would be waited for longer.
+  ScriptedSensor::does = Does::nothing;
+  EXPECT_NE(newsWithin(*source, milliseconds(1000), "is silent"), "");
 }
 
 TEST_F(LiveSourceTest, aDriverThatThrowsIsOpenedAgain) {
@@ -179,6 +185,8 @@ TEST_F(LiveSourceTest, aDriverThatThrowsIsOpenedAgain) {
   source->open({});
   ScriptedSensor::does = Does::fail;
   EXPECT_NE(newsWithin(*source, milliseconds(1000), "the plug is out").find("the plug is out"), std::string::npos);
+  ScriptedSensor::does = Does::throw_int;  // for another reason now, and not told again
+  EXPECT_EQ(newsWithin(*source, milliseconds(1000), "is lost"), "");
   ScriptedSensor::does = Does::send;
   EXPECT_NE(newsWithin(*source, milliseconds(2000), "is back").find("is back"), std::string::npos);
 }

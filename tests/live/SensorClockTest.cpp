@@ -89,7 +89,10 @@ TEST(SensorClock, aClockThatIsBehindFromTheStartIsFoundAfterTen) {
 TEST(SensorClock, doesAsItsOptionsSay) {
   SensorOptions options;
   options.clock = Clock::arrival;
-  EXPECT_EQ(SensorClock(options, kMaxOff).corrected(at(-100), at(3)), at(3));
+  SensorClock by_arrival(options, kMaxOff);
+  EXPECT_EQ(by_arrival.corrected(at(-100), at(3)), at(3));
+  EXPECT_GT(by_arrival.corrected(at(-100), at(3)), at(3)) << "two that arrived at once are two";
+  EXPECT_EQ(by_arrival.corrected(at(-100), at(4)), at(4));
   options.clock = Clock::driver;
   options.clock_offset = -0.25;
   EXPECT_NEAR(secondsOf(SensorClock(options, kMaxOff).corrected(at(-100), at(3))), -100.25, 1e-6);
