@@ -143,8 +143,19 @@ ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation:
   return Taken::taken;
 }
 
+// Up to the last scan to which odometry tells the way, too: without it a match begins with a guess. Odometry that has
+// ended is not waited for.
 std::optional<base::Stamp> ScanOdometryPlugin::coveredUntil() const {
-  if (!wait_.empty()) return wait_.rbegin()->first;
+  constexpr double kAlive = 0.25;  // [s] odometry comes four times a second at least
+  const auto is_awaited = [](const Odometry& odometry, base::Stamp stamp) {
+    const auto end = odometry.source.coveredUntil();
+    return end && *end < stamp && base::secondsBetween(*end, stamp) < kAlive;
+  };
+  for (auto scan = wait_.rbegin(); scan != wait_.rend(); ++scan) {
+    const bool is_told = std::none_of(odometries_.begin(), odometries_.end(),
+                                      [&](const Odometry& one) { return is_awaited(one, middleOf(*scan->second)); });
+    if (is_told) return scan->first;
+  }
   return reached_;
 }
 
@@ -243,7 +254,13 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
                      {mrpt::poses::CPose3D(before), told.covariance});
   }
   is_first_ = false;
-  timeline_.insert(*last_, stamp, told);
+  constexpr double kEven = 0.25;  // [s] in which a base that drives hardly brakes or turns anew
+  const auto* odometry = odometryLike(motion);
+  if (odometry && seconds > kEven) {
+    insertAlong(*odometry, stamp, told);
+  } else {
+    timeline_.insert(*last_, stamp, told);
+  }
   constexpr double kMemory = 0.98;  // it is a property of the laser and of the place
   noise_ = kMemory * noise_ + (1 - kMemory) * std::max(options_.point_sigma, tracked->match.point_sigma);
   // Where a direction is open the match agrees with whatever it began with.
@@ -256,6 +273,44 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   }
   if (is_long) velocity_ = perSecond(motion, seconds);
   last_ = stamp;
+}
+
+// That which comes nearest to a matched motion; null if all are far from it.
+const ScanOdometryPlugin::Odometry* ScanOdometryPlugin::odometryLike(const TPose2D& motion) const {
+  constexpr double kLeast = 0.1, kShare = 0.2;  // [m] and of the motion: wheels that slip more do not tell its way
+  const Odometry* nearest = nullptr;
+  double least = kLeast + kShare * sizeOf(motion);
+  for (const auto& odometry : odometries_) {
+    if (!odometry.told) continue;
+    const double off = sizeOf(*odometry.predictor.motion - motion);
+    if (off >= least) continue;
+    least = off;
+    nearest = &odometry;
+  }
+  return nearest;
+}
+
+// Where scans are missing the motion is not even: what other sensors saw meanwhile belongs where the wheels were. The
+// way is theirs, and ends where the match says; the correction grows evenly.
+void ScanOdometryPlugin::insertAlong(const Odometry& odometry, base::Stamp end, const mapper::RelativeMotion& told) {
+  constexpr double kStep = 0.1;  // [s] in which a base that drives hardly turns
+  const base::Stamp begin = *last_;
+  const double seconds = base::secondsBetween(begin, end);
+  const int steps = static_cast<int>(std::ceil(seconds / kStep));
+  const TPose2D correction = planar(told.begin_from_end) - *odometry.predictor.motion;
+  TPose2D reached{};
+  base::Stamp from = begin;
+  for (int step = 1; step <= steps; ++step) {
+    const double share = static_cast<double>(step) / steps;
+    const base::Stamp to = step == steps ? end : begin + base::durationFromSeconds(share * seconds);
+    const auto driven = odometry.source.between(begin, to);
+    if (!driven) continue;
+    const TPose2D pose = odometry.calibration.applied(planar(driven->begin_from_end)) + scaled(correction, share);
+    const double part = base::secondsBetween(from, to) / seconds;
+    timeline_.insert(from, to, {mrpt::poses::CPose3D(mrpt::poses::CPose2D(pose - reached)), part * told.covariance});
+    reached = pose;
+    from = to;
+  }
 }
 
 // Not from a scan that sees nothing: those after it would find nothing in it. How the base moves is not known yet.

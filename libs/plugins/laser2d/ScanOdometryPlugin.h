@@ -98,6 +98,8 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
                                     const mrpt::math::TPose2D& velocity) const;
   std::vector<matching::MotionPrediction> predictions(base::Stamp stamp);
   bool isTold() const;
+  const Odometry* odometryLike(const mrpt::math::TPose2D& motion) const;
+  void insertAlong(const Odometry& odometry, base::Stamp end, const mapper::RelativeMotion& told);
   void restart(const mrpt::obs::CObservation2DRangeScan& scan);
   mapper::RelativeMotion motionOf(const matching::ScanTracker::Tracked& tracked,
                                   const matching::MatchGuess& guess) const;

@@ -131,6 +131,15 @@ TEST(ScanOdometryPlugin, OfTwoOdometriesThatWhichAgreesWithTheMatchesBridgesAGap
   const CPose2D error = CPose2D(told->begin_from_end) - (log.truthAt(scans.back()) - log.truthAt(scans.front()));
   EXPECT_LT(error.norm(), 0.3);
   EXPECT_LT(std::abs(error.phi()), 2 * kDegree);
+  // Not straight across it: what a camera saw meanwhile belongs where the base was.
+  const auto at = [&](double seconds) { return log.begin() + base::durationFromSeconds(seconds); };
+  for (double seconds = gap + 0.5; seconds < gap + 3; seconds += 0.5) {
+    const auto way = plugin.between(at(gap), at(seconds));
+    ASSERT_TRUE(way);
+    const CPose2D off = CPose2D(way->begin_from_end) - (log.truthAt(at(seconds)) - log.truthAt(at(gap)));
+    EXPECT_LT(off.norm(), 0.05) << seconds - gap;
+    EXPECT_LT(std::abs(off.phi()), 2 * kDegree) << seconds - gap;
+  }
 }
 
 SimulatedLog halfALapWith(std::vector<testing::SimulatedLaser> lasers) {

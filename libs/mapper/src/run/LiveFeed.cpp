@@ -15,6 +15,11 @@ using std::chrono::milliseconds;
 
 constexpr char kRecording[] = "recording", kCheckpoint[] = "checkpoint.omnimap";  // in the output folder
 
+std::string times(std::uint64_t count) {
+  if (count < 2) return count == 0 ? "never" : "once";
+  return std::to_string(count) + " times";
+}
+
 }  // namespace
 
 LiveFeed::LiveFeed(const live::LiveOptions& options, std::vector<std::string> labels, const base::Config& config)
@@ -134,8 +139,7 @@ void LiveFeed::warnOfSensors(Engine& engine) const {
     std::string troubles;
     const auto add = [&](const std::string& trouble) { troubles += (troubles.empty() ? "" : "; ") + trouble; };
     if (sensor.losses > 0)
-      add("was silent or lost " + std::to_string(sensor.losses) + " times, and came back " +
-          std::to_string(sensor.reopened) + " times" +
+      add("was silent or lost " + times(sensor.losses) + ", and came back " + times(sensor.reopened) +
           (sensor.problem.empty() ? "" : " (last: " + sensor.problem + ")"));
     if (sensor.left_out > 0) add("sent " + std::to_string(sensor.left_out) + " invalid messages, which were discarded");
     if (sensor.clock_jumps > 0) {
