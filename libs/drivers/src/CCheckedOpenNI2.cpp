@@ -42,8 +42,7 @@ class CCheckedOpenNI2::Driver : public mrpt::hwdrivers::COpenNI2Sensor {
 /// Streams of the same camera beside MRPT's: what comes to all of them is there for MRPT's, too.
 class CCheckedOpenNI2::Watch : private openni::OpenNI::DeviceDisconnectedListener {
  public:
-  explicit Watch(const std::string& uri) : uri_(uri) {
-    openni::OpenNI::addDeviceDisconnectedListener(this);
+  explicit Watch(const std::string& uri) : uri_(uri), registration_(*this) {
     if (device_.open(uri.c_str()) != openni::STATUS_OK)
       throw cameraError(std::string("the camera cannot be opened: ") + openni::OpenNI::getExtendedError());
     constexpr std::array<openni::SensorType, 3> kTypes{openni::SENSOR_COLOR, openni::SENSOR_DEPTH, openni::SENSOR_IR};
@@ -66,7 +65,6 @@ class CCheckedOpenNI2::Watch : private openni::OpenNI::DeviceDisconnectedListene
       streams_[i].destroy();
     }
     device_.close();
-    openni::OpenNI::removeDeviceDisconnectedListener(this);
   }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -84,6 +82,19 @@ class CCheckedOpenNI2::Watch : private openni::OpenNI::DeviceDisconnectedListene
   }
 
  private:
+  // OpenNI2 keeps a pointer to the listener until it is removed, also where the camera cannot be opened.
+  class Registration {
+   public:
+    explicit Registration(openni::OpenNI::DeviceDisconnectedListener& listener) : listener_(listener) {
+      openni::OpenNI::addDeviceDisconnectedListener(&listener_);
+    }
+    ~Registration() { openni::OpenNI::removeDeviceDisconnectedListener(&listener_); }
+    Registration(const Registration&) = delete;
+    Registration& operator=(const Registration&) = delete;
+
+   private:
+    openni::OpenNI::DeviceDisconnectedListener& listener_;
+  };
   // OpenNI2 wants one for each stream.
   class Listener : public openni::VideoStream::NewFrameListener {
    public:
@@ -118,6 +129,7 @@ class CCheckedOpenNI2::Watch : private openni::OpenNI::DeviceDisconnectedListene
   std::condition_variable changed_;
   std::array<bool, 3> came_{};
   bool is_gone_ = false;
+  const Registration registration_;  // the last member: its calls need all the others
 };
 
 CCheckedOpenNI2::CCheckedOpenNI2() {
