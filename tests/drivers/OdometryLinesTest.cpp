@@ -6,6 +6,7 @@
 #include <omnimapper/drivers/COdometryLines.h>
 #include <omnimapper/live/HostClock.h>
 #include <omnimapper/live/LiveSource.h>
+#include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/live/Socket.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/Program.h>
@@ -131,6 +132,21 @@ TEST_F(OdometryLinesTest, aLineWithoutStampHasThatOfItsArrival) {
   EXPECT_NEAR(base::secondsBetween(all.begin()->first, hostNow()), 0, 0.5);
 }
 
+// Their own times are unknown, and stamps some microseconds apart would be leaps.
+TEST_F(OdometryLinesTest, ofLinesWithoutStampsThatArriveTogetherTheLastOneCounts) {
+  for (const char* protocol : {"tcp", "udp"}) {
+    open(std::string("protocol = ") + protocol + "\n");
+    Client client(sensor.port(), protocol == std::string("tcp") ? SOCK_STREAM : SOCK_DGRAM);
+    const auto before = sensor.counts().superseded;
+    client.send("- 1 0 0\n- 2 0 0\nrubbish\n- 3 0 0\n");
+    EXPECT_EQ(take(1), (Positions{3})) << protocol;
+    client.send("- 4 0 0\n" + line(5, -2) + "- 6 0 0\n");
+    EXPECT_EQ(take(2), (Positions{4, 5})) << protocol << ": lines with stamps count each, and 6 is older than 5";
+    EXPECT_EQ(sensor.counts().superseded - before, 2u) << protocol;
+  }
+  EXPECT_EQ(sensor.counts().leftOut(), 4u) << "malformed and not newer alone: " << sensor.leftOutByReason();
+}
+
 TEST_F(OdometryLinesTest, aLineWithoutEndIsNotKept) {
   open();
   Client client(sensor.port());
@@ -162,9 +178,9 @@ TEST_F(OdometryLinesTest, aFloodIsLeftOutBeyondTheRate) {
   take();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const auto counts = sensor.counts();
-  EXPECT_GE(counts.taken + counts.not_newer, 100u);
-  EXPECT_LE(counts.taken + counts.not_newer, 100u + static_cast<std::uint64_t>(100 * seconds) + 1);
-  EXPECT_EQ(counts.taken + counts.not_newer + counts.too_many, 5000u);
+  EXPECT_GE(counts.taken + counts.superseded, 100u);
+  EXPECT_LE(counts.taken + counts.superseded, 100u + static_cast<std::uint64_t>(100 * seconds) + 1);
+  EXPECT_EQ(counts.taken + counts.superseded + counts.too_many, 5000u);
 }
 
 TEST_F(OdometryLinesTest, whatNobodyFetchesIsBounded) {
@@ -267,6 +283,8 @@ TEST_F(OdometryLinesTest, whatIsWrongIsNamed) {
   EXPECT_NE(problemOf("bind = localhost\n").find("is no IPv4 address"), std::string::npos);
   EXPECT_NE(problemOf("port = 70000\n").find("port"), std::string::npos);
   EXPECT_NE(problemOf("protocol = tpc\n").find("tcp | udp"), std::string::npos);
+  EXPECT_NE(problemOf("max_rate = 50\n").find("has no key 'max_rate'; did you mean max_rate_hz?"), std::string::npos)
+      << problemOf("max_rate = 50\n");
   const auto taken = listenTcp({});
   EXPECT_NE(problemOf("port = " + std::to_string(boundPort(taken)) + "\n").find("another program uses this port"),
             std::string::npos);
@@ -284,6 +302,19 @@ TEST(OdometryLinesOptions, thePageHasThemAll) {
     const std::string quoted = "`" + spec.default_value + "` |", plain = spec.default_value + " |";
     EXPECT_TRUE(page.compare(value, quoted.size(), quoted) == 0 || page.compare(value, plain.size(), plain) == 0)
         << spec.key << ": " << page.substr(value, 20);
+  }
+}
+
+TEST(OdometryLinesOptions, aMisspeltKeyEndsTheRun) {
+  const auto config = base::Config::fromText(
+      "[live]\nsensors = wheels\n[wheels]\ndriver = COdometryLines\nmax_rate = 50\n", "robot.ini");
+  try {
+    makeDriver(readSensors(config.section("live").read<LiveOptions>(), config).at(0));
+    ADD_FAILURE();
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::unknown_key) << error.what();
+    EXPECT_NE(std::string(error.what()).find("sensor [wheels]: has no key 'max_rate'"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -81,6 +81,8 @@ std::unique_ptr<live::SensorDriver> makeDriver(const live::SensorSection& sectio
     logger->setMinLoggingLevel(mrpt::system::LVL_ERROR);
   try {
     sensor->loadConfig(*section.ini, section.name);
+  } catch (const base::Error& error) {
+    throw base::Error(error.code(), where + base::sentenceOf(error));
   } catch (const std::exception& error) {
     throw base::Error(base::ExitCode::out_of_range, where + base::sentenceOf(error));
   }

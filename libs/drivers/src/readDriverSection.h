@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/config/CConfigFileBase.h>
+#include <mrpt/core/exceptions.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/OptionTable.h>
 
@@ -32,6 +33,17 @@ Struct readDriverSection(const mrpt::config::CConfigFileBase& ini, const std::st
                       "[" + section + "] " + key + " = " + text + ": it takes " + bad->expected);
   }
   return result;
+}
+
+/// What read() returns, for the body of a loadConfig_sensorSpecific(): the loadConfig() of MRPT around it makes a plain
+/// std::exception, without the exit code, of every exception that is not of MRPT's own kind.
+template <class Read>
+auto readUnderMrpt(const Read& read) {
+  try {
+    return read();
+  } catch (const base::Error& error) {
+    throw mrpt::ExceptionWithCallBack<base::Error>(error);
+  }
 }
 
 }  // namespace omnimapper::drivers

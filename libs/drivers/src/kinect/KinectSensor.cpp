@@ -10,6 +10,7 @@
 #include "kinect/FramePairing.h"
 #include "kinect/FreenectDevice.h"
 #include "kinect/TickClock.h"
+#include "readDriverSection.h"
 
 namespace omnimapper::drivers {
 
@@ -48,7 +49,7 @@ KinectSensor::KinectSensor() {
 KinectSensor::~KinectSensor() = default;
 
 void KinectSensor::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& ini, const std::string& section) {
-  options_ = KinectOptions::read(ini, section);
+  options_ = readUnderMrpt([&] { return KinectOptions::read(ini, section); });
 }
 
 void KinectSensor::initialize() {

@@ -1,9 +1,9 @@
-#include <omnimapper/base/Error.h>
 #include <omnimapper/drivers/COdometryLines.h>
 
 #include <utility>
 
 #include "odometry/OdometryReceiver.h"
+#include "readDriverSection.h"
 
 IMPLEMENTS_GENERIC_SENSOR(COdometryLines, omnimapper::drivers)
 
@@ -62,17 +62,7 @@ COdometryLines::~COdometryLines() = default;
 
 void COdometryLines::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& config,
                                                const std::string& section) {
-  const auto& specs = OdometryLinesOptions::table().specs();
-  OdometryLinesOptions options;
-  for (std::size_t i = 0; i < specs.size(); ++i) {
-    if (!config.keyExists(section, specs[i].key)) continue;
-    const std::string text = config.read_string(section, specs[i].key, "");
-    if (const auto bad = OdometryLinesOptions::table().set(options, i, text))
-      throw base::Error(
-          bad->kind == base::BadValue::Kind::type ? base::ExitCode::wrong_type : base::ExitCode::out_of_range,
-          "[" + section + "] " + specs[i].key + " = " + text + ": expected " + bad->expected);
-  }
-  options_ = options;
+  options_ = readUnderMrpt([&] { return readDriverSection<OdometryLinesOptions>(config, section); });
 }
 
 void COdometryLines::initialize() {

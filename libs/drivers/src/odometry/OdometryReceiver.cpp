@@ -12,8 +12,10 @@ namespace omnimapper::drivers {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 256 * 1024;  // that are read in one go
-constexpr int kMostDatagrams = 4096, kMostAccepted = 16;
+// Bounds of one call of receive(), which a sender without end would never let return otherwise.
+constexpr std::size_t kMostBytes = 256 * 1024;  // the longest lines of a second at the default rate
+constexpr int kMostDatagrams = 4096;            // empty datagrams have no bytes that could be counted
+constexpr int kMostAccepted = 16;               // twice the queue of connections that live::listenTcp() asks for
 constexpr auto kSilence = std::chrono::seconds(1);
 
 void countFault(LineFault fault, OdometryLineCounts& counts) {
@@ -31,10 +33,15 @@ COdometryLines::Receiver::Receiver(const OdometryLinesOptions& options)
 }
 
 void COdometryLines::Receiver::receive(OdometryLineCounts& counts, const Take& take) {
-  if (options_.protocol == OdometryLinesOptions::Protocol::udp) return readDatagrams(counts, take);
-  readClient(counts, take);  // what the client before sent counts, too
-  acceptClients(counts);
-  readClient(counts, take);
+  if (options_.protocol == OdometryLinesOptions::Protocol::udp) {
+    readDatagrams(counts, take);
+  } else {
+    readClient(counts, take);  // what the client before sent counts, too
+    takeUnstamped(counts, take);
+    acceptClients(counts);
+    readClient(counts, take);
+  }
+  takeUnstamped(counts, take);
 }
 
 void COdometryLines::Receiver::acceptClients(OdometryLineCounts& counts) {
@@ -119,12 +126,30 @@ void COdometryLines::Receiver::takeLine(std::string_view line, OdometryLineCount
   if (!isWithinRate()) return void(++counts.too_many);
   const auto parsed = parseOdometryLine(line);
   if (parsed.fault) return countFault(*parsed.fault, counts);
-  const base::Stamp arrival = live::hostNow(), stamp = parsed.stamp.value_or(arrival);
-  if (std::abs(base::secondsBetween(arrival, stamp)) > options_.max_clock_offset) return void(++counts.wrong_clock);
+  const base::Stamp arrival = live::hostNow();
+  if (!parsed.stamp) {
+    if (unstamped_) ++counts.superseded;
+    unstamped_.emplace(parsed, arrival);
+    return;
+  }
+  takeUnstamped(counts, take);
+  if (std::abs(base::secondsBetween(arrival, *parsed.stamp)) > options_.max_clock_offset)
+    return void(++counts.wrong_clock);
+  takeOdometry(parsed, *parsed.stamp, counts, take);
+}
+
+void COdometryLines::Receiver::takeUnstamped(OdometryLineCounts& counts, const Take& take) {
+  if (!unstamped_) return;
+  takeOdometry(unstamped_->first, unstamped_->second, counts, take);
+  unstamped_.reset();
+}
+
+void COdometryLines::Receiver::takeOdometry(const OdometryLine& line, base::Stamp stamp, OdometryLineCounts& counts,
+                                            const Take& take) {
   if (base::isValid(newest_) && stamp <= newest_) return void(++counts.not_newer);
   newest_ = stamp;
   ++counts.taken;
-  auto odometry = std::make_shared<mrpt::obs::CObservationOdometry>(parsed.odometry);
+  auto odometry = std::make_shared<mrpt::obs::CObservationOdometry>(line.odometry);
   odometry->timestamp = stamp;
   take(odometry);
 }

@@ -5,13 +5,15 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "odometry/LineBuffer.h"
 
 namespace omnimapper::drivers {
 
-/// The connections of COdometryLines: bytes become lines, and lines that can be believed are handed on.
+/// The connections of COdometryLines: bytes become lines, and valid lines are passed on.
 class COdometryLines::Receiver {
  public:
   using Take = std::function<void(mrpt::obs::CObservationOdometry::Ptr)>;
@@ -20,7 +22,8 @@ class COdometryLines::Receiver {
   explicit Receiver(const OdometryLinesOptions& options);
 
   std::uint16_t port() const { return boundPort(socket_); }
-  /// Reads what has arrived and calls take(odometry), with its stamp, for each line that is believed.
+  /// Reads what has arrived and calls take(odometry), with its stamp, for each valid line; of lines without stamps
+  /// that arrived together for the last one alone.
   void receive(OdometryLineCounts& counts, const Take& take);
 
  private:
@@ -32,6 +35,8 @@ class COdometryLines::Receiver {
   bool isOfCurrentSender(std::uint64_t sender, OdometryLineCounts& counts);
   void beginClient(OdometryLineCounts& counts);
   void takeLine(std::string_view line, OdometryLineCounts& counts, const Take& take);
+  void takeOdometry(const OdometryLine& line, base::Stamp stamp, OdometryLineCounts& counts, const Take& take);
+  void takeUnstamped(OdometryLineCounts& counts, const Take& take);
   bool isWithinRate();
   LineBuffer& addTo(LineBuffer& buffer, std::string_view bytes, OdometryLineCounts& counts, const Take& take);
 
@@ -39,7 +44,9 @@ class COdometryLines::Receiver {
   live::Descriptor socket_, client_;
   LineBuffer line_;
   std::vector<char> bytes_;
-  base::Stamp newest_;           // of this client
+  base::Stamp newest_;  // of this client
+  // The last line without a stamp of those that are being read, and its arrival.
+  std::optional<std::pair<OdometryLine, base::Stamp>> unstamped_;
   std::uint64_t sender_ = 0;     // UDP: address and port; 0: none yet
   Monotonic::time_point heard_;  // UDP: the last datagram of that sender
   double allowance_;             // lines that may still come at once

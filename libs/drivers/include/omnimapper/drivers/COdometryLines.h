@@ -37,6 +37,7 @@ struct OdometryLineCounts {
   std::uint64_t cut_off = 0;        ///< the client hung up, or was replaced, before their end
   std::uint64_t other_sender = 0;   ///< UDP datagrams of a second sender beside one who is not silent
   std::uint64_t never_fetched = 0;  ///< taken, and discarded when 10,000 waited for getObservations()
+  std::uint64_t superseded = 0;     ///< lines without stamps that arrived together with a later one; not left out
   std::uint64_t clients = 0;        ///< who connected (TCP) or began to send (UDP)
 
   /// All lines and datagrams that were left out.
@@ -46,8 +47,12 @@ struct OdometryLineCounts {
 };
 
 /// Odometry of a robot's own program, as lines of text over TCP or UDP: parseOdometryLine() has their form,
-/// doc/live.md an example. Each becomes a CObservationOdometry with the label of the sensor. A line that
-/// cannot be believed is left out and counted; 256 bytes of a line are kept at most.
+/// doc/live.md an example. Each becomes a CObservationOdometry with the label of the sensor. An invalid line is
+/// rejected and counted; at most 256 bytes of a line are buffered.
+///
+/// A line without a stamp ("-") gets that of its arrival. Of several that are read at one time, because the sender or
+/// this machine was held up, it is unknown when each was measured, and stamps some microseconds apart would make leaps
+/// of them. So the last one alone becomes an observation: odometry is cumulative, and the others are contained in it.
 ///
 /// One client counts at a time. TCP: whoever connects last; the connection before is closed, for a robot may connect
 /// anew before its lost connection is known to be lost. UDP: the first sender, until it is silent for a second. A
@@ -75,7 +80,7 @@ class COdometryLines : public mrpt::hwdrivers::CGenericSensor, public CheckedSen
   std::uint16_t port() const;
 
  protected:
-  /// Throws Error(wrong_type) or Error(out_of_range) that names section, key and what is expected.
+  /// Throws Error unknown_key, wrong_type or out_of_range, naming section, key and what fits.
   void loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& config, const std::string& section) override;
 
  private:
