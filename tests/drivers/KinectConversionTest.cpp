@@ -147,10 +147,10 @@ TEST(KinectConversion, aLensIsUndone) {
   for (const auto& camera : {options.depthCamera(), options.pictureCamera()}) {
     for (int row = 0; row < 480; row += 40) {
       for (int column = 0; column < 640; column += 40) {
-        const OnPlane image{(column - camera.cx()) / camera.fx(), (row - camera.cy()) / camera.fy()};
-        const auto direction = beforeLens(camera, image);
+        const NormalizedPoint image{(column - camera.cx()) / camera.fx(), (row - camera.cy()) / camera.fy()};
+        const auto direction = undistort(camera, image);
         ASSERT_TRUE(direction) << column << " " << row;
-        const OnPlane again = throughLens(camera, *direction);
+        const NormalizedPoint again = distort(camera, *direction);
         EXPECT_NEAR(again.x, image.x, 1e-7);
         EXPECT_NEAR(again.y, image.y, 1e-7);
       }
@@ -159,7 +159,7 @@ TEST(KinectConversion, aLensIsUndone) {
   // x = 0.2, y = 0.1, r^2 = 0.05: radial 1 + 0.1 * 0.05 = 1.005, tangential x 2 * 0.01 * 0.02 + 0.02 * (0.05 + 0.08).
   mrpt::img::TCamera camera;
   camera.dist = {0.1, 0, 0.01, 0.02, 0, 0, 0, 0};
-  const OnPlane image = throughLens(camera, {0.2, 0.1});
+  const NormalizedPoint image = distort(camera, {0.2, 0.1});
   EXPECT_NEAR(image.x, 0.2 * 1.005 + 0.0004 + 0.0026, 1e-12);
   EXPECT_NEAR(image.y, 0.1 * 1.005 + 0.01 * 0.07 + 2 * 0.02 * 0.02, 1e-12);
 }

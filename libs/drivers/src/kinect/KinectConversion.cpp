@@ -63,7 +63,7 @@ KinectConversion::KinectConversion(const KinectOptions& options)
 // Of a pixel of the depth camera, in the colour camera's frame; 0 where the lens shows nothing.
 KinectConversion::Ray KinectConversion::rayOf(int column, int row) const {
   const auto& camera = depth_camera_;
-  const auto in_depth = beforeLens(camera, {(column - camera.cx()) / camera.fx(), (row - camera.cy()) / camera.fy()});
+  const auto in_depth = undistort(camera, {(column - camera.cx()) / camera.fx(), (row - camera.cy()) / camera.fy()});
   if (!in_depth) return {0, 0, 0};
   const auto along = [&](int axis) {
     const auto& r = rotation_[axis];
@@ -84,8 +84,8 @@ std::optional<KinectConversion::Place> KinectConversion::placeInPicture(int colu
 std::optional<KinectConversion::Place> KinectConversion::placeOf(Ray ray, double depth) const {
   const double z = depth * static_cast<double>(ray.z) + translation_[2];
   if ((ray.x == 0 && ray.y == 0 && ray.z == 0) || !(z > 0)) return std::nullopt;
-  const OnPlane image = throughLens(picture_camera_, {(depth * static_cast<double>(ray.x) + translation_[0]) / z,
-                                                      (depth * static_cast<double>(ray.y) + translation_[1]) / z});
+  const NormalizedPoint image = distort(picture_camera_, {(depth * static_cast<double>(ray.x) + translation_[0]) / z,
+                                                          (depth * static_cast<double>(ray.y) + translation_[1]) / z});
   const double u = picture_camera_.fx() * image.x + picture_camera_.cx();
   const double v = picture_camera_.fy() * image.y + picture_camera_.cy();
   if (!(u >= -0.5 && v >= -0.5 && u < kKinectWidth - 0.5 && v < kKinectHeight - 0.5)) return std::nullopt;

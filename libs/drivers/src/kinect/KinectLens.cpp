@@ -4,7 +4,7 @@
 
 namespace omnimapper::drivers {
 
-OnPlane throughLens(const mrpt::img::TCamera& camera, OnPlane direction) {
+NormalizedPoint distort(const mrpt::img::TCamera& camera, NormalizedPoint direction) {
   const double* lens = camera.dist.data();
   const double k1 = lens[0], k2 = lens[1], p1 = lens[2], p2 = lens[3], k3 = lens[4];
   const double x = direction.x, y = direction.y, r2 = x * x + y * y;
@@ -13,12 +13,12 @@ OnPlane throughLens(const mrpt::img::TCamera& camera, OnPlane direction) {
 }
 
 // By a fixed point, which the weak lenses of these cameras have everywhere but beyond their rims.
-std::optional<OnPlane> beforeLens(const mrpt::img::TCamera& camera, OnPlane image) {
+std::optional<NormalizedPoint> undistort(const mrpt::img::TCamera& camera, NormalizedPoint image) {
   constexpr int kSteps = 100;
   constexpr double kEnough = 1e-7, kFarthest = 4;
-  OnPlane direction = image;
+  NormalizedPoint direction = image;
   for (int step = 0; step < kSteps; ++step) {
-    const OnPlane there = throughLens(camera, direction);
+    const NormalizedPoint there = distort(camera, direction);
     const double x = image.x - there.x, y = image.y - there.y;
     if (std::abs(x) + std::abs(y) < kEnough) return direction;
     direction = {direction.x + x, direction.y + y};

@@ -7,15 +7,15 @@
 namespace omnimapper::drivers {
 
 /// On the plane at the distance 1: x right, y down.
-struct OnPlane {
+struct NormalizedPoint {
   double x, y;
 };
 
 /// Where a lens images a direction: OpenCV's model (plumb_bob), as in its page "Camera Calibration and 3D
 /// Reconstruction".
-OnPlane throughLens(const mrpt::img::TCamera& camera, OnPlane direction);
+NormalizedPoint distort(const mrpt::img::TCamera& camera, NormalizedPoint direction);
 
 /// The direction that a lens images there; none where it images none.
-std::optional<OnPlane> beforeLens(const mrpt::img::TCamera& camera, OnPlane image);
+std::optional<NormalizedPoint> undistort(const mrpt::img::TCamera& camera, NormalizedPoint image);
 
 }  // namespace omnimapper::drivers
