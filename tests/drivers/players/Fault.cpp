@@ -18,10 +18,22 @@ Fault parseFault(const std::string& text) {
   if (!std::regex_match(text, match, form) || kinds.count(match[1]) == 0)
     throw base::Error(base::ExitCode::command_line,
                       "\"" + text +
-                          "\" is no fault: write KIND@SCAN or KIND@SCAN:SECONDS, with garbage, half, "
-                          "checksum, slow, silence or hangup, such as silence@50:2.5");
+                          "\" is no fault: write KIND@NUMBER or KIND@NUMBER:SECONDS, such as silence@50:2.5, with "
+                          "garbage, half, checksum, slow, silence or hangup, and the number of the scan or of the line "
+                          "of odometry, from 0");
   Fault fault{kinds.at(match[1]), std::stoul(match[2]), match[3].matched ? std::stod(match[3]) : 0};
   if (fault.kind >= Kind::slow && !match[3].matched) fault.seconds = 1;
+  return fault;
+}
+
+Fault parseOdometryFault(const std::string& text) {
+  const Fault fault = parseFault(text);
+  if (fault.kind == Fault::Kind::checksum || fault.kind == Fault::Kind::slow)
+    throw base::Error(
+        base::ExitCode::command_line,
+        "\"" + text +
+            "\" is a fault of lasers alone: a line of odometry has no checksum and is sent at once; write "
+            "garbage, half, silence or hangup");
   return fault;
 }
 

@@ -22,8 +22,10 @@ struct Fault {
   double seconds = 0;  ///< of slow, silence and hangup
 };
 
-/// Reads "KIND@SCAN" or "KIND@SCAN:SECONDS", such as "silence@50:2.5". Throws Error(command_line) on anything else.
+/// Reads "KIND@NUMBER" or "KIND@NUMBER:SECONDS", such as "silence@50:2.5". Throws Error(command_line) on anything else.
 Fault parseFault(const std::string& text);
+/// As parseFault(), of a line of odometry. Throws Error(command_line) for the kinds of lasers alone, too.
+Fault parseOdometryFault(const std::string& text);
 
 /// The message as it arrives with a fault of the kinds garbage, half or checksum. The same seed gives the same bytes.
 std::string damaged(const std::string& message, Fault::Kind kind, std::uint64_t seed);

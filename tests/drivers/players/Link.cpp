@@ -34,7 +34,7 @@ class TcpLink : public Link {
 
  private:
   int connection() override { return host_.get(); }
-  int door() override { return listener_.get(); }
+  int listener() override { return listener_.get(); }
   void acceptHost() override {
     live::Descriptor next(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (!next) return;
@@ -82,7 +82,7 @@ class TerminalLink : public Link {
                       "Cannot make a pseudo-terminal at " + path_ + ": " + std::strerror(errno));
   }
   int connection() override { return device_.get(); }
-  int door() override { return -1; }
+  int listener() override { return -1; }
   void acceptHost() override {}
   void lose() override { dropQueue(); }
 
@@ -93,7 +93,7 @@ class TerminalLink : public Link {
 }  // namespace
 
 std::string Link::receive(double wait) {
-  pollfd files[2] = {{connection(), POLLIN, 0}, {door(), POLLIN, 0}};
+  pollfd files[2] = {{connection(), POLLIN, 0}, {listener(), POLLIN, 0}};
   if (!queue_.empty()) files[0].events |= POLLOUT;
   // Rounded up, so that nobody who waits for less than a millisecond is busy.
   if (poll(files, 2, static_cast<int>(wait * 1000) + (wait > 0 ? 1 : 0)) <= 0) return "";

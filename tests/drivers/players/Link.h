@@ -8,7 +8,7 @@
 
 namespace omnimapper::players {
 
-/// The cable between a played device and one host: TCP or a pseudo-terminal.
+/// The connection between a played device and one host: TCP or a pseudo-terminal.
 class Link {
  public:
   virtual ~Link() = default;
@@ -27,7 +27,7 @@ class Link {
   /// The open connection; -1 if there is none.
   virtual int connection() = 0;
   /// What becomes readable when a host connects; -1 if nothing does.
-  virtual int door() = 0;
+  virtual int listener() = 0;
   virtual void acceptHost() = 0;
   /// The host hung up.
   virtual void lose() = 0;

@@ -55,18 +55,30 @@ PlayRun::PlayRun(PlayedLog log, PlayOptions options) : options_(std::move(option
 
 PlayRun::~PlayRun() {
   stop();
-  wait();
+  join();
 }
 
 void PlayRun::start(const Stop& stop) {
   stop_ = [this, stop] { return stopped_ || (stop && stop()); };
   for (const auto& hokuyo : hokuyos_)
-    threads_.emplace_back([this, player = hokuyo.get()] {
+    startThread([this, player = hokuyo.get()] {
       if (!player->waitForStart(*start_, stop_)) return;
       player->play(*start_->clock(), stop_);
       player->linger(options_.linger, stop_);
     });
-  if (odometry_) threads_.emplace_back([this] { odometry_->play(*start_, stop_); });
+  if (odometry_) startThread([this] { odometry_->play(*start_, stop_); });
+}
+
+void PlayRun::startThread(const std::function<void()>& play) {
+  threads_.emplace_back([this, play] {
+    try {
+      play();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      stop();
+    }
+  });
 }
 
 std::optional<PlayClock> PlayRun::waitForStart() {
@@ -75,6 +87,11 @@ std::optional<PlayClock> PlayRun::waitForStart() {
 }
 
 void PlayRun::wait() {
+  join();
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void PlayRun::join() {
   for (auto& thread : threads_) thread.join();
   threads_.clear();
 }

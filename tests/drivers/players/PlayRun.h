@@ -1,7 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -40,7 +43,8 @@ class PlayRun {
   void start(const Stop& stop = {});
   /// Waits until hosts are there and the start is known; empty if it was stopped before.
   std::optional<PlayClock> waitForStart();
-  /// Waits for the end of the log.
+  /// Waits for the end of the log. Throws what ended a player before, and with it the others: as the links do, where
+  /// a laser that hung up cannot listen at its address again.
   void wait();
   void stop() { stopped_ = true; }
 
@@ -57,7 +61,12 @@ class PlayRun {
   std::unique_ptr<CommonStart> start_;
   std::atomic<bool> stopped_{false};
   Stop stop_;
+  void startThread(const std::function<void()>& play);
+  void join();
+
   std::vector<std::thread> threads_;
+  std::mutex mutex_;
+  std::exception_ptr failure_;  // the first
 };
 
 /// "IP:PORT". Throws Error(command_line) for anything else.

@@ -44,7 +44,8 @@ void play(Arguments& its) {
   for (const auto& fault : its.faults) its.play.hokuyo.faults.push_back(players::parseFault(fault));
   if (!its.odometry.empty()) {
     its.play.odometry = players::OdometryPlayerOptions{players::parseSocketAddress(its.odometry), its.udp, {}};
-    for (const auto& fault : its.odometry_faults) its.play.odometry->faults.push_back(players::parseFault(fault));
+    for (const auto& fault : its.odometry_faults)
+      its.play.odometry->faults.push_back(players::parseOdometryFault(fault));
   }
   if (!its.start.empty()) its.play.host_start = base::parseUnix(its.start);
   auto log = players::PlayedLog::read(its.log);
