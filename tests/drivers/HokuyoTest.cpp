@@ -2,16 +2,21 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/live/HostClock.h>
 #include <omnimapper/live/LiveSource.h>
 #include <omnimapper/live/Socket.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/SimulatedLog.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <set>
+#include <thread>
 
 #include "PlayRun.h"
+#include "hokuyo/LaserConnection.h"
 
 // Played Hokuyos, read by MRPT's own driver through a LiveSource.
 namespace omnimapper::drivers::hokuyo_test {
@@ -234,6 +239,62 @@ TEST_F(HokuyoTest, aRecordedLogComesToTheMillimetre) {
   receive();
   EXPECT_EQ(numbers, allOf(40)) << news;
   EXPECT_NEAR(received[0]->aperture, scans[0]->aperture, 0.01);
+}
+
+TEST(LaserConnection, aSignalDoesNotEndTheWaiting) {
+  struct sigaction action {
+  }, before{};
+  action.sa_handler = [](int) {};  // without SA_RESTART
+  sigaction(SIGUSR1, &action, &before);
+  const auto listener = listenTcp({});
+  auto connection = LaserConnection::toHost("127.0.0.1", boundPort(listener));
+  const Descriptor laser(accept(listener.get(), nullptr, nullptr));
+  std::thread other([&, reader = pthread_self()] {
+    for (int i = 0; i < 5; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      pthread_kill(reader, SIGUSR1);
+    }
+    send(laser.get(), "SCIP", 4, MSG_NOSIGNAL);
+  });
+  EXPECT_EQ(connection.receive(10'000), "SCIP");
+  other.join();
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(connection.receive(20), "");
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(20));
+  sigaction(SIGUSR1, &before, nullptr);
+}
+
+TEST(PlayRun, aPortThatWasTakenWhileTheLaserWasAwayIsTold) {
+  auto log = logOf(10, 80);
+  players::PlayOptions play_options;
+  play_options.hokuyos = {"127.0.0.1:0"};
+  play_options.hokuyo.faults = {players::parseFault("hangup@1:0.5")};
+  play_options.host_start = hostNow();
+  play_options.linger = 60;
+  players::PlayRun run(std::move(log), play_options);
+  const auto address = players::parseSocketAddress(run.addresses().at(0));
+  run.start();
+  Descriptor other;
+  for (int i = 0; i < 5000 && !other; ++i) {
+    try {
+      other = listenTcp(address);
+    } catch (const base::Error&) {  // the laser is there still
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  if (!other) run.stop();
+  try {
+    run.wait();
+    ADD_FAILURE();
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("another program uses this port"), std::string::npos) << error.what();
+  }
+}
+
+TEST(PlayRun, whatIsNoFaultOfOdometryIsRefused) {
+  EXPECT_EQ(players::parseOdometryFault("half@5").kind, players::Fault::Kind::half);
+  EXPECT_THROW(players::parseOdometryFault("checksum@5"), base::Error);
+  EXPECT_THROW(players::parseOdometryFault("slow@5:0.1"), base::Error);
 }
 
 // Whoever accepts a connection and says nothing is no laser.

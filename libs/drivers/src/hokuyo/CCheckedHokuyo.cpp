@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "hokuyo/Cable.h"
 #include "hokuyo/LaserClock.h"
+#include "hokuyo/LaserConnection.h"
 #include "hokuyo/ScipCheck.h"
 
 IMPLEMENTS_GENERIC_SENSOR(CCheckedHokuyo, omnimapper::drivers)
@@ -20,15 +20,15 @@ namespace omnimapper::drivers {
 /// What MRPT's driver reads: sound answers to the command that it wrote last.
 class CCheckedHokuyo::Stream : public mrpt::io::CStream {
  public:
-  Stream(Cable cable, int patience) : cable_(std::move(cable)), patience_(patience) {}
+  Stream(LaserConnection connection, int patience) : connection_(std::move(connection)), patience_(patience) {}
 
   std::size_t Read(void* buffer, std::size_t count) override {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_);
-    while (sound_.empty() && cable_.isOpen()) {
+    while (sound_.empty() && connection_.isOpen()) {
       const auto left = end - std::chrono::steady_clock::now();
       if (left.count() <= 0) break;
-      check_.add(
-          cable_.receive(static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()) + 1));
+      check_.add(connection_.receive(
+          static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()) + 1));
       sound_ = check_.take();
     }
     const auto size = sound_.copy(static_cast<char*>(buffer), count);
@@ -39,7 +39,7 @@ class CCheckedHokuyo::Stream : public mrpt::io::CStream {
     const std::string_view command(static_cast<const char*>(buffer), count);
     check_.setCommand(command);
     sound_.clear();
-    return cable_.send(command) ? count : 0;
+    return connection_.send(command) ? count : 0;
   }
   std::uint64_t Seek(std::int64_t, mrpt::io::CStream::TSeekOrigin) override { return 0; }
   std::uint64_t getTotalBytesCount() const override { return 0; }
@@ -47,16 +47,16 @@ class CCheckedHokuyo::Stream : public mrpt::io::CStream {
 
   // Sends a command, and leaves out what comes for a moment.
   void sendAndForget(std::string_view command) {
-    cable_.send(command);
-    for (int i = 0; i < 20 && !cable_.receive(20).empty(); ++i) {
+    connection_.send(command);
+    for (int i = 0; i < 20 && !connection_.receive(20).empty(); ++i) {
     }
   }
 
-  Cable& cable() { return cable_; }
+  LaserConnection& connection() { return connection_; }
   std::uint64_t damaged() const { return check_.damaged(); }
 
  private:
-  Cable cable_;
+  LaserConnection connection_;
   const int patience_;
   ScipCheck check_;
   std::string sound_;
@@ -66,7 +66,7 @@ CCheckedHokuyo::CCheckedHokuyo() = default;
 
 CCheckedHokuyo::~CCheckedHokuyo() {
   // MRPT's would write to it once more, and complain.
-  if (stream_ && !stream_->cable().isOpen()) bindIO(nullptr);
+  if (stream_ && !stream_->connection().isOpen()) bindIO(nullptr);
 }
 
 void CCheckedHokuyo::initialize() {
@@ -74,11 +74,12 @@ void CCheckedHokuyo::initialize() {
   logging_enable_console_output = false;  // what is wrong is thrown
   damaged_before_ = leftOut();
   const int patience = std::max(m_comms_timeout_ms, 100);
-  stream_ = std::make_shared<Stream>(m_ip_dir.empty() ? Cable::toSerialPort(m_com_port)
-                                                      : Cable::toHost(m_ip_dir, static_cast<std::uint16_t>(m_port_dir)),
+  stream_ = std::make_shared<Stream>(m_ip_dir.empty()
+                                         ? LaserConnection::toSerialPort(m_com_port)
+                                         : LaserConnection::toHost(m_ip_dir, static_cast<std::uint16_t>(m_port_dir)),
                                      patience);
   bindIO(stream_);
-  quieten();
+  stopMeasuring();
   clock_ = std::make_unique<LaserClock>();
   if (!turnOn()) throw std::runtime_error("the laser does not answer as one that speaks SCIP 2.0");
   requireSoundProperties();
@@ -86,15 +87,15 @@ void CCheckedHokuyo::initialize() {
 }
 
 // It may measure since a program that is gone, and a serial one may have either of two rates.
-void CCheckedHokuyo::quieten() {
-  auto& cable = stream_->cable();
-  if (cable.isSerial()) {
+void CCheckedHokuyo::stopMeasuring() {
+  auto& connection = stream_->connection();
+  if (connection.isSerial()) {
     for (const int rate : {115200, 19200}) {
-      cable.setBaudRate(rate);
+      connection.setBaudRate(rate);
       stream_->sendAndForget("QT\n");
     }
     stream_->sendAndForget("SS115200\n");
-    cable.setBaudRate(115200);
+    connection.setBaudRate(115200);
   }
   stream_->sendAndForget("QT\n");
 }
@@ -108,7 +109,7 @@ void CCheckedHokuyo::requireSoundProperties() const {
 }
 
 void CCheckedHokuyo::doProcessSimple(bool& is_there, mrpt::obs::CObservation2DRangeScan& scan, bool& has_failed) {
-  if (!stream_ || !m_stream || !stream_->cable().isOpen()) throw std::runtime_error("the laser has hung up");
+  if (!stream_ || !m_stream || !stream_->connection().isOpen()) throw std::runtime_error("the laser has hung up");
   CHokuyoURG::doProcessSimple(is_there, scan, has_failed);
   if (!is_there) {
     if (!m_stream) throw std::runtime_error("the laser has stopped measuring");

@@ -27,12 +27,12 @@ base::Stamp LaserClock::stampOf(std::uint32_t device_ms, base::Stamp arrival) {
   }
   device_ms_ = device_ms & kLastDeviceTime;
   ++messages_;
-  follow(arrival - expected_, arrival);
+  correctDrift(arrival - expected_, arrival);
   last_ = std::max(expected_, last_ + kNewer);
   return last_;
 }
 
-void LaserClock::follow(base::Duration lag, base::Stamp arrival) {
+void LaserClock::correctDrift(base::Duration lag, base::Stamp arrival) {
   if (lag < -kRestartedEarly || (messages_ <= kFirstMessages && lag < base::Duration::zero())) {
     expected_ = since_ = arrival;
     shortest_lag_ = base::Duration::max();

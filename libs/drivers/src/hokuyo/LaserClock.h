@@ -14,7 +14,7 @@ class LaserClock {
   base::Stamp stampOf(std::uint32_t device_ms, base::Stamp arrival);
 
  private:
-  void follow(base::Duration lag, base::Stamp arrival);
+  void correctDrift(base::Duration lag, base::Stamp arrival);
 
   int messages_ = 0;
   std::uint32_t device_ms_ = 0;

@@ -32,7 +32,7 @@ class CCheckedHokuyo : public mrpt::hwdrivers::CHokuyoURG, public CheckedSensor 
 
  private:
   class Stream;
-  void quieten();
+  void stopMeasuring();
   void requireSoundProperties() const;
 
   std::shared_ptr<Stream> stream_;

@@ -1,4 +1,4 @@
-#include "hokuyo/Cable.h"
+#include "hokuyo/LaserConnection.h"
 
 #include <fcntl.h>
 #include <netdb.h>
@@ -7,7 +7,10 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
@@ -18,9 +21,16 @@ namespace {
 
 constexpr int kToConnect = 3000, kToSend = 500;  // [ms]
 
+// A signal does not end the waiting.
 bool isReady(const live::Descriptor& file, short events, int patience) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::milliseconds(patience);
   pollfd entry{file.get(), events, 0};
-  return poll(&entry, 1, patience) > 0;
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
+    const int count = poll(&entry, 1, static_cast<int>(std::max<std::int64_t>(left, 0)));
+    if (count >= 0 || errno != EINTR) return count > 0;
+  }
 }
 
 // What made it fail; 0 if it did not.
@@ -47,7 +57,7 @@ speed_t speedOf(int rate) {
 
 }  // namespace
 
-Cable Cable::toHost(const std::string& host, std::uint16_t port) {
+LaserConnection LaserConnection::toHost(const std::string& host, std::uint16_t port) {
   const std::string name = host + ":" + std::to_string(port);
   addrinfo hints{}, *found = nullptr;
   hints.ai_family = AF_INET;
@@ -58,10 +68,10 @@ Cable Cable::toHost(const std::string& host, std::uint16_t port) {
   live::Descriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const int error = socket ? failureToConnect(socket, *found) : errno;
   if (error != 0) throw std::runtime_error("nobody answers at " + name + ": " + std::strerror(error));
-  return Cable(std::move(socket), false);
+  return LaserConnection(std::move(socket), false);
 }
 
-Cable Cable::toSerialPort(const std::string& path) {
+LaserConnection LaserConnection::toSerialPort(const std::string& path) {
   const std::string whole = path.rfind('/', 0) == 0 ? path : "/dev/" + path;
   live::Descriptor port(::open(whole.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   termios settings{};
@@ -72,10 +82,10 @@ Cable Cable::toSerialPort(const std::string& path) {
   tcflush(port.get(), TCIOFLUSH);
   if (tcsetattr(port.get(), TCSANOW, &settings) != 0)
     throw std::runtime_error("cannot set up the serial port " + whole + ": " + std::strerror(errno));
-  return Cable(std::move(port), true);
+  return LaserConnection(std::move(port), true);
 }
 
-void Cable::setBaudRate(int rate) {
+void LaserConnection::setBaudRate(int rate) {
   termios settings{};
   if (!is_serial_ || !isOpen() || tcgetattr(file_.get(), &settings) != 0) return;
   cfsetspeed(&settings, speedOf(rate));
@@ -83,7 +93,7 @@ void Cable::setBaudRate(int rate) {
     throw std::runtime_error("the serial port does not take " + std::to_string(rate) + " baud");
 }
 
-std::string Cable::receive(int patience) {
+std::string LaserConnection::receive(int patience) {
   if (!isOpen() || !isReady(file_, POLLIN, patience)) return "";
   std::string bytes(16384, '\0');
   const auto size = read(file_.get(), bytes.data(), bytes.size());
@@ -92,7 +102,7 @@ std::string Cable::receive(int patience) {
   return bytes;
 }
 
-bool Cable::send(std::string_view bytes) {
+bool LaserConnection::send(std::string_view bytes) {
   while (isOpen() && !bytes.empty()) {
     const auto size = is_serial_ ? write(file_.get(), bytes.data(), bytes.size())
                                  : ::send(file_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);

@@ -9,17 +9,17 @@ namespace omnimapper::drivers {
 
 /// The open connection to a device: TCP or a serial port. Unlike MRPT's, it neither ends the program by a signal nor
 /// waits for ever where the device has hung up.
-class Cable {
+class LaserConnection {
  public:
   /// Both throw std::runtime_error with a sentence that names the device and the system's reason.
   /// `host` is a name or address; it is given 3 s to answer.
-  static Cable toHost(const std::string& host, std::uint16_t port);
+  static LaserConnection toHost(const std::string& host, std::uint16_t port);
   /// A path, or a name in /dev. 8 bits, no parity, raw.
-  static Cable toSerialPort(const std::string& path);
+  static LaserConnection toSerialPort(const std::string& path);
 
   /// What has come; waits at most so long [ms] for the first byte. Empty, too, where the device has hung up.
   std::string receive(int patience);
-  /// Sends all of it, or closes the cable and returns false.
+  /// Sends all of it, or closes the connection and returns false.
   bool send(std::string_view bytes);
   /// Of a serial port; throws std::runtime_error if it has no such rate. Nothing of TCP.
   void setBaudRate(int rate);
@@ -29,7 +29,7 @@ class Cable {
   void close() { file_.close(); }
 
  private:
-  Cable(live::Descriptor file, bool is_serial) : file_(std::move(file)), is_serial_(is_serial) {}
+  LaserConnection(live::Descriptor file, bool is_serial) : file_(std::move(file)), is_serial_(is_serial) {}
 
   live::Descriptor file_;
   bool is_serial_;
