@@ -149,7 +149,7 @@ TEST_F(HokuyoTest, whatIsDamagedOnItsWayIsLeftOutAndCounted) {
     open();
     receive();
     EXPECT_EQ(numbers, allOf(60, {20, 30})) << address << "\n" << news;
-    EXPECT_EQ(figures.left_out, 3u) << "garbage, the half and the wrong sum; " << news;
+    EXPECT_EQ(figures.left_out, 3u) << "garbage, the half and the wrong checksum; " << news;
     EXPECT_NE(news.find("damaged message"), std::string::npos) << news;
     EXPECT_EQ(news.find("is lost"), std::string::npos) << news;
   }
@@ -183,7 +183,7 @@ TEST_F(HokuyoTest, aLaserThatHungUpIsBack) {
     open();
     receive();
     expectGap(numbers, 10, 60);
-    EXPECT_NE(news.find("has hung up"), std::string::npos) << news;
+    EXPECT_NE(news.find("closed the connection"), std::string::npos) << news;
     EXPECT_NE(news.find("is back"), std::string::npos) << news;
   }
 }

@@ -60,13 +60,13 @@ TEST(OdometryLine, whatIsNoLineIsMalformed) {
   EXPECT_EQ(faultOf(std::string("1 2\0 3 4", 8)), LineFault::malformed);
 }
 
-TEST(OdometryLine, whatIsNoFiniteNumberIsNotBelieved) {
+TEST(OdometryLine, whatIsNoFiniteNumberIsRejected) {
   for (const char* line :
        {"1 nan 0 0", "1 0 -nan 0", "1 0 0 inf", "1 -inf 0 0", "1 0 0 0 nan 0 0", "1 0 0 0 0 0 infinity"})
     EXPECT_EQ(faultOf(line), LineFault::not_finite) << line;
 }
 
-TEST(OdometryLine, whatIsBeyondAllBoundsIsNotBelieved) {
+TEST(OdometryLine, whatIsBeyondAllBoundsIsRejected) {
   for (const char* line : {"1 1.1e6 0 0", "1 0 -1e300 0", "1 0 0 6284", "1 0 0 0 101 0 0", "1 0 0 0 0 0 -1e9"})
     EXPECT_EQ(faultOf(line), LineFault::too_large) << line;
   EXPECT_FALSE(faultOf("1 1e6 -1e6 6283"));

@@ -100,7 +100,7 @@ TEST_F(OdometryLinesTest, linesBecomeObservationsInWhateverPiecesTheyCome) {
   EXPECT_EQ(sensor.leftOutByReason(), "");
 }
 
-TEST_F(OdometryLinesTest, whatCannotBeBelievedIsCountedByReason) {
+TEST_F(OdometryLinesTest, invalidLinesAreCountedByReason) {
   open();
   Client client(sensor.port());
   client.send(line(1, 1) + "rubbish\n" + "- nan 0 0\n" + "- 0 1e9 0\n" + std::string(300, '7') + "\n" + line(2, 3600) +

@@ -21,13 +21,13 @@ std::string checked(const std::string& bytes, std::uint64_t damaged, std::size_t
   return check.take();
 }
 
-// "0Mn" of the specification's example of a sum: C-42-03320B, "Hokuyo" has the sum 'o'.
-TEST(ScipCheck, sumsAreThoseOfTheSpecification) {
+// The specification's example of a checksum: C-42-03320B, "Hokuyo" has the checksum 'o'.
+TEST(ScipCheck, checksumsAreThoseOfTheSpecification) {
   EXPECT_EQ(players::scipSum("Hokuyo"), 'o');
   EXPECT_EQ(players::encodeScip(5432, 3), "1Dh");
 }
 
-TEST(ScipCheck, soundMessagesPassWholeInWhateverPieces) {
+TEST(ScipCheck, validMessagesPassWholeInWhateverPieces) {
   for (const std::size_t piece : {std::size_t{1}, std::size_t{7}, std::string::npos})
     EXPECT_EQ(checked(scan() + scan("0Uo0Cl0Mm"), 0, piece), scan() + scan("0Uo0Cl0Mm"));
 }
@@ -46,7 +46,7 @@ TEST(ScipCheck, noAlteredByteOfAMessagePasses) {
   }
 }
 
-TEST(ScipCheck, ofAMessageThatWasCutOffTheNextIsSound) {
+TEST(ScipCheck, ofAMessageThatWasCutOffTheNextIsValid) {
   const std::string message = scan();
   for (std::size_t size = 1; size + 2 < message.size(); ++size)
     EXPECT_EQ(checked(message.substr(0, size) + message, 1), message) << size;
@@ -56,7 +56,7 @@ TEST(ScipCheck, answersToOtherCommandsAreLeftOutUncounted) {
   EXPECT_EQ(checked("QT\n" + players::withScipSum("00") + "\n" + scan(), 0), scan());
 }
 
-TEST(ScipCheck, informationHasItsSumBeforeTheSemicolon) {
+TEST(ScipCheck, informationHasItsChecksumBeforeTheSemicolon) {
   ScipCheck check;
   check.setCommand("PP");
   const std::string message = "PP\n" + players::withScipSum("00") + players::scipInformation("DMIN:20") +
@@ -65,8 +65,8 @@ TEST(ScipCheck, informationHasItsSumBeforeTheSemicolon) {
   EXPECT_EQ(check.take(), message);
 }
 
-// A sum of six bits is right by chance once in 64 times; the form of the lines tells most of the rest.
-TEST(ScipCheck, bytesThatNoScanHasDoNotPassBySumsThatAreRight) {
+// A checksum of six bits is right by chance once in 64 times; the form of the lines tells most of the rest.
+TEST(ScipCheck, bytesThatNoScanHasDoNotPassByChecksumsThatAreRight) {
   const auto withLine = [](const std::string& line) {
     return kCommand + "\n" + players::withScipSum("99") + players::withScipSum("0000") + players::withScipSum(line) +
            players::scipBlock("0Uo") + "\n";

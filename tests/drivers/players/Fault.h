@@ -12,7 +12,7 @@ struct Fault {
   enum class Kind {
     garbage,   ///< 300 random bytes come before the message
     half,      ///< only the first half of the message comes
-    checksum,  ///< the first range of the message is altered on its way; its sum is not. Lasers alone
+    checksum,  ///< the first range of the message is altered on its way; its checksum is not. Lasers alone
     slow,      ///< the message comes in 8 pieces over so many seconds. Lasers alone
     silence,   ///< for so many seconds nothing comes, and is lost
     hangup,    ///< the connection ends; nobody can connect for so many seconds

@@ -11,16 +11,16 @@ namespace omnimapper::players {
 /// a character, the highest first, each plus 0x30.
 std::string encodeScip(std::uint32_t value, int characters);
 
-/// The sum of a line: its bytes added up, the lowest six bits plus 0x30.
+/// The checksum of a line: its bytes added up, the lowest six bits plus 0x30.
 char scipSum(std::string_view line);
 
-/// "LINE", its sum, line feed.
+/// "LINE", its checksum, line feed.
 std::string withScipSum(std::string_view line);
 
-/// A line of information such as "DMIN:20": a semicolon, which the sum leaves out, the sum, line feed.
+/// A line of information such as "DMIN:20": a semicolon, which the checksum leaves out, the checksum, line feed.
 std::string scipInformation(std::string_view line);
 
-/// Data in lines of 64 characters, each with its sum and a line feed.
+/// Data in lines of 64 characters, each with its checksum and a line feed.
 std::string scipBlock(std::string_view data);
 
 }  // namespace omnimapper::players

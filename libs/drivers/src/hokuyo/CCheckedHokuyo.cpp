@@ -17,28 +17,28 @@ IMPLEMENTS_GENERIC_SENSOR(CCheckedHokuyo, omnimapper::drivers)
 
 namespace omnimapper::drivers {
 
-/// What MRPT's driver reads: sound answers to the command that it wrote last.
+/// What MRPT's driver reads: valid answers to the command that it wrote last.
 class CCheckedHokuyo::Stream : public mrpt::io::CStream {
  public:
   Stream(LaserConnection connection, int patience) : connection_(std::move(connection)), patience_(patience) {}
 
   std::size_t Read(void* buffer, std::size_t count) override {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_);
-    while (sound_.empty() && connection_.isOpen()) {
+    while (valid_.empty() && connection_.isOpen()) {
       const auto left = end - std::chrono::steady_clock::now();
       if (left.count() <= 0) break;
       check_.add(connection_.receive(
           static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()) + 1));
-      sound_ = check_.take();
+      valid_ = check_.take();
     }
-    const auto size = sound_.copy(static_cast<char*>(buffer), count);
-    sound_.erase(0, size);
+    const auto size = valid_.copy(static_cast<char*>(buffer), count);
+    valid_.erase(0, size);
     return size;
   }
   std::size_t Write(const void* buffer, std::size_t count) override {
     const std::string_view command(static_cast<const char*>(buffer), count);
     check_.setCommand(command);
-    sound_.clear();
+    valid_.clear();
     return connection_.send(command) ? count : 0;
   }
   std::uint64_t Seek(std::int64_t, mrpt::io::CStream::TSeekOrigin) override { return 0; }
@@ -59,7 +59,7 @@ class CCheckedHokuyo::Stream : public mrpt::io::CStream {
   LaserConnection connection_;
   const int patience_;
   ScipCheck check_;
-  std::string sound_;
+  std::string valid_;
 };
 
 CCheckedHokuyo::CCheckedHokuyo() = default;
@@ -81,8 +81,8 @@ void CCheckedHokuyo::initialize() {
   bindIO(stream_);
   stopMeasuring();
   clock_ = std::make_unique<LaserClock>();
-  if (!turnOn()) throw std::runtime_error("the laser does not answer as one that speaks SCIP 2.0");
-  requireSoundProperties();
+  if (!turnOn()) throw std::runtime_error("the laser does not answer in SCIP 2.0");
+  requirePossibleProperties();
   m_state = ssWorking;
 }
 
@@ -100,16 +100,17 @@ void CCheckedHokuyo::stopMeasuring() {
   stream_->sendAndForget("QT\n");
 }
 
-void CCheckedHokuyo::requireSoundProperties() const {
+void CCheckedHokuyo::requirePossibleProperties() const {
   const auto& its = m_sensor_info;
   constexpr int kMostSteps = 10'000;  // of four digits
   if (its.scans_per_360deg < 1 || its.scans_per_360deg > 10 * kMostSteps || its.scan_first < 0 ||
       its.scan_last <= its.scan_first || its.scan_last >= kMostSteps || !(its.d_max > 0))
-    throw std::runtime_error("the laser describes itself by numbers that no laser has");
+    throw std::runtime_error("the laser reports impossible properties (PP)");
 }
 
 void CCheckedHokuyo::doProcessSimple(bool& is_there, mrpt::obs::CObservation2DRangeScan& scan, bool& has_failed) {
-  if (!stream_ || !m_stream || !stream_->connection().isOpen()) throw std::runtime_error("the laser has hung up");
+  if (!stream_ || !m_stream || !stream_->connection().isOpen())
+    throw std::runtime_error("the laser closed the connection");
   CHokuyoURG::doProcessSimple(is_there, scan, has_failed);
   if (!is_there) {
     if (!m_stream) throw std::runtime_error("the laser has stopped measuring");

@@ -12,8 +12,10 @@ using std::chrono::milliseconds;
 constexpr std::uint32_t kLastDeviceTime = (1U << 24) - 1;
 constexpr int kFirstMessages = 10;  // whose latencies vary
 constexpr auto kWindow = std::chrono::seconds(10);
-constexpr auto kLargestStep = milliseconds(2);                                          // in a window; 200 ppm
-constexpr auto kRestartedLate = milliseconds(100), kRestartedEarly = milliseconds(20);  // no clock drifts so far
+constexpr auto kLargestStep = milliseconds(2);  // in a window; 200 ppm, twice the worst quartz
+// Farther off than these is no drift: the laser was restarted. No latency makes a stamp too early, so 20 ms, ten times
+// the largest step, are enough; a busy machine may read a whole window late, so 100 ms are needed the other way.
+constexpr auto kRestartedLate = milliseconds(100), kRestartedEarly = milliseconds(20);
 constexpr auto kNewer = milliseconds(1);
 
 }  // namespace

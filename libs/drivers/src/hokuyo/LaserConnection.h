@@ -7,17 +7,18 @@
 
 namespace omnimapper::drivers {
 
-/// The open connection to a device: TCP or a serial port. Unlike MRPT's, it neither ends the program by a signal nor
-/// waits for ever where the device has hung up.
+/// The open connection to a laser: TCP or a serial port. Unlike MRPT's, it neither ends the program by a signal nor
+/// waits for ever where the laser has closed the connection.
 class LaserConnection {
  public:
-  /// Both throw std::runtime_error with a sentence that names the device and the system's reason.
+  /// Both throw std::runtime_error with a sentence that names the laser and the system's reason.
   /// `host` is a name or address; it is given 3 s to answer.
   static LaserConnection toHost(const std::string& host, std::uint16_t port);
   /// A path, or a name in /dev. 8 bits, no parity, raw.
   static LaserConnection toSerialPort(const std::string& path);
 
-  /// What has come; waits at most so long [ms] for the first byte. Empty, too, where the device has hung up.
+  /// What has come; waits at most so long [ms] for the first byte. Empty, too, where the laser has closed the
+  /// connection.
   std::string receive(int patience);
   /// Sends all of it, or closes the connection and returns false.
   bool send(std::string_view bytes);

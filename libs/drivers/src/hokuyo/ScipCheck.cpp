@@ -8,31 +8,32 @@ namespace omnimapper::drivers {
 namespace {
 
 constexpr std::size_t kLongestMessage = 64 * 1024;
-constexpr std::size_t kStampLine = 4, kDataLine = 64;  // characters, without the sum
+constexpr std::size_t kStampLine = 4, kDataLine = 64;  // characters, without the checksum
 constexpr std::string_view kEnd = "\n\n";
 
-bool hasSum(std::string_view line, char sum) {
+bool hasChecksum(std::string_view line, char checksum) {
   unsigned total = 0;
   for (const char byte : line) total += static_cast<unsigned char>(byte);
-  return sum == static_cast<char>(0x30 + (total & 0x3f));
+  return checksum == static_cast<char>(0x30 + (total & 0x3f));
 }
 
-/// The last character is the sum of those before it; of those before a semicolon in a line of information.
-bool isSoundLine(std::string_view line) {
+/// The last character is the checksum of those before it; of those before a semicolon in a line of information.
+bool isValidLine(std::string_view line) {
   if (line.size() < 2) return false;
   const auto text = line.substr(0, line.size() - 1);
-  return hasSum(text, line.back()) || (text.back() == ';' && hasSum(text.substr(0, text.size() - 1), line.back()));
+  return hasChecksum(text, line.back()) ||
+         (text.back() == ';' && hasChecksum(text.substr(0, text.size() - 1), line.back()));
 }
 
-/// Numbers of six bits a character, and their sum.
-bool isSoundData(std::string_view line) {
+/// Numbers of six bits a character, and their checksum.
+bool isValidData(std::string_view line) {
   return line.size() <= kDataLine + 1 &&
          std::all_of(line.begin(), line.end(), [](char byte) { return byte >= 0x30 && byte < 0x70; });
 }
 
 /// Echo, status; then lines of information, or those of a scan: its stamp, and data in lines of 64 characters. An older
-/// laser answers its first command by a status of one character and no sum.
-bool isSound(std::string_view message) {
+/// laser answers its first command by a status of one character and no checksum.
+bool isValidMessage(std::string_view message) {
   auto end = message.find('\n');
   if (end == std::string_view::npos || end == 0) return false;
   const bool is_scan = message[0] == 'M' || message[0] == 'G';
@@ -42,9 +43,9 @@ bool isSound(std::string_view message) {
     end = std::min(message.find('\n'), message.size());
     const auto line = message.substr(0, end);
     message.remove_prefix(std::min(end + 1, message.size()));
-    if (!isSoundLine(line)) return false;
+    if (!isValidLine(line)) return false;
     if (!is_scan || number == 0) continue;
-    if (!isSoundData(line) || (number == 1 && line.size() != kStampLine + 1)) return false;
+    if (!isValidData(line) || (number == 1 && line.size() != kStampLine + 1)) return false;
     if (number > 1 && !message.empty() && line.size() != kDataLine + 1) return false;
   }
   return true;
@@ -76,17 +77,17 @@ void ScipCheck::judge(std::string_view message) {
   // What was cut off, or is none, may come before it.
   const auto begin = echo_.empty() ? std::string_view::npos : message.rfind(echo_ + "\n");
   if (begin == std::string_view::npos) {
-    if (!message.empty() && !isSound(message)) ++damaged_;  // else: the answer to an earlier command
+    if (!message.empty() && !isValidMessage(message)) ++damaged_;  // else: the answer to an earlier command
     return;
   }
   if (begin > 0) ++damaged_;
   message.remove_prefix(begin);
-  if (!isSound(message)) return void(++damaged_);
-  sound_.append(message).append(kEnd);
+  if (!isValidMessage(message)) return void(++damaged_);
+  valid_.append(message).append(kEnd);
 }
 
 std::string ScipCheck::take() {
-  return std::exchange(sound_, {});
+  return std::exchange(valid_, {});
 }
 
 }  // namespace omnimapper::drivers

@@ -73,9 +73,9 @@ const base::OptionTable<KinectOptions>& KinectOptions::table() {
               {{"none", Options::Registration::none},
                {"ours", Options::Registration::ours},
                {"device", Options::Registration::device}},
-              "Whose view the depths are of: none, that of the depth camera, as they are measured; ours, that of the "
-              "colour camera, into which the calibration of this section moves them; device, the same by the "
-              "calibration that the device holds, which was never tried on one.")
+              "Camera frame of the depth image: none, the depth camera's (unregistered); ours, the colour camera's, "
+              "registered with this section's calibration; device, registered by the device's own calibration (never "
+              "tried on one).")
           .number("tilt_deg", &Options::tilt, {-30, 30},
                   "Angle above the horizon to which the motor turns the head at the start; empty: it stays as it is.")
           .choice("led", &Options::led,

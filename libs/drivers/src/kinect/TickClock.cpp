@@ -5,7 +5,7 @@
 namespace omnimapper::drivers {
 
 live::SensorClock TickClock::ofHost() {
-  constexpr double kLargestLatency = 0.5;  // [s]
+  constexpr double kLargestLatency = 0.5;  // [s] more than twice what FreenectDevice buffers
   return live::SensorClock(live::SensorOptions(), kLargestLatency);
 }
 

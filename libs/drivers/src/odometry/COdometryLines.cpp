@@ -25,9 +25,9 @@ const base::OptionTable<OdometryLinesOptions>& OdometryLinesOptions::table() {
           .integer("port", &Options::port, {0, 65535}, "Port at which lines are taken; 0 lets the system choose.")
           .choice("protocol", &Options::protocol, {{"tcp", Protocol::tcp}, {"udp", Protocol::udp}},
                   "Whether lines come over a TCP connection or in UDP datagrams.")
-          .integer("max_rate_hz", &Options::max_rate, {1, 100'000}, "Lines beyond so many in a second are left out.")
+          .integer("max_rate_hz", &Options::max_rate, {1, 100'000}, "Lines beyond so many in a second are rejected.")
           .number("max_clock_offset_s", &Options::max_clock_offset, base::Range::positive(),
-                  "A line is left out if its stamp differs from the clock of this machine by more.");
+                  "A line is rejected if its stamp differs from the clock of this machine by more.");
   return table;
 }
 

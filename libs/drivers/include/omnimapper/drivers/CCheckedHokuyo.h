@@ -11,8 +11,8 @@ class LaserClock;
 
 /// MRPT's driver of Hokuyo lasers, over a connection that checks what comes: what an INI gets that says
 /// `driver = CHokuyoURG`. All keys are MRPT's. It differs in these points:
-/// - Messages with a wrong sum, and pieces of messages, are left out and counted.
-/// - A laser that hangs up ends neither the program nor this thread; the next doProcess() throws.
+/// - Messages with a wrong checksum, and pieces of messages, are rejected and counted.
+/// - A laser that closes the connection ends neither the program nor this thread; the next doProcess() throws.
 /// - The aperture of a scan is the angle between its first and last beam. MRPT's is one step wider.
 /// - Stamps stay right when the laser's clock begins anew after 4.7 hours, and where it is fast or slow.
 class CCheckedHokuyo : public mrpt::hwdrivers::CHokuyoURG, public CheckedSensor {
@@ -23,7 +23,7 @@ class CCheckedHokuyo : public mrpt::hwdrivers::CHokuyoURG, public CheckedSensor 
 
   /// Connects and starts the laser. Throws std::runtime_error with the reason if it does not answer as it should.
   void initialize() override;
-  /// Throws std::runtime_error if the laser has hung up, or does not measure any more.
+  /// Throws std::runtime_error if the laser has closed the connection, or does not measure any more.
   void doProcessSimple(bool& is_there, mrpt::obs::CObservation2DRangeScan& scan, bool& has_failed) override;
 
   std::uint64_t leftOut() const override;
@@ -33,7 +33,7 @@ class CCheckedHokuyo : public mrpt::hwdrivers::CHokuyoURG, public CheckedSensor 
  private:
   class Stream;
   void stopMeasuring();
-  void requireSoundProperties() const;
+  void requirePossibleProperties() const;
 
   std::shared_ptr<Stream> stream_;
   std::unique_ptr<LaserClock> clock_;

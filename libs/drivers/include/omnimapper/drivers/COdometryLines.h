@@ -37,10 +37,11 @@ struct OdometryLineCounts {
   std::uint64_t cut_off = 0;        ///< the client hung up, or was replaced, before their end
   std::uint64_t other_sender = 0;   ///< UDP datagrams of a second sender beside one who is not silent
   std::uint64_t never_fetched = 0;  ///< taken, and discarded when 10,000 waited for getObservations()
-  std::uint64_t superseded = 0;     ///< lines without stamps that arrived together with a later one; not left out
-  std::uint64_t clients = 0;        ///< who connected (TCP) or began to send (UDP)
+  std::uint64_t superseded =
+      0;                      ///< lines without stamps that arrived together with a later one, which are not rejected
+  std::uint64_t clients = 0;  ///< who connected (TCP) or began to send (UDP)
 
-  /// All lines and datagrams that were left out.
+  /// All lines and datagrams that were rejected.
   std::uint64_t leftOut() const;
   /// Those of each kind that is not 0: "2 malformed, 1 of more than 256 bytes".
   std::string leftOutByReason() const;

@@ -11,7 +11,7 @@ class CheckedSensor {
  public:
   virtual ~CheckedSensor() = default;
 
-  /// Messages or lines that were not believed since the driver was made.
+  /// Messages or lines that were rejected as invalid since the driver was made.
   virtual std::uint64_t leftOut() const = 0;
   /// How many of what kind, such as "2 malformed, 1 of more than 256 bytes".
   virtual std::string leftOutByReason() const = 0;

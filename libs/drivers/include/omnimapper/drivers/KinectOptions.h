@@ -12,8 +12,8 @@ namespace omnimapper::drivers {
 /// Section of a KinectSensor in an INI file. Keys that MRPT's drivers have in common keep MRPT's names: pose_x to
 /// pose_z [m], pose_yaw to pose_roll [deg], grab_image, grab_IMU, device_number.
 struct KinectOptions : KinectCalibration {
-  /// Which camera the depths are those of. none: of the depth camera; ours: of the colour camera, by our calibration;
-  /// device: of the colour camera, by the calibration inside the device and libfreenect.
+  /// Camera frame of the depth image. none: the depth camera's, unregistered; ours: the colour camera's, registered
+  /// with this section's calibration; device: the same, by the calibration inside the device and libfreenect.
   enum class Registration { none, ours, device };
   enum class Led { as_it_is, off, green, red, yellow, blink_green, blink_red_yellow };
 

@@ -8,7 +8,7 @@
 
 namespace omnimapper::drivers {
 
-/// Why a line of odometry was not believed.
+/// Why a line of odometry was rejected.
 enum class LineFault {
   malformed,   ///< a word that is no number, or neither 4 nor 7 words
   not_finite,  ///< "nan" or "inf"
