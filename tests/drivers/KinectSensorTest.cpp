@@ -67,17 +67,17 @@ class KinectSensorTest : public ::testing::Test {
 
   static void expectSameDepths(const CObservation3DRangeScan& seen, const CObservation3DRangeScan& played) {
     const KinectCalibration calibration;
+    const double unit = static_cast<double>(played.rangeUnits), seen_unit = static_cast<double>(seen.rangeUnits);
+    ASSERT_EQ(seen.rangeImage.size(), 640 * 480);
     std::size_t count = 0;
-    for (int row = 0; row < 480; ++row) {
-      for (int column = 0; column < 640; ++column) {
-        const double depth = played.rangeImage(row, column) * static_cast<double>(played.rangeUnits);
-        const double got = seen.rangeImage(row, column) * static_cast<double>(seen.rangeUnits);
-        const double quantized = calibration.depthOf(calibration.rawOf(depth));
-        ASSERT_NEAR(got, quantized, 1.01e-4) << column << " " << row;
-        if (quantized == 0) continue;
-        ASSERT_NEAR(got, depth, 0.55 * 0.0030711016 * depth * depth + 1.01e-4) << column << " " << row;
-        ++count;
-      }
+    for (int i = 0; i < 640 * 480; ++i) {
+      const double depth = played.rangeImage.data()[i] * unit, got = seen.rangeImage.data()[i] * seen_unit;
+      const double quantized = calibration.depthOf(calibration.rawOf(depth));
+      const double tolerance = 0.55 * 0.0030711016 * depth * depth + 1.01e-4;
+      // An EXPECT_NEAR for each would take most of the test's time.
+      if (std::abs(got - quantized) > 1.01e-4 || (quantized > 0 && std::abs(got - depth) > tolerance))
+        FAIL() << got << " m for " << depth << " m at column " << i % 640 << ", row " << i / 640;
+      if (quantized > 0) ++count;
     }
     EXPECT_GT(count, 10000u) << "pixels with depths";
   }
@@ -93,7 +93,7 @@ TEST_F(KinectSensorTest, whatIsPlayedArrivesToTheQuantization) {
     }
   });
   const auto begin = mrpt::Clock::now();
-  const auto ended = record("registration = none\nimu_rate_hz = 20\n", 1000);
+  const auto ended = record("registration = none\nimu_rate_hz = 40\n", 1000);
   ASSERT_EQ(ended.code, 0) << testing::toString(ended);
   const auto scans = range_scans::recorded<CObservation3DRangeScan>(folder / "out/log.rawlog");
   ASSERT_GE(scans.size(), played.size() - 2) << testing::toString(ended);
@@ -122,14 +122,14 @@ TEST_F(KinectSensorTest, whatIsPlayedArrivesToTheQuantization) {
 TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
   const auto real = testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(real);
-  // A third of a second of it: three lines are comments.
+  // A fifth of a second of it: three lines are comments.
   std::filesystem::create_directories(folder / "log");
   for (const char* name : {"depth", "rgb"}) std::filesystem::create_symlink(*real + "/" + name, folder / "log/" + name);
   for (const char* name : {"depth.txt", "rgb.txt"}) {
     std::ifstream from(*real + "/" + name);
     std::ofstream to(folder / "log/" + name);
     std::string line;
-    for (int i = 0; i < 13 && std::getline(from, line); ++i) to << line << "\n";
+    for (int i = 0; i < 9 && std::getline(from, line); ++i) to << line << "\n";
   }
   makeSession(folder / "log");
   range_scans::Scans played;
@@ -149,21 +149,22 @@ TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
 }
 
 TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
-  const auto images = range_scans::simulated(1);
+  const auto images = range_scans::flat(1);
   images[0]->hasIntensityImage = false;
   makeSession([&](source::RawlogWriter& log) {
-    // Half a second with depths, two without, and half a second with them again.
-    for (int i = 0; i < 60; ++i) {
+    // A third of a second with depths, 0.8 s without, and a third with them again. The session rests while it is
+    // closed.
+    for (int i = 0; i < 30; ++i) {
       log.add(accelerationAt(0.05 * i, 0, 0, 9.8));
-      if (i >= 10 && i < 50) continue;
+      if (i >= 7 && i < 23) continue;
       auto scan = *images[0];
       scan.timestamp = live::observations::at(0.05 * i);
       log.add(scan);
     }
   });
-  const auto ended = record("grab_image = false\nsilence_s = 0.5\n", 1000);
+  const auto ended = record("grab_image = false\nsilence_s = 0.4\n", 1000);
   ASSERT_EQ(ended.code, 0) << testing::toString(ended);
-  EXPECT_NE(ended.out.find("sensor [kinect] is lost: the Kinect has sent no depth image for 0.5 s"), std::string::npos)
+  EXPECT_NE(ended.out.find("sensor [kinect] is lost: the Kinect has sent no depth image for 0.4 s"), std::string::npos)
       << ended.out;
   const auto back = ended.out.find("sensor [kinect] is back");
   ASSERT_NE(back, std::string::npos) << ended.out;
@@ -171,14 +172,14 @@ TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
       << "at the end of the session: " << ended.out;
   EXPECT_NE(ended.out.find("reopened 1"), std::string::npos) << ended.out;
   const auto scans = range_scans::recorded<CObservation3DRangeScan>(folder / "out/log.rawlog");
-  ASSERT_GE(scans.size(), 12u);
+  ASSERT_GE(scans.size(), 8u);
   double longest = 0;
   for (std::size_t i = 1; i < scans.size(); ++i) {
     const double step = base::secondsBetween(scans[i - 1]->timestamp, scans[i]->timestamp);
     EXPECT_GT(step, 0) << i;
     longest = std::max(longest, step);
   }
-  EXPECT_GT(longest, 1.5);
+  EXPECT_GT(longest, 0.9);
 }
 
 // The machine of the tests has no Kinect, and libfreenect itself says so.

@@ -32,6 +32,23 @@ inline Scans simulated(std::size_t count) {
   return scans;
 }
 
+/// Depths of 2 m and grey pictures, for where it counts alone that images come.
+inline Scans flat(std::size_t count) {
+  Scans scans;
+  for (std::size_t i = 0; i < count; ++i) {
+    auto& scan = scans.emplace_back(Scan::Create());
+    scan->timestamp = live::observations::at(0.1 * static_cast<double>(i));
+    scan->sensorLabel = "flat";
+    scan->range_is_depth = scan->hasRangeImage = scan->hasIntensityImage = true;
+    scan->rangeUnits = 0.001F;
+    scan->rangeImage_setSize(480, 640);
+    scan->rangeImage.fill(2000);
+    scan->intensityImage = mrpt::img::CImage(640, 480, mrpt::img::CH_RGB);
+    scan->intensityImage.filledRectangle(0, 0, 639, 479, mrpt::img::TColor(99, 99, 99));
+  }
+  return scans;
+}
+
 /// All of that class in a rawlog.
 template <class Observation>
 std::vector<std::shared_ptr<Observation>> recorded(const std::string& path) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,64 +20,81 @@ namespace {
 
 const std::string kOpenNi2 = OMNIMAPPER_OPENNI2_FOLDER;  // of the build, where OpenNI2 finds that driver alone
 const std::string kIni =
-    "[live]\nsensors = xtion\nreopen_after_s = 1\n[xtion]\ndriver = COpenNI2Sensor\nsensorLabel = XTION\nwidth = "
+    "[live]\nsensors = xtion\nreopen_after_s = 0.6\n[xtion]\ndriver = COpenNI2Sensor\nsensorLabel = XTION\nwidth = "
     "640\nheight = 480\nfps = "
     "30\n"
     "grab_3D_points = false\nrelativePoseIntensityWRTDepth = [0 0 0 -90 0 -90]\n";
 
+struct Recording {
+  std::string name;  // of its folder
+  std::string log;   // that the camera plays; empty: there is none
+  double seconds = 30;
+  int count = 1000;
+  std::string words, unplugged, keys;
+};
+
 class XtionTest : public ::testing::Test {
  protected:
+  // Two cameras are lost and come back while the other tests run, for most of it is waiting.
+  static void SetUpTestSuite() {
+    if (kOpenNi2.empty()) return;
+    folder = std::make_unique<testing::ScratchFolder>();
+    const std::string log = makeLog("flat", range_scans::flat(3));
+    unplugged = std::make_unique<testing::Program>(command({"unplugged", log, 30, 1000, "is back", "0.7", ""}));
+    silent = std::make_unique<testing::Program>(command({"silent", log, 30, 1000, "is back", "never", ""}));
+  }
+  static void TearDownTestSuite() {
+    unplugged.reset();
+    silent.reset();
+    folder.reset();
+  }
   void SetUp() override {
     if (kOpenNi2.empty()) GTEST_SKIP() << "this was built without OpenNI2 (Debian's libopenni2-dev)";
   }
 
-  // A log of so many images, a tenth of a second apart, which the device plays.
-  void makeLog(std::size_t count) {
-    played = range_scans::simulated(count);
-    ASSERT_EQ(played.size(), count);
-    source::writeRawlog(folder / "played.rawlog", [&](source::RawlogWriter& log) {
-      for (const auto& scan : played) log.add(*scan);
+  static std::string makeLog(const std::string& name, const range_scans::Scans& images) {
+    const std::string path = *folder / name + ".rawlog";
+    source::writeRawlog(path, [&](source::RawlogWriter& log) {
+      for (const auto& scan : images) log.add(*scan);
     });
+    return path;
   }
 
-  testing::Ended record(double seconds, int count, const std::string& words, const std::string& unplugged = "",
-                        const std::string& keys = "") {
-    std::filesystem::remove_all(folder / "out");
-    std::ofstream(folder / "live.ini") << kIni << keys;
+  static std::vector<std::string> command(const Recording& its) {
+    std::ofstream(*folder / its.name + ".ini") << kIni << its.keys;
     std::vector<std::string> argv{"env", "LD_LIBRARY_PATH=" + kOpenNi2};
-    if (!played.empty()) argv.push_back("OMNIMAPPER_PLAYED_LOG=" + folder / "played.rawlog");
-    if (!unplugged.empty()) argv.push_back("OMNIMAPPER_UNPLUGGED_S=" + unplugged);
-    for (const auto& word : {testing::ownProgram("live-record"), folder / "live.ini", folder / "out",
-                             std::to_string(seconds), std::to_string(count), words})
+    if (!its.log.empty()) argv.push_back("OMNIMAPPER_PLAYED_LOG=" + its.log);
+    if (!its.unplugged.empty()) argv.push_back("OMNIMAPPER_UNPLUGGED_S=" + its.unplugged);
+    for (const auto& word : {testing::ownProgram("live-record"), *folder / its.name + ".ini", *folder / its.name,
+                             std::to_string(its.seconds), std::to_string(its.count), its.words})
       argv.push_back(word);
-    return testing::runProgram(argv);
+    return argv;
   }
 
   // Which of the played images it is, by its depths in whole millimetres.
   std::optional<std::size_t> depthsOf(const range_scans::Scan& seen) const {
     for (std::size_t i = 0; i < played.size(); ++i) {
-      bool is_same = true;
-      for (int row = 0; row < 480 && is_same; ++row) {
-        for (int column = 0; column < 640 && is_same; ++column) {
-          const double depth = played[i]->rangeImage(row, column) * static_cast<double>(played[i]->rangeUnits);
-          const double got = seen.rangeImage(row, column) * static_cast<double>(seen.rangeUnits);
-          is_same = std::abs(got - depth) < 0.000501;
-        }
-      }
+      const double unit = static_cast<double>(played[i]->rangeUnits), seen_unit = static_cast<double>(seen.rangeUnits);
+      bool is_same = seen.rangeImage.size() == 640 * 480;
+      for (int pixel = 0; pixel < 640 * 480 && is_same; ++pixel)
+        is_same =
+            std::abs(seen.rangeImage.data()[pixel] * seen_unit - played[i]->rangeImage.data()[pixel] * unit) < 0.000501;
       if (is_same) return i;
     }
     return std::nullopt;
   }
 
-  testing::ScratchFolder folder;
+  static inline std::unique_ptr<testing::ScratchFolder> folder;
+  static inline std::unique_ptr<testing::Program> unplugged, silent;
   range_scans::Scans played;
 };
 
 TEST_F(XtionTest, whatIsPlayedArrivesInMillimetres) {
-  makeLog(6);
-  const auto ended = record(20, 5, "is lost");
+  played = range_scans::simulated(6);
+  ASSERT_EQ(played.size(), 6u);
+  const auto ended = testing::runProgram(command({"out", makeLog("home", played), 20, 4, "is lost", "", ""}));
   EXPECT_EQ(ended.code, 0) << testing::toString(ended);
-  const auto scans = range_scans::recorded<range_scans::Scan>(folder / "out/log.rawlog");
+  const auto scans = range_scans::recorded<range_scans::Scan>(*folder / "out/log.rawlog");
   ASSERT_GE(scans.size(), 3u) << testing::toString(ended);
   for (const auto& scan : scans) {
     EXPECT_EQ(scan->sensorLabel, "XTION");
@@ -90,35 +108,33 @@ TEST_F(XtionTest, whatIsPlayedArrivesInMillimetres) {
   }
 }
 
-TEST_F(XtionTest, anXtionThatIsUnpluggedIsToldAndOpenedAgain) {
-  makeLog(2);
-  const auto ended = record(20, 1000, "is back", "1");
-  EXPECT_NE(ended.out.find("sensor [xtion] is lost: OpenNI2 says that the camera is gone"), std::string::npos)
+// MRPT's driver would end the program.
+TEST_F(XtionTest, aCameraThatIsNotThereIsAnError) {
+  testing::Program without(command({"without", "", 5, 1000, "is lost", "", ""}));
+  testing::Program with_one(
+      command({"with_one", makeLog("one", range_scans::flat(1)), 5, 1000, "is lost", "", "device_number = 1\n"}));
+  auto ended = without.wait();
+  EXPECT_EQ(ended.code, static_cast<int>(base::ExitCode::unreadable_input)) << testing::toString(ended);
+  EXPECT_NE(ended.err.find("[xtion] (COpenNI2Sensor) cannot be opened: OpenNI2 finds no camera"), std::string::npos)
       << testing::toString(ended);
+  ended = with_one.wait();
+  EXPECT_EQ(ended.code, static_cast<int>(base::ExitCode::unreadable_input)) << testing::toString(ended);
+  EXPECT_NE(ended.err.find("there is no camera with device_number = 1"), std::string::npos) << testing::toString(ended);
+}
+
+void expectBack(const testing::Ended& ended, const std::string& loss) {
+  EXPECT_NE(ended.out.find("sensor [xtion] is lost: " + loss), std::string::npos) << testing::toString(ended);
   EXPECT_NE(ended.out.find("sensor [xtion] is back"), std::string::npos) << testing::toString(ended);
   EXPECT_EQ(ended.code, 0) << "no driver is left behind: " << testing::toString(ended);
+}
+
+TEST_F(XtionTest, anXtionThatIsUnpluggedIsToldAndOpenedAgain) {
+  expectBack(unplugged->wait(), "OpenNI2 says that the camera is gone");
 }
 
 // MRPT's driver would wait for ever.
 TEST_F(XtionTest, anXtionThatFallsSilentIsToldAndOpenedAgain) {
-  makeLog(2);
-  const auto ended = record(30, 1000, "is back", "never");
-  EXPECT_NE(ended.out.find("sensor [xtion] is lost: it has sent nothing for"), std::string::npos)
-      << testing::toString(ended);
-  EXPECT_NE(ended.out.find("sensor [xtion] is back"), std::string::npos) << testing::toString(ended);
-  EXPECT_EQ(ended.code, 0) << "no driver is left behind: " << testing::toString(ended);
-}
-
-// MRPT's driver would end the program.
-TEST_F(XtionTest, aCameraThatIsNotThereIsAnError) {
-  auto ended = record(5, 1000, "is lost");
-  EXPECT_EQ(ended.code, static_cast<int>(base::ExitCode::unreadable_input)) << testing::toString(ended);
-  EXPECT_NE(ended.err.find("[xtion] (COpenNI2Sensor) cannot be opened: OpenNI2 finds no camera"), std::string::npos)
-      << testing::toString(ended);
-  makeLog(1);
-  ended = record(5, 1000, "is lost", "", "device_number = 1\n");
-  EXPECT_EQ(ended.code, static_cast<int>(base::ExitCode::unreadable_input)) << testing::toString(ended);
-  EXPECT_NE(ended.err.find("there is no camera with device_number = 1"), std::string::npos) << testing::toString(ended);
+  expectBack(silent->wait(), "it has sent nothing for");
 }
 
 }  // namespace

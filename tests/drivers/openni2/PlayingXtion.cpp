@@ -78,7 +78,7 @@ class Play {
   Clock::time_point begin() {
     const std::lock_guard lock(mutex_);
     // MRPT's driver rests for a second after it has started the streams.
-    if (!begin_) begin_ = Clock::now() + std::chrono::milliseconds(1300);
+    if (!begin_) begin_ = Clock::now() + std::chrono::milliseconds(1200);
     return *begin_;
   }
   void rewind() {

@@ -7,7 +7,7 @@
 
 namespace omnimapper::players {
 
-/// When the players of one log begin together: at a given time, or 0.2 s after the hosts of all of them are there.
+/// When the players of one log begin together: at a given time, or 0.1 s after the hosts of all of them are there.
 /// For several threads.
 class CommonStart {
  public:
