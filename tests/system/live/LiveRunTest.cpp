@@ -30,7 +30,7 @@ Ended playAndMap(LiveRun& run, const Words& more = {}, const ProgramOptions& opt
 }
 
 TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
-  LiveRun run(4);
+  LiveRun run(6);
   const auto ended = playAndMap(run);
   ASSERT_TRUE(endedWith(ExitCode::ok, ended));
   const auto summary = run.summary().at("live");
@@ -57,7 +57,7 @@ TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
 }
 
 TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
-  constexpr double kPace = 2, kSeconds = 4;
+  constexpr double kPace = 3, kSeconds = 3;
   LiveRun run(kPace);
   run.play(kBox);
   Program mapper(run.live());
@@ -79,10 +79,10 @@ TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
       endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out() + "/checkpoint.omnimap"})));
 }
 
-// The laser is away for two seconds, in which the robot drives for eight; before, it answers slowly, and some of what
+// The laser is away for a second, in which the robot drives for eight; before, it answers slowly, and some of what
 // it and the wheels send is damaged.
 TEST(LiveRun, goesOnWithoutALaserUntilItIsBack) {
-  LiveRun run(4, {"garbage@20", "half@30", "checksum@40", "slow@50:0.3", "hangup@120:2"}, {"garbage@30", "half@70"});
+  LiveRun run(8, {"garbage@20", "half@30", "checksum@40", "slow@50:0.15", "hangup@120:1"}, {"garbage@30", "half@70"});
   const auto ended = playAndMap(run);
   ASSERT_TRUE(endedWith(ExitCode::ok, ended, {"[laser] is lost", "[laser] is back"}));
   for (const auto& sensor : run.summary().at("live").at("sensors")) {
@@ -98,7 +98,7 @@ TEST(LiveRun, goesOnWithoutALaserUntilItIsBack) {
 
 // The laser and the wheels are away at once.
 TEST(LiveRun, goesOnWhenTwoSensorsWereLost) {
-  LiveRun run(6, {"hangup@120:1.5"}, {"hangup@240:1"});
+  LiveRun run(8, {"hangup@120:1.2"}, {"hangup@240:1"});
   const auto ended = playAndMap(run);
   ASSERT_TRUE(endedWith(ExitCode::ok, ended, {"[laser] is lost", "[laser] is back", "[wheels] is back"}));
   const auto summary = run.summary();
@@ -131,25 +131,23 @@ TEST(LiveRun, onAFullDiskTheMapIsMadeAllTheSame) {
   EXPECT_TRUE(endedWith(ExitCode::ok, map({run.recorded(".rawlog")}, run.folder / "recorded")));
 }
 
-TEST(LiveRun, recordsWithoutMapping) {
-  LiveRun run(8);
+// Two robots at once: one is checked for ten seconds, the other recorded meanwhile.
+TEST(LiveRun, checksOrRecordsWithoutMapping) {
+  LiveRun checked(2), run(8);
+  checked.play(kBox);
+  Program check(checked.command({"--check", "--live"}));
   run.play(kBox);
   Program recorder(run.command({"--record-only", "-o", run.out()}));
   run.player->wait();
   sleep(0.3);
   recorder.send(SIGTERM);
-  const auto ended = recorder.wait();
-  ASSERT_TRUE(endedWith(ExitCode::ok, ended));
-  EXPECT_NE(ended.out.find("MB/s"), std::string::npos) << ended.out;
+  const auto recorded = recorder.wait();
+  ASSERT_TRUE(endedWith(ExitCode::ok, recorded));
+  EXPECT_NE(recorded.out.find("MB/s"), std::string::npos) << recorded.out;
   const auto rawlogs = filesIn(run.out(), ".rawlog");
   ASSERT_EQ(rawlogs.size(), 1u);
   EXPECT_TRUE(endedWith(ExitCode::ok, map({rawlogs.front()}, run.folder / "map")));
-}
-
-TEST(LiveRun, checksTheSensors) {
-  LiveRun run(2);
-  run.play(kBox);
-  const auto ended = runProgram(run.command({"--check", "--live"}));
+  const auto ended = check.wait();
   EXPECT_TRUE(endedWith(ExitCode::ok, ended));
   EXPECT_NE(ended.out.find("Nothing is wrong with it"), std::string::npos) << ended.out;
 }
