@@ -379,7 +379,7 @@ TEST_F(LiveOdometryTest, whatIsLeftOutIsToldOnceAndThenByTwos) {
     take(1);
     all += news();
   }
-  EXPECT_NE(all.find("discarded: 1 malformed"), std::string::npos) << all;
+  EXPECT_NE(all.find("which was discarded: 1 malformed"), std::string::npos) << all;
   const auto sentences = std::count(all.begin(), all.end(), '\n');
   EXPECT_GE(sentences, 4) << all;
   EXPECT_LE(sentences, 7) << "1, 2, 4, ... 64\n" << all;
