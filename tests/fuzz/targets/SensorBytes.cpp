@@ -34,12 +34,12 @@ void readHokuyo(std::string_view bytes, std::size_t piece) {
   drivers::ScipCheck check;
   check.setCommand(command);
   for (std::size_t begin = 0; begin < bytes.size(); begin += piece) check.add(bytes.substr(begin, piece));
-  const std::string sound = check.take();
-  require(sound.empty() || sound.compare(0, command.size(), command) == 0, "a message without its echo");
-  require(sound.empty() || sound.substr(sound.size() - 2) == "\n\n", "a message without its end");
+  const std::string valid = check.take();
+  require(valid.empty() || valid.compare(0, command.size(), command) == 0, "a message without its echo");
+  require(valid.empty() || valid.substr(valid.size() - 2) == "\n\n", "a message without its end");
   drivers::ScipCheck again;
   again.setCommand(command);
-  again.add(sound);
+  again.add(valid);
   require(again.take() == sound && again.damaged() == 0, "a sound message that is not");
 }
 

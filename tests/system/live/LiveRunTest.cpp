@@ -30,7 +30,7 @@ Ended playAndMap(LiveRun& run, const Words& more = {}, const ProgramOptions& opt
 }
 
 TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
-  LiveRun run(6);
+  LiveRun run(8);
   const auto ended = playAndMap(run);
   ASSERT_TRUE(endedWith(ExitCode::ok, ended));
   const auto summary = run.summary().at("live");
@@ -109,7 +109,7 @@ TEST(LiveRun, goesOnWhenTwoSensorsWereLost) {
 
 // Where a robot is that is switched on at the place where the log of a map began.
 TEST(LiveRun, isLocatedInAMap) {
-  LiveRun run(8);
+  LiveRun run(12);
   const auto known = run.folder / "known";
   ASSERT_TRUE(endedWith(ExitCode::ok, map({kBox}, known)));
   const auto ended = playAndMap(run, {"--localize", known + "/map.omnimap", "--set", "session.start=origin"});
@@ -120,7 +120,7 @@ TEST(LiveRun, isLocatedInAMap) {
 }
 
 TEST(LiveRun, onAFullDiskTheMapIsMadeAllTheSame) {
-  LiveRun run(8);
+  LiveRun run(12);
   const auto ended = playAndMap(run,
                                 {"--set", "live.compression=0", "--set", "live.checkpoint_s=0", "--set",
                                  "mapper.output_plugins=trajectory,summary"},

@@ -49,6 +49,8 @@ class Feed {
   virtual base::ExitCode code() const { return report().exitCode(); }
   /// Half a sentence for the user of a run that has no map: what of it was written all the same.
   virtual std::string whatStays() const { return "nothing was written"; }
+  /// What to run where nothing could be mapped.
+  virtual std::string checkHint() const { return "omnimapper-graphslam --check names the INIs that fit this log"; }
   /// Names in the output folder that are the feed's own.
   virtual std::vector<std::string> files() const { return {}; }
 };

@@ -30,6 +30,7 @@ class LiveFeed : public Feed {
   source::SourceReport report() const override;
   base::ExitCode code() const override;
   std::string whatStays() const override;
+  std::string checkHint() const override { return "omnimapper-graphslam --check --live shows what the sensors send"; }
   std::vector<std::string> files() const override;
 
  private:

@@ -61,8 +61,8 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
       is_whole ? base::ExitCode::nothing_to_map : result.code,
       feed.name() + ": nothing to map: " + how + " observation that a measurement plugin of " + ini + " wants" +
           (is_whole ? " (see its [source], [perception] extractors and [mapper] measurement_plugins)" : "") + "; " +
-          feed.whatStays() + ". omnimapper-graphslam --check names the INIs that fit this log.\n" + missing_extractors +
-          labels + "What was read:\n" + result.source.text());
+          feed.whatStays() + ". " + feed.checkHint() + ".\n" + missing_extractors + labels + "What was read:\n" +
+          result.source.text());
 }
 
 // What stands still in the map though it moved is wrong by as much.
@@ -85,7 +85,7 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
   throw base::Error(
       result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code,
       request.localize_map + ": the log was located nowhere in the map: is it of another place? If not, say " +
-          (was_sought ? "" : "[session] start = anywhere, which seeks the whole map, or ") +
+          (was_sought ? "" : "[session] start = anywhere, which searches the whole map, or ") +
           "where it begins (origin, pose). " +
           (was_compared ? "Why: the refused closures in " + result.output_folder + "/report.html"
                         : "No scan of it was compared with one of the map: an INI with loop_closure does that where "

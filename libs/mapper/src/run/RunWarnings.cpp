@@ -73,8 +73,10 @@ void warnOfNothingMeasured(const std::set<std::string>& measuring,
                      : "There may be a remedy: " + missing));
   }
   if (view.map_is_held || view.map.key_frames.size() < 3 || isMeasured(view, measuring)) return;
-  engine.warn("nothing was measured: no plugin but the fallbacks made anything of any observation, the map is what " +
-              std::string("they say; are the sensors blind? omnimapper-graphslam --check LOG tells"));
+  engine.warn(
+      "nothing was measured: no plugin but the fallbacks made anything of any observation, the map is what " +
+      std::string(
+          "they say. Are the sensors blind? omnimapper-graphslam --check LOG (or --check --live) shows what they see"));
 }
 
 // What an earlier run said of its session is still so.
@@ -101,7 +103,7 @@ void warnOfLocalization(const RunResult& result, Engine& engine) {
     engine.warn("the log was located nowhere in the map: its trajectory lies where [session] start says");
   } else if (2 * result.located < result.localized) {
     engine.warn("only " + of_all + " were located: was much of the way outside the map, or is [session] start wrong? " +
-                "start = anywhere seeks the whole map");
+                "start = anywhere searches the whole map");
   }
 }
 
