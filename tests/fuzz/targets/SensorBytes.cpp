@@ -40,7 +40,7 @@ void readHokuyo(std::string_view bytes, std::size_t piece) {
   drivers::ScipCheck again;
   again.setCommand(command);
   again.add(valid);
-  require(again.take() == sound && again.damaged() == 0, "a sound message that is not");
+  require(again.take() == valid && again.damaged() == 0, "a valid message that is not");
 }
 
 }  // namespace
