@@ -13,6 +13,18 @@ namespace omnimapper::mapper {
 
 using mrpt::poses::CPose3D;
 
+namespace {
+
+void movePlaced(base::VariableId id, const geometry::Se3& by, graph::Graph& graph) {
+  const auto* kind = dynamic_cast<const graph::PlacedVariable*>(graph.variable(id).kind.get());
+  if (!kind) return;
+  Eigen::VectorXd value = graph.value(id);
+  kind->move(by, value.data(), value.data());
+  graph.setValue(id, value);
+}
+
+}  // namespace
+
 SessionStart startAnywhere(const map::Map& map) {
   constexpr double kLeast = 10;  // [m]; the robot may stand beside a map that is a single spot
   constexpr double kAnyHeading = geometry::kPi;
@@ -55,16 +67,6 @@ std::string whyFixed(const SessionPlace& place, const graph::Graph& graph, const
   }
   return {};
 }
-
-namespace {
-void movePlaced(base::VariableId id, const geometry::Se3& by, graph::Graph& graph) {
-  const auto* kind = dynamic_cast<const graph::PlacedVariable*>(graph.variable(id).kind.get());
-  if (!kind) return;
-  Eigen::VectorXd value = graph.value(id);
-  kind->move(by, value.data(), value.data());
-  graph.setValue(id, value);
-}
-}  // namespace
 
 void placeSession(const SessionPlace& place, graph::Graph& graph, map::Map& map) {
   const auto& session = map.sessions.back();
