@@ -38,20 +38,27 @@ int checkLogs(const Arguments& arguments, const base::Config& config, std::optio
   auto logs = arguments.checked_logs;
   logs.insert(logs.end(), arguments.run.logs.begin(), arguments.run.logs.end());
   std::optional<TemporaryFolder> folder;
-  std::string heading;
+  std::string heading, troubles;
   if (arguments.run.live) {
     constexpr double kSeconds = 10;
     folder.emplace();
     const auto options = config.section("live").read<live::LiveOptions>();
     const auto recorded = live::record(options, config, folder->path(), kSeconds, *progress, stop);
-    heading = live::toText(recorded) + (recorded.failure.empty() ? "" : recorded.failure + "\n") + "\n";
+    for (const auto& trouble : live::troublesOf(recorded)) troubles += "PROBLEM " + trouble + ".\n";
+    if (recorded.counts.arrived == 0) {
+      progress.reset();
+      std::cout << base::printableLines(live::toText(recorded) + troubles) << std::flush;
+      return static_cast<int>(base::ExitCode::nothing_to_map);
+    }
+    heading = troubles + live::toText(recorded) + (recorded.failure.empty() ? "" : recorded.failure + "\n") + "\n";
     logs = recorded.files;
   }
   program::require({{"--check LOG", !logs.empty()}});
   const auto checked = check::runCheck(logs, config, arguments.run.output_folder, *progress, stop);
   progress.reset();
   std::cout << base::printableLines(heading + checked.text) << std::flush;
-  return static_cast<int>(checked.code);
+  const bool is_doubtful = checked.code == base::ExitCode::ok && !troubles.empty();
+  return static_cast<int>(is_doubtful ? base::ExitCode::doubtful_input : checked.code);
 }
 
 int recordSensors(const Arguments& arguments, const base::Config& config,

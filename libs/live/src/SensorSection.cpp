@@ -5,6 +5,8 @@
 #include <omnimapper/live/SensorSection.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <set>
@@ -23,6 +25,19 @@ const std::string kDriver = "driver", kLabel = "sensorLabel";
                                                      "as driver = CHokuyoURG");
 }
 
+// MRPT's drivers read "9o" as 9 and "left" as 0.
+void requireNumbers(const CConfigFileMemory& ini, const SensorSection& section) {
+  for (const char* key : {"pose_x", "pose_y", "pose_z", "pose_yaw", "pose_pitch", "pose_roll"}) {
+    const std::string text = ini.read_string(section.name, key, "0");
+    const std::string word = text.substr(0, text.find_first_of(" \t;/"));  // a comment may follow
+    char* end = nullptr;
+    const bool is_number = std::isfinite(std::strtod(word.c_str(), &end)) && end == word.c_str() + word.size();
+    if (word.empty() || !is_number)
+      throw base::Error(base::ExitCode::wrong_type,
+                        section.file + ": sensor [" + section.name + "]: " + key + " = " + text + " is no number");
+  }
+}
+
 SensorSection sectionOf(const std::string& name, const std::string& file,
                         const std::shared_ptr<const CConfigFileMemory>& ini) {
   SensorSection section;
@@ -32,7 +47,17 @@ SensorSection sectionOf(const std::string& name, const std::string& file,
   section.label = base::sensorName(ini->read_string(name, kLabel, ""));
   section.ini = ini;
   if (section.driver.empty()) throwNoDriver(section);
+  requireNumbers(*ini, section);
   return section;
+}
+
+// Counted from the folder of the INI that names it, or of the first one.
+std::string pathOfGrabber(const LiveOptions& options, const base::Config& config) {
+  namespace fs = std::filesystem;
+  const std::string place = config.placeOf("live", "grabber");  // FILE:LINE, or the command line
+  const auto named = fs::path(place.substr(0, place.rfind(':'))).parent_path() / options.grabber;
+  if (fs::exists(named)) return named.string();
+  return (fs::path(config.firstFile()).parent_path() / options.grabber).string();
 }
 
 void loadLibraries(const LiveOptions& options, const base::Config& config) {
@@ -108,8 +133,7 @@ std::vector<SensorSection> readSensors(const LiveOptions& options, const base::C
     sensors.back().options = config.section(name).read<SensorOptions>(keys);
   }
   if (!options.grabber.empty()) {
-    const auto folder = std::filesystem::path(config.firstFile()).parent_path();
-    const auto more = readGrabberIni((folder / options.grabber).string());
+    const auto more = readGrabberIni(pathOfGrabber(options, config));
     sensors.insert(sensors.end(), more.begin(), more.end());
   }
   if (sensors.empty())

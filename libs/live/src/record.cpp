@@ -44,11 +44,34 @@ Recorded record(const LiveOptions& options, const base::Config& config, const st
   recorded.seconds = elapsed();
   recorded.sensors = source.sensors();
   source.close();
+  const auto at_end = source.sensors();
+  for (std::size_t i = 0; i < at_end.size(); ++i) {  // what came until they were closed, in the state before that
+    recorded.sensors[i].observations = at_end[i].observations;
+    recorded.sensors[i].left_out = at_end[i].left_out;
+  }
   recorded.counts = source.counts();
   recorded.figures = source.recorder()->figures();
   for (const auto& file : source.recorder()->files()) recorded.files.push_back(folder + "/" + file);
   recorded.failure = source.recorder()->failure();
   return recorded;
+}
+
+std::vector<std::string> troublesOf(const Recorded& recorded) {
+  std::vector<std::string> all;
+  for (const auto& sensor : recorded.sensors) {
+    std::string trouble;
+    if (sensor.observations == 0) {
+      trouble = "sent nothing that can be used";
+    } else if (sensor.state != SensorFigures::State::working) {
+      trouble = "is " + toString(sensor.state);
+    } else {
+      continue;
+    }
+    if (sensor.left_out > 0) trouble += "; " + std::to_string(sensor.left_out) + " invalid messages were discarded";
+    if (!sensor.problem.empty()) trouble += "; " + sensor.problem;
+    all.push_back("sensor [" + sensor.name + "] " + trouble);
+  }
+  return all;
 }
 
 std::string toText(const Recorded& recorded) {

@@ -81,7 +81,15 @@ void CCheckedHokuyo::initialize() {
   bindIO(stream_);
   stopMeasuring();
   clock_ = std::make_unique<LaserClock>();
-  if (!turnOn()) throw std::runtime_error("the laser does not answer in SCIP 2.0");
+  bool answers = false;
+  try {
+    answers = turnOn();
+  } catch (const std::exception&) {
+    if (stream_->connection().isOpen()) throw;  // else MRPT's words tell of its code
+  }
+  if (!answers)
+    throw std::runtime_error(
+        "what is there does not answer in SCIP 2.0: is it a Hokuyo, is its address or port right?");
   requirePossibleProperties();
   m_state = ssWorking;
 }

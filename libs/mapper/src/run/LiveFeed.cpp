@@ -91,6 +91,7 @@ bool LiveFeed::giveNext(Engine& engine, SensorSamples& samples, milliseconds pat
   const auto& label = next->observation->sensorLabel;
   if (!labels_.empty() && std::find(labels_.begin(), labels_.end(), label) == labels_.end()) {
     ++filtered_out_;
+    trace_->note(Kind::drop, next->number);
     return true;
   }
   trace_->note(Kind::add, next->number);
@@ -138,9 +139,12 @@ void LiveFeed::warnOfSensors(Engine& engine) const {
   for (const auto& sensor : sensors_->sensors()) {
     std::string troubles;
     const auto add = [&](const std::string& trouble) { troubles += (troubles.empty() ? "" : "; ") + trouble; };
-    if (sensor.losses > 0)
+    if (sensor.observations == 0) {
+      add("never sent anything that can be used");
+    } else if (sensor.losses > 0) {
       add("was silent or lost " + times(sensor.losses) + ", and came back " + times(sensor.reopened) +
           (sensor.problem.empty() ? "" : " (last: " + sensor.problem + ")"));
+    }
     if (sensor.left_out > 0) add("sent " + std::to_string(sensor.left_out) + " invalid messages, which were discarded");
     if (sensor.clock_jumps > 0) {
       char text[120];

@@ -132,6 +132,8 @@ class Run {
   void makeEngine();
   std::vector<std::string> warn(const RunResult& result);
   void publish(const std::vector<base::Error>& failures, RunResult& result);
+  void refuseToReplaceLive() const;
+  bool continuesItsFolder() const;
   void keepContinuedMap();
   std::vector<std::string> foreignFiles() const;
   void showToTheEnd(const RunResult& result);
@@ -184,6 +186,7 @@ void Run::open() {
   feed_->open(stop_);
   kept_.emplace(feed_->inputs());
   outputs_.open();
+  refuseToReplaceLive();
   feed_->begin(outputs_.folder(), stop_);
 }
 
@@ -312,13 +315,28 @@ std::vector<std::string> Run::foreignFiles() const {
   return files;
 }
 
-// A map that was gone on from, and that this INI does not write, is not another INI's.
-void Run::keepContinuedMap() {
-  if (request_.continue_map.empty()) return;
+// A drive cannot be made again as a run on a log can, and Ctrl-C may end the next one after a second.
+void Run::refuseToReplaceLive() const {
+  if (!feed_->endsWhenStopped() || !outputs_.holdsRun() || continuesItsFolder()) return;
+  throw base::Error(base::ExitCode::unwritable_output,
+                    outputs_.folder() +
+                        ": holds the map of an earlier run, which a live run would replace; give "
+                        "another folder (-o), or go on from that map (--continue " +
+                        outputs_.folder() + ")");
+}
+
+// Whether the map that is gone on from lies in the output folder.
+bool Run::continuesItsFolder() const {
+  if (request_.continue_map.empty()) return false;
   std::error_code none;
   const std::filesystem::path map = request_.continue_map;
-  const auto file = std::filesystem::is_directory(map, none) ? map / "map.omnimap" : map;
-  if (std::filesystem::equivalent(file, outputs_.folder() + "/map.omnimap", none)) outputs_.keep("map.omnimap");
+  const auto folder = std::filesystem::is_directory(map, none) ? map : map.parent_path();
+  return std::filesystem::equivalent(folder, outputs_.folder(), none);
+}
+
+// A map that was gone on from, and that this INI does not write, is not another INI's.
+void Run::keepContinuedMap() {
+  if (continuesItsFolder()) outputs_.keep("map.omnimap");
 }
 
 // Until nobody looks at the map any more, or the user stops the run.

@@ -101,11 +101,25 @@ bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& pr
     progress.report(static_cast<double>(cursor.next) / static_cast<double>(events.size()),
                     std::to_string(engine.view().map.key_frames.size()) + " key frames");
   }
+  if (!ended_early_ && !stop()) mapWhatIsLeft(engine, samples, stop);
   if (ended_early_)
     engine.warn(path_ +
                 ": the recording ends before its journal does, as when its writer was killed: this is the map "
                 "of what was recorded");
   return stop();
+}
+
+// What the journal says nothing of: it was cut off.
+void ReplayFeed::mapWhatIsLeft(Engine& engine, SensorSamples& samples, const Stop& stop) {
+  std::uint64_t count = 0;
+  for (auto observation = read(next_, stop); observation; observation = read(next_, stop), ++count) {
+    cursor_->has_departed = true;
+    samples.add(observation);
+    engine.add(observation);
+  }
+  if (count > 0)
+    engine.warn(path_ + ": the journal ends " + std::to_string(count) +
+                " observations before its recording: they are mapped as of a log");
 }
 
 source::SourceReport ReplayFeed::report() const {

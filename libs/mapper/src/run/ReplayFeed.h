@@ -52,6 +52,7 @@ class ReplayFeed : public Feed {
   void openFile(const Stop& stop);
   mrpt::obs::CObservation::Ptr read(std::uint64_t number, const Stop& stop);
   void depart(Engine& engine);
+  void mapWhatIsLeft(Engine& engine, SensorSamples& samples, const Stop& stop);
 
   std::string path_;
   std::shared_ptr<ReplayCursor> cursor_ = std::make_shared<ReplayCursor>();

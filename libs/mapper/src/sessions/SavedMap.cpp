@@ -178,7 +178,11 @@ Motion SavedMap::motion() const {
 }
 
 SavedMap readMap(const std::string& path, const Kinds& kinds) {
-  const std::string name = std::filesystem::is_directory(path) ? path + "/map.omnimap" : path;
+  // After a crash of a live run there is but its checkpoint.
+  const bool is_folder = std::filesystem::is_directory(path);
+  const bool has_map = std::filesystem::exists(path + "/map.omnimap");
+  const bool is_of_crash = is_folder && !has_map && std::filesystem::exists(path + "/checkpoint.omnimap");
+  const std::string name = is_folder ? path + (is_of_crash ? "/checkpoint.omnimap" : "/map.omnimap") : path;
   const auto file = map::MapFile::read(name);
   try {
     return parse(file, kinds);

@@ -28,6 +28,9 @@ struct Recorded {
 Recorded record(const LiveOptions& options, const base::Config& config, const std::string& folder, double seconds,
                 base::Progress& progress, const std::function<bool()>& stop);
 
+/// A sentence for each sensor that sent nothing that can be used, or was silent or lost at the end.
+std::vector<std::string> troublesOf(const Recorded& recorded);
+
 /// The summary for a screen.
 std::string toText(const Recorded& recorded);
 
