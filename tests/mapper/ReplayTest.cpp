@@ -7,6 +7,7 @@
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/MapperRun.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -55,13 +56,14 @@ class Replay : public ::testing::Test {
     });
   }
   // Of the usable observations each was mapped as it came, but for some that were left out.
-  void writeJournal(const std::string& name) {
+  void writeJournal(const std::string& name, std::size_t lines = 1000) {
     std::ofstream file(folder_ / name + ".journal");
     file << "omnimapper journal 1\n";
     source::ObservationGate gate;
     std::size_t number = 0;
     for (const auto& one : all_)
-      if (!gate.refuses(*one)) file << (number % 50 == 49 ? "d " : "a ") << number << "\n", ++number;
+      if (!gate.refuses(*one) && number++ < lines)
+        file << ((number - 1) % 50 == 49 ? "d " : "a ") << number - 1 << "\n";
     EXPECT_EQ(number, all_.size() - 3) << "the motion and two depth images";
   }
   RunResult replayed(const std::string& name) {
@@ -75,6 +77,17 @@ class Replay : public ::testing::Test {
   testing::ScratchFolder folder_;
   Observations all_;
 };
+
+TEST_F(Replay, whatAJournalThatWasCutOffSaysNothingOfIsMappedToo) {
+  write("whole", 0, all_.size());
+  writeJournal("whole", 100);
+  const auto result = replayed("whole");
+  EXPECT_GT(result.key_frames, 10u);
+  const auto& warnings = result.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("the journal ends 305 observations before its recording") != std::string::npos;
+  })) << warnings.size();
+}
 
 TEST_F(Replay, aRecordingInSeveralFilesIsOne) {
   constexpr std::size_t kMiddle = 201;

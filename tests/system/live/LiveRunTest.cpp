@@ -75,8 +75,7 @@ TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
   ASSERT_TRUE(endedWith(ExitCode::ok, runProgram(run.command({"--replay", run.recorded(".journal"), "-o", again}))));
   EXPECT_GT(nlohmann::json::parse(std::ifstream(again + "/summary.json")).at("key_frames"), 3);
   // And a map goes on from the checkpoint.
-  EXPECT_TRUE(
-      endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out() + "/checkpoint.omnimap"})));
+  EXPECT_TRUE(endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out()})));
 }
 
 // The laser is away for a second, in which the robot drives for eight; before, it answers slowly, and some of what
@@ -152,11 +151,21 @@ TEST(LiveRun, checksOrRecordsWithoutMapping) {
   EXPECT_NE(ended.out.find("Nothing is wrong with it"), std::string::npos) << ended.out;
 }
 
+TEST(LiveRun, aMapThatIsThereIsNotReplaced) {
+  LiveRun run(1);
+  ASSERT_TRUE(endedWith(ExitCode::ok, map({kBox}, run.out())));
+  const auto before = readFile(run.out() + "/map.omnimap");
+  EXPECT_TRUE(endedWith(ExitCode::unwritable_output, runProgram(run.live()), {"holds the map of an earlier run"}));
+  EXPECT_EQ(readFile(run.out() + "/map.omnimap"), before);
+}
+
 TEST(LiveRun, aSensorThatIsNotThereIsNamedAndNothingIsWritten) {
   LiveRun run(1);
   const auto ended = runProgram(run.live());
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ended, {"sensor [laser]", "cannot be opened"}));
   EXPECT_FALSE(fs::exists(run.out()));
+  EXPECT_TRUE(
+      endedWith(ExitCode::wrong_type, runProgram(run.live({"--set", "laser.pose_yaw=9o"})), {"9o is no number"}));
   EXPECT_TRUE(endedWith(ExitCode::command_line,
                         graphslam({"-i", sourceFile("ini/laser2d.ini"), "--live", "-o", run.out()}),
                         {"[live] sensors"}));

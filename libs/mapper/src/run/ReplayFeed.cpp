@@ -2,6 +2,7 @@
 
 #include <omnimapper/source/RawlogSource.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace omnimapper::mapper {
@@ -84,6 +85,7 @@ bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& pr
   const auto& events = cursor.journal.events;
   while (cursor.next < events.size() && !stop()) {
     const auto event = events[cursor.next++];
+    if (event.kind == EventKind::add || event.kind == EventKind::drop) told_ = std::max(told_, event.number + 1);
     if (event.kind == EventKind::drop) continue;
     // An event of the engine that is left over, or one that it lacks: a live run adds nothing while the engine is busy.
     if (event.kind != EventKind::add || engine.isBusy()) depart(engine);
@@ -112,7 +114,7 @@ bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& pr
 // What the journal says nothing of: it was cut off.
 void ReplayFeed::mapWhatIsLeft(Engine& engine, SensorSamples& samples, const Stop& stop) {
   std::uint64_t count = 0;
-  for (auto observation = read(next_, stop); observation; observation = read(next_, stop), ++count) {
+  for (auto observation = read(std::max(next_, told_), stop); observation; observation = read(next_, stop), ++count) {
     cursor_->has_departed = true;
     samples.add(observation);
     engine.add(observation);

@@ -58,6 +58,7 @@ class ReplayFeed : public Feed {
   std::shared_ptr<ReplayCursor> cursor_ = std::make_shared<ReplayCursor>();
   std::size_t file_ = 0;    // that is read
   std::uint64_t next_ = 0;  // observation to be read
+  std::uint64_t told_ = 0;  // the first of which the journal has said nothing yet
   // What is usable is judged over the whole recording, as it was live.
   std::shared_ptr<source::ObservationGate> gate_ = std::make_shared<source::ObservationGate>();
   std::optional<source::ReadAhead> log_;  // of that file
