@@ -1,10 +1,10 @@
-#include "run/Checkpoints.h"
-
 #include <gtest/gtest.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "run/Checkpoints.h"
 
 namespace omnimapper::mapper::checkpoints_test {
 namespace {
