@@ -26,8 +26,8 @@ base::ExitCode Recorded::code() const {
 Recorded record(const LiveOptions& options, const base::Config& config, const std::string& folder, double seconds,
                 base::Progress& progress, const std::function<bool()>& stop) {
   using Clock = std::chrono::steady_clock;
-  LiveSource source(readSensors(options, config), options,
-                    std::make_unique<Recorder>(folder, nameByTime(), recorderOptions(options)));
+  const auto sections = readSensors(options, config);  // what is refused leaves no file
+  LiveSource source(sections, options, std::make_unique<Recorder>(folder, nameByTime(), recorderOptions(options)));
   source.open(stop);
   const auto begin = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
