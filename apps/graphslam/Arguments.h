@@ -34,8 +34,9 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
   auto* record =
       app.add_flag("--record-only", arguments.record_only, "record the sensors of [live] into -o, map nothing");
   auto* replay = app.add_option("--replay", arguments.run.replay,
-                                "journal (recording/TIME.journal) of a --live run: makes the same map again")
-                     ->type_name("JOURNAL");
+                                "output folder of a --live run, or its journal (recording/TIME.journal): makes the "
+                                "same map again, by the INI of that run or by -i")
+                     ->type_name("FOLDER");
   live->excludes(rawlogs)->excludes(replay);
   replay->excludes(rawlogs);
   app.add_option("-o,--output", arguments.run.output_folder, "folder for the outputs, made if missing");
@@ -46,7 +47,7 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
            for (const auto& log : logs)
              if (!log.empty()) arguments.checked_logs.push_back(log);
          },
-         "check a log (or those of -r, or with --live ten seconds of sensor data), map nothing: what is wrong, "
+         "check a log (or those of -r, or with --live some seconds of sensor data), map nothing: what is wrong, "
          "what to set; -o keeps the report")
       ->expected(0, CLI::detail::expected_max_vector_size)
       ->type_name("LOG");

@@ -40,10 +40,9 @@ int checkLogs(const Arguments& arguments, const base::Config& config, std::optio
   std::optional<TemporaryFolder> folder;
   std::string heading, troubles;
   if (arguments.run.live) {
-    constexpr double kSeconds = 10;
     folder.emplace();
     const auto options = config.section("live").read<live::LiveOptions>();
-    const auto recorded = live::record(options, config, folder->path(), kSeconds, *progress, stop);
+    const auto recorded = live::record(options, config, folder->path(), options.check, *progress, stop);
     for (const auto& trouble : live::troublesOf(recorded)) troubles += "PROBLEM " + trouble + ".\n";
     if (recorded.counts.arrived == 0) {
       progress.reset();

@@ -1,6 +1,7 @@
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/export/registerOutputs.h>
+#include <omnimapper/live/Journal.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
@@ -29,6 +31,13 @@ void addOutput(const std::string& section, const std::string& name, base::Config
   if (std::find(listed.begin(), listed.end(), section) == listed.end()) run.more_outputs.push_back(section);
 }
 
+// The journal in a folder, and without -i the INI of its live run.
+void findReplay(Arguments& arguments) {
+  arguments.run.replay = live::findJournal(arguments.run.replay);
+  const std::string ini = live::iniOf(arguments.run.replay);
+  if (arguments.inis.empty() && std::filesystem::exists(ini)) arguments.inis.push_back(ini);
+}
+
 void tell(const mapper::RunResult& result, const Arguments& arguments) {
   if (arguments.verbose) std::cout << base::printableLines(result.source.text());
   if (!arguments.quiet) std::cout << base::printableLines(mapper::toText(result));
@@ -42,6 +51,7 @@ int run(Arguments& arguments) {
   program::listenForInterrupts();
   exports::registerOutputs();
   mapper::loadFeatures();
+  if (!arguments.run.replay.empty()) findReplay(arguments);
   auto config = base::Config::fromFiles(program::findInis(arguments.inis));
   for (const auto& setting : arguments.settings) config.set(setting);
   if (arguments.list_plugins || !arguments.print_ini.empty()) mapper::loadPluginLibraries(config);

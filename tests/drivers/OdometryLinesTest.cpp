@@ -116,6 +116,8 @@ TEST_F(OdometryLinesTest, invalidLinesAreCountedByReason) {
   EXPECT_EQ(counts.leftOut(), 7u);
   EXPECT_NE(sensor.leftOutByReason().find("2 malformed, 1 with a value that is no finite number"), std::string::npos)
       << sensor.leftOutByReason();
+  EXPECT_NE(sensor.leftOutByReason().find("(the first invalid line: rubbish)"), std::string::npos)
+      << sensor.leftOutByReason();
 }
 
 TEST_F(OdometryLinesTest, aLineWithoutStampHasThatOfItsArrival) {

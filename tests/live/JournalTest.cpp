@@ -3,6 +3,9 @@
 #include <omnimapper/live/Journal.h>
 #include <omnimapper/testing/Fixtures.h>
 
+#include <filesystem>
+#include <fstream>
+
 namespace omnimapper::live::journal_test {
 namespace {
 
@@ -57,6 +60,27 @@ TEST(Journal, refusesWhatIsNone) {
   EXPECT_THROW(Journal::read(folder / "log.rawlog"), base::Error);
   write(folder / "alone.journal", "omnimapper journal 1\n");
   EXPECT_THROW(Journal::read(folder / "alone.journal"), base::Error);
+}
+
+TEST(Journal, isFoundInTheFolderOfARun) {
+  const testing::ScratchFolder folder;
+  const std::string run = folder / "run";
+  std::filesystem::create_directories(run + "/recording");
+  EXPECT_EQ(findJournal(run + "/any.journal"), run + "/any.journal") << "a file is taken as it is";
+  EXPECT_THROW(findJournal(run), base::Error) << "there is none";
+  write(run + "/recording/one.journal", "");
+  EXPECT_EQ(findJournal(run), run + "/recording/one.journal");
+  EXPECT_EQ(findJournal(run + "/recording"), run + "/recording/one.journal");
+  EXPECT_EQ(iniOf(findJournal(run)), run + "/recording/one.ini");
+  write(run + "/recording/two.journal", "");
+  try {
+    findJournal(run);
+    ADD_FAILURE();
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("recording/one.journal or " + run + "/recording/two.journal"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

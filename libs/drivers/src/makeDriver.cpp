@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "WatchedIni.h"
+
 namespace omnimapper::drivers {
 
 namespace {
@@ -18,8 +20,10 @@ using mrpt::hwdrivers::CGenericSensor;
 
 class MrptDriver : public live::SensorDriver {
  public:
-  explicit MrptDriver(CGenericSensor::Ptr sensor)
-      : sensor_(std::move(sensor)), checked_(dynamic_cast<const CheckedSensor*>(sensor_.get())) {}
+  MrptDriver(CGenericSensor::Ptr sensor, std::vector<std::string> unread_keys)
+      : sensor_(std::move(sensor)),
+        checked_(dynamic_cast<const CheckedSensor*>(sensor_.get())),
+        unread_keys_(std::move(unread_keys)) {}
 
   void open() override {
     sensor_->initialize();
@@ -34,6 +38,7 @@ class MrptDriver : public live::SensorDriver {
     return objects;
   }
   bool hasFailed() const override { return sensor_->getState() == CGenericSensor::ssError; }
+  std::vector<std::string> unreadKeys() const override { return unread_keys_; }
   std::uint64_t leftOut() const override { return checked_ ? checked_->leftOut() : 0; }
   std::string leftOutByReason() const override { return checked_ ? checked_->leftOutByReason() : ""; }
   bool waitsForOthers() const override { return checked_ && checked_->waitsForOthers(); }
@@ -41,6 +46,7 @@ class MrptDriver : public live::SensorDriver {
  private:
   CGenericSensor::Ptr sensor_;
   const CheckedSensor* checked_;  // null for a driver that is none
+  std::vector<std::string> unread_keys_;
 };
 
 // Drivers that MRPT has in name alone where a library was missing when it was built, and what reads the device instead.
@@ -75,18 +81,25 @@ std::unique_ptr<live::SensorDriver> makeDriver(const live::SensorSection& sectio
   if (const char* instead = insteadOf(section.driver))
     throw base::Error(base::ExitCode::unknown_plugin,
                       where + "MRPT was built without what " + section.driver + " needs; write driver = " + instead);
-  auto sensor = CGenericSensor::createSensorPtr(checkedDriver(section.driver));
+  const auto sensor = [&] {
+    try {
+      return CGenericSensor::createSensorPtr(checkedDriver(section.driver));
+    } catch (const std::exception& error) {  // a class that MRPT has in name alone
+      throw base::Error(base::ExitCode::unknown_plugin, where + base::sentenceOf(error));
+    }
+  }();
   if (!sensor) throw noDriver(where, section.driver);
   if (auto* logger = dynamic_cast<mrpt::system::COutputLogger*>(sensor.get()))
     logger->setMinLoggingLevel(mrpt::system::LVL_ERROR);
+  const WatchedIni ini(*section.ini);
   try {
-    sensor->loadConfig(*section.ini, section.name);
+    sensor->loadConfig(ini, section.name);
   } catch (const base::Error& error) {
     throw base::Error(error.code(), where + base::sentenceOf(error));
   } catch (const std::exception& error) {
     throw base::Error(base::ExitCode::out_of_range, where + base::sentenceOf(error));
   }
-  return std::make_unique<MrptDriver>(std::move(sensor));
+  return std::make_unique<MrptDriver>(sensor, ini.unreadKeys(section.name));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <omnimapper/base/InputFile.h>
 #include <omnimapper/live/Journal.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
@@ -89,6 +90,26 @@ Journal Journal::read(const std::string& path) {
   }
   journal.rawlogs = rawlogsBeside(path);
   return journal;
+}
+
+std::string findJournal(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (!fs::is_directory(path, none)) return path;
+  std::vector<std::string> found;
+  for (const auto& folder : {fs::path(path), fs::path(path) / "recording"}) {
+    for (const auto& entry : fs::directory_iterator(folder, none))
+      if (entry.path().extension() == kExtension) found.push_back(entry.path().string());
+  }
+  if (found.empty()) refuse(path, "no journal of a live run is in this folder, nor in its folder recording");
+  if (found.size() == 1) return found.front();
+  std::sort(found.begin(), found.end());
+  refuse(path, "several live runs were recorded there; name the journal of one: " + found.front() + " or " +
+                   (found.size() == 2 ? found.back() : "one of " + std::to_string(found.size() - 1) + " others"));
+}
+
+std::string iniOf(const std::string& journal) {
+  return std::filesystem::path(journal).replace_extension(".ini").string();
 }
 
 }  // namespace omnimapper::live

@@ -43,7 +43,9 @@ const base::OptionTable<LiveOptions>& LiveOptions::table() {
                   "the offset of the sensor's clock is estimated, and again where it jumps.")
           .number("checkpoint_s", &LiveOptions::checkpoint, Range::notNegative(),
                   "Time between two checkpoints of the map, checkpoint.omnimap in the output folder, which stays there "
-                  "if the run is killed; 0 writes none.");
+                  "if the run is killed; 0 writes none.")
+          .number("check_s", &LiveOptions::check, Range::positive(),
+                  "Time for which --check --live reads the sensors before it judges what they sent.");
   return table;
 }
 

@@ -73,9 +73,11 @@ struct SensorThread::Shared {
   }
   void tell(const std::string& sentence) { news.push_back("sensor [" + section.name + "] " + sentence); }
 
-  void opened() {
+  void opened(const SensorDriver& driver) {
     const std::lock_guard lock(mutex);
     if (!was_open) {
+      for (const auto& key : driver.unreadKeys())
+        tell("has a key that its driver " + section.driver + " does not read: " + key);
       figures.state = State::working;
       last_arrival = Clock::now();
     }
@@ -171,7 +173,7 @@ void SensorThread::run(const std::shared_ptr<Shared>& shared) {
 void SensorThread::readDriver(Shared& shared) {
   const auto driver = makeDriver(shared.section);
   driver->open();
-  shared.opened();
+  shared.opened(*driver);
   const double rate = driver->rate();
   constexpr double kMostOften = 500;  // [Hz]
   const std::chrono::duration<double> period(1 / (rate > 0 ? std::min(rate, kMostOften) : kMostOften));

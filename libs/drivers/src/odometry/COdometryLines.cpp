@@ -51,6 +51,7 @@ std::string OdometryLineCounts::leftOutByReason() const {
   add(cut_off, "cut off when a client hung up");
   add(other_sender, "from a second sender of datagrams");
   add(never_fetched, "that nobody fetched");
+  if (!first_invalid.empty()) text += " (the first invalid line: " + first_invalid + ")";
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "odometry/OdometryReceiver.h"
 
 #include <netinet/in.h>
+#include <omnimapper/base/Names.h>
 #include <omnimapper/live/HostClock.h>
 #include <sys/socket.h>
 
@@ -16,9 +17,11 @@ namespace {
 constexpr std::size_t kMostBytes = 256 * 1024;  // the longest lines of a second at the default rate
 constexpr int kMostDatagrams = 4096;            // empty datagrams have no bytes that could be counted
 constexpr int kMostAccepted = 16;               // twice the queue of connections that live::listenTcp() asks for
+constexpr std::size_t kMostQuoted = 80;         // bytes of a line
 constexpr auto kSilence = std::chrono::seconds(1);
 
-void countFault(LineFault fault, OdometryLineCounts& counts) {
+void countFault(LineFault fault, std::string_view line, OdometryLineCounts& counts) {
+  if (counts.first_invalid.empty()) counts.first_invalid = base::printable(line.substr(0, kMostQuoted));
   if (fault == LineFault::malformed) ++counts.malformed;
   if (fault == LineFault::not_finite) ++counts.not_finite;
   if (fault == LineFault::too_large) ++counts.too_large;
@@ -125,7 +128,7 @@ void COdometryLines::Receiver::takeLine(std::string_view line, OdometryLineCount
   if (line.empty() || line.front() == '#') return;
   if (!isWithinRate()) return void(++counts.too_many);
   const auto parsed = parseOdometryLine(line);
-  if (parsed.fault) return countFault(*parsed.fault, counts);
+  if (parsed.fault) return countFault(*parsed.fault, line, counts);
   const base::Stamp arrival = live::hostNow();
   if (!parsed.stamp) {
     if (unstamped_) ++counts.superseded;

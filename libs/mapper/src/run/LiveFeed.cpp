@@ -1,6 +1,9 @@
 #include "run/LiveFeed.h"
 
+#include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/live/Journal.h>
 #include <omnimapper/plugin/DecisionLog.h>
+#include <omnimapper/source/SourceOptions.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -20,13 +23,24 @@ std::string times(std::uint64_t count) {
   return std::to_string(count) + " times";
 }
 
+// Keys of [source] that are about reading logs.
+std::string keysForLogs(const base::Config& config) {
+  std::string keys, text;
+  for (const auto& spec : source::SourceOptions::table().specs())
+    if (spec.key != "labels" && config.section("source").find(spec.key, text))
+      keys += (keys.empty() ? "" : ", ") + spec.key;
+  return keys;
+}
+
 }  // namespace
 
 LiveFeed::LiveFeed(const live::LiveOptions& options, std::vector<std::string> labels, const base::Config& config)
     : options_(options),
       labels_(std::move(labels)),
+      unused_keys_(keysForLogs(config)),
       sections_(live::readSensors(options, config)),
       title_(live::nameByTime()),
+      ini_(base::kWrittenFromALog + ": how " + title_ + ".rawlog was mapped while it was recorded.\n" + config.text()),
       name_("the sensors of " + config.file()) {}
 
 void LiveFeed::begin(const std::string& output_folder, const Stop& stop) {
@@ -38,7 +52,11 @@ void LiveFeed::begin(const std::string& output_folder, const Stop& stop) {
   }
   sensors_ = std::make_unique<live::LiveSource>(sections_, options_, std::move(recorder));
   sensors_->open(stop);
-  if (options_.record) trace_->journal.emplace(folder + "/" + title_ + ".journal");
+  if (options_.record) {
+    const std::string journal = folder + "/" + title_ + ".journal";
+    trace_->journal.emplace(journal);
+    base::writeFile(live::iniOf(journal), [&](std::ostream& out) { out << ini_; });
+  }
   recording_ = options_.record ? folder : "";
 }
 
@@ -133,6 +151,7 @@ void LiveFeed::judge(Engine& engine) {
 
 // One sentence for each sensor that did not go well: each single loss was told when it came.
 void LiveFeed::warnOfSensors(Engine& engine) const {
+  if (!unused_keys_.empty()) engine.warn("[source] " + unused_keys_ + " counts for logs, not for live sensors");
   if (filtered_out_ > 0)
     engine.warn("[source] labels left " + std::to_string(filtered_out_) +
                 " observations out of the map; they are recorded");

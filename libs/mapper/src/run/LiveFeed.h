@@ -45,8 +45,9 @@ class LiveFeed : public Feed {
 
   live::LiveOptions options_;
   std::vector<std::string> labels_;
+  std::string unused_keys_;  // of [source]
   std::vector<live::SensorSection> sections_;
-  std::string title_, name_, recording_;  // its folder, empty without
+  std::string title_, ini_, name_, recording_;  // its folder, empty without
   std::shared_ptr<LiveTrace> trace_ = std::make_shared<LiveTrace>();
   std::unique_ptr<live::LiveSource> sensors_;
   std::optional<Checkpoints> checkpoints_;

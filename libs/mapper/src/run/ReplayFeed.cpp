@@ -1,5 +1,7 @@
 #include "run/ReplayFeed.h"
 
+#include <omnimapper/base/IniDifferences.h>
+#include <omnimapper/base/InputFile.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include <algorithm>
@@ -80,7 +82,22 @@ void ReplayFeed::depart(Engine& engine) {
       "is mapped like a log");
 }
 
+// Recordings from before such an INI was written have none.
+void ReplayFeed::warnOfOtherSettings(Engine& engine) const {
+  const std::string of_live_run = live::iniOf(path_);
+  if (!std::filesystem::exists(of_live_run)) return;
+  constexpr std::size_t kMostNamed = 5;
+  const auto differences = base::iniDifferences(ini_, base::readInput(of_live_run, "INI of the live run"));
+  if (differences.empty()) return;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(differences.size(), kMostNamed); ++i)
+    text += (i > 0 ? ", " : "") + differences[i];
+  if (differences.size() > kMostNamed) text += " and " + std::to_string(differences.size() - kMostNamed) + " more";
+  engine.warn("the settings are not those of the live run, and so the map may be another: " + text);
+}
+
 bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) {
+  warnOfOtherSettings(engine);
   auto& cursor = *cursor_;
   const auto& events = cursor.journal.events;
   while (cursor.next < events.size() && !stop()) {

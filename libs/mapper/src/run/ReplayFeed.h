@@ -38,7 +38,8 @@ class ReplaySchedule : public Schedule {
 /// byte.
 class ReplayFeed : public Feed {
  public:
-  explicit ReplayFeed(std::string journal) : path_(std::move(journal)) {}
+  /// `ini`: the settings of this run, which should be those of the live run.
+  ReplayFeed(std::string journal, std::string ini) : path_(std::move(journal)), ini_(std::move(ini)) {}
 
   std::string title() const override;
   std::string name() const override { return path_; }
@@ -54,7 +55,9 @@ class ReplayFeed : public Feed {
   void depart(Engine& engine);
   void mapWhatIsLeft(Engine& engine, SensorSamples& samples, const Stop& stop);
 
-  std::string path_;
+  void warnOfOtherSettings(Engine& engine) const;
+
+  std::string path_, ini_;
   std::shared_ptr<ReplayCursor> cursor_ = std::make_shared<ReplayCursor>();
   std::size_t file_ = 0;    // that is read
   std::uint64_t next_ = 0;  // observation to be read

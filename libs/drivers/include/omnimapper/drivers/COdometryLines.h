@@ -40,10 +40,11 @@ struct OdometryLineCounts {
   std::uint64_t superseded =
       0;                      ///< lines without stamps that arrived together with a later one, which are not rejected
   std::uint64_t clients = 0;  ///< who connected (TCP) or began to send (UDP)
+  std::string first_invalid;  ///< the first line that is malformed, not finite or too large, printable
 
   /// All lines and datagrams that were rejected.
   std::uint64_t leftOut() const;
-  /// Those of each kind that is not 0: "2 malformed, 1 of more than 256 bytes".
+  /// Those of each kind that is not 0: "2 malformed, 1 of more than 256 bytes (the first invalid line: 17.3 0.5 x)".
   std::string leftOutByReason() const;
 };
 

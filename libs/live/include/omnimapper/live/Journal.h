@@ -45,4 +45,11 @@ struct Journal {
   static Journal read(const std::string& path);
 };
 
+/// The journal that a path names: that file, or the only journal in that folder or in the folder recording in it.
+/// Throws Error(unreadable_input) for a folder with none, or with several, naming them.
+std::string findJournal(const std::string& path);
+
+/// Where the INI of the live run stands that wrote this journal, TIME.ini beside TIME.journal.
+std::string iniOf(const std::string& journal);
+
 }  // namespace omnimapper::live

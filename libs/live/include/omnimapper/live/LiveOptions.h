@@ -23,6 +23,7 @@ struct LiveOptions {
   double reopen_after = 3;     ///< [s] of silence
   double max_clock_off = 0.5;  ///< [s] between a stamp and its arrival
   double checkpoint = 60;      ///< [s] between two; 0: none
+  double check = 10;           ///< [s] that --check --live records
 
   static const base::OptionTable<LiveOptions>& table();
 };

@@ -28,6 +28,8 @@ class SensorDriver {
   /// Whether it says of itself that it failed.
   virtual bool hasFailed() const = 0;
 
+  /// Keys of its section that nobody reads, each with the nearest that is read: "poze_z (did you mean pose_z?)".
+  virtual std::vector<std::string> unreadKeys() const = 0;
   /// Messages or lines that were left out as malformed or impossible since the driver was made, where it checks them.
   virtual std::uint64_t leftOut() const = 0;
   /// How many of what kind, such as "2 malformed, 1 of more than 256 bytes".

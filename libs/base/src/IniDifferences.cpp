@@ -1,0 +1,49 @@
+#include <mrpt/config/CConfigFileMemory.h>
+#include <omnimapper/base/IniDifferences.h>
+
+namespace omnimapper::base {
+
+namespace {
+
+using mrpt::config::CConfigFileMemory;
+
+bool hasSettings(const CConfigFileMemory& ini, const std::string& section) {
+  if (section == "live" || ini.keyExists(section, "driver")) return false;
+  std::vector<std::string> keys;
+  ini.getAllKeys(section, keys);
+  return keys.size() > 1 || (keys.size() == 1 && keys.front() != "class");
+}
+
+std::string valueOf(const CConfigFileMemory& ini, const std::string& section, const std::string& key) {
+  return ini.keyExists(section, key) ? ini.read_string(section, key, "") : "not set";
+}
+
+// Of the keys of `listed`, or of those alone that `now` lacks.
+void addDifferences(const CConfigFileMemory& listed, const CConfigFileMemory& now, const CConfigFileMemory& before,
+                    bool are_missing_now, std::vector<std::string>& all) {
+  std::vector<std::string> sections, keys;
+  listed.getAllSections(sections);
+  for (const auto& section : sections) {
+    if (!hasSettings(listed, section)) continue;
+    listed.getAllKeys(section, keys);
+    for (const auto& key : keys) {
+      if (are_missing_now && now.keyExists(section, key)) continue;
+      const std::string is = valueOf(now, section, key), was = valueOf(before, section, key);
+      if (is != was) all.push_back("[" + section + "] " + key + " (" + is + ", was " + was + ")");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> iniDifferences(const std::string& now, const std::string& before) {
+  CConfigFileMemory ini_now, ini_before;
+  ini_now.setContent(now);
+  ini_before.setContent(before);
+  std::vector<std::string> all;
+  addDifferences(ini_now, ini_now, ini_before, false, all);
+  addDifferences(ini_before, ini_now, ini_before, true, all);
+  return all;
+}
+
+}  // namespace omnimapper::base
