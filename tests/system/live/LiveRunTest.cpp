@@ -1,4 +1,5 @@
 #include <omnimapper/live/HostClock.h>
+#include <omnimapper/live/Journal.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include "LiveRun.h"
@@ -59,6 +60,11 @@ TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
   EXPECT_TRUE(endedWith(ExitCode::ok, other,
                         {"this run does something else than the live run did",
                          "[trigger] angle_deg (5, was 25), [trigger] distance_m (0.2, was 0.6)"}));
+
+  // A recording may come from anybody, who must not have libraries loaded.
+  std::ofstream(omnimapper::live::iniOf(run.recorded(".journal"))) << "[mapper]\nplugin_libraries = theirs.so\n";
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, graphslam({"--replay", run.out(), "-o", run.folder / "theirs"}),
+                        {"no live run wrote this INI"}));
 }
 
 TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {

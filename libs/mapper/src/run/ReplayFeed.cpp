@@ -1,7 +1,6 @@
 #include "run/ReplayFeed.h"
 
 #include <omnimapper/base/IniDifferences.h>
-#include <omnimapper/base/InputFile.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include <algorithm>
@@ -87,7 +86,7 @@ void ReplayFeed::warnOfOtherSettings(Engine& engine) const {
   const std::string of_live_run = live::iniOf(path_);
   if (!std::filesystem::exists(of_live_run)) return;
   constexpr std::size_t kMostNamed = 5;
-  const auto differences = base::iniDifferences(ini_, base::readInput(of_live_run, "INI of the live run"));
+  const auto differences = base::iniDifferences(ini_, base::Config::fromFile(of_live_run).text());
   if (differences.empty()) return;
   std::string text;
   for (std::size_t i = 0; i < std::min(differences.size(), kMostNamed); ++i)

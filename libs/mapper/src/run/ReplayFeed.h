@@ -54,7 +54,6 @@ class ReplayFeed : public Feed {
   mrpt::obs::CObservation::Ptr read(std::uint64_t number, const Stop& stop);
   void depart(Engine& engine);
   void mapWhatIsLeft(Engine& engine, SensorSamples& samples, const Stop& stop);
-
   void warnOfOtherSettings(Engine& engine) const;
 
   std::string path_, ini_;
