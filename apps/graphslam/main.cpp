@@ -1,4 +1,3 @@
-#include <omnimapper/base/InputFile.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/export/registerOutputs.h>
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 
@@ -32,17 +30,11 @@ void addOutput(const std::string& section, const std::string& name, base::Config
   if (std::find(listed.begin(), listed.end(), section) == listed.end()) run.more_outputs.push_back(section);
 }
 
-// The journal in a folder, and without -i the INI of its live run. A recording may come from anybody: what does not
-// begin as an INI of a live run would be trusted with plugin libraries.
+// The journal in a folder, and without -i the INI of its live run.
 void findReplay(Arguments& arguments) {
   arguments.run.replay = live::findJournal(arguments.run.replay);
-  const std::string ini = live::iniOf(arguments.run.replay);
-  if (!arguments.inis.empty() || !std::filesystem::exists(ini)) return;
-  if (base::readInput(ini, "INI of the live run").compare(0, base::kWrittenFromALog.size(), base::kWrittenFromALog) !=
-      0)
-    throw base::Error(base::ExitCode::unreadable_input,
-                      ini + ": no live run wrote this INI; name it with -i to use it");
-  arguments.inis.push_back(ini);
+  if (!arguments.inis.empty()) return;
+  if (const auto ini = live::findIni(arguments.run.replay)) arguments.inis.push_back(*ini);
 }
 
 void tell(const mapper::RunResult& result, const Arguments& arguments) {

@@ -1,3 +1,4 @@
+#include <omnimapper/base/Config.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/InputFile.h>
 #include <omnimapper/live/Journal.h>
@@ -110,6 +111,15 @@ std::string findJournal(const std::string& path) {
 
 std::string iniOf(const std::string& journal) {
   return std::filesystem::path(journal).replace_extension(".ini").string();
+}
+
+std::optional<std::string> findIni(const std::string& journal) {
+  const std::string ini = iniOf(journal);
+  if (!std::filesystem::exists(ini)) return std::nullopt;
+  if (base::readInput(ini, "INI of the live run").compare(0, base::kWrittenFromALog.size(), base::kWrittenFromALog) !=
+      0)
+    refuse(ini, "no live run wrote this INI; name it with -i to use it");
+  return ini;
 }
 
 }  // namespace omnimapper::live

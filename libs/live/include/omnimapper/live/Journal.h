@@ -52,4 +52,8 @@ std::string findJournal(const std::string& path);
 /// Where the INI of the live run stands that wrote this journal, TIME.ini beside TIME.journal.
 std::string iniOf(const std::string& journal);
 
+/// That INI, if it is there. A recording may come from anybody: throws Error(unreadable_input) for one that does not
+/// begin with base::kWrittenFromALog, which would be trusted with plugin libraries.
+std::optional<std::string> findIni(const std::string& journal);
+
 }  // namespace omnimapper::live
