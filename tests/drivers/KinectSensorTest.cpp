@@ -42,27 +42,62 @@ CObservationIMU accelerationAt(double seconds, double forward, double left, doub
 
 class KinectSensorTest : public ::testing::Test {
  protected:
+  // A camera falls silent and comes back while the other tests run, for most of it is waiting.
+  static void SetUpTestSuite() {
+    if (!std::filesystem::exists(kFakenect + "/libfreenect.so.0.5")) return;
+    folder_of_silent = std::make_unique<testing::ScratchFolder>();
+    const auto images = range_scans::flat(1);
+    images[0]->hasIntensityImage = false;
+    makeSession(*folder_of_silent, [&](source::RawlogWriter& log) {
+      // A third of a second with depths, 0.8 s without, and a third with them again. The session rests while it is
+      // closed.
+      for (int i = 0; i < 30; ++i) {
+        log.add(accelerationAt(0.05 * i, 0, 0, 9.8));
+        if (i >= 7 && i < 23) continue;
+        auto scan = *images[0];
+        scan.timestamp = live::observations::at(0.05 * i);
+        log.add(scan);
+      }
+    });
+    silent =
+        std::make_unique<testing::Program>(recording(*folder_of_silent, "grab_image = false\nsilence_s = 0.4\n", 1000));
+  }
+  static void TearDownTestSuite() {
+    silent.reset();
+    folder_of_silent.reset();
+  }
   void SetUp() override {
-    if (!std::filesystem::exists(kFakenect + "/libfreenect.so.0.5"))
+    if (!folder_of_silent)
       GTEST_SKIP() << "this was built without libfreenect (Debian's libfreenect-dev), or its fakenect is not there";
   }
 
-  void makeSession(const std::string& log) {
+  static void makeSession(const testing::ScratchFolder& folder, const std::string& log) {
     const auto ended = testing::runProgram({testing::ownProgram("fakenect-session"), log, folder / "session"});
     ASSERT_EQ(ended.code, 0) << testing::toString(ended);
   }
-  void makeSession(const std::function<void(source::RawlogWriter&)>& fill) {
+  static void makeSession(const testing::ScratchFolder& folder,
+                          const std::function<void(source::RawlogWriter&)>& fill) {
     source::writeRawlog(folder / "played.rawlog", fill);
-    makeSession(folder / "played.rawlog");
+    makeSession(folder, folder / "played.rawlog");
   }
 
-  // Reads the Kinect until so many observations came, or a sentence with these words.
-  testing::Ended record(const std::string& keys, int count, const std::string& words = "is gone") {
+  // The program that reads the Kinect until so many observations came, or the end of the session.
+  static std::vector<std::string> recording(const testing::ScratchFolder& folder, const std::string& keys, int count) {
     std::ofstream(folder / "live.ini") << kSection << keys;
     // fakenect looks for the end of a line in bytes that end without a zero.
-    return testing::runProgram({"env", "ASAN_OPTIONS=strict_string_checks=0", "LD_LIBRARY_PATH=" + kFakenect,
-                                "FAKENECT_PATH=" + folder / "session", testing::ownProgram("live-record"),
-                                folder / "live.ini", folder / "out", "60", std::to_string(count), words});
+    return {"env",
+            "ASAN_OPTIONS=strict_string_checks=0",
+            "LD_LIBRARY_PATH=" + kFakenect,
+            "FAKENECT_PATH=" + folder / "session",
+            testing::ownProgram("live-record"),
+            folder / "live.ini",
+            folder / "out",
+            "60",
+            std::to_string(count),
+            "is gone"};
+  }
+  testing::Ended record(const std::string& keys, int count) {
+    return testing::runProgram(recording(folder, keys, count));
   }
 
   static void expectSameDepths(const CObservation3DRangeScan& seen, const CObservation3DRangeScan& played) {
@@ -81,12 +116,15 @@ class KinectSensorTest : public ::testing::Test {
     }
     EXPECT_GT(count, 10000u) << "pixels with depths";
   }
+
   testing::ScratchFolder folder;
+  static inline std::unique_ptr<testing::ScratchFolder> folder_of_silent;
+  static inline std::unique_ptr<testing::Program> silent;
 };
 
 TEST_F(KinectSensorTest, whatIsPlayedArrivesToTheQuantization) {
   const auto played = range_scans::simulated(6);
-  makeSession([&](source::RawlogWriter& log) {
+  makeSession(folder, [&](source::RawlogWriter& log) {
     for (std::size_t i = 0; i < played.size(); ++i) {
       log.add(accelerationAt(0.1 * static_cast<double>(i), 0.5, -1.25, 9.7));
       log.add(*played[i]);
@@ -131,7 +169,7 @@ TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
     std::string line;
     for (int i = 0; i < 9 && std::getline(from, line); ++i) to << line << "\n";
   }
-  makeSession(folder / "log");
+  makeSession(folder, folder / "log");
   range_scans::Scans played;
   source::RgbdFolderOptions options;
   options.intrinsics = "freiburg1";
@@ -149,20 +187,7 @@ TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
 }
 
 TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
-  const auto images = range_scans::flat(1);
-  images[0]->hasIntensityImage = false;
-  makeSession([&](source::RawlogWriter& log) {
-    // A third of a second with depths, 0.8 s without, and a third with them again. The session rests while it is
-    // closed.
-    for (int i = 0; i < 30; ++i) {
-      log.add(accelerationAt(0.05 * i, 0, 0, 9.8));
-      if (i >= 7 && i < 23) continue;
-      auto scan = *images[0];
-      scan.timestamp = live::observations::at(0.05 * i);
-      log.add(scan);
-    }
-  });
-  const auto ended = record("grab_image = false\nsilence_s = 0.4\n", 1000);
+  const auto ended = silent->wait();
   ASSERT_EQ(ended.code, 0) << testing::toString(ended);
   EXPECT_NE(ended.out.find("sensor [kinect] is lost: the Kinect has sent no depth image for 0.4 s"), std::string::npos)
       << ended.out;
@@ -171,7 +196,7 @@ TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
   EXPECT_NE(ended.out.find("sensor [kinect] is lost: USB says that the Kinect is gone", back), std::string::npos)
       << "at the end of the session: " << ended.out;
   EXPECT_NE(ended.out.find("reopened 1"), std::string::npos) << ended.out;
-  const auto scans = range_scans::recorded<CObservation3DRangeScan>(folder / "out/log.rawlog");
+  const auto scans = range_scans::recorded<CObservation3DRangeScan>(*folder_of_silent / "out/log.rawlog");
   ASSERT_GE(scans.size(), 8u);
   double longest = 0;
   for (std::size_t i = 1; i < scans.size(); ++i) {
