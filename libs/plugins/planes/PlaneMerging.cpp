@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "LevelSurfaces.h"
 #include "PlaneJudging.h"
 
 namespace omnimapper::plugins {
@@ -78,14 +79,40 @@ bool lieOnEachOther(const Surface& a, const Surface& b) {
          sum <= kApart * kApart * static_cast<double>(shared);
 }
 
+/// What is up and where people walk, for walls.
+struct Floor {
+  Eigen::Vector3d up;  ///< unit, in the map
+  double height;       ///< [m] along it
+};
+
+// None where nobody knows which way is up.
+std::optional<Floor> floorOf(const PlaneLandmarkIndex& known, const mapper::View& view) {
+  const auto& level = view.map.level;
+  if (level && !level->isKnown()) return std::nullopt;
+  LevelSurfaces all(level);
+  for (const auto& [id, surface] : known.all()) {
+    surfaces::Surface one;
+    one.plane = surface.plane;
+    one.parts.push_back({cornersOf(surface), {}});
+    all.add(one);
+  }
+  return Floor{level ? level->up : Eigen::Vector3d::UnitZ(),
+               all.floor(known.emptyPayload().ground, view.map.key_frames)};
+}
+
 // Whether two parts of one wall, with a door or furniture between them: upright, as high as walls, on one plane from
 // one end to the other.
-bool continueEachOther(const Surface& a, const Surface& b, double ground) {
+bool continueEachOther(const Surface& a, const Surface& b, const Floor& floor) {
   constexpr double kAlong = 0.995, kOffPlane = 0.04, kFar = 2;             // cosine of the turn, [m], [m]
   constexpr double kUpright = 0.1, kHigh = 1.7, kLow = 0.7, kLeast = 0.5;  // of the normal's height, [m], [m], [m^2]
   for (const Surface* one : {&a, &b}) {
-    const bool is_tall = one->highest - ground > kHigh && one->lowest - ground < kLow && one->seen.area() > kLeast;
-    if (!is_tall || std::abs(one->plane.normal.z()) > kUpright) return false;
+    if (std::abs(one->plane.normal.dot(floor.up)) > kUpright || !(one->seen.area() > kLeast)) return false;
+    double lowest = HUGE_VAL, highest = -HUGE_VAL;
+    for (const auto& corner : cornersOf(*one)) {
+      lowest = std::min(lowest, corner.dot(floor.up) - floor.height);
+      highest = std::max(highest, corner.dot(floor.up) - floor.height);
+    }
+    if (!(highest > kHigh && lowest < kLow)) return false;
   }
   return a.plane.normal.dot(b.plane.normal) > kAlong && std::abs(signedDistance(a.plane, b.middle)) < kOffPlane &&
          std::abs(signedDistance(b.plane, a.middle)) < kOffPlane && gapBetween(a, cornersOf(b), b.heights) < kFar;
@@ -101,7 +128,7 @@ struct Merges {
 Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
                   const mapper::View& view, bool is_end) {
   known.update(view);
-  const double ground = known.emptyPayload().groundIn(view.map.key_frames);
+  const auto floor = is_end ? floorOf(known, view) : std::nullopt;
   const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize());
   // Two surfaces may lie anyhow within those bounds: that they are one must be so many times likelier. Where little is
   // known of how they lie to each other, nobody can tell, and they wait.
@@ -121,10 +148,10 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
       const bool lie = do_overlap && lieOnEachOther(a->second, b->second);
       if (!lie && !onOnePlane(a->second, b->second)) continue;
       const auto& of_a = parts[a->first];
-      const bool continues = is_end && (continueEachOther(a->second, b->second, ground) ||
-                                        std::any_of(of_a.begin(), of_a.end(), [&](const Surface* part) {
-                                          return continueEachOther(*part, b->second, ground);
-                                        }));
+      const bool continues = floor && (continueEachOther(a->second, b->second, *floor) ||
+                                       std::any_of(of_a.begin(), of_a.end(), [&](const Surface* part) {
+                                         return continueEachOther(*part, b->second, *floor);
+                                       }));
       if (!continues && !do_overlap) continue;
       const auto fit = fitOfDifference(known.form(), a->second, b->second, options.inflation, view);
       if (!fit) continue;

@@ -250,6 +250,28 @@ TEST_F(PlaneMerging, ClassesAreThoseOfTheLevelFrame) {
   EXPECT_NEAR(shapeOf(active()[0]).surfaces[0].vertices[0].y(), -1, 1e-6) << "the map is not turned";
 }
 
+// The same camera, before two parts of a wall with a door between them: 1 m below its eye to 1.2 m above.
+class PartsOfAWall : public PlaneMerging, public ::testing::WithParamInterface<std::pair<map::Level, std::size_t>> {};
+
+TEST_P(PartsOfAWall, areOneAtTheEndIfTheyStandUpright) {
+  const auto part = [](double z0, double z1) {
+    return plane({3, 0.1, 0.5 * (z0 + z1)}, {0, 0, 0.5 * (z1 - z0)}, {0, 1.1, 0});
+  };
+  driveTo({});
+  see(planesOf({plane({1, -1, 0}, {0, 0, 2}, {2, 0, 0}), part(-2, -1), part(0, 1)}));
+  ASSERT_EQ(active().size(), 3U);
+  run_.map.level = GetParam().first;
+  apply(plugin_->atEnd(run_.view()));
+  EXPECT_EQ(active().size(), GetParam().second);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Levels, PartsOfAWall,
+    ::testing::Values(
+        std::pair(map::Level{map::Level::Source::planes, Vector3d::UnitY(), Eigen::Matrix3d::Zero(), ""}, 2U),
+        std::pair(map::Level{map::Level::Source::planes, Vector3d::UnitZ(), Eigen::Matrix3d::Zero(), ""}, 3U),
+        std::pair(map::Level{}, 3U)));
+
 TEST_F(PlaneMerging, NothingHasAClassWhereUpIsNotKnown) {
   driveTo({});
   see(planesOf({wallPlane(3, -2, 2), tableTop(2, 1, 0.7)}));
