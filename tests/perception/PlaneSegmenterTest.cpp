@@ -140,6 +140,16 @@ TEST(PlaneSegmenter, AStepOfAFewCentimetresPartsTwoPlanes) {
   EXPECT_EQ(found.planes[0].inliers, 90 * kHeight);
 }
 
+// The sensor may show each of them bent by 4 mm at 1 m, away from the other.
+TEST(PlaneSegmenter, HalvesOfAWallThatTheSensorBendsApartAreOnePlane) {
+  const auto planesWithAStepOf = [](double metres) {
+    const auto image = depths(kWidth, kHeight, [&](int x, int) { return x < kWidth / 2 ? 1 : 1 + metres; });
+    return segment(image).planes.size();
+  };
+  EXPECT_EQ(planesWithAStepOf(0.006), 1U);
+  EXPECT_EQ(planesWithAStepOf(0.01), 2U);
+}
+
 TEST(PlaneSegmenter, AHoleIsOutlinedTheOtherWayRound) {
   const auto found =
       segment(depths(kWidth, kHeight, [](int x, int y) { return x >= 50 && x < 60 && y >= 30 && y < 37 ? 0 : 1.5; }));
