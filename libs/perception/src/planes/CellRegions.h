@@ -19,8 +19,8 @@ struct CellRegions {
 };
 
 /// By how much a plane of others may explain n pixels of a cell worse than their own does [1/m^2 squared]: noise of the
-/// cell's three parameters, and flat walls that seem bent, `bends` times as much as one may be.
-double excessAllowed(const DepthNoise& noise, double n, double bends);
+/// cell's three parameters, and flat walls that seem bent by `bend` [1/m].
+double excessAllowed(const DepthNoise& noise, double n, double bend);
 
 /// Grows regions from the flattest blocks of cells. Each cell that joins is near the plane of those before it.
 CellRegions growRegions(const CellGrid& grid, const DepthNoise& noise);

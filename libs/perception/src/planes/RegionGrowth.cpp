@@ -88,7 +88,8 @@ class Growth {
   void tryToJoin(int column, int row, int index, CellRegions::Region& region) {
     const Cell& cell = grid_.at(column, row);
     if (!cell.flat || regionOf(column, row) != kNoRegion) return;
-    if (cell.moments.squaresFrom(region.plane) - cell.squares > excessAllowed(noise_, cell.moments.n, 1)) return;
+    if (cell.moments.squaresFrom(region.plane) - cell.squares > excessAllowed(noise_, cell.moments.n, noise_.bend))
+      return;
     join(column, row, index, region);
     region.plane = region.moments.fit().plane;
   }
@@ -111,8 +112,7 @@ class Growth {
 
 }  // namespace
 
-double excessAllowed(const DepthNoise& noise, double n, double bends) {
-  const double bend = bends * noise.bend;
+double excessAllowed(const DepthNoise& noise, double n, double bend) {
   return kChi2Cell * noise.meanVariance() + n * bend * bend;
 }
 

@@ -10,7 +10,7 @@ namespace omnimapper::perception::planes {
 namespace {
 
 constexpr double kChi2 = 16.27;         // 99.9 %, 3 degrees of freedom
-constexpr double kBendOfTwo = 2;        // by how many bends two planes of one wall may differ
+constexpr double kStep = 0.03;          // [m] nearer than that two surfaces look like one
 constexpr double kMostAstray = 1 / 3.;  // of a region's cells, off its plane: it is curved
 
 // Two regions that meet: pairs of cells, one of each, and by how much one plane for both is worse than two; see
@@ -36,7 +36,7 @@ class Merging {
     for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
       if (r_.of_cell[i] == kNoRegion) continue;
       ++cells[static_cast<std::size_t>(r_.of_cell[i])];
-      astray[static_cast<std::size_t>(r_.of_cell[i])] += !explains(r_.of_cell[i], grid_.cells[i], 1);
+      astray[static_cast<std::size_t>(r_.of_cell[i])] += !explains(r_.of_cell[i], grid_.cells[i], noise_.bend);
     }
     std::vector<int> renamed(r_.regions.size(), kNoRegion);
     std::vector<CellRegions::Region> kept;
@@ -52,8 +52,15 @@ class Merging {
  private:
   const CellRegions::Region& region(int index) const { return r_.regions[static_cast<std::size_t>(index)]; }
 
-  bool explains(int index, const Cell& cell, double bends) const {
-    return cell.moments.squaresFrom(region(index).plane) - cell.squares <= excessAllowed(noise_, cell.moments.n, bends);
+  bool explains(int index, const Cell& cell, double bend) const {
+    return cell.moments.squaresFrom(region(index).plane) - cell.squares <= excessAllowed(noise_, cell.moments.n, bend);
+  }
+
+  // By how much planes of two pieces of one wall may differ in a cell [1/m]: each may be bent, away from the other, but
+  // where that is far enough for a step between two things, such as a wall and a bookcase, by one bend.
+  double bendOfTwo(const Cell& cell) const {
+    const double inverse = cell.moments.q / cell.moments.n;
+    return std::clamp(kStep * inverse * inverse, noise_.bend, 2 * noise_.bend);
   }
 
   void findMeetings() {
@@ -75,14 +82,13 @@ class Merging {
     if (a != b && b != kNoRegion) meetings_[std::minmax(a, b)].cells.emplace_back(cell_a, cell_b);
   }
 
-  // Whether the plane of one region explains at least half of the cells of the other where they meet. Each may be
-  // bent, away from the other.
+  // Whether the plane of one region explains at least half of the cells of the other where they meet.
   bool continues(const Meeting& meeting) const {
     std::size_t explained = 0;
     for (const auto& [i, j] : meeting.cells) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-      explained +=
-          explains(r_.of_cell[b], grid_.cells[a], kBendOfTwo) + explains(r_.of_cell[a], grid_.cells[b], kBendOfTwo);
+      explained += explains(r_.of_cell[b], grid_.cells[a], bendOfTwo(grid_.cells[a])) +
+                   explains(r_.of_cell[a], grid_.cells[b], bendOfTwo(grid_.cells[b]));
     }
     return explained >= meeting.cells.size();
   }
@@ -93,7 +99,7 @@ class Merging {
     PlaneMoments both = m;
     both += o;
     const double excess = both.fit().squares - m.fit().squares - o.fit().squares;
-    const double shared = m.n * o.n / both.n, bend = kBendOfTwo * noise_.bend;
+    const double shared = m.n * o.n / both.n, bend = 2 * noise_.bend;
     return excess / (kChi2 * noise_.meanVariance() + shared * bend * bend);
   }
 
