@@ -55,9 +55,11 @@ namespace {
 
 // Whether what was seen of two surfaces covers the same cells, a few centimetres apart: how far two views of one
 // surface lie apart by what all views of a sensor have in common, such as its distortion, which no covariance of a map
-// knows.
+// knows. Farther apart, as far views of one floor lie, if that is so nearly everywhere: of two things one would hide
+// the other.
 bool lieOnEachOther(const Surface& a, const Surface& b) {
   constexpr double kAlong = 0.94, kApart = 0.05, kShare = 0.3;  // cosine of the turn, [m], of the smaller one
+  constexpr double kFarApart = 0.07, kNearlyAll = 0.7;          // [m], of the smaller one
   if (a.plane.normal.dot(b.plane.normal) < kAlong) return false;
   const bool a_is_smaller = a.seen.area() < b.seen.area();
   const Surface &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
@@ -75,8 +77,9 @@ bool lieOnEachOther(const Surface& a, const Surface& b) {
       sum += off * off;
     }
   }
-  return all > 0 && static_cast<double>(shared) >= kShare * static_cast<double>(all) &&
-         sum <= kApart * kApart * static_cast<double>(shared);
+  const double share = all > 0 ? static_cast<double>(shared) / static_cast<double>(all) : 0;
+  const double apart = share >= kNearlyAll ? kFarApart : kApart;
+  return share >= kShare && sum <= apart * apart * static_cast<double>(shared);
 }
 
 /// What is up and where people walk, for walls.

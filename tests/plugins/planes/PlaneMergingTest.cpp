@@ -89,6 +89,26 @@ TEST_F(PlaneMerging, ViewsThatLieOnEachOtherAreOne) {
   EXPECT_EQ(active().size(), 2U) << "what is a hand's breadth before it stays";
 }
 
+// 6 cm apart: half of each lies on the other one, which may be before it; or all of the smaller, which would be hidden.
+TEST_F(PlaneMerging, ViewsThatLieOnEachOtherNearlyEverywhereAreOneEvenFartherApart) {
+  PlaneLandmarksOptions options;
+  options.plane_sigma = options.plane_angle_sigma = 1e-4;
+  make(options);
+  driveTo({});
+  const auto precise = [](double x, double y0, double y1) {
+    auto seen = wallPlane(x, y0, y1);
+    seen.covariance = Vector3d(1e-8, 1e-8, 1e-8).asDiagonal();
+    return seen;
+  };
+  see(planesOf({precise(3, -1, 1), precise(3.06, 0, 2)}));
+  solve();
+  EXPECT_EQ(active().size(), 2U);
+  see(planesOf({precise(3.06, 0.2, 2)}));
+  see(planesOf({precise(3, -1, 1.9)}));
+  solve();
+  EXPECT_EQ(active().size(), 1U);
+}
+
 TEST_F(PlaneMerging, AtTheEndPartsOfOneWallAreOneAndTwoTablesAreTwo) {
   driveTo({});
   const auto high = [](double y0, double y1) {
