@@ -110,7 +110,9 @@ std::optional<double> PlaneAssociator::missIfAlike(const PlaneLandmarkIndex::Sur
   for (const auto& point : points) middle += point / static_cast<double>(points.size());
   const double off = std::abs(signedDistance(surface.plane, middle)) - kFarthest;
   if (off > kSigmas * pose_sigma_) return std::nullopt;
-  const double gap = gapBetween(surface, points, toldBy(sighting)) - maxGap(surface, sighting, points);
+  const double max_gap = maxGap(surface, sighting, points), farthest = max_gap + kSigmas * pose_sigma_;
+  if (gapAtLeast(surface, points, middle) > farthest) return std::nullopt;
+  const double gap = gapBetween(surface, points, toldBy(sighting)) - max_gap;
   if (gap > kSigmas * pose_sigma_) return std::nullopt;
   return std::max(off, gap);
 }

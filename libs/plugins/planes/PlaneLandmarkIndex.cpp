@@ -12,6 +12,8 @@ namespace omnimapper::plugins {
 
 namespace {
 
+constexpr double kUpright = 0.2;  // of the normal's height
+
 struct Interval {
   double low, high;
 };
@@ -103,13 +105,28 @@ std::pair<double, double> heightsOf(const std::vector<Eigen::Vector3d>& points) 
 
 double gapBetween(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
                   PlaneLandmarkIndex::Heights of_points) {
-  constexpr double kUpright = 0.2;  // of the normal's height
   using Heights = PlaneLandmarkIndex::Heights;
   const auto hull = hullOn(landmarks::PlaneAxes(surface.plane), points_in_map);
   const bool known = surface.heights == Heights::known && of_points == Heights::known;
   if (known || std::abs(surface.plane.normal.z()) > kUpright) return geometry::distance(surface.hull, hull);
   const Interval a = alongFloor(surface.hull), b = alongFloor(hull);
   return std::max({0.0, b.low - a.high, a.low - b.high});
+}
+
+// Both lie in discs about their middles, of which what is across the plane and, of upright surfaces, how high they are
+// do not count.
+double gapAtLeast(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
+                  const Eigen::Vector3d& middle) {
+  double radius = 0;
+  for (const auto& point : points_in_map) radius = std::max(radius, (point - middle).norm());
+  const Eigen::Vector3d from = middle - surface.middle;
+  const Eigen::Vector3d& normal = surface.plane.normal;
+  Eigen::Vector3d along = from - normal.dot(from) * normal;
+  if (std::abs(normal.z()) <= kUpright) {
+    const Eigen::Vector3d along_floor = Eigen::Vector3d::UnitZ().cross(normal).normalized();
+    along = along_floor.dot(from) * along_floor;
+  }
+  return along.norm() - surface.radius - radius;
 }
 
 }  // namespace omnimapper::plugins

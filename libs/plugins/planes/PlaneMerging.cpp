@@ -21,6 +21,7 @@ namespace {
 using Surface = PlaneLandmarkIndex::Surface;
 
 constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m] what is farther apart looks like two
+constexpr double kAlong = 0.94;              // cosine of the most by which two views of one surface may be turned
 
 std::vector<Eigen::Vector3d> cornersOf(const Surface& surface) {
   const landmarks::PlaneAxes axes(surface.plane);
@@ -58,9 +59,8 @@ namespace {
 // knows. Farther apart, as far views of one floor lie, if that is so nearly everywhere: of two things one would hide
 // the other.
 bool lieOnEachOther(const Surface& a, const Surface& b) {
-  constexpr double kAlong = 0.94, kApart = 0.05, kShare = 0.3;  // cosine of the turn, [m], of the smaller one
-  constexpr double kFarApart = 0.07, kNearlyAll = 0.7;          // [m], of the smaller one
-  if (a.plane.normal.dot(b.plane.normal) < kAlong) return false;
+  constexpr double kApart = 0.05, kShare = 0.3;         // [m], of the smaller one
+  constexpr double kFarApart = 0.07, kNearlyAll = 0.7;  // [m], of the smaller one
   const bool a_is_smaller = a.seen.area() < b.seen.area();
   const Surface &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
   std::size_t all = 0, shared = 0;
@@ -147,6 +147,7 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
     for (auto b = std::next(a); b != all.end(); ++b) {
       if (gone_already.count(a->first) > 0) break;
       if (gone_already.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
+      if (a->second.plane.normal.dot(b->second.plane.normal) < kAlong) continue;
       const bool do_overlap = overlap(a->second, b->second);
       const bool lie = do_overlap && lieOnEachOther(a->second, b->second);
       if (!lie && !onOnePlane(a->second, b->second)) continue;

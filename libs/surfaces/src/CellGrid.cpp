@@ -12,12 +12,19 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Where the edges of a closed walk cross the line y = `at`.
-void addCrossings(const std::vector<Vector2d>& walk, double at, std::vector<double>& crossings) {
+// Where the edges of a closed walk cross the middles of rows, of those from `first_row` on: one list for each.
+void addCrossings(const std::vector<Vector2d>& walk, int first_row, std::vector<std::vector<double>>& crossings) {
+  const double last = first_row + static_cast<double>(crossings.size()) - 1;
   for (std::size_t i = 0; i < walk.size(); ++i) {
     const Vector2d &a = walk[i], &b = walk[(i + 1) % walk.size()];
-    if ((a.y() > at) == (b.y() > at)) continue;
-    crossings.push_back(a.x() + (b.x() - a.x()) * (at - a.y()) / (b.y() - a.y()));
+    const double from = std::max(first_row + 0.0, std::floor(std::min(a.y(), b.y()) - 0.5));
+    const double to = std::min(last, std::ceil(std::max(a.y(), b.y()) - 0.5));
+    for (double row = from; row <= to; ++row) {
+      const double middle = row + 0.5;
+      if ((a.y() > middle) == (b.y() > middle)) continue;
+      crossings[static_cast<std::size_t>(row - first_row)].push_back(a.x() + (b.x() - a.x()) * (middle - a.y()) /
+                                                                                 (b.y() - a.y()));
+    }
   }
 }
 
@@ -116,16 +123,17 @@ void CellGrid::fill(const std::vector<Vector3d>& outline, const std::vector<std:
     low = std::min(low, point.y());
     high = std::max(high, point.y());
   }
-  std::vector<double> crossings;
   const int first_row = static_cast<int>(std::max(0.0, std::floor(low)));
   const int end_row = static_cast<int>(std::min(rows_ + 0.0, high + 1));
+  if (first_row >= end_row) return;
+  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(end_row - first_row));
+  for (const auto& walk : walks) addCrossings(walk, first_row, crossings);
   for (int row = first_row; row < end_row; ++row) {
-    crossings.clear();
-    for (const auto& walk : walks) addCrossings(walk, row + 0.5, crossings);
-    std::sort(crossings.begin(), crossings.end());
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      const int first = static_cast<int>(std::ceil(std::clamp(crossings[i] - 0.5, 0.0, columns_ + 0.0)));
-      const int end = static_cast<int>(std::ceil(std::clamp(crossings[i + 1] - 0.5, 0.0, columns_ + 0.0)));
+    auto& of_row = crossings[static_cast<std::size_t>(row - first_row)];
+    std::sort(of_row.begin(), of_row.end());
+    for (std::size_t i = 0; i + 1 < of_row.size(); i += 2) {
+      const int first = static_cast<int>(std::ceil(std::clamp(of_row[i] - 0.5, 0.0, columns_ + 0.0)));
+      const int end = static_cast<int>(std::ceil(std::clamp(of_row[i + 1] - 0.5, 0.0, columns_ + 0.0)));
       for (int column = first; column < end; ++column) set({column, row});
     }
   }

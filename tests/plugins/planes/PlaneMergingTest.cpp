@@ -1,4 +1,8 @@
+#include <omnimapper/testing/SimulatedLog.h>
+
 #include "SurfaceRun.h"
+#include "planes/PlaneExtent.h"
+#include "planes/PlaneLandmarkIndex.h"
 #include "planes/PlanePayload.h"
 
 namespace omnimapper::plugins::plane_merging_test {
@@ -301,6 +305,41 @@ TEST_F(PlaneMerging, NothingHasAClassWhereUpIsNotKnown) {
     EXPECT_EQ(shapeOf(landmark).label, "surface");
     EXPECT_EQ(shapeOf(landmark).reason, "which way is up is not known");
   }
+}
+
+// Whatever two outlines are, and whether their heights are known.
+TEST(PlaneGaps, TheCheapBoundIsNeverAboveTheGap) {
+  testing::Dice dice(7);
+  std::size_t apart = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const bool is_upright = i % 2 == 0;
+    const Vector3d normal = is_upright ? Vector3d(dice.normal(1), dice.normal(1), dice.normal(0.05)).normalized()
+                                       : Vector3d(dice.normal(0.3), dice.normal(0.3), 1).normalized();
+    const auto cloud = [&](double spread) {
+      const Vector3d about(dice.normal(4), dice.normal(4), dice.normal(2));
+      std::vector<Vector3d> points;
+      for (int k = 0; k < 6; ++k)
+        points.push_back(about + Vector3d(dice.normal(spread), dice.normal(spread), dice.normal(spread)));
+      return points;
+    };
+    PlaneLandmarkIndex::Surface surface;
+    surface.plane = Plane3::through(Vector3d(dice.normal(1), dice.normal(1), dice.normal(1)), normal);
+    const landmarks::PlaneAxes axes(surface.plane);
+    surface.hull = hullOn(axes, cloud(1));
+    Vector2d middle = Vector2d::Zero();
+    for (const auto& corner : surface.hull) middle += corner / static_cast<double>(surface.hull.size());
+    for (const auto& corner : surface.hull) surface.radius = std::max(surface.radius, (corner - middle).norm());
+    surface.middle = axes.inSpace(middle);
+    using Heights = PlaneLandmarkIndex::Heights;
+    surface.heights = i % 4 < 2 ? Heights::known : Heights::unknown;
+    const auto points = cloud(0.5);
+    Vector3d mean = Vector3d::Zero();
+    for (const auto& point : points) mean += point / static_cast<double>(points.size());
+    const double gap = gapBetween(surface, points, Heights::known), bound = gapAtLeast(surface, points, mean);
+    EXPECT_LE(bound, gap + 1e-9) << i;
+    apart += bound > 0;
+  }
+  EXPECT_GT(apart, 500u) << "it is of use";
 }
 
 }  // namespace
