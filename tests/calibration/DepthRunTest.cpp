@@ -300,7 +300,7 @@ TEST_F(DepthRunTest, TheProgramsFindAndApplyIt) {
   depths.sigma = 0.001;
   depths.width = 240;
   depths.height = 180;
-  depths.distortion = DepthDistortion({-0.008, 0.004, 0.006});
+  depths.distortion = DepthDistortion({-0.012, 0.006, 0.009});
   write(depths, 24);
   const auto calibrate = testing::ownProgram("omnimapper-calibrate");
   const auto ended =
