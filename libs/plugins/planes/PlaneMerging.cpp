@@ -106,7 +106,7 @@ std::optional<Floor> floorOf(const PlaneLandmarkIndex& known, const mapper::View
 // Whether two parts of one wall, with a door or furniture between them: upright, as high as walls, on one plane from
 // one end to the other.
 bool continueEachOther(const Surface& a, const Surface& b, const Floor& floor) {
-  constexpr double kAlong = 0.995, kOffPlane = 0.04, kFar = 2;             // cosine of the turn, [m], [m]
+  constexpr double kOneWall = 0.995, kOffPlane = 0.04, kFar = 2;           // cosine of the turn, [m], [m]
   constexpr double kUpright = 0.1, kHigh = 1.7, kLow = 0.7, kLeast = 0.5;  // of the normal's height, [m], [m], [m^2]
   for (const Surface* one : {&a, &b}) {
     if (std::abs(one->plane.normal.dot(floor.up)) > kUpright || !(one->seen.area() > kLeast)) return false;
@@ -117,7 +117,7 @@ bool continueEachOther(const Surface& a, const Surface& b, const Floor& floor) {
     }
     if (!(highest > kHigh && lowest < kLow)) return false;
   }
-  return a.plane.normal.dot(b.plane.normal) > kAlong && std::abs(signedDistance(a.plane, b.middle)) < kOffPlane &&
+  return a.plane.normal.dot(b.plane.normal) > kOneWall && std::abs(signedDistance(a.plane, b.middle)) < kOffPlane &&
          std::abs(signedDistance(b.plane, a.middle)) < kOffPlane && gapBetween(a, cornersOf(b), b.heights) < kFar;
 }
 
