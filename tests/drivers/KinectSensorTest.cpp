@@ -187,6 +187,7 @@ TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
 }
 
 TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
+  ASSERT_TRUE(silent) << "its session could not be made";
   const auto ended = silent->wait();
   ASSERT_EQ(ended.code, 0) << testing::toString(ended);
   EXPECT_NE(ended.out.find("sensor [kinect] is lost: the Kinect has sent no depth image for 0.4 s"), std::string::npos)
