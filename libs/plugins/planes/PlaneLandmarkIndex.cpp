@@ -113,8 +113,8 @@ double gapBetween(const PlaneLandmarkIndex::Surface& surface, const std::vector<
   return std::max({0.0, b.low - a.high, a.low - b.high});
 }
 
-// Both lie in discs about their middles, of which what is across the plane and, of upright surfaces, how high they are
-// do not count.
+// Each lies in a ball about its middle, and the gap is at least the distance of the middles less both radii. Only the
+// part of the distance along the plane counts, and of upright surfaces only that along the floor.
 double gapAtLeast(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
                   const Eigen::Vector3d& middle) {
   double radius = 0;

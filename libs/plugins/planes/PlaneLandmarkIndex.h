@@ -62,7 +62,7 @@ std::pair<double, double> heightsOf(const std::vector<Eigen::Vector3d>& points);
 /// the surface is upright and the height of one of them is not known, the gap along the floor.
 double gapBetween(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
                   PlaneLandmarkIndex::Heights of_points);
-/// A bound of that gap that costs little: it is at least so large [m]. `middle`: the points' mean.
+/// A lower bound of that gap which costs little [m]; below 0 it says nothing. `middle`: the points' mean in the map.
 double gapAtLeast(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
                   const Eigen::Vector3d& middle);
 

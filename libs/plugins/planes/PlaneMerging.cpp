@@ -82,13 +82,13 @@ bool lieOnEachOther(const Surface& a, const Surface& b) {
   return share >= kShare && sum <= apart * apart * static_cast<double>(shared);
 }
 
-/// What is up and where people walk, for walls.
+/// The floor of a map, from which heights on walls are measured.
 struct Floor {
-  Eigen::Vector3d up;  ///< unit, in the map
-  double height;       ///< [m] along it
+  Eigen::Vector3d up;  ///< unit normal, in the map
+  double height;       ///< [m] along `up` from the map's origin
 };
 
-// None where nobody knows which way is up.
+// None if the map does not know which way is up.
 std::optional<Floor> floorOf(const PlaneLandmarkIndex& known, const mapper::View& view) {
   const auto& level = view.map.level;
   if (level && !level->isKnown()) return std::nullopt;

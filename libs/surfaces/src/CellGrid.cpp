@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Where the edges of a closed walk cross the middles of rows, of those from `first_row` on: one list for each.
+// Adds where the edges of a closed walk cross the middles of rows: crossings[i] are columns in row first_row + i.
 void addCrossings(const std::vector<Vector2d>& walk, int first_row, std::vector<std::vector<double>>& crossings) {
   const double last = first_row + static_cast<double>(crossings.size()) - 1;
   for (std::size_t i = 0; i < walk.size(); ++i) {

@@ -36,7 +36,8 @@ class Merging {
     for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
       if (r_.of_cell[i] == kNoRegion) continue;
       ++cells[static_cast<std::size_t>(r_.of_cell[i])];
-      astray[static_cast<std::size_t>(r_.of_cell[i])] += !explains(r_.of_cell[i], grid_.cells[i], noise_.bend);
+      astray[static_cast<std::size_t>(r_.of_cell[i])] +=
+          !explains(r_.of_cell[i], grid_.cells[i], bendOfTwo(grid_.cells[i]));
     }
     std::vector<int> renamed(r_.regions.size(), kNoRegion);
     std::vector<CellRegions::Region> kept;
@@ -56,8 +57,9 @@ class Merging {
     return cell.moments.squaresFrom(region(index).plane) - cell.squares <= excessAllowed(noise_, cell.moments.n, bend);
   }
 
-  // By how much planes of two pieces of one wall may differ in a cell [1/m]: each may be bent, away from the other, but
-  // where that is far enough for a step between two things, such as a wall and a bookcase, by one bend.
+  // By how much a cell may be off the plane of pieces of one wall, in inverse depth [1/m]. The sensor may bend two
+  // pieces away from each other, each by one bend. Where two bends are more than kStep, they could be two things, such
+  // as a wall and a bookcase, and only one bend is allowed.
   double bendOfTwo(const Cell& cell) const {
     const double inverse = cell.moments.q / cell.moments.n;
     return std::clamp(kStep * inverse * inverse, noise_.bend, 2 * noise_.bend);
