@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
+#include <omnimapper/base/Config.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/live/Journal.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 namespace omnimapper::live::journal_test {
 namespace {
@@ -80,6 +82,19 @@ TEST(Journal, isFoundInTheFolderOfARun) {
     EXPECT_NE(std::string(error.what()).find("recording/one.journal or " + run + "/recording/two.journal"),
               std::string::npos)
         << error.what();
+  }
+}
+
+// It would be trusted with plugin libraries, and a recording may come from anybody.
+TEST(FindIni, takesTheIniOfALiveRunAlone) {
+  const testing::ScratchFolder folder;
+  const std::string journal = folder / "log.journal";
+  EXPECT_EQ(findIni(journal), std::nullopt);
+  write(folder / "log.ini", base::kWrittenFromALog + ": how it was mapped.\n[trigger]\ndistance_m = 0.2\n");
+  EXPECT_EQ(findIni(journal), std::optional<std::string>(folder / "log.ini"));
+  for (const char* text : {"", "[mapper]\nplugin_libraries = theirs.so\n", "; Written"}) {
+    write(folder / "log.ini", text);
+    EXPECT_THROW(findIni(journal), base::Error) << text;
   }
 }
 

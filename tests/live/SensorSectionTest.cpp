@@ -85,6 +85,7 @@ TEST(SensorSection, keysThatADriverDoesNotReadAreNamed) {
   EXPECT_EQ(unread("pose_x = 0.1\nclock = driver\nCOM_port_WIN = COM3\nprocess_rate = 100\n"),
             std::vector<std::string>());
   EXPECT_EQ(unread("poze_z = 0.3\n"), std::vector<std::string>{"poze_z (did you mean pose_z?)"});
+  EXPECT_EQ(unread("COM_prot_LIN = x\n"), std::vector<std::string>{"COM_prot_LIN (did you mean COM_port_LIN?)"});
 }
 
 TEST(SensorSection, aGrabberIniIsReadAsItIs) {

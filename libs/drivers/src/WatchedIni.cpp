@@ -8,28 +8,31 @@ namespace omnimapper::drivers {
 
 namespace {
 
-bool isOfAnotherSystem(const std::string& key) {
-  const auto end = mrpt::system::lowerCase(key.size() > 4 ? key.substr(key.size() - 4) : "");
-  return end == "_win" || end == "_lin";
+bool isForWindows(const std::string& key) {
+  return mrpt::system::lowerCase(key.size() > 4 ? key.substr(key.size() - 4) : "") == "_win";
 }
 
 }  // namespace
 
 std::string WatchedIni::readString(const std::string& section, const std::string& name,
                                    const std::string& default_value, bool fail_if_missing) const {
-  read_.insert(mrpt::system::lowerCase(name));
+  read_.emplace(mrpt::system::lowerCase(name), name);
   return ini_.read_string(section, name, default_value, fail_if_missing);
 }
 
 std::vector<std::string> WatchedIni::unreadKeys(const std::string& section) const {
-  std::set<std::string> known = read_;
-  known.insert({"driver", "rawlog-grabber-ignore"});
-  for (const auto& spec : live::SensorOptions::table().specs()) known.insert(spec.key);
+  auto known = read_;
+  const auto add = [&](const std::string& key) { known.emplace(key, key); };
+  add("driver");
+  add("rawlog-grabber-ignore");
+  for (const auto& spec : live::SensorOptions::table().specs()) add(spec.key);
+  std::vector<std::string> names;
+  for (const auto& [in_lower_case, name] : known) names.push_back(name);
   std::vector<std::string> keys, unread;
   getAllKeys(section, keys);
   for (const auto& key : keys) {
-    if (known.count(mrpt::system::lowerCase(key)) > 0 || isOfAnotherSystem(key)) continue;
-    const std::string nearest = base::nearestName(key, {known.begin(), known.end()});
+    if (known.count(mrpt::system::lowerCase(key)) > 0 || isForWindows(key)) continue;
+    const std::string nearest = base::nearestName(key, names);
     unread.push_back(key + (nearest.empty() ? "" : " (did you mean " + nearest + "?)"));
   }
   return unread;

@@ -2,7 +2,7 @@
 
 #include <mrpt/config/CConfigFileMemory.h>
 
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,7 +14,7 @@ class WatchedIni : public mrpt::config::CConfigFileBase {
   /// `ini` must outlive it.
   explicit WatchedIni(const mrpt::config::CConfigFileMemory& ini) : ini_(ini) {}
 
-  /// Keys of a section that were not read, those left out that are for another system (COM_port_WIN) or another reader
+  /// Keys of a section that were not read, those left out that are for Windows (COM_port_WIN) or another reader
   /// of the section; each with the nearest key that was read, "poze_z (did you mean pose_z?)".
   std::vector<std::string> unreadKeys(const std::string& section) const;
 
@@ -31,7 +31,7 @@ class WatchedIni : public mrpt::config::CConfigFileBase {
 
  private:
   const mrpt::config::CConfigFileMemory& ini_;
-  mutable std::set<std::string> read_;  // in lower case, as MRPT compares them, of all sections
+  mutable std::map<std::string, std::string> read_;  // as the driver writes them, by lower case; of all sections
 };
 
 }  // namespace omnimapper::drivers

@@ -73,11 +73,14 @@ struct SensorThread::Shared {
   }
   void tell(const std::string& sentence) { news.push_back("sensor [" + section.name + "] " + sentence); }
 
+  std::string unreadKey(const std::string& key) const {
+    return "has a key that its driver " + section.driver + " does not read: " + key;
+  }
+
   void opened(const SensorDriver& driver) {
     const std::lock_guard lock(mutex);
     if (!was_open) {
-      for (const auto& key : driver.unreadKeys())
-        tell("has a key that its driver " + section.driver + " does not read: " + key);
+      for (const auto& key : driver.unreadKeys()) tell(unreadKey(key));
       figures.state = State::working;
       last_arrival = Clock::now();
     }
@@ -169,11 +172,22 @@ void SensorThread::run(const std::shared_ptr<Shared>& shared) {
   shared->changed.notify_all();
 }
 
+// A key that the driver does not read may be why it does not open its device.
+void SensorThread::openDriver(Shared& shared, SensorDriver& driver) {
+  try {
+    driver.open();
+  } catch (const std::exception& error) {
+    std::string reason = base::sentenceOf(error);
+    for (const auto& key : driver.unreadKeys()) reason += "; it " + shared.unreadKey(key);
+    throw std::runtime_error(reason);
+  }
+  shared.opened(driver);
+}
+
 // Until the sensor fails, falls silent, or is to stop.
 void SensorThread::readDriver(Shared& shared) {
   const auto driver = makeDriver(shared.section);
-  driver->open();
-  shared.opened(*driver);
+  openDriver(shared, *driver);
   const double rate = driver->rate();
   constexpr double kMostOften = 500;  // [Hz]
   const std::chrono::duration<double> period(1 / (rate > 0 ? std::min(rate, kMostOften) : kMostOften));

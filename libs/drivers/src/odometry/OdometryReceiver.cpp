@@ -21,7 +21,8 @@ constexpr std::size_t kMostQuoted = 80;         // bytes of a line
 constexpr auto kSilence = std::chrono::seconds(1);
 
 void countFault(LineFault fault, std::string_view line, OdometryLineCounts& counts) {
-  if (counts.first_invalid.empty()) counts.first_invalid = base::printable(line.substr(0, kMostQuoted));
+  if (counts.first_invalid.empty())
+    counts.first_invalid = base::printable(line.substr(0, kMostQuoted)) + (line.size() > kMostQuoted ? "..." : "");
   if (fault == LineFault::malformed) ++counts.malformed;
   if (fault == LineFault::not_finite) ++counts.not_finite;
   if (fault == LineFault::too_large) ++counts.too_large;
