@@ -21,5 +21,14 @@ TEST(IniDifferences, sensorsAndSectionsWithoutSettingsDoNotCount) {
             Lines());
 }
 
+TEST(IniDifferences, numbersAreComparedAsNumbers) {
+  EXPECT_EQ(iniDifferences("[a]\nx = 0.50\n", "[a]\nx = 0.5\n"), Lines());
+  EXPECT_EQ(iniDifferences("[a]\nx = 1e2\n", "[a]\nx = 100.5\n"), Lines({"[a] x (1e2, was 100.5)"}));
+}
+
+TEST(IniDifferences, anotherClassIsAnotherSetting) {
+  EXPECT_EQ(iniDifferences("[motion]\nclass = A\n", "[motion]\nclass = B\n"), Lines({"[motion] class (A, was B)"}));
+}
+
 }  // namespace
 }  // namespace omnimapper::base

@@ -1,5 +1,6 @@
 #include <mrpt/config/CConfigFileMemory.h>
 #include <omnimapper/base/IniDifferences.h>
+#include <omnimapper/base/OptionTable.h>
 
 namespace omnimapper::base {
 
@@ -7,11 +8,23 @@ namespace {
 
 using mrpt::config::CConfigFileMemory;
 
-bool hasSettings(const CConfigFileMemory& ini, const std::string& section) {
-  if (section == "live" || ini.keyExists(section, "driver")) return false;
+// [live] and sections of drivers.
+bool isOfSensors(const CConfigFileMemory& ini, const std::string& section) {
+  return section == "live" || ini.keyExists(section, "driver");
+}
+
+// Nothing but a class: that the other INI has no such section makes no difference.
+bool hasSettings(const CConfigFileMemory& ini, const std::string& section, const CConfigFileMemory& other) {
   std::vector<std::string> keys;
   ini.getAllKeys(section, keys);
-  return keys.size() > 1 || (keys.size() == 1 && keys.front() != "class");
+  return keys.size() > 1 || (keys.size() == 1 && (keys.front() != "class" || other.keyExists(section, "class")));
+}
+
+// 0.5 is 0.50.
+bool areEqual(const std::string& a, const std::string& b) {
+  double of_a = 0, of_b = 0;
+  const bool are_numbers = !option_text::parse(a, Range(), of_a) && !option_text::parse(b, Range(), of_b);
+  return are_numbers ? of_a == of_b : a == b;
 }
 
 std::string valueOf(const CConfigFileMemory& ini, const std::string& section, const std::string& key) {
@@ -24,12 +37,12 @@ void addDifferences(const CConfigFileMemory& listed, const CConfigFileMemory& no
   std::vector<std::string> sections, keys;
   listed.getAllSections(sections);
   for (const auto& section : sections) {
-    if (!hasSettings(listed, section)) continue;
+    if (isOfSensors(listed, section) || !hasSettings(listed, section, are_missing_now ? now : before)) continue;
     listed.getAllKeys(section, keys);
     for (const auto& key : keys) {
       if (are_missing_now && now.keyExists(section, key)) continue;
       const std::string is = valueOf(now, section, key), was = valueOf(before, section, key);
-      if (is != was) all.push_back("[" + section + "] " + key + " (" + is + ", was " + was + ")");
+      if (!areEqual(is, was)) all.push_back("[" + section + "] " + key + " (" + is + ", was " + was + ")");
     }
   }
 }

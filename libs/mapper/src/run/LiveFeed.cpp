@@ -151,7 +151,8 @@ void LiveFeed::judge(Engine& engine) {
 
 // One sentence for each sensor that did not go well: each single loss was told when it came.
 void LiveFeed::warnOfSensors(Engine& engine) const {
-  if (!unused_keys_.empty()) engine.warn("[source] " + unused_keys_ + " counts for logs, not for live sensors");
+  if (!unused_keys_.empty())
+    engine.warn("live sensors are not read with these settings, which are for logs: [source] " + unused_keys_);
   if (filtered_out_ > 0)
     engine.warn("[source] labels left " + std::to_string(filtered_out_) +
                 " observations out of the map; they are recorded");

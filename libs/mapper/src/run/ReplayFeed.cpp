@@ -1,5 +1,6 @@
 #include "run/ReplayFeed.h"
 
+#include <omnimapper/base/Exceptions.h>
 #include <omnimapper/base/IniDifferences.h>
 #include <omnimapper/source/RawlogSource.h>
 
@@ -83,10 +84,14 @@ void ReplayFeed::depart(Engine& engine) {
 
 // Recordings from before such an INI was written have none.
 void ReplayFeed::warnOfOtherSettings(Engine& engine) const {
-  const std::string of_live_run = live::iniOf(path_);
-  if (!std::filesystem::exists(of_live_run)) return;
   constexpr std::size_t kMostNamed = 5;
-  const auto differences = base::iniDifferences(ini_, base::Config::fromFile(of_live_run).text());
+  std::vector<std::string> differences;
+  try {
+    const auto of_live_run = live::findIni(path_);
+    if (of_live_run) differences = base::iniDifferences(ini_, base::Config::fromFile(*of_live_run).text());
+  } catch (const base::Error& error) {
+    engine.warn("the settings cannot be compared with those of the live run: " + base::sentenceOf(error));
+  }
   if (differences.empty()) return;
   std::string text;
   for (std::size_t i = 0; i < std::min(differences.size(), kMostNamed); ++i)
