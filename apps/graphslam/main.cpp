@@ -30,11 +30,14 @@ void addOutput(const std::string& section, const std::string& name, base::Config
   if (std::find(listed.begin(), listed.end(), section) == listed.end()) run.more_outputs.push_back(section);
 }
 
-// The journal in a folder, and without -i the INI of its live run.
+// The journal in a folder, and without -i the INI of its live run. Old recordings have none.
 void findReplay(Arguments& arguments) {
-  arguments.run.replay = live::findJournal(arguments.run.replay);
+  auto& journal = arguments.run.replay;
+  journal = live::findJournal(journal);
   if (!arguments.inis.empty()) return;
-  if (const auto ini = live::findIni(arguments.run.replay)) arguments.inis.push_back(*ini);
+  const auto ini = live::findIni(journal);
+  program::require({{"-i INI, for the settings of the live run are not in " + live::iniOf(journal), ini.has_value()}});
+  arguments.inis.push_back(*ini);
 }
 
 void tell(const mapper::RunResult& result, const Arguments& arguments) {

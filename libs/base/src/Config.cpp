@@ -198,10 +198,14 @@ void Config::refuseOtherSpelling(const std::string& section, const std::string& 
   }
 }
 
+bool Config::isFromCommandLine(const std::string& section, const std::string& key) const {
+  const auto place = places_.find(placeKey(section, key));
+  return place != places_.end() && place->second.compare(0, 6, "--set ") == 0;
+}
+
 bool Config::isTrusted(const std::string& section, const std::string& key) const {
   const auto place = places_.find(placeKey(section, key));
-  if (place == places_.end()) return true;
-  if (place->second.compare(0, 6, "--set ") == 0) return true;
+  if (place == places_.end() || isFromCommandLine(section, key)) return true;
   return !is_written_from_a_log_ && from_later_files_.count(place->first) == 0;
 }
 

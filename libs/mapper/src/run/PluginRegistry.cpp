@@ -63,9 +63,10 @@ std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::str
 void loadPluginLibrary(const std::string& path) {
   std::string problem;
   if (!mrpt::system::loadPluginModule(path, problem)) {
-    throw base::Error(base::ExitCode::plugin_library, "[mapper] plugin_libraries: cannot load '" + path + "' (" +
-                                                          problem +
-                                                          "); give its full path, or one relative to the INI's folder");
+    throw base::Error(base::ExitCode::plugin_library,
+                      "[mapper] plugin_libraries: cannot load '" + path + "' (" + problem +
+                          "); give its full path, or one relative to the INI's folder, after --set to the "
+                          "working directory");
   }
 }
 
@@ -77,7 +78,8 @@ void loadPluginLibraries(const base::Config& config) {
                           ": [mapper] plugin_libraries names programs that are run. It counts only in the first INI, "
                           "and not in one that was written from a log: put it there, or say --set");
   }
-  const auto folder = std::filesystem::path(config.firstFile()).parent_path();
+  const bool is_from_command_line = config.isFromCommandLine("mapper", "plugin_libraries");
+  const auto folder = std::filesystem::path(is_from_command_line ? "" : config.firstFile()).parent_path();
   for (const auto& path : paths) loadPluginLibrary(std::filesystem::absolute(folder / path).string());
 }
 

@@ -78,6 +78,7 @@ class Config {
   std::string placeOf(const std::string& section, const std::string& key = "") const;
   /// Path of the first file; empty if there is none.
   const std::string& firstFile() const { return first_file_; }
+  bool isFromCommandLine(const std::string& section, const std::string& key) const;
   /// Whether the user wrote this key himself: it stands in the first file or was set on the command line. Later files
   /// may come from anywhere, as may a first one that begins with kWrittenFromALog. True for what is not set at all.
   bool isTrusted(const std::string& section, const std::string& key) const;
