@@ -129,6 +129,11 @@ std::vector<Stop> stopsOf(const map::Map& map, double between_sessions) {
   return stops;
 }
 
+// What was driven from the stop before to this one [m]: nothing between sessions.
+double drivenTo(const std::vector<Stop>& stops, std::size_t i) {
+  return stops[i].session == stops[i - 1].session ? stops[i].travelled - stops[i - 1].travelled : 0;
+}
+
 // Marks the stops within `reach` [m] of travel of the later end of a closure that acts. Those of earlier sessions are
 // in the graph, not among the decisions of this run. Returns how many act.
 std::size_t markTied(const mapper::State& state, const std::string& section, double reach, std::vector<Stop>& stops) {
@@ -236,8 +241,7 @@ Evidence spannedWay(const std::vector<Stop>& stops, const std::vector<std::optio
   std::size_t begin = stops.size();
   for (std::size_t i = stops.size(); i-- > 1;) {
     begin = std::min(begin, begins[i].value_or(begin));
-    if (stops[i].session != stops[i - 1].session) continue;  // nobody drove from one to the next
-    const double step = stops[i].travelled - stops[i - 1].travelled;
+    const double step = drivenTo(stops, i);
     way += step;
     if (begin < i) spanned += step;
   }
@@ -265,7 +269,7 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
   double revisited = 0, untied = 0, fitting = 0, stretch = 0, longest = 0;
   std::size_t longest_until = 0;
   for (std::size_t i = 1; i < stops.size(); ++i) {
-    const double step = again[i] ? stops[i].travelled - stops[i - 1].travelled : 0;
+    const double step = again[i] ? drivenTo(stops, i) : 0;
     revisited += step;
     const bool is_known =
         !again[i] || stops[i].is_tied || shareSeenBefore(state.map, labels, stops, i, min_travel) > kFits;

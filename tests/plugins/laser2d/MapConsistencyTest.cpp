@@ -39,6 +39,15 @@ TEST(MapConsistency, WithoutAWayBackNothingCanBeTold) {
   EXPECT_TRUE(revisits(testing::HandMadeRun().view(), "loops", {}, 8)[0].says == Says::too_little) << "an empty map";
 }
 
+TEST(MapConsistency, NothingWasDrivenBetweenTwoSessions) {
+  testing::HandMadeRun run;
+  for (const std::uint16_t session : {0, 1}) {
+    run.graph.setSession(session);
+    for (int i = 0; i <= 4; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
+  }
+  EXPECT_DOUBLE_EQ(revisits(run.view(), "loops", {}, 8)[0].value, 4);
+}
+
 TEST(MapConsistency, ALongWayAgainWithoutAClosureIsAgainstTheMap) {
   const auto evidence = revisits(thereAgain().view(), "loops", {}, 8);
   EXPECT_EQ(evidence[0].says, Says::good);
