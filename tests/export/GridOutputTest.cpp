@@ -258,6 +258,20 @@ TEST(ScaleBar, isRoundAndAboutASixthOfThePicture) {
   }
 }
 
+TEST(GridPicture, theCornersOfARoomThatStandsAslantAreInThePicture) {
+  ScanGrid grid;
+  grid.columns = grid.rows = 201;
+  grid.resolution = 0.05;
+  grid.cells.assign(201 * 201, Cell::unknown);
+  for (int row = 0; row < 201; ++row) {
+    const int half = 90 - std::abs(row - 100);  // a square on its corner, ten cells of nothing around it
+    if (half >= 0) std::fill_n(grid.cells.begin() + row * 201 + 100 - half, 2 * half + 1, Cell::free);
+  }
+  const auto room = exports::focused(grid, {});
+  EXPECT_NEAR(room.min_x, 0.05 * (10 - 0.03 * 181), 0.06);
+  EXPECT_NEAR(room.maxX(), 0.05 * (191 + 0.03 * 181), 0.06);
+}
+
 TEST(GridPicture, aStrayBeamDoesNotMakeTheBuildingSmall) {
   // A room of 100 x 100 cells with one beam of 400 cells out of its window.
   ScanGrid grid;

@@ -69,13 +69,18 @@ GridPicture draw(const ScanGrid& grid, int block, int zoom) {
   return picture;
 }
 
-/// First and last index that are left when `share` of the sum of `counts` is cut off at each end.
+/// First and last index that are left when `share` of the sum of `counts` is cut off at each end. An end is cut only
+/// where that leaves out more than a tenth as much again as is left.
 std::pair<int, int> trimmed(const std::vector<double>& counts, double share) {
   const double most = share * std::accumulate(counts.begin(), counts.end(), 0.0);
-  int first = 0, last = static_cast<int>(counts.size()) - 1;
+  int lowest = 0, highest = static_cast<int>(counts.size()) - 1;
+  for (; lowest < highest && counts[lowest] == 0; ++lowest) continue;
+  for (; highest > lowest && counts[highest] == 0; --highest) continue;
+  int first = lowest, last = highest;
   for (double cut = 0; first < last && cut + counts[first] <= most; ++first) cut += counts[first];
   for (double cut = 0; last > first && cut + counts[last] <= most; --last) cut += counts[last];
-  return {first, last};
+  const int least = (last - first) / 10;
+  return {first - lowest > least ? first : lowest, highest - last > least ? last : highest};
 }
 
 }  // namespace

@@ -30,9 +30,10 @@ GridPicture drawGrid(const ScanGrid& grid);
 /// thin and smooth.
 GridPicture drawGridToSize(const ScanGrid& grid, int side);
 
-/// The part of a grid that holds all but the outermost 0.5 % of what is known, to each of the four sides, and the given
-/// places [m] too: a few beams through windows do not make a picture of a building small. Around it lies a margin,
-/// unknown where the grid ends, wide enough at the lower side that the scale bar covers nothing.
+/// The part of a grid that holds what is known and the given places [m]. To each of the four sides the outermost 0.5 %
+/// of what is known are left out where they reach out by more than a tenth of the rest: a few beams through windows do
+/// not make a picture of a building small. Around it lies a margin, unknown where the grid ends, wide enough at the
+/// lower side that the scale bar covers nothing.
 ScanGrid focused(const ScanGrid& grid, const std::vector<mrpt::math::TPoint3D>& places);
 
 }  // namespace omnimapper::exports
