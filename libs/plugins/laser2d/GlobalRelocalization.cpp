@@ -30,7 +30,7 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
   mapper::Decision decision;
   decision.stamp = frame.stamp;
   decision.plugin = context_.section;
-  decision.kind = "relocalisation";
+  decision.kind = mapper::kRelocalisation;
   decision.from = frame.id;
   if (state.map.sessions.back().joined || !isLost(state, decision)) return batch;
   const GlobalMatcher matcher(options_, *matcher_, *places_, label_, newest_);

@@ -55,6 +55,9 @@ TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
   EXPECT_EQ(replayed.err.find("settings"), std::string::npos) << replayed.err;
   EXPECT_EQ(readFile(again + "/map.omnimap"), readFile(run.out() + "/map.omnimap"));
 
+  EXPECT_TRUE(endedWith(ExitCode::unwritable_output, graphslam({"--replay", run.out(), "-o", run.out()}),
+                        {"it is of the live run that is replayed"}));
+
   const auto other = runProgram(run.command({"--replay", run.recorded(".journal"), "-o", run.folder / "other", "--set",
                                              "trigger.distance_m=0.2", "--set", "trigger.angle_deg=5"}));
   EXPECT_TRUE(endedWith(ExitCode::ok, other,
@@ -85,7 +88,8 @@ TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
   const auto again = run.folder / "again";
   ASSERT_TRUE(endedWith(ExitCode::ok, runProgram(run.command({"--replay", run.recorded(".journal"), "-o", again}))));
   EXPECT_GT(nlohmann::json::parse(std::ifstream(again + "/summary.json")).at("key_frames"), 3);
-  // And a map goes on from the checkpoint.
+  // The checkpoint is no other run's, and a map goes on from it.
+  EXPECT_TRUE(endedWith(ExitCode::unwritable_output, runProgram(run.live()), {"holds the map of an earlier run"}));
   EXPECT_TRUE(endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out()})));
 }
 

@@ -16,6 +16,9 @@
 
 namespace omnimapper::mapper {
 
+/// In the output folder, of a live run that goes on or crashed.
+inline constexpr char kCheckpoint[] = "checkpoint.omnimap";
+
 /// Where the observations of a run come from: logs, sensors, or what was recorded of sensors.
 class Feed {
  public:
@@ -33,6 +36,9 @@ class Feed {
   virtual std::unique_ptr<Schedule> schedule() { return std::make_unique<Schedule>(); }
   /// Whether a run that `stop` ends is a whole one.
   virtual bool endsWhenStopped() const { return false; }
+
+  /// Why the outputs must not take the place of a run's that is in this folder; empty if they may.
+  virtual std::string keepsRunIn(const std::string& /*folder*/) const { return ""; }
 
   /// Opens what can be opened before there is a place for outputs; throws Error where that cannot be read.
   virtual void open(const Stop& stop) = 0;

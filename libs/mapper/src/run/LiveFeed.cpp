@@ -16,7 +16,7 @@ namespace {
 using Kind = live::JournalEvent::Kind;
 using std::chrono::milliseconds;
 
-constexpr char kRecording[] = "recording", kCheckpoint[] = "checkpoint.omnimap";  // in the output folder
+constexpr char kRecording[] = "recording";  // in the output folder
 
 std::string times(std::uint64_t count) {
   if (count < 2) return count == 0 ? "never" : "once";

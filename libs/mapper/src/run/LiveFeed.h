@@ -30,6 +30,8 @@ class LiveFeed : public Feed {
   source::SourceReport report() const override;
   base::ExitCode code() const override;
   std::string whatStays() const override;
+  // A drive cannot be made again as a run on a log can, and Ctrl-C may end the next one after a second.
+  std::string keepsRunIn(const std::string&) const override { return "a live run would replace it"; }
   std::string checkHint() const override { return "omnimapper-graphslam --check --live shows what the sensors send"; }
   std::vector<std::string> files() const override;
 

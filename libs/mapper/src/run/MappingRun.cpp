@@ -56,6 +56,10 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
   std::string labels;
   for (const auto& sentence : unknown_labels) labels += sentence + "\n";
   const bool is_whole = result.code == base::ExitCode::ok;
+  if (is_whole && result.source.sensors.empty() && result.source.unusable.empty()) {
+    throw base::Error(base::ExitCode::nothing_to_map, feed.name() + ": nothing to map: no observation came; " +
+                                                          feed.whatStays() + ". " + feed.checkHint() + ".");
+  }
   const std::string how = result.code == base::ExitCode::interrupted ? "interrupted before the first" : "no";
   throw base::Error(
       is_whole ? base::ExitCode::nothing_to_map : result.code,
@@ -80,14 +84,23 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
 [[noreturn]] void failWithNoPlace(const RunRequest& request, const RunResult& result, SessionOptions::Start start) {
   const bool was_sought = start == SessionOptions::Start::anywhere;
   const bool was_compared = result.closures + result.refused_closures > 0;
+  const std::string report = result.output_folder + "/report.html";
   if (result.code == base::ExitCode::interrupted)
     throw base::Error(result.code, request.localize_map + ": interrupted before the log was located in the map");
+  const auto code = result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code;
+  if (result.awaits_confirmation) {
+    throw base::Error(code, request.localize_map +
+                                ": the log was located nowhere in the map: one place fits, and the log ends before "
+                                "another match confirms it: drive on for some metres. The place is among the "
+                                "decisions in " +
+                                report);
+  }
   throw base::Error(
-      result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code,
+      code,
       request.localize_map + ": the log was located nowhere in the map: is it of another place? If not, say " +
           (was_sought ? "" : "[session] start = anywhere, which searches the whole map, or ") +
           "where it begins (origin, pose). " +
-          (was_compared ? "Why: the refused closures in " + result.output_folder + "/report.html"
+          (was_compared ? "Why: the refused closures in " + report
                         : "No scan of it was compared with one of the map: an INI with loop_closure does that where "
                           "both have a laser; else the map needs landmarks of the kinds that the INI measures"));
 }
@@ -105,6 +118,8 @@ RunResult resultOf(const View& view) {
   result.live = view.live;
   result.localized = view.localization.size();
   for (const auto& estimate : view.localization) result.located += estimate.located();
+  for (const auto& decision : view.decisions)
+    result.awaits_confirmation |= decision.kind == kRelocalisation && decision.accepted;
   const auto figures = map::sessionFigures(view.map);
   if (!figures.empty() && figures.back().number == result.sessions.back().number) {
     result.new_key_frames = figures.back().key_frames;
@@ -132,7 +147,7 @@ class Run {
   void makeEngine();
   std::vector<std::string> warn(const RunResult& result);
   void publish(const std::vector<base::Error>& failures, RunResult& result);
-  void refuseToReplaceLive() const;
+  void refuseToReplaceRun() const;
   bool continuesItsFolder() const;
   void keepContinuedMap();
   std::vector<std::string> foreignFiles() const;
@@ -186,7 +201,7 @@ void Run::open() {
   feed_->open(stop_);
   kept_.emplace(feed_->inputs());
   outputs_.open();
-  refuseToReplaceLive();
+  refuseToReplaceRun();
   feed_->begin(outputs_.folder(), stop_);
 }
 
@@ -315,14 +330,15 @@ std::vector<std::string> Run::foreignFiles() const {
   return files;
 }
 
-// A drive cannot be made again as a run on a log can, and Ctrl-C may end the next one after a second.
-void Run::refuseToReplaceLive() const {
-  if (!feed_->endsWhenStopped() || !outputs_.holdsRun() || continuesItsFolder()) return;
+void Run::refuseToReplaceRun() const {
+  const auto& folder = outputs_.folder();
+  const bool holds_checkpoint = std::filesystem::exists(folder + "/" + kCheckpoint);
+  if ((!outputs_.holdsRun() && !holds_checkpoint) || continuesItsFolder()) return;
+  const std::string why = feed_->keepsRunIn(folder);
+  if (why.empty()) return;
   throw base::Error(base::ExitCode::unwritable_output,
-                    outputs_.folder() +
-                        ": holds the map of an earlier run, which a live run would replace; give "
-                        "another folder (-o), or go on from that map (--continue " +
-                        outputs_.folder() + ")");
+                    folder + ": holds the map of an earlier run, and " + why +
+                        "; give another folder (-o), or go on from that map (--continue " + folder + ")");
 }
 
 // Whether the map that is gone on from lies in the output folder.

@@ -39,6 +39,15 @@ std::vector<std::string> ReplayFeed::inputs() const {
   return inputs;
 }
 
+// Only there stands how the live run went: its sensors, what was dropped, latencies.
+std::string ReplayFeed::keepsRunIn(const std::string& folder) const {
+  const auto recording = std::filesystem::absolute(path_).parent_path();
+  std::error_code ignored;
+  const bool is_there = std::filesystem::equivalent(recording, folder, ignored) ||
+                        std::filesystem::equivalent(recording.parent_path(), folder, ignored);
+  return is_there ? "it is of the live run that is replayed" : "";
+}
+
 std::unique_ptr<Schedule> ReplayFeed::schedule() {
   return std::make_unique<ReplaySchedule>(cursor_);
 }

@@ -43,6 +43,7 @@ class ReplayFeed : public Feed {
 
   std::string title() const override;
   std::string name() const override { return path_; }
+  std::string keepsRunIn(const std::string& folder) const override;
   std::vector<std::string> inputs() const override;
   std::unique_ptr<Schedule> schedule() override;
   void open(const Stop& stop) override;

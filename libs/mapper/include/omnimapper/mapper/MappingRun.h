@@ -31,6 +31,7 @@ struct RunResult {
   std::size_t key_frames = 0, factors = 0;  ///< of the whole map
   std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;
   std::size_t localized = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
+  bool awaits_confirmation = false;        ///< it found a place in the map, and no second one that agrees
   std::map<std::string, std::size_t> landmarks;  ///< of the whole map, by label
   std::vector<map::Session> sessions;            ///< of the whole map; the last is this run
   std::optional<map::Level> level;               ///< of the whole map; none of a run that localizes in an old one

@@ -26,6 +26,10 @@ struct Decision {
   bool is_loop_closure = false;  ///< it is about two key frames that do not follow one another, `from` and `to`
 };
 
+/// The kind of a decision that looked for a session in the whole map; accepted, the session was moved there, and a loop
+/// closure must yet confirm it.
+inline constexpr char kRelocalisation[] = "relocalisation";
+
 using DecisionLog = std::vector<Decision>;
 
 /// Pairs of key frames that a loop closure was considered between, each once: accepted if any decision about it is, as
