@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace omnimapper::net {
+
+/// Numbers of a shape, the last axis fastest. A batch of pictures is (pictures, channels, rows, columns).
+struct Tensor {
+  std::vector<int> shape;
+  std::vector<float> values;
+};
+
+/// What computes a network.
+enum class Backend {
+  opencv,       ///< OpenCV's module dnn
+  onnx_runtime  ///< Microsoft's ONNX Runtime, two to three times as fast, a library that is found when it is needed
+};
+
+class Session;
+
+/// A trained network with one input and one output, read from an ONNX file. It is computed in the thread that asks, and
+/// in no other, so that its bits do not depend on the number of cores; they may depend on the kind of processor.
+/// Thread-safe: of threads that ask at once each computes a copy of its own, which is read when it is first needed.
+class Network {
+ public:
+  /// `library` is the file of ONNX Runtime, empty with another backend. Throws Error(unreadable_input) that names the
+  /// file if it is missing, empty or no network, or has several inputs or outputs, and Error(plugin_library) if the
+  /// library cannot be loaded or is older than 1.11.
+  Network(const std::string& path, Backend backend, const std::string& library = "");
+  ~Network();
+
+  /// Throws Error(unreadable_input) if `input` is not of a shape that the network takes.
+  Tensor run(const Tensor& input) const;
+
+ private:
+  std::unique_ptr<Session> take() const;
+
+  std::string path_;
+  Backend backend_;
+  std::string library_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<Session>> idle_;
+};
+
+}  // namespace omnimapper::net
