@@ -2,13 +2,11 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/net/Network.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/OnnxBytes.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
-
-#include "OnnxBytes.h"
 
 namespace omnimapper::net {
 namespace {
@@ -17,7 +15,7 @@ namespace fs = std::filesystem;
 
 // Of each pixel's two channels a and b: a + 2 b and 3 a - b, then what is positive.
 std::string smallModel() {
-  using namespace onnx_bytes;
+  using namespace testing::onnx_bytes;
   return model({node("Conv", {"picture", "weights"}, "mixed", {attribute("kernel_shape", {1, 1})}),
                 node("Relu", {"mixed"}, "positive")},
                {weights("weights", {2, 2, 1, 1}, {1, 2, 3, -1})}, {value("picture", {1, 2, 1, 3})},
@@ -27,18 +25,11 @@ std::string smallModel() {
 const Tensor kPicture = {{1, 2, 1, 3}, {1, 0, -1, 5, 1, 2}};
 const std::vector<float> kAnswer = {11, 2, 3, 0, 0, 0};
 
-fs::path modelsFolder() {
-  const char* data = std::getenv("XDG_DATA_HOME");
-  const char* home = std::getenv("HOME");
-  return fs::path(data != nullptr ? data : std::string(home != nullptr ? home : "") + "/.local/share") /
-         "omnimapper/models";
-}
-
 class NetworkTest : public ::testing::TestWithParam<Backend> {
  protected:
   void SetUp() override {
     if (GetParam() == Backend::opencv) return;
-    library_ = modelsFolder() / "libonnxruntime.so.1";
+    library_ = modelsFolder() + "/libonnxruntime.so.1";
     if (!fs::exists(library_)) GTEST_SKIP() << "ONNX Runtime is not there: scripts/models --onnxruntime fetches it";
   }
   Network read(const std::string& path) const { return Network(path, GetParam(), library_); }
@@ -75,7 +66,7 @@ TEST_P(NetworkTest, threadsMayAskAtOnce) {
 
 TEST_P(NetworkTest, filesThatAreNoNetworksAreRefusedByName) {
   const auto whole = smallModel();
-  using namespace onnx_bytes;
+  using namespace testing::onnx_bytes;
   const std::string two_outputs =
       model({node("Relu", {"x"}, "y"), node("Sigmoid", {"x"}, "z")}, {}, {value("x", {1, 1, 1, 3})},
             {value("y", {1, 1, 1, 3}), value("z", {1, 1, 1, 3})});

@@ -3,12 +3,20 @@
 #include <omnimapper/net/Network.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
 #include "Session.h"
 
 namespace omnimapper::net {
+
+std::string modelsFolder() {
+  const char* data = std::getenv("XDG_DATA_HOME");
+  const char* home = std::getenv("HOME");
+  const bool has_data = data != nullptr && *data == '/';
+  return (has_data ? data : std::string(home != nullptr ? home : "") + "/.local/share") + "/omnimapper/models";
+}
 
 Network::Network(const std::string& path, Backend backend, const std::string& library)
     : path_(path), backend_(backend), library_(library) {

@@ -77,7 +77,7 @@ CObservationBearingRange::Ptr observe(const mrpt::obs::CObservation& raw, const 
   observation->sensorLocationOnRobot = geometry::toMrpt(geometry::fromMrpt(base_from_optical) * optical_from_sensor);
   observation->validCovariances = true;
   if (picture.isEmpty()) return observation;
-  const markers::LensModel lens(camera, raw.sensorLabel);
+  const LensModel lens(camera, raw.sensorLabel);
   observation->fieldOfView_yaw = fieldOfView(static_cast<int>(picture.getWidth()), camera.fx());
   observation->fieldOfView_pitch = fieldOfView(static_cast<int>(picture.getHeight()), camera.fy());
   const Matrix3d axes = geometry::sensorFromOptical().rotation.toRotationMatrix();

@@ -1,8 +1,8 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/perception/LensModel.h>
 #include <omnimapper/perception/PictureView.h>
 
 #include "RangeScan.h"
-#include "markers/LensModel.h"
 
 namespace omnimapper::perception {
 
@@ -28,7 +28,7 @@ std::optional<Eigen::Vector2d> pixelOf(const mrpt::img::TCamera& camera, const E
   constexpr double kNearest = 0.01;  // [m]
   if (!(point_in_sensor.x() > kNearest)) return std::nullopt;
   try {
-    const markers::LensModel lens(camera, "camera");
+    const LensModel lens(camera, "camera");
     return lens.project(toOptical(point_in_sensor)).place;
   } catch (const base::Error&) {
     return std::nullopt;

@@ -5,6 +5,7 @@
 #include <omnimapper/obs/Rgb.h>
 #include <omnimapper/perception/ColourImage.h>
 #include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/perception/PictureView.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -26,9 +27,6 @@ Eigen::Matrix<Scalar, 3, 1> toSensor(const Eigen::Matrix<Scalar, 3, 1>& in_optic
 inline Eigen::Vector3d toOptical(const Eigen::Vector3d& in_sensor) {
   return {-in_sensor.y(), -in_sensor.z(), in_sensor.x()};
 }
-
-/// Throws Error(missing_images): an image ("depth", "colour") of that sensor is in a file that was not loaded.
-[[noreturn]] void refuseMissing(const std::string& label, const std::string& what, const std::string& file);
 
 constexpr std::uint16_t kSaturated = 65535;
 

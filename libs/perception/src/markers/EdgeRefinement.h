@@ -1,8 +1,7 @@
 #pragma once
 
 #include <omnimapper/perception/ColourImage.h>
-
-#include "LensModel.h"
+#include <omnimapper/perception/LensModel.h>
 
 namespace omnimapper::perception::markers {
 

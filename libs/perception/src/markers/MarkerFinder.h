@@ -2,10 +2,9 @@
 
 #include <mrpt/img/CImage.h>
 #include <omnimapper/perception/ArucoMarkerExtractor.h>
+#include <omnimapper/perception/LensModel.h>
 
 #include <vector>
-
-#include "LensModel.h"
 
 namespace omnimapper::perception::markers {
 

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <omnimapper/geometry/Se3.h>
+#include <omnimapper/perception/LensModel.h>
 
 #include <optional>
-
-#include "LensModel.h"
 
 namespace omnimapper::perception::markers {
 

@@ -19,6 +19,10 @@ enum class Backend {
   onnx_runtime  ///< Microsoft's ONNX Runtime, two to three times as fast, a library that is found when it is needed
 };
 
+/// Where scripts/models puts networks and the library of ONNX Runtime: $XDG_DATA_HOME/omnimapper/models, without that
+/// variable ~/.local/share/omnimapper/models.
+std::string modelsFolder();
+
 class Session;
 
 /// A trained network with one input and one output, read from an ONNX file. It is computed in the thread that asks, and

@@ -7,7 +7,7 @@
 
 /// Bytes of small ONNX models, made without the libraries that make large ones: messages of protocol buffers by the
 /// numbers of their fields (onnx.proto of ONNX 1.12).
-namespace omnimapper::net::onnx_bytes {
+namespace omnimapper::testing::onnx_bytes {
 
 inline std::string varint(std::uint64_t value) {
   std::string bytes;
@@ -65,4 +65,4 @@ inline std::string model(const std::vector<std::string>& nodes, const std::vecto
   return field(1, 8) + field(7, graph) + field(8, field(2, 11));
 }
 
-}  // namespace omnimapper::net::onnx_bytes
+}  // namespace omnimapper::testing::onnx_bytes

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-namespace omnimapper::perception::markers {
+namespace omnimapper::perception {
 
 /// Columns and rows in an image [px], or x and y of rays at z = 1 of the optical frame (x right, y down, z forward), of
-/// the corners of a marker: top left, top right, bottom right, bottom left.
+/// the corners of a marker or a sign: top left, top right, bottom right, bottom left.
 using Corners = std::array<Eigen::Vector2d, 4>;
 
 /// Where a camera sees what.
@@ -34,4 +34,4 @@ class LensModel {
   mrpt::img::TCamera camera_;
 };
 
-}  // namespace omnimapper::perception::markers
+}  // namespace omnimapper::perception

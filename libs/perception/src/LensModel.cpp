@@ -1,17 +1,16 @@
-#include "LensModel.h"
-
 #include <omnimapper/base/Error.h>
+#include <omnimapper/perception/LensModel.h>
 
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <vector>
 
-namespace omnimapper::perception::markers {
+namespace omnimapper::perception {
 
 namespace {
 
-constexpr double kShortestFocal = 1, kFarthest = 1e6;  // [px], as DepthImage has them
-constexpr double kWidestRay = 1e3;                     // tangent of its angle from the axis
+constexpr double kLeastFocal = 1, kMostParameter = 1e6;  // [px], as DepthImage has them
+constexpr double kWidestRay = 1e3;                       // tangent of its angle from the axis
 
 cv::Matx33d matrixOf(const mrpt::img::TCamera& camera) {
   return {camera.fx(), 0, camera.cx(), 0, camera.fy(), camera.cy(), 0, 0, 1};
@@ -30,11 +29,11 @@ LensModel::LensModel(const mrpt::img::TCamera& camera, const std::string& who) :
   auto values = camera.getDistortionParamsAsVector();
   values.insert(values.end(), {camera.fx(), camera.fy(), camera.cx(), camera.cy()});
   for (const double value : values) {
-    if (!(std::abs(value) <= kFarthest))  // not a number, too
-      refuse("an intrinsic parameter of " + std::to_string(value) + " is beyond " + std::to_string(kFarthest));
+    if (!(std::abs(value) <= kMostParameter))  // not a number, too
+      refuse("an intrinsic parameter of " + std::to_string(value) + " is beyond " + std::to_string(kMostParameter));
   }
   for (const double focal : {camera.fx(), camera.fy()}) {
-    if (focal < kShortestFocal) refuse("a focal length of " + std::to_string(focal) + " px is shorter than a pixel");
+    if (focal < kLeastFocal) refuse("a focal length of " + std::to_string(focal) + " px is shorter than a pixel");
   }
 }
 
@@ -76,4 +75,4 @@ LensModel::Projection LensModel::project(const Eigen::Vector3d& point) const {
   return projection;
 }
 
-}  // namespace omnimapper::perception::markers
+}  // namespace omnimapper::perception

@@ -1,0 +1,13 @@
+#include <omnimapper/base/AtLoad.h>
+#include <omnimapper/plugin/ExtractorFactoryOf.h>
+#include <omnimapper/signs/DoorSignExtractor.h>
+
+namespace omnimapper::plugins {
+
+// The build links this file last: the ids of the classes are made before.
+const base::AtLoad kRegister([] {
+  mapper::registerFactoryBases();
+  mapper::ExtractorFactoryOf<signs::DoorSignExtractor, signs::DoorSignOptions>::registerClass();
+});
+
+}  // namespace omnimapper::plugins

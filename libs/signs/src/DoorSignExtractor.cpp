@@ -1,0 +1,198 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/net/Network.h>
+#include <omnimapper/perception/LensModel.h>
+#include <omnimapper/perception/PictureView.h>
+#include <omnimapper/signs/DoorSignExtractor.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "LineReader.h"
+#include "NetworkReader.h"
+#include "PlateFinder.h"
+#include "TextDetector.h"
+
+namespace omnimapper::signs {
+
+using obs::CObservationDoorSigns;
+using obs::ObservedDoorSign;
+
+const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
+  using Options = DoorSignOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("models", &Options::models,
+                "Folder of the networks that scripts/models makes; empty: ~/.local/share/omnimapper/models.")
+          .choice<Backend>("backend", &Options::backend,
+                           {{"opencv", Backend::opencv}, {"onnx_runtime", Backend::onnx_runtime}},
+                           "What computes the networks: OpenCV, or ONNX Runtime, which is twice as fast and which "
+                           "scripts/models --onnxruntime fetches.")
+          .text("letters", &Options::letters,
+                "What texts consist of; empty: the English alphabet, digits and -.,:/&'(). A middle dot is read as a "
+                "hyphen.")
+          .number("min_confidence", &Options::min_confidence, {0, 1}, "Lines that are less likely right are left out.")
+          .number("min_height_px", &Options::min_height, {4, 1000}, "Lines that are lower are left out.");
+  return table;
+}
+
+namespace {
+
+cv::Mat inBgr(const mrpt::img::CImage& image) {
+  const auto pixels = image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+  cv::Mat picture;
+  if (pixels.type() == CV_8UC1) cv::cvtColor(pixels, picture, cv::COLOR_GRAY2BGR);
+  if (pixels.type() == CV_8UC3) picture = pixels;
+  return picture;
+}
+
+std::optional<Eigen::Vector3d> rayTo(const Quad& quad, const perception::LensModel& lens) {
+  perception::Corners corners;
+  for (std::size_t i = 0; i < quad.size(); ++i) corners[i] = quad[i].cast<double>();
+  const auto rays = lens.raysOf(corners);
+  if (!rays) return std::nullopt;
+  const auto& r = *rays;
+  const Eigen::Vector2d first = r[2] - r[0], second = r[3] - r[1], between = r[1] - r[0];
+  const double area = first.x() * second.y() - first.y() * second.x();
+  if (!(std::abs(area) > 0)) return std::nullopt;
+  const double share = (between.x() * second.y() - between.y() * second.x()) / area;
+  const Eigen::Vector2d middle = r[0] + share * first;
+  return Eigen::Vector3d(middle.x(), middle.y(), 1).normalized();
+}
+
+// BGR, as MRPT's images are.
+mrpt::img::CImage imageOf(const cv::Mat& patch) {
+  return mrpt::img::CImage(patch, mrpt::img::DEEP_COPY);
+}
+
+}  // namespace
+
+// All that is needed to read an image, made once.
+class DoorSignExtractor::Reader {
+ public:
+  explicit Reader(const DoorSignOptions& options)
+      : options_(options),
+        detector_(networkOf("text_detector.onnx")),
+        reader_(networkOf("text_reader.onnx"), folder() + "/text_reader.letters.txt",
+                Alphabet(options.letters.empty() ? Alphabet::common() : options.letters)) {}
+
+  std::vector<ObservedDoorSign> signsIn(const cv::Mat& picture, const perception::LensModel& lens) const {
+    struct Line {
+      TextLine found;
+      obs::ReadText text;
+    };
+    std::vector<Line> lines;
+    std::vector<Quad> quads;
+    for (const auto& found : detector_.detect(picture)) {
+      if (heightOf(found.quad) < options_.min_height) continue;
+      const auto reading = readLine(picture, found.quad, reader_);
+      const double confidence = confidenceOf(reading.evidence);
+      if (reading.text.empty() || confidence < options_.min_confidence) continue;
+      lines.push_back({found, {reading.text, confidence}});
+      quads.push_back(found.quad);
+    }
+    std::vector<ObservedDoorSign> signs;
+    for (const auto& plate : findPlates(picture, quads)) {
+      const auto ray = rayTo(plate.quad, lens);
+      if (!ray) continue;
+      ObservedDoorSign sign;
+      sign.corners_px = plate.quad;
+      sign.ray = *ray;
+      for (const auto line : plate.lines) {
+        sign.texts.push_back(lines[line].text);
+        sign.score = std::max(sign.score, lines[line].found.score);
+      }
+      const cv::Mat patch = patchOf(picture, plate.quad);
+      if (!patch.empty()) sign.patch = imageOf(patch);
+      signs.push_back(std::move(sign));
+    }
+    std::stable_sort(signs.begin(), signs.end(), [](const auto& a, const auto& b) {
+      return middleOf(a.corners_px).x() < middleOf(b.corners_px).x();
+    });
+    return signs;
+  }
+
+ private:
+  std::string folder() const { return options_.models.empty() ? net::modelsFolder() : options_.models; }
+
+  // The library is a program: it is taken from its own place alone, wherever an INI has its networks.
+  std::shared_ptr<const net::Network> networkOf(const std::string& file) const {
+    const bool is_opencv = options_.backend == DoorSignOptions::Backend::opencv;
+    return std::make_shared<net::Network>(folder() + "/" + file,
+                                          is_opencv ? net::Backend::opencv : net::Backend::onnx_runtime,
+                                          is_opencv ? "" : net::modelsFolder() + "/libonnxruntime.so.1");
+  }
+
+  DoorSignOptions options_;
+  TextDetector detector_;
+  NetworkReader reader_;
+};
+
+DoorSignExtractor::DoorSignExtractor(const DoorSignOptions& options)
+    : options_(options), reader_(std::make_unique<Reader>(options)) {}
+
+DoorSignExtractor::~DoorSignExtractor() = default;
+
+namespace {
+
+CObservationDoorSigns::Ptr emptyOf(const mrpt::obs::CObservation& raw, const mrpt::poses::CPose3D& optical) {
+  auto observation = CObservationDoorSigns::Create();
+  observation->timestamp = raw.timestamp;
+  observation->sensorLabel = raw.sensorLabel + kSignsSuffix;
+  observation->source_label = raw.sensorLabel;
+  observation->sensorPose = optical;
+  return observation;
+}
+
+template <class Signs>
+void fill(CObservationDoorSigns& observation, const mrpt::img::CImage& image, const mrpt::img::TCamera& camera,
+          const Signs& signs_in) {
+  const auto& label = observation.source_label;
+  try {
+    if (image.isEmpty()) return;
+    const cv::Mat picture = inBgr(image);
+    if (picture.empty()) return;
+    const perception::LensModel lens(camera, label);
+    observation.signs = signs_in(picture, lens);
+  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
+    perception::refuseMissing(label, "colour", image.getExternalStorageFile());
+  } catch (const cv::Exception& error) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      label + ": OpenCV cannot look for signs in this image: " + error.err);
+  }
+}
+
+}  // namespace
+
+CObservationDoorSigns::Ptr DoorSignExtractor::extract(const mrpt::obs::CObservationImage& image) const {
+  auto observation = emptyOf(image, image.cameraPose);
+  fill(*observation, image.image, image.cameraParams,
+       [this](const auto& picture, const auto& lens) { return reader_->signsIn(picture, lens); });
+  return observation;
+}
+
+CObservationDoorSigns::Ptr DoorSignExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
+  auto observation = emptyOf(scan, scan.sensorPose + scan.relativePoseIntensityWRTDepth);
+  const mrpt::img::CImage none;
+  const auto& camera = perception::isPictureOfDepthView(scan) ? scan.cameraParams : scan.cameraParamsIntensity;
+  fill(*observation, scan.hasIntensityImage ? scan.intensityImage : none, camera,
+       [this](const auto& picture, const auto& lens) { return reader_->signsIn(picture, lens); });
+  return observation;
+}
+
+bool DoorSignExtractor::wants(const mrpt::obs::CObservation& raw) const {
+  if (dynamic_cast<const mrpt::obs::CObservationImage*>(&raw) != nullptr) return true;
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw);
+  return scan != nullptr && scan->hasIntensityImage;
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> DoorSignExtractor::extract(const mrpt::obs::CObservation& raw) const {
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw);
+  return {scan != nullptr ? extract(*scan) : extract(dynamic_cast<const mrpt::obs::CObservationImage&>(raw))};
+}
+
+std::vector<perception::DerivedName> DoorSignExtractor::namesOf(const mrpt::obs::CObservation& raw) const {
+  return {{CLASS_ID(CObservationDoorSigns), raw.sensorLabel + kSignsSuffix}};
+}
+
+}  // namespace omnimapper::signs

@@ -1,0 +1,170 @@
+#include "LineReader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace omnimapper::signs {
+
+namespace {
+
+constexpr int kRows = 48;                // of the patch in which the ends of a text are looked at
+constexpr double kClear = 0.5;           // of the line's height, how far beside it
+constexpr double kEdge = 0.12;           // of the text's contrast a pixel, over most of its height: an edge
+constexpr double kInk = 0.35;            // of the text's contrast
+constexpr int kDark = 3, kBright = 252;  // beyond, a pixel shows nothing
+
+struct Levels {
+  double low, high;
+};
+
+// The grey levels below and above which `share` of the pixels is.
+Levels levelsOf(const cv::Mat& grey, double share) {
+  std::array<int, 256> counts{};
+  for (int row = 0; row < grey.rows; ++row)
+    for (int column = 0; column < grey.cols; ++column) ++counts[grey.at<std::uint8_t>(row, column)];
+  const double wanted = share * static_cast<double>(grey.total());
+  Levels levels{0, 255};
+  for (double sum = 0; levels.low < 255 && (sum += counts[static_cast<std::size_t>(levels.low)]) < wanted;)
+    ++levels.low;
+  for (double sum = 0; levels.high > 0 && (sum += counts[static_cast<std::size_t>(levels.high)]) < wanted;)
+    --levels.high;
+  return levels;
+}
+
+cv::Mat greyOf(const cv::Mat& patch) {
+  cv::Mat grey;
+  cv::cvtColor(patch, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
+cv::Mat stretched(const cv::Mat& patch) {
+  const auto levels = levelsOf(greyOf(patch), 0.02);
+  const double factor = 255 / std::max(8.0, levels.high - levels.low);
+  cv::Mat result;
+  patch.convertTo(result, CV_8U, factor, -levels.low * factor);
+  return result;
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+// What a column beside or in a text shows.
+struct Column {
+  bool has_ink = false;  // a part of a letter
+  bool is_end = false;   // an upright edge, higher than letters are, or nothing that can be seen
+};
+
+Column columnOf(const cv::Mat& grey, const cv::Mat& change, int column, double background, double contrast) {
+  std::vector<float> changes(static_cast<std::size_t>(grey.rows));
+  int shown = 0, inked = 0;
+  for (int row = 0; row < grey.rows; ++row) {
+    changes[static_cast<std::size_t>(row)] = change.at<float>(row, column);
+    const int level = grey.at<std::uint8_t>(row, column);
+    shown += level > kDark && level < kBright;
+    inked += std::abs(level - background) > kInk * contrast;
+  }
+  const auto low = changes.begin() + grey.rows / 8;
+  std::nth_element(changes.begin(), low, changes.end());
+  return {10 * inked > grey.rows, *low > kEdge * contrast || 2 * shown < grey.rows};
+}
+
+// From the last ink before the end of a text to what ends it, at most kClear of the line's height; `columns` from the
+// middle of the text outwards, to kRows beyond its box, which counts as its end where no ink is seen.
+double clearanceAlong(const std::vector<Column>& columns) {
+  std::size_t ink = 0, end = 0;
+  for (; end < columns.size() && !columns[end].is_end; ++end)
+    if (columns[end].has_ink) ink = end;
+  if (ink == 0) ink = std::min(end, columns.size() - std::min<std::size_t>(kRows, columns.size()));
+  return std::min(kClear, static_cast<double>(end - ink) / kRows);
+}
+
+double clearanceOf(const cv::Mat& picture, const Quad& line) {
+  // Higher than letters are, whose stems are edges too.
+  constexpr float kAbove = 0.15f;
+  const float side = static_cast<float>(kClear);
+  const Quad wide = grown(line, {2 * side, 2 * side, kAbove, kAbove});
+  const int rows = cvRound(kRows * (1 + 2 * kAbove));
+  const int columns = cvRound(kRows * widthOf(wide) / std::max(1.0f, heightOf(line)));
+  if (columns < 3 * kRows / 2 || columns > 100 * kRows) return 0;
+  std::vector<cv::Point2f> from;
+  for (const auto& corner : wide) from.emplace_back(corner.x(), corner.y());
+  const float right = static_cast<float>(columns - 1), bottom = static_cast<float>(rows - 1);
+  const std::vector<cv::Point2f> to{{0, 0}, {right, 0}, {right, bottom}, {0, bottom}};
+  cv::Mat patch;  // black, which shows nothing, where the picture ends
+  cv::warpPerspective(picture, patch, cv::getPerspectiveTransform(from, to), {columns, rows}, cv::INTER_LINEAR,
+                      cv::BORDER_CONSTANT);
+  const cv::Mat grey = greyOf(patch);
+  const cv::Mat inner = grey(cv::Rect(kRows, rows / 8, columns - 2 * kRows, rows - rows / 4));
+  const auto levels = levelsOf(inner, 0.05), middle = levelsOf(inner, 0.5);
+  const double contrast = std::max(1.0, levels.high - levels.low);
+  cv::Mat smooth, change;
+  grey.convertTo(smooth, CV_32F);
+  cv::GaussianBlur(smooth, smooth, {}, 1.5);
+  cv::Sobel(smooth, change, CV_32F, 1, 0, 3, 1.0 / 8);
+  change = cv::abs(change);
+  std::vector<Column> to_left, to_right;
+  for (int i = columns / 2; i >= 0; --i) to_left.push_back(columnOf(grey, change, i, middle.low, contrast));
+  for (int i = columns / 2; i < columns; ++i) to_right.push_back(columnOf(grey, change, i, middle.low, contrast));
+  return std::min(clearanceAlong(to_left), clearanceAlong(to_right));
+}
+
+}  // namespace
+
+cv::Mat patchOf(const cv::Mat& picture, const Quad& quad) {
+  const int columns = static_cast<int>(widthOf(quad)), rows = static_cast<int>(heightOf(quad));
+  constexpr int kLargest = 4096;
+  if (picture.empty() || columns < 2 || rows < 2 || columns > kLargest || rows > kLargest) return {};
+  std::vector<cv::Point2f> from;
+  for (const auto& corner : quad) from.emplace_back(corner.x(), corner.y());
+  const float right = static_cast<float>(columns), bottom = static_cast<float>(rows);
+  const std::vector<cv::Point2f> to{{0, 0}, {right, 0}, {right, bottom}, {0, bottom}};
+  cv::Mat patch;
+  cv::warpPerspective(picture, patch, cv::getPerspectiveTransform(from, to), {columns, rows}, cv::INTER_CUBIC,
+                      cv::BORDER_REPLICATE);
+  return patch;
+}
+
+LineReading readLine(const cv::Mat& picture, const Quad& line, const TextReader& reader) {
+  const cv::Mat tight = patchOf(picture, line), wide = patchOf(picture, grown(line, {0.3f, 0.3f, 0.08f, 0.08f})),
+                widest = patchOf(picture, grown(line, {0.5f, 0.5f, 0.2f, 0.2f}));
+  if (tight.empty() || wide.empty() || widest.empty()) return {};
+  const std::array<cv::Mat, 4> patches{tight, wide, stretched(wide), stretched(widest)};
+  struct Vote {
+    std::string text;
+    double weakest = 1, weight = 0;
+    int count = 0;
+  };
+  std::vector<Vote> votes;
+  for (const auto& patch : patches) {
+    const auto reading = reader.read(patch);
+    const auto text = trimmed(reading.text);
+    if (text.empty()) continue;
+    const double weakest = *std::min_element(reading.probabilities.begin(), reading.probabilities.end());
+    auto vote = std::find_if(votes.begin(), votes.end(), [&](const Vote& v) { return v.text == text; });
+    if (vote == votes.end()) vote = votes.insert(vote, {text, 1, 0, 0});
+    vote->weakest = std::min(vote->weakest, weakest);
+    vote->weight += weakest;
+    ++vote->count;
+  }
+  if (votes.empty()) return {};
+  const auto& best =
+      *std::max_element(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.weight < b.weight; });
+  return {best.text,
+          {best.weakest, static_cast<double>(best.count) / static_cast<double>(patches.size()),
+           clearanceOf(picture, line), static_cast<double>(heightOf(line))}};
+}
+
+double confidenceOf(const ReadingEvidence& evidence) {
+  if (evidence.agreement <= 0) return 0;
+  double confidence = std::pow(evidence.weakest_letter, 0.3) * evidence.agreement;
+  constexpr double kNear = 0.2;
+  if (evidence.clearance < kNear) confidence *= 0.5;
+  return std::clamp(confidence, 0.0, 1.0);
+}
+
+}  // namespace omnimapper::signs

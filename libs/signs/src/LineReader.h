@@ -1,0 +1,38 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "Quad.h"
+#include "TextReader.h"
+
+namespace omnimapper::signs {
+
+/// What tells how far the reading of a line can be trusted.
+struct ReadingEvidence {
+  double weakest_letter = 0;  ///< least probability of a letter by the reader's own word, in all readings that agree
+  double agreement = 0;       ///< share of the readings, of larger and smaller patches, that have the same text
+  /// From the last letter to what ends the text beside it: an upright edge that is higher than letters, the end of the
+  /// picture, or pixels that show nothing; at the nearer end, in heights of the line's box, at most 0.5.
+  double clearance = 0;
+  double height_px = 0;  ///< of the line's box in the picture
+};
+
+struct LineReading {
+  std::string text;  ///< UTF-8, without blanks at its ends
+  ReadingEvidence evidence;
+};
+
+/// Reads a line in a picture several times, in patches that hold more or less of what is about it and with its contrast
+/// stretched, and takes what most say: a line whose box leaves a letter out, or holds a screw beside the text, is not
+/// read the same in all. A network is often sure of what is wrong, so what counts is how far these readings agree.
+LineReading readLine(const cv::Mat& picture, const Quad& line, const TextReader& reader);
+
+/// How likely a reading is right, 0 to 1: at least 0.9 means that one in a hundred is wrong. What it was chosen on and
+/// how well it holds: doc/results/signs.md.
+double confidenceOf(const ReadingEvidence& evidence);
+
+/// The patch that a quadrilateral shows, upright; empty for one without a pixel.
+cv::Mat patchOf(const cv::Mat& picture, const Quad& quad);
+
+}  // namespace omnimapper::signs

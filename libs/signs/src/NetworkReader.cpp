@@ -1,0 +1,64 @@
+#include "NetworkReader.h"
+
+#include <omnimapper/base/Error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <opencv2/imgproc.hpp>
+
+namespace omnimapper::signs {
+
+NetworkReader::NetworkReader(std::shared_ptr<const net::Network> network, const std::string& letters_file,
+                             const Alphabet& alphabet)
+    : network_(std::move(network)), letters_{""} {
+  std::ifstream file(letters_file);
+  for (std::string letter; std::getline(file, letter);) letters_.push_back(alphabet.letterFor(letter));
+  if (letters_.size() < 2) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      letters_file + ": no letters are there; scripts/models fetches them with the networks");
+  }
+}
+
+Reading NetworkReader::read(const cv::Mat& patch) const {
+  if (patch.empty()) return {};
+  const int columns =
+      std::clamp(static_cast<int>(std::ceil(1.0 * kRows * patch.cols / patch.rows)), 1, static_cast<int>(kColumns));
+  cv::Mat line;
+  cv::resize(patch, line, {columns, kRows});
+  net::Tensor input{{1, 3, kRows, kColumns}, std::vector<float>(3 * kRows * kColumns)};
+  for (int channel = 0; channel < 3; ++channel) {
+    for (int row = 0; row < kRows; ++row) {
+      const auto* pixels = line.ptr<cv::Vec3b>(row);
+      float* values = input.values.data() + (channel * kRows + row) * kColumns;
+      for (int column = 0; column < columns; ++column)
+        values[column] = static_cast<float>(pixels[column][channel]) / 127.5f - 1;
+    }
+  }
+  const auto output = network_->run(input);
+  if (output.shape.size() != 3 || output.shape[2] != static_cast<int>(letters_.size())) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "the network that should read does not fit its letters: it answers with " +
+                          std::to_string(output.shape.empty() ? 0 : output.shape.back()) + " classes, and there are " +
+                          std::to_string(letters_.size() - 1) + " letters");
+  }
+  return decodeSteps(output.values.data(), output.shape[1], letters_);
+}
+
+Reading decodeSteps(const float* probabilities, int steps, const std::vector<std::string>& letters) {
+  Reading reading;
+  std::size_t before = 0;
+  for (int step = 0; step < steps; ++step, probabilities += letters.size()) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < letters.size(); ++i)
+      if (!letters[i].empty() && probabilities[i] > probabilities[best]) best = i;
+    if (best != 0 && best != before) {
+      reading.text += letters[best];
+      reading.probabilities.push_back(static_cast<double>(probabilities[best]));
+    }
+    before = best;
+  }
+  return reading;
+}
+
+}  // namespace omnimapper::signs

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace omnimapper::signs {
+
+/// A line of text as a reader reads it.
+struct Reading {
+  std::string text;                   ///< UTF-8
+  std::vector<double> probabilities;  ///< of each letter by the reader's own word, 0 to 1
+};
+
+/// Reads one line of text.
+class TextReader {
+ public:
+  virtual ~TextReader() = default;
+  /// `patch` is of 8 bits, BGR, upright, and holds the line alone. Thread-safe.
+  virtual Reading read(const cv::Mat& patch) const = 0;
+};
+
+/// What a text may consist of: letters, of which some stand for others.
+class Alphabet {
+ public:
+  /// `letters` in UTF-8. A middle dot is read as a hyphen where the alphabet has one.
+  explicit Alphabet(const std::string& letters);
+  /// The letter that counts for this one, empty if the alphabet has none.
+  std::string letterFor(const std::string& letter) const;
+
+  /// Letters of the English alphabet, digits, and what signs have besides.
+  static const char* common();
+
+ private:
+  std::vector<std::string> letters_;
+};
+
+/// The letters of a text in UTF-8, one by one; bytes that are no UTF-8 are left out.
+std::vector<std::string> lettersOf(const std::string& text);
+
+}  // namespace omnimapper::signs

@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/net/Network.h>
+#include <omnimapper/signs/DoorSignExtractor.h>
+#include <omnimapper/testing/Fixtures.h>
+
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+
+namespace omnimapper::signs {
+namespace {
+
+void write(cv::Mat& picture, const std::string& text, cv::Point at, double size) {
+  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, cv::Scalar(235, 235, 235), 3, cv::LINE_AA);
+}
+
+// A plate of 180 x 130 px at (230, 150).
+mrpt::obs::CObservationImage::Ptr view() {
+  cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(150, 170, 180));
+  picture(cv::Rect(230, 150, 180, 130)) = cv::Scalar(90, 60, 60);
+  write(picture, "26-138", {250, 205}, 1.2);
+  write(picture, "OFFICE", {252, 255}, 0.9);
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  auto observation = mrpt::obs::CObservationImage::Create();
+  observation->sensorLabel = "camera";
+  observation->timestamp = mrpt::Clock::fromDouble(1e9);
+  observation->cameraParams.ncols = 640;
+  observation->cameraParams.nrows = 480;
+  observation->cameraParams.setIntrinsicParamsFromValues(500, 500, 320, 240);
+  observation->cameraPose = mrpt::poses::CPose3D(0.1, 0, 1.2, 0, 0, 0);
+  observation->image = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
+  return observation;
+}
+
+class DoorSignExtractorTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(net::modelsFolder() + "/text_detector.onnx"))
+      GTEST_SKIP() << "the networks are not there: scripts/models fetches them";
+  }
+};
+
+TEST_F(DoorSignExtractorTest, readsAPlateAndTellsWhereItIs) {
+  const auto found = DoorSignExtractor({}).extract(*view());
+  EXPECT_EQ(found->sensorLabel, "camera.signs");
+  EXPECT_EQ(found->source_label, "camera");
+  EXPECT_EQ(found->sensorPose, view()->cameraPose);
+  ASSERT_EQ(found->signs.size(), 1u);
+  const auto& sign = found->signs[0];
+  ASSERT_EQ(sign.texts.size(), 2u);
+  EXPECT_EQ(sign.texts[0].text, "26-138");
+  EXPECT_EQ(sign.texts[1].text, "OFFICE");
+  EXPECT_GT(sign.texts[0].confidence, 0.9);
+  EXPECT_LT((sign.corners_px[0] - Eigen::Vector2f(230, 150)).norm(), 4);
+  EXPECT_LT((sign.corners_px[2] - Eigen::Vector2f(409, 279)).norm(), 4);
+  const Eigen::Vector3d ray = Eigen::Vector3d(-0.5 / 500, -25.5 / 500, 1).normalized();
+  EXPECT_LT((sign.ray - ray).norm(), 0.008);
+  EXPECT_FALSE(sign.range.has_value());
+  EXPECT_NEAR(static_cast<double>(sign.patch.getWidth()), 180, 5);
+}
+
+TEST_F(DoorSignExtractorTest, halfASignIsNotSure) {
+  const auto whole = view();
+  for (const int columns : {300, 320, 340}) {
+    auto half = view();
+    half->image = mrpt::img::CImage(
+        cv::Mat(whole->image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), cv::Rect(0, 0, columns, 480)).clone(),
+        mrpt::img::DEEP_COPY);
+    for (const auto& sign : DoorSignExtractor({}).extract(*half)->signs)
+      for (const auto& text : sign.texts) EXPECT_LT(text.confidence, 0.9) << columns << " " << text.text;
+  }
+}
+
+TEST_F(DoorSignExtractorTest, theSameImageGivesTheSameBits) {
+  const DoorSignExtractor extractor({});
+  const auto first = extractor.extract(*view()), second = extractor.extract(*view());
+  ASSERT_EQ(first->signs.size(), second->signs.size());
+  for (std::size_t i = 0; i < first->signs.size(); ++i) {
+    EXPECT_EQ(first->signs[i].corners_px, second->signs[i].corners_px);
+    EXPECT_EQ(first->signs[i].texts[0].confidence, second->signs[i].texts[0].confidence);
+  }
+}
+
+TEST_F(DoorSignExtractorTest, imagesWithoutSignsShowNone) {
+  const DoorSignExtractor extractor({});
+  auto image = view();
+  image->image = mrpt::img::CImage();
+  EXPECT_TRUE(extractor.extract(*image)->signs.empty());
+  for (const auto size : {cv::Size(640, 480), cv::Size(1, 1), cv::Size(3, 900)}) {
+    image->image = mrpt::img::CImage(cv::Mat(size, CV_8UC1, cv::Scalar(99)), mrpt::img::DEEP_COPY);
+    EXPECT_TRUE(extractor.extract(*image)->signs.empty()) << size;
+  }
+  mrpt::obs::CObservation3DRangeScan scan;
+  EXPECT_TRUE(extractor.extract(scan)->signs.empty()) << "it has no image";
+}
+
+TEST_F(DoorSignExtractorTest, aCameraWithoutCalibrationIsAnError) {
+  auto image = view();
+  image->cameraParams.setIntrinsicParamsFromValues(0, 0, 0, 0);
+  EXPECT_THROW(DoorSignExtractor({}).extract(*image), base::Error);
+}
+
+TEST(DoorSignExtractor, MissingNetworksAreNamedWithTheRemedy) {
+  const testing::ScratchFolder empty;
+  DoorSignOptions options;
+  options.models = empty.path();
+  try {
+    DoorSignExtractor{options};
+    FAIL();
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::unreadable_input);
+    EXPECT_NE(std::string(error.what()).find("text_detector.onnx"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("scripts/models"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace omnimapper::signs

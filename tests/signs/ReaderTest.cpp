@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/testing/Fixtures.h>
+
+#include <fstream>
+
+#include "LineReader.h"
+#include "NetworkReader.h"
+
+namespace omnimapper::signs {
+namespace {
+
+TEST(Alphabet, takesWhatItHasAndADotForAHyphen) {
+  const Alphabet common(Alphabet::common()), digits("0123456789"), greek("αβγ");
+  EXPECT_EQ(common.letterFor("A"), "A");
+  EXPECT_EQ(common.letterFor("\u00b7"), "-");
+  EXPECT_EQ(common.letterFor("个"), "") << "what an arrow may be read as";
+  EXPECT_EQ(common.letterFor(" "), " ");
+  EXPECT_EQ(digits.letterFor("\u00b7"), "");
+  EXPECT_EQ(digits.letterFor("O"), "");
+  EXPECT_EQ(greek.letterFor("β"), "β");
+}
+
+TEST(Alphabet, damagedUtf8IsLeftOut) {
+  EXPECT_EQ(lettersOf("a\xFFä\xC3"), (std::vector<std::string>{"a", "ä"}));
+  EXPECT_TRUE(lettersOf("\xE4\xB8").empty());
+}
+
+TEST(DecodeSteps, lettersOnceUnlessABlankPartsThem) {
+  // Classes: blank, A, one that the alphabet has not, B.
+  const std::vector<std::string> letters{"", "A", "", "B"};
+  const std::vector<float> steps{0.1f, 0.7f, 0.1f, 0.1f, 0.1f, 0.6f, 0.2f, 0.1f, 0.8f, 0.1f, 0,    0.1f,
+                                 0.1f, 0.5f, 0.4f, 0,    0,    0.1f, 0.8f, 0.1f, 0.2f, 0.1f, 0.3f, 0.4f};
+  const auto reading = decodeSteps(steps.data(), 6, letters);
+  // The fifth step has the letter A, whose class is the likeliest but for the one that has no letter: as before it.
+  EXPECT_EQ(reading.text, "AAB");
+  ASSERT_EQ(reading.probabilities.size(), 3u);
+  EXPECT_FLOAT_EQ(static_cast<float>(reading.probabilities[0]), 0.7f);
+  EXPECT_FLOAT_EQ(static_cast<float>(reading.probabilities[2]), 0.4f);
+}
+
+TEST(NetworkReader, aFileWithoutLettersIsRefused) {
+  const testing::ScratchFolder folder;
+  std::ofstream(folder / "empty.txt");
+  for (const char* name : {"empty.txt", "missing.txt"})
+    EXPECT_THROW(NetworkReader(nullptr, folder / name, Alphabet("A")), base::Error);
+}
+
+// Reads what it is told to, by the width of the patch.
+class Scripted : public TextReader {
+ public:
+  explicit Scripted(std::vector<Reading> readings) : readings_(std::move(readings)) {}
+  Reading read(const cv::Mat& patch) const override { return readings_[std::min<std::size_t>(patch.cols / 30 - 3, 2)]; }
+
+ private:
+  std::vector<Reading> readings_;
+};
+
+// 100 x 20 px: patches of 100, 112 (twice, of these once with its contrast stretched) and 120 px.
+const Quad kLine = {Eigen::Vector2f(100, 100), {200, 100}, {200, 120}, {100, 120}};
+const cv::Mat kPicture(240, 320, CV_8UC3, cv::Scalar(120, 130, 140));
+
+TEST(ReadLine, readingsThatAgreeAreTaken) {
+  const Reading all{" 213 ", {0.9, 0.8, 0.95}};
+  const auto line = readLine(kPicture, kLine, Scripted({all, all, all}));
+  EXPECT_EQ(line.text, "213");
+  EXPECT_EQ(line.evidence.agreement, 1);
+  EXPECT_EQ(line.evidence.weakest_letter, 0.8);
+  EXPECT_NEAR(line.evidence.height_px, 20, 1e-3);
+  EXPECT_NEAR(line.evidence.clearance, 0.5, 0.01);
+  EXPECT_GT(confidenceOf(line.evidence), 0.9);
+}
+
+TEST(ReadLine, readingsThatDifferAreNotSure) {
+  const auto line = readLine(kPicture, kLine, Scripted({{"13", {1, 1}}, {"213", {0.9, 1, 1}}, {"213", {0.9, 1, 1}}}));
+  EXPECT_EQ(line.text, "13") << "three of four patches are narrow";
+  EXPECT_EQ(line.evidence.agreement, 0.75);
+  EXPECT_LT(confidenceOf(line.evidence), 0.9);
+  EXPECT_EQ(readLine(kPicture, kLine, Scripted({{}, {}, {}})).text, "");
+}
+
+TEST(ReadLine, aTextThatAnEdgeOrTheEndOfThePictureMayCutIsNotSure) {
+  const Reading all{"213", {1, 1, 1}};
+  const Scripted reader({all, all, all});
+  cv::Mat cut = kPicture.clone();
+  cut(cv::Rect(202, 0, 118, 240)) = cv::Scalar(20, 20, 20);
+  const auto beside_an_edge = readLine(cut, kLine, reader);
+  EXPECT_LT(beside_an_edge.evidence.clearance, 0.2);
+  EXPECT_LT(confidenceOf(beside_an_edge.evidence), 0.9);
+  Quad at_the_rim = kLine;
+  for (auto& corner : at_the_rim) corner.x() += 118;
+  EXPECT_LT(readLine(kPicture, at_the_rim, reader).evidence.clearance, 0.2);
+  cut(cv::Rect(202, 0, 118, 240)) = cv::Scalar(0, 0, 0);
+  EXPECT_LT(readLine(cut, kLine, reader).evidence.clearance, 0.2);
+}
+
+}  // namespace
+}  // namespace omnimapper::signs

@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/OnnxBytes.h>
+
+#include <fstream>
+#include <opencv2/imgproc.hpp>
+
+#include "TextDetector.h"
+
+namespace omnimapper::signs {
+namespace {
+
+// A network to which all that is bright is text.
+class TextDetectorTest : public ::testing::Test {
+ protected:
+  // `window` pixels square are looked at together, so that its answer is smaller by one less.
+  std::shared_ptr<const net::Network> network(int window = 1) const {
+    using namespace testing::onnx_bytes;
+    const std::vector<int> image{1, 3, 480, 736}, map{1, 1, 481 - window, 737 - window};
+    const std::vector<float> ones(static_cast<std::size_t>(3 * window * window), 1);
+    std::ofstream(folder_ / "bright.onnx", std::ios::binary) << model(
+        {node("Conv", {"x", "w"}, "sum", {attribute("kernel_shape", {window, window})}), node("Sigmoid", {"sum"}, "y")},
+        {weights("w", {1, 3, window, window}, ones)}, {value("x", image)}, {value("y", map)});
+    return std::make_shared<net::Network>(folder_ / "bright.onnx", net::Backend::opencv);
+  }
+
+  testing::ScratchFolder folder_;
+};
+
+TEST_F(TextDetectorTest, linesAreTheCoresGrownByHandWorkedMargins) {
+  // Twice as large as what the network takes.
+  cv::Mat picture(960, 1472, CV_8UC3, cv::Scalar::all(0));
+  picture(cv::Rect(400, 200, 202, 42)) = cv::Scalar::all(255);
+  picture(cv::Rect(100, 600, 202, 42)) = cv::Scalar::all(255);
+  picture(cv::Rect(900, 600, 4, 4)) = cv::Scalar::all(255);  // no text is so small
+  const auto lines = TextDetector(network()).detect(picture);
+  ASSERT_EQ(lines.size(), 2u);
+  // The core is 100 x 20 px between the middles of its pixels: 1.6 times 2000 / 120 larger.
+  const float growth = 2 * 1.6f * 2000 / 120;
+  const auto& first = lines[0];
+  EXPECT_NEAR(widthOf(first.quad), 200 + growth, 0.5);
+  EXPECT_NEAR(heightOf(first.quad), 40 + growth, 0.5);
+  EXPECT_LT((middleOf(first.quad) - Eigen::Vector2f(500.5, 220.5)).norm(), 1);
+  EXPECT_LT(first.quad[0].x(), first.quad[1].x());
+  EXPECT_LT(first.quad[0].y(), first.quad[3].y());
+  EXPECT_GT(first.score, 0.9);
+  EXPECT_LT(middleOf(lines[1].quad).x(), 300);
+}
+
+TEST_F(TextDetectorTest, picturesOfAllSizesAreTaken) {
+  const TextDetector detector(network());
+  EXPECT_TRUE(detector.detect({}).empty());
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(1, 3000), cv::Size(3000, 1), cv::Size(640, 480)})
+    EXPECT_TRUE(detector.detect(cv::Mat(size, CV_8UC3, cv::Scalar::all(0))).empty()) << size;
+}
+
+TEST_F(TextDetectorTest, aNetworkOfAnotherShapeIsRefused) {
+  const TextDetector detector(network(3));
+  EXPECT_THROW(detector.detect(cv::Mat(100, 100, CV_8UC3, cv::Scalar::all(0))), base::Error);
+}
+
+}  // namespace
+}  // namespace omnimapper::signs
