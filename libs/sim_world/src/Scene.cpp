@@ -177,12 +177,31 @@ void Scene::findBlocked(const Ray* rays, std::size_t count, char* blocked) const
   }
 }
 
-/// Scenes of what stands still, by the moment since when it does.
+/// Scenes of what stands still, by the moment since when it does, and what moves, where it was last.
 struct Scenes::Cache {
   std::set<double> changes;  // times at which something that is carried changes its place [s]
   std::mutex mutex;
   std::map<double, std::shared_ptr<const Scene::Part>> standing;
+  std::vector<double> moving_poses;  // numbers of the poses of all bodies in `moving`
+  std::shared_ptr<const Scene::Part> moving;
 };
+
+namespace {
+
+// People stand more often than they walk: then all of these are what they were.
+std::vector<double> posesOfMoving(const World& world, double time) {
+  std::vector<double> numbers;
+  for (const Body& body : world.bodies) {
+    if (body.track.kind() != Track::Kind::motion) continue;
+    const geometry::Se3 map_from_body = *body.track.at(time);
+    const Eigen::Vector3d& t = map_from_body.translation;
+    const Eigen::Vector4d& q = map_from_body.rotation.coeffs();
+    numbers.insert(numbers.end(), {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()});
+  }
+  return numbers;
+}
+
+}  // namespace
 
 Scenes::Scenes(const World& world) : world_(world), cache_(std::make_unique<Cache>()) {
   int next = 0;
@@ -219,7 +238,18 @@ Scene Scenes::at(double time) const {
     // The run goes forward: what stood two changes ago is not asked for again soon.
     while (cache_->standing.size() > 3) cache_->standing.erase(cache_->standing.begin());
   }
-  const auto moving = build(Track::Kind::motion);
+  std::shared_ptr<const Scene::Part> moving;
+  std::vector<double> poses = posesOfMoving(world_, time);
+  {
+    const std::lock_guard lock(cache_->mutex);
+    if (cache_->moving && cache_->moving_poses == poses) moving = cache_->moving;
+  }
+  if (!moving) {
+    moving = build(Track::Kind::motion);
+    const std::lock_guard lock(cache_->mutex);
+    cache_->moving = moving;
+    cache_->moving_poses = std::move(poses);
+  }
   if (moving->isEmpty()) return Scene({standing});
   return Scene({standing, moving});
 }
