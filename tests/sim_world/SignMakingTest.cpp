@@ -52,7 +52,7 @@ class Reader {
 };
 
 TEST(SignMaking, theFrontIsAPlanarSurfaceOfTheSignsSizeInItsMiddle) {
-  for (const SignStyle style : {SignStyle::dark, SignStyle::white}) {
+  for (const SignStyle style : {SignStyle::dark, SignStyle::white, SignStyle::exit}) {
     const sim::MadeSign made = sim::makeSign(spec({"118", "Dr. Smith"}, style));
     EXPECT_EQ(made.body.name, made.sign.name);
     EXPECT_EQ(made.body.surfaces[0].name, "sign");
@@ -123,6 +123,32 @@ TEST(SignMaking, textContrastsAndCanBeRead) {
   }
 }
 
+// 84, 60 and 150 pixels at 2000 a metre; a name of 24 letters does not fit 30 cm at 34 pixels.
+TEST(SignMaking, tellsTheHeightOfTheCapitalsOfEachLine) {
+  EXPECT_EQ(sim::makeSign(spec({"118", "Dr. Smith"}, SignStyle::dark)).sign.capitals,
+            (std::vector<double>{0.042, 0.017}));
+  EXPECT_EQ(sim::makeSign(spec({"118", "Dr. Smith"}, SignStyle::white)).sign.capitals,
+            (std::vector<double>{0.03, 0.015}));
+  EXPECT_EQ(sim::makeSign(spec({"EXIT"}, SignStyle::exit)).sign.capitals, std::vector<double>{0.075});
+  const auto narrow = sim::makeSign(spec({"118", "Department of Cybernetics"}, SignStyle::dark)).sign.capitals;
+  EXPECT_EQ(narrow[0], 0.042);
+  EXPECT_LT(narrow[1], 0.017);
+  EXPECT_GE(narrow[1], 0.012);
+}
+
+TEST(SignMaking, anExitSignIsGreenWithWhiteCapitals) {
+  const auto made = sim::makeSign(spec({"EXIT"}, SignStyle::exit));
+  const sim::Texture& picture = *made.body.surfaces[0].material.texture;
+  int green = 0, white = 0;
+  for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+    green += picture.rgb[i] < 60 && picture.rgb[i + 1] > 60 && picture.rgb[i + 2] < picture.rgb[i + 1];
+    white += picture.rgb[i] > 200 && picture.rgb[i + 2] > 200;
+  }
+  const double all = static_cast<double>(picture.rgb.size()) / 3;
+  EXPECT_GT(green / all, 0.6);
+  EXPECT_GT(white / all, 0.1);
+}
+
 TEST(SignMaking, asksForASizeThatHoldsItsText) {
   auto wanted = spec({"118", "Dr. Smith"}, SignStyle::dark);
   wanted.width = 0.25;
@@ -138,7 +164,7 @@ TEST(SignMaking, asksForASizeThatHoldsItsText) {
 }
 
 TEST(PosterMaking, kindsAndSeedsDiffer) {
-  for (int kind = 0; kind < 4; ++kind) {
+  for (int kind = 0; kind < 5; ++kind) {
     sim::PosterSpec wanted;
     wanted.name = "poster";
     wanted.kind = static_cast<sim::PosterKind>(kind);

@@ -116,6 +116,26 @@ void drawClock(Texture& texture, Random& random, const std::string& font_file) {
   hand(hours - std::floor(hours), 0.62 * r, 0.035 * r);
 }
 
+void drawAnnouncement(Texture& texture, Random& random, const std::string& font_file) {
+  static constexpr const char* kEvents[] = {"LECTURE", "CONCERT", "SALE", "SEMINAR", "BLOOD DRIVE", "DEFENSE"};
+  static constexpr const char* kMonths[] = {"March", "April", "May", "June", "October", "November"};
+  const double width = texture.width, height = texture.height;
+  const Colour paper = colourOf(random.uniform(), random.uniform(0.05, 0.6), 0.95),
+               ink = randomColour(random, 0.3, 1, 0.05, 0.35);
+  const std::string event = kEvents[random.integer(0, 5)], day = std::to_string(random.integer(1, 30)),
+                    month = kMonths[random.integer(0, 5)], room = "Room " + std::to_string(random.integer(101, 399)),
+                    hour = std::to_string(random.integer(8, 19)) + (random.chance(0.5) ? ":00" : ":30");
+  fillBox(texture, {0, 0, width, height}, paper);
+  const auto write = [&](const std::string& line, double y, double capitals, FontFace face) {
+    writeInMiddle(texture, line, y * height, fitted(line, 0.84 * width, capitals * height, face, ink, font_file));
+  };
+  write(event, 0.07, 0.09, FontFace::sans_bold);
+  write(day, 0.25, 0.24, FontFace::sans_bold);
+  write(month, 0.56, 0.06, FontFace::sans);
+  write(hour, 0.69, 0.07, FontFace::sans_bold);
+  write(room, 0.84, 0.08, FontFace::sans_bold);
+}
+
 struct PosterLook {
   double width, height;  // [m]
   double spread;         // part by which the seed changes the size
@@ -132,6 +152,8 @@ PosterLook lookOf(PosterKind kind) {
       return {0.2, 0.25, 0, drawExtinguisher};
     case PosterKind::clock:
       return {0.3, 0.3, 0.15, drawClock};
+    case PosterKind::announcement:
+      return {0.42, 0.594, 0, drawAnnouncement};
   }
   throw std::invalid_argument("a kind of poster that is not there");
 }

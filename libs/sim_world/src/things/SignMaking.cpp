@@ -39,6 +39,18 @@ Look lookOf(SignStyle style) {
             400,
             240};
   }
+  if (style == SignStyle::exit) {
+    return {{0.0f, 0.3f, 0.13f},
+            {0.96f, 0.96f, 0.96f},
+            FontFace::sans_bold,
+            FontFace::sans_bold,
+            150,
+            60,
+            40,
+            60,
+            560,
+            300};
+  }
   return {
       {0.93f, 0.93f, 0.91f}, {0.02f, 0.02f, 0.02f}, FontFace::serif_bold, FontFace::serif, 60, 30, 36, 30, 480, 200};
 }
@@ -140,16 +152,53 @@ Texture drawWhite(const Layout& layout, const Look& look) {
   return texture;
 }
 
+Texture drawExit(const Layout& layout, const Look& look) {
+  Texture texture = blankTexture(std::lround(layout.width), std::lround(layout.height), look.plate);
+  double y = look.margin;
+  for (const Line& line : layout.lines) {
+    drawText(texture, line.text, (layout.width - line.width) / 2, y + line.style.capital_height, line.style);
+    y += line.style.capital_height + gapAfter(line);
+  }
+  drawArrow(texture, layout.width / 2 + 17, layout.height - 44, look.ink);
+  return texture;
+}
+
+Texture draw(SignStyle style, const Layout& layout, const Look& look) {
+  switch (style) {
+    case SignStyle::dark:
+      return drawDark(layout, look);
+    case SignStyle::white:
+      return drawWhite(layout, look);
+    case SignStyle::exit:
+      break;
+  }
+  return drawExit(layout, look);
+}
+
 }  // namespace
+
+double usualHeight(SignStyle style) {
+  switch (style) {
+    case SignStyle::dark:
+      return 1.5;
+    case SignStyle::white:
+      return 1.62;
+    case SignStyle::exit:
+      break;
+  }
+  return 2.2;
+}
 
 MadeSign makeSign(const SignSpec& spec) {
   const Look look = lookOf(spec.style);
   const Layout layout = layOut(spec, look);
-  const Texture picture = spec.style == SignStyle::dark ? drawDark(layout, look) : drawWhite(layout, look);
+  const Texture picture = draw(spec.style, layout, look);
   const double width = picture.width / kPixelsPerMetre, height = picture.height / kPixelsPerMetre;
   Plate plate{spec.name,  SurfaceKind::sign, std::make_shared<const Texture>(picture), width, height, kSignThickness,
               look.plate, spec.map_from_sign};
-  return {makePlate(plate), {spec.name, spec.lines, spec.room, spec.map_from_sign, width, height}};
+  std::vector<double> capitals;
+  for (const Line& line : layout.lines) capitals.push_back(line.style.capital_height / kPixelsPerMetre);
+  return {makePlate(plate), {spec.name, spec.lines, spec.room, spec.map_from_sign, width, height, capitals}};
 }
 
 }  // namespace omnimapper::sim

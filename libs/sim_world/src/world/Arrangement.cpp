@@ -62,6 +62,9 @@ void Arrangement::window(const std::string& room, const Vector2d& near, double w
 }
 
 void Arrangement::raise() {
+  for (RoomPlan& room : plan.rooms) {
+    if (room.kind == "corridor" && !options_.hall_wall.empty()) room.wall = options_.hall_wall;
+  }
   building_ = makeBuilding(plan);
   taken_ = building_.furniture;
   doorways_ = building_.doorways;

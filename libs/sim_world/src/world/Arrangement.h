@@ -68,6 +68,12 @@ class Arrangement {
   std::optional<OnWallPlan> freeWall(const std::string& room, double share, double z, double width, double height);
   /// Up to `count` posters and notices around a room.
   void postersIn(const std::string& room, int count);
+  /// After signBeside(): `count` signs of doors to rooms that are not there, evenly spread, become one of three words.
+  void repeatSigns(int count);
+  /// One on the wall that each corridor leads up to, through passages on its axis, clockwise around the building.
+  void exitSigns();
+  /// Up to `count` posters with numbers on the walls of corridors, in turn.
+  void announcements(int count);
 
  private:
   bool fits(const Footprint& footprint, const Ring& clear, const Room& room) const;
@@ -78,6 +84,8 @@ class Arrangement {
   bool hidesOpening(const Eigen::Vector2d& at_wall, const Eigen::Vector2d& direction, const Eigen::Vector2d& inward,
                     const FurniturePlan& piece) const;
   std::optional<OnWallPlan> hang(const WallFace& wall, double u, double z, double width, double height);
+  std::vector<const Room*> corridors() const;
+  void exitSignAhead(const Eigen::Vector2d& from, const Eigen::Vector2d& direction);
 
   struct Top {
     std::string surface, room;

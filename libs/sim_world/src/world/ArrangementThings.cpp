@@ -5,6 +5,7 @@
 
 #include "Arrangement.h"
 #include "PlanChecks.h"
+#include "WallThings.h"
 
 namespace omnimapper::sim {
 
@@ -171,7 +172,7 @@ void Arrangement::signBeside(const OpeningPlan& door, const std::string& from, c
       const auto inside = roomAt(building_.rooms, wall.start + u * wall.direction + 0.05 * wall.inward());
       if (!inside || building_.rooms[*inside].name != from) continue;
       for (const double beside : {hole.high_u + 0.32, hole.low_u - 0.32}) {
-        const auto place = hang(wall, beside, 1.5, 0.42, 0.3);
+        const auto place = hang(wall, beside, usualHeight(signStyleOf(options_.sign_style)), 0.42, 0.3);
         if (!place) continue;
         SignPlan sign;
         sign.name = "sign_" + room;

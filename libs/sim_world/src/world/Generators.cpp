@@ -4,6 +4,8 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/sim_world/Generators.h>
 
+#include "PlanChecks.h"
+
 namespace omnimapper::sim {
 
 namespace {
@@ -51,7 +53,11 @@ WorldPlan generate(const WorldOptions& options, const std::string& file_for_mess
              std::to_string(options.plan_seed) + ": generator = " + options.generator +
                  " has one plan only; leave plan_seed out or take one of " + base::option_text::format(variedNames()));
     }
+    if (!options.hall_wall.empty()) refuseUnknownMaterial(place.plan, "world", "hall_wall", options.hall_wall);
     generator.make(place, options);
+    place.repeatSigns(options.repeated_signs);
+    if (options.exit_signs) place.exitSigns();
+    place.announcements(options.announcements);
     return std::move(place.plan);
   }
   const std::string near = base::nearestName(options.generator, generatorNames());

@@ -60,7 +60,17 @@ const OptionTable<WorldOptions>& WorldOptions::table() {
               "How much the brightness of what stands still varies by stains, scuffs and grain that repeat nowhere: "
               "its standard deviation over its mean. 0: all is new, and a wall shows a camera next to nothing.")
           .choice("sign_style", &WorldOptions::sign_style, {{"dark", "dark"}, {"white", "white"}},
-                  "Look of the door signs of a generated place.")
+                  "Building style of a generated place: look of its door signs, and how high they hang.")
+          .integer("repeated_signs", &WorldOptions::repeated_signs, {0, 1000},
+                   "How many door signs of a generated place bear no number but one of three words: Storage, Women, "
+                   "Men. The doors are those to rooms that are not there.")
+          .flag("exit_signs", &WorldOptions::exit_signs,
+                "An exit sign hangs on the wall that each corridor of a generated place leads up to, clockwise around "
+                "the building.")
+          .integer("announcements", &WorldOptions::announcements, {0, 1000},
+                   "At most so many posters with numbers hang in the corridors of a generated place, if there is room.")
+          .text("hall_wall", &WorldOptions::hall_wall,
+                "Material of the walls of corridors of a generated place; empty: as is usual there.")
           .list("rooms", &WorldOptions::rooms, "Sections of rooms.")
           .list("doors", &WorldOptions::doors, "Sections of doors, passages and windows.")
           .list("furniture", &WorldOptions::furniture, "Sections of furniture.")

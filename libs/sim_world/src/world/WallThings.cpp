@@ -1,18 +1,25 @@
 #include "WallThings.h"
 
+#include <algorithm>
+
 namespace omnimapper::sim {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 const std::vector<std::string>& signStyleNames() {
-  static const std::vector<std::string> names{"dark", "white"};
+  static const std::vector<std::string> names{"dark", "white", "exit"};
   return names;
 }
 
 const std::vector<std::string>& posterKindNames() {
-  static const std::vector<std::string> names{"poster", "notice", "extinguisher", "clock"};
+  static const std::vector<std::string> names{"poster", "notice", "extinguisher", "clock", "announcement"};
   return names;
+}
+
+SignStyle signStyleOf(const std::string& name) {
+  const auto& names = signStyleNames();
+  return static_cast<SignStyle>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
 const WallFace& WallSpace::wallAt(const std::string& name, const Vector2d& point) const {

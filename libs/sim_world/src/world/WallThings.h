@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/sim_world/Building.h>
+#include <omnimapper/sim_world/SignMaking.h>
 #include <omnimapper/sim_world/WorldPlan.h>
 
 #include <string>
@@ -8,9 +9,12 @@
 
 namespace omnimapper::sim {
 
-/// Names that plans write: "dark", "white", and "poster", "notice", ... in the order of SignStyle and PosterKind.
+/// Names that plans write: "dark", "white", "exit", and "poster", "notice", ... in the order of SignStyle and
+/// PosterKind.
 const std::vector<std::string>& signStyleNames();
 const std::vector<std::string>& posterKindNames();
+/// Of one of signStyleNames().
+SignStyle signStyleOf(const std::string& name);
 
 /// What hangs on the walls so far, so that nothing hangs over another.
 class WallSpace {

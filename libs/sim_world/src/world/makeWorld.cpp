@@ -124,7 +124,7 @@ class WorldMaker {
       if (!room->number.empty()) spec.lines.push_back(room->number);
       if (room->number.empty() || room->name != room->number) spec.lines.push_back(spoken(room->name));
     }
-    spec.style = plan.style == "white" ? SignStyle::white : SignStyle::dark;
+    spec.style = signStyleOf(plan.style);
     spec.width = plan.width;
     spec.height = plan.height;
     if (spec.lines.empty()) refuse(plan_, plan.name, "text", "must say something, or 'room' must name a room");

@@ -12,7 +12,8 @@ enum class PosterKind {
   poster,        ///< a picture of shapes with a title
   notice,        ///< a sheet of text: the nearest to a sign that is none
   extinguisher,  ///< the red plate above a fire extinguisher
-  clock          ///< a dial with numbers, on a square plate
+  clock,         ///< a dial with numbers, on a square plate
+  announcement   ///< a sheet with a date, a time and the number of a room, which is not the number of what is there
 };
 
 struct PosterSpec {

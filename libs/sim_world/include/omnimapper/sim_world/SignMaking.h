@@ -9,9 +9,13 @@ namespace omnimapper::sim {
 
 /// How the signs of a building look.
 enum class SignStyle {
-  dark,  ///< dark blue plate, white bold sans text in the middle, the first line large, dots for fingers below
-  white  ///< white plate with a black border and a rule, serif text on the left, the first line large, an arrow
+  dark,   ///< dark blue plate, white bold sans text in the middle, the first line large, dots for fingers below
+  white,  ///< white plate with a black border and a rule, serif text on the left, the first line large, an arrow
+  exit    ///< green plate with large white capitals and an arrow, as on ways of escape
 };
+
+/// How high above the floor a building of this style hangs its signs, their middle [m].
+double usualHeight(SignStyle style);
 
 /// Thickness of every door sign: the frame of a sign on a wall is this far before the wall [m].
 constexpr double kSignThickness = 0.006;

@@ -29,7 +29,8 @@ struct Sign {
   std::vector<std::string> lines;  ///< its text, as written on it
   std::string room;                ///< the room it names
   geometry::Se3 map_from_sign;
-  double width = 0, height = 0;  ///< [m]
+  double width = 0, height = 0;       ///< [m]
+  std::vector<double> capitals = {};  ///< height of a capital letter of each line [m]
 };
 
 /// A square marker of a dictionary (ArUco), frame as Sign.

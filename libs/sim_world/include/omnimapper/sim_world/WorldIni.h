@@ -22,6 +22,10 @@ struct WorldOptions {
   double move_time = 90;  ///< when what is moveable is carried elsewhere; negative: never [s]
   double wear = 0;        ///< as World's
   std::string sign_style = "dark";
+  int repeated_signs = 0;  ///< door signs of a generated place with a word that several doors have
+  bool exit_signs = false;
+  int announcements = 0;  ///< posters with numbers in its corridors
+  std::string hall_wall;  ///< material of the walls of its corridors; empty: the generator's
   std::vector<std::string> rooms, doors, furniture, objects, signs, posters, markers, landmarks, people;
   static const base::OptionTable<WorldOptions>& table();
 };
