@@ -144,15 +144,35 @@ TEST(ColourCamera, signsTellTheirTextAndWhatHidesThem) {
   sim::MeshBuilder body("sign", sim::Track(map_from_sign));
   body.addPlane("", sim::SurfaceKind::sign, {}, {{-0.2, -0.1, 0}, {0.2, -0.1, 0}, {0.2, 0.1, 0}, {-0.2, 0.1, 0}});
   fixture.world.bodies.push_back(body.build());
-  fixture.world.signs.push_back({"sign", {"R 118", "Workshop"}, "workshop", map_from_sign, 0.4, 0.2});
+  fixture.world.signs.push_back({"sign", {"R 118", "Workshop"}, "workshop", map_from_sign, 0.4, 0.2, {0.06, 0.02}});
   fixture.addBoard("post", 1.5, 0.1, 0, 0.2, 4);  // hides y from 0 to 0.4 m of what is at 3 m: the left half
   const auto truth = nlohmann::json::parse(fixture.make("ColourCamera")->measure(0).truth);
   ASSERT_EQ(truth["signs"].size(), 1u);
   EXPECT_EQ(truth["signs"][0]["lines"], (std::vector<std::string>{"R 118", "Workshop"}));
   EXPECT_EQ(truth["signs"][0]["room"], "workshop");
+  EXPECT_NEAR(truth["signs"][0]["capitals_px"], 600 * 0.06 / 3, 1e-9);
+  EXPECT_NEAR(truth["signs"][0]["least_capitals_px"], 600 * 0.02 / 3, 1e-9);
   EXPECT_NEAR(truth["signs"][0]["visible"], 0.4, 0.11);
   const auto behind = nlohmann::json::parse(fixture.make("ColourCamera\npan_deg = 180")->measure(0).truth);
   EXPECT_TRUE(behind["signs"].empty());
+}
+
+// What it sees follows from where it looks, without a picture; noise of the angles that are told is not in it.
+TEST(ColourCamera, theViewOfAPictureIsTheTruthOfIt) {
+  CameraFixture fixture;
+  fixture.addBoard("wall", 2, 0, 0, 9, 9);
+  const auto camera = fixture.make(
+      "ColourCamera\nwidth_px = 160\nheight_px = 120\nz_m = 1\npan_sweep_deg = 40\npan_period_s = 4\n"
+      "pan_sigma_deg = 5\nrate_hz = 3");
+  for (int k = 0; k < 12; ++k) {
+    const auto truth = nlohmann::json::parse(camera->measure(k).truth);
+    const sim::CameraView view = *camera->pictureView(k);
+    EXPECT_NEAR(truth["time_s"], view.time, 1e-12);
+    EXPECT_EQ(view.camera.width, 160);
+    const Eigen::Vector3d ahead = view.map_from_optical.rotation * Eigen::Vector3d::UnitZ();
+    EXPECT_NEAR(std::atan2(ahead.y(), ahead.x()) * 180 / M_PI, truth["pan_deg"], 1e-9);
+    EXPECT_NEAR(view.map_from_optical.translation.z(), truth["map_from_camera"][2], 1e-12);
+  }
 }
 
 TEST(ColourCamera, sweepsAndTellsItsAnglesWithNoiseAndBias) {

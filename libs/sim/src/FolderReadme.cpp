@@ -31,6 +31,10 @@ std::string meaningOf(const std::string& file, const std::string& name) {
     return "every flat surface over 0.05 m2 with its class, plane, outline and what of it was seen, and the openings "
            "between rooms; `omnimapper-eval map` holds a map against it";
   if (file == "world.ply") return "the whole place as a mesh, with label and class for each face";
+  if (file == "signs_seen.csv")
+    return "a line for each sign in each picture: its corners in pixels, the height of its capitals, the angle at "
+           "which "
+           "it is seen, how much of it is visible and whether that is legible";
   if (file == "plan.svg") return "the world from above, with the robot's way";
   if (file == "README.md") return "this page";
   if (ends(".png")) return "what that sensor saw in the middle of the run; depth from blue to red, points from above";

@@ -20,6 +20,7 @@
 #include "FolderReadme.h"
 #include "LogWriter.h"
 #include "Pictures.h"
+#include "SignTruth.h"
 #include "SurfaceTruth.h"
 #include "TruthFolder.h"
 #include "WorldTruth.h"
@@ -138,7 +139,7 @@ void removeImages(const std::string& folder, const std::vector<std::string>& ste
 
 void writeLog(const Simulation& simulation, const SimulationRequest& request, const std::string& folder,
               base::Progress& progress, const std::function<bool()>& stop, TruthFolder& truth, SurfaceTruth& surfaces,
-              std::set<base::Stamp>& stamps, SimulationResult& result) {
+              SignTruth& signs, std::set<base::Stamp>& stamps, SimulationResult& result) {
   const auto arrivals = arrivalsOf(simulation, result.sensors);
   const std::string images = folder + "/" + request.name + "_Images";
   const bool is_external = simulation.options().images == SimulationOptions::Images::external;
@@ -174,6 +175,7 @@ void writeLog(const Simulation& simulation, const SimulationRequest& request, co
           log->add(measurement.observation);
           truth.add(sensor, arrival.k, measurement);
           surfaces.add(measurement.seen, sensor.timeOf(arrival.k));
+          signs.add(sensor, arrival.k, measurement.signs);
           stamps.insert(measurement.observation->timestamp);
           progress.report(arrival.time / simulation.duration(), "simulating " + request.name);
         }
@@ -214,13 +216,19 @@ SimulationResult simulateInto(const std::string& folder, const Simulation& simul
   TruthFolder truth(folder);
   std::set<base::Stamp> stamps;
   SurfaceTruth surfaces(simulation.world());
-  writeLog(simulation, request, folder, progress, stop, truth, surfaces, stamps, result);
+  SignTruth signs(simulation);
+  writeLog(simulation, request, folder, progress, stop, truth, surfaces, signs, stamps, result);
   truth.close();
   result.way = wayOf(simulation.mapFromBase(), result.duration);
   result.files = {request.name + ".rawlog", "truth.tum", "landmarks.json", "surfaces.json", "world.ply", "plan.svg",
                   request.name + ".ini"};
   if (simulation.options().images == SimulationOptions::Images::external)
     result.files.push_back(request.name + "_Images/");
+  if (signs.isWanted()) {
+    result.files.push_back("signs_seen.csv");
+    writeText(folder + "/signs_seen.csv", signs.table());
+    result.signs = signs.counter();
+  }
   for (const auto& file : truth.files()) result.files.push_back(file);
   for (const auto& file : drawPictures(simulation, folder)) result.files.push_back(file);
   result.files.push_back("README.md");
@@ -274,6 +282,10 @@ std::string toText(const SimulationResult& result, const std::string& folder) {
     if (sensor.dropped > 0) out << ", " << sensor.dropped << " lost";
     if (sensor.unseen > 0) out << ", " << sensor.unseen << " times nothing in view";
     out << "\n";
+  }
+  if (result.signs) {
+    out << "  signs: " << result.signs->readings().size() << ", legible in three pictures or more "
+        << result.signs->inPictures(3) << ", on two visits or more " << result.signs->onVisits(2) << "\n";
   }
   out << "in " << folder << ":";
   for (const auto& file : result.files) out << " " << file;

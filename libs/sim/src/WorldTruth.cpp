@@ -87,6 +87,7 @@ Json signsJson(const World& world) {
                      {"room", sign.room},
                      {"width", sign.width},
                      {"height", sign.height},
+                     {"capitals", sign.capitals},
                      {"pose", toJson(sign.map_from_sign)}});
   }
   return signs;

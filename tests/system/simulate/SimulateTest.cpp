@@ -4,6 +4,7 @@
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -98,6 +99,57 @@ TEST_F(Simulate, TruthNamesWhatBeamsAndPixelsSaw) {
     EXPECT_NE(readme.find(std::string("`") + name + "`"), std::string::npos) << name;
     EXPECT_TRUE(fs::exists(scratch_ / "out/" + name)) << name;
   }
+}
+
+// The sign hangs 1.2 m to the left of a camera that looks there: capitals of 4.2 cm are about 600 * 0.042 / 1.2 high.
+TEST_F(Simulate, TheSignsThatPicturesShowAreATableBesideTheLog) {
+  const std::string more = scratch_ / "more.ini";
+  writeFile(more,
+            "[world]\nsigns = sign_1\n[sign_1]\nclass = dark\ntext = 7, \"E\" | Ann\nx_m = 1\ny_m = 3.9\n[robot]\n"
+            "start = 1 2.8\nwaypoints = 1 2.8\nmode = still\n[eye]\nclass = ColourCamera\nyaw_deg = 90\nz_m = 1.4\n"
+            "rate_hz = 1\n");
+  const auto ended = run("out", {"-i", more, "--set", "simulation.sensors=eye, odometry"});
+  ASSERT_TRUE(endedWith(ExitCode::ok, ended));
+  EXPECT_NE(ended.out.find("signs: 1, legible in three pictures or more 1, on two visits or more 0"), std::string::npos)
+      << ended.out;
+  std::istringstream table(readFile(scratch_ / "out/signs_seen.csv"));
+  std::string line;
+  ASSERT_TRUE(std::getline(table, line));
+  EXPECT_EQ(line.rfind("stamp,sensor,measurement,sign,text,x1,y1,", 0), 0U) << line;
+  int rows = 0;
+  for (; std::getline(table, line); ++rows) {
+    EXPECT_NE(line.find(",eye," + std::to_string(rows) + ",sign_1,\"7, \"\"E\"\"|Ann\","), std::string::npos) << line;
+    EXPECT_EQ(line.substr(line.size() - 7), ",1.00,1") << line;
+  }
+  EXPECT_EQ(rows, 7);
+  EXPECT_NE(readFile(scratch_ / "out/README.md").find("`signs_seen.csv`"), std::string::npos);
+  const json sign = json::parse(readFile(scratch_ / "out/landmarks.json"))["signs"][0];
+  EXPECT_EQ(sign["capitals"], (std::vector<double>{0.042, 0.017}));
+}
+
+// One log of the camera serves all seeds of the others: it does not change with what else measures, nor does the truth.
+TEST_F(Simulate, SensorsOfOneDriveMayBeSimulatedApartWithSeedsOfTheirOwn) {
+  ASSERT_TRUE(endedWith(ExitCode::ok, run("whole")));
+  ASSERT_TRUE(endedWith(ExitCode::ok, run("camera", {"--set", "simulation.sensors=camera"})));
+  ASSERT_TRUE(endedWith(ExitCode::ok,
+                        run("others", {"--set", "simulation.sensors=laser, odometry", "--set", "simulation.seed=7"})));
+  EXPECT_TRUE(readFile(scratch_ / "camera/truth/camera.jsonl") == readFile(scratch_ / "whole/truth/camera.jsonl"));
+  const auto depthsOf = [&](const std::string& folder) {
+    std::vector<mrpt::math::CMatrix_u16> depths;
+    readLog(scratch_ / folder + "/small.rawlog", [&](const mrpt::obs::CObservation& observation) {
+      if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation))
+        depths.push_back(scan->rangeImage);
+    });
+    return depths;
+  };
+  EXPECT_TRUE(depthsOf("camera") == depthsOf("whole"));
+  const auto poseAt = [&](const std::string& folder, double time) {
+    const auto truth = omnimapper::eval::readTum(scratch_ / folder + "/truth.tum");
+    const auto stamp = omnimapper::base::stampFromUnix(1.7e9 + time);
+    return std::find_if(truth.begin(), truth.end(), [&](const auto& pose) { return pose.stamp == stamp; })
+        ->world_from_body.translation;
+  };
+  EXPECT_EQ(poseAt("camera", 3), poseAt("others", 3));
 }
 
 TEST_F(Simulate, FramesHoldTheSameScansAndTheMotionBetweenThem) {

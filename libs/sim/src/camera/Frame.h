@@ -1,11 +1,10 @@
 #pragma once
 
+#include <omnimapper/sim/Pinhole.h>
 #include <omnimapper/sim_world/Scene.h>
 
 #include <cstdint>
 #include <vector>
-
-#include "Pinhole.h"
 
 namespace omnimapper::sim {
 

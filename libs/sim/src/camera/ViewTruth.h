@@ -1,19 +1,18 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <omnimapper/sim/SignView.h>
 
-#include "Frame.h"
+#include <nlohmann/json.hpp>
+#include <vector>
 
 namespace omnimapper::sim {
 
 /// What a picture shows of the markers and signs of the world, for the record of truth:
-/// {"markers": [{"name", "id", "corners", "distance_m", "incidence_deg", "visible"}],
-///  "signs": [{"name", "room", "lines", "corners", ...}]}
-/// Corners in pixels, as the reader sees them: upper left, upper right, lower right, lower left; they may lie beside
-/// the picture. `visible` is the part of the face that is in the picture and not hidden, above 0 in all that are
-/// listed.
-nlohmann::ordered_json facesInView(const World& world, const Scenes& scenes, const Scene& scene, const Pinhole& camera,
-                                   const geometry::Se3& map_from_optical, double time);
+/// {"markers": [{"corners", "distance_m", "incidence_deg", "visible", "name", "id"}],
+///  "signs": [{..., "name", "room", "lines", "capitals_px", "least_capitals_px"}]}
+/// as FaceView and SignView; `signs` are signsInView() of the same view.
+nlohmann::ordered_json facesInView(const World& world, const Scenes& scenes, const Scene& scene, const CameraView& view,
+                                   const std::vector<SignView>& signs);
 
 /// [x, y, z, qx, qy, qz, qw], metres.
 nlohmann::ordered_json poseJson(const geometry::Se3& pose);

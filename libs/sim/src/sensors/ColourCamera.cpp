@@ -69,6 +69,10 @@ geometry::Se3 ColourCamera::mapFromCamera(double time) const {
   return *context().map_from_base->at(time) * baseFromCamera(anglesAt(time));
 }
 
+std::optional<CameraView> ColourCamera::pictureView(int k) const {
+  return CameraView{camera_, mapFromCamera(timeOf(k)), timeOf(k)};
+}
+
 std::size_t ColourCamera::sizeOfMeasurement() const {
   constexpr std::size_t kBytesOfPixel = 6;  // colour, labels
   return kBytesOfPixel * static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height);
@@ -79,7 +83,8 @@ Measurement ColourCamera::measure(int k) const {
   const double time = timeOf(k), half = 0.5 * o.exposure;
   const Angles angles = anglesAt(time);
   const Scene scene = context().scenes->at(time);
-  const Frame frame = castFrame(*context().scenes, scene, camera_, mapFromCamera(time));
+  const CameraView view = *pictureView(k);
+  const Frame frame = castFrame(*context().scenes, scene, camera_, view.map_from_optical);
   Random random = randomOf(k, kPoseStream);
   const double told_pan = angles.pan + o.pan_bias + random.gaussian(o.pan_sigma);
   const double told_tilt = angles.tilt + o.tilt_bias + random.gaussian(o.tilt_sigma);
@@ -96,8 +101,10 @@ Measurement ColourCamera::measure(int k) const {
   truth["tilt_deg"] = angles.tilt * 180 / M_PI;
   truth["base_from_camera"] = poseJson(baseFromCamera(angles));
   truth["map_from_camera"] = poseJson(frame.map_from_optical);
-  truth.update(facesInView(*context().world, *context().scenes, scene, camera_, frame.map_from_optical, time));
+  const std::vector<SignView> signs = signsInView(*context().world, *context().scenes, scene, view);
+  truth.update(facesInView(*context().world, *context().scenes, scene, view, signs));
   Measurement measurement{picture, truth.dump(), {}};
+  measurement.signs = signs;
   if (o.labels) {
     measurement.truth_files.push_back(
         {frameName("labels", label(), k),

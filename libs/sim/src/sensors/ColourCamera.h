@@ -34,6 +34,7 @@ class ColourCamera : public Sensor {
  public:
   ColourCamera(const ColourCameraOptions& options, const SensorOptions& mount, const SensorContext& context);
   Measurement measure(int k) const override;
+  std::optional<CameraView> pictureView(int k) const override;
   std::size_t sizeOfMeasurement() const override;
 
  private:

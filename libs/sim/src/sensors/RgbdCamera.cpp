@@ -131,6 +131,12 @@ std::vector<SeenPoint> RgbdCamera::seenPoints(const Frame& frame, const std::vec
   return points;
 }
 
+std::optional<CameraView> RgbdCamera::pictureView(int k) const {
+  if (!options_of_camera_.colour) return {};
+  const double time = timeOf(k) + options_of_camera_.colour_delay;
+  return CameraView{settings_.colour_camera, mapFromColour(time), time};
+}
+
 std::size_t RgbdCamera::sizeOfMeasurement() const {
   constexpr std::size_t kBytesOfPixel = 10;  // depth, colour, labels, one of nine as seen
   return kBytesOfPixel * static_cast<std::size_t>(options_of_camera_.width) *
@@ -150,15 +156,19 @@ Measurement RgbdCamera::measure(int k) const {
                            : depths,
             *scan);
   nlohmann::ordered_json truth{{"time_s", pictures.time}};
+  std::vector<SignView> signs;
   if (options_of_camera_.colour) {
     fillColour(pictures, k, *scan);
-    truth.update(facesInView(*context().world, *context().scenes, context().scenes->at(pictures.colour_time),
-                             settings_.colour_camera, pictures.picture().map_from_optical, pictures.colour_time));
+    const CameraView view = *pictureView(k);
+    const Scene scene = context().scenes->at(view.time);
+    signs = signsInView(*context().world, *context().scenes, scene, view);
+    truth.update(facesInView(*context().world, *context().scenes, scene, view, signs));
     truth["picture_time_s"] = pictures.colour_time;
   }
   const geometry::Se3 sensor_from_handed_out = hands_out_colour_view_ ? sensor_from_colour_ : geometry::Se3{};
   truth["map_from_sensor"] = poseJson(mapFromSensor(pictures.time) * sensor_from_handed_out);
   Measurement measurement{scan, truth.dump(), {}};
+  measurement.signs = std::move(signs);
   measurement.seen = seenPoints(settings_.exact ? exact : pictures.depth, depths);
   const Pinhole& camera = exact.camera;
   if (options_of_camera_.labels) {

@@ -15,6 +15,7 @@ class RgbdCamera : public Sensor {
  public:
   RgbdCamera(const RgbdOptions& options, const SensorOptions& mount, const SensorContext& context);
   Measurement measure(int k) const override;
+  std::optional<CameraView> pictureView(int k) const override;
   std::size_t sizeOfMeasurement() const override;
 
  private:

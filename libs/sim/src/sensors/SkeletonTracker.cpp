@@ -3,13 +3,13 @@
 #include <mrpt/obs/CObservationSkeleton.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
+#include <omnimapper/sim/Pinhole.h>
 #include <omnimapper/sim_world/People.h>
 #include <omnimapper/sim_world/PointingError.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "../camera/Pinhole.h"
 #include "../camera/ViewTruth.h"
 #include "OptionChecks.h"
 

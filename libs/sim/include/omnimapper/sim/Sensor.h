@@ -3,11 +3,13 @@
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Stamp.h>
+#include <omnimapper/sim/SignView.h>
 #include <omnimapper/sim_world/Random.h>
 #include <omnimapper/sim_world/Scene.h>
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -64,6 +66,7 @@ struct Measurement {
   std::string truth;  ///< one JSON object on one line, for truth/<label>.jsonl; empty: nothing to tell
   std::vector<TruthFile> truth_files;
   std::vector<SeenPoint> seen = {};
+  std::vector<SignView> signs = {};  ///< of a picture: what it shows of the world's signs
 };
 
 /// Without '/', a leading '.' and control characters.
@@ -84,6 +87,8 @@ class Sensor {
   double arrivalOf(int k) const;
   /// With stamp, label and pose set. Null if the sensor sees nothing that makes an observation.
   virtual Measurement measure(int k) const = 0;
+  /// From where measurement k takes its colour picture; none of a sensor that takes none.
+  virtual std::optional<CameraView> pictureView(int /*k*/) const { return {}; }
   /// About what a measurement takes in memory [bytes].
   virtual std::size_t sizeOfMeasurement() const { return 16 << 10; }
 

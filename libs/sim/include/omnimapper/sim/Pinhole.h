@@ -3,10 +3,7 @@
 #include <mrpt/img/TCamera.h>
 
 #include <Eigen/Core>
-#include <cmath>
 #include <optional>
-
-#include "omnimapper/geometry/Se3.h"
 
 namespace omnimapper::sim {
 
