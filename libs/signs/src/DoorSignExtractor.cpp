@@ -87,7 +87,6 @@ class DoorSignExtractor::Reader {
       if (heightOf(found.quad) < options_.min_height) continue;
       const auto reading = readLine(picture, found.quad, reader_);
       const double confidence = confidenceOf(reading.evidence);
-      if (reading.text.empty() || confidence < options_.min_confidence) continue;
       lines.push_back({found, {reading.text, confidence}});
       quads.push_back(found.quad);
     }
@@ -99,9 +98,12 @@ class DoorSignExtractor::Reader {
       sign.corners_px = plate.quad;
       sign.ray = *ray;
       for (const auto line : plate.lines) {
-        sign.texts.push_back(lines[line].text);
+        const auto& text = lines[line].text;
+        if (text.text.empty() || text.confidence < options_.min_confidence) continue;
+        sign.texts.push_back(text);
         sign.score = std::max(sign.score, lines[line].found.score);
       }
+      if (sign.texts.empty()) continue;
       const cv::Mat patch = patchOf(picture, plate.quad);
       if (!patch.empty()) sign.patch = imageOf(patch);
       signs.push_back(std::move(sign));

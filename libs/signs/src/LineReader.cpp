@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kRows = 48;                // of the patch in which the ends of a text are looked at
 constexpr double kClear = 0.5;           // of the line's height, how far beside it
-constexpr double kEdge = 0.12;           // of the text's contrast a pixel, over most of its height: an edge
 constexpr double kInk = 0.35;            // of the text's contrast
 constexpr int kDark = 3, kBright = 252;  // beyond, a pixel shows nothing
 
@@ -53,42 +52,20 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-// What a column beside or in a text shows.
-struct Column {
-  bool has_ink = false;  // a part of a letter
-  bool is_end = false;   // an upright edge, higher than letters are, or nothing that can be seen
-};
-
-Column columnOf(const cv::Mat& grey, const cv::Mat& change, int column, double background, double contrast) {
-  std::vector<float> changes(static_cast<std::size_t>(grey.rows));
-  int shown = 0, inked = 0;
+// Whether a column shows the background of a text alone.
+bool isClear(const cv::Mat& grey, int column, double background, double contrast) {
+  int shown = 0, other = 0;
   for (int row = 0; row < grey.rows; ++row) {
-    changes[static_cast<std::size_t>(row)] = change.at<float>(row, column);
     const int level = grey.at<std::uint8_t>(row, column);
     shown += level > kDark && level < kBright;
-    inked += std::abs(level - background) > kInk * contrast;
+    other += std::abs(level - background) > kInk * contrast;
   }
-  const auto low = changes.begin() + grey.rows / 8;
-  std::nth_element(changes.begin(), low, changes.end());
-  return {10 * inked > grey.rows, *low > kEdge * contrast || 2 * shown < grey.rows};
-}
-
-// From the last ink before the end of a text to what ends it, at most kClear of the line's height; `columns` from the
-// middle of the text outwards, to kRows beyond its box, which counts as its end where no ink is seen.
-double clearanceAlong(const std::vector<Column>& columns) {
-  std::size_t ink = 0, end = 0;
-  for (; end < columns.size() && !columns[end].is_end; ++end)
-    if (columns[end].has_ink) ink = end;
-  if (ink == 0) ink = std::min(end, columns.size() - std::min<std::size_t>(kRows, columns.size()));
-  return std::min(kClear, static_cast<double>(end - ink) / kRows);
+  return 2 * shown > grey.rows && 10 * other <= grey.rows;
 }
 
 double clearanceOf(const cv::Mat& picture, const Quad& line) {
-  // Higher than letters are, whose stems are edges too.
-  constexpr float kAbove = 0.15f;
-  const float side = static_cast<float>(kClear);
-  const Quad wide = grown(line, {2 * side, 2 * side, kAbove, kAbove});
-  const int rows = cvRound(kRows * (1 + 2 * kAbove));
+  const Quad wide = grown(line, {1, 1, 0, 0});
+  constexpr int rows = kRows;
   const int columns = cvRound(kRows * widthOf(wide) / std::max(1.0f, heightOf(line)));
   if (columns < 3 * kRows / 2 || columns > 100 * kRows) return 0;
   std::vector<cv::Point2f> from;
@@ -99,18 +76,26 @@ double clearanceOf(const cv::Mat& picture, const Quad& line) {
   cv::warpPerspective(picture, patch, cv::getPerspectiveTransform(from, to), {columns, rows}, cv::INTER_LINEAR,
                       cv::BORDER_CONSTANT);
   const cv::Mat grey = greyOf(patch);
-  const cv::Mat inner = grey(cv::Rect(kRows, rows / 8, columns - 2 * kRows, rows - rows / 4));
-  const auto levels = levelsOf(inner, 0.05), middle = levelsOf(inner, 0.5);
+  // The letters' grey levels, and the background's, which is above and below them.
+  constexpr int kBeside = kRows / 8;
+  cv::Mat background;
+  cv::vconcat(grey(cv::Rect(kRows, 0, columns - 2 * kRows, kBeside)),
+              grey(cv::Rect(kRows, rows - kBeside, columns - 2 * kRows, kBeside)), background);
+  const auto levels = levelsOf(grey(cv::Rect(kRows, 0, columns - 2 * kRows, rows)), 0.05);
+  const double level = levelsOf(background, 0.5).low;
   const double contrast = std::max(1.0, levels.high - levels.low);
-  cv::Mat smooth, change;
-  grey.convertTo(smooth, CV_32F);
-  cv::GaussianBlur(smooth, smooth, {}, 1.5);
-  cv::Sobel(smooth, change, CV_32F, 1, 0, 3, 1.0 / 8);
-  change = cv::abs(change);
-  std::vector<Column> to_left, to_right;
-  for (int i = columns / 2; i >= 0; --i) to_left.push_back(columnOf(grey, change, i, middle.low, contrast));
-  for (int i = columns / 2; i < columns; ++i) to_right.push_back(columnOf(grey, change, i, middle.low, contrast));
-  return std::min(clearanceAlong(to_left), clearanceAlong(to_right));
+  // The longest clear stretch about the end of the line's box, which may be within the last letter or beyond it.
+  const auto clearanceFrom = [&](int first, int last) {
+    int longest = 0, length = 0;
+    for (int column = std::max(0, first); column <= std::min(last, columns - 1); ++column) {
+      length = isClear(grey, column, level, contrast) ? length + 1 : 0;
+      longest = std::max(longest, length);
+    }
+    return std::min(kClear, static_cast<double>(longest) / kRows);
+  };
+  constexpr int kWithin = kRows / 3, kBeyond = kRows / 2;
+  return std::min(clearanceFrom(kRows - kBeyond, kRows + kWithin),
+                  clearanceFrom(columns - kRows - kWithin, columns - kRows + kBeyond));
 }
 
 }  // namespace

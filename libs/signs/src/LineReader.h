@@ -12,8 +12,8 @@ namespace omnimapper::signs {
 struct ReadingEvidence {
   double weakest_letter = 0;  ///< least probability of a letter by the reader's own word, in all readings that agree
   double agreement = 0;       ///< share of the readings, of larger and smaller patches, that have the same text
-  /// From the last letter to what ends the text beside it: an upright edge that is higher than letters, the end of the
-  /// picture, or pixels that show nothing; at the nearer end, in heights of the line's box, at most 0.5.
+  /// How much of the text's background is beside it, at the end that has less, in heights of the line's box, at most
+  /// 0.5. A text that the end of the image cuts, or something before it, has none there.
   double clearance = 0;
   double height_px = 0;  ///< of the line's box in the picture
 };
