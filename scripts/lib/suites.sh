@@ -8,7 +8,7 @@ readonly system_tests=(system system-mapping system-mapping-2 system-input syste
 # which is tested under the sanitizers, and would adjust its bundles there for minutes.
 readonly trusted_tests=(sim_world sim calibration)
 # The unit tests of all other libraries, under the address and undefined-behaviour sanitizers.
-readonly unit_tests=(drivers live net perception signs plugins export graph plugin mapper mapper-2 source matching geometry base obs map check eval fuzz)
+readonly unit_tests=(drivers live net perception signs tesseract plugins export graph plugin mapper mapper-2 source matching geometry base obs map check eval fuzz)
 # Left out: stock tools, which cannot load a library built with a sanitizer; walks over every place, which would take
 # minutes, of which one seed is left; and false closures in Manhattan, which take half a minute, of which Intel's and those
 # of a simulated town are left.

@@ -29,24 +29,28 @@ constexpr double kSure = 0.9;
 
 struct Photo {
   fs::path path;
-  std::string number;
+  std::string number, others;
   cv::Mat picture, mask;
 };
 
 std::vector<Photo> readPhotos(const fs::path& folder) {
-  std::map<std::string, std::string> numbers;
+  std::map<std::string, std::string> numbers, others;
   std::ifstream labels(folder / "labels.csv");
   for (std::string line; std::getline(labels, line);) {
     const auto comma = line.find(',');
-    if (comma != std::string::npos)
-      numbers[line.substr(0, comma)] = line.substr(comma + 1, line.find(',', comma + 1) - comma - 1);
+    if (comma != std::string::npos) {
+      const auto second = std::min(line.find(',', comma + 1), line.size());
+      numbers[line.substr(0, comma)] = line.substr(comma + 1, second - comma - 1);
+      others[line.substr(0, comma)] = second < line.size() ? line.substr(second + 1) : "";
+    }
   }
   std::vector<Photo> photos;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".jpg") continue;
-    Photo photo{entry.path(), "", cv::imread(entry.path().string()), {}};
+    Photo photo{entry.path(), "", "", cv::imread(entry.path().string()), {}};
     const auto name = entry.path().filename().string();
     photo.number = numbers.empty() ? name.substr(0, name.find('.')) : numbers[name];
+    photo.others = others[name];
     const auto mask = fs::path(entry.path()).replace_extension("mask.png");
     if (fs::exists(mask)) {
       cv::resize(cv::imread(mask.string(), cv::IMREAD_GRAYSCALE), photo.mask, photo.picture.size(), 0, 0,
@@ -101,19 +105,26 @@ bool hasDigit(const std::string& text) {
   return std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-// All lines of all signs that a number may be made of: each, and each with the next ones of its sign joined by a
-// hyphen.
+// The number that a label means: "E25-125_Women" E25-125, and "E25_FLOOR_1", which is a storey's sign, FLOOR 1.
+std::string numberOf(const std::string& label) {
+  const auto floor = label.find("FLOOR");
+  return plain(floor != std::string::npos ? label.substr(floor) : label.substr(0, label.find('_')));
+}
+
+// Whether a line is the number, or two lines of one sign joined by a hyphen; `confidence` of the better one, or of the
+// less sure of the two.
 bool reads(const std::vector<ObservedDoorSign>& signs, const std::string& number, double& confidence) {
-  std::vector<omnimapper::obs::ReadText> lines;
-  for (const auto& sign : signs) lines.insert(lines.end(), sign.texts.begin(), sign.texts.end());
-  const std::string wanted = plain(number);
+  const std::string wanted = numberOf(number);
   bool is_read = false;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (plain(lines[i].text) == wanted ||
-        (!wanted.empty() && wanted.find(plain(lines[i].text)) == 0 && lines.size() > i + 1 &&
-         plain(lines[i].text) + "-" + plain(lines[i + 1].text) == wanted)) {
-      confidence = std::max(is_read ? confidence : 0.0, lines[i].confidence);
-      is_read = true;
+  const auto take = [&](double sure) {
+    confidence = std::max(is_read ? confidence : 0.0, sure);
+    is_read = true;
+  };
+  for (const auto& sign : signs) {
+    for (const auto& line : sign.texts) {
+      if (plain(line.text) == wanted) take(line.confidence);
+      for (const auto& next : sign.texts)
+        if (plain(line.text) + "-" + plain(next.text) == wanted) take(std::min(line.confidence, next.confidence));
     }
   }
   return is_read;
@@ -152,16 +163,21 @@ cv::Mat blackInTheMiddle(const cv::Mat& picture, bool is_row) {
   return result;
 }
 
-// Numbers that are called sure and are not what the photograph reads.
+// Words with digits that are called sure and that the photograph does not have as a whole.
 std::string wrongAndSure(const std::vector<ObservedDoorSign>& signs, const Photo& photo) {
+  std::string label = photo.number + " " + photo.others;
+  std::replace(label.begin(), label.end(), '_', ' ');
+  std::vector<std::string> words;
+  std::istringstream in(label);
+  for (std::string word; in >> word;) words.push_back(plain(word));
   std::string wrong;
   for (const auto& sign : signs) {
     for (const auto& text : sign.texts) {
-      if (text.confidence < kSure || !hasDigit(text.text)) continue;
-      if (plain(photo.path.filename().string() + photo.number).find(plain(text.text)) == std::string::npos ||
-          (plain(photo.number) != plain(text.text) && hasDigit(photo.number) &&
-           photo.number.find('_') == std::string::npos))
-        wrong += (wrong.empty() ? "" : ", ") + text.text;
+      std::istringstream parts(text.confidence < kSure ? "" : text.text);
+      for (std::string part; parts >> part;) {
+        if (hasDigit(part) && std::find(words.begin(), words.end(), plain(part)) == words.end())
+          wrong += (wrong.empty() ? "" : ", ") + part;
+      }
     }
   }
   return wrong;
@@ -191,13 +207,19 @@ int main(int argc, char** argv) {
   CLI::App app("How door signs are found and read in photographs.");
   std::vector<std::string> folders;
   std::string out = "out/sign_photos";
-  bool with_cuts = false;
+  bool with_cuts = false, by_tesseract = false, by_onnx_runtime = false;
   app.add_option("folders", folders, "folders of photographs")->required();
   app.add_option("-o", out, "where the photographs with what was found go");
   app.add_flag("--cuts", with_cuts, "also with a third of each photograph left out, at ten places");
+  app.add_flag("--tesseract", by_tesseract, "read by Tesseract");
+  app.add_flag("--onnxruntime", by_onnx_runtime, "compute the networks by ONNX Runtime");
   CLI11_PARSE(app, argc, argv);
+  using Options = omnimapper::signs::DoorSignOptions;
+  Options options;
+  if (by_tesseract) options.reader = Options::Reader::tesseract;
+  if (by_onnx_runtime) options.backend = Options::Backend::onnx_runtime;
   fs::create_directories(out);
-  const omnimapper::signs::DoorSignExtractor extractor({});
+  const omnimapper::signs::DoorSignExtractor extractor(options);
   for (const auto& folder : folders) {
     int read = 0, with_number = 0, found = 0, overlapping = 0, with_mask = 0, elsewhere = 0, wrong = 0,
         sure_and_right = 0;

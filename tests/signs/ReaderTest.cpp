@@ -50,7 +50,9 @@ TEST(NetworkReader, aFileWithoutLettersIsRefused) {
 class Scripted : public TextReader {
  public:
   explicit Scripted(std::vector<Reading> readings) : readings_(std::move(readings)) {}
-  Reading read(const cv::Mat& patch) const override { return readings_[std::min<std::size_t>(patch.cols / 30 - 3, 2)]; }
+  Reading read(const perception::ColourImage& patch) const override {
+    return readings_[std::min<std::size_t>(patch.width / 30 - 3, 2)];
+  }
 
  private:
   std::vector<Reading> readings_;

@@ -1,6 +1,6 @@
-#include <algorithm>
+#include <omnimapper/signs/TextReader.h>
 
-#include "TextReader.h"
+#include <algorithm>
 
 namespace omnimapper::signs {
 

@@ -1,4 +1,5 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/LibraryBeside.h>
 #include <omnimapper/net/Network.h>
 #include <omnimapper/perception/LensModel.h>
 #include <omnimapper/perception/PictureView.h>
@@ -28,6 +29,11 @@ const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
                            {{"opencv", Backend::opencv}, {"onnx_runtime", Backend::onnx_runtime}},
                            "What computes the networks: OpenCV, or ONNX Runtime, which is twice as fast and which "
                            "scripts/models --onnxruntime fetches.")
+          .choice<Options::Reader>(
+              "reader", &Options::reader,
+              {{"network", Options::Reader::network}, {"tesseract", Options::Reader::tesseract}},
+              "What reads the lines that are found: a network, or Tesseract, which takes a tenth of the time and needs "
+              "larger letters.")
           .text("letters", &Options::letters,
                 "What texts consist of; empty: the English alphabet, digits and -.,:/&'(). A middle dot is read as a "
                 "hyphen.")
@@ -68,13 +74,12 @@ mrpt::img::CImage imageOf(const cv::Mat& patch) {
 }  // namespace
 
 // All that is needed to read an image, made once.
-class DoorSignExtractor::Reader {
+class DoorSignExtractor::Finder {
  public:
-  explicit Reader(const DoorSignOptions& options)
+  explicit Finder(const DoorSignOptions& options)
       : options_(options),
         detector_(networkOf("text_detector.onnx")),
-        reader_(networkOf("text_reader.onnx"), folder() + "/text_reader.letters.txt",
-                Alphabet(options.letters.empty() ? Alphabet::common() : options.letters)) {}
+        reader_(readerFor(Alphabet(options.letters.empty() ? Alphabet::common() : options.letters))) {}
 
   std::vector<ObservedDoorSign> signsIn(const cv::Mat& picture, const perception::LensModel& lens) const {
     struct Line {
@@ -85,7 +90,7 @@ class DoorSignExtractor::Reader {
     std::vector<Quad> quads;
     for (const auto& found : detector_.detect(picture)) {
       if (heightOf(found.quad) < options_.min_height) continue;
-      const auto reading = readLine(picture, found.quad, reader_);
+      const auto reading = readLine(picture, found.quad, *reader_);
       const double confidence = confidenceOf(reading.evidence);
       lines.push_back({found, {reading.text, confidence}});
       quads.push_back(found.quad);
@@ -125,13 +130,23 @@ class DoorSignExtractor::Reader {
                                           is_opencv ? "" : net::modelsFolder() + "/libonnxruntime.so.1");
   }
 
+  std::unique_ptr<const TextReader> readerFor(const Alphabet& alphabet) const {
+    if (options_.reader == DoorSignOptions::Reader::network)
+      return std::make_unique<NetworkReader>(networkOf("text_reader.onnx"), folder() + "/text_reader.letters.txt",
+                                             alphabet);
+    const auto make = reinterpret_cast<TextReader* (*)(const Alphabet&)>(
+        base::functionOfLibrary("libomnimapper-tesseract.so", "omnimapperTesseractReader", "Tesseract cannot read",
+                                "Install libtesseract-dev and tesseract-ocr-eng, and configure and build again, or "
+                                "leave reader = tesseract out."));
+    return std::unique_ptr<const TextReader>(make(alphabet));
+  }
+
   DoorSignOptions options_;
   TextDetector detector_;
-  NetworkReader reader_;
+  std::unique_ptr<const TextReader> reader_;
 };
 
-DoorSignExtractor::DoorSignExtractor(const DoorSignOptions& options)
-    : options_(options), reader_(std::make_unique<Reader>(options)) {}
+DoorSignExtractor::DoorSignExtractor(const DoorSignOptions& options) : finder_(std::make_unique<Finder>(options)) {}
 
 DoorSignExtractor::~DoorSignExtractor() = default;
 
@@ -169,7 +184,7 @@ void fill(CObservationDoorSigns& observation, const mrpt::img::CImage& image, co
 CObservationDoorSigns::Ptr DoorSignExtractor::extract(const mrpt::obs::CObservationImage& image) const {
   auto observation = emptyOf(image, image.cameraPose);
   fill(*observation, image.image, image.cameraParams,
-       [this](const auto& picture, const auto& lens) { return reader_->signsIn(picture, lens); });
+       [this](const auto& picture, const auto& lens) { return finder_->signsIn(picture, lens); });
   return observation;
 }
 
@@ -178,7 +193,7 @@ CObservationDoorSigns::Ptr DoorSignExtractor::extract(const mrpt::obs::CObservat
   const mrpt::img::CImage none;
   const auto& camera = perception::isPictureOfDepthView(scan) ? scan.cameraParams : scan.cameraParamsIntensity;
   fill(*observation, scan.hasIntensityImage ? scan.intensityImage : none, camera,
-       [this](const auto& picture, const auto& lens) { return reader_->signsIn(picture, lens); });
+       [this](const auto& picture, const auto& lens) { return finder_->signsIn(picture, lens); });
   return observation;
 }
 

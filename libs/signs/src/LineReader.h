@@ -1,10 +1,11 @@
 #pragma once
 
+#include <omnimapper/signs/TextReader.h>
+
 #include <opencv2/core.hpp>
 #include <string>
 
 #include "Quad.h"
-#include "TextReader.h"
 
 namespace omnimapper::signs {
 

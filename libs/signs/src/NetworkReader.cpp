@@ -20,8 +20,10 @@ NetworkReader::NetworkReader(std::shared_ptr<const net::Network> network, const 
   }
 }
 
-Reading NetworkReader::read(const cv::Mat& patch) const {
-  if (patch.empty()) return {};
+Reading NetworkReader::read(const perception::ColourImage& image) const {
+  if (image.width < 1 || image.height < 1) return {};
+  const cv::Mat patch(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels),
+                      static_cast<std::size_t>(image.stride));
   const int columns =
       std::clamp(static_cast<int>(std::ceil(1.0 * kRows * patch.cols / patch.rows)), 1, static_cast<int>(kColumns));
   cv::Mat line;

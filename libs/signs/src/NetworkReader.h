@@ -1,10 +1,9 @@
 #pragma once
 
 #include <omnimapper/net/Network.h>
+#include <omnimapper/signs/TextReader.h>
 
 #include <memory>
-
-#include "TextReader.h"
 
 namespace omnimapper::signs {
 
@@ -20,7 +19,7 @@ class NetworkReader : public TextReader {
   NetworkReader(std::shared_ptr<const net::Network> network, const std::string& letters_file, const Alphabet& alphabet);
 
   /// A patch that is more than 6.6 times as wide as tall is made narrower.
-  Reading read(const cv::Mat& patch) const override;
+  Reading read(const perception::ColourImage& patch) const override;
 
  private:
   std::shared_ptr<const net::Network> network_;

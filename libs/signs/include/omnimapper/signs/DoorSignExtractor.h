@@ -13,8 +13,10 @@ namespace omnimapper::signs {
 
 struct DoorSignOptions {
   enum class Backend { opencv, onnx_runtime };
+  enum class Reader { network, tesseract };
   std::string models;                 ///< folder of the networks; empty: where scripts/models puts them
   Backend backend = Backend::opencv;  ///< what computes them
+  Reader reader = Reader::network;    ///< of lines
   std::string letters;                ///< what texts consist of; empty: Alphabet::common()
   double min_confidence = 0.3;        ///< of a line; others are left out
   double min_height = 8;              ///< [px] of a line; lower ones are left out
@@ -26,7 +28,8 @@ struct DoorSignOptions {
 inline constexpr char kSignsSuffix[] = ".signs";
 
 /// The door signs that an image shows, with what is written on them (thesis 3.5.1.1 and 3.5.3): lines of text are found
-/// and read by networks (TextDetector, NetworkReader), and the plate that they are on is found about them (findPlates).
+/// by a network (TextDetector) and read by another or by Tesseract, and the plate that they are on is found about them
+/// (findPlates).
 ///
 /// Each image makes one observation: stamp of the image, label "<label>.signs", sensorPose the camera's, z forward;
 /// signs from the left to the right of the image. A ray goes to where the diagonals of the sign cross; the range is
@@ -35,7 +38,7 @@ inline constexpr char kSignsSuffix[] = ".signs";
 /// Pictures of 8 bits with 1 or 3 channels; others show nothing. Lenses as MRPT's TCamera has them.
 ///
 /// The constructor throws Error(unreadable_input) if a network is missing or broken, and Error(plugin_library) if ONNX
-/// Runtime is; extract() Error(missing_images) for an image that is in a file and was not loaded, and
+/// Runtime or Tesseract is; extract() Error(missing_images) for an image that is in a file and was not loaded, and
 /// Error(unreadable_input) for a camera without a calibration that can be used. Thread-safe; the same image gives the
 /// same bits on one kind of processor.
 class DoorSignExtractor : public perception::Extractor {
@@ -55,9 +58,8 @@ class DoorSignExtractor : public perception::Extractor {
   std::vector<perception::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
-  class Reader;
-  DoorSignOptions options_;
-  std::unique_ptr<const Reader> reader_;
+  class Finder;
+  std::unique_ptr<const Finder> finder_;
 };
 
 }  // namespace omnimapper::signs

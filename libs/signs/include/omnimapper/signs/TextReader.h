@@ -1,6 +1,7 @@
 #pragma once
 
-#include <opencv2/core.hpp>
+#include <omnimapper/perception/ColourImage.h>
+
 #include <string>
 #include <vector>
 
@@ -16,8 +17,8 @@ struct Reading {
 class TextReader {
  public:
   virtual ~TextReader() = default;
-  /// `patch` is of 8 bits, BGR, upright, and holds the line alone. Thread-safe.
-  virtual Reading read(const cv::Mat& patch) const = 0;
+  /// `patch` is BGR, upright, and holds the line alone. Thread-safe.
+  virtual Reading read(const perception::ColourImage& patch) const = 0;
 };
 
 /// What a text may consist of: letters, of which some stand for others.
@@ -27,6 +28,8 @@ class Alphabet {
   explicit Alphabet(const std::string& letters);
   /// The letter that counts for this one, empty if the alphabet has none.
   std::string letterFor(const std::string& letter) const;
+  /// All letters and the blank.
+  const std::vector<std::string>& letters() const { return letters_; }
 
   /// Letters of the English alphabet, digits, and what signs have besides.
   static const char* common();

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <omnimapper/signs/TextReader.h>
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace tesseract {
+class TessBaseAPI;
+}
+
+namespace omnimapper::tesseract_reader {
+
+/// Reads by Tesseract 5 (Smith: An overview of the Tesseract OCR engine, 2007; since version 4 a recurrent network),
+/// with its English letters. Of threads that read at once each has an engine of its own.
+class TesseractReader : public signs::TextReader {
+ public:
+  /// Throws Error(plugin_library) if Tesseract has no English letters.
+  explicit TesseractReader(const signs::Alphabet& alphabet);
+  ~TesseractReader() override;
+
+  signs::Reading read(const perception::ColourImage& patch) const override;
+
+ private:
+  std::unique_ptr<tesseract::TessBaseAPI> take() const;
+
+  signs::Alphabet alphabet_;
+  std::string letters_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<tesseract::TessBaseAPI>> idle_;
+};
+
+}  // namespace omnimapper::tesseract_reader
