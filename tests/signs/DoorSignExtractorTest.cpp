@@ -66,6 +66,7 @@ TEST_F(DoorSignExtractorTest, halfASignIsNotSure) {
     half->image = mrpt::img::CImage(
         cv::Mat(whole->image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), cv::Rect(0, 0, columns, 480)).clone(),
         mrpt::img::DEEP_COPY);
+    half->cameraParams.ncols = static_cast<std::uint32_t>(columns);
     for (const auto& sign : DoorSignExtractor({}).extract(*half)->signs)
       for (const auto& text : sign.texts) EXPECT_LT(text.confidence, 0.9) << columns << " " << text.text;
   }
@@ -88,6 +89,8 @@ TEST_F(DoorSignExtractorTest, imagesWithoutSignsShowNone) {
   EXPECT_TRUE(extractor.extract(*image)->signs.empty());
   for (const auto size : {cv::Size(640, 480), cv::Size(1, 1), cv::Size(3, 900)}) {
     image->image = mrpt::img::CImage(cv::Mat(size, CV_8UC1, cv::Scalar(99)), mrpt::img::DEEP_COPY);
+    image->cameraParams.ncols = static_cast<std::uint32_t>(size.width);
+    image->cameraParams.nrows = static_cast<std::uint32_t>(size.height);
     EXPECT_TRUE(extractor.extract(*image)->signs.empty()) << size;
   }
   mrpt::obs::CObservation3DRangeScan scan;
@@ -98,6 +101,88 @@ TEST_F(DoorSignExtractorTest, aCameraWithoutCalibrationIsAnError) {
   auto image = view();
   image->cameraParams.setIntrinsicParamsFromValues(0, 0, 0, 0);
   EXPECT_THROW(DoorSignExtractor({}).extract(*image), base::Error);
+}
+
+TEST_F(DoorSignExtractorTest, theCalibrationOfALargerImageIsScaled) {
+  auto half = view();
+  half->cameraParams.ncols = 1280;
+  half->cameraParams.nrows = 960;
+  half->cameraParams.setIntrinsicParamsFromValues(1000, 1000, 640.5, 480.5);
+  const auto found = DoorSignExtractor({}).extract(*half), as_calibrated = DoorSignExtractor({}).extract(*view());
+  ASSERT_EQ(found->signs.size(), 1u);
+  EXPECT_LT((found->signs[0].ray - as_calibrated->signs[0].ray).norm(), 1e-6);
+  half->cameraParams.nrows = 720;
+  EXPECT_THROW(DoorSignExtractor({}).extract(*half), base::Error);
+}
+
+void expectNothingSure(const cv::Mat& picture, const std::string& what) {
+  auto image = view();
+  image->image = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
+  for (const auto& sign : DoorSignExtractor({}).extract(*image)->signs)
+    for (const auto& text : sign.texts) EXPECT_LT(text.confidence, 0.9) << what << ": " << text.text;
+}
+
+TEST_F(DoorSignExtractorTest, whatIsNoReadableTextIsNotSure) {
+  const cv::Mat picture = view()->image.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
+  cv::Mat mirrored, on_its_head, blurred, dim, noise(480, 640, CV_8UC3);
+  cv::flip(picture, mirrored, 1);
+  expectNothingSure(mirrored, "mirrored");
+  cv::flip(picture, on_its_head, -1);
+  expectNothingSure(on_its_head, "on its head");
+  cv::GaussianBlur(picture, blurred, {}, 9);
+  expectNothingSure(blurred, "blurred");
+  cv::RNG(1).fill(noise, cv::RNG::UNIFORM, 0, 255);
+  expectNothingSure(noise, "noise");
+  cv::Mat arrows(480, 640, CV_8UC3, cv::Scalar(150, 170, 180));
+  cv::arrowedLine(arrows, {200, 200}, {300, 200}, cv::Scalar(40, 40, 40), 6);
+  cv::arrowedLine(arrows, {400, 250}, {400, 180}, cv::Scalar(40, 40, 40), 6);
+  expectNothingSure(arrows, "arrows");
+}
+
+// A weak reflection of a window over it.
+TEST_F(DoorSignExtractorTest, aSignBehindGlassIsRead) {
+  auto image = view();
+  cv::Mat picture = image->image.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY), window(480, 640, CV_8UC3, cv::Scalar::all(0));
+  window(cv::Rect(300, 100, 200, 300)) = cv::Scalar(255, 250, 240);
+  cv::GaussianBlur(window, window, {}, 8);
+  picture = 0.8 * picture + 0.15 * window;
+  image->image = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
+  const auto found = DoorSignExtractor({}).extract(*image);
+  ASSERT_FALSE(found->signs.empty());
+  EXPECT_EQ(found->signs[0].texts[0].text, "26-138");
+}
+
+TEST_F(DoorSignExtractorTest, networksThatAreCutOffAreNamed) {
+  const testing::ScratchFolder folder;
+  DoorSignOptions options;
+  options.models = folder.path();
+  for (const char* name : {"text_detector.onnx", "text_reader.onnx", "text_reader.letters.txt"})
+    std::filesystem::copy_file(net::modelsFolder() + "/" + name, folder / name);
+  EXPECT_NO_THROW(DoorSignExtractor{options});
+  for (const char* name : {"text_reader.letters.txt", "text_reader.onnx", "text_detector.onnx"}) {
+    std::filesystem::resize_file(folder / name, 0);
+    try {
+      DoorSignExtractor{options};
+      ADD_FAILURE() << name;
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::unreadable_input);
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+}
+
+// Where Tesseract is not built in, what to install is said.
+TEST_F(DoorSignExtractorTest, tesseractReadsItToo) {
+  DoorSignOptions options;
+  options.reader = DoorSignOptions::Reader::tesseract;
+  try {
+    const auto found = DoorSignExtractor(options).extract(*view());
+    ASSERT_EQ(found->signs.size(), 1u);
+    ASSERT_FALSE(found->signs[0].texts.empty());
+    EXPECT_EQ(found->signs[0].texts.back().text, "OFFICE");
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("tesseract-ocr-eng"), std::string::npos) << error.what();
+  }
 }
 
 TEST(DoorSignExtractor, MissingNetworksAreNamedWithTheRemedy) {

@@ -161,6 +161,26 @@ CObservationDoorSigns::Ptr emptyOf(const mrpt::obs::CObservation& raw, const mrp
   return observation;
 }
 
+// The calibration for an image that is larger or smaller than those that it was made of, but shows the same.
+mrpt::img::TCamera fittingCamera(mrpt::img::TCamera camera, const cv::Mat& picture, const std::string& label) {
+  const auto columns = static_cast<unsigned>(picture.cols), rows = static_cast<unsigned>(picture.rows);
+  if (camera.ncols == 0 || camera.nrows == 0 || (camera.ncols == columns && camera.nrows == rows)) return camera;
+  const double wider = (1.0 * columns / rows) / (1.0 * camera.ncols / camera.nrows);
+  constexpr double kSameShape = 0.01;
+  if (std::abs(wider - 1) > kSameShape) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      label + ": its images have " + std::to_string(columns) + " x " + std::to_string(rows) +
+                          " pixels, and the camera was calibrated with " + std::to_string(camera.ncols) + " x " +
+                          std::to_string(camera.nrows) + "; calibrate it with the images that it sends");
+  }
+  const double x = 1.0 * columns / camera.ncols, y = 1.0 * rows / camera.nrows;
+  camera.setIntrinsicParamsFromValues(x * camera.fx(), y * camera.fy(), (camera.cx() + 0.5) * x - 0.5,
+                                      (camera.cy() + 0.5) * y - 0.5);
+  camera.ncols = columns;
+  camera.nrows = rows;
+  return camera;
+}
+
 template <class Signs>
 void fill(CObservationDoorSigns& observation, const mrpt::img::CImage& image, const mrpt::img::TCamera& camera,
           const Signs& signs_in) {
@@ -169,7 +189,7 @@ void fill(CObservationDoorSigns& observation, const mrpt::img::CImage& image, co
     if (image.isEmpty()) return;
     const cv::Mat picture = inBgr(image);
     if (picture.empty()) return;
-    const perception::LensModel lens(camera, label);
+    const perception::LensModel lens(fittingCamera(camera, picture, label), label);
     observation.signs = signs_in(picture, lens);
   } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
     perception::refuseMissing(label, "colour", image.getExternalStorageFile());

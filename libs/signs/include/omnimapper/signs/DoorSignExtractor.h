@@ -39,7 +39,8 @@ inline constexpr char kSignsSuffix[] = ".signs";
 ///
 /// The constructor throws Error(unreadable_input) if a network is missing or broken, and Error(plugin_library) if ONNX
 /// Runtime or Tesseract is; extract() Error(missing_images) for an image that is in a file and was not loaded, and
-/// Error(unreadable_input) for a camera without a calibration that can be used. Thread-safe; the same image gives the
+/// Error(unreadable_input) for a camera without a calibration that can be used, or with one of images of another shape
+/// (of images of the same shape it is scaled). Thread-safe; the same image gives the
 /// same bits on one kind of processor.
 class DoorSignExtractor : public perception::Extractor {
  public:
