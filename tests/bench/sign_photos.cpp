@@ -170,6 +170,13 @@ std::string wrongAndSure(const std::vector<ObservedDoorSign>& signs, const Photo
   std::vector<std::string> words;
   std::istringstream in(label);
   for (std::string word; in >> word;) words.push_back(plain(word));
+  // What stands on several lines or apart: FLOOR 1, E25 and 125.
+  if (photo.number.find('_') != std::string::npos) {
+    words.push_back(numberOf(photo.number));
+    const auto hyphen = words.front().find('-');
+    if (hyphen != std::string::npos) words.push_back(words.front().substr(0, hyphen));
+    if (hyphen != std::string::npos) words.push_back(words.front().substr(hyphen + 1));
+  }
   std::string wrong;
   for (const auto& sign : signs) {
     for (const auto& text : sign.texts) {

@@ -10,6 +10,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/draw/Drawing.h>
 #include <omnimapper/export/PerceptionPictures.h>
+#include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationObjects.h>
 #include <omnimapper/obs/CObservationPlanes.h>
@@ -204,6 +205,36 @@ TEST_F(PerceptionPicturesTest, markersLieInThePictureOfWhateverCamera) {
   image.image = mrpt::img::CImage();
   pictures.add(image, {marker({})});
   EXPECT_EQ(pictures.count(), 3) << "there is nothing to draw over";
+}
+
+TEST_F(PerceptionPicturesTest, signsHaveTheirOutlineAndTexts) {
+  mrpt::obs::CObservationImage image;
+  image.sensorLabel = "camera";
+  image.timestamp = base::stampFromUnix(1);
+  image.image = mrpt::img::CImage(640, 480, mrpt::img::CH_RGB);
+  image.image.filledRectangle(0, 0, 639, 479, mrpt::img::TColor(200, 200, 200));
+  auto signs = obs::CObservationDoorSigns::Create();
+  const auto add = [&](float left, float top, const std::string& text, double confidence) {
+    obs::ObservedDoorSign sign;
+    sign.corners_px = {Eigen::Vector2f(left, top), {left + 100, top}, {left + 100, top + 60}, {left, top + 60}};
+    sign.texts = {{text, confidence}};
+    signs->signs.push_back(sign);
+  };
+  add(100, 100, "213", 0.98);
+  add(400, 100, "2\x1b[31m", 0.4);
+  add(1e30f, 100, "far", 1);
+  add(std::numeric_limits<float>::quiet_NaN(), 100, "nowhere", 1);
+  const auto picture = drawCameraPicture(image, {signs});
+  ASSERT_TRUE(picture.has_value());
+  const auto isLike = [&](int x, int y, draw::Rgb colour) {
+    const auto& pixel = picture->at(x, y);
+    return std::abs(pixel.r - colour.r) + std::abs(pixel.g - colour.g) + std::abs(pixel.b - colour.b) < 30;
+  };
+  EXPECT_TRUE(isLike(150, 100, {20, 160, 40}));
+  EXPECT_TRUE(isLike(100, 130, {20, 160, 40}));
+  EXPECT_TRUE(isLike(450, 160, {230, 130, 0}));
+  EXPECT_TRUE(isLike(150, 130, {200, 200, 200}));
+  EXPECT_GT(picture->height, 480) << "the legend";
 }
 
 TEST_F(PerceptionPicturesTest, linesLieOverTheScan) {

@@ -6,6 +6,7 @@
 #include <omnimapper/draw/Drawing.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
+#include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/obs/CObservationObjects.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/perception/EdgeExtractor.h>
@@ -21,6 +22,7 @@
 #include "pictures/IndexRgb.h"
 #include "pictures/Legend.h"
 #include "pictures/MarkerDrawing.h"
+#include "pictures/SignDrawing.h"
 
 namespace omnimapper::exports {
 
@@ -214,6 +216,8 @@ draw::Image drawCameraPicture(const CObservation3DRangeScan& scan,
       tell(n, indexRgb(0), std::to_string(n) + " objects, a colour each: points, box");
     } else if (const auto* markers = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(observation.get())) {
       drawMarkers(picture, scan.cameraParams, geometry::fromMrpt(scan.sensorPose), *markers, legend);
+    } else if (const auto* signs = dynamic_cast<const obs::CObservationDoorSigns*>(observation.get())) {
+      if (perception::isPictureOfDepthView(scan)) drawSigns(picture, *signs, legend);
     } else if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get())) {
       if (!cloud->pointcloud) continue;
       const CloudStyle style = styleOfCloud(cloud->sensorLabel, clouds++);
@@ -235,6 +239,8 @@ std::optional<draw::Image> drawCameraPicture(const mrpt::obs::CObservationImage&
   for (const auto& found : derived) {
     if (const auto* markers = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(found.get()))
       drawMarkers(picture, observation.cameraParams, base_from_camera, *markers, legend);
+    if (const auto* signs = dynamic_cast<const obs::CObservationDoorSigns*>(found.get()))
+      drawSigns(picture, *signs, legend);
   }
   drawLegend(picture, legend);
   return picture;
