@@ -1,0 +1,69 @@
+#include "CsvTable.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/InputFile.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace omnimapper::signs {
+
+namespace {
+
+std::vector<std::string> fieldsOf(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      fields.back() += line[++i];
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      fields.emplace_back();
+    } else if (c != '\r') {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+}  // namespace
+
+CsvTable::CsvTable(const std::string& path) : path_(path) {
+  auto in = base::openInput(path, "table of signs");
+  std::string line;
+  if (!std::getline(in, line))
+    throw base::Error(base::ExitCode::unreadable_input, path + ": is empty; its first line names its columns");
+  const auto names = fieldsOf(line);
+  for (std::size_t i = 0; i < names.size(); ++i) columns_[names[i]] = i;
+  while (std::getline(in, line)) {
+    rows_.push_back(fieldsOf(line));
+    if (rows_.back().size() != names.size()) {
+      refuse(rows_.size() - 1, std::to_string(rows_.back().size()) + " fields where the first line names " +
+                                   std::to_string(names.size()));
+    }
+  }
+}
+
+const std::string& CsvTable::text(std::size_t row, const std::string& column) const {
+  const auto found = columns_.find(column);
+  if (found == columns_.end())
+    throw base::Error(base::ExitCode::unreadable_input, path_ + ": has no column '" + column + "'; add it");
+  return rows_[row][found->second];
+}
+
+double CsvTable::number(std::size_t row, const std::string& column) const {
+  const std::string& field = text(row, column);
+  double value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
+    refuse(row, "column " + column + ": '" + field + "' is no number");
+  return value;
+}
+
+void CsvTable::refuse(std::size_t row, const std::string& why) const {
+  throw base::Error(base::ExitCode::unreadable_input, path_ + ":" + std::to_string(row + 2) + ": " + why);
+}
+
+}  // namespace omnimapper::signs

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::signs {
+
+/// Lines of fields separated by commas, the first of which names the columns. Fields in double quotes may hold commas,
+/// and double quotes twice.
+class CsvTable {
+ public:
+  /// Throws Error(unreadable_input), also for lines of another number of fields than the first.
+  explicit CsvTable(const std::string& path);
+
+  std::size_t size() const { return rows_.size(); }
+  bool has(const std::string& column) const { return columns_.count(column) > 0; }
+  /// Throws Error(unreadable_input) if there is no such column.
+  const std::string& text(std::size_t row, const std::string& column) const;
+  /// Throws Error(unreadable_input) if it is no finite number.
+  double number(std::size_t row, const std::string& column) const;
+  /// Throws Error(unreadable_input) about that row.
+  [[noreturn]] void refuse(std::size_t row, const std::string& why) const;
+
+ private:
+  std::string path_;
+  std::map<std::string, std::size_t> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace omnimapper::signs

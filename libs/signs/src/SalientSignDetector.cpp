@@ -1,0 +1,54 @@
+#include <omnimapper/signs/SalientSignDetector.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "Plate.h"
+
+namespace omnimapper::signs {
+
+namespace {
+
+constexpr double kCovered = 0.5;  // part of the smaller of two regions of one thing that the other covers
+
+bool areOnOneAnother(const cv::Rect2f& a, const cv::Rect2f& b) {
+  return (a & b).area() > kCovered * std::min(a.area(), b.area());
+}
+
+}  // namespace
+
+const base::OptionTable<SalientSignOptions>& SalientSignOptions::table() {
+  static const auto table = base::OptionTable<SalientSignOptions>()
+                                .number("min_score", &SalientSignOptions::min_score, {0, 1},
+                                        "Least probability of a region that is reported.")
+                                .text("model", &SalientSignOptions::model,
+                                      "File of omnimapper-train-doorsigns; empty: the one that is shipped.");
+  return table;
+}
+
+SalientSignDetector::SalientSignDetector(const SalientSignOptions& options)
+    : SalientSignDetector(options,
+                          options.model.empty() ? SignClassifier::known() : SignClassifier::read(options.model)) {}
+
+SalientSignDetector::SalientSignDetector(const SalientSignOptions& options, SignClassifier classifier)
+    : options_(options), proposer_(options.saliency), classifier_(std::move(classifier)) {}
+
+std::vector<SignRegion> SalientSignDetector::detect(const perception::ColourImage& picture) const {
+  const std::vector<Corners> regions = proposer_.propose(picture);
+  const std::vector<double> scores = classifier_.probabilities(picture, regions);
+  std::vector<SignRegion> signs;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    if (scores[i] >= options_.min_score) signs.push_back({regions[i], scores[i]});
+  }
+  std::stable_sort(signs.begin(), signs.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::vector<SignRegion> kept;
+  for (const SignRegion& sign : signs) {
+    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const SignRegion& other) {
+      return areOnOneAnother(boundsOf(sign.corners_px), boundsOf(other.corners_px));
+    });
+    if (is_new) kept.push_back(sign);
+  }
+  return kept;
+}
+
+}  // namespace omnimapper::signs
