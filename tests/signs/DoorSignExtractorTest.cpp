@@ -171,6 +171,21 @@ TEST_F(DoorSignExtractorTest, networksThatAreCutOffAreNamed) {
   }
 }
 
+// A dark plate with bright text, as the classifier knows them.
+TEST_F(DoorSignExtractorTest, saliencyFindsItToo) {
+  DoorSignOptions options;
+  options.detector = DoorSignOptions::Detector::saliency;
+  try {
+    const auto found = DoorSignExtractor(options).extract(*view());
+    ASSERT_FALSE(found->signs.empty());
+    ASSERT_FALSE(found->signs[0].texts.empty());
+    EXPECT_EQ(found->signs[0].texts[0].text, "26-138");
+    EXPECT_GT(found->signs[0].score, 0.3);
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("libopencv-contrib-dev"), std::string::npos) << error.what();
+  }
+}
+
 // Where Tesseract is not built in, what to install is said.
 TEST_F(DoorSignExtractorTest, tesseractReadsItToo) {
   DoorSignOptions options;

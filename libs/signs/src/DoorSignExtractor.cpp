@@ -4,6 +4,10 @@
 #include <omnimapper/perception/LensModel.h>
 #include <omnimapper/perception/PictureView.h>
 #include <omnimapper/signs/DoorSignExtractor.h>
+#ifdef OMNIMAPPER_HAS_SALIENCY
+#include <omnimapper/signs/SalientSignDetector.h>
+#endif
+#include <omnimapper/signs/SignDetector.h>
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
@@ -23,6 +27,10 @@ const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
   using Options = DoorSignOptions;
   static const auto table =
       base::OptionTable<Options>()
+          .choice<Detector>("detector", &Options::detector,
+                            {{"text", Detector::text}, {"saliency", Detector::saliency}},
+                            "How signs are found: by lines of text, or, as in the thesis, by what is salient and looks "
+                            "like the signs that a classifier was trained on.")
           .text("models", &Options::models,
                 "Folder of the networks that scripts/models makes; empty: ~/.local/share/omnimapper/models.")
           .choice<Backend>("backend", &Options::backend,
@@ -78,6 +86,7 @@ class DoorSignExtractor::Finder {
  public:
   explicit Finder(const DoorSignOptions& options)
       : options_(options),
+        salient_(salientDetector()),
         detector_(networkOf("text_detector.onnx")),
         reader_(readerFor(Alphabet(options.letters.empty() ? Alphabet::common() : options.letters))) {}
 
@@ -86,6 +95,13 @@ class DoorSignExtractor::Finder {
       TextLine found;
       obs::ReadText text;
     };
+    const bool is_salient = salient_ != nullptr;
+    std::vector<SignRegion> salient;
+    if (is_salient) {
+      salient = salient_->detect({picture.data, picture.cols, picture.rows, static_cast<int>(picture.step),
+                                  perception::ColourImage::Order::bgr});
+      if (salient.empty()) return {};
+    }
     std::vector<Line> lines;
     std::vector<Quad> quads;
     for (const auto& found : detector_.detect(picture)) {
@@ -96,19 +112,20 @@ class DoorSignExtractor::Finder {
       quads.push_back(found.quad);
     }
     std::vector<ObservedDoorSign> signs;
-    for (const auto& plate : findPlates(picture, quads)) {
+    for (const auto& plate : is_salient ? platesOf(salient, quads) : findPlates(picture, quads)) {
       const auto ray = rayTo(plate.quad, lens);
       if (!ray) continue;
       ObservedDoorSign sign;
       sign.corners_px = plate.quad;
       sign.ray = *ray;
+      if (is_salient) sign.score = plate.score;
       for (const auto line : plate.lines) {
         const auto& text = lines[line].text;
         if (text.text.empty() || text.confidence < options_.min_confidence) continue;
         sign.texts.push_back(text);
-        sign.score = std::max(sign.score, lines[line].found.score);
+        if (!is_salient) sign.score = std::max(sign.score, lines[line].found.score);
       }
-      if (sign.texts.empty()) continue;
+      if (sign.texts.empty() && !is_salient) continue;
       const cv::Mat patch = patchOf(picture, plate.quad);
       if (!patch.empty()) sign.patch = imageOf(patch);
       signs.push_back(std::move(sign));
@@ -141,7 +158,31 @@ class DoorSignExtractor::Finder {
     return std::unique_ptr<const TextReader>(make(alphabet));
   }
 
+  // Each line is on the best region that its middle is in.
+  static std::vector<Plate> platesOf(const std::vector<SignRegion>& regions, const std::vector<Quad>& lines) {
+    std::vector<Plate> plates;
+    for (const auto& region : regions) plates.push_back({region.corners_px, region.score, {}});
+    for (std::size_t line = 0; line < lines.size(); ++line) {
+      const auto plate = std::find_if(plates.begin(), plates.end(),
+                                      [&](const Plate& p) { return contains(p.quad, middleOf(lines[line])); });
+      if (plate != plates.end()) plate->lines.push_back(line);
+    }
+    return plates;
+  }
+
+  std::unique_ptr<const SignDetector> salientDetector() const {
+    if (options_.detector == DoorSignOptions::Detector::text) return nullptr;
+#ifdef OMNIMAPPER_HAS_SALIENCY
+    return std::make_unique<SalientSignDetector>(SalientSignOptions());
+#else
+    throw base::Error(base::ExitCode::plugin_library,
+                      "door signs cannot be found by saliency: this build had no OpenCV module saliency. Install "
+                      "libopencv-contrib-dev, and configure and build again, or leave detector = saliency out.");
+#endif
+  }
+
   DoorSignOptions options_;
+  std::unique_ptr<const SignDetector> salient_;  // none where lines of text tell
   TextDetector detector_;
   std::unique_ptr<const TextReader> reader_;
 };

@@ -33,14 +33,14 @@ Levels levelsOf(const cv::Mat& grey, double share) {
   return levels;
 }
 
-cv::Mat greyOf(const cv::Mat& patch) {
+cv::Mat inGrey(const cv::Mat& patch) {
   cv::Mat grey;
   cv::cvtColor(patch, grey, cv::COLOR_BGR2GRAY);
   return grey;
 }
 
 cv::Mat stretched(const cv::Mat& patch) {
-  const auto levels = levelsOf(greyOf(patch), 0.02);
+  const auto levels = levelsOf(inGrey(patch), 0.02);
   const double factor = 255 / std::max(8.0, levels.high - levels.low);
   cv::Mat result;
   patch.convertTo(result, CV_8U, factor, -levels.low * factor);
@@ -79,7 +79,7 @@ double clearanceOf(const cv::Mat& picture, const Quad& line) {
   cv::Mat patch;  // black, which shows nothing, where the picture ends
   cv::warpPerspective(picture, patch, cv::getPerspectiveTransform(from, to), {columns, rows}, cv::INTER_LINEAR,
                       cv::BORDER_CONSTANT);
-  const cv::Mat grey = greyOf(patch);
+  const cv::Mat grey = inGrey(patch);
   // The letters' grey levels, and the background's, which is above and below them.
   constexpr int kBeside = kRows / 8;
   cv::Mat background;

@@ -12,8 +12,10 @@
 namespace omnimapper::signs {
 
 struct DoorSignOptions {
+  enum class Detector { text, saliency };
   enum class Backend { opencv, onnx_runtime };
   enum class Reader { network, tesseract };
+  Detector detector = Detector::text;
   std::string models;                 ///< folder of the networks; empty: where scripts/models puts them
   Backend backend = Backend::opencv;  ///< what computes them
   Reader reader = Reader::network;    ///< of lines
@@ -33,7 +35,8 @@ inline constexpr char kSignsSuffix[] = ".signs";
 ///
 /// Each image makes one observation: stamp of the image, label "<label>.signs", sensorPose the camera's, z forward;
 /// signs from the left to the right of the image. A ray goes to where the diagonals of the sign cross; the range is
-/// left to who knows more. The score of a sign is that of its lines as text, their texts have confidences that hold
+/// left to who knows more. The score of a sign is that of its lines as text, or
+/// the classifier's, their texts have confidences that hold
 /// (confidenceOf), and the patch is the plate alone, upright.
 /// Pictures of 8 bits with 1 or 3 channels; others show nothing. Lenses as MRPT's TCamera has them.
 ///

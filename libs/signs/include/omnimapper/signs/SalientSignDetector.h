@@ -6,7 +6,7 @@
 namespace omnimapper::signs {
 
 struct SalientSignOptions {
-  double min_score = 0.3;  ///< of a region that is reported
+  double min_score = 0.6;  ///< of a region that is reported
   std::string model;       ///< file of SignClassifier; empty: the one that is shipped
   SaliencyOptions saliency;
 
