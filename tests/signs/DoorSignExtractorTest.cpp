@@ -67,7 +67,8 @@ TEST_F(DoorSignExtractorTest, halfASignIsNotSure) {
         cv::Mat(whole->image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), cv::Rect(0, 0, columns, 480)).clone(),
         mrpt::img::DEEP_COPY);
     half->cameraParams.ncols = static_cast<std::uint32_t>(columns);
-    for (const auto& sign : DoorSignExtractor({}).extract(*half)->signs)
+    const auto found = DoorSignExtractor({}).extract(*half);
+    for (const auto& sign : found->signs)
       for (const auto& text : sign.texts) EXPECT_LT(text.confidence, 0.9) << columns << " " << text.text;
   }
 }
@@ -118,7 +119,8 @@ TEST_F(DoorSignExtractorTest, theCalibrationOfALargerImageIsScaled) {
 void expectNothingSure(const cv::Mat& picture, const std::string& what) {
   auto image = view();
   image->image = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
-  for (const auto& sign : DoorSignExtractor({}).extract(*image)->signs)
+  const auto found = DoorSignExtractor({}).extract(*image);
+  for (const auto& sign : found->signs)
     for (const auto& text : sign.texts) EXPECT_LT(text.confidence, 0.9) << what << ": " << text.text;
 }
 
