@@ -3,6 +3,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/source/CarmenLog.h>
+#include <omnimapper/source/ImageFolder.h>
 #include <omnimapper/source/PcdFolder.h>
 #include <omnimapper/source/RgbdFolder.h>
 
@@ -41,3 +42,6 @@ omnimapper::base::ExitCode importRgbd(const std::string& folder, const std::stri
 
 omnimapper::base::ExitCode importPcd(const std::string& folder, const std::string& output,
                                      const omnimapper::source::PcdFolderOptions& options);
+
+omnimapper::base::ExitCode importImages(const std::string& folder, const std::string& output,
+                                        const omnimapper::source::ImageFolderOptions& options);

@@ -1,98 +1,23 @@
 // omnimapper-import: makes MRPT rawlogs of other programs' logs.
 #include <omnimapper/base/AtomicFile.h>
 
-#include <map>
-
-#include "Imports.h"
-#include "program/Program.h"
-
-namespace {
-
-using namespace omnimapper;
-using source::CarmenOdometry;
-
-const std::map<std::string, CarmenOdometry> kOdometryNames = {
-    {"automatic", CarmenOdometry::automatic}, {"lines", CarmenOdometry::lines}, {"scans", CarmenOdometry::scans}};
-
-struct Arguments {
-  std::string input, output, odometry = "automatic", images = "embedded";
-  bool poses = false;
-  source::RgbdFolderOptions rgbd;
-  source::PcdFolderOptions pcd;
-};
-
-CLI::App* addCarmen(CLI::App& app, Arguments& arguments) {
-  auto* carmen = app.add_subcommand("carmen", "CARMEN log: scans (FLASER, RLASER, ROBOTLASER1, 2) and odometry");
-  carmen->add_option("IN", arguments.input, "CARMEN log; may be compressed (.gz, .bz2)")->required();
-  carmen->add_option("OUT", arguments.output, "rawlog to write")->required();
-  carmen
-      ->add_option("--odometry", arguments.odometry,
-                   "automatic: lines if no stamp of the log runs backwards, else scans")
-      ->check(CLI::IsMember(kOdometryNames))
-      ->capture_default_str()
-      ->type_name("NAME");
-  return carmen;
-}
-
-CLI::App* addTum(CLI::App& app, Arguments& arguments) {
-  auto* tum = app.add_subcommand("tum", "folder of depth and colour images: TUM RGB-D, ICL-NUIM, 7-Scenes");
-  tum->add_option("DIR", arguments.input, "folder")->required();
-  tum->add_option("OUT", arguments.output, "rawlog to write; its truth goes beside it: out.rawlog, out.truth.tum")
-      ->required();
-  tum->add_option("--intrinsics", arguments.rgbd.intrinsics,
-                  "freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file with fx, fy, cx, cy and the "
-                  "lens (k1, k2, p1, p2, k3); default: as the folder's name tells");
-  tum->add_option("--tolerance", arguments.rgbd.largest_difference, "between stamps of depth and colour [s]")
-      ->capture_default_str()
-      ->check(omnimapper::program::notNegative());
-  tum->add_option("--depth-units", arguments.rgbd.depth_units,
-                  "values of a depth image in a metre; 0: 1000 of 7-Scenes and where image/ has the colours, else 5000")
-      ->capture_default_str()
-      ->check(omnimapper::program::notNegative());
-  tum->add_option("--rate", arguments.rgbd.rate, "of images without stamps [1/s]")
-      ->check(omnimapper::program::positive())
-      ->capture_default_str();
-  tum->add_option("--label", arguments.rgbd.label, "sensor label")->capture_default_str();
-  tum->add_option("--images", arguments.images, "embedded in the rawlog, or external files beside it")
-      ->check(CLI::IsMember({"embedded", "external"}))
-      ->capture_default_str();
-  tum->add_flag("--poses", arguments.poses,
-                "the true poses go into the rawlog too, as observations that a map can use");
-  return tum;
-}
-
-CLI::App* addPcd(CLI::App& app, Arguments& arguments) {
-  auto* pcd =
-      app.add_subcommand("pcd", "folder of PCD files: organised clouds become depth images, others stay clouds");
-  pcd->add_option("DIR", arguments.input, "folder")->required();
-  pcd->add_option("OUT", arguments.output, "rawlog to write")->required();
-  pcd->add_option("--rate", arguments.pcd.rate, "of clouds whose names are no Unix times [1/s]")
-      ->check(omnimapper::program::positive())
-      ->capture_default_str();
-  pcd->add_option("--label", arguments.pcd.label, "sensor label")->capture_default_str();
-  return pcd;
-}
-
-}  // namespace
+#include "Arguments.h"
 
 int main(int argc, char** argv) {
+  using namespace omnimapper;
   CLI::App app(
       "Makes MRPT rawlogs of other programs' logs.\n"
       "Example: omnimapper-import carmen intel.clf.bz2 intel.rawlog\n"
-      "         omnimapper-import tum rgbd_dataset_freiburg1_rpy rpy.rawlog",
+      "         omnimapper-import tum rgbd_dataset_freiburg1_rpy rpy.rawlog\n"
+      "         omnimapper-import images photographs signs.rawlog",
       "omnimapper-import");
   app.require_subcommand(1);
   Arguments arguments;
-  const auto* carmen = addCarmen(app, arguments);
-  const auto* tum = addTum(app, arguments);
-  addPcd(app, arguments);
+  const auto import = addKinds(app, arguments);
   return program::run(app, argc, argv, [&] {
-    const std::string &input = arguments.input, &output = arguments.output;
-    base::refuseToReplaceInput(output, {input});
-    const auto code = carmen->parsed() ? importCarmen(input, output, kOdometryNames.at(arguments.odometry))
-                      : tum->parsed()
-                          ? importRgbd(input, output, arguments.rgbd, arguments.images == "external", arguments.poses)
-                          : importPcd(input, output, arguments.pcd);
-    return sayNext(output), static_cast<int>(code);
+    base::refuseToReplaceInput(arguments.output, {arguments.input});
+    const auto code = import();
+    sayNext(arguments.output);
+    return static_cast<int>(code);
   });
 }

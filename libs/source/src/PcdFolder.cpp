@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <optional>
 
+#include "NamedTimes.h"
 #include "describeInput.h"
 #include "refuse.h"
 
@@ -108,25 +107,6 @@ mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud) {
   return made;
 }
 
-namespace {
-
-// [s] What a file is called, in seconds, with decimals or without, or in nanoseconds since 1970; none if it is no such
-// number, or a time before 1973 or after 2286.
-std::optional<double> timeOf(const fs::path& file) {
-  constexpr double kFirst = 1e8, kLast = 1e10, kNanosecond = 1e-9;
-  const std::string stem = file.stem().string();
-  const bool is_number = !stem.empty() && stem.size() < 24 && std::count(stem.begin(), stem.end(), '.') <= 1 &&
-                         stem.find_first_not_of("0123456789.") == std::string::npos && stem != ".";
-  if (!is_number) return std::nullopt;
-  const double value = std::strtod(stem.c_str(), nullptr);
-  for (const double seconds : {value, kNanosecond * value}) {
-    if (seconds >= kFirst && seconds < kLast) return seconds;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
 PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options) : options_(options) {
   std::error_code error;
   if (fs::is_regular_file(folder, error)) refuse(folder, "is no folder: it " + describeInput(folder));
@@ -136,14 +116,7 @@ PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options)
   if (error) refuse(folder, error.message());
   if (files_.empty()) refuse(folder, "holds no .pcd files: it " + describeInput(folder));
   std::sort(files_.begin(), files_.end());
-  for (const auto& file : files_) {
-    const auto time = timeOf(file);
-    if (!time || (!times_.empty() && *time <= times_.back())) {
-      times_.clear();
-      break;
-    }
-    times_.push_back(*time);
-  }
+  times_ = timesOfNames(files_);
 }
 
 mrpt::obs::CObservation::Ptr PcdFolder::next() {

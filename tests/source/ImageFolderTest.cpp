@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/source/ImageFolder.h>
+#include <omnimapper/testing/Fixtures.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace omnimapper::source {
+namespace {
+
+class ImageFolderTest : public ::testing::Test {
+ protected:
+  void write(const std::string& name, int width, int height) const {
+    mrpt::img::CImage image(width, height, mrpt::img::CH_RGB);
+    image.filledRectangle(0, 0, width - 1, height - 1, mrpt::img::TColor(10, 200, 30));
+    ASSERT_TRUE(image.saveToFile(folder_ / name));
+  }
+  static mrpt::obs::CObservationImage::Ptr nextOf(ImageFolder& images) {
+    return std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(images.next());
+  }
+
+  testing::ScratchFolder folder_;
+};
+
+TEST_F(ImageFolderTest, imagesComeInTheOrderOfTheirNames) {
+  write("b.png", 40, 30);
+  write("a.jpg", 64, 48);
+  write("a.mask.png", 64, 48);
+  ImageFolder images(folder_.path(), {"photo", 2, 0});
+  const auto first = nextOf(images), second = nextOf(images);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(images.next(), nullptr);
+  EXPECT_EQ(first->sensorLabel, "photo");
+  EXPECT_EQ(first->image.getWidth(), 64u);
+  EXPECT_EQ(first->cameraParams.fx(), 64);
+  EXPECT_EQ(first->cameraParams.cy(), 23.5);
+  EXPECT_EQ(base::secondsBetween(first->timestamp, second->timestamp), 0.5);
+  // Its axis is the base's x, and what is right in the image is right of the base.
+  EXPECT_NEAR(first->cameraPose.composePoint(mrpt::math::TPoint3D(0, 0, 1)).x, 1, 1e-9);
+  EXPECT_NEAR(first->cameraPose.composePoint(mrpt::math::TPoint3D(1, 0, 0)).y, -1, 1e-9);
+  EXPECT_FALSE(images.areNamesTimes());
+  EXPECT_EQ(images.report().ending, SourceReport::Ending::complete);
+}
+
+TEST_F(ImageFolderTest, namesThatAreTimesAreTheStamps) {
+  write("1500000000.25.png", 8, 8);
+  write("1500000001.50.png", 8, 8);
+  ImageFolder images(folder_.path(), {"photo", 2, 500});
+  const auto first = nextOf(images), second = nextOf(images);
+  EXPECT_TRUE(images.areNamesTimes());
+  EXPECT_EQ(first->timestamp, base::stampFromUnix(1500000000.25));
+  EXPECT_EQ(base::secondsBetween(first->timestamp, second->timestamp), 1.25);
+  EXPECT_EQ(first->cameraParams.fx(), 500);
+}
+
+TEST_F(ImageFolderTest, whatIsNoImageIsLeftOutAndCounted) {
+  write("good.png", 8, 8);
+  std::ofstream(folder_ / "empty.jpg");
+  std::ofstream(folder_ / "text.png") << "no image";
+  std::filesystem::create_directory(folder_ / "folder.png");
+  ImageFolder images(folder_.path());
+  EXPECT_TRUE(nextOf(images));
+  EXPECT_EQ(images.next(), nullptr);
+  EXPECT_EQ(images.report().missing_images, 3u);
+  EXPECT_NE(images.report().first_missing_image.find("empty.jpg"), std::string::npos);
+}
+
+TEST_F(ImageFolderTest, aFolderWithoutImagesIsRefused) {
+  EXPECT_THROW(ImageFolder(folder_.path()), base::Error);
+  EXPECT_THROW(ImageFolder(folder_ / "missing"), base::Error);
+}
+
+}  // namespace
+}  // namespace omnimapper::source
