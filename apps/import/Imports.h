@@ -25,6 +25,11 @@ class ImportProgress {
   omnimapper::base::TerminalProgress terminal_;
 };
 
+/// Writes all of a folder of files, each an observation, and says on standard output what there was; colours as JPEG.
+/// `are_names_times`: whether the names of the files are the stamps.
+void importFolder(omnimapper::source::ObservationSource& files, bool are_names_times, const std::string& folder,
+                  const std::string& output);
+
 /// Says on standard output what to do with a rawlog that was written.
 void sayNext(const std::string& output);
 

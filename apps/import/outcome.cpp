@@ -1,3 +1,4 @@
+#include <omnimapper/source/RawlogWriter.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -21,6 +22,24 @@ ImportProgress::ImportProgress(const std::string& input)
 void ImportProgress::report(double share) {
   if (program::isInterrupted()) throw base::Error(base::ExitCode::interrupted, "interrupted; no rawlog was written");
   terminal_.report(share, what_);
+}
+
+void importFolder(source::ObservationSource& files, bool are_names_times, const std::string& folder,
+                  const std::string& output) {
+  ImportProgress progress(folder);
+  source::writeRawlog(
+      output,
+      [&](source::RawlogWriter& rawlog) {
+        while (const auto observation = files.next()) {
+          rawlog.add(*observation);
+          progress.report(files.progress());
+        }
+        refuseNothing(folder, files.report());
+      },
+      source::ColourImages::jpeg);
+  std::cout << files.report().text()
+            << (are_names_times ? "stamps: the names of the files\n"
+                                : "stamps: made up by --rate, for the files' names are no Unix times\n");
 }
 
 void sayNext(const std::string& output) {
