@@ -28,7 +28,7 @@ namespace {
 using namespace omnimapper;
 
 struct TrueSign {
-  signs::Quad quad;
+  signs::Corners quad;
   std::vector<std::string> lines;
   double capitals = 0, incidence = 0, visible = 0;
 };

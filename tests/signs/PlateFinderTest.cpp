@@ -9,38 +9,38 @@ namespace {
 
 using Eigen::Vector2f;
 
-Quad box(float left, float top, float right, float bottom) {
+Corners box(float left, float top, float right, float bottom) {
   return {Vector2f(left, top), Vector2f(right, top), Vector2f(right, bottom), Vector2f(left, bottom)};
 }
 
-void fill(cv::Mat& picture, const Quad& quad, const cv::Scalar& colour) {
+void fill(cv::Mat& picture, const Corners& quad, const cv::Scalar& colour) {
   std::vector<cv::Point> corners;
   for (const auto& corner : quad) corners.emplace_back(cvRound(corner.x()), cvRound(corner.y()));
   cv::fillConvexPoly(picture, corners, colour);
 }
 
 // Letters of four bars, with the margin about them that a detector leaves.
-void write(cv::Mat& picture, const Quad& text) {
+void write(cv::Mat& picture, const Corners& text) {
   constexpr float kMargin = 5;
   for (float x = text[0].x() + kMargin; x + 4 < text[1].x() - kMargin; x += 8)
     fill(picture, box(x, text[0].y() + kMargin, x + 3, text[3].y() - kMargin), {230, 230, 230});
 }
 
 // A wall with a plate on it, and text.
-cv::Mat wallWith(const Quad& plate, const std::vector<Quad>& texts) {
+cv::Mat wallWith(const Corners& plate, const std::vector<Corners>& texts) {
   cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(150, 170, 180));
   fill(picture, plate, {90, 60, 60});
   for (const auto& text : texts) write(picture, text);
   return picture;
 }
 
-void expectNear(const Quad& found, const Quad& expected, float most) {
+void expectNear(const Corners& found, const Corners& expected, float most) {
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_LT((found[i] - expected[i]).norm(), most) << i << ": " << found[i].transpose();
 }
 
 TEST(PlateFinder, findsThePlateAboutItsTexts) {
-  const Quad plate = box(200, 100, 380, 220), number = box(230, 120, 300, 145), name = box(230, 170, 340, 185);
+  const Corners plate = box(200, 100, 380, 220), number = box(230, 120, 300, 145), name = box(230, 170, 340, 185);
   const auto plates = findPlates(wallWith(plate, {number, name}), {number, name});
   ASSERT_EQ(plates.size(), 1u);
   EXPECT_EQ(plates[0].lines, (std::vector<std::size_t>{0, 1}));
@@ -49,14 +49,14 @@ TEST(PlateFinder, findsThePlateAboutItsTexts) {
 }
 
 TEST(PlateFinder, findsAPlateThatIsSeenAslant) {
-  const Quad plate = {Vector2f(200, 100), {380, 115}, {380, 215}, {200, 225}}, text = box(230, 135, 330, 160);
+  const Corners plate = {Vector2f(200, 100), {380, 115}, {380, 215}, {200, 225}}, text = box(230, 135, 330, 160);
   const auto plates = findPlates(wallWith(plate, {text}), {text});
   ASSERT_EQ(plates.size(), 1u);
   expectNear(plates[0].quad, plate, 6);
 }
 
 TEST(PlateFinder, aTextOnABareWallHasItsOwnSurroundings) {
-  const Quad text = box(230, 135, 330, 155);
+  const Corners text = box(230, 135, 330, 155);
   cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(150, 170, 180));
   const auto plates = findPlates(picture, {text});
   ASSERT_EQ(plates.size(), 1u);
@@ -65,8 +65,8 @@ TEST(PlateFinder, aTextOnABareWallHasItsOwnSurroundings) {
 }
 
 TEST(PlateFinder, everyLineIsOnOnePlate) {
-  const Quad left = box(100, 100, 220, 180), right = box(380, 100, 500, 180);
-  const std::vector<Quad> texts{box(120, 125, 200, 145), box(400, 125, 480, 145), box(100, 380, 180, 400)};
+  const Corners left = box(100, 100, 220, 180), right = box(380, 100, 500, 180);
+  const std::vector<Corners> texts{box(120, 125, 200, 145), box(400, 125, 480, 145), box(100, 380, 180, 400)};
   cv::Mat picture = wallWith(left, {});
   fill(picture, right, {200, 90, 60});
   for (const auto& text : texts) write(picture, text);

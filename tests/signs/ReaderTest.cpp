@@ -59,7 +59,7 @@ class Scripted : public TextReader {
 };
 
 // 100 x 20 px: patches of 100, 112 (twice, of these once with its contrast stretched) and 120 px.
-const Quad kLine = {Eigen::Vector2f(100, 100), {200, 100}, {200, 120}, {100, 120}};
+const Corners kLine = {Eigen::Vector2f(100, 100), {200, 100}, {200, 120}, {100, 120}};
 
 // Bars for letters, 5 px from the ends of the line.
 cv::Mat pictureOfLine() {

@@ -60,7 +60,7 @@ cv::Mat inBgr(const mrpt::img::CImage& image) {
   return picture;
 }
 
-std::optional<Eigen::Vector3d> rayTo(const Quad& quad, const perception::LensModel& lens) {
+std::optional<Eigen::Vector3d> rayTo(const Corners& quad, const perception::LensModel& lens) {
   perception::Corners corners;
   for (std::size_t i = 0; i < quad.size(); ++i) corners[i] = quad[i].cast<double>();
   const auto rays = lens.raysOf(corners);
@@ -103,7 +103,7 @@ class DoorSignExtractor::Finder {
       if (salient.empty()) return {};
     }
     std::vector<Line> lines;
-    std::vector<Quad> quads;
+    std::vector<Corners> quads;
     for (const auto& found : detector_.detect(picture)) {
       if (heightOf(found.quad) < options_.min_height) continue;
       const auto reading = readLine(picture, found.quad, *reader_);
@@ -159,7 +159,7 @@ class DoorSignExtractor::Finder {
   }
 
   // Each line is on the best region that its middle is in.
-  static std::vector<Plate> platesOf(const std::vector<SignRegion>& regions, const std::vector<Quad>& lines) {
+  static std::vector<Plate> platesOf(const std::vector<SignRegion>& regions, const std::vector<Corners>& lines) {
     std::vector<Plate> plates;
     for (const auto& region : regions) plates.push_back({region.corners_px, region.score, {}});
     for (std::size_t line = 0; line < lines.size(); ++line) {

@@ -67,8 +67,8 @@ bool isClear(const cv::Mat& grey, int column, double background, double contrast
   return 2 * shown > grey.rows && 10 * other <= grey.rows;
 }
 
-double clearanceOf(const cv::Mat& picture, const Quad& line) {
-  const Quad wide = grown(line, {1, 1, 0, 0});
+double clearanceOf(const cv::Mat& picture, const Corners& line) {
+  const Corners wide = grown(line, {1, 1, 0, 0});
   constexpr int rows = kRows;
   const int columns = cvRound(kRows * widthOf(wide) / std::max(1.0f, heightOf(line)));
   if (columns < 3 * kRows / 2 || columns > 100 * kRows) return 0;
@@ -104,7 +104,7 @@ double clearanceOf(const cv::Mat& picture, const Quad& line) {
 
 }  // namespace
 
-cv::Mat patchOf(const cv::Mat& picture, const Quad& quad) {
+cv::Mat patchOf(const cv::Mat& picture, const Corners& quad) {
   const int columns = static_cast<int>(widthOf(quad)), rows = static_cast<int>(heightOf(quad));
   constexpr int kLargest = 4096;
   if (picture.empty() || columns < 2 || rows < 2 || columns > kLargest || rows > kLargest) return {};
@@ -118,7 +118,7 @@ cv::Mat patchOf(const cv::Mat& picture, const Quad& quad) {
   return patch;
 }
 
-LineReading readLine(const cv::Mat& picture, const Quad& line, const TextReader& reader) {
+LineReading readLine(const cv::Mat& picture, const Corners& line, const TextReader& reader) {
   const cv::Mat tight = patchOf(picture, line), wide = patchOf(picture, grown(line, {0.3f, 0.3f, 0.08f, 0.08f})),
                 widest = patchOf(picture, grown(line, {0.5f, 0.5f, 0.2f, 0.2f}));
   if (tight.empty() || wide.empty() || widest.empty()) return {};

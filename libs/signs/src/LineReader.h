@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "Quad.h"
+#include "Corners.h"
 
 namespace omnimapper::signs {
 
@@ -27,13 +27,13 @@ struct LineReading {
 /// Reads a line in a picture several times, in patches that hold more or less of what is about it and with its contrast
 /// stretched, and takes what most say: a line whose box leaves a letter out, or holds a screw beside the text, is not
 /// read the same in all. A network is often sure of what is wrong, so what counts is how far these readings agree.
-LineReading readLine(const cv::Mat& picture, const Quad& line, const TextReader& reader);
+LineReading readLine(const cv::Mat& picture, const Corners& line, const TextReader& reader);
 
 /// How likely a reading is right, 0 to 1: at least 0.9 means that one in a hundred is wrong. What it was chosen on and
 /// how well it holds: doc/results/signs.md.
 double confidenceOf(const ReadingEvidence& evidence);
 
 /// The patch that a quadrilateral shows, upright; empty for one without a pixel.
-cv::Mat patchOf(const cv::Mat& picture, const Quad& quad);
+cv::Mat patchOf(const cv::Mat& picture, const Corners& quad);
 
 }  // namespace omnimapper::signs

@@ -92,7 +92,7 @@ std::optional<Vector2f> crossing(const Line& a, const Line& b) {
 
 }  // namespace
 
-Quad refined(const cv::Mat& picture, const Quad& outline, float reach) {
+Corners refined(const cv::Mat& picture, const Corners& outline, float reach) {
   const int steps = std::clamp(cvRound(reach), 1, kLongestReach);
   cv::Mat smooth;
   cv::Rect about = cv::boundingRect(std::vector<cv::Point2f>{{outline[0].x(), outline[0].y()},
@@ -108,7 +108,7 @@ Quad refined(const cv::Mat& picture, const Quad& outline, float reach) {
   std::array<Line, 4> sides;
   for (std::size_t i = 0; i < sides.size(); ++i)
     sides[i] = sideLine(smooth, outline[i] - origin, outline[(i + 1) % sides.size()] - origin, steps);
-  Quad result = outline;
+  Corners result = outline;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const auto corner = crossing(sides[(i + 3) % sides.size()], sides[i]);
     if (!corner) return outline;

@@ -20,7 +20,7 @@ struct Candidate {
 };
 
 // A candidate about `line`, by all lines of the picture. None if that line is not on it.
-bool weigh(const std::vector<Quad>& lines, std::size_t line, Candidate& candidate) {
+bool weigh(const std::vector<Corners>& lines, std::size_t line, Candidate& candidate) {
   float tallest = 0;
   int cut = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -42,7 +42,7 @@ bool weigh(const std::vector<Quad>& lines, std::size_t line, Candidate& candidat
 
 }  // namespace
 
-std::vector<Plate> findPlates(const cv::Mat& picture, const std::vector<Quad>& lines) {
+std::vector<Plate> findPlates(const cv::Mat& picture, const std::vector<Corners>& lines) {
   std::vector<Candidate> candidates;
   for (std::size_t line = 0; line < lines.size(); ++line) {
     for (const auto& outline : outlinesAbout(picture, lines[line])) {

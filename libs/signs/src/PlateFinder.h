@@ -3,13 +3,13 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "Quad.h"
+#include "Corners.h"
 
 namespace omnimapper::signs {
 
 /// A plate, and what is written on it.
 struct Plate {
-  Quad quad;                       ///< its outline [px]
+  Corners quad;                    ///< its outline [px]
   double score = 0;                ///< how much of its outline is an edge, 0 to 1; 0 where no outline was found
   std::vector<std::size_t> lines;  ///< indices of the lines of text that are on it, from top to bottom
 };
@@ -20,6 +20,6 @@ struct Plate {
 /// somewhat larger than the line. Each line is on one plate.
 ///
 /// `picture` is of 8 bits, BGR. The same picture gives the same bits.
-std::vector<Plate> findPlates(const cv::Mat& picture, const std::vector<Quad>& lines);
+std::vector<Plate> findPlates(const cv::Mat& picture, const std::vector<Corners>& lines);
 
 }  // namespace omnimapper::signs

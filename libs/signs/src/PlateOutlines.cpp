@@ -42,7 +42,7 @@ cv::Mat edgesOf(const cv::Mat& lab, const cv::Mat& is_seen, int dx, int dy) {
   return sum;
 }
 
-Patch patchAbout(const cv::Mat& picture, const Quad& text) {
+Patch patchAbout(const cv::Mat& picture, const Corners& text) {
   const float height = std::max(heightOf(text), 1.0f), scale = kHeight / height;
   const float width = widthOf(text) * scale;
   const Vector2f x = (text[1] - text[0] + text[2] - text[3]).normalized();
@@ -134,7 +134,7 @@ double edgeBetween(const cv::Mat& edges, const Vector2f& from, const Vector2f& t
 
 }  // namespace
 
-std::vector<Outline> outlinesAbout(const cv::Mat& picture, const Quad& text) {
+std::vector<Outline> outlinesAbout(const cv::Mat& picture, const Corners& text) {
   const Patch patch = patchAbout(picture, text);
   if (patch.across.empty()) return {};
   const float columns = static_cast<float>(patch.across.cols), rows = static_cast<float>(patch.across.rows);

@@ -46,7 +46,7 @@ double meanWithin(const cv::Mat& probability, const std::vector<cv::Point>& outl
 }
 
 // Text is read from left to right, and from the top where it stands upright.
-Quad inReadingOrder(const cv::RotatedRect& rectangle) {
+Corners inReadingOrder(const cv::RotatedRect& rectangle) {
   std::array<cv::Point2f, 4> corners;
   rectangle.points(corners.data());
   std::sort(corners.begin(), corners.end(), [](const auto& a, const auto& b) { return a.x < b.x; });

@@ -6,13 +6,13 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "Quad.h"
+#include "Corners.h"
 
 namespace omnimapper::signs {
 
 /// A line of text in a picture.
 struct TextLine {
-  Quad quad;         ///< [px] around it, with a little of what is about it
+  Corners quad;      ///< [px] around it, with a little of what is about it
   double score = 0;  ///< how sure the detector is that this is text, 0 to 1
 };
 

@@ -1,4 +1,4 @@
-#include "Quad.h"
+#include "Corners.h"
 
 namespace omnimapper::signs {
 
@@ -12,29 +12,29 @@ float crossOf(const Vector2f& a, const Vector2f& b) {
 
 }  // namespace
 
-float heightOf(const Quad& quad) {
+float heightOf(const Corners& quad) {
   return 0.5f * ((quad[3] - quad[0]).norm() + (quad[2] - quad[1]).norm());
 }
 
-float widthOf(const Quad& quad) {
+float widthOf(const Corners& quad) {
   return 0.5f * ((quad[1] - quad[0]).norm() + (quad[2] - quad[3]).norm());
 }
 
-float areaOf(const Quad& quad) {
+float areaOf(const Corners& quad) {
   return 0.5f * std::abs(crossOf(quad[2] - quad[0], quad[3] - quad[1]));
 }
 
-Vector2f middleOf(const Quad& quad) {
+Vector2f middleOf(const Corners& quad) {
   return 0.25f * (quad[0] + quad[1] + quad[2] + quad[3]);
 }
 
-bool contains(const Quad& quad, const Vector2f& point) {
+bool contains(const Corners& quad, const Vector2f& point) {
   for (std::size_t i = 0; i < quad.size(); ++i)
     if (crossOf(quad[(i + 1) % quad.size()] - quad[i], point - quad[i]) < 0) return false;
   return true;
 }
 
-Quad grown(const Quad& quad, const Margins& margins) {
+Corners grown(const Corners& quad, const Margins& margins) {
   const float height = heightOf(quad);
   const Vector2f right = height * (quad[1] - quad[0] + quad[2] - quad[3]).normalized();
   const Vector2f down = height * (quad[3] - quad[0] + quad[2] - quad[1]).normalized();
