@@ -80,6 +80,14 @@ Patch patchAbout(const cv::Mat& picture, const Corners& text) {
   return patch;
 }
 
+// Whether a plate may look so: of opposite sides the nearer one looks longer, but no sign is read from so near.
+bool isPlausible(const Corners& quad) {
+  constexpr float kMost = 2;
+  const auto areAlike = [](float a, float b) { return a < kMost * b && b < kMost * a; };
+  return areAlike((quad[1] - quad[0]).norm(), (quad[2] - quad[3]).norm()) &&
+         areAlike((quad[3] - quad[0]).norm(), (quad[2] - quad[1]).norm());
+}
+
 // A side left or right: x = at + slope (y - middle), or, of a side above or below, with x and y swapped.
 struct Side {
   float at, slope, edge;
@@ -166,6 +174,7 @@ std::vector<Outline> outlinesAbout(const cv::Mat& picture, const Corners& text) 
         for (const auto& bottom : bottoms) {
           Outline outline{{upper_left, upper_right, crossing(right, bottom), crossing(left, bottom)}, 0, 0};
           const auto& q = outline.quad;
+          if (!isPlausible(q)) continue;
           const double edges[] = {upper, edgeBetween(patch.across, q[1], q[2]), edgeBetween(patch.down, q[3], q[2]),
                                   edgeBetween(patch.across, q[0], q[3])};
           outline.weakest_edge = *std::min_element(std::begin(edges), std::end(edges));
