@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
+#include <omnimapper/tesseract/TesseractReader.h>
 #include <tesseract/baseapi.h>
 
 #include <opencv2/imgproc.hpp>
 #include <thread>
-
-#include "TesseractReader.h"
 
 namespace omnimapper::tesseract_reader {
 namespace {
@@ -23,7 +22,7 @@ signs::Reading read(const TesseractReader& reader, const cv::Mat& patch) {
 const cv::Scalar kDark(60, 40, 40), kLight(230, 225, 220);
 
 TEST(TesseractReader, readsDarkAndLightLines) {
-  const TesseractReader reader(signs::Alphabet(signs::Alphabet::common()));
+  const TesseractReader reader{signs::Alphabet(signs::Alphabet::common())};
   for (const bool is_dark : {true, false}) {
     const auto reading = read(reader, lineOf("213", is_dark ? kDark : kLight, is_dark ? kLight : kDark));
     EXPECT_EQ(reading.text, "213");
@@ -37,12 +36,12 @@ TEST(TesseractReader, readsDarkAndLightLines) {
 }
 
 TEST(TesseractReader, readsLettersOfTheAlphabetAlone) {
-  const TesseractReader reader(signs::Alphabet("0123456789"));
+  const TesseractReader reader{signs::Alphabet("0123456789")};
   for (const char c : read(reader, lineOf("OFFICE", kDark, kLight)).text) EXPECT_TRUE(std::isdigit(c) || c == ' ') << c;
 }
 
 TEST(TesseractReader, threadsReadAlike) {
-  const TesseractReader reader(signs::Alphabet(signs::Alphabet::common()));
+  const TesseractReader reader{signs::Alphabet(signs::Alphabet::common())};
   const auto patch = lineOf("26-138", kDark, kLight);
   const auto expected = read(reader, patch);
   std::vector<signs::Reading> readings(3);
@@ -56,7 +55,7 @@ TEST(TesseractReader, threadsReadAlike) {
 }
 
 TEST(TesseractReader, patchesWithoutTextAreRead) {
-  const TesseractReader reader(signs::Alphabet(signs::Alphabet::common()));
+  const TesseractReader reader{signs::Alphabet(signs::Alphabet::common())};
   EXPECT_EQ(reader.read({}).text, "");
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(1, 300), cv::Size(3000, 2)}) {
     const auto reading = read(reader, cv::Mat(size, CV_8UC3, kLight));
