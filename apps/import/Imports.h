@@ -30,8 +30,8 @@ class ImportProgress {
 void importFolder(omnimapper::source::ObservationSource& files, bool are_names_times, const std::string& folder,
                   const std::string& output);
 
-/// Says on standard output what to do with a rawlog that was written.
-void sayNext(const std::string& output);
+/// Says on standard output what to do with a rawlog that was written, which may hold nothing but photographs.
+void sayNext(const std::string& output, bool has_photographs);
 
 /// The kinds of logs that omnimapper-import takes: each writes a rawlog and prints a summary.
 

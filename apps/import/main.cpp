@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   return program::run(app, argc, argv, [&] {
     base::refuseToReplaceInput(arguments.output, {arguments.input});
     const auto code = import();
-    sayNext(arguments.output);
+    sayNext(arguments.output, app.got_subcommand("images"));
     return static_cast<int>(code);
   });
 }

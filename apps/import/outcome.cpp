@@ -42,6 +42,11 @@ void importFolder(source::ObservationSource& files, bool are_names_times, const 
                                 : "stamps: made up by --rate, for the files' names are no Unix times\n");
 }
 
-void sayNext(const std::string& output) {
+void sayNext(const std::string& output, bool has_photographs) {
+  if (has_photographs) {
+    std::cout << "next: omnimapper-perceive -i ini/signs.ini -r " << output
+              << " -o signs.rawlog --pictures pictures --picture-every 1 finds door signs in them\n";
+    return;
+  }
   std::cout << "next: omnimapper-graphslam --check " << output << " names the INIs that fit it\n";
 }

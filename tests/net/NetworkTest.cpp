@@ -95,6 +95,24 @@ TEST_P(NetworkTest, picturesOfAnotherShapeAreRefused) {
 INSTANTIATE_TEST_SUITE_P(Backends, NetworkTest, ::testing::Values(Backend::opencv, Backend::onnx_runtime),
                          [](const auto& info) { return info.param == Backend::opencv ? "opencv" : "onnx_runtime"; });
 
+// The system's loader ends a program over a library whose end is missing.
+TEST(Network, aLibraryThatIsCutOffIsRefused) {
+  const testing::ScratchFolder folder;
+  std::ofstream(folder / "model.onnx", std::ios::binary) << smallModel();
+  const std::string cut = folder / "libcut.so";
+  std::ifstream self("/proc/self/exe", std::ios::binary);  // an ELF file, too
+  std::string begin(100000, '\0');
+  self.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  std::ofstream(cut, std::ios::binary) << begin;
+  try {
+    Network(folder / "model.onnx", Backend::onnx_runtime, cut);
+    FAIL();
+  } catch (const base::Error& error) {
+    EXPECT_EQ(error.code(), base::ExitCode::plugin_library);
+    EXPECT_NE(std::string(error.what()).find("cut off"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Network, aLibraryThatIsNotOnnxRuntimeIsRefusedByName) {
   const testing::ScratchFolder folder;
   std::ofstream(folder / "model.onnx", std::ios::binary) << smallModel();

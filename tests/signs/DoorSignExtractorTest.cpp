@@ -141,6 +141,17 @@ TEST_F(DoorSignExtractorTest, whatIsNoReadableTextIsNotSure) {
   expectNothingSure(arrows, "arrows");
 }
 
+TEST_F(DoorSignExtractorTest, aLineWithLettersThatTheAlphabetLacksIsNotSure) {
+  DoorSignOptions options;
+  options.letters = "0123456789";
+  options.min_confidence = 0;
+  const auto found = DoorSignExtractor(options).extract(*view());
+  for (const auto& sign : found->signs)
+    for (const auto& text : sign.texts) EXPECT_LT(text.confidence, 0.9) << text.text;
+  options.letters = "0123\xff";
+  EXPECT_THROW(DoorSignExtractor{options}, base::Error);
+}
+
 // A weak reflection of a window over it.
 TEST_F(DoorSignExtractorTest, aSignBehindGlassIsRead) {
   auto image = view();

@@ -37,6 +37,7 @@ TEST(DecodeSteps, lettersOnceUnlessABlankPartsThem) {
   ASSERT_EQ(reading.probabilities.size(), 3u);
   EXPECT_FLOAT_EQ(static_cast<float>(reading.probabilities[0]), 0.7f);
   EXPECT_FLOAT_EQ(static_cast<float>(reading.probabilities[2]), 0.4f);
+  EXPECT_FLOAT_EQ(static_cast<float>(reading.of_left_out), 0.1f) << "what was taken in the fifth step";
 }
 
 TEST(NetworkReader, aFileWithoutLettersIsRefused) {

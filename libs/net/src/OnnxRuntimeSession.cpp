@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <fstream>
 #include <type_traits>
 
 #include "Session.h"
@@ -95,16 +97,38 @@ class Handle {
   void* object_ = nullptr;
 };
 
+// Whether a shared library (ELF, 64 bits) ends before the table of its sections, which is its last part.
+bool isCutOff(const std::string& library) {
+  constexpr std::size_t kHeader = 64, kOffset = 40, kSize = 58, kCount = 60;
+  std::ifstream file(library, std::ios::binary);
+  char header[kHeader] = {};
+  if (!file.read(header, kHeader) || std::memcmp(header,
+                                                 "\x7f"
+                                                 "ELF",
+                                                 4) != 0)
+    return false;  // the loader says what it is
+  std::uint64_t offset = 0;
+  std::uint16_t size = 0, count = 0;
+  std::memcpy(&offset, header + kOffset, sizeof offset);
+  std::memcpy(&size, header + kSize, sizeof size);
+  std::memcpy(&count, header + kCount, sizeof count);
+  file.seekg(0, std::ios::end);
+  return static_cast<std::uint64_t>(file.tellg()) < offset + std::uint64_t{size} * count;
+}
+
 // The library stays loaded until the program ends.
 Table loadTable(const std::string& library) {
   const auto refuse = [&](const std::string& why) {
     throw base::Error(base::ExitCode::plugin_library, library + ": ONNX Runtime cannot be loaded (" + why +
                                                           "); scripts/models --onnxruntime fetches it");
   };
+  // The system's loader would end the program over a file that is shorter than it says.
+  if (isCutOff(library)) refuse("it is cut off");
   void* handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) refuse(dlerror());
   const auto base = reinterpret_cast<const ApiBase* (*)()>(dlsym(handle, "OrtGetApiBase"));
   if (base == nullptr) refuse("it has no OrtGetApiBase");
+  if (base() == nullptr) refuse("it gives no functions");
   const Table table = base()->table(kVersion);
   if (table == nullptr) refuse(std::string("version 1.11 or later is needed, and this is ") + base()->version());
   return table;

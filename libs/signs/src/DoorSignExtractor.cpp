@@ -1,5 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/LibraryBeside.h>
+#include <omnimapper/base/Names.h>
 #include <omnimapper/net/Network.h>
 #include <omnimapper/perception/LensModel.h>
 #include <omnimapper/perception/PictureView.h>
@@ -30,9 +31,10 @@ const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
           .choice<Detector>("detector", &Options::detector,
                             {{"text", Detector::text}, {"saliency", Detector::saliency}},
                             "How signs are found: by lines of text, or, as in the thesis, by what is salient and looks "
-                            "like the signs that a classifier was trained on.")
+                            "like the signs that a classifier was trained on. Both need the networks, which read them.")
           .text("models", &Options::models,
-                "Folder of the networks that scripts/models makes; empty: ~/.local/share/omnimapper/models.")
+                "Folder of the networks that scripts/models makes; empty: omnimapper/models in $XDG_DATA_HOME or "
+                "~/.local/share, from which alone the library of ONNX Runtime is taken, for it is a program.")
           .choice<Backend>("backend", &Options::backend,
                            {{"opencv", Backend::opencv}, {"onnx_runtime", Backend::onnx_runtime}},
                            "What computes the networks: OpenCV, or ONNX Runtime, which is twice as fast and which "
@@ -44,7 +46,7 @@ const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
               "larger letters.")
           .text("letters", &Options::letters,
                 "What texts consist of; empty: the English alphabet, digits and -.,:/&'(). A middle dot is read as a "
-                "hyphen.")
+                "hyphen; a line with a letter that they lack is not sure.")
           .number("min_confidence", &Options::min_confidence, {0, 1}, "Lines that are less likely right are left out.")
           .number("min_height_px", &Options::min_height, {4, 1000}, "Lines that are lower are left out.");
   return table;
@@ -81,6 +83,17 @@ mrpt::img::CImage imageOf(const cv::Mat& patch) {
 
 }  // namespace
 
+// Throws Error(wrong_type) if these letters are no UTF-8.
+std::string validLetters(const std::string& letters) {
+  std::string whole;
+  for (const auto& letter : lettersOf(letters)) whole += letter;
+  if (whole != letters) {
+    throw base::Error(base::ExitCode::wrong_type, "letters of door signs: \"" + base::printable(letters) +
+                                                      "\" is no UTF-8; write them in an INI of that");
+  }
+  return letters.empty() ? Alphabet::common() : letters;
+}
+
 // All that is needed to read an image, made once.
 class DoorSignExtractor::Finder {
  public:
@@ -88,7 +101,7 @@ class DoorSignExtractor::Finder {
       : options_(options),
         salient_(salientDetector()),
         detector_(networkOf("text_detector.onnx")),
-        reader_(readerFor(Alphabet(options.letters.empty() ? Alphabet::common() : options.letters))) {}
+        reader_(readerFor(Alphabet(validLetters(options.letters)))) {}
 
   std::vector<ObservedDoorSign> signsIn(const cv::Mat& picture, const perception::LensModel& lens) const {
     struct Line {

@@ -133,7 +133,8 @@ LineReading readLine(const cv::Mat& picture, const Corners& line, const TextRead
     const auto reading = reader.read(viewOf(patch));
     const auto text = trimmed(reading.text);
     if (text.empty()) continue;
-    const double weakest = *std::min_element(reading.probabilities.begin(), reading.probabilities.end());
+    const double weakest =
+        std::min(reading.of_left_out, *std::min_element(reading.probabilities.begin(), reading.probabilities.end()));
     auto vote = std::find_if(votes.begin(), votes.end(), [&](const Vote& v) { return v.text == text; });
     if (vote == votes.end()) vote = votes.insert(vote, {text, 1, 0, 0});
     vote->weakest = std::min(vote->weakest, weakest);

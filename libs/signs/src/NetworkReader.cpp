@@ -11,7 +11,7 @@ namespace omnimapper::signs {
 
 NetworkReader::NetworkReader(std::shared_ptr<const net::Network> network, const std::string& letters_file,
                              const Alphabet& alphabet)
-    : network_(std::move(network)), letters_{""} {
+    : network_(std::move(network)), letters_file_(letters_file), letters_{""} {
   std::ifstream file(letters_file);
   for (std::string letter; std::getline(file, letter);) letters_.push_back(alphabet.letterFor(letter));
   if (letters_.size() < 2) {
@@ -40,9 +40,9 @@ Reading NetworkReader::read(const perception::ColourImage& image) const {
   const auto output = network_->run(input);
   if (output.shape.size() != 3 || output.shape[2] != static_cast<int>(letters_.size())) {
     throw base::Error(base::ExitCode::unreadable_input,
-                      "the network that should read does not fit its letters: it answers with " +
+                      letters_file_ + ": these letters are not those of the network: it answers with " +
                           std::to_string(output.shape.empty() ? 0 : output.shape.back()) + " classes, and there are " +
-                          std::to_string(letters_.size() - 1) + " letters");
+                          std::to_string(letters_.size() - 1) + " letters; scripts/models --force fetches both");
   }
   return decodeSteps(output.values.data(), output.shape[1], letters_);
 }
@@ -54,6 +54,8 @@ Reading decodeSteps(const float* probabilities, int steps, const std::vector<std
     std::size_t best = 0;
     for (std::size_t i = 1; i < letters.size(); ++i)
       if (!letters[i].empty() && probabilities[i] > probabilities[best]) best = i;
+    if (*std::max_element(probabilities, probabilities + letters.size()) > probabilities[best])
+      reading.of_left_out = std::min(reading.of_left_out, static_cast<double>(probabilities[best]));
     if (best != 0 && best != before) {
       reading.text += letters[best];
       reading.probabilities.push_back(static_cast<double>(probabilities[best]));

@@ -23,6 +23,7 @@ class NetworkReader : public TextReader {
 
  private:
   std::shared_ptr<const net::Network> network_;
+  std::string letters_file_;
   std::vector<std::string> letters_;  // of each class, empty where the alphabet has none for it
 };
 

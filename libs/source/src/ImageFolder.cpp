@@ -20,6 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr double kFirstImage = 1e9;  // [s] stamp of images whose names tell none
 
+constexpr int kInColour = 1;  // MRPT: three channels of 8 bits, whatever the file has
+
 bool isImage(const fs::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -35,7 +37,7 @@ mrpt::obs::CObservationImage::Ptr imageIn(const std::string& file, double focal_
   auto image = mrpt::obs::CObservationImage::Create();
   bool is_decoded = false;
   try {
-    is_decoded = image->image.loadFromFile(file) && !image->image.isEmpty();
+    is_decoded = image->image.loadFromFile(file, kInColour) && !image->image.isEmpty();
   } catch (const std::exception&) {  // OpenCV's, for a file without bytes, which MRPT passes on
   }
   if (!is_decoded) refuse(file, "cannot be decoded");

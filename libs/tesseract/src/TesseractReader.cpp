@@ -54,8 +54,10 @@ std::unique_ptr<tesseract::TessBaseAPI> TesseractReader::take() const {
   }
   auto engine = std::make_unique<tesseract::TessBaseAPI>();
   if (engine->Init(nullptr, "eng", tesseract::OEM_LSTM_ONLY) != 0)
-    throw base::Error(base::ExitCode::plugin_library,
-                      "Tesseract has no English letters; install tesseract-ocr-eng, or leave reader = tesseract out");
+    throw base::Error(
+        base::ExitCode::plugin_library,
+        "Tesseract finds no English letters; install tesseract-ocr-eng, and unset TESSDATA_PREFIX if it names "
+        "another folder, or leave reader = tesseract out");
   engine->SetPageSegMode(tesseract::PSM_SINGLE_LINE);
   engine->SetVariable("tessedit_char_whitelist", letters_.c_str());
   engine->SetVariable("debug_file", "/dev/null");

@@ -38,7 +38,7 @@ void drawSigns(draw::Image& picture, const obs::CObservationDoorSigns& found, st
     }
   }
   if (read > 0) legend.push_back({sure, base::counted(read, "sign") + " of which a text is sure: outline, texts"});
-  if (drawn > read) legend.push_back({not_sure, base::counted(drawn - read, "sign") + " of which none is"});
+  if (drawn > read) legend.push_back({not_sure, base::counted(drawn - read, "sign") + " of which no text is sure"});
 }
 
 }  // namespace omnimapper::exports

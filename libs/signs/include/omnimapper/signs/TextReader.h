@@ -11,6 +11,8 @@ namespace omnimapper::signs {
 struct Reading {
   std::string text;                   ///< UTF-8
   std::vector<double> probabilities;  ///< of each letter by the reader's own word, 0 to 1
+  /// Least probability of what was taken where the reader saw a letter that the alphabet has not; 1 if it saw none.
+  double of_left_out = 1;
 };
 
 /// Reads one line of text.

@@ -14,7 +14,8 @@ struct ImageFolderOptions {
 };
 
 /// Streams the JPEG and PNG images of a folder as CObservationImage, in the order of their names; those called
-/// NAME.mask.png, which tell what an image shows, are left out. Where all names are Unix times, in seconds or
+/// NAME.mask.png, which tell what an image shows, are left out. Images of 16 bits, grey
+/// ones and those with an alpha channel become three channels of 8 bits. Where all names are Unix times, in seconds or
 /// nanoseconds, they are the stamps. The camera is a pinhole whose axis goes through the middle of the image, with
 /// cameraPose level: z forward along the base's x.
 class ImageFolder : public ObservationSource {
