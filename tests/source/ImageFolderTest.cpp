@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/draw/Image.h>
 #include <omnimapper/source/ImageFolder.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -65,6 +66,17 @@ TEST_F(ImageFolderTest, whatIsNoImageIsLeftOutAndCounted) {
   EXPECT_EQ(images.next(), nullptr);
   EXPECT_EQ(images.report().missing_images, 3u);
   EXPECT_NE(images.report().first_missing_image.find("empty.jpg"), std::string::npos);
+}
+
+TEST_F(ImageFolderTest, sixteenBitsBecomeEight) {
+  std::ofstream(folder_ / "deep.png", std::ios::binary) << draw::encodePng(draw::Grey16Image{2, 1, {0x8000, 0x1000}});
+  ImageFolder images(folder_.path());
+  const auto image = nextOf(images);
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->image.getPixelDepth(), mrpt::img::PixelDepth::D8U);
+  ASSERT_TRUE(image->image.isColor());
+  EXPECT_EQ(image->image.at<std::uint8_t>(0, 0, 0), 0x80);
+  EXPECT_EQ(image->image.at<std::uint8_t>(1, 0, 2), 0x10);
 }
 
 TEST_F(ImageFolderTest, aFolderWithoutImagesIsRefused) {
