@@ -11,6 +11,7 @@
 #include <omnimapper/signs/SignDetector.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -164,6 +165,9 @@ class DoorSignExtractor::Finder {
     if (options_.reader == DoorSignOptions::Reader::network)
       return std::make_unique<NetworkReader>(networkOf("text_reader.onnx"), folder() + "/text_reader.letters.txt",
                                              alphabet);
+    // Of its own threads Tesseract makes more than it has use for: with them a line takes five times as long. How many
+    // it may have is read when its library is loaded.
+    setenv("OMP_THREAD_LIMIT", "1", 0);
     const auto make = reinterpret_cast<TextReader* (*)(const Alphabet&)>(
         base::functionOfLibrary("libomnimapper-tesseract.so", "omnimapperTesseractReader", "Tesseract cannot read",
                                 "Install libtesseract-dev and tesseract-ocr-eng, and configure and build again, or "
