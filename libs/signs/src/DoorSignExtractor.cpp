@@ -82,18 +82,18 @@ mrpt::img::CImage imageOf(const cv::Mat& patch) {
   return mrpt::img::CImage(patch, mrpt::img::DEEP_COPY);
 }
 
-}  // namespace
-
 // Throws Error(wrong_type) if these letters are no UTF-8.
 std::string validLetters(const std::string& letters) {
   std::string whole;
   for (const auto& letter : lettersOf(letters)) whole += letter;
   if (whole != letters) {
     throw base::Error(base::ExitCode::wrong_type, "letters of door signs: \"" + base::printable(letters) +
-                                                      "\" is no UTF-8; write them in an INI of that");
+                                                      "\" is not valid UTF-8; save the INI as UTF-8");
   }
   return letters.empty() ? Alphabet::common() : letters;
 }
+
+}  // namespace
 
 // All that is needed to read an image, made once.
 class DoorSignExtractor::Finder {

@@ -83,7 +83,10 @@ signs::Reading TesseractReader::read(const perception::ColourImage& patch) const
         }
         for (const auto& letter : signs::lettersOf(text.get())) {
           const auto counts = alphabet_.letterFor(letter);
-          if (counts.empty()) continue;
+          if (counts.empty()) {
+            reading.of_left_out = 0;
+            continue;
+          }
           reading.text += counts;
           reading.probabilities.push_back(
               std::clamp(static_cast<double>(symbols->Confidence(tesseract::RIL_SYMBOL)) / 100, 0.0, 1.0));

@@ -30,6 +30,7 @@ class Session;
 /// Thread-safe: of threads that ask at once each computes a copy of its own, which is read when it is first needed.
 class Network {
  public:
+  /// With OpenCV, its threads and its log are switched off in the whole process.
   /// `library` is the file of ONNX Runtime, empty with another backend. Throws Error(unreadable_input) that names the
   /// file if it is missing, empty or no network, or has several inputs or outputs, and Error(plugin_library) if the
   /// library cannot be loaded or is older than 1.11.

@@ -35,16 +35,15 @@ inline constexpr char kSignsSuffix[] = ".signs";
 ///
 /// Each image makes one observation: stamp of the image, label "<label>.signs", sensorPose the camera's, z forward;
 /// signs from the left to the right of the image. A ray goes to where the diagonals of the sign cross; the range is
-/// left to who knows more. The score of a sign is that of its lines as text, or
-/// the classifier's, their texts have confidences that hold
-/// (confidenceOf), and the patch is the plate alone, upright.
+/// left to who knows more. The score of a sign is that of its lines as text, or the classifier's. The confidence of a
+/// text is the probability that it was read right (doc/results/signs.md); the patch is the plate alone, upright.
 /// Pictures of 8 bits with 1 or 3 channels; others show nothing. Lenses as MRPT's TCamera has them.
 ///
 /// The constructor throws Error(unreadable_input) if a network is missing or broken, and Error(plugin_library) if ONNX
 /// Runtime or Tesseract is; extract() Error(missing_images) for an image that is in a file and was not loaded, and
 /// Error(unreadable_input) for a camera without a calibration that can be used, or with one of images of another shape
-/// (of images of the same shape it is scaled). Thread-safe; the same image gives the
-/// same bits on one kind of processor.
+/// (of images of the same shape it is scaled). Thread-safe; the same image gives the same bits on one kind of
+/// processor.
 class DoorSignExtractor : public perception::Extractor {
  public:
   static constexpr const char* kName = "DoorSignExtractor";
