@@ -24,9 +24,11 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("folders", request.folders,
                  "folders of pictures, one for each building, with signs.csv or a NAME.mask.png for each picture")
       ->required();
-  app.add_option("-o,--output", request.output, "file of the model; without it only the tables are made");
+  auto* output =
+      app.add_option("-o,--output", request.output, "file of the model; without it only the tables are made");
   app.add_option("--try", request.trial,
-                 "trains nothing: how well the model of this file, or the one that is 'shipped', finds the signs");
+                 "trains nothing: how well the model of this file, or the one that is 'shipped', finds the signs")
+      ->excludes(output);
   app.add_option("--min-score", options.min_score, "from what probability on a region is taken for a sign")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();

@@ -5,6 +5,8 @@
 #include <omnimapper/signs/TrainingPictures.h>
 #include <omnimapper/testing/Fixtures.h>
 
+#include <filesystem>
+#include <opencv2/core.hpp>
 #include <ostream>
 
 namespace omnimapper::signs::pictures_test {
@@ -71,12 +73,18 @@ TEST(ReadTrainingFolder, whatIsWrongIsSaidWithFileAndLine) {
   EXPECT_NE(refusalOf(folder.path()).find("signs.csv"), std::string::npos);
   writePicture(folder / "a.png", 0, 0, 0, 0);
   const std::string head = "image,x1,y1,x2,y2,x3,y3,x4,y4\n";
-  for (const auto& [text, said] : {std::pair<std::string, std::string>{"", "empty"},
-                                   {"image,x1\na.png,1\n", "no column"},
-                                   {head + "a.png,1,2,3\n", "signs.csv:2"},
-                                   {head + "c.png,1,2,3,4,5,6,7,8\n", "c.png"},
-                                   {head + "a.png,1,2,3,4,5,6,7,8\na.png,1,2,3,4,5,x,7,8\n", "signs.csv:3"},
-                                   {head + "a.png,1,2,3,4,5,nan,7,8\n", "no number"}}) {
+  for (const auto& [text, said] :
+       {std::pair<std::string, std::string>{"", "empty"},
+        {"image,x1\na.png,1\n", "no column"},
+        {head + "a.png,1,2,3\n", "signs.csv:2"},
+        {head + "c.png,1,2,3,4,5,6,7,8\n", "c.png"},
+        {head + "a.png,0,0,9,0,9,9,0,9\na.png,1,2,3,4,5,x,7,8\n", "signs.csv:3"},
+        {head + "a.png,1,2,3,4,5,nan,7,8\n", "no number"},
+        {"image,x1,x1\na.png,1,2\n", "'x1' twice"},
+        {head + "a.png,0,0,9,0,0,9,9,9\n", "signs.csv:2: its corners"},
+        {head + "a.png,0,0,0,9,9,9,9,0\n", "signs.csv:2: its corners"},
+        {head + "a.png,5,5,5,5,5,5,5,5\n", "signs.csv:2: its corners"},
+        {"image,x1,y1,x2,y2,x3,y3,x4,y4,visible\na.png,0,0,9,0,9,9,0,9,1.5\n", "signs.csv:2: column visible"}}) {
     writeText(folder / "signs.csv", text);
     EXPECT_NE(refusalOf(folder.path()).find(said), std::string::npos) << text;
   }
@@ -89,6 +97,15 @@ TEST(ReadTrainingFolder, aPictureThatIsNoneIsRefusedWhenItIsNeeded) {
   const TrainingSet set = readTrainingFolder(folder.path());
   ASSERT_EQ(set.pictures.size(), 1u);
   EXPECT_THROW(set.pictures[0].load(), base::Error);
+  std::filesystem::remove(folder / "a.jpg");
+  ASSERT_TRUE(mrpt::img::CImage(cv::Mat(20, 30, CV_16UC1, cv::Scalar(1000)), mrpt::img::DEEP_COPY)
+                  .saveToFile(folder / "a.png"));
+  try {
+    readTrainingFolder(folder.path()).pictures.at(0).load();
+    FAIL() << "pictures of 16 bits have no pixels to look at";
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("a.png"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/InputFile.h>
+#include <omnimapper/base/Names.h>
 
 #include <charconv>
 #include <cmath>
@@ -36,7 +37,12 @@ CsvTable::CsvTable(const std::string& path) : path_(path) {
   if (!std::getline(in, line))
     throw base::Error(base::ExitCode::unreadable_input, path + ": is empty; its first line names its columns");
   const auto names = fieldsOf(line);
-  for (std::size_t i = 0; i < names.size(); ++i) columns_[names[i]] = i;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!columns_.emplace(names[i], i).second) {
+      throw base::Error(base::ExitCode::unreadable_input,
+                        path + ":1: names the column '" + base::printable(names[i]) + "' twice; leave one out");
+    }
+  }
   while (std::getline(in, line)) {
     rows_.push_back(fieldsOf(line));
     if (rows_.back().size() != names.size()) {

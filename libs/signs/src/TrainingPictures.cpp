@@ -25,7 +25,22 @@ constexpr int kLeastMask = 50;  // pixels of a sign in a mask
 mrpt::img::CImage load(const std::string& path) {
   mrpt::img::CImage image;
   if (!image.loadFromFile(path)) refusePictures(path, "is no picture that can be read");
+  try {
+    pixelsOf(image);
+  } catch (const base::Error& error) {
+    refusePictures(path, error.what());
+  }
   return image;
+}
+
+// Whether four corners go about a region clockwise, as one sees it, without a side that crosses another.
+bool isQuadrilateral(const Corners& corners) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector2d side = (corners[(i + 1) % 4] - corners[i]).cast<double>();
+    const Eigen::Vector2d next = (corners[(i + 2) % 4] - corners[(i + 1) % 4]).cast<double>();
+    if (!(side.x() * next.y() - side.y() * next.x() > 0)) return false;
+  }
+  return true;
 }
 
 bool isPicture(const fs::path& path) {
@@ -63,8 +78,15 @@ void addSigns(const std::string& path, std::vector<TrainingPicture>& pictures) {
       sign.corners_px[i] =
           Eigen::Vector2d(table.number(row, "x" + number), table.number(row, "y" + number)).cast<float>();
     }
+    if (!isQuadrilateral(sign.corners_px)) {
+      table.refuse(row,
+                   "its corners are no convex region: give them in the order upper left, upper right, lower "
+                   "right, lower left");
+    }
     if (table.has("sign")) sign.sign = table.text(row, "sign");
     if (table.has("visible")) sign.visible = table.number(row, "visible");
+    if (sign.visible < 0 || sign.visible > 1)
+      table.refuse(row, "column visible: the share of the sign that is seen is from 0 to 1");
     picture->signs.push_back(std::move(sign));
   }
 }
