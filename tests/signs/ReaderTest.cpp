@@ -43,8 +43,19 @@ TEST(DecodeSteps, lettersOnceUnlessABlankPartsThem) {
 TEST(NetworkReader, aFileWithoutLettersIsRefused) {
   const testing::ScratchFolder folder;
   std::ofstream(folder / "empty.txt");
-  for (const char* name : {"empty.txt", "missing.txt"})
-    EXPECT_THROW(NetworkReader(nullptr, folder / name, Alphabet("A")), base::Error);
+  std::ofstream(folder / "damaged.txt") << "A\n\xC3\nB\n";
+  std::ofstream(folder / "words.txt") << "A\nBC\n";
+  for (const auto& [name, said] : {std::pair{"empty.txt", "empty.txt: no letters"},
+                                   {"missing.txt", "missing.txt: no letters"},
+                                   {"damaged.txt", "damaged.txt:2: is not one letter"},
+                                   {"words.txt", "words.txt:2: is not one letter"}}) {
+    try {
+      NetworkReader(nullptr, folder / name, Alphabet("A"));
+      ADD_FAILURE() << name << " was taken";
+    } catch (const base::Error& error) {
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+    }
+  }
 }
 
 // Reads what it is told to, by the width of the patch.

@@ -11,12 +11,29 @@ namespace omnimapper::signs {
 
 NetworkReader::NetworkReader(std::shared_ptr<const net::Network> network, const std::string& letters_file,
                              const Alphabet& alphabet)
-    : network_(std::move(network)), letters_file_(letters_file), letters_{""} {
-  std::ifstream file(letters_file);
-  for (std::string letter; std::getline(file, letter);) letters_.push_back(alphabet.letterFor(letter));
-  if (letters_.size() < 2) {
+    : network_(std::move(network)), letters_{""} {
+  const auto refuse = [](const std::string& file, const std::string& why) {
     throw base::Error(base::ExitCode::unreadable_input,
-                      letters_file + ": no letters are there; scripts/models fetches them with the networks");
+                      file + ": " + why + "; scripts/models --force fetches the networks and their letters");
+  };
+  std::ifstream file(letters_file);
+  for (std::string letter; std::getline(file, letter);) {
+    if (lettersOf(letter) != std::vector<std::string>{letter})
+      refuse(letters_file + ":" + std::to_string(letters_.size()), "is not one letter in UTF-8");
+    letters_.push_back(alphabet.letterFor(letter));
+  }
+  if (letters_.size() < 2) refuse(letters_file, "no letters are there");
+  const auto shape = [&]() -> std::vector<int> {
+    try {
+      return network_->run({{1, 3, kRows, kColumns}, std::vector<float>(3 * kRows * kColumns)}).shape;
+    } catch (const base::Error&) {
+      return {};  // it takes another input
+    }
+  }();
+  if (shape.size() != 3) refuse(network_->path(), "is not the network that reads lines");
+  if (shape[2] != static_cast<int>(letters_.size())) {
+    refuse(letters_file, "has " + std::to_string(letters_.size() - 1) + " letters, and " + network_->path() +
+                             " knows " + std::to_string(shape[2] - 1));
   }
 }
 
@@ -38,12 +55,6 @@ Reading NetworkReader::read(const perception::ColourImage& image) const {
     }
   }
   const auto output = network_->run(input);
-  if (output.shape.size() != 3 || output.shape[2] != static_cast<int>(letters_.size())) {
-    throw base::Error(base::ExitCode::unreadable_input,
-                      letters_file_ + ": these letters are not those of the network: it answers with " +
-                          std::to_string(output.shape.empty() ? 0 : output.shape.back()) + " classes, and there are " +
-                          std::to_string(letters_.size() - 1) + " letters; scripts/models --force fetches both");
-  }
   return decodeSteps(output.values.data(), output.shape[1], letters_);
 }
 

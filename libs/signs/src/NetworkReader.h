@@ -15,7 +15,7 @@ class NetworkReader : public TextReader {
   static constexpr int kRows = 48, kColumns = 320;
 
   /// `letters_file`: the letter of each class of the network, one a line, from class 1. Throws Error(unreadable_input)
-  /// if it cannot be read.
+  /// with the file that is wrong: letters that cannot be read or are not those of the network, or another network.
   NetworkReader(std::shared_ptr<const net::Network> network, const std::string& letters_file, const Alphabet& alphabet);
 
   /// A patch that is more than 6.6 times as wide as tall is made narrower.
@@ -23,7 +23,6 @@ class NetworkReader : public TextReader {
 
  private:
   std::shared_ptr<const net::Network> network_;
-  std::string letters_file_;
   std::vector<std::string> letters_;  // of each class, empty where the alphabet has none for it
 };
 

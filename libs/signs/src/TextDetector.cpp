@@ -58,6 +58,19 @@ Corners inReadingOrder(const cv::RotatedRect& rectangle) {
 
 }  // namespace
 
+TextDetector::TextDetector(std::shared_ptr<const net::Network> network) : network_(std::move(network)) {
+  const auto shape = [&]() -> std::vector<int> {
+    try {
+      return network_->run(inputOf(cv::Mat::zeros(kRows, kColumns, CV_8UC3))).shape;
+    } catch (const base::Error&) {
+      return {};  // it takes another input
+    }
+  }();
+  if (shape != std::vector<int>{1, 1, kRows, kColumns})
+    throw base::Error(base::ExitCode::unreadable_input,
+                      network_->path() + ": is not the network that finds text; scripts/models --force fetches it");
+}
+
 std::vector<TextLine> TextDetector::detect(const cv::Mat& picture) const {
   if (picture.empty()) return {};
   const double scale = std::min({1.0 * kColumns / picture.cols, 1.0 * kRows / picture.rows, 4.0});
@@ -67,8 +80,6 @@ std::vector<TextLine> TextDetector::detect(const cv::Mat& picture) const {
               std::clamp(static_cast<int>(picture.rows * scale), 1, kRows)},
              0, 0, scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
   auto output = network_->run(inputOf(small));
-  if (output.shape != std::vector<int>{1, 1, kRows, kColumns})
-    throw base::Error(base::ExitCode::unreadable_input, "the network that should find text answers in another shape");
   const cv::Mat probability(kRows, kColumns, CV_32F, output.values.data());
   std::vector<std::vector<cv::Point>> outlines;
   cv::findContours(probability > kInCore, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);

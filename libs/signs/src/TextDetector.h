@@ -24,10 +24,11 @@ class TextDetector {
   /// Height and width of what the network takes, (1, 3, rows, columns), and its answer, (1, 1, rows, columns).
   static constexpr int kRows = 480, kColumns = 736;
 
-  explicit TextDetector(std::shared_ptr<const net::Network> network) : network_(std::move(network)) {}
+  /// Throws Error(unreadable_input) with the network's file if it takes or gives other shapes.
+  explicit TextDetector(std::shared_ptr<const net::Network> network);
 
   /// Lines from top to bottom. `picture` is of 8 bits, BGR; a larger one is made smaller until it fits the network, so
-  /// letters should be 8 px tall then. Throws Error(unreadable_input) if the network takes or gives other shapes.
+  /// letters should be 8 px tall then.
   std::vector<TextLine> detect(const cv::Mat& picture) const;
 
  private:

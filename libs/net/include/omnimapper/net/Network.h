@@ -40,6 +40,8 @@ class Network {
   /// Throws Error(unreadable_input) if `input` is not of a shape that the network takes.
   Tensor run(const Tensor& input) const;
 
+  const std::string& path() const { return path_; }
+
  private:
   std::unique_ptr<Session> take() const;
 
