@@ -70,7 +70,7 @@ std::vector<ObservedDoorSign> signsIn(const omnimapper::signs::DoorSignExtractor
   image.cameraParams.nrows = static_cast<std::uint32_t>(picture.rows);
   image.cameraParams.setIntrinsicParamsFromValues(picture.cols, picture.cols, 0.5 * picture.cols, 0.5 * picture.rows);
   image.image = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
-  return extractor.extract(image)->signs;
+  return extractor.signsIn(image)->signs;
 }
 
 std::vector<cv::Point> outlineOf(const ObservedDoorSign& sign) {

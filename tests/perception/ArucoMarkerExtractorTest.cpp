@@ -100,7 +100,7 @@ void expectPlaced(const CObservationBearingRange& found) {
 
 TEST(ArucoMarkerExtractor, TellsWhereMarkersAreInColourAndGrey) {
   for (const bool colour : {false, true}) {
-    const auto found = ArucoMarkerExtractor(options()).extract(picture(kPlaced, colour));
+    const auto found = ArucoMarkerExtractor(options()).markersIn(picture(kPlaced, colour));
     expectPlaced(*found);
     EXPECT_EQ(found->sensorLabel, "camera.markers");
     EXPECT_EQ(found->timestamp, base::stampFromUnix(10));
@@ -109,7 +109,7 @@ TEST(ArucoMarkerExtractor, TellsWhereMarkersAreInColourAndGrey) {
 }
 
 TEST(ArucoMarkerExtractor, MeasuresInTheFrameThatLooksAlongX) {
-  const auto found = ArucoMarkerExtractor(options()).extract(picture());
+  const auto found = ArucoMarkerExtractor(options()).markersIn(picture());
   const mrpt::poses::CPose3D expected(0.1, 0.2, 0.9, 0, 0, 0);
   EXPECT_LT((found->sensorLocationOnRobot.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>() -
              expected.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>())
@@ -125,7 +125,7 @@ TEST(ArucoMarkerExtractor, EveryRefinementReadsTheSameMarkers) {
   for (const auto refinement : {Refinement::none, Refinement::gradients}) {
     auto with = options();
     with.refinement = refinement;
-    const auto found = ArucoMarkerExtractor(with).extract(picture());
+    const auto found = ArucoMarkerExtractor(with).markersIn(picture());
     ASSERT_EQ(found->sensedData.size(), kPlaced.size());
     for (std::size_t i = 0; i < kPlaced.size(); ++i)
       EXPECT_NEAR(static_cast<double>(found->sensedData[i].range), kPlaced[i].middle.norm(), 0.04) << kPlaced[i].id;
@@ -136,7 +136,7 @@ TEST(ArucoMarkerExtractor, EveryRefinementReadsTheSameMarkers) {
 TEST(ArucoMarkerExtractor, ASmallMarkerIsMeasuredToAPercentByItsEdges) {
   for (const double lean : {0., 0.3, 0.6}) {
     const Placed far{5, {0.31, -0.22, 4}, lean, -0.2};
-    const auto found = ArucoMarkerExtractor(options()).extract(picture({far}));
+    const auto found = ArucoMarkerExtractor(options()).markersIn(picture({far}));
     ASSERT_EQ(found->sensedData.size(), 1U) << lean;
     EXPECT_NEAR(static_cast<double>(found->sensedData[0].range), far.middle.norm(), 0.01 * far.middle.norm()) << lean;
   }
@@ -145,15 +145,15 @@ TEST(ArucoMarkerExtractor, ASmallMarkerIsMeasuredToAPercentByItsEdges) {
 TEST(ArucoMarkerExtractor, OtherDictionariesAndSmallMarkersAreLeftOut) {
   auto other = options();
   other.dictionary = ArucoMarkerOptions::Dictionary::dict_6x6_250;
-  EXPECT_TRUE(ArucoMarkerExtractor(other).extract(picture())->sensedData.empty());
+  EXPECT_TRUE(ArucoMarkerExtractor(other).markersIn(picture())->sensedData.empty());
   auto large = options();
   large.min_side = 100;
-  EXPECT_TRUE(ArucoMarkerExtractor(large).extract(picture())->sensedData.empty());
+  EXPECT_TRUE(ArucoMarkerExtractor(large).markersIn(picture())->sensedData.empty());
 }
 
 TEST(ArucoMarkerExtractor, TheSamePictureGivesTheSameBits) {
-  const auto first = ArucoMarkerExtractor(options()).extract(picture()),
-             second = ArucoMarkerExtractor(options()).extract(picture());
+  const auto first = ArucoMarkerExtractor(options()).markersIn(picture()),
+             second = ArucoMarkerExtractor(options()).markersIn(picture());
   ASSERT_EQ(first->sensedData.size(), second->sensedData.size());
   for (std::size_t i = 0; i < first->sensedData.size(); ++i) {
     EXPECT_EQ(rangeYawPitch(first->sensedData[i]), rangeYawPitch(second->sensedData[i]));
@@ -163,21 +163,21 @@ TEST(ArucoMarkerExtractor, TheSamePictureGivesTheSameBits) {
 
 TEST(ArucoMarkerExtractor, PicturesWithoutMarkersShowNone) {
   CObservationImage none = picture({});
-  EXPECT_TRUE(ArucoMarkerExtractor(options()).extract(none)->sensedData.empty());
+  EXPECT_TRUE(ArucoMarkerExtractor(options()).markersIn(none)->sensedData.empty());
   for (const unsigned size : {1U, 2U, 17U, 40U}) {
     none.image.resize(size, size, mrpt::img::CH_GRAY);
-    EXPECT_TRUE(ArucoMarkerExtractor(options()).extract(none)->sensedData.empty()) << size;
+    EXPECT_TRUE(ArucoMarkerExtractor(options()).markersIn(none)->sensedData.empty()) << size;
   }
   none.image.resize(kWidth, kHeight, static_cast<mrpt::img::TImageChannels>(4));
-  EXPECT_TRUE(ArucoMarkerExtractor(options()).extract(none)->sensedData.empty()) << "of four channels";
+  EXPECT_TRUE(ArucoMarkerExtractor(options()).markersIn(none)->sensedData.empty()) << "of four channels";
   none.image = mrpt::img::CImage();
   none.cameraParams = mrpt::img::TCamera();
-  EXPECT_TRUE(ArucoMarkerExtractor(options()).extract(none)->sensedData.empty()) << "without pixels or calibration";
+  EXPECT_TRUE(ArucoMarkerExtractor(options()).markersIn(none)->sensedData.empty()) << "without pixels or calibration";
 }
 
 base::ExitCode refusal(const CObservationImage& observation) {
   try {
-    ArucoMarkerExtractor(options()).extract(observation);
+    ArucoMarkerExtractor(options()).markersIn(observation);
   } catch (const base::Error& error) {
     EXPECT_NE(std::string(error.what()).find("camera"), std::string::npos) << error.what();
     return error.code();
@@ -204,7 +204,7 @@ TEST(ArucoMarkerExtractor, APictureThatWasNotLoadedIsAnError) {
   scan.hasIntensityImage = true;
   scan.intensityImage.setExternalStorage("not_there.png");
   scan.cameraParamsIntensity = camera();
-  EXPECT_THROW(ArucoMarkerExtractor(options()).extract(scan), base::Error);
+  EXPECT_THROW(ArucoMarkerExtractor(options()).markersIn(scan), base::Error);
 }
 
 TEST(ArucoMarkerExtractor, ReadsThePictureOfARangeCamera) {
@@ -212,12 +212,12 @@ TEST(ArucoMarkerExtractor, ReadsThePictureOfARangeCamera) {
   CObservation3DRangeScan scan;
   scan.sensorLabel = "kinect";
   scan.sensorPose = mrpt::poses::CPose3D(0.1, 0, 0.5, 0, 0.1, 0);
-  EXPECT_TRUE(ArucoMarkerExtractor(options()).extract(scan)->sensedData.empty()) << "it has no picture";
+  EXPECT_TRUE(ArucoMarkerExtractor(options()).markersIn(scan)->sensedData.empty()) << "it has no picture";
   scan.hasIntensityImage = true;
   scan.intensityImage = shown.image;
   scan.cameraParamsIntensity = camera();
   scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, -0.025, 0, -90 * kDegree, 0, -90 * kDegree);
-  const auto found = ArucoMarkerExtractor(options()).extract(scan);
+  const auto found = ArucoMarkerExtractor(options()).markersIn(scan);
   expectPlaced(*found);
   EXPECT_EQ(found->sensorLabel, "kinect.markers");
   const auto expected = scan.sensorPose + mrpt::poses::CPose3D(0, -0.025, 0, 0, 0, 0);
@@ -230,7 +230,7 @@ TEST(ArucoMarkerExtractor, ReadsThePictureOfARangeCamera) {
   scan.cameraParams = camera();
   scan.cameraParamsIntensity = mrpt::img::TCamera();
   scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, 0, 0, -90 * kDegree, 0, -90 * kDegree);
-  expectPlaced(*ArucoMarkerExtractor(options()).extract(scan));
+  expectPlaced(*ArucoMarkerExtractor(options()).markersIn(scan));
 }
 
 TEST(ArucoMarkerPose, IsFoundThroughEveryLens) {
@@ -272,7 +272,7 @@ TEST(ArucoMarkerExtractor, CovariancesHold) {
       drawn.draw(placed.id, corners);
       auto observation = picture({});
       observation.image = drawn.grey();
-      const auto found = ArucoMarkerExtractor(options()).extract(observation);
+      const auto found = ArucoMarkerExtractor(options()).markersIn(observation);
       ASSERT_EQ(found->sensedData.size(), 1U);
       const Vector3d error = rangeYawPitch(found->sensedData[0]) - rangeYawPitch(placed.middle);
       sum += error.dot(found->sensedData[0].covariance.asEigen().inverse() * error);

@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/net/Network.h>
 #include <omnimapper/signs/DoorSignExtractor.h>
 #include <omnimapper/testing/Fixtures.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 
@@ -41,7 +45,7 @@ class DoorSignExtractorTest : public ::testing::Test {
 };
 
 TEST_F(DoorSignExtractorTest, readsAPlateAndTellsWhereItIs) {
-  const auto found = DoorSignExtractor({}).extract(*view());
+  const auto found = DoorSignExtractor({}).signsIn(*view());
   EXPECT_EQ(found->sensorLabel, "camera.signs");
   EXPECT_EQ(found->source_label, "camera");
   EXPECT_EQ(found->sensorPose, view()->cameraPose);
@@ -67,7 +71,7 @@ TEST_F(DoorSignExtractorTest, halfASignIsNotSure) {
         cv::Mat(whole->image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), cv::Rect(0, 0, columns, 480)).clone(),
         mrpt::img::DEEP_COPY);
     half->cameraParams.ncols = static_cast<std::uint32_t>(columns);
-    const auto found = DoorSignExtractor({}).extract(*half);
+    const auto found = DoorSignExtractor({}).signsIn(*half);
     for (const auto& sign : found->signs)
       for (const auto& text : sign.texts) EXPECT_LT(text.confidence, 0.9) << columns << " " << text.text;
   }
@@ -75,7 +79,7 @@ TEST_F(DoorSignExtractorTest, halfASignIsNotSure) {
 
 TEST_F(DoorSignExtractorTest, theSameImageGivesTheSameBits) {
   const DoorSignExtractor extractor({});
-  const auto first = extractor.extract(*view()), second = extractor.extract(*view());
+  const auto first = extractor.signsIn(*view()), second = extractor.signsIn(*view());
   ASSERT_EQ(first->signs.size(), second->signs.size());
   for (std::size_t i = 0; i < first->signs.size(); ++i) {
     EXPECT_EQ(first->signs[i].corners_px, second->signs[i].corners_px);
@@ -87,21 +91,21 @@ TEST_F(DoorSignExtractorTest, imagesWithoutSignsShowNone) {
   const DoorSignExtractor extractor({});
   auto image = view();
   image->image = mrpt::img::CImage();
-  EXPECT_TRUE(extractor.extract(*image)->signs.empty());
+  EXPECT_TRUE(extractor.signsIn(*image)->signs.empty());
   for (const auto size : {cv::Size(640, 480), cv::Size(1, 1), cv::Size(3, 900)}) {
     image->image = mrpt::img::CImage(cv::Mat(size, CV_8UC1, cv::Scalar(99)), mrpt::img::DEEP_COPY);
     image->cameraParams.ncols = static_cast<std::uint32_t>(size.width);
     image->cameraParams.nrows = static_cast<std::uint32_t>(size.height);
-    EXPECT_TRUE(extractor.extract(*image)->signs.empty()) << size;
+    EXPECT_TRUE(extractor.signsIn(*image)->signs.empty()) << size;
   }
   mrpt::obs::CObservation3DRangeScan scan;
-  EXPECT_TRUE(extractor.extract(scan)->signs.empty()) << "it has no image";
+  EXPECT_TRUE(extractor.signsIn(scan)->signs.empty()) << "it has no image";
 }
 
 TEST_F(DoorSignExtractorTest, aCameraWithoutCalibrationIsAnError) {
   auto image = view();
   image->cameraParams.setIntrinsicParamsFromValues(0, 0, 0, 0);
-  EXPECT_THROW(DoorSignExtractor({}).extract(*image), base::Error);
+  EXPECT_THROW(DoorSignExtractor({}).signsIn(*image), base::Error);
 }
 
 TEST_F(DoorSignExtractorTest, theCalibrationOfALargerImageIsScaled) {
@@ -109,17 +113,17 @@ TEST_F(DoorSignExtractorTest, theCalibrationOfALargerImageIsScaled) {
   half->cameraParams.ncols = 1280;
   half->cameraParams.nrows = 960;
   half->cameraParams.setIntrinsicParamsFromValues(1000, 1000, 640.5, 480.5);
-  const auto found = DoorSignExtractor({}).extract(*half), as_calibrated = DoorSignExtractor({}).extract(*view());
+  const auto found = DoorSignExtractor({}).signsIn(*half), as_calibrated = DoorSignExtractor({}).signsIn(*view());
   ASSERT_EQ(found->signs.size(), 1u);
   EXPECT_LT((found->signs[0].ray - as_calibrated->signs[0].ray).norm(), 1e-6);
   half->cameraParams.nrows = 720;
-  EXPECT_THROW(DoorSignExtractor({}).extract(*half), base::Error);
+  EXPECT_THROW(DoorSignExtractor({}).signsIn(*half), base::Error);
 }
 
 void expectNothingSure(const cv::Mat& picture, const std::string& what) {
   auto image = view();
   image->image = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
-  const auto found = DoorSignExtractor({}).extract(*image);
+  const auto found = DoorSignExtractor({}).signsIn(*image);
   for (const auto& sign : found->signs)
     for (const auto& text : sign.texts) EXPECT_LT(text.confidence, 0.9) << what << ": " << text.text;
 }
@@ -145,11 +149,91 @@ TEST_F(DoorSignExtractorTest, aLineWithLettersThatTheAlphabetLacksIsNotSure) {
   DoorSignOptions options;
   options.letters = "0123456789";
   options.min_confidence = 0;
-  const auto found = DoorSignExtractor(options).extract(*view());
+  const auto found = DoorSignExtractor(options).signsIn(*view());
   for (const auto& sign : found->signs)
     for (const auto& text : sign.texts) EXPECT_LT(text.confidence, 0.9) << text.text;
   options.letters = "0123\xff";
   EXPECT_THROW(DoorSignExtractor{options}, base::Error);
+}
+
+// Lines of letters given by their strokes, in cells of 4 x 6 units.
+void writeStrokes(cv::Mat& picture, const std::vector<std::vector<std::vector<cv::Point>>>& letters, cv::Point at) {
+  constexpr int kUnit = 7;
+  for (const auto& letter : letters) {
+    for (auto stroke : letter) {
+      for (auto& point : stroke) point = at + kUnit * point;
+      cv::polylines(picture, stroke, false, cv::Scalar(235, 235, 235), 5, cv::LINE_AA);
+    }
+    at.x += 6 * kUnit;
+  }
+}
+
+// "ЖИДЯ" and "ΣΨΞΠ": some of these letters look like K, N, A, R, E and W.
+TEST_F(DoorSignExtractorTest, anotherScriptIsNotSure) {
+  cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(150, 170, 180));
+  picture(cv::Rect(200, 100, 240, 240)) = cv::Scalar(90, 60, 60);
+  writeStrokes(picture,
+               {{{{0, 0}, {4, 6}}, {{4, 0}, {0, 6}}, {{2, 0}, {2, 6}}},
+                {{{0, 0}, {0, 6}, {4, 0}, {4, 6}}},
+                {{{0, 7}, {0, 6}, {4, 6}, {4, 7}}, {{1, 6}, {1, 0}, {3, 0}, {3, 6}}},
+                {{{4, 6}, {4, 0}, {1, 0}, {0, 1}, {0, 2}, {1, 3}, {4, 3}}, {{2, 3}, {0, 6}}}},
+               {240, 140});
+  writeStrokes(picture,
+               {{{{4, 0}, {0, 0}, {2, 3}, {0, 6}, {4, 6}}},
+                {{{0, 0}, {0, 3}, {4, 3}, {4, 0}}, {{2, 0}, {2, 6}}},
+                {{{0, 0}, {4, 0}}, {{1, 3}, {3, 3}}, {{0, 6}, {4, 6}}},
+                {{{0, 6}, {0, 0}, {4, 0}, {4, 6}}}},
+               {240, 240});
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  expectNothingSure(picture, "another script");
+}
+
+// Folds bend the line and press its letters together; what is read of it anyway is right.
+TEST_F(DoorSignExtractorTest, aShirtIsNotReadWronglyAndSure) {
+  cv::Mat flat(480, 640, CV_8UC3, cv::Scalar(150, 170, 180)), worn;
+  cv::ellipse(flat, {320, 420}, {150, 260}, 0, 0, 360, cv::Scalar(50, 60, 130), cv::FILLED);
+  write(flat, "TEAM 47", {240, 300}, 1.3);
+  for (const float depth : {3.0f, 6.0f, 12.0f}) {
+    cv::Mat columns(flat.size(), CV_32F), rows(flat.size(), CV_32F);
+    for (int y = 0; y < flat.rows; ++y) {
+      for (int x = 0; x < flat.cols; ++x) {
+        const float u = static_cast<float>(x), v = static_cast<float>(y);
+        columns.at<float>(y, x) = u + depth * std::sin(u / 11 + v / 40);
+        rows.at<float>(y, x) = v + depth * std::sin(u / 17);
+      }
+    }
+    cv::remap(flat, worn, columns, rows, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    auto image = view();
+    image->image = mrpt::img::CImage(worn, mrpt::img::DEEP_COPY);
+    const auto found = DoorSignExtractor({}).signsIn(*image);
+    for (const auto& sign : found->signs) {
+      for (const auto& text : sign.texts) {
+        const bool is_right = text.text == "TEAM 47" || text.text == "TEAM47";
+        EXPECT_TRUE(is_right || text.confidence < 0.9) << text.text;
+      }
+    }
+  }
+}
+
+// Its lines are on one thing, and a number among them is no sign of its own.
+TEST_F(DoorSignExtractorTest, aPosterWithNumbersIsOneRegion) {
+  cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(150, 170, 180));
+  picture(cv::Rect(180, 60, 280, 360)) = cv::Scalar(225, 235, 240);
+  const char* lines[] = {"CONCERT", "12 MAY", "HALL 213", "20:30", "12 EUR"};
+  for (int i = 0; i < 5; ++i)
+    cv::putText(picture, lines[i], {215, 125 + 65 * i}, cv::FONT_HERSHEY_SIMPLEX, 1.2, cv::Scalar(40, 30, 30), 3,
+                cv::LINE_AA);
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  auto image = view();
+  image->image = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
+  const auto found = DoorSignExtractor({}).signsIn(*image);
+  ASSERT_EQ(found->signs.size(), 1u);
+  ASSERT_EQ(found->signs[0].texts.size(), 5u);
+  for (int i = 0; i < 5; ++i) {
+    std::string read = found->signs[0].texts[static_cast<std::size_t>(i)].text, written = lines[i];
+    for (auto* text : {&read, &written}) text->erase(std::remove(text->begin(), text->end(), ' '), text->end());
+    EXPECT_EQ(read, written);
+  }
 }
 
 // A weak reflection of a window over it.
@@ -160,7 +244,7 @@ TEST_F(DoorSignExtractorTest, aSignBehindGlassIsRead) {
   cv::GaussianBlur(window, window, {}, 8);
   picture = 0.8 * picture + 0.15 * window;
   image->image = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
-  const auto found = DoorSignExtractor({}).extract(*image);
+  const auto found = DoorSignExtractor({}).signsIn(*image);
   ASSERT_FALSE(found->signs.empty());
   EXPECT_EQ(found->signs[0].texts[0].text, "26-138");
 }
@@ -184,12 +268,33 @@ TEST_F(DoorSignExtractorTest, networksThatAreCutOffAreNamed) {
   }
 }
 
+TEST_F(DoorSignExtractorTest, networksThatAreSwappedAreNamed) {
+  const testing::ScratchFolder folder;
+  DoorSignOptions options;
+  options.models = folder.path();
+  std::filesystem::copy_file(net::modelsFolder() + "/text_detector.onnx", folder / "text_reader.onnx");
+  std::filesystem::copy_file(net::modelsFolder() + "/text_reader.onnx", folder / "text_detector.onnx");
+  std::filesystem::copy_file(net::modelsFolder() + "/text_reader.letters.txt", folder / "text_reader.letters.txt");
+  const auto refused = [&](const std::string& said) {
+    try {
+      DoorSignExtractor{options};
+      ADD_FAILURE() << said;
+    } catch (const base::Error& error) {
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+    }
+  };
+  refused("text_detector.onnx: is not the network that finds text");
+  std::filesystem::copy_file(net::modelsFolder() + "/text_detector.onnx", folder / "text_detector.onnx",
+                             std::filesystem::copy_options::overwrite_existing);
+  refused("text_reader.onnx: is not the network that reads lines");
+}
+
 // A dark plate with bright text, as the classifier knows them.
 TEST_F(DoorSignExtractorTest, saliencyFindsItToo) {
   DoorSignOptions options;
   options.detector = DoorSignOptions::Detector::saliency;
   try {
-    const auto found = DoorSignExtractor(options).extract(*view());
+    const auto found = DoorSignExtractor(options).signsIn(*view());
     ASSERT_FALSE(found->signs.empty());
     ASSERT_FALSE(found->signs[0].texts.empty());
     EXPECT_EQ(found->signs[0].texts[0].text, "26-138");
@@ -204,7 +309,7 @@ TEST_F(DoorSignExtractorTest, tesseractReadsItToo) {
   DoorSignOptions options;
   options.reader = DoorSignOptions::Reader::tesseract;
   try {
-    const auto found = DoorSignExtractor(options).extract(*view());
+    const auto found = DoorSignExtractor(options).signsIn(*view());
     ASSERT_EQ(found->signs.size(), 1u);
     ASSERT_FALSE(found->signs[0].texts.empty());
     EXPECT_EQ(found->signs[0].texts.back().text, "OFFICE");

@@ -66,24 +66,24 @@ float fieldOfView(int pixels, double focal) {
   return static_cast<float>(2 * std::atan(0.5 * pixels / focal));
 }
 
-// What a camera at that place of the optical frame shows.
-CObservationBearingRange::Ptr observe(const mrpt::obs::CObservation& raw, const mrpt::img::CImage& picture,
-                                      const mrpt::img::TCamera& camera, const mrpt::poses::CPose3D& base_from_optical,
-                                      const ArucoMarkerOptions& options) {
+}  // namespace
+
+CObservationBearingRange::Ptr ArucoMarkerExtractor::markersIn(const mrpt::obs::CObservation& raw) const {
+  const auto picture = pictureOf(raw);
   auto observation = CObservationBearingRange::Create();
   observation->timestamp = raw.timestamp;
   observation->sensorLabel = raw.sensorLabel + kMarkersSuffix;
   const geometry::Se3 optical_from_sensor = geometry::inverse(geometry::sensorFromOptical());
-  observation->sensorLocationOnRobot = geometry::toMrpt(geometry::fromMrpt(base_from_optical) * optical_from_sensor);
+  observation->sensorLocationOnRobot = geometry::toMrpt(geometry::fromMrpt(picture.pose) * optical_from_sensor);
   observation->validCovariances = true;
-  if (picture.isEmpty()) return observation;
-  const LensModel lens(camera, raw.sensorLabel);
-  observation->fieldOfView_yaw = fieldOfView(static_cast<int>(picture.getWidth()), camera.fx());
-  observation->fieldOfView_pitch = fieldOfView(static_cast<int>(picture.getHeight()), camera.fy());
+  if (picture.image == nullptr) return observation;
+  const LensModel lens(*picture.camera, raw.sensorLabel);
+  observation->fieldOfView_yaw = fieldOfView(static_cast<int>(picture.image->getWidth()), picture.camera->fx());
+  observation->fieldOfView_pitch = fieldOfView(static_cast<int>(picture.image->getHeight()), picture.camera->fy());
   const Matrix3d axes = geometry::sensorFromOptical().rotation.toRotationMatrix();
   try {
-    for (const auto& marker : markers::findMarkers(picture, options)) {
-      const auto pose = markers::poseOfMarker(lens, marker.corners, options.side, options.corner_sigma);
+    for (const auto& marker : markers::findMarkers(*picture.image, options_)) {
+      const auto pose = markers::poseOfMarker(lens, marker.corners, options_.side, options_.corner_sigma);
       if (!pose) continue;
       observation->sensedData.push_back(measurementOf(marker.id, toSensor(pose->optical_from_marker.translation),
                                                       axes * pose->covariance_of_middle * axes.transpose()));
@@ -95,37 +95,12 @@ CObservationBearingRange::Ptr observe(const mrpt::obs::CObservation& raw, const 
   return observation;
 }
 
-}  // namespace
-
-CObservationBearingRange::Ptr ArucoMarkerExtractor::extract(const mrpt::obs::CObservationImage& observation) const {
-  try {
-    return observe(observation, observation.image, observation.cameraParams, observation.cameraPose, options_);
-  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
-    refuseMissing(observation.sensorLabel, "colour", observation.image.getExternalStorageFile());
-  }
-}
-
-CObservationBearingRange::Ptr ArucoMarkerExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
-  const mrpt::img::CImage none;
-  const auto& picture = scan.hasIntensityImage ? scan.intensityImage : none;
-  try {
-    // Where both have one view its place is told too, but its calibration may be missing.
-    const auto& camera = isPictureOfDepthView(scan) ? scan.cameraParams : scan.cameraParamsIntensity;
-    return observe(scan, picture, camera, scan.sensorPose + scan.relativePoseIntensityWRTDepth, options_);
-  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
-    refuseMissing(scan.sensorLabel, "colour", picture.getExternalStorageFile());
-  }
-}
-
 bool ArucoMarkerExtractor::wants(const mrpt::obs::CObservation& raw) const {
-  if (dynamic_cast<const mrpt::obs::CObservationImage*>(&raw) != nullptr) return true;
-  const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw);
-  return scan != nullptr && scan->hasIntensityImage;
+  return bringsPicture(raw);
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> ArucoMarkerExtractor::extract(const mrpt::obs::CObservation& raw) const {
-  const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw);
-  return {scan != nullptr ? extract(*scan) : extract(dynamic_cast<const mrpt::obs::CObservationImage&>(raw))};
+  return {markersIn(raw)};
 }
 
 std::vector<DerivedName> ArucoMarkerExtractor::namesOf(const mrpt::obs::CObservation& raw) const {

@@ -1,3 +1,4 @@
+#include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/perception/LensModel.h>
 #include <omnimapper/perception/PictureView.h>
@@ -13,6 +14,28 @@ bool isOneCamera(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b) {
 }
 
 }  // namespace
+
+bool bringsPicture(const mrpt::obs::CObservation& observation) {
+  if (dynamic_cast<const mrpt::obs::CObservationImage*>(&observation) != nullptr) return true;
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation);
+  return scan != nullptr && scan->hasIntensityImage;
+}
+
+Picture pictureOf(const mrpt::obs::CObservation& observation) {
+  const auto* view = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation);
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation);
+  if (!bringsPicture(observation)) return {nullptr, nullptr, {}};
+  const auto& image = view != nullptr ? view->image : scan->intensityImage;
+  try {
+    const auto* seen = image.isEmpty() ? nullptr : &image;
+    if (seen != nullptr) seen->getWidth();  // loads it
+    if (view != nullptr) return {seen, &view->cameraParams, view->cameraPose};
+    return {seen, isPictureOfDepthView(*scan) ? &scan->cameraParams : &scan->cameraParamsIntensity,
+            scan->sensorPose + scan->relativePoseIntensityWRTDepth};
+  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
+    refuseMissing(observation.sensorLabel, "colour", image.getExternalStorageFile());
+  }
+}
 
 // doDepthAndIntensityCamerasCoincide() compares places and turns alone.
 bool isPictureOfDepthView(const mrpt::obs::CObservation3DRangeScan& scan) {

@@ -17,6 +17,7 @@
 
 #include "LineReader.h"
 #include "NetworkReader.h"
+#include "PictureChanges.h"
 #include "PlateFinder.h"
 #include "TextDetector.h"
 
@@ -49,7 +50,12 @@ const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
                 "What texts consist of; empty: the English alphabet, digits and -.,:/&'(). A middle dot is read as a "
                 "hyphen; a line with a letter that they lack is not sure.")
           .number("min_confidence", &Options::min_confidence, {0, 1}, "Lines that are less likely right are left out.")
-          .number("min_height_px", &Options::min_height, {4, 1000}, "Lines that are lower are left out.");
+          .number("min_height_px", &Options::min_height, {4, 1000}, "Lines that are lower are left out.")
+          .number(
+              "least_change", &Options::least_change, {0, 255},
+              "Grey levels of 255 by which some part of an image, a sixty-fourth of its width, must differ from the "
+              "last image of this camera that was looked at. What differs less gets the signs of that one in "
+              "omnimapper-perceive. 0: every image is looked at.");
   return table;
 }
 
@@ -204,20 +210,7 @@ class DoorSignExtractor::Finder {
   std::unique_ptr<const TextReader> reader_;
 };
 
-DoorSignExtractor::DoorSignExtractor(const DoorSignOptions& options) : finder_(std::make_unique<Finder>(options)) {}
-
-DoorSignExtractor::~DoorSignExtractor() = default;
-
 namespace {
-
-CObservationDoorSigns::Ptr emptyOf(const mrpt::obs::CObservation& raw, const mrpt::poses::CPose3D& optical) {
-  auto observation = CObservationDoorSigns::Create();
-  observation->timestamp = raw.timestamp;
-  observation->sensorLabel = raw.sensorLabel + kSignsSuffix;
-  observation->source_label = raw.sensorLabel;
-  observation->sensorPose = optical;
-  return observation;
-}
 
 // The calibration for an image that is larger or smaller than those that it was made of, but shows the same.
 mrpt::img::TCamera fittingCamera(mrpt::img::TCamera camera, const cv::Mat& picture, const std::string& label) {
@@ -239,51 +232,44 @@ mrpt::img::TCamera fittingCamera(mrpt::img::TCamera camera, const cv::Mat& pictu
   return camera;
 }
 
-template <class Signs>
-void fill(CObservationDoorSigns& observation, const mrpt::img::CImage& image, const mrpt::img::TCamera& camera,
-          const Signs& signs_in) {
-  const auto& label = observation.source_label;
-  try {
-    if (image.isEmpty()) return;
-    const cv::Mat picture = inBgr(image);
-    if (picture.empty()) return;
-    const perception::LensModel lens(fittingCamera(camera, picture, label), label);
-    observation.signs = signs_in(picture, lens);
-  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
-    perception::refuseMissing(label, "colour", image.getExternalStorageFile());
-  } catch (const cv::Exception& error) {
-    throw base::Error(base::ExitCode::unreadable_input,
-                      label + ": OpenCV cannot look for signs in this image: " + error.err);
-  }
-}
-
 }  // namespace
 
-CObservationDoorSigns::Ptr DoorSignExtractor::extract(const mrpt::obs::CObservationImage& image) const {
-  auto observation = emptyOf(image, image.cameraPose);
-  fill(*observation, image.image, image.cameraParams,
-       [this](const auto& picture, const auto& lens) { return finder_->signsIn(picture, lens); });
-  return observation;
-}
+DoorSignExtractor::DoorSignExtractor(const DoorSignOptions& options)
+    : least_change_(options.least_change), finder_(std::make_unique<Finder>(options)) {}
 
-CObservationDoorSigns::Ptr DoorSignExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
-  auto observation = emptyOf(scan, scan.sensorPose + scan.relativePoseIntensityWRTDepth);
-  const mrpt::img::CImage none;
-  const auto& camera = perception::isPictureOfDepthView(scan) ? scan.cameraParams : scan.cameraParamsIntensity;
-  fill(*observation, scan.hasIntensityImage ? scan.intensityImage : none, camera,
-       [this](const auto& picture, const auto& lens) { return finder_->signsIn(picture, lens); });
+DoorSignExtractor::~DoorSignExtractor() = default;
+
+CObservationDoorSigns::Ptr DoorSignExtractor::signsIn(const mrpt::obs::CObservation& raw) const {
+  const auto view = perception::pictureOf(raw);
+  auto observation = CObservationDoorSigns::Create();
+  observation->timestamp = raw.timestamp;
+  observation->sensorLabel = raw.sensorLabel + kSignsSuffix;
+  observation->source_label = raw.sensorLabel;
+  observation->sensorPose = view.pose;
+  if (view.image == nullptr) return observation;
+  try {
+    const cv::Mat picture = inBgr(*view.image);
+    if (picture.empty()) return observation;
+    const perception::LensModel lens(fittingCamera(*view.camera, picture, raw.sensorLabel), raw.sensorLabel);
+    observation->signs = finder_->signsIn(picture, lens);
+  } catch (const cv::Exception& error) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      raw.sensorLabel + ": OpenCV cannot look for signs in this image: " + error.err);
+  }
   return observation;
 }
 
 bool DoorSignExtractor::wants(const mrpt::obs::CObservation& raw) const {
-  if (dynamic_cast<const mrpt::obs::CObservationImage*>(&raw) != nullptr) return true;
-  const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw);
-  return scan != nullptr && scan->hasIntensityImage;
+  return perception::bringsPicture(raw);
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> DoorSignExtractor::extract(const mrpt::obs::CObservation& raw) const {
-  const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw);
-  return {scan != nullptr ? extract(*scan) : extract(dynamic_cast<const mrpt::obs::CObservationImage&>(raw))};
+  return {signsIn(raw)};
+}
+
+std::unique_ptr<perception::Novelty> DoorSignExtractor::novelty() const {
+  if (least_change_ == 0) return nullptr;
+  return std::make_unique<PictureChanges>(least_change_);
 }
 
 std::vector<perception::DerivedName> DoorSignExtractor::namesOf(const mrpt::obs::CObservation& raw) const {

@@ -21,10 +21,10 @@ bool isRepeatOf(const CObservation& a, const CObservation& b) {
 
 }  // namespace
 
-void PerceivedLog::add(const CObservation::Ptr& raw, std::vector<Outcome> outcomes) {
-  if (!moment_.empty() && (moment_.front().raw->timestamp != raw->timestamp || moment_.size() == kMostTogether))
-    writeMoment();
-  moment_.push_back({raw, std::move(outcomes)});
+void PerceivedLog::add(PerceptionLine::Perceived perceived) {
+  const auto stamp = perceived.raw->timestamp;
+  if (!moment_.empty() && (moment_.front().raw->timestamp != stamp || moment_.size() == kMostTogether)) writeMoment();
+  moment_.push_back(std::move(perceived));
 }
 
 void PerceivedLog::finish() {
@@ -55,6 +55,7 @@ void PerceivedLog::write(Outcome& outcome, const CObservation& raw, PerceptionRe
   }
   has_succeeded_ = true;
   count.taken += !outcome.derived.empty();
+  count.unchanged += outcome.unchanged;
   for (const auto& derived : outcome.derived) {
     if (bringsAlready(*derived)) {
       ++in_log_;

@@ -3,19 +3,13 @@
 #include <omnimapper/mapper/PerceptionRun.h>
 #include <omnimapper/source/RawlogWriter.h>
 
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "ExtractionErrors.h"
+#include "run/PerceptionLine.h"
 
 namespace omnimapper::mapper {
-
-/// What one extractor made of one observation, or why it could not.
-struct Outcome {
-  bool wanted = false;
-  std::vector<mrpt::obs::CObservation::Ptr> derived;
-  std::optional<base::Error> error;
-};
 
 /// The log that a run of perception writes, and what is to be said about it.
 class PerceivedLog {
@@ -23,16 +17,13 @@ class PerceivedLog {
   PerceivedLog(const PerceptionRequest& request, source::RawlogWriter& rawlog, PerceptionResult& result)
       : request_(request), rawlog_(rawlog), result_(result) {}
 
-  /// What was read, in its order, with one outcome an extractor. Observations of one stamp are written together.
-  void add(const mrpt::obs::CObservation::Ptr& raw, std::vector<Outcome> outcomes);
+  /// In the order of what was read. Observations of one stamp are written together.
+  void add(PerceptionLine::Perceived perceived);
   /// After the last one. Throws the first error of an extractor if none made anything of what it wanted.
   void finish();
 
  private:
-  struct Entry {
-    mrpt::obs::CObservation::Ptr raw;
-    std::vector<Outcome> outcomes;
-  };
+  using Entry = PerceptionLine::Perceived;
   void writeMoment();
   void write(Outcome& outcome, const mrpt::obs::CObservation& raw, PerceptionResult::Count& count);
   bool bringsAlready(const mrpt::obs::CObservation& derived) const;

@@ -1,5 +1,4 @@
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/PerceptionRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
@@ -10,11 +9,10 @@
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/ReadAhead.h>
 
-#include <deque>
-#include <future>
 #include <sstream>
 
 #include "run/PerceivedLog.h"
+#include "run/PerceptionLine.h"
 #include "run/SourceWarnings.h"
 
 namespace omnimapper::mapper {
@@ -23,69 +21,18 @@ namespace {
 
 using mrpt::obs::CObservation;
 
-Outcome outcomeOf(const perception::Extractor& extractor, const CObservation& raw) {
-  Outcome outcome;
-  outcome.wanted = extractor.wants(raw);
-  if (!outcome.wanted) return outcome;
-  try {
-    outcome.derived = extractor.extract(raw);
-  } catch (const base::Error& error) {
-    outcome.error = error;
-  }
-  return outcome;
-}
-
-/// The extractors at work on one observation after another, some at once, handed back in their order.
-class Line {
- public:
-  struct Item {
-    CObservation::Ptr raw;
-    std::future<std::vector<Outcome>> outcomes;  ///< by extractor
-  };
-
-  Line(const std::vector<Named<perception::Extractor>>& extractors, int threads)
-      : extractors_(extractors), depth_(4 * static_cast<std::size_t>(threads)), pool_(threads) {}
-
-  bool isFull() const { return items_.size() >= depth_; }
-  bool isEmpty() const { return items_.empty(); }
-
-  void add(const CObservation::Ptr& raw) {
-    items_.push_back({raw, pool_.submit<std::vector<Outcome>>([this, raw] {
-                        std::vector<Outcome> all;
-                        for (const auto& [section, extractor] : extractors_) all.push_back(outcomeOf(*extractor, *raw));
-                        return all;
-                      })});
-  }
-
-  Item take() {
-    Item item = std::move(items_.front());
-    items_.pop_front();
-    return item;
-  }
-
- private:
-  const std::vector<Named<perception::Extractor>>& extractors_;
-  const std::size_t depth_;
-  std::deque<Item> items_;
-  base::WorkerPool pool_;
-};
-
-void write(Line::Item item, PerceivedLog& output) {
-  output.add(item.raw, item.outcomes.get());
-}
-
 // True if it was stopped.
-bool work(source::ObservationSource& log, const SensorPoses& sensor_poses, Line& line, PerceivedLog& output,
+bool work(source::ObservationSource& log, const SensorPoses& sensor_poses, PerceptionLine& line, PerceivedLog& output,
           base::Progress& progress, const std::function<bool()>& stop) {
   bool stopped = false;
   while (!(stopped = stop())) {
     const auto observation = log.next();
     if (!observation) break;
-    if (line.isFull()) write(line.take(), output);
+    if (line.isFull()) output.add(line.take());
     line.add(sensor_poses.applied(observation));
     progress.report(log.progress(), "perceiving");
   }
-  while (!line.isEmpty()) write(line.take(), output);
+  while (!line.isEmpty()) output.add(line.take());
   return stopped || (log.report().ending == source::SourceReport::Ending::open && stop());
 }
 
@@ -125,7 +72,7 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
   for (const auto& [section, extractor] : plugins.extractors) result.extractors.push_back({section});
   source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop), stop);
   source::writeRawlog(request.output, [&](source::RawlogWriter& rawlog) {
-    Line line(plugins.extractors, std::max(1, request.threads));
+    PerceptionLine line(plugins.extractors, std::max(1, request.threads));
     PerceivedLog output(request, rawlog, result);
     const bool stopped = work(log, sensor_poses, line, output, progress, stop);
     result.source = log.report();
@@ -149,6 +96,7 @@ std::string toText(const PerceptionResult& result, const std::string& output) {
     out << "  " << extractor.section << ": " << base::counted(extractor.derived, "observation") << " of "
         << extractor.taken;
     if (extractor.failed > 0) out << ", " << extractor.failed << " left out";
+    if (extractor.unchanged > 0) out << ", " << extractor.unchanged << " as before, for what was seen had not changed";
     out << "\n";
   }
   out << "wall time " << result.wall_seconds << " s\nin " << output << "\n";

@@ -33,6 +33,8 @@ struct PerceptionResult {
     std::size_t taken = 0;    ///< observations it made something of
     std::size_t derived = 0;  ///< what of that was written
     std::size_t failed = 0;   ///< observations it threw base::Error for; they are left out
+    /// Of those taken, how many showed nothing new, so that what was made of the one before is what they gave.
+    std::size_t unchanged = 0;
   };
   std::vector<Count> extractors;
   double wall_seconds = 0;

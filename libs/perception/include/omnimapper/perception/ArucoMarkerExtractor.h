@@ -57,7 +57,7 @@ inline constexpr char kMarkersSuffix[] = ".markers";
 /// Pictures of 8 bits with 1 or 3 channels; others show nothing. Lenses as MRPT's TCamera has them: none, plumb_bob,
 /// kannala_brandt.
 ///
-/// Both throw Error(missing_images) for a picture that is in a file and was not loaded; sources load them; and
+/// markersIn() throws Error(missing_images) for a picture that is in a file and was not loaded; sources load them; and
 /// Error(unreadable_input) for a camera whose focal length is below 1 px, or a parameter not finite or beyond 10^6 px,
 /// unless the picture has no pixels. Thread-safe; the same picture gives the same bits.
 class ArucoMarkerExtractor : public Extractor {
@@ -67,13 +67,9 @@ class ArucoMarkerExtractor : public Extractor {
 
   explicit ArucoMarkerExtractor(const ArucoMarkerOptions& options) : options_(options) {}
 
-  /// cameraPose is of the optical frame: x right, y down, z forward.
-  mrpt::obs::CObservationBearingRange::Ptr extract(const mrpt::obs::CObservationImage& observation) const;
-  /// Of its intensity image, by the camera of that; by the depth camera where both have one view
-  /// (isPictureOfDepthView()). Without an intensity image there are no markers.
-  mrpt::obs::CObservationBearingRange::Ptr extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
+  /// Of the picture that it brings (pictureOf()); without one there are no markers.
+  mrpt::obs::CObservationBearingRange::Ptr markersIn(const mrpt::obs::CObservation& raw) const;
 
-  /// Pictures, and scans of range cameras that have one.
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
   std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <mrpt/obs/CObservation3DRangeScan.h>
-#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/perception/Extractor.h>
@@ -22,6 +21,7 @@ struct DoorSignOptions {
   std::string letters;                ///< what texts consist of; empty: Alphabet::common()
   double min_confidence = 0.3;        ///< of a line; others are left out
   double min_height = 8;              ///< [px] of a line; lower ones are left out
+  double least_change = 16;           ///< [grey levels] of some part of an image; else it shows nothing new
 
   static const base::OptionTable<DoorSignOptions>& table();
 };
@@ -40,7 +40,7 @@ inline constexpr char kSignsSuffix[] = ".signs";
 /// Pictures of 8 bits with 1 or 3 channels; others show nothing. Lenses as MRPT's TCamera has them.
 ///
 /// The constructor throws Error(unreadable_input) if a network is missing or broken, and Error(plugin_library) if ONNX
-/// Runtime or Tesseract is; extract() Error(missing_images) for an image that is in a file and was not loaded, and
+/// Runtime or Tesseract is; signsIn() Error(missing_images) for an image that is in a file and was not loaded, and
 /// Error(unreadable_input) for a camera without a calibration that can be used, or with one of images of another shape
 /// (of images of the same shape it is scaled). Thread-safe; the same image gives the same bits on one kind of
 /// processor.
@@ -52,16 +52,18 @@ class DoorSignExtractor : public perception::Extractor {
   explicit DoorSignExtractor(const DoorSignOptions& options);
   ~DoorSignExtractor() override;
 
-  obs::CObservationDoorSigns::Ptr extract(const mrpt::obs::CObservationImage& observation) const;
-  /// Of its intensity image, by the camera of that; by the depth camera where both have one view.
-  obs::CObservationDoorSigns::Ptr extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
+  /// Of the picture that it brings (perception::pictureOf()); without one there are no signs.
+  obs::CObservationDoorSigns::Ptr signsIn(const mrpt::obs::CObservation& raw) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
   std::vector<perception::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
+  /// Images that differ from the one before by less than `least_change` show nothing new.
+  std::unique_ptr<perception::Novelty> novelty() const override;
 
  private:
   class Finder;
+  double least_change_;
   std::unique_ptr<const Finder> finder_;
 };
 

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/WorkerPool.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/perception/Extractor.h>
+
+#include <deque>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::mapper {
+
+/// What one extractor made of one observation, or why it could not.
+struct Outcome {
+  bool wanted = false;
+  bool unchanged = false;  ///< it is that of the observation before, for this one showed nothing new
+  std::vector<mrpt::obs::CObservation::Ptr> derived;
+  std::optional<base::Error> error;
+};
+
+/// The extractors at work on one observation after another, some at once, handed back in their order. What shows
+/// nothing new by the word of an extractor's Novelty gets what it made of the last that did, with its own stamp.
+class PerceptionLine {
+ public:
+  struct Perceived {
+    mrpt::obs::CObservation::Ptr raw;
+    std::vector<Outcome> outcomes;  ///< by extractor
+  };
+
+  /// `extractors` stay the caller's.
+  PerceptionLine(const std::vector<Named<perception::Extractor>>& extractors, int threads);
+
+  bool isFull() const { return items_.size() >= depth_; }
+  bool isEmpty() const { return items_.empty(); }
+  void add(const mrpt::obs::CObservation::Ptr& raw);
+  /// The first that was added and not taken; waits for it.
+  Perceived take();
+
+ private:
+  enum class Task { none, extract, repeat };
+  struct Item {
+    mrpt::obs::CObservation::Ptr raw;
+    std::vector<Task> tasks;                     // by extractor
+    std::future<std::vector<Outcome>> outcomes;  // by extractor
+  };
+  using Extractors = std::vector<Named<perception::Extractor>>;
+
+  static Outcome outcomeOf(const perception::Extractor& extractor, const mrpt::obs::CObservation& raw);
+  static Outcome repeated(const Outcome& earlier, const mrpt::obs::CObservation& raw);
+
+  const Extractors& extractors_;
+  std::vector<std::unique_ptr<perception::Novelty>> novelties_;  // by extractor
+  std::vector<std::map<std::string, Outcome>> last_;             // by extractor with a novelty and by sensor
+  const std::size_t depth_;
+  std::deque<Item> items_;
+  base::WorkerPool pool_;
+};
+
+}  // namespace omnimapper::mapper
