@@ -26,9 +26,7 @@ class ImportProgress {
 };
 
 /// Writes all of a folder of files, each an observation, and says on standard output what there was; colours as JPEG.
-/// `are_names_times`: whether the names of the files are the stamps.
-void importFolder(omnimapper::source::ObservationSource& files, bool are_names_times, const std::string& folder,
-                  const std::string& output);
+void importFolder(omnimapper::source::FolderSource& files, const std::string& folder, const std::string& output);
 
 /// Says on standard output what to do with a rawlog that was written, which may hold nothing but photographs.
 void sayNext(const std::string& output, bool has_photographs);

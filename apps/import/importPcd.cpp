@@ -9,7 +9,7 @@ using namespace omnimapper;
 base::ExitCode importPcd(const std::string& folder, const std::string& output,
                          const source::PcdFolderOptions& options) {
   source::PcdFolder clouds(folder, options);
-  importFolder(clouds, clouds.areNamesTimes(), folder, output);
+  importFolder(clouds, folder, output);
   if (clouds.unorganised() > 0) {
     std::cout << base::counted(clouds.unorganised(), "cloud")
               << " without rows and columns (HEIGHT 1): they stay clouds, which are mapped only with odometry or poses "

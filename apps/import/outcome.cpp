@@ -24,8 +24,7 @@ void ImportProgress::report(double share) {
   terminal_.report(share, what_);
 }
 
-void importFolder(source::ObservationSource& files, bool are_names_times, const std::string& folder,
-                  const std::string& output) {
+void importFolder(source::FolderSource& files, const std::string& folder, const std::string& output) {
   ImportProgress progress(folder);
   source::writeRawlog(
       output,
@@ -38,8 +37,8 @@ void importFolder(source::ObservationSource& files, bool are_names_times, const 
       },
       source::ColourImages::jpeg);
   std::cout << files.report().text()
-            << (are_names_times ? "stamps: the names of the files\n"
-                                : "stamps: made up by --rate, for the files' names are no Unix times\n");
+            << (files.areNamesTimes() ? "stamps: the names of the files\n"
+                                      : "stamps: made up by --rate, for the files' names are no Unix times\n");
 }
 
 void sayNext(const std::string& output, bool has_photographs) {

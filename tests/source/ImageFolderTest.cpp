@@ -68,6 +68,35 @@ TEST_F(ImageFolderTest, whatIsNoImageIsLeftOutAndCounted) {
   EXPECT_NE(images.report().first_missing_image.find("empty.jpg"), std::string::npos);
 }
 
+std::string bytesOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A decoder fills what is missing with grey. The small picture that cameras put before the large one has an end too.
+TEST_F(ImageFolderTest, imagesWithoutTheirEndAreLeftOutAndCounted) {
+  write("whole.jpg", 200, 100);
+  write("whole.png", 200, 100);
+  const std::string jpeg = bytesOf(folder_ / "whole.jpg"), png = bytesOf(folder_ / "whole.png");
+  const std::string with_preview =
+      jpeg.substr(0, 2) + std::string("\xff\xe1\0\x06\xff\xd8\xff\xd9", 8) + jpeg.substr(2);
+  const auto save = [&](const std::string& name, const std::string& bytes) {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  };
+  save("preview.jpg", with_preview);
+  save("signed.jpg", jpeg + "what another program adds");
+  save("cut.jpg", jpeg.substr(0, jpeg.size() - 2));
+  save("cut_preview.jpg", with_preview.substr(0, with_preview.size() - 40));
+  save("cut.png", png.substr(0, png.size() - 12));
+  save("cut_header.png", png.substr(0, 30));
+  ImageFolder images(folder_.path());
+  int count = 0;
+  while (images.next()) ++count;
+  EXPECT_EQ(count, 4) << "two whole ones, that with a preview, and that with something behind it";
+  EXPECT_EQ(images.report().missing_images, 4u);
+  EXPECT_NE(images.report().first_missing_image.find("cut.jpg: its end is missing"), std::string::npos);
+}
+
 TEST_F(ImageFolderTest, sixteenBitsBecomeEight) {
   std::ofstream(folder_ / "deep.png", std::ios::binary) << draw::encodePng(draw::Grey16Image{2, 1, {0x8000, 0x1000}});
   ImageFolder images(folder_.path());

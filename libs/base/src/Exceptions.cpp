@@ -3,10 +3,14 @@
 namespace omnimapper::base {
 
 std::string sentenceOf(const std::exception& error) {
-  const std::string text = error.what(), label = "Message:";
+  const std::string text = error.what(), label = "Message:", banner = "==== MRPT exception ====\n";
   const std::size_t found = text.find(label);
-  if (found == std::string::npos) return text;
-  const std::size_t begin = text.find_first_not_of(' ', found + label.size());
+  std::size_t begin = std::string::npos;
+  if (found != std::string::npos) {
+    begin = text.find_first_not_of(' ', found + label.size());
+  } else if (text.compare(0, banner.size(), banner) == 0) {
+    begin = banner.size();  // it passes on what another library threw
+  }
   return begin == std::string::npos ? text : text.substr(begin, text.find('\n', begin) - begin);
 }
 

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "ImageSize.h"
-#include "NamedTimes.h"
-#include "describeInput.h"
+#include "ImageFile.h"
 #include "refuse.h"
 
 namespace omnimapper::source {
@@ -18,11 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFirstImage = 1e9;  // [s] stamp of images whose names tell none
-
 constexpr int kInColour = 1;  // MRPT: three channels of 8 bits, whatever the file has
 
-bool isImage(const fs::path& file) {
+bool isImage(const std::string& path) {
+  const fs::path file(path);
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
@@ -33,7 +30,7 @@ bool isImage(const fs::path& file) {
 mrpt::obs::CObservationImage::Ptr imageIn(const std::string& file, double focal_px) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) refuse(file, "is no file");
-  if (const auto why = whyTooLarge(file)) refuse(file, *why);
+  if (const auto why = whyNotToDecode(file)) refuse(file, *why);
   auto image = mrpt::obs::CObservationImage::Create();
   bool is_decoded = false;
   try {
@@ -53,39 +50,11 @@ mrpt::obs::CObservationImage::Ptr imageIn(const std::string& file, double focal_
 
 }  // namespace
 
-ImageFolder::ImageFolder(const std::string& folder, const ImageFolderOptions& options) : options_(options) {
-  std::error_code error;
-  if (fs::is_regular_file(folder, error)) refuse(folder, "is no folder: it " + describeInput(folder));
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (isImage(entry.path())) files_.push_back(entry.path());
-  if (error) refuse(folder, error.message());
-  if (files_.empty()) refuse(folder, "holds no JPEG or PNG images: it " + describeInput(folder));
-  std::sort(files_.begin(), files_.end());
-  times_ = timesOfNames(files_);
-}
+ImageFolder::ImageFolder(const std::string& folder, const ImageFolderOptions& options)
+    : FolderSource(folder, isImage, "JPEG or PNG images", options.label, options.rate), focal_px_(options.focal_px) {}
 
-mrpt::obs::CObservation::Ptr ImageFolder::next() {
-  while (next_ < files_.size()) {
-    const std::string& file = files_[next_];
-    const double stamp = times_.empty() ? kFirstImage + static_cast<double>(next_) / options_.rate : times_[next_];
-    ++next_;
-    try {
-      auto image = imageIn(file, options_.focal_px);
-      image->timestamp = base::stampFromUnix(stamp);
-      image->sensorLabel = options_.label;
-      ++report_.objects;
-      report_.count(image->sensorLabel, image->GetRuntimeClass()->className, image->timestamp);
-      return image;
-    } catch (const base::Error& error) {
-      if (report_.missing_images++ == 0) report_.first_missing_image = error.what();
-    }
-  }
-  report_.ending = SourceReport::Ending::complete;
-  return nullptr;
-}
-
-double ImageFolder::progress() const {
-  return static_cast<double>(next_) / static_cast<double>(files_.size());
+mrpt::obs::CObservation::Ptr ImageFolder::read(const std::string& file) {
+  return imageIn(file, focal_px_);
 }
 
 }  // namespace omnimapper::source

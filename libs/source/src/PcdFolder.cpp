@@ -7,19 +7,18 @@
 #include <cmath>
 #include <filesystem>
 
-#include "NamedTimes.h"
-#include "describeInput.h"
 #include "refuse.h"
 
 namespace omnimapper::source {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kUnit = 1e-4;              // [m]
-constexpr double kFirstStamp = 1e9;         // [s] of clouds without stamps
 constexpr double kPixelsFromTheRay = 0.25;  // a pinhole camera's points lie on the rays of their pixels
+
+bool isPcd(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".pcd";
+}
 
 /// pixel = focal * slope + middle, by least squares over points.
 struct Axis {
@@ -107,45 +106,14 @@ mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud) {
   return made;
 }
 
-PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options) : options_(options) {
-  std::error_code error;
-  if (fs::is_regular_file(folder, error)) refuse(folder, "is no folder: it " + describeInput(folder));
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".pcd") files_.push_back(entry.path());
-  }
-  if (error) refuse(folder, error.message());
-  if (files_.empty()) refuse(folder, "holds no .pcd files: it " + describeInput(folder));
-  std::sort(files_.begin(), files_.end());
-  times_ = timesOfNames(files_);
-}
+PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options)
+    : FolderSource(folder, isPcd, ".pcd files", options.label, options.rate) {}
 
-mrpt::obs::CObservation::Ptr PcdFolder::next() {
-  while (next_ < files_.size()) {
-    const std::string& file = files_[next_];
-    const auto stamp =
-        base::stampFromUnix(times_.empty() ? kFirstStamp + static_cast<double>(next_) / options_.rate : times_[next_]);
-    ++next_;
-    try {
-      const auto cloud = readPcd(file);
-      const bool is_organised = cloud.height > 1 && cloud.width > 1;
-      const mrpt::obs::CObservation::Ptr scan =
-          is_organised ? mrpt::obs::CObservation::Ptr(depthImageOf(cloud, file)) : cloudOf(cloud);
-      unorganised_ += !is_organised;
-      scan->timestamp = stamp;
-      scan->sensorLabel = options_.label;
-      ++report_.objects;
-      report_.count(scan->sensorLabel, scan->GetRuntimeClass()->className, scan->timestamp);
-      return scan;
-    } catch (const base::Error& error) {
-      if (report_.missing_images++ == 0) report_.first_missing_image = error.what();
-    }
-  }
-  report_.ending = SourceReport::Ending::complete;
-  return nullptr;
-}
-
-double PcdFolder::progress() const {
-  return static_cast<double>(next_) / static_cast<double>(files_.size());
+mrpt::obs::CObservation::Ptr PcdFolder::read(const std::string& file) {
+  const auto cloud = readPcd(file);
+  if (cloud.height > 1 && cloud.width > 1) return depthImageOf(cloud, file);
+  ++unorganised_;
+  return cloudOf(cloud);
 }
 
 }  // namespace omnimapper::source

@@ -1,0 +1,53 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/source/FolderSource.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "NamedTimes.h"
+#include "describeInput.h"
+#include "refuse.h"
+
+namespace omnimapper::source {
+
+namespace fs = std::filesystem;
+
+FolderSource::FolderSource(const std::string& folder, bool (*takes)(const std::string& file), const std::string& what,
+                           const std::string& label, double rate)
+    : label_(label), rate_(rate) {
+  std::error_code error;
+  if (fs::is_regular_file(folder, error)) refuse(folder, "is no folder: it " + describeInput(folder));
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (takes(entry.path())) files_.push_back(entry.path());
+  if (error) refuse(folder, error.message());
+  if (files_.empty()) refuse(folder, "holds no " + what + ": it " + describeInput(folder));
+  std::sort(files_.begin(), files_.end());
+  times_ = timesOfNames(files_);
+}
+
+mrpt::obs::CObservation::Ptr FolderSource::next() {
+  constexpr double kFirst = 1e9;  // [s] stamp of files whose names tell none
+  while (next_ < files_.size()) {
+    const std::string& file = files_[next_];
+    const double stamp = times_.empty() ? kFirst + static_cast<double>(next_) / rate_ : times_[next_];
+    ++next_;
+    try {
+      auto observation = read(file);
+      observation->timestamp = base::stampFromUnix(stamp);
+      observation->sensorLabel = label_;
+      ++report_.objects;
+      report_.count(label_, observation->GetRuntimeClass()->className, observation->timestamp);
+      return observation;
+    } catch (const base::Error& error) {
+      if (report_.missing_images++ == 0) report_.first_missing_image = error.what();
+    }
+  }
+  report_.ending = SourceReport::Ending::complete;
+  return nullptr;
+}
+
+double FolderSource::progress() const {
+  return static_cast<double>(next_) / static_cast<double>(files_.size());
+}
+
+}  // namespace omnimapper::source

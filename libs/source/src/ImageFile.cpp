@@ -1,0 +1,100 @@
+#include "ImageFile.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+
+namespace omnimapper::source {
+
+namespace {
+
+struct Size {
+  std::uint64_t width = 0, height = 0;
+};
+
+// Of numbers whose most significant byte comes first.
+std::uint64_t numberAt(const std::string& bytes, std::size_t at, std::size_t size) {
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < size; ++i) number = number << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return number;
+}
+
+// The first chunk of a PNG is its header: width and height, four bytes each; the last is empty and called IEND.
+std::optional<Size> sizeOfPng(const std::string& head) {
+  constexpr std::size_t kWidthAt = 16, kHeightAt = 20;
+  if (head.size() < kHeightAt + 4 || head.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0) return std::nullopt;
+  return Size{numberAt(head, kWidthAt, 4), numberAt(head, kHeightAt, 4)};
+}
+
+std::string read(std::istream& in, std::size_t size) {
+  std::string bytes(size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+struct Jpeg {
+  Size size;             // none where no frame is told
+  bool is_whole = true;  // also where it cannot be told
+};
+
+// A JPEG is segments: 0xff, a marker, two bytes of length. Those of the markers 0xc0 to 0xcf but 0xc4, 0xc8 and 0xcc
+// begin a frame and have a byte of precision, then height and width, two bytes each. After 0xda come the pixels, and
+// after them 0xff 0xd9, which is in no pixel.
+Jpeg readJpeg(std::istream& in) {
+  Jpeg jpeg;
+  in.clear();  // the file may end within what was read of it
+  in.seekg(2);
+  while (true) {
+    const auto start = read(in, 4);
+    if (start.size() < 4 || start[0] != '\xff') return jpeg;
+    const auto marker = static_cast<unsigned char>(start[1]);
+    if (marker == 0xff) {  // a fill byte
+      in.seekg(-3, std::ios::cur);
+      continue;
+    }
+    const bool begins_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    const std::uint64_t length = numberAt(start, 2, 2);
+    if (length < 2) return jpeg;
+    const auto next = in.tellg() + static_cast<std::streamoff>(length) - std::streamoff{2};
+    if (begins_frame) {
+      const auto frame = read(in, 5);
+      if (frame.size() == 5) jpeg.size = {numberAt(frame, 3, 2), numberAt(frame, 1, 2)};
+    }
+    in.seekg(next);
+    if (marker == 0xda) {
+      std::string pixels{std::istreambuf_iterator<char>(in), {}};
+      jpeg.is_whole = pixels.find("\xff\xd9") != std::string::npos;
+      return jpeg;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> whyNotToDecode(const std::string& path) {
+  constexpr std::uint64_t kMostPixels = 1 << 26;  // 8192 x 8192
+  constexpr std::streamoff kEnd = 64;             // [byte] what some programs leave behind the end of a PNG
+  std::ifstream in(path, std::ios::binary);
+  const auto head = read(in, 24);
+  Size size;
+  bool is_whole = true;
+  if (head.compare(0, 2, "\xff\xd8") == 0) {
+    const Jpeg jpeg = readJpeg(in);
+    size = jpeg.size;
+    is_whole = jpeg.is_whole;
+  } else if (const auto of_png = sizeOfPng(head)) {
+    size = *of_png;
+    in.clear();
+    in.seekg(0, std::ios::end);
+    in.seekg(std::max(std::streamoff{0}, static_cast<std::streamoff>(in.tellg()) - kEnd));
+    is_whole = read(in, kEnd).find("IEND") != std::string::npos;
+  }
+  if (size.width > 0 && size.height > kMostPixels / size.width)
+    return std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels, more than any camera has";
+  if (!is_whole) return "its end is missing: it was cut off; copy it anew";
+  return std::nullopt;
+}
+
+}  // namespace omnimapper::source
