@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <optional>
 
 #include "pictures/CameraPicture.h"
@@ -36,8 +37,14 @@ std::string fileName(const mrpt::obs::CObservation& raw) {
 
 }  // namespace
 
-PerceptionPictures::PerceptionPictures(const std::string& folder, int every) : folder_(folder), every_(every) {
+PerceptionPictures::PerceptionPictures(const std::string& folder, int every)
+    : folder_(folder), every_(every), is_new_(!std::filesystem::exists(folder)) {
   base::makeWritableFolder(folder);
+}
+
+PerceptionPictures::~PerceptionPictures() {
+  std::error_code is_not_empty;
+  if (is_new_) std::filesystem::remove(folder_, is_not_empty);
 }
 
 void PerceptionPictures::add(const mrpt::obs::CObservation& raw,

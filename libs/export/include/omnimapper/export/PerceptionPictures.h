@@ -16,6 +16,10 @@ class PerceptionPictures {
   /// Of each sensor every so manieth observation, the first included. Makes the folder. Throws
   /// Error(unwritable_output).
   PerceptionPictures(const std::string& folder, int every);
+  /// Leaves no empty folder behind that it made.
+  ~PerceptionPictures();
+  PerceptionPictures(const PerceptionPictures&) = delete;
+  PerceptionPictures& operator=(const PerceptionPictures&) = delete;
 
   /// What was derived of `raw`. Where that is nothing, or nothing that can be drawn, there is no picture, and it does
   /// not count.
@@ -26,6 +30,7 @@ class PerceptionPictures {
  private:
   std::string folder_;
   int every_, count_ = 0;
+  bool is_new_;                      // the folder
   std::map<std::string, int> seen_;  // by label
 };
 
