@@ -299,6 +299,10 @@ TEST_F(DoorSignExtractorTest, saliencyFindsItToo) {
     ASSERT_FALSE(found->signs[0].texts.empty());
     EXPECT_EQ(found->signs[0].texts[0].text, "26-138");
     EXPECT_GT(found->signs[0].score, 0.3);
+    options.min_score = 1;
+    EXPECT_TRUE(DoorSignExtractor(options).signsIn(*view())->signs.empty()) << "nothing is as sure";
+    options.model = "/not/there.svm";
+    EXPECT_THROW(DoorSignExtractor{options}, base::Error);
   } catch (const base::Error& error) {
     EXPECT_NE(std::string(error.what()).find("libopencv-contrib-dev"), std::string::npos) << error.what();
   }

@@ -34,6 +34,10 @@ const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
                             {{"text", Detector::text}, {"saliency", Detector::saliency}},
                             "How signs are found: by lines of text, or, as in the thesis, by what is salient and looks "
                             "like the signs that a classifier was trained on. Both need the networks, which read them.")
+          .text("model", &Options::model,
+                "With detector = saliency, the file of omnimapper-train-doorsigns; empty: the model that is shipped.")
+          .number("min_score", &Options::min_score, {0, 1},
+                  "With detector = saliency, the least probability of a region that is taken for a sign.")
           .text("models", &Options::models,
                 "Folder of the networks that scripts/models makes; empty: omnimapper/models in $XDG_DATA_HOME or "
                 "~/.local/share, from which alone the library of ONNX Runtime is taken, for it is a program.")
@@ -196,7 +200,10 @@ class DoorSignExtractor::Finder {
   std::unique_ptr<const SignDetector> salientDetector() const {
     if (options_.detector == DoorSignOptions::Detector::text) return nullptr;
 #ifdef OMNIMAPPER_HAS_SALIENCY
-    return std::make_unique<SalientSignDetector>(SalientSignOptions());
+    SalientSignOptions salient;
+    salient.model = options_.model;
+    salient.min_score = options_.min_score;
+    return std::make_unique<SalientSignDetector>(salient);
 #else
     throw base::Error(base::ExitCode::plugin_library,
                       "door signs cannot be found by saliency: this build had no OpenCV module saliency. Install "

@@ -75,25 +75,6 @@ Corners cornersOf(const cv::Rect2f& box) {
 
 }  // namespace
 
-const base::OptionTable<SaliencyOptions>& SaliencyOptions::table() {
-  using base::Range;
-  using O = SaliencyOptions;
-  static const auto table =
-      base::OptionTable<O>()
-          .integer("working_width_px", &O::working_width, {16, 1024},
-                   "Width of the largest picture in which saliency is computed.")
-          .integer("scales", &O::scales, {1, 6}, "Sizes at which it is; each has half the width of the one before.")
-          .number("min_saliency", &O::min_saliency, Range::positive(), "Of a region, times the picture's mean.")
-          .integer("levels", &O::levels, {1, 6}, "Heights at which it is cut; each is twice the one before.")
-          .integer("min_width_px", &O::min_width, {4, 10000}, "Of a region.")
-          .integer("min_height_px", &O::min_height, {4, 10000}, "Of a region.")
-          .number("max_share", &O::max_share, {0, 1}, "Largest part of the picture's width or height.")
-          .number("surroundings", &O::surroundings, {0, 4},
-                  "How far around a salient component its plate is looked for, in the component's longer side.")
-          .flag("fit_plates", &O::fit_plates, "Whether a component is replaced by the plate around it.");
-  return table;
-}
-
 std::vector<Corners> SaliencyProposer::propose(const perception::ColourImage& picture) const {
   const cv::Mat pixels = matOf(picture);
   if (std::min(pixels.cols, pixels.rows) < kLeastPicture) return {};

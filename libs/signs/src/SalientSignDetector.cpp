@@ -17,15 +17,6 @@ bool areOnOneAnother(const cv::Rect2f& a, const cv::Rect2f& b) {
 
 }  // namespace
 
-const base::OptionTable<SalientSignOptions>& SalientSignOptions::table() {
-  static const auto table = base::OptionTable<SalientSignOptions>()
-                                .number("min_score", &SalientSignOptions::min_score, {0, 1},
-                                        "Least probability of a region that is reported.")
-                                .text("model", &SalientSignOptions::model,
-                                      "File of omnimapper-train-doorsigns; empty: the one that is shipped.");
-  return table;
-}
-
 SalientSignDetector::SalientSignDetector(const SalientSignOptions& options)
     : SalientSignDetector(options,
                           options.model.empty() ? SignClassifier::known() : SignClassifier::read(options.model)) {}

@@ -15,6 +15,8 @@ struct DoorSignOptions {
   enum class Backend { opencv, onnx_runtime };
   enum class Reader { network, tesseract };
   Detector detector = Detector::text;
+  std::string model;                  ///< of the classifier; empty: the one that is shipped
+  double min_score = 0.6;             ///< of a region, by the classifier
   std::string models;                 ///< folder of the networks; empty: where scripts/models puts them
   Backend backend = Backend::opencv;  ///< what computes them
   Reader reader = Reader::network;    ///< of lines

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <omnimapper/base/OptionTable.h>
 #include <omnimapper/signs/SignDetector.h>
 
 namespace omnimapper::signs {
@@ -15,8 +14,6 @@ struct SaliencyOptions {
   double max_share = 0.6;      ///< of the picture's width or height
   double surroundings = 0.35;  ///< what is searched around a component for the plate, in its longer side
   bool fit_plates = true;      ///< false: boxes of components, as in the thesis
-
-  static const base::OptionTable<SaliencyOptions>& table();
 };
 
 /// Regions of a picture that stand out from the rest of it (thesis 3.5.1.1): spectral residual (Hou and Zhang: Saliency

@@ -9,8 +9,6 @@ struct SalientSignOptions {
   double min_score = 0.6;  ///< of a region that is reported
   std::string model;       ///< file of SignClassifier; empty: the one that is shipped
   SaliencyOptions saliency;
-
-  static const base::OptionTable<SalientSignOptions>& table();
 };
 
 /// The thesis's way to find door signs: what is salient (3.5.1.1), told by a support vector machine (3.5.3). Of regions

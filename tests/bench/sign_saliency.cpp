@@ -1,0 +1,90 @@
+// How long the thesis's way to find door signs takes in pictures: what is salient, and what a support vector machine
+// says of it; and how many regions that are.
+//
+//   bench-sign_saliency out/signs/dark out/signs/white ../shared/data/signs/photos --width 1280
+//
+// A folder has JPEG or PNG pictures. Times are of the processor, of one thread, the least of three.
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/signs/SalientSignDetector.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <opencv2/core.hpp>
+
+#include "Timing.h"
+
+namespace fs = std::filesystem;
+using namespace omnimapper;
+
+namespace {
+
+std::vector<std::string> picturesOf(const std::string& folder) {
+  std::vector<std::string> paths;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const auto extension = entry.path().extension();
+    if ((extension == ".jpg" || extension == ".png") && entry.path().stem().extension() != ".mask")
+      paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+template <class Work>
+double leastTimeOf(const Work& work) {
+  double least = std::numeric_limits<double>::max();
+  for (int i = 0; i < 3; ++i) {
+    const double begin = bench::processorTime();
+    work();
+    least = std::min(least, bench::processorTime() - begin);
+  }
+  return least;
+}
+
+void report(const std::string& folder, int width) {
+  const signs::SaliencyProposer proposer({});
+  const signs::SignClassifier classifier = signs::SignClassifier::known();
+  std::vector<double> finding, telling, all, regions;
+  for (const auto& path : picturesOf(folder)) {
+    mrpt::img::CImage image;
+    if (!image.loadFromFile(path)) throw base::Error(base::ExitCode::unreadable_input, path + ": is no picture");
+    if (width > 0) {
+      const auto height = image.getHeight() * static_cast<unsigned>(width) / image.getWidth();
+      image.scaleImage(image, static_cast<unsigned>(width), static_cast<unsigned>(height), mrpt::img::IMG_INTERP_AREA);
+    }
+    const auto pixels = signs::pixelsOf(image);
+    std::vector<signs::Corners> found;
+    finding.push_back(leastTimeOf([&] { found = proposer.propose(pixels); }));
+    telling.push_back(leastTimeOf([&] { classifier.probabilities(pixels, found); }));
+    all.push_back(finding.back() + telling.back());
+    regions.push_back(static_cast<double>(found.size()));
+  }
+  std::printf("| %s | %zu | %.0f | %.1f | %.1f | %.1f | %.1f |\n", fs::path(folder).filename().c_str(), all.size(),
+              bench::quantile(regions, 0.5), bench::quantile(finding, 0.5), bench::quantile(telling, 0.5),
+              bench::quantile(all, 0.5), bench::quantile(all, 0.95));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("How long door signs take to be found by saliency.");
+  std::vector<std::string> folders;
+  int width = 0;
+  app.add_option("folders", folders, "folders of pictures")->required();
+  app.add_option("--width", width, "pictures are scaled to it first [px]; 0: as they are")->check(CLI::Range(0, 8192));
+  CLI11_PARSE(app, argc, argv);
+  cv::setNumThreads(1);
+  std::printf("| pictures | count | regions | finding them [ms] | telling them [ms] | both, median | both, 95 %% |\n");
+  std::printf("|---|---|---|---|---|---|---|\n");
+  try {
+    for (const auto& folder : folders) report(folder, width);
+  } catch (const std::exception& error) {
+    std::cerr << "bench-sign_saliency: " << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}
