@@ -132,13 +132,15 @@ int main(int argc, char** argv) {
       const auto found = truth.find(measurement);
       const std::vector<TrueSign> seen = found == truth.end() ? std::vector<TrueSign>() : found->second;
       std::vector<double> best(seen.size(), -1);
-      for (const auto& line : detector.detect(picture)) {
-        if (signs::heightOf(line.quad) < 8) continue;
-        const auto middle = signs::middleOf(line.quad);
+      std::vector<signs::ReadLine> lines;
+      for (const auto& text : detector.detect(picture)) {
+        if (signs::heightOf(text.quad) < 8) continue;
+        for (auto& line : signs::readLines(picture, text.quad, reader)) lines.push_back(std::move(line));
+      }
+      for (const auto& [quad, reading] : lines) {
+        const auto middle = signs::middleOf(quad);
         const auto sign =
             std::find_if(seen.begin(), seen.end(), [&](const TrueSign& s) { return signs::contains(s.quad, middle); });
-        const auto reading = signs::readLine(picture, line.quad, reader);
-        if (reading.text.empty()) continue;
         if (sign == seen.end()) {
           ++elsewhere;
           continue;

@@ -92,6 +92,27 @@ TEST(ReadLine, readingsThatAgreeAreTaken) {
   EXPECT_GT(confidenceOf(line.evidence), 0.9);
 }
 
+// A reader of one letter for strokes of one line, and of none for more.
+class OneLine : public TextReader {
+ public:
+  Reading read(const perception::ColourImage& patch) const override {
+    if (patch.height > 60) return {"?", {0.2}};
+    return patch.width > 120 ? Reading{"WIDE", {1, 1, 1, 1}} : Reading{"NARROW", {1, 1, 1, 1, 1, 1}};
+  }
+};
+
+TEST(ReadLines, whatIsNotSureIsReadInPartsIfTheseAreSurer) {
+  cv::Mat picture(160, 320, CV_8UC3, cv::Scalar::all(40));
+  for (int x = 80; x < 240; x += 8) picture(cv::Rect(x, 40, 4, 30)) = cv::Scalar::all(220);
+  for (int x = 130; x < 190; x += 8) picture(cv::Rect(x, 85, 4, 20)) = cv::Scalar::all(220);
+  const Corners both{Eigen::Vector2f(70, 35), {250, 35}, {250, 110}, {70, 110}};
+  const auto lines = readLines(picture, both, OneLine());
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].reading.text, "WIDE");
+  EXPECT_EQ(lines[1].reading.text, "NARROW");
+  EXPECT_LT(lines[0].quad[2].y(), lines[1].quad[2].y());
+}
+
 TEST(ReadLine, readingsThatDifferAreNotSure) {
   const auto line = readLine(kPicture, kLine, Scripted({{"13", {1, 1}}, {"213", {0.9, 1, 1}}, {"213", {0.9, 1, 1}}}));
   EXPECT_EQ(line.text, "13") << "three of four patches are narrow";

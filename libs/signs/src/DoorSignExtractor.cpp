@@ -116,7 +116,7 @@ class DoorSignExtractor::Finder {
 
   std::vector<ObservedDoorSign> signsIn(const cv::Mat& picture, const perception::LensModel& lens) const {
     struct Line {
-      TextLine found;
+      double score;  // as text
       obs::ReadText text;
     };
     const bool is_salient = salient_ != nullptr;
@@ -130,10 +130,10 @@ class DoorSignExtractor::Finder {
     std::vector<Corners> quads;
     for (const auto& found : detector_.detect(picture)) {
       if (heightOf(found.quad) < options_.min_height) continue;
-      const auto reading = readLine(picture, found.quad, *reader_);
-      const double confidence = confidenceOf(reading.evidence);
-      lines.push_back({found, {reading.text, confidence}});
-      quads.push_back(found.quad);
+      for (const auto& line : readLines(picture, found.quad, *reader_)) {
+        lines.push_back({found.score, {line.reading.text, confidenceOf(line.reading.evidence)}});
+        quads.push_back(line.quad);
+      }
     }
     std::vector<ObservedDoorSign> signs;
     for (const auto& plate : is_salient ? platesOf(salient, quads) : findPlates(picture, quads)) {
@@ -145,9 +145,9 @@ class DoorSignExtractor::Finder {
       if (is_salient) sign.score = plate.score;
       for (const auto line : plate.lines) {
         const auto& text = lines[line].text;
-        if (text.text.empty() || text.confidence < options_.min_confidence) continue;
+        if (text.confidence < options_.min_confidence) continue;
         sign.texts.push_back(text);
-        if (!is_salient) sign.score = std::max(sign.score, lines[line].found.score);
+        if (!is_salient) sign.score = std::max(sign.score, lines[line].score);
       }
       if (sign.texts.empty() && !is_salient) continue;
       const cv::Mat patch = patchOf(picture, plate.quad);

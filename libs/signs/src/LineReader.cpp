@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
+
+#include "LineSplitting.h"
 
 namespace omnimapper::signs {
 
@@ -147,6 +150,24 @@ LineReading readLine(const cv::Mat& picture, const Corners& line, const TextRead
   return {best.text,
           {best.weakest, static_cast<double>(best.count) / static_cast<double>(patches.size()),
            clearanceOf(picture, line), static_cast<double>(heightOf(line))}};
+}
+
+std::vector<ReadLine> readLines(const cv::Mat& picture, const Corners& text, const TextReader& reader) {
+  constexpr double kSure = 0.9;
+  std::vector<ReadLine> whole{{text, readLine(picture, text, reader)}};
+  const double confidence = confidenceOf(whole.front().reading.evidence);
+  if (whole.front().reading.text.empty()) whole.clear();
+  if (!whole.empty() && confidence >= kSure) return whole;
+  std::vector<ReadLine> parts;
+  double sum = 0;
+  for (const auto& part : partsOf(picture, text)) {
+    for (auto& line : readLines(picture, part, reader)) {
+      sum += confidenceOf(line.reading.evidence);
+      parts.push_back(std::move(line));
+    }
+  }
+  const bool are_surer = !parts.empty() && (whole.empty() || sum / static_cast<double>(parts.size()) > confidence);
+  return are_surer ? parts : whole;
 }
 
 // Of lines whose readings all agree and that have background at both ends nearly all are right, whatever the reader

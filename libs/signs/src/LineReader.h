@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 #include <string>
+#include <vector>
 
 #include "Corners.h"
 
@@ -28,6 +29,16 @@ struct LineReading {
 /// stretched, and takes what most say: a line whose box leaves a letter out, or holds a screw beside the text, is not
 /// read the same in all. A network is often sure of what is wrong, so what counts is how far these readings agree.
 LineReading readLine(const cv::Mat& picture, const Corners& line, const TextReader& reader);
+
+struct ReadLine {
+  Corners quad;
+  LineReading reading;
+};
+
+/// Reads a text in a picture that should be one line. Where that is not sure and there may be two lines in it, one
+/// above the other, which a detector that sees the picture made small takes for one, these are read too, and taken if
+/// they are surer in the mean. From the top; none that has no text.
+std::vector<ReadLine> readLines(const cv::Mat& picture, const Corners& text, const TextReader& reader);
 
 /// How likely a reading is right, 0 to 1: at least 0.9 means that one in a hundred is wrong. What it was chosen on and
 /// how well it holds: doc/results/signs.md.
