@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "omnimapper/graph/PointFactor.h"
 #include "omnimapper/graph/VariableKinds.h"
 
 namespace omnimapper::graph {
@@ -27,6 +28,8 @@ std::optional<double> FalseVolume::logOf(const FactorRecord& record) const {
     volume = size_.x() * size_.y() * 2 * pi;
   else if (record.factor->kind() == "between_se3")
     volume = size_.prod() * 8 * pi * pi;  // of the rotation group in rotation vectors
+  else if (record.factor->kind() == SamePointFactor::kKind)
+    volume = size_.prod();
   else
     return std::nullopt;
   return std::log(volume * std::abs(record.noise.matrix().determinant()));

@@ -35,4 +35,12 @@ void PointFactor3::write(std::ostream& out) const {
   writeVector(out, point_in_base_);
 }
 
+void SamePointFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  Eigen::Map<Eigen::Vector3d>{residual} =
+      Eigen::Map<const Eigen::Vector3d>(values[1]) - Eigen::Map<const Eigen::Vector3d>(values[0]);
+  if (!jacobians) return;
+  if (auto by_first = jacobian<0>(jacobians)) by_first = -Eigen::Matrix3d::Identity();
+  if (auto by_second = jacobian<1>(jacobians)) by_second = Eigen::Matrix3d::Identity();
+}
+
 }  // namespace omnimapper::graph

@@ -36,4 +36,13 @@ class PointFactor3 : public SizedFactor<3, Se3Kind, Point3Kind> {
   Eigen::Vector3d point_in_base_;
 };
 
+/// Two points of the map are one. Variables: point, point. Residual: second - first [m].
+class SamePointFactor : public SizedFactor<3, Point3Kind, Point3Kind> {
+ public:
+  static constexpr std::string_view kKind = "same_point3";
+  std::string_view kind() const override { return kKind; }
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream&) const override {}
+};
+
 }  // namespace omnimapper::graph

@@ -1,0 +1,142 @@
+#include "SignClosures.h"
+
+#include <omnimapper/graph/ChiSquare.h>
+#include <omnimapper/graph/PointFactor.h>
+#include <omnimapper/landmarks/Merging.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::plugins {
+
+namespace {
+
+using graph::SamePointFactor;
+
+// [m] Nearer, what says the same is one sign, whatever the covariance allows.
+constexpr double kOfOneSign = 1;
+
+std::optional<landmarks::Fit> fitOfGap(base::VariableId a, base::VariableId b, const mapper::View& view, double sigma) {
+  const auto joint = view.jointCovariance({a, b});
+  if (!joint) return std::nullopt;
+  const Eigen::MatrixXd covariance = joint->topLeftCorner(3, 3) + joint->bottomRightCorner(3, 3) -
+                                     joint->topRightCorner(3, 3) - joint->bottomLeftCorner(3, 3) +
+                                     sigma * sigma * Eigen::Matrix3d::Identity();
+  return landmarks::fitOf(view.graph.value(b) - view.graph.value(a), covariance);
+}
+
+// The hypothesis that two signs are one, if somebody has proposed it.
+std::optional<base::FactorId> hypothesisOf(base::VariableId a, base::VariableId b, const mapper::View& view) {
+  for (const auto id : view.graph.factorsOf(a)) {
+    const auto& record = view.graph.factor(id);
+    if (record.tags.hypothesis && record.factor->kind() == SamePointFactor::kKind &&
+        std::count(record.variables.begin(), record.variables.end(), b) > 0)
+      return id;
+  }
+  return std::nullopt;
+}
+
+class Proposals {
+ public:
+  Proposals(SignTracks& tracks, const SignLandmarksOptions& options, const std::string& section,
+            const mapper::View& view)
+      : tracks_(tracks), options_(options), section_(section), view_(view) {}
+
+  mapper::Batch of(const std::vector<base::LandmarkId>& fresh) {
+    for (const auto id : fresh)
+      if (tracks_.known().count(id) > 0) look(id);
+    for (const auto id : repeated_) {
+      if (!signOf(view_, id).is_repeated) batch_.describeLandmark(id, signOf(view_, id).repeated());
+    }
+    return std::move(batch_);
+  }
+
+ private:
+  void look(base::LandmarkId id) {
+    const auto& own = tracks_.known().at(id);
+    const SignText text = signOf(view_, id).text();
+    std::vector<base::LandmarkId> others;
+    bool is_repeated = false;
+    for (const auto& [other, known] : tracks_.known()) {
+      if (other == id || agreementOf(text, signOf(view_, other).text()) != Agreement::agrees) continue;
+      is_repeated = is_repeated || signOf(view_, other).is_repeated;
+      if (id < other) continue;
+      if (tracks_.isRecent(known, options_.recent_way)) {
+        // Seen on one stretch of the way, and they are two.
+        const bool is_far = (view_.graph.value(own.variable) - view_.graph.value(known.variable)).norm() > kOfOneSign;
+        if (is_far) repeated_.insert(other);
+        is_repeated = is_repeated || is_far;
+      } else {
+        others.push_back(other);
+      }
+    }
+    if (others.size() > 1 || is_repeated) {
+      repeated_.insert(id);
+      repeated_.insert(others.begin(), others.end());
+      return;
+    }
+    if (others.empty()) return;
+    graph::FactorRecord record{
+        {tracks_.known().at(others.front()).variable, own.variable},
+        std::make_shared<SamePointFactor>(),
+        graph::SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(options_.same_sigma))};
+    record.tags.owner = section_;
+    record.tags.landmark = id;
+    record.tags.note = "same sign " + signOf(view_, id).title();
+    mapper::Decision decision;
+    decision.stamp = view_.map.landmark(id).last_seen;
+    decision.plugin = section_;
+    decision.kind = "same sign";
+    decision.reason = "waits for the consistency test";
+    decision.from = view_.map.key_frames.back().id;
+    decision.numbers.emplace_back("landmark", others.front().index);
+    batch_.addHypothesis(std::move(record), std::move(decision));
+  }
+
+  SignTracks& tracks_;
+  const SignLandmarksOptions& options_;
+  const std::string& section_;
+  const mapper::View& view_;
+  std::set<base::LandmarkId> repeated_;
+  mapper::Batch batch_;
+};
+
+}  // namespace
+
+mapper::Batch proposeSameSigns(SignTracks& tracks, const SignLandmarksOptions& options, const std::string& section,
+                               const mapper::View& view) {
+  return Proposals(tracks, options, section, view).of(std::exchange(tracks.fresh, {}));
+}
+
+mapper::Batch mergeSameSigns(const SignTracks& tracks, const SignLandmarksOptions& options, const std::string& section,
+                             const mapper::View& view) {
+  const double limit = graph::chiSquareQuantile(options.confidence, 3) * options.inflation * options.inflation;
+  mapper::Batch batch;
+  std::set<base::LandmarkId> gone;
+  for (auto a = tracks.known().begin(); a != tracks.known().end(); ++a) {
+    if (gone.count(a->first) > 0) continue;
+    auto merged = std::make_shared<SignPayload>(signOf(view, a->first));
+    for (auto b = std::next(a); b != tracks.known().end(); ++b) {
+      if (gone.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
+      const SignPayload& other = signOf(view, b->first);
+      if (agreementOf(merged->text(), other.text()) == Agreement::contradicts) continue;
+      const auto hypothesis = hypothesisOf(a->second.variable, b->second.variable, view);
+      const bool is_accepted = hypothesis && view.graph.factor(*hypothesis).weight > 0;
+      const auto gap = view.graph.value(b->second.variable) - view.graph.value(a->second.variable);
+      if (!is_accepted && gap.norm() > kOfOneSign) continue;
+      const auto fit = fitOfGap(a->second.variable, b->second.variable, view, options.same_sigma);
+      if (!is_accepted && (!fit || fit->chi2 > limit)) continue;
+      if (hypothesis) batch.removeFactor(*hypothesis);
+      merged = merged->with(other);
+      gone.insert(b->first);
+      batch.mergeLandmarks(b->first, a->first, merged);
+      batch.log(landmarks::mergeDecision(view, section, a->first, b->first, fit ? fit->chi2 : 0, limit));
+    }
+  }
+  return batch;
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,203 @@
+#include "SignLandmarksPlugin.h"
+
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/landmarks/InterSessionHypothesis.h>
+#include <omnimapper/plugin/PoseFactors.h>
+
+#include <optional>
+#include <utility>
+
+#include "SignBearingFactor.h"
+#include "SignClosures.h"
+#include "SignPayload.h"
+#include "SignSighting.h"
+#include "SignTracks.h"
+
+IMPLEMENTS_MRPT_OBJECT(SignLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+using obs::CObservationDoorSigns;
+
+const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
+  using Options = SignLandmarksOptions;
+  using base::Range;
+  static const auto table = [] {
+    auto own =
+        base::OptionTable<Options>()
+            .text("label", &Options::label, "Sensor label of the signs, \"camera.signs\"; empty for every camera.")
+            .number("min_confidence", &Options::min_confidence, {0, 1},
+                    "Lines of text that are less sure do not count.")
+            .number("pixel_sigma_deg", &Options::pixel_sigma, Range::positive(),
+                    "Standard deviation of a direction in the camera.")
+            .number("pan_sigma_deg", &Options::pan_sigma, Range::notNegative(),
+                    "Standard deviation of what is told of the camera's turn on the base, anew in each image.")
+            .number("tilt_sigma_deg", &Options::tilt_sigma, Range::notNegative(), "The same of its pitch.")
+            .number("max_sigma_m", &Options::max_sigma, Range::positive(),
+                    "A sign is in the map when its place is known so well from the directions it was seen in.")
+            .number("recent_m", &Options::recent_way, Range::positive(),
+                    "A sign that was not seen for so long a way is met again by a hypothesis alone.")
+            .number("same_sigma_m", &Options::same_sigma, Range::positive(),
+                    "Standard deviation of where the middle of a sign is seen, on two visits.")
+            .number("loss_scale", &Options::loss_scale, Range::positive(),
+                    "Scale of the Huber loss, in standard deviations.");
+    return declareIn(own);
+  }();
+  return table;
+}
+
+// The work on one observation.
+class SignLandmarksPlugin::Work {
+ public:
+  Work(const SignLandmarksOptions& options, const mapper::PluginContext& context, SignTracks& tracks,
+       const map::KeyFrame& frame, const mapper::View& view)
+      : options_(options), context_(context), tracks_(tracks), frame_(frame), view_(view) {}
+
+  mapper::Batch take(const CObservationDoorSigns& observation) {
+    label_ = observation.source_label;
+    const auto sightings = signSightings(observation, options_);
+    std::vector<mapper::Pairing> pairings;
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+      for (const auto& [id, known] : tracks_.known()) {
+        const bool may_be_met = view_.map_is_held || tracks_.isRecent(known, options_.recent_way);
+        if (!may_be_met || agreementOf(sightings[i].text, signOf(view_, id).text()) == Agreement::contradicts) continue;
+        pairings.push_back({i, id, record(sightings[i], known.variable, id)});
+      }
+    }
+    const auto found = mapper::associate(sightings.size(), pairings, view_, options_, mapper::Repeats::no);
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+      const auto& match = found.matches[i];
+      mapper::Decision decision = decisionOf();
+      found.tell(i, decision);
+      if (match.kind == mapper::Match::Kind::matched) {
+        addToKnown(sightings[i], pairings[*match.pairing], std::move(decision));
+      } else if (isOneOfSeveral(sightings, i)) {
+        decision.reason = "another sign of the image says the same";
+        batch_.log(std::move(decision));
+      } else if (match.kind == mapper::Match::Kind::unknown && !view_.map_is_held) {
+        wait(sightings[i], std::move(decision));
+      } else {
+        batch_.log(std::move(decision));
+      }
+    }
+    return std::move(batch_);
+  }
+
+ private:
+  graph::FactorRecord record(const SignSighting& sighting, base::VariableId point, base::LandmarkId landmark) const {
+    auto record = sighting.record(frame_.pose, point, options_);
+    record.tags.owner = context_.section;
+    record.tags.landmark = landmark;
+    return record;
+  }
+
+  mapper::Decision decisionOf() const {
+    mapper::Decision decision;
+    decision.stamp = frame_.stamp;
+    decision.plugin = context_.section;
+    decision.kind = "sign sighting";
+    decision.from = frame_.id;
+    return decision;
+  }
+
+  static bool isOneOfSeveral(const std::vector<SignSighting>& sightings, std::size_t which) {
+    for (std::size_t i = 0; i < sightings.size(); ++i)
+      if (i != which && agreementOf(sightings[i].text, sightings[which].text) == Agreement::agrees) return true;
+    return false;
+  }
+
+  void addToKnown(const SignSighting& sighting, const mapper::Pairing& pairing, mapper::Decision decision) {
+    tracks_.seen(pairing.landmark);
+    if (landmarks::addInterSessionHypothesis(view_, frame_.id, pairing, decision, batch_)) return;
+    batch_.log(std::move(decision));
+    batch_.addFactor(pairing.record);
+    batch_.addEvidence(pairing.landmark, signOf(view_, pairing.landmark).with(sighting.text, label_));
+  }
+
+  // A sign that is not in the map: in it once two directions or more show where it is.
+  void wait(const SignSighting& sighting, mapper::Decision decision) {
+    // Of two directions nothing would show that one is wrong; words stand on more than one door.
+    const std::size_t min_views = sighting.text.number.empty() ? 4 : 3;
+    const auto& views = tracks_.waitingWith({frame_.id, frame_.pose, sighting});
+    const auto place = triangulate(views, view_.graph, options_.max_sigma, min_views);
+    decision.numbers.emplace_back("directions", static_cast<double>(views.size()));
+    if (!place) {
+      decision.reason = "waits for a direction that shows where it is";
+      return batch_.log(std::move(decision));
+    }
+    decision.accepted = true;
+    decision.reason = "new";
+    batch_.log(std::move(decision));
+    const auto variable = batch_.addVariable(graph::point3(), place->point);
+    auto payload = std::make_shared<SignPayload>();
+    for (const auto i : place->views) payload = payload->with(views[i].sighting.text, label_);
+    const auto landmark = batch_.addLandmark("sign", {variable}, payload);
+    for (const auto i : place->views) {
+      const auto& each = views[i];
+      auto factor = each.sighting.record(each.pose, variable, options_);
+      factor.tags.owner = context_.section;
+      factor.tags.landmark = landmark;
+      batch_.addFactor(std::move(factor));
+    }
+    tracks_.forget(views, place->views);
+  }
+
+  const SignLandmarksOptions& options_;
+  const mapper::PluginContext& context_;
+  SignTracks& tracks_;
+  const map::KeyFrame& frame_;
+  const mapper::View& view_;
+  std::string label_;
+  mapper::Batch batch_;
+};
+
+SignLandmarksPlugin::SignLandmarksPlugin(const SignLandmarksOptions& options, const mapper::PluginContext& context)
+    : options_(options), context_(context), tracks_(std::make_unique<SignTracks>(context.section)) {}
+
+SignLandmarksPlugin::~SignLandmarksPlugin() = default;
+
+bool SignLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) const {
+  return dynamic_cast<const CObservationDoorSigns*>(&observation) != nullptr &&
+         (options_.label.empty() || observation.sensorLabel == options_.label);
+}
+
+mapper::Batch SignLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                                           const mapper::View& view) {
+  tracks_->goTo(frame, view, options_.recent_way);
+  return Work(options_, context_, *tracks_, frame, view)
+      .take(dynamic_cast<const CObservationDoorSigns&>(observed.observation));
+}
+
+void SignLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {
+  for (const auto id : ids.landmarks) tracks_->add(id);
+}
+
+mapper::FollowUp SignLandmarksPlugin::afterCommit(const map::KeyFrame&, const mapper::View& view) {
+  if (tracks_->fresh.empty()) return {};
+  tracks_->update(view);
+  return {proposeSameSigns(*tracks_, options_, context_.section, view), {}};
+}
+
+mapper::Batch SignLandmarksPlugin::atEnd(const mapper::View& view) {
+  if (view.map_is_held) return {};
+  tracks_->update(view);
+  return mergeSameSigns(*tracks_, options_, context_.section, view);
+}
+
+void SignLandmarksPlugin::restore(const map::MapSection*, const mapper::View& view) {
+  tracks_->restore(view);
+}
+
+void SignLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+  SignBearingFactor::addTo(kinds.factors);
+  SignPayload::addTo(kinds.payloads);
+}
+
+std::unique_ptr<mapper::MeasurementPlugin> SignLandmarksPluginFactory::make(
+    const base::ConfigSection& section, const mapper::PluginContext& context) const {
+  return std::make_unique<SignLandmarksPlugin>(section.read<SignLandmarksOptions>(mapper::sectionKeysOfEngine()),
+                                               context);
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <omnimapper/plugin/Association.h>
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace omnimapper::plugins {
+
+struct SignLandmarksOptions : mapper::AssociationOptions {
+  std::string label;                                                ///< empty: signs of every camera
+  double min_confidence = 0.8;                                      ///< of a line of text
+  double pixel_sigma = 0.1 * base::option_text::kRadiansPerDegree;  ///< [rad] of a direction in the camera
+  double pan_sigma = 0.5 * base::option_text::kRadiansPerDegree;    ///< [rad] of what is told of the camera's turn
+  double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;   ///< [rad] the same of its pitch
+  double max_sigma = 0.15;                                          ///< [m] of the place of a new sign
+  double recent_way = 10;                                           ///< [m] for so long a sign counts as seen just now
+  double same_sigma = 0.03;                                         ///< [m] of the middle of a sign, seen twice
+  double loss_scale = 3;                                            ///< [sigma] of the Huber loss
+
+  static const base::OptionTable<SignLandmarksOptions>& table();
+};
+
+/// Door signs as landmarks (thesis 4.3.2.5): points of space with a text, measured by the directions in which cameras
+/// see them (obs::CObservationDoorSigns). A direction alone waits until another with the same text shows where the sign
+/// is. Which sign a sighting is of is told by its text first and by where it is second.
+///
+/// A sign that was not seen for `recent_way` is not met again at once: a new landmark is made where it is seen, and
+/// that both are one is a hypothesis for the consistency test, which closes loops. A text that is seen at two places
+/// makes no such hypothesis. What turns out to be one is merged at the end.
+class SignLandmarksPlugin : public mapper::MeasurementPlugin {
+ public:
+  SignLandmarksPlugin(const SignLandmarksOptions& options, const mapper::PluginContext& context);
+  ~SignLandmarksPlugin() override;
+
+  bool wants(const mrpt::obs::CObservation& observation) const override;
+  mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
+                        const mapper::View& view) override;
+  void applied(const mapper::AppliedBatch& ids) override;
+  mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
+  mapper::Batch atEnd(const mapper::View& view) override;
+  void restore(const map::MapSection* saved, const mapper::View& view) override;
+
+ private:
+  class Work;
+
+  SignLandmarksOptions options_;
+  mapper::PluginContext context_;
+  std::unique_ptr<class SignTracks> tracks_;
+};
+
+class SignLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
+  DEFINE_MRPT_OBJECT(SignLandmarksPluginFactory, omnimapper::plugins)
+ public:
+  std::string name() const override { return "SignLandmarksPlugin"; }
+  std::string summary() const override { return "Door signs with their texts, from the directions they are seen in."; }
+  const std::vector<base::OptionSpec>& options() const override { return SignLandmarksOptions::table().specs(); }
+  void registerKinds(mapper::Kinds& kinds) const override;
+  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
+                                                  const mapper::PluginContext& context) const override;
+};
+
+}  // namespace omnimapper::plugins

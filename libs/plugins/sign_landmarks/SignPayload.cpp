@@ -1,0 +1,145 @@
+#include "SignPayload.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/graph/ByteIo.h>
+#include <omnimapper/graph/VariableKinds.h>
+
+#include <algorithm>
+
+namespace omnimapper::plugins {
+
+namespace {
+
+constexpr std::uint64_t kVersion = 1;
+
+using Votes = std::map<std::string, double>;
+
+void add(Votes& votes, const Votes& others) {
+  for (const auto& [text, weight] : others) votes[text] += weight;
+}
+
+// Of texts with as many votes the first in the alphabet.
+const Votes::value_type* mostOf(const Votes& votes) {
+  const auto most =
+      std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == votes.end() ? nullptr : &*most;
+}
+
+void write(std::ostream& out, const Votes& votes) {
+  graph::writeUint(out, votes.size(), 4);
+  for (const auto& [text, weight] : votes) {
+    graph::writeText(out, text);
+    graph::writeDouble(out, weight);
+  }
+}
+
+Votes readVotes(std::istream& in) {
+  Votes votes;
+  for (auto left = graph::readUint(in, 4); left > 0; --left) {
+    const std::string text = graph::readText(in);
+    votes[text] = graph::readDouble(in);
+  }
+  return votes;
+}
+
+}  // namespace
+
+SignText SignPayload::text() const {
+  constexpr double kShare = 0.5;
+  SignText text;
+  if (const auto* number = mostOf(numbers)) text.number = number->first;
+  if (const auto* most = mostOf(words)) {
+    for (const auto& [word, weight] : words)
+      if (weight >= kShare * most->second) text.words.push_back(word);
+  }
+  return text;
+}
+
+std::string SignPayload::title() const {
+  const SignText read = text();
+  if (!read.number.empty()) return read.number;
+  std::string title;
+  for (const auto& word : read.words) title += (title.empty() ? "" : " ") + word;
+  return title;
+}
+
+std::uint32_t SignPayload::sightings() const {
+  std::uint32_t sum = 0;
+  for (const auto& [label, sightings] : seen_by) sum += sightings;
+  return sum;
+}
+
+std::shared_ptr<SignPayload> SignPayload::with(const SignText& text, const std::string& sensor_label) const {
+  auto more = std::make_shared<SignPayload>(*this);
+  if (!text.number.empty()) more->numbers[text.number] += text.confidence;
+  for (const auto& word : text.words) more->words[word] += text.confidence;
+  ++more->seen_by[sensor_label];
+  return more;
+}
+
+std::shared_ptr<SignPayload> SignPayload::with(const SignPayload& other) const {
+  auto both = std::make_shared<SignPayload>(*this);
+  add(both->numbers, other.numbers);
+  add(both->words, other.words);
+  for (const auto& [label, sightings] : other.seen_by) both->seen_by[label] += sightings;
+  return both;
+}
+
+std::shared_ptr<SignPayload> SignPayload::repeated() const {
+  auto copy = std::make_shared<SignPayload>(*this);
+  copy->is_repeated = true;
+  return copy;
+}
+
+bool SignPayload::fits(const std::vector<std::string_view>& kinds) const {
+  return kinds.size() == 1 && kinds[0] == graph::point3()->kind();
+}
+
+map::LandmarkShape SignPayload::shape(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames&) const {
+  map::LandmarkShape shape;
+  if (values.empty()) return shape;
+  shape.label = "sign " + title();
+  shape.points.emplace_back(values.front());
+  const SignText read = text();
+  if (!read.number.empty()) shape.properties.emplace_back("number", read.number);
+  std::string lines;
+  for (const auto& word : read.words) lines += (lines.empty() ? "" : ", ") + word;
+  if (!lines.empty()) shape.properties.emplace_back("words", lines);
+  if (is_repeated) shape.properties.emplace_back("repeated_elsewhere", "yes");
+  for (const auto& [label, sightings] : seen_by)
+    shape.properties.emplace_back(map::seenByKey(label), std::to_string(sightings));
+  return shape;
+}
+
+void SignPayload::write(std::ostream& out) const {
+  graph::writeUint(out, kVersion, 1);
+  plugins::write(out, numbers);
+  plugins::write(out, words);
+  graph::writeUint(out, is_repeated, 1);
+  graph::writeUint(out, seen_by.size(), 4);
+  for (const auto& [label, sightings] : seen_by) {
+    graph::writeText(out, label);
+    graph::writeUint(out, sightings, 4);
+  }
+}
+
+void SignPayload::addTo(map::PayloadRegistry& registry) {
+  registry.add("door_sign", [](std::istream& in) {
+    if (const auto version = graph::readUint(in, 1); version > kVersion) {
+      throw base::Error(base::ExitCode::unreadable_input,
+                        "a door sign of version " + std::to_string(version) + ": this program reads versions up to " +
+                            std::to_string(kVersion) + "; take the OmniMapper that wrote the map");
+    }
+    auto payload = std::make_shared<SignPayload>();
+    payload->numbers = readVotes(in);
+    payload->words = readVotes(in);
+    payload->is_repeated = graph::readUint(in, 1) != 0;
+    for (auto left = graph::readUint(in, 4); left > 0; --left) {
+      const std::string label = graph::readText(in);
+      payload->seen_by[label] = static_cast<std::uint32_t>(graph::readUint(in, 4));
+    }
+    return payload;
+  });
+}
+
+}  // namespace omnimapper::plugins

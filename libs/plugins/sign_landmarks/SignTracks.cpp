@@ -1,0 +1,67 @@
+#include "SignTracks.h"
+
+#include <omnimapper/plugin/PoseFactors.h>
+
+#include <algorithm>
+
+namespace omnimapper::plugins {
+
+const SignPayload& signOf(const mapper::State& state, base::LandmarkId id) {
+  return dynamic_cast<const SignPayload&>(*state.map.landmark(id).payload);
+}
+
+void SignTracks::restore(const mapper::State& state) {
+  for (const auto id : state.candidates(owner_)) known_[id];
+  update(state);
+}
+
+void SignTracks::update(const mapper::State& state) {
+  for (auto at = known_.begin(); at != known_.end();) {
+    const map::Landmark* landmark = state.map.landmarks.find(at->first);
+    if (!landmark || landmark->state != map::Landmark::State::active) {
+      at = known_.erase(at);
+    } else {
+      at->second.variable = landmark->variables.front();
+      ++at;
+    }
+  }
+}
+
+void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_way) {
+  if (last_pose_ && *last_pose_ != frame.pose && state.graph.contains(*last_pose_))
+    way_ += mapper::poseOf(state.graph, *last_pose_).distanceTo(mapper::poseOf(state.graph, frame.pose));
+  last_pose_ = frame.pose;
+  update(state);
+  while (!waiting_.empty() && way_ - waiting_.front().last_seen > recent_way) waiting_.pop_front();
+}
+
+void SignTracks::add(base::LandmarkId id) {
+  known_[id].last_seen = way_;
+  fresh.push_back(id);
+}
+
+std::vector<SignView>& SignTracks::waitingWith(const SignView& view) {
+  const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+    return agreementOf(waiting.views.back().sighting.text, view.sighting.text) == Agreement::agrees;
+  });
+  Waiting waiting{{}, way_};
+  if (found != waiting_.end()) {
+    waiting = std::move(*found);
+    waiting.last_seen = way_;
+    waiting_.erase(found);
+  }
+  waiting.views.push_back(view);
+  waiting_.push_back(std::move(waiting));  // those that were seen last are last
+  return waiting_.back().views;
+}
+
+void SignTracks::forget(const std::vector<SignView>& waiting, const std::vector<std::size_t>& which) {
+  const auto found =
+      std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& each) { return &each.views == &waiting; });
+  if (found == waiting_.end()) return;
+  for (auto i = which.rbegin(); i != which.rend(); ++i)
+    found->views.erase(found->views.begin() + static_cast<std::ptrdiff_t>(*i));
+  if (found->views.empty()) waiting_.erase(found);
+}
+
+}  // namespace omnimapper::plugins

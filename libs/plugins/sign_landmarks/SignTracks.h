@@ -1,0 +1,61 @@
+#pragma once
+
+#include <omnimapper/plugin/View.h>
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "SignPayload.h"
+#include "SignSighting.h"
+
+namespace omnimapper::plugins {
+
+const SignPayload& signOf(const mapper::State& state, base::LandmarkId id);
+
+/// The signs of the map, how long ago each was seen, and sightings that wait until they show where a sign is.
+class SignTracks {
+ public:
+  /// `owner`: INI section.
+  explicit SignTracks(std::string owner) : owner_(std::move(owner)) {}
+
+  void restore(const mapper::State& state);
+  /// Learns what the map has now, and that the base came to this key frame.
+  void goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_way);
+  /// Forgets what was retired or merged.
+  void update(const mapper::State& state);
+  void add(base::LandmarkId id);
+  void seen(base::LandmarkId id) { known_.at(id).last_seen = way_; }
+
+  struct Known {
+    base::VariableId variable;
+    std::optional<double> last_seen;  ///< [m] of the way; none in this session
+  };
+  const std::map<base::LandmarkId, Known>& known() const { return known_; }
+  bool isRecent(const Known& known, double recent_way) const {
+    return known.last_seen && way_ - *known.last_seen <= recent_way;
+  }
+
+  /// The views of one sign that waits, with this one.
+  std::vector<SignView>& waitingWith(const SignView& view);
+  /// Takes out those that wait no more, by their places, in order.
+  void forget(const std::vector<SignView>& waiting, const std::vector<std::size_t>& which);
+
+  std::vector<base::LandmarkId> fresh;  ///< landmarks that nobody has compared with the others yet
+
+ private:
+  struct Waiting {
+    std::vector<SignView> views;
+    double last_seen;
+  };
+
+  std::string owner_;
+  std::map<base::LandmarkId, Known> known_;
+  std::deque<Waiting> waiting_;  // references to its elements last while others are added
+  double way_ = 0;               // [m] that the base has gone
+  std::optional<base::VariableId> last_pose_;
+};
+
+}  // namespace omnimapper::plugins

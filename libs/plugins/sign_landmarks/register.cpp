@@ -1,0 +1,14 @@
+#include <omnimapper/base/AtLoad.h>
+
+#include "SignLandmarksPlugin.h"
+
+namespace omnimapper::plugins {
+
+// The build links this file last: the ids of the classes are made before.
+const base::AtLoad kRegister([] {
+  using mrpt::rtti::registerClass;
+  mapper::registerFactoryBases();
+  registerClass(CLASS_ID(SignLandmarksPluginFactory));
+});
+
+}  // namespace omnimapper::plugins
