@@ -133,6 +133,7 @@ class SignLandmarksPlugin::Work {
     auto payload = std::make_shared<SignPayload>();
     for (const auto i : place->views) payload = payload->with(views[i].sighting.text, label_);
     const auto landmark = batch_.addLandmark("sign", {variable}, payload);
+    for (std::size_t i = 1; i < place->views.size(); ++i) batch_.addEvidence(landmark);
     for (const auto i : place->views) {
       const auto& each = views[i];
       auto factor = each.sighting.record(each.pose, variable, options_);

@@ -98,7 +98,8 @@ bool SignPayload::fits(const std::vector<std::string_view>& kinds) const {
 map::LandmarkShape SignPayload::shape(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames&) const {
   map::LandmarkShape shape;
   if (values.empty()) return shape;
-  shape.label = "sign " + title();
+  shape.label = "sign";
+  shape.caption = title();
   shape.points.emplace_back(values.front());
   const SignText read = text();
   if (!read.number.empty()) shape.properties.emplace_back("number", read.number);

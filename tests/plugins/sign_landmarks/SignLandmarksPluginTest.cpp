@@ -84,6 +84,7 @@ struct Mapped {
     for (const auto& [id, landmark] : view.map.landmarks) {
       if (landmark.state != map::Landmark::State::active) continue;
       const auto& payload = dynamic_cast<const SignPayload&>(*landmark.payload);
+      EXPECT_EQ(landmark.evidence, payload.sightings());
       const Eigen::VectorXd& at = view.graph.value(landmark.variables.front());
       mrpt::math::TPoint3D there;
       truth_from_map.composePoint({at[0], at[1], at[2]}, there);

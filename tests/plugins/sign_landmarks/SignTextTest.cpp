@@ -66,7 +66,8 @@ TEST(SignPayload, whatWasReadMostIsWhatIsWritten) {
   EXPECT_FALSE(both->is_repeated);
   EXPECT_TRUE(both->repeated()->is_repeated);
   const auto shape = sign->shape({Eigen::Vector3d(1, 2, 1.5)}, {});
-  EXPECT_EQ(shape.label, "sign 213");
+  EXPECT_EQ(shape.label, "sign");
+  EXPECT_EQ(shape.caption, "213");
   EXPECT_EQ(shape.points.front().z(), 1.5);
 }
 

@@ -117,6 +117,7 @@ Json geometryOf(const map::LandmarkShape& shape, const Positions& at) {
 Json propertiesOf(const ShapedLandmark& shaped) {
   const map::Landmark& landmark = *shaped.landmark;
   Json properties = {{"feature", "landmark"}, {"label", shaped.shape.label}};
+  if (!shaped.shape.caption.empty()) properties["caption"] = shaped.shape.caption;
   for (const auto& [name, value] : shaped.shape.properties) properties[name] = valueOf(value);
   properties["kind"] = landmark.kind;
   properties["state"] = shaped.moved ? "moved" : "present";

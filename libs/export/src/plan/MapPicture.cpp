@@ -73,6 +73,22 @@ void drawLinesAndPoints(draw::Image& image, const GridPicture& grid, const std::
   }
 }
 
+// Of signs what is written on them, beside their dots. The font has the letters of ASCII.
+void drawCaptions(draw::Image& image, const GridPicture& grid, const std::vector<ShapedLandmark>& landmarks,
+                  double width) {
+  for (const auto& landmark : landmarks) {
+    const PlanShape plan = fromAbove(landmark.shape);
+    if (landmark.shape.caption.empty() || landmark.isFaint() || plan.points.empty()) continue;
+    std::string text = landmark.shape.caption;
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    constexpr std::size_t kLongest = 24;
+    if (text.size() > kLongest) text = text.substr(0, kLongest - 3) + "...";
+    const auto at = grid.pixelOf(plan.points.back().x(), plan.points.back().y());
+    drawLabel(image, static_cast<int>(at.x + 5 * width), static_cast<int>(at.y - 7), text);
+  }
+}
+
 // What the colours of surfaces mean, the most frequent first, with how many there are.
 std::vector<LegendRow> legendOf(const std::vector<ShapedLandmark>& landmarks) {
   std::map<std::string, int> counts;
@@ -109,6 +125,7 @@ draw::Image drawMap(const GridPicture& grid, const std::vector<ShapedLandmark>& 
     drawDot(image, path.back(), {kPaper, 8 * width});
     drawDot(image, path.back(), {kTrack, 6 * width});
   }
+  drawCaptions(image, grid, landmarks, width);
   drawScaleBar(image, grid);
   constexpr int kColumns = 6, kSideOfALetter = 800;  // [px] of the picture, for each 6 by 13 px
   drawLegend(image, legendOf(landmarks), kColumns, std::max(1, std::max(image.width, image.height) / kSideOfALetter));

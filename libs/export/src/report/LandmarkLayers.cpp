@@ -19,8 +19,8 @@ std::string cssColour(const draw::Rgb& colour) {
 
 std::string titleOf(const ShapedLandmark& shaped) {
   const auto& [landmark, shape, moved] = shaped;
-  std::string text = shape.label + " " + toString(landmark->id) + (moved ? " (moved)" : "") + ": " +
-                     std::to_string(landmark->evidence) + " sightings";
+  std::string text = shape.label + " " + (shape.caption.empty() ? toString(landmark->id) : shape.caption) +
+                     (moved ? " (moved)" : "") + ": " + std::to_string(landmark->evidence) + " sightings";
   for (const auto& [name, value] : shape.properties) text += "\n" + name + " " + value;
   return "<title>" + draw::escapeMarkup(text) + "</title>";
 }
@@ -45,6 +45,10 @@ std::string svgOf(const GridPicture& grid, const ShapedLandmark& shaped) {
   for (const auto& point : plan.points) {
     places.push_back(at(point));
     paths += svgPathOf("point", svgPath({places.back()}) + "h0");  // a line of no length with round ends
+  }
+  if (!shaped.shape.caption.empty() && !places.empty()) {
+    paths += "<text class=\"caption\" x=\"" + base::fixed(places.back().x + 6, 1) + "\" y=\"" +
+             base::fixed(places.back().y + 4, 1) + "\">" + draw::escapeMarkup(shaped.shape.caption) + "</text>";
   }
   if (!shaped.shape.point_stamps.empty() && places.size() > 1) paths += svgPathOf("moved", svgPath(places));
   return paths.empty() ? "" : (shaped.isFaint() ? "<g class=\"faint\">" : "<g>") + titleOf(shaped) + paths + "</g>\n";

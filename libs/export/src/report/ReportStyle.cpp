@@ -37,6 +37,7 @@ header p, .note { color: var(--soft); margin: 4px 0 0; font-size: 13.5px; }
 #map g.landmarks path { stroke: currentColor; stroke-width: 4; stroke-linecap: round; fill: none; vector-effect: non-scaling-stroke; }
 #map g.landmarks path.area { stroke-width: 1.6; fill: currentColor; fill-opacity: 0.28; }
 #map g.landmarks path.point { stroke-width: 9; }
+#map g.landmarks text.caption { font: 11px sans-serif; fill: currentColor; stroke: none; }
 #map g.landmarks path.moved { stroke-width: 2; stroke-dasharray: 1 5; fill: none; }
 #map g.landmarks path.floor { fill-opacity: 0.08; stroke-dasharray: 6 4; pointer-events: stroke; }
 #map g.landmarks g.faint path { stroke-width: 1.2; } #map g.landmarks g.faint path.area { fill-opacity: 0.1; }

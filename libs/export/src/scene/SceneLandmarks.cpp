@@ -91,7 +91,8 @@ CSetOfObjects::Ptr objectOf(const ShapedLandmark& landmark, bool with_name) {
   if (const auto strokes = landmarkStrokes(landmark); strokes->getTrianglesCount() > 0) object->insert(strokes);
   for (const auto& point : shape.points) obs::addBall(*object, point, kPointBall, inkOf(landmark));
   if (with_name && !landmark.isFaint()) {
-    const std::string text = shape.label + " " + std::to_string(landmark.landmark->id.index);
+    const std::string text =
+        shape.label + " " + (shape.caption.empty() ? std::to_string(landmark.landmark->id.index) : shape.caption);
     obs::addText(*object, namePlace(shape), landmark.moved ? text + " (moved)" : text, inkOf(landmark));
   }
   return object;

@@ -26,7 +26,8 @@ inline std::string seenByKey(const std::string& label) {
 
 /// How a landmark looks in the map, for whoever draws or exports it. All in the frame of the map [m].
 struct LandmarkShape {
-  std::string label;                         ///< what a user calls it: "wall", "table"
+  std::string label;                         ///< what a user calls it: "wall", "table", "sign"
+  std::string caption;                       ///< what is written beside it in drawings: a sign's text; may be empty
   std::string reason;                        ///< why it is called so; may be empty
   bool is_candidate = false;                 ///< seen too little to be drawn
   std::vector<geometry::Polygon3> surfaces;  ///< flat, each may be concave
