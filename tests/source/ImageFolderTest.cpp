@@ -85,6 +85,7 @@ TEST_F(ImageFolderTest, imagesWithoutTheirEndAreLeftOutAndCounted) {
   };
   save("preview.jpg", with_preview);
   save("signed.jpg", jpeg + "what another program adds");
+  save("padded.png", png + std::string(1000, '\0'));
   save("cut.jpg", jpeg.substr(0, jpeg.size() - 2));
   save("cut_preview.jpg", with_preview.substr(0, with_preview.size() - 40));
   save("cut.png", png.substr(0, png.size() - 12));
@@ -92,7 +93,7 @@ TEST_F(ImageFolderTest, imagesWithoutTheirEndAreLeftOutAndCounted) {
   ImageFolder images(folder_.path());
   int count = 0;
   while (images.next()) ++count;
-  EXPECT_EQ(count, 4) << "two whole ones, that with a preview, and that with something behind it";
+  EXPECT_EQ(count, 5) << "two whole ones, that with a preview, and those with something behind them";
   EXPECT_EQ(images.report().missing_images, 4u);
   EXPECT_NE(images.report().first_missing_image.find("cut.jpg: its end is missing"), std::string::npos);
 }

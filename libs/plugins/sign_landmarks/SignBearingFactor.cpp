@@ -26,7 +26,15 @@ void SignBearingFactor::evaluate(const double* const* values, double* residual, 
   const Vector2d aside = across_ * seen;
   const double ahead = direction_.dot(seen), sine = aside.norm();
   const double squared = std::max(sine * sine + ahead * ahead, 1e-18), angle = std::atan2(sine, ahead);
-  constexpr double kSmall = 1e-4;
+  constexpr double kSmall = 1e-4, kNearest = 1e-9;  // [1] [m]
+  if (ahead < kNearest && sine < kNearest) {  // straight behind the camera, or in it: no direction leads to the point
+    residual[0] = ahead < 0 ? angle : 0;
+    residual[1] = 0;
+    if (!jacobians) return;
+    if (auto by_base = jacobian<0>(jacobians)) by_base.setZero();
+    if (auto by_point = jacobian<1>(jacobians)) by_point.setZero();
+    return;
+  }
   const bool is_small = sine < kSmall * ahead;
   const double scale = is_small ? 1 / ahead : angle / std::max(sine, 1e-9);
   Eigen::Map<Vector2d>{residual} = scale * aside;

@@ -69,7 +69,7 @@ class Proposals {
         const bool is_far = (view_.graph.value(own.variable) - view_.graph.value(known.variable)).norm() > kOfOneSign;
         if (is_far) repeated_.insert(other);
         is_repeated = is_repeated || is_far;
-      } else {
+      } else if (std::none_of(others.begin(), others.end(), [&](auto one) { return areOne(one, other); })) {
         others.push_back(other);
       }
     }
@@ -94,6 +94,12 @@ class Proposals {
     decision.from = view_.map.key_frames.back().id;
     decision.numbers.emplace_back("landmark", others.front().index);
     batch_.addHypothesis(std::move(record), std::move(decision));
+  }
+
+  // By a hypothesis that acts; they are merged at the end.
+  bool areOne(base::LandmarkId a, base::LandmarkId b) const {
+    const auto hypothesis = hypothesisOf(tracks_.known().at(a).variable, tracks_.known().at(b).variable, view_);
+    return hypothesis && view_.graph.factor(*hypothesis).weight > 0;
   }
 
   SignTracks& tracks_;
@@ -122,14 +128,15 @@ mapper::Batch mergeSameSigns(const SignTracks& tracks, const SignLandmarksOption
     for (auto b = std::next(a); b != tracks.known().end(); ++b) {
       if (gone.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
       const SignPayload& other = signOf(view, b->first);
-      if (agreementOf(merged->text(), other.text()) == Agreement::contradicts) continue;
+      const auto agreement = agreementOf(merged->text(), other.text());
       const auto hypothesis = hypothesisOf(a->second.variable, b->second.variable, view);
       const bool is_accepted = hypothesis && view.graph.factor(*hypothesis).weight > 0;
+      if (agreement == Agreement::contradicts && hypothesis) batch.removeFactor(*hypothesis);  // read otherwise since
+      if (agreement == Agreement::contradicts || (agreement == Agreement::unknown && !is_accepted)) continue;
       const auto gap = view.graph.value(b->second.variable) - view.graph.value(a->second.variable);
       if (!is_accepted && gap.norm() > kOfOneSign) continue;
       const auto fit = fitOfGap(a->second.variable, b->second.variable, view, options.same_sigma);
       if (!is_accepted && (!fit || fit->chi2 > limit)) continue;
-      if (hypothesis) batch.removeFactor(*hypothesis);
       merged = merged->with(other);
       gone.insert(b->first);
       batch.mergeLandmarks(b->first, a->first, merged);

@@ -32,12 +32,14 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
             .number("pixel_sigma_deg", &Options::pixel_sigma, Range::positive(),
                     "Standard deviation of a direction in the camera.")
             .number("pan_sigma_deg", &Options::pan_sigma, Range::notNegative(),
-                    "Standard deviation of what is told of the camera's turn on the base, anew in each image.")
-            .number("tilt_sigma_deg", &Options::tilt_sigma, Range::notNegative(), "The same of its pitch.")
+                    "Standard deviation of the pan angle that a camera reports, independent in each image.")
+            .number("tilt_sigma_deg", &Options::tilt_sigma, Range::notNegative(),
+                    "Standard deviation of the tilt angle that a camera reports, independent in each image.")
             .number("max_sigma_m", &Options::max_sigma, Range::positive(),
-                    "A sign is in the map when its place is known so well from the directions it was seen in.")
+                    "Largest standard deviation of the position of a new sign; until then its directions wait.")
             .number("recent_m", &Options::recent_way, Range::positive(),
-                    "A sign that was not seen for so long a way is met again by a hypothesis alone.")
+                    "Distance travelled without a sighting after which a sign is matched only through a loop closure "
+                    "hypothesis.")
             .number("same_sigma_m", &Options::same_sigma, Range::positive(),
                     "Standard deviation of where the middle of a sign is seen, on two visits.")
             .number("loss_scale", &Options::loss_scale, Range::positive(),
@@ -119,7 +121,7 @@ class SignLandmarksPlugin::Work {
   void wait(const SignSighting& sighting, mapper::Decision decision) {
     // Of two directions nothing would show that one is wrong; words stand on more than one door.
     const std::size_t min_views = sighting.text.number.empty() ? 4 : 3;
-    const auto& views = tracks_.waitingWith({frame_.id, frame_.pose, sighting});
+    const auto& views = tracks_.waitingWith({frame_.pose, sighting, tracks_.travelled()}, options_.recent_way);
     const auto place = triangulate(views, view_.graph, options_.max_sigma, min_views);
     decision.numbers.emplace_back("directions", static_cast<double>(views.size()));
     if (!place) {

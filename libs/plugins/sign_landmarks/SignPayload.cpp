@@ -79,6 +79,7 @@ std::shared_ptr<SignPayload> SignPayload::with(const SignText& text, const std::
 
 std::shared_ptr<SignPayload> SignPayload::with(const SignPayload& other) const {
   auto both = std::make_shared<SignPayload>(*this);
+  both->is_repeated = is_repeated || other.is_repeated;
   add(both->numbers, other.numbers);
   add(both->words, other.words);
   for (const auto& [label, sightings] : other.seen_by) both->seen_by[label] += sightings;

@@ -52,7 +52,7 @@ struct Ray {
 
 std::vector<Ray> raysOf(const std::vector<SignView>& views, const graph::Graph& graph) {
   std::vector<Ray> rays;
-  for (const auto& [frame, pose, sighting] : views) {
+  for (const auto& [pose, sighting, travelled] : views) {
     const geometry::Se3 map_from_base = geometry::fromMrpt(mapper::poseOf(graph, pose));
     rays.push_back({map_from_base * sighting.camera, map_from_base.rotation * sighting.direction,
                     std::max(sighting.sigma_left, sighting.sigma_down)});

@@ -30,9 +30,9 @@ std::vector<SignSighting> signSightings(const obs::CObservationDoorSigns& observ
 
 /// A sighting and where the base was then.
 struct SignView {
-  base::KeyFrameId frame;
   base::VariableId pose;
   SignSighting sighting;
+  double travelled = 0;  ///< [m] when it was seen
 };
 
 struct Triangulation {

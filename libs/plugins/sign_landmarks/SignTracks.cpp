@@ -28,9 +28,12 @@ void SignTracks::update(const mapper::State& state) {
 }
 
 void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_way) {
-  if (last_pose_ && *last_pose_ != frame.pose && state.graph.contains(*last_pose_))
-    way_ += mapper::poseOf(state.graph, *last_pose_).distanceTo(mapper::poseOf(state.graph, frame.pose));
-  last_pose_ = frame.pose;
+  if (!last_pose_ || frame.stamp > last_stamp_) {  // not of a frame that came late
+    if (last_pose_ && state.graph.contains(*last_pose_))
+      way_ += mapper::poseOf(state.graph, *last_pose_).distanceTo(mapper::poseOf(state.graph, frame.pose));
+    last_pose_ = frame.pose;
+    last_stamp_ = frame.stamp;
+  }
   update(state);
   while (!waiting_.empty() && way_ - waiting_.front().last_seen > recent_way) waiting_.pop_front();
 }
@@ -40,7 +43,7 @@ void SignTracks::add(base::LandmarkId id) {
   fresh.push_back(id);
 }
 
-std::vector<SignView>& SignTracks::waitingWith(const SignView& view) {
+std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double recent_way) {
   const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
     return agreementOf(waiting.views.back().sighting.text, view.sighting.text) == Agreement::agrees;
   });
@@ -49,6 +52,9 @@ std::vector<SignView>& SignTracks::waitingWith(const SignView& view) {
     waiting = std::move(*found);
     waiting.last_seen = way_;
     waiting_.erase(found);
+    const auto is_old = [&](const SignView& each) { return way_ - each.travelled > recent_way; };
+    auto& views = waiting.views;
+    views.erase(std::remove_if(views.begin(), views.end(), is_old), views.end());
   }
   waiting.views.push_back(view);
   waiting_.push_back(std::move(waiting));  // those that were seen last are last

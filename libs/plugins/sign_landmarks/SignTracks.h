@@ -33,14 +33,15 @@ class SignTracks {
     base::VariableId variable;
     std::optional<double> last_seen;  ///< [m] of the way; none in this session
   };
+  double travelled() const { return way_; }
   const std::map<base::LandmarkId, Known>& known() const { return known_; }
   bool isRecent(const Known& known, double recent_way) const {
     return known.last_seen && way_ - *known.last_seen <= recent_way;
   }
 
-  /// The views of one sign that waits, with this one.
-  std::vector<SignView>& waitingWith(const SignView& view);
-  /// Takes out those that wait no more, by their places, in order.
+  /// The views of one sign that waits, not older than `recent_way`, with this one.
+  std::vector<SignView>& waitingWith(const SignView& view, double recent_way);
+  /// Removes the views with these ascending indices.
   void forget(const std::vector<SignView>& waiting, const std::vector<std::size_t>& which);
 
   std::vector<base::LandmarkId> fresh;  ///< landmarks that nobody has compared with the others yet
@@ -56,6 +57,7 @@ class SignTracks {
   std::deque<Waiting> waiting_;  // references to its elements last while others are added
   double way_ = 0;               // [m] that the base has gone
   std::optional<base::VariableId> last_pose_;
+  base::Stamp last_stamp_;
 };
 
 }  // namespace omnimapper::plugins

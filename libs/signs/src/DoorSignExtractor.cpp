@@ -131,6 +131,7 @@ class DoorSignExtractor::Finder {
     for (const auto& found : detector_.detect(picture)) {
       if (heightOf(found.quad) < options_.min_height) continue;
       for (const auto& line : readLines(picture, found.quad, *reader_)) {
+        if (heightOf(line.quad) < options_.min_height) continue;
         lines.push_back({found.score, {line.reading.text, confidenceOf(line.reading.evidence)}});
         quads.push_back(line.quad);
       }

@@ -160,13 +160,16 @@ std::vector<ReadLine> readLines(const cv::Mat& picture, const Corners& text, con
   if (!whole.empty() && confidence >= kSure) return whole;
   std::vector<ReadLine> parts;
   double sum = 0;
+  int tried = 0;  // a part without a text counts as one that is not sure at all
   for (const auto& part : partsOf(picture, text)) {
-    for (auto& line : readLines(picture, part, reader)) {
+    auto lines = readLines(picture, part, reader);
+    tried += lines.empty() ? 1 : static_cast<int>(lines.size());
+    for (auto& line : lines) {
       sum += confidenceOf(line.reading.evidence);
       parts.push_back(std::move(line));
     }
   }
-  const bool are_surer = !parts.empty() && (whole.empty() || sum / static_cast<double>(parts.size()) > confidence);
+  const bool are_surer = !parts.empty() && (whole.empty() || sum / tried > confidence);
   return are_surer ? parts : whole;
 }
 

@@ -1,10 +1,10 @@
 #include "PictureChanges.h"
 
 #include <mrpt/img/CImage.h>
-#include <omnimapper/base/Error.h>
 #include <omnimapper/perception/PictureView.h>
 
 #include <algorithm>
+#include <exception>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -27,8 +27,7 @@ PictureChanges::View PictureChanges::viewOf(const mrpt::obs::CObservation& raw) 
     view.size = pixels.size();
     view.camera = *picture.camera;
     view.pose = picture.pose;
-  } catch (const base::Error&) {
-  } catch (const cv::Exception&) {
+  } catch (const std::exception&) {
   }
   return view;
 }

@@ -61,7 +61,7 @@ std::optional<std::string> loadExternalFiles(const CObservation& observation, co
   const auto files = externalFilesOf(observation);
   for (const auto& file : files) {
     if (!fs::is_regular_file(file)) return file;
-    if (const auto reason = whyNotToDecode(file)) return file + " (" + *reason + ")";
+    if (const auto reason = whyTooLarge(file)) return file + " (" + *reason + ")";
   }
   try {
     observation.load();

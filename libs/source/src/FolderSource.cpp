@@ -17,8 +17,8 @@ FolderSource::FolderSource(const std::string& folder, bool (*takes)(const std::s
     : label_(label), rate_(rate) {
   std::error_code error;
   if (fs::is_regular_file(folder, error)) refuse(folder, "is no folder: it " + describeInput(folder));
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (takes(entry.path())) files_.push_back(entry.path());
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (takes(entry->path())) files_.push_back(entry->path());
   if (error) refuse(folder, error.message());
   if (files_.empty()) refuse(folder, "holds no " + what + ": it " + describeInput(folder));
   std::sort(files_.begin(), files_.end());

@@ -1,6 +1,5 @@
 #include "ImageFile.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -20,18 +19,34 @@ std::uint64_t numberAt(const std::string& bytes, std::size_t at, std::size_t siz
   return number;
 }
 
-// The first chunk of a PNG is its header: width and height, four bytes each; the last is empty and called IEND.
+std::string read(std::istream& in, std::size_t size) {
+  std::string bytes(size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+bool isJpeg(const std::string& head) {
+  return head.compare(0, 2, "\xff\xd8") == 0;
+}
+
+// The first chunk of a PNG is its header: width and height, four bytes each.
 std::optional<Size> sizeOfPng(const std::string& head) {
   constexpr std::size_t kWidthAt = 16, kHeightAt = 20;
   if (head.size() < kHeightAt + 4 || head.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0) return std::nullopt;
   return Size{numberAt(head, kWidthAt, 4), numberAt(head, kHeightAt, 4)};
 }
 
-std::string read(std::istream& in, std::size_t size) {
-  std::string bytes(size, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
+// After eight bytes come chunks: four bytes of length, four of name, what is in it, four of its sum. The last is IEND.
+bool hasPngEnd(std::istream& in) {
+  in.clear();
+  in.seekg(8);
+  while (true) {
+    const auto start = read(in, 8);
+    if (start.size() < 8) return false;
+    if (start.compare(4, 4, "IEND") == 0) return true;
+    in.seekg(static_cast<std::streamoff>(numberAt(start, 0, 4)) + 4, std::ios::cur);
+  }
 }
 
 struct Jpeg {
@@ -73,28 +88,20 @@ Jpeg readJpeg(std::istream& in) {
 
 }  // namespace
 
-std::optional<std::string> whyNotToDecode(const std::string& path) {
+std::optional<std::string> whyTooLarge(const std::string& path) {
   constexpr std::uint64_t kMostPixels = 1 << 26;  // 8192 x 8192
-  constexpr std::streamoff kEnd = 64;             // [byte] what some programs leave behind the end of a PNG
   std::ifstream in(path, std::ios::binary);
   const auto head = read(in, 24);
-  Size size;
-  bool is_whole = true;
-  if (head.compare(0, 2, "\xff\xd8") == 0) {
-    const Jpeg jpeg = readJpeg(in);
-    size = jpeg.size;
-    is_whole = jpeg.is_whole;
-  } else if (const auto of_png = sizeOfPng(head)) {
-    size = *of_png;
-    in.clear();
-    in.seekg(0, std::ios::end);
-    in.seekg(std::max(std::streamoff{0}, static_cast<std::streamoff>(in.tellg()) - kEnd));
-    is_whole = read(in, kEnd).find("IEND") != std::string::npos;
-  }
-  if (size.width > 0 && size.height > kMostPixels / size.width)
-    return std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels, more than any camera has";
-  if (!is_whole) return "its end is missing: it was cut off; copy it anew";
-  return std::nullopt;
+  const Size size = isJpeg(head) ? readJpeg(in).size : sizeOfPng(head).value_or(Size());
+  if (size.width == 0 || size.height <= kMostPixels / size.width) return std::nullopt;
+  return std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels, more than any camera has";
+}
+
+bool isCutOff(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const auto head = read(in, 24);
+  if (isJpeg(head)) return !readJpeg(in).is_whole;
+  return sizeOfPng(head) && !hasPngEnd(in);
 }
 
 }  // namespace omnimapper::source

@@ -30,7 +30,8 @@ bool isImage(const std::string& path) {
 mrpt::obs::CObservationImage::Ptr imageIn(const std::string& file, double focal_px) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) refuse(file, "is no file");
-  if (const auto why = whyNotToDecode(file)) refuse(file, *why);
+  if (const auto why = whyTooLarge(file)) refuse(file, *why);
+  if (isCutOff(file)) refuse(file, "its end is missing: it was cut off; copy it anew");
   auto image = mrpt::obs::CObservationImage::Create();
   bool is_decoded = false;
   try {

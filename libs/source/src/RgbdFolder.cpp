@@ -94,7 +94,7 @@ Intrinsics intrinsicsOf(const std::string& folder, const std::string& name) {
 }
 
 bool load(mrpt::img::CImage& image, const std::string& path, int how) {
-  if (!std::filesystem::is_regular_file(path) || whyNotToDecode(path)) return false;
+  if (!std::filesystem::is_regular_file(path) || whyTooLarge(path)) return false;
   try {
     return image.loadFromFile(path, how) && !image.isEmpty();
   } catch (const std::exception&) {

@@ -39,6 +39,12 @@ TEST(SignBearingFactor, IsFiniteEverywhere) {
   }
 }
 
+TEST(SignBearingFactor, WhatIsBehindTheCameraIsHalfATurnOff) {
+  const SignBearingFactor factor({0, 0, 1}, Vector3d::UnitX());
+  EXPECT_NEAR(at(factor, Se3{}, {-1, 0, 1}).residual().norm(), geometry::kPi, 1e-12);
+  EXPECT_NEAR(at(factor, Se3{}, {-1, 1e-6, 1}).residual().norm(), geometry::kPi, 1e-5);
+}
+
 TEST(SignBearingFactor, JacobiansMatchDifferences) {
   testing::Dice dice(1);
   const auto any = [&](double most) { return dice.uniform(-most, most); };

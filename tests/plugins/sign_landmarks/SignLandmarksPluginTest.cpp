@@ -126,6 +126,18 @@ TEST(SignLandmarksPlugin, ASignThatIsMetAgainClosesTheLoop) {
   for (const auto& [title, places] : with.signs) EXPECT_EQ(places.size(), 1U) << title;
 }
 
+TEST(SignLandmarksPlugin, TheThirdVisitClosesTheLoopToo) {
+  const SimulatedLog log(drive(3));
+  const Mapped mapped(log, signsOf(log));
+  EXPECT_GT(mapped.accepted("same sign"), 10U);
+  for (const auto& [title, places] : mapped.signs) EXPECT_EQ(places.size(), 1U) << title;
+  const auto view = mapped.engine->view();
+  for (const auto& [id, landmark] : view.map.landmarks) {
+    if (landmark.state != map::Landmark::State::active) continue;
+    EXPECT_FALSE(dynamic_cast<const SignPayload&>(*landmark.payload).is_repeated);
+  }
+}
+
 // Two doors with one word: neither is taken for the other, and both are in the map.
 TEST(SignLandmarksPlugin, AWordThatIsRepeatedClosesNothing) {
   const auto options = drive(2);
