@@ -69,7 +69,7 @@ class Proposals {
         const bool is_far = (view_.graph.value(own.variable) - view_.graph.value(known.variable)).norm() > kOfOneSign;
         if (is_far) repeated_.insert(other);
         is_repeated = is_repeated || is_far;
-      } else if (std::none_of(others.begin(), others.end(), [&](auto one) { return areOne(one, other); })) {
+      } else if (!isOneOf(others, other)) {
         others.push_back(other);
       }
     }
@@ -94,6 +94,10 @@ class Proposals {
     decision.from = view_.map.key_frames.back().id;
     decision.numbers.emplace_back("landmark", others.front().index);
     batch_.addHypothesis(std::move(record), std::move(decision));
+  }
+
+  bool isOneOf(const std::vector<base::LandmarkId>& others, base::LandmarkId id) const {
+    return std::any_of(others.begin(), others.end(), [&](auto other) { return areOne(other, id); });
   }
 
   // By a hypothesis that acts; they are merged at the end.
