@@ -117,7 +117,7 @@ class SignLandmarksPlugin::Work {
     batch_.addEvidence(pairing.landmark, signOf(view_, pairing.landmark).with(sighting.text, label_));
   }
 
-  // A sign that is not in the map: in it once two directions or more show where it is.
+  // A sign that is not in the map: it is added once enough directions meet.
   void wait(const SignSighting& sighting, mapper::Decision decision) {
     // Of two directions nothing would show that one is wrong; words stand on more than one door.
     const std::size_t min_views = sighting.text.number.empty() ? 4 : 3;
@@ -143,7 +143,7 @@ class SignLandmarksPlugin::Work {
       factor.tags.landmark = landmark;
       batch_.addFactor(std::move(factor));
     }
-    tracks_.forget(views, place->views);
+    tracks_.forget(place->views);
   }
 
   const SignLandmarksOptions& options_;

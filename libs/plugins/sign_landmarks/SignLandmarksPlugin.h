@@ -24,8 +24,8 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
 };
 
 /// Door signs as landmarks (thesis 4.3.2.5): points of space with a text, measured by the directions in which cameras
-/// see them (obs::CObservationDoorSigns). A direction alone waits until another with the same text shows where the sign
-/// is. Which sign a sighting is of is told by its text first and by where it is second.
+/// see them (obs::CObservationDoorSigns). A direction waits until three with the same number meet, or four with the
+/// same words. Which sign a sighting is of is told by its text first and by where it is second.
 ///
 /// A sign that was not seen for `recent_way` is not met again at once: a new landmark is made where it is seen, and
 /// that both are one is a hypothesis for the consistency test, which closes loops. A text that is seen at two places

@@ -57,17 +57,14 @@ std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double rece
     views.erase(std::remove_if(views.begin(), views.end(), is_old), views.end());
   }
   waiting.views.push_back(view);
-  waiting_.push_back(std::move(waiting));  // those that were seen last are last
+  waiting_.push_back(std::move(waiting));
   return waiting_.back().views;
 }
 
-void SignTracks::forget(const std::vector<SignView>& waiting, const std::vector<std::size_t>& which) {
-  const auto found =
-      std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& each) { return &each.views == &waiting; });
-  if (found == waiting_.end()) return;
-  for (auto i = which.rbegin(); i != which.rend(); ++i)
-    found->views.erase(found->views.begin() + static_cast<std::ptrdiff_t>(*i));
-  if (found->views.empty()) waiting_.erase(found);
+void SignTracks::forget(const std::vector<std::size_t>& which) {
+  auto& views = waiting_.back().views;
+  for (auto i = which.rbegin(); i != which.rend(); ++i) views.erase(views.begin() + static_cast<std::ptrdiff_t>(*i));
+  if (views.empty()) waiting_.pop_back();
 }
 
 }  // namespace omnimapper::plugins

@@ -41,8 +41,8 @@ class SignTracks {
 
   /// The views of one sign that waits, not older than `recent_way`, with this one.
   std::vector<SignView>& waitingWith(const SignView& view, double recent_way);
-  /// Removes the views with these ascending indices.
-  void forget(const std::vector<SignView>& waiting, const std::vector<std::size_t>& which);
+  /// Removes the views with these ascending indices from those that waitingWith() gave last.
+  void forget(const std::vector<std::size_t>& which);
 
   std::vector<base::LandmarkId> fresh;  ///< landmarks that nobody has compared with the others yet
 
@@ -54,7 +54,7 @@ class SignTracks {
 
   std::string owner_;
   std::map<base::LandmarkId, Known> known_;
-  std::deque<Waiting> waiting_;  // references to its elements last while others are added
+  std::deque<Waiting> waiting_;  // that which was seen last is last
   double way_ = 0;               // [m] that the base has gone
   std::optional<base::VariableId> last_pose_;
   base::Stamp last_stamp_;
