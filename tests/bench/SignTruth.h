@@ -1,0 +1,159 @@
+#pragma once
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/eval/TumFile.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/obs/CObservationDoorSigns.h>
+#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/RawlogWriter.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::bench {
+
+/// A sign that was found in an image, and what it truly is.
+struct FoundSign {
+  Eigen::Vector3d camera, direction;  ///< in the base [m], unit
+  std::optional<std::size_t> sign;    ///< number in SignTruth::names; none: no sign of the place
+};
+
+/// What omnimapper-simulate tells of a place with door signs, and which of them a perceived log has found.
+class SignTruth {
+ public:
+  using Seen = std::map<base::Stamp, std::vector<FoundSign>>;
+
+  std::vector<std::string> names;
+  std::vector<Eigen::Vector3d> places;  ///< [m] in the world
+  int repeated = 0;                     ///< signs whose text another one has, too
+  eval::Trajectory trajectory;          ///< of the base in the world
+  Seen found;
+  std::size_t of_signs = 0, elsewhere = 0;  ///< of what was found
+  base::Stamp first, last;                  ///< of the perceived log
+
+  /// Writes the perceived log with numbers of true signs for what was read, without what is none, to `labelled`; only
+  /// of signs of which a line is at least `min_confidence` sure.
+  SignTruth(const std::string& folder, const std::string& perceived, const std::string& labelled,
+            double min_confidence) {
+    readPlace(folder);
+    readQuads(folder + "/signs_seen.csv");
+    trajectory = eval::readTum(folder + "/truth.tum");
+    source::RawlogSource log(perceived);
+    source::writeRawlog(labelled, [&](source::RawlogWriter& out) {
+      while (const auto observation = log.next()) {
+        const auto* signs = dynamic_cast<const obs::CObservationDoorSigns*>(observation.get());
+        if (!signs) continue;
+        if (found.empty()) first = signs->timestamp;
+        last = signs->timestamp;
+        out.add(label(*signs, min_confidence));
+      }
+    });
+  }
+
+  /// The sign that was seen there; none if it was no sign.
+  std::optional<std::size_t> signOf(base::Stamp stamp, const Eigen::Vector3d& direction_in_base) const {
+    const auto at = found.find(stamp);
+    if (at == found.end()) return std::nullopt;
+    for (const auto& each : at->second)
+      if ((each.direction - direction_in_base).norm() < 1e-9) return each.sign;
+    return std::nullopt;
+  }
+
+ private:
+  using Quad = std::vector<cv::Point2f>;
+
+  void readPlace(const std::string& folder) {
+    std::ifstream in(folder + "/landmarks.json");
+    if (!in) throw base::Error(base::ExitCode::unreadable_input, folder + ": no landmarks.json of a simulated place");
+    std::map<std::string, int> texts;
+    const auto place = nlohmann::json::parse(in);
+    for (const auto& sign : place["signs"]) {
+      names.push_back(sign["name"].get<std::string>());
+      const auto& at = sign["pose"]["position"];
+      places.emplace_back(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
+      ++texts[sign["text"].dump()];
+    }
+    for (const auto& [text, count] : texts) repeated += count > 1 ? count : 0;
+  }
+
+  // stamp, sensor, measurement, sign, text (may hold commas), x1 ... y4, then six numbers.
+  void readQuads(const std::string& file) {
+    std::ifstream in(file);
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line)) {
+      std::vector<std::string> fields;
+      std::stringstream words(line);
+      for (std::string field; std::getline(words, field, ',');) fields.push_back(field);
+      const std::size_t n = fields.size();
+      if (n < 19) continue;
+      const auto name = std::find(names.begin(), names.end(), fields[3]);
+      constexpr double kLeastVisible = 0.05;
+      if (name == names.end() || std::stod(fields[n - 2]) < kLeastVisible) continue;
+      Quad quad;
+      for (std::size_t i = 0; i < 4; ++i)
+        quad.emplace_back(std::stof(fields[n - 14 + 2 * i]), std::stof(fields[n - 13 + 2 * i]));
+      quads_[base::parseUnix(fields[0])].emplace_back(static_cast<std::size_t>(name - names.begin()), quad);
+    }
+  }
+
+  static double share(const Quad& of, const Quad& in) {
+    std::vector<cv::Point2f> both;
+    const double area = cv::contourArea(of);
+    return area > 0 ? cv::intersectConvexConvex(of, in, both) / area : 0;
+  }
+
+  // Most of what was found shows it, or it is most of that.
+  std::optional<std::size_t> signIn(base::Stamp stamp, const obs::ObservedDoorSign& sign) const {
+    const auto at = quads_.find(stamp);
+    if (at == quads_.end()) return std::nullopt;
+    Quad corners;
+    for (const auto& corner : sign.corners_px) corners.emplace_back(corner.x(), corner.y());
+    cv::convexHull(Quad(corners), corners);
+    std::optional<std::size_t> best;
+    double most = 0;
+    for (const auto& [number, quad] : at->second) {
+      const double of_found = share(corners, quad), of_true = share(quad, corners);
+      if (of_found < 0.5 && (of_true < 0.5 || of_found < 0.1)) continue;
+      if (of_found + of_true <= most) continue;
+      most = of_found + of_true;
+      best = number;
+    }
+    return best;
+  }
+
+  obs::CObservationDoorSigns label(const obs::CObservationDoorSigns& read, double min_confidence) {
+    obs::CObservationDoorSigns labelled = read;
+    labelled.signs.clear();
+    auto& all = found[read.timestamp];
+    const auto base_from_camera = geometry::fromMrpt(read.sensorPose);
+    std::map<std::size_t, obs::ObservedDoorSign> of_sign;  // the surest of each
+    for (const auto& each : read.signs) {
+      const auto number = signIn(read.timestamp, each);
+      all.push_back({base_from_camera.translation, (base_from_camera.rotation * each.ray).normalized(), number});
+      ++(number ? of_signs : elsewhere);
+      const bool is_read = min_confidence <= 0 || std::any_of(each.texts.begin(), each.texts.end(), [&](const auto& t) {
+                             return t.confidence >= min_confidence && !t.text.empty();
+                           });
+      if (!number || !is_read) continue;
+      const auto [at, is_first] = of_sign.emplace(*number, each);
+      if (!is_first && at->second.score < each.score) at->second = each;
+    }
+    for (auto& [number, sign] : of_sign) {
+      sign.texts = {{std::to_string(1000 + number), 1}};
+      labelled.signs.push_back(sign);
+    }
+    return labelled;
+  }
+
+  std::map<base::Stamp, std::vector<std::pair<std::size_t, Quad>>> quads_;
+};
+
+}  // namespace omnimapper::bench

@@ -1,0 +1,196 @@
+#pragma once
+
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/graph/ByteIo.h>
+#include <omnimapper/graph/PointFactor.h>
+#include <omnimapper/plugin/OutputPlugin.h>
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include <Eigen/Cholesky>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "SignTruth.h"
+
+namespace omnimapper::bench {
+
+/// A sign landmark as it was before any was merged: which true signs its sightings are of, and where they meet seen
+/// from where the camera truly was.
+struct WatchedSign {
+  std::map<std::optional<std::size_t>, int> sightings;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+
+  int count() const {
+    int all = 0;
+    for (const auto& [sign, some] : sightings) all += some;
+    return all;
+  }
+  /// That most sightings are of.
+  std::optional<std::size_t> sign() const {
+    std::optional<std::size_t> most;
+    int best = -1;
+    for (const auto& [sign, some] : sightings) {
+      if (some <= best) continue;
+      best = some;
+      most = sign;
+    }
+    return most;
+  }
+  int wrong() const { return sightings.empty() ? 0 : count() - sightings.at(sign()); }
+  Eigen::Vector3d place() const { return information.ldlt().solve(sum); }
+};
+
+/// What a bench looks at while a log is mapped.
+struct SignWatch {
+  struct Pair {
+    base::LandmarkId from, into;
+    base::Stamp stamp;
+    bool accepted = false;
+    bool is_right = false;  ///< both are truly one
+    std::string reason;
+  };
+  explicit SignWatch(const SignTruth& known) : truth(&known) {}
+
+  const SignTruth* truth;
+  std::map<base::LandmarkId, WatchedSign> signs;
+  std::map<base::LandmarkId, std::string> titles;
+  std::map<base::FactorId, Pair> hypotheses;
+  std::vector<Pair> merges;                           ///< of landmarks that are one in the end
+  std::set<base::LandmarkId> repeated;                ///< of texts that nothing is proposed of any more
+  std::map<base::LandmarkId, base::LandmarkId> kept;  ///< what each is in the end
+  eval::Trajectory online;                            ///< of the newest pose, from the first one
+
+  void look(const mapper::View& view) {
+    const auto& factors = view.graph.factors();
+    const auto next = factors.nextId(0);
+    for (; next_ < next; ++next_.index) {
+      const auto* record = factors.find(next_);
+      if (!record) continue;
+      if (record->factor->kind() == "sign_bearing") addSighting(view, *record);
+      if (record->factor->kind() == graph::SamePointFactor::kKind) addHypothesis(view, next_, *record);
+    }
+    const auto& frames = view.map.key_frames;
+    const auto& newest = frames.back();
+    if (online.empty() || newest.stamp > online.back().stamp)
+      online.push_back({newest.stamp, geometry::fromMrpt(newest.map_from_base - frames.front().map_from_base)});
+  }
+
+  void finish(const mapper::View& view) {
+    for (const auto& decision : view.decisions) {
+      if (!decision.hypothesis) continue;
+      const auto at = hypotheses.find(*decision.hypothesis);
+      if (at == hypotheses.end()) continue;
+      at->second.accepted = decision.accepted;
+      at->second.stamp = decision.stamp;
+      at->second.reason = decision.reason;
+    }
+    for (const auto& [id, landmark] : view.map.landmarks) {
+      if (signs.count(id) == 0) continue;
+      kept[id] = view.map.landmark(id).id;
+      if (landmark.payload)
+        titles[id] = landmark.payload->shape({Eigen::Vector3d::Zero()}, view.map.key_frames).caption;
+      if (landmark.state == map::Landmark::State::merged)
+        merges.push_back({landmark.merged_into, id, landmark.last_seen, true, false, "merged"});
+    }
+    for (auto& [id, pair] : hypotheses) pair.is_right = areOne(pair.from, pair.into);
+    for (auto& pair : merges) pair.is_right = areOne(pair.from, pair.into);
+  }
+
+  bool areOne(base::LandmarkId a, base::LandmarkId b) const {
+    constexpr double kOfOneThing = 0.5;  // [m] of posters, whose lines lie below each other
+    const auto &first = signs.at(a), &second = signs.at(b);
+    if (first.sign() && second.sign()) return first.sign() == second.sign();
+    return (first.place() - second.place()).norm() < kOfOneThing;
+  }
+
+  std::string nameOf(base::LandmarkId id) const {
+    const auto sign = signs.at(id).sign();
+    return sign ? truth->names[*sign] : "no sign";
+  }
+
+ private:
+  void addSighting(const mapper::View& view, const graph::FactorRecord& record) {
+    std::stringstream bytes;
+    record.factor->write(bytes);
+    const Eigen::Vector3d camera = graph::readVector<3>(bytes), direction = graph::readVector<3>(bytes);
+    const auto stamp = stampOf(view, record.variables[0]);
+    if (!stamp) return;
+    auto& sign = signs[*record.tags.landmark];
+    ++sign.sightings[truth->signOf(*stamp, direction)];
+    const auto base = eval::interpolatedPose(truth->trajectory, *stamp, base::durationFromSeconds(1));
+    if (!base) return;
+    const Eigen::Vector3d ray = base->rotation * direction;
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
+    sign.information += across;
+    sign.sum += across * (*base * camera);
+  }
+
+  void addHypothesis(const mapper::View& view, base::FactorId id, const graph::FactorRecord& record) {
+    if (!record.tags.hypothesis) return;
+    std::optional<base::LandmarkId> ids[2];
+    for (const auto& [landmark, each] : view.map.landmarks)
+      for (int i = 0; i < 2; ++i)
+        if (!each.variables.empty() && each.variables.front() == record.variables[static_cast<std::size_t>(i)])
+          ids[i] = landmark;
+    if (ids[0] && ids[1] && signs.count(*ids[0]) > 0 && signs.count(*ids[1]) > 0)
+      hypotheses[id] = {*ids[0], *ids[1], {}, false, false, {}};
+  }
+
+  std::optional<base::Stamp> stampOf(const mapper::View& view, base::VariableId pose) {
+    auto at = stamps_.find(pose);
+    if (at == stamps_.end()) {
+      for (const auto& frame : view.map.key_frames) stamps_[frame.pose] = frame.stamp;
+      at = stamps_.find(pose);
+    }
+    return at == stamps_.end() ? std::nullopt : std::optional(at->second);
+  }
+
+  base::FactorId next_;
+  std::map<base::VariableId, base::Stamp> stamps_;
+};
+
+/// Shows a run to `watch`, which must be there while it goes on.
+class SignWatchOutput : public mapper::OutputPlugin {
+ public:
+  inline static SignWatch* watch = nullptr;
+
+  void keyFrameAdded(const mapper::View& view) override {
+    if (watch) watch->look(view);
+  }
+  void finish(const mapper::View& view) override {
+    if (watch) watch->finish(view);
+  }
+};
+
+class SignWatchOutputFactory : public mapper::OutputPluginFactory {
+  DEFINE_MRPT_OBJECT(SignWatchOutputFactory, omnimapper::bench)
+ public:
+  std::string name() const override { return "SignWatchOutput"; }
+  std::string summary() const override { return "Shows a bench which signs are taken for one."; }
+  const std::vector<base::OptionSpec>& options() const override {
+    static const std::vector<base::OptionSpec> none;
+    return none;
+  }
+  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
+                                             const mapper::PluginContext&) const override {
+    section.read<NoOptions>(mapper::sectionKeysOfEngine());
+    return std::make_unique<SignWatchOutput>();
+  }
+
+ private:
+  struct NoOptions {
+    static const base::OptionTable<NoOptions>& table() {
+      static const base::OptionTable<NoOptions> table;
+      return table;
+    }
+  };
+};
+
+}  // namespace omnimapper::bench

@@ -1,0 +1,340 @@
+// How far maps by door signs are from the truth: with signs as the mapper finds out which is which, with the true
+// associations, and without signs. Each seed is an odometry of its own along one drive, whose images are perceived
+// once.
+//
+//   omnimapper-simulate -i rawlogs/signs_30.ini --set simulation.sensors=camera -o out/signs_30
+//   omnimapper-perceive -i ini/signs.ini -r out/signs_30/signs_30.rawlog -o out/signs.rawlog
+//   bench-sign_maps out/signs_30 out/signs.rawlog --seeds 20 -o out/sign_maps
+//
+// True associations: every sign that was found gets a number of its own for a text, what is no sign is left out, and
+// whatever has the same number is one sign at once, however far it is from where it is expected.
+#include <omnimapper/base/Numbers.h>
+#include <omnimapper/base/Progress.h>
+#include <omnimapper/eval/AbsoluteTrajectoryError.h>
+#include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/sim/SimulationRun.h>
+#include <omnimapper/testing/registerPlugins.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "CurvePlot.h"
+#include "SignTruth.h"
+#include "SignWatch.h"
+
+namespace bench {
+
+using namespace omnimapper;
+using omnimapper::bench::SignTruth;
+using omnimapper::bench::SignWatch;
+using omnimapper::bench::SignWatchOutput;
+
+struct Request {
+  std::string folder, signs, simulated_ini, ini = "ini/signs.ini", out = "out/sign_maps";
+  std::vector<std::string> settings;
+  int seeds = 10, first_seed = 1, threads = 1;
+  double min_confidence = 0;
+  bool with_laser = false, list = false;
+};
+
+enum Way { kWith, kTrue, kWithout, kWays };
+constexpr std::array<const char*, kWays> kNames = {"with signs", "true associations", "without signs"};
+
+struct Mapped {
+  double error = 0;                                // [m] rmse
+  std::vector<std::pair<double, double>> by_time;  // [s] [m] of the final trajectory, the first pose on the true one
+  std::vector<std::pair<double, double>> online;   // the same of the newest pose when it was new
+  int proposed = 0, accepted = 0, wrongly_accepted = 0, wrongly_refused = 0, wrong_merges = 0;
+  int sightings = 0, wrong_sightings = 0, spare = 0;  // landmarks more than true signs that are in the map
+};
+
+struct Trial {
+  int seed = 0;
+  std::array<Mapped, kWays> ways;
+  double toTrue() const { return ways[kWith].error / ways[kTrue].error; }
+  double toNone() const { return ways[kWith].error / ways[kWithout].error; }
+};
+
+// The truth comes with it, at more stamps.
+eval::Trajectory simulate(const Request& request, int seed, const SignTruth& truth, const std::string& folder) {
+  auto config = base::Config::fromFile(request.simulated_ini);
+  config.set(std::string("simulation.sensors=") + (request.with_laser ? "laser, odometry" : "odometry"));
+  config.set("simulation.seed=" + std::to_string(seed));
+  base::Progress quiet;
+  sim::runSimulation(sim::Simulation(config), {folder, "log", request.threads}, quiet);
+  auto trajectory = eval::readTum(folder + "/truth.tum");
+  eval::PairingOptions pairing;
+  pairing.longest_gap = base::durationFromSeconds(0.5);
+  constexpr double kSame = 0.01;  // [m]
+  if (eval::absoluteTrajectoryError(truth.trajectory, trajectory, pairing).translation.max > kSame)
+    throw base::Error(base::ExitCode::unreadable_input,
+                      request.simulated_ini + ": its drive is not that of " + request.folder + "; give it with --ini");
+  return trajectory;
+}
+
+std::vector<std::string> settingsOf(const Request& request, Way way, const SignTruth& truth) {
+  const double span = base::secondsBetween(truth.first, truth.last);
+  std::vector<std::string> settings = {"mapper.output_plugins=trajectory, summary, watch",
+                                       "watch.class=SignWatchOutput", "source.end_s=" + base::fixed(span, 7)};
+  std::string measured = way == kWithout ? "" : "sign_landmarks";
+  if (request.with_laser) {
+    settings.emplace_back("perception.extractors=laser_points, laser_lines");
+    measured = "walls, " + std::string(way == kWithout ? "" : "sign_landmarks, ") + "relations";
+  } else {
+    settings.emplace_back("perception.extractors=");
+    settings.emplace_back("mapper.pose_plugins=odometry, no_motion");
+    settings.emplace_back("odometry.fallback=false");
+  }
+  settings.push_back("mapper.measurement_plugins=" + measured);
+  settings.insert(settings.end(), request.settings.begin(), request.settings.end());
+  if (way == kTrue) {  // a sign is never forgotten, and no gate is left
+    for (const char* setting :
+         {"recent_m=1e6", "association=nearest", "association_confidence=0.999999999", "association_inflation=100"})
+      settings.push_back(std::string("sign_landmarks.") + setting);
+  }
+  return settings;
+}
+
+// Without signs a trajectory has other stamps.
+eval::Trajectory atImages(const eval::Trajectory& trajectory, const SignTruth& truth) {
+  eval::Trajectory result;
+  for (const auto& [stamp, signs] : truth.found)
+    if (const auto pose = eval::interpolatedPose(trajectory, stamp, base::durationFromSeconds(0.5)))
+      result.push_back({stamp, *pose});
+  return result;
+}
+
+std::vector<std::pair<double, double>> errorFromStart(const eval::Trajectory& estimate, const eval::Trajectory& truth) {
+  const auto gap = base::durationFromSeconds(0.5);
+  std::vector<std::pair<double, double>> errors;
+  std::optional<geometry::Se3> world_from_map;
+  for (const auto& pose : estimate) {
+    const auto there = eval::interpolatedPose(truth, pose.stamp, gap);
+    if (!there) continue;
+    if (!world_from_map) world_from_map = *there * geometry::inverse(pose.world_from_body);
+    errors.emplace_back(base::secondsBetween(truth.front().stamp, pose.stamp),
+                        ((*world_from_map * pose.world_from_body).translation - there->translation).norm());
+  }
+  return errors;
+}
+
+void count(const SignWatch& watch, Mapped& mapped) {
+  for (const auto& [id, pair] : watch.hypotheses) {
+    ++mapped.proposed;
+    mapped.accepted += pair.accepted;
+    mapped.wrongly_accepted += pair.accepted && !pair.is_right;
+    mapped.wrongly_refused += !pair.accepted && pair.is_right && watch.kept.at(pair.from) != watch.kept.at(pair.into);
+  }
+  for (const auto& pair : watch.merges) mapped.wrong_merges += !pair.is_right;
+  std::map<std::size_t, std::set<base::LandmarkId>> of_sign;
+  for (const auto& [id, sign] : watch.signs) {
+    mapped.sightings += sign.count();
+    mapped.wrong_sightings += sign.wrong();
+    const auto kept = watch.kept.find(id);
+    if (sign.sign() && kept != watch.kept.end()) of_sign[*sign.sign()].insert(kept->second);
+  }
+  for (const auto& [sign, landmarks] : of_sign) mapped.spare += static_cast<int>(landmarks.size()) - 1;
+}
+
+// What the mapper took for one, or did not, on standard error.
+void list(const SignWatch& watch, const SignTruth& truth) {
+  const auto titled = [&](base::LandmarkId id) {
+    const auto title = watch.titles.find(id);
+    const auto& sign = watch.signs.at(id);
+    const auto place = sign.place();
+    return std::to_string(id.index) + " \"" + (title == watch.titles.end() ? "" : title->second) + "\" (" +
+           watch.nameOf(id) + ", " + std::to_string(sign.count()) + " sightings, " + std::to_string(sign.wrong()) +
+           " wrong, at " + base::fixed(place.x(), 1) + " " + base::fixed(place.y(), 1) + ")";
+  };
+  const auto print = [&](const char* kind, const SignWatch::Pair& pair) {
+    std::fprintf(stderr, "%7.1f s %s %s %s: %s and %s: %s\n", base::secondsBetween(truth.first, pair.stamp), kind,
+                 pair.accepted ? "accepted" : "refused", pair.is_right ? "right" : "WRONG", titled(pair.from).c_str(),
+                 titled(pair.into).c_str(), pair.reason.c_str());
+  };
+  for (const auto& [id, pair] : watch.hypotheses) print("hypothesis", pair);
+  for (const auto& pair : watch.merges)
+    if (!pair.is_right) print("merge", pair);
+  std::map<std::size_t, std::set<base::LandmarkId>> of_sign;
+  for (const auto& [id, sign] : watch.signs) {
+    if (sign.sign()) of_sign[*sign.sign()].insert(id);
+    if (sign.wrong() > 0) std::fprintf(stderr, "mixed: %s\n", titled(id).c_str());
+  }
+  for (const auto& [sign, landmarks] : of_sign) {
+    if (landmarks.size() < 2) continue;
+    std::fprintf(stderr, "%s is more than once:\n", truth.names[sign].c_str());
+    for (const auto id : landmarks)
+      std::fprintf(stderr, "    %s in the end %u\n", titled(id).c_str(),
+                   watch.kept.count(id) > 0 ? watch.kept.at(id).index : id.index);
+  }
+}
+
+Mapped mapOneWay(const Request& request, Way way, const SignTruth& truth, const eval::Trajectory& trajectory,
+                 const std::string& folder) {
+  auto config = base::Config::fromFile(request.ini);
+  for (const auto& setting : settingsOf(request, way, truth)) config.set(setting);
+  mapper::RunRequest run;
+  run.logs = {folder + "/log/log.rawlog", way == kTrue ? request.out + "/true_signs.rawlog" : request.signs};
+  run.output_folder = folder + "/" + std::array{"with", "true", "without"}[way];
+  run.threads = request.threads;
+  std::filesystem::create_directories(run.output_folder);
+  SignWatch watch(truth);
+  SignWatchOutput::watch = &watch;
+  base::Progress quiet;
+  mapper::runMapping(run, config, quiet, [] { return false; });
+  SignWatchOutput::watch = nullptr;
+  Mapped mapped;
+  const auto estimate = atImages(eval::readTum(run.output_folder + "/trajectory.tum"), truth);
+  eval::PairingOptions pairing;
+  pairing.alignment = eval::Alignment::yaw;
+  pairing.longest_gap = base::durationFromSeconds(0.5);
+  mapped.error = eval::absoluteTrajectoryError(estimate, trajectory, pairing).translation.rmse;
+  mapped.by_time = errorFromStart(estimate, trajectory);
+  mapped.online = errorFromStart(watch.online, trajectory);
+  count(watch, mapped);
+  if (request.list) {
+    std::fprintf(stderr, "== %s, %s: %.3f m, %zu poses, %d sightings\n", folder.c_str(), kNames[way], mapped.error,
+                 estimate.size(), mapped.sightings);
+    list(watch, truth);
+  }
+  return mapped;
+}
+
+Trial tryOut(const Request& request, int seed, const SignTruth& truth) {
+  const std::string folder = request.out + "/seed_" + std::to_string(seed);
+  const auto trajectory = simulate(request, seed, truth, folder + "/log");
+  Trial trial{seed, {}};
+  for (int way = 0; way < kWays; ++way)
+    trial.ways[static_cast<std::size_t>(way)] = mapOneWay(request, static_cast<Way>(way), truth, trajectory, folder);
+  return trial;
+}
+
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+void printHeading(const Request& request, const SignTruth& truth) {
+  std::printf(
+      "%s, %s: %zu signs, of which %d have a text that another one has, too%s. Of %zu signs found in %.0f s "
+      "%zu are none.\n\n",
+      std::filesystem::path(request.folder).filename().c_str(),
+      request.with_laser ? "wheels, laser and camera" : "wheels and camera", truth.names.size(), truth.repeated,
+      truth.repeated < 5 ? " (FEWER THAN FIVE)" : "", truth.of_signs + truth.elsewhere,
+      base::secondsBetween(truth.first, truth.last), truth.elsewhere);
+  std::printf(
+      "| seed | with signs [m] | true associations [m] | without signs [m] | with / true | with / without | closures: "
+      "proposed, accepted | wrong ones accepted | right ones not taken | wrong merges | sightings, of another sign | "
+      "true "
+      "ones | landmarks too many |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+}
+
+void print(const Trial& trial) {
+  const auto& with = trial.ways[kWith];
+  std::printf("| %d | %.3f | %.3f | %.3f | %.2f | %.2f | %d, %d | %d | %d | %d | %d, %d | %d | %d |\n", trial.seed,
+              with.error, trial.ways[kTrue].error, trial.ways[kWithout].error, trial.toTrue(), trial.toNone(),
+              with.proposed, with.accepted, with.wrongly_accepted, with.wrongly_refused, with.wrong_merges,
+              with.sightings, with.wrong_sightings, trial.ways[kTrue].sightings, with.spare);
+  std::fflush(stdout);
+}
+
+void printSummary(const std::vector<Trial>& trials) {
+  const auto row = [&](const char* name, double (*of)(std::vector<double>)) {
+    const auto over = [&](const auto& value) {
+      std::vector<double> values;
+      for (const Trial& trial : trials) values.push_back(value(trial));
+      return of(values);
+    };
+    std::printf("| %s |", name);
+    for (std::size_t way = 0; way < kWays; ++way)
+      std::printf(" %.3f |", over([&](const Trial& trial) { return trial.ways[way].error; }));
+    std::printf(" %.2f | %.2f | | | | | | | |\n", over([](const Trial& trial) { return trial.toTrue(); }),
+                over([](const Trial& trial) { return trial.toNone(); }));
+  };
+  row("median", medianOf);
+  row("worst", [](std::vector<double> values) { return *std::max_element(values.begin(), values.end()); });
+}
+
+// As many points as a small plot shows.
+std::vector<std::pair<double, double>> thinned(const std::vector<std::pair<double, double>>& points) {
+  constexpr std::size_t kMost = 150;
+  std::vector<std::pair<double, double>> some;
+  const std::size_t step = points.size() / kMost + 1;
+  for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
+  return some;
+}
+
+void plot(const Request& request, std::vector<Trial> trials) {
+  std::sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.toNone() < b.toNone(); });
+  const Trial& trial = trials[(trials.size() - 1) / 2];
+  const auto path = request.out + "/error_by_time.svg";
+  omnimapper::bench::plotCurves(path,
+                                std::filesystem::path(request.folder).filename().string() + ", seed " +
+                                    std::to_string(trial.seed) + ": error from the start on, final trajectories",
+                                "time [s]", "error of the position [m]",
+                                {{"without signs", "#c0392b", thinned(trial.ways[kWithout].by_time)},
+                                 {"with signs, while it drives", "#aab7b8", thinned(trial.ways[kWith].online)},
+                                 {"with signs", "#2471a3", thinned(trial.ways[kWith].by_time)},
+                                 {"with true associations", "#1e8449", thinned(trial.ways[kTrue].by_time)}});
+  std::fprintf(stderr, "%s: seed %d, the median of with / without\n", path.c_str(), trial.seed);
+}
+
+void run(const Request& request) {
+  std::filesystem::create_directories(request.out);
+  const SignTruth truth(request.folder, request.signs, request.out + "/true_signs.rawlog", request.min_confidence);
+  printHeading(request, truth);
+  std::vector<Trial> trials;
+  for (int seed = request.first_seed; seed < request.first_seed + request.seeds; ++seed) {
+    std::fprintf(stderr, "seed %d\n", seed);
+    trials.push_back(tryOut(request, seed, truth));
+    print(trials.back());
+  }
+  printSummary(trials);
+  plot(request, trials);
+}
+
+// That which the simulator wrote into the folder.
+std::string iniIn(const std::string& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".ini") return entry.path();
+  throw base::Error(base::ExitCode::command_line, folder + ": no INI of a simulated place; give it with --ini");
+}
+
+}  // namespace bench
+
+using omnimapper::bench::SignWatchOutputFactory;
+IMPLEMENTS_MRPT_OBJECT(SignWatchOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::bench)
+
+int main(int argc, char** argv) {
+  bench::Request request;
+  CLI::App app("How far maps by door signs are from the truth, with and without them and with true associations.");
+  app.add_option("folder", request.folder, "what omnimapper-simulate wrote")->required();
+  app.add_option("signs", request.signs, "its camera log, perceived")->required();
+  app.add_option("--ini", request.simulated_ini, "INI of the place (the one in the folder)");
+  app.add_option("-i,--mapper-ini", request.ini, "INI of the mapper (ini/signs.ini)");
+  app.add_option("--seeds", request.seeds, "so many of them")->check(CLI::Range(1, 1000));
+  app.add_option("--first-seed", request.first_seed, "the first");
+  app.add_option("--threads", request.threads, "worker threads");
+  app.add_option("--true-of", request.min_confidence,
+                 "true associations only of signs of which a line is at least so sure (0: of all that are found)");
+  app.add_option("--set", request.settings, "section.key=value for the mapper");
+  app.add_flag("--with-laser", request.with_laser, "the whole INI but closures by scans, on a log with a laser");
+  app.add_flag("--list", request.list, "list what was taken for one and what was not, on standard error");
+  app.add_option("-o,--output", request.out, "folder");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (request.simulated_ini.empty()) request.simulated_ini = bench::iniIn(request.folder);
+    omnimapper::testing::registerPlugins();
+    mrpt::rtti::registerClass(CLASS_ID(SignWatchOutputFactory));
+    bench::run(request);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}
