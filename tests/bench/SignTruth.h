@@ -22,7 +22,7 @@ namespace omnimapper::bench {
 /// A sign that was found in an image, and what it truly is.
 struct FoundSign {
   Eigen::Vector3d camera, direction;  ///< in the base [m], unit
-  std::optional<std::size_t> sign;    ///< number in SignTruth::names; none: no sign of the place
+  std::optional<std::size_t> sign;    ///< number in SignTruth::names, of a sign or a poster; none: neither
 };
 
 /// What omnimapper-simulate tells of a place with door signs, and which of them a perceived log has found.
@@ -30,13 +30,13 @@ class SignTruth {
  public:
   using Seen = std::map<base::Stamp, std::vector<FoundSign>>;
 
-  std::vector<std::string> names;
-  std::vector<Eigen::Vector3d> places;  ///< [m] in the world
-  int repeated = 0;                     ///< signs whose text another one has, too
-  eval::Trajectory trajectory;          ///< of the base in the world
+  std::vector<std::string> names;  ///< of signs, then of posters
+  std::size_t signs = 0;           ///< so many of them are signs
+  int repeated = 0;                ///< signs whose text another one has, too
+  eval::Trajectory trajectory;     ///< of the base in the world
   Seen found;
-  std::size_t of_signs = 0, elsewhere = 0;  ///< of what was found
-  base::Stamp first, last;                  ///< of the perceived log
+  std::size_t of_signs = 0, of_posters = 0, elsewhere = 0;  ///< of what was found
+  base::Stamp first, last;                                  ///< of the perceived log
 
   /// Writes the perceived log with numbers of true signs for what was read, without what is none, to `labelled`; only
   /// of signs of which a line is at least `min_confidence` sure.
@@ -76,11 +76,50 @@ class SignTruth {
     const auto place = nlohmann::json::parse(in);
     for (const auto& sign : place["signs"]) {
       names.push_back(sign["name"].get<std::string>());
-      const auto& at = sign["pose"]["position"];
-      places.emplace_back(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
       ++texts[sign["text"].dump()];
     }
     for (const auto& [text, count] : texts) repeated += count > 1 ? count : 0;
+    signs = names.size();
+    for (const auto& surface : place["surfaces"]) {
+      if (surface["kind"] != "poster" || !surface.contains("outline")) continue;
+      names.push_back(surface["name"].get<std::string>());
+      std::vector<Eigen::Vector3d> outline;
+      for (const auto& at : surface["outline"])
+        outline.emplace_back(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
+      posters_.push_back({outline.at(0), outline.at(1) - outline.at(0), outline.at(3) - outline.at(0)});
+    }
+  }
+
+  // A rectangle.
+  struct Poster {
+    Eigen::Vector3d corner, along, up;
+
+    // How far on the ray it is hit [m].
+    std::optional<double> hitBy(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+      constexpr double kBeside = 0.05;  // of its size
+      const Eigen::Vector3d normal = along.cross(up);
+      const double range = normal.dot(corner - origin) / normal.dot(direction);
+      if (!(range > 0)) return std::nullopt;
+      const Eigen::Vector3d on = origin + range * direction - corner;
+      for (const double share : {on.dot(along) / along.squaredNorm(), on.dot(up) / up.squaredNorm()})
+        if (!(share > -kBeside && share < 1 + kBeside)) return std::nullopt;
+      return range;
+    }
+  };
+
+  // The nearest on the true ray; a wall may hide it, but then nothing was found there.
+  std::optional<std::size_t> posterIn(base::Stamp stamp, const FoundSign& sign) const {
+    const auto base = eval::interpolatedPose(trajectory, stamp, base::durationFromSeconds(1));
+    if (!base) return std::nullopt;
+    std::optional<std::size_t> nearest;
+    double least = 0;
+    for (std::size_t i = 0; i < posters_.size(); ++i) {
+      const auto range = posters_[i].hitBy(*base * sign.camera, base->rotation * sign.direction);
+      if (!range || (nearest && *range > least)) continue;
+      least = *range;
+      nearest = signs + i;
+    }
+    return nearest;
   }
 
   // stamp, sensor, measurement, sign, text (may hold commas), x1 ... y4, then six numbers.
@@ -138,7 +177,8 @@ class SignTruth {
     for (const auto& each : read.signs) {
       const auto number = signIn(read.timestamp, each);
       all.push_back({base_from_camera.translation, (base_from_camera.rotation * each.ray).normalized(), number});
-      ++(number ? of_signs : elsewhere);
+      if (!number) all.back().sign = posterIn(read.timestamp, all.back());
+      ++(number ? of_signs : all.back().sign ? of_posters : elsewhere);
       const bool is_read = min_confidence <= 0 || std::any_of(each.texts.begin(), each.texts.end(), [&](const auto& t) {
                              return t.confidence >= min_confidence && !t.text.empty();
                            });
@@ -154,6 +194,7 @@ class SignTruth {
   }
 
   std::map<base::Stamp, std::vector<std::pair<std::size_t, Quad>>> quads_;
+  std::vector<Poster> posters_;
 };
 
 }  // namespace omnimapper::bench

@@ -24,8 +24,7 @@ namespace omnimapper::bench {
 /// from where the camera truly was.
 struct WatchedSign {
   std::map<std::optional<std::size_t>, int> sightings;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rays;  ///< in the world: from [m], direction
 
   int count() const {
     int all = 0;
@@ -44,7 +43,29 @@ struct WatchedSign {
     return most;
   }
   int wrong() const { return sightings.empty() ? 0 : count() - sightings.at(sign()); }
-  Eigen::Vector3d place() const { return information.ldlt().solve(sum); }
+  /// [m] Where the sines of the angles to all rays are least: a mere intersection of rays that are nearly parallel
+  /// would come out too near.
+  Eigen::Vector3d place() const {
+    constexpr int kRounds = 20;
+    constexpr double kDamping = 1e-9;
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    for (int round = 0; round <= kRounds; ++round) {
+      Eigen::Matrix3d information = kDamping * Eigen::Matrix3d::Identity();
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (const auto& [from, direction] : rays) {
+        const Eigen::Vector3d seen = round == 0 ? from : Eigen::Vector3d(point - from);
+        const double range = round == 0 ? 1 : std::max(0.2, seen.norm());
+        Eigen::Matrix3d by_point = Eigen::Matrix3d::Identity() - direction * direction.transpose();
+        const Eigen::Vector3d aside = by_point * seen / range;
+        if (round > 0) by_point = (by_point - aside * seen.transpose() / range).eval() / range;
+        information += by_point.transpose() * by_point;
+        sum += by_point.transpose() * aside;
+      }
+      const Eigen::Vector3d step = information.ldlt().solve(sum);
+      point = round == 0 ? step : Eigen::Vector3d(point - step);
+    }
+    return point;
+  }
 };
 
 /// What a bench looks at while a log is mapped.
@@ -104,7 +125,7 @@ struct SignWatch {
   }
 
   bool areOne(base::LandmarkId a, base::LandmarkId b) const {
-    constexpr double kOfOneThing = 0.5;  // [m] of posters, whose lines lie below each other
+    constexpr double kOfOneThing = 0.5;  // [m]
     const auto &first = signs.at(a), &second = signs.at(b);
     if (first.sign() && second.sign()) return first.sign() == second.sign();
     return (first.place() - second.place()).norm() < kOfOneThing;
@@ -126,10 +147,7 @@ struct SignWatch {
     ++sign.sightings[truth->signOf(*stamp, direction)];
     const auto base = eval::interpolatedPose(truth->trajectory, *stamp, base::durationFromSeconds(1));
     if (!base) return;
-    const Eigen::Vector3d ray = base->rotation * direction;
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
-    sign.information += across;
-    sign.sum += across * (*base * camera);
+    sign.rays.emplace_back(*base * camera, base->rotation * direction);
   }
 
   void addHypothesis(const mapper::View& view, base::FactorId id, const graph::FactorRecord& record) {

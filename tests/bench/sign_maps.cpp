@@ -7,7 +7,7 @@
 //   bench-sign_maps out/signs_30 out/signs.rawlog --seeds 20 -o out/sign_maps
 //
 // True associations: every sign that was found gets a number of its own for a text, what is no sign is left out, and
-// whatever has the same number is one sign at once, however far it is from where it is expected.
+// whatever has the same number is one sign, however far it is from where it is expected.
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
@@ -91,10 +91,14 @@ std::vector<std::string> settingsOf(const Request& request, Way way, const SignT
   }
   settings.push_back("mapper.measurement_plugins=" + measured);
   settings.insert(settings.end(), request.settings.begin(), request.settings.end());
-  if (way == kTrue) {  // a sign is never forgotten, and no gate is left
+  if (way == kTrue) {  // no gate is left
     for (const char* setting :
-         {"recent_m=1e6", "association=nearest", "association_confidence=0.999999999", "association_inflation=100"})
+         {"association=nearest", "association_confidence=0.999999999", "association_inflation=100"})
       settings.push_back(std::string("sign_landmarks.") + setting);
+    // By wheels alone a sighting of the first round is metres from where it is expected on the second: bearings that
+    // are so far off do not find out of it (27.8 m with seed 6 of signs_200). So a new landmark is made there, and that
+    // both are one acts unasked. With a laser there are hypotheses of others, which must not.
+    settings.emplace_back(request.with_laser ? "sign_landmarks.recent_m=1e6" : "hypotheses.test=none");
   }
   return settings;
 }
@@ -135,7 +139,8 @@ void count(const SignWatch& watch, Mapped& mapped) {
     mapped.sightings += sign.count();
     mapped.wrong_sightings += sign.wrong();
     const auto kept = watch.kept.find(id);
-    if (sign.sign() && kept != watch.kept.end()) of_sign[*sign.sign()].insert(kept->second);
+    if (sign.sign() && *sign.sign() < watch.truth->signs && kept != watch.kept.end())
+      of_sign[*sign.sign()].insert(kept->second);
   }
   for (const auto& [sign, landmarks] : of_sign) mapped.spare += static_cast<int>(landmarks.size()) - 1;
 }
@@ -221,12 +226,12 @@ double medianOf(std::vector<double> values) {
 
 void printHeading(const Request& request, const SignTruth& truth) {
   std::printf(
-      "%s, %s: %zu signs, of which %d have a text that another one has, too%s. Of %zu signs found in %.0f s "
-      "%zu are none.\n\n",
+      "%s, %s: %zu signs, of which %d have a text that another one has, too%s. In %.0f s %zu are found, and %zu times "
+      "something on a poster and %zu times something else.\n\n",
       std::filesystem::path(request.folder).filename().c_str(),
-      request.with_laser ? "wheels, laser and camera" : "wheels and camera", truth.names.size(), truth.repeated,
-      truth.repeated < 5 ? " (FEWER THAN FIVE)" : "", truth.of_signs + truth.elsewhere,
-      base::secondsBetween(truth.first, truth.last), truth.elsewhere);
+      request.with_laser ? "wheels, laser and camera" : "wheels and camera", truth.signs, truth.repeated,
+      truth.repeated < 5 ? " (FEWER THAN FIVE)" : "", base::secondsBetween(truth.first, truth.last), truth.of_signs,
+      truth.of_posters, truth.elsewhere);
   std::printf(
       "| seed | with signs [m] | true associations [m] | without signs [m] | with / true | with / without | closures: "
       "proposed, accepted | wrong ones accepted | right ones not taken | wrong merges | sightings, of another sign | "
