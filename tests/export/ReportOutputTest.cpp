@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
 #include <omnimapper/draw/Image.h>
+#include <omnimapper/draw/Markup.h>
 #include <omnimapper/obs/Drawing.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -149,11 +150,11 @@ TEST(Report, aMapWithoutScansShowsItsTrajectory) {
 }
 
 TEST(Html, base64OfKnownTexts) {
-  EXPECT_EQ(exports::encodeBase64(""), "");
-  EXPECT_EQ(exports::encodeBase64("f"), "Zg==");
-  EXPECT_EQ(exports::encodeBase64("fo"), "Zm8=");
-  EXPECT_EQ(exports::encodeBase64("foo"), "Zm9v");
-  EXPECT_EQ(exports::encodeBase64("foob"), "Zm9vYg==");
+  EXPECT_EQ(draw::encodeBase64(""), "");
+  EXPECT_EQ(draw::encodeBase64("f"), "Zg==");
+  EXPECT_EQ(draw::encodeBase64("fo"), "Zm8=");
+  EXPECT_EQ(draw::encodeBase64("foo"), "Zm9v");
+  EXPECT_EQ(draw::encodeBase64("foob"), "Zm9vYg==");
 }
 
 TEST(Html, thousandsAreGrouped) {

@@ -1,6 +1,7 @@
 #include <omnimapper/draw/Markup.h>
 
 #include <cstddef>
+#include <cstdint>
 
 namespace omnimapper::draw {
 
@@ -44,6 +45,26 @@ std::string escapeMarkup(std::string_view text) {
     text.remove_prefix(length == 0 ? 1 : length);
   }
   return out;
+}
+
+std::string encodeBase64(std::string_view bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      out += i + k > bytes.size() ? '=' : kDigits[group >> (18 - 6 * k) & 63];
+    }
+  }
+  return out;
+}
+
+std::string pngAddress(std::string_view bytes) {
+  return "data:image/png;base64," + encodeBase64(bytes);
 }
 
 }  // namespace omnimapper::draw

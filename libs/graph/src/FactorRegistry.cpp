@@ -31,11 +31,12 @@ geometry::Se3 readSe3(std::istream& in) {
 
 FactorRegistry FactorRegistry::withBuiltIns() {
   FactorRegistry registry;
-  for (const auto& kind : {se2(), se3(), point2(), point3()}) registry.add(kind);
+  for (const auto& kind : {se2(), se3(), point2(), point3(), panTilt()}) registry.add(kind);
   registry.add("between_se2", [](std::istream& in) { return std::make_shared<BetweenSe2>(readSe2(in)); });
   registry.add("between_se3", [](std::istream& in) { return std::make_shared<BetweenSe3>(readSe3(in)); });
   registry.add("prior_se2", [](std::istream& in) { return std::make_shared<PriorSe2>(readSe2(in)); });
   registry.add("prior_se3", [](std::istream& in) { return std::make_shared<PriorSe3>(readSe3(in)); });
+  registry.add("prior_pan_tilt", [](std::istream& in) { return std::make_shared<PriorPanTilt>(readVector<2>(in)); });
   registry.add("point2_from_se2", [](std::istream& in) { return std::make_shared<PointFactor2>(readVector<2>(in)); });
   registry.add(std::string(SamePointFactor::kKind), [](std::istream&) { return std::make_shared<SamePointFactor>(); });
   registry.add("point3_from_se3", [](std::istream& in) { return std::make_shared<PointFactor3>(readVector<3>(in)); });

@@ -31,4 +31,13 @@ void PriorSe3::write(std::ostream& out) const {
   writeVector(out, toValue(map_from_a_));
 }
 
+void PriorPanTilt::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  Eigen::Map<Eigen::Vector2d>{residual} = Eigen::Map<const Eigen::Vector2d>(values[0]) - angles_;
+  if (auto by_angles = jacobian<0>(jacobians)) by_angles.setIdentity();
+}
+
+void PriorPanTilt::write(std::ostream& out) const {
+  writeVector(out, angles_);
+}
+
 }  // namespace omnimapper::graph

@@ -66,6 +66,19 @@ class PointVariable : public PlacedVariable {
   }
 };
 
+class PanTiltVariable : public Variable {
+ public:
+  std::string_view kind() const override { return PanTiltKind::kName; }
+  int ambientSize() const override { return 2; }
+  int tangentSize() const override { return 2; }
+  void plus(const double* x, const double* delta, double* y) const override {
+    for (int i = 0; i < 2; ++i) y[i] = x[i] + delta[i];
+  }
+  void minus(const double* y, const double* x, double* delta) const override {
+    for (int i = 0; i < 2; ++i) delta[i] = y[i] - x[i];
+  }
+};
+
 }  // namespace
 
 const std::shared_ptr<const Variable>& se2() {
@@ -85,6 +98,11 @@ const std::shared_ptr<const Variable>& point2() {
 
 const std::shared_ptr<const Variable>& point3() {
   static const std::shared_ptr<const Variable> kind = std::make_shared<PointVariable<3>>();
+  return kind;
+}
+
+const std::shared_ptr<const Variable>& panTilt() {
+  static const std::shared_ptr<const Variable> kind = std::make_shared<PanTiltVariable>();
   return kind;
 }
 

@@ -1,4 +1,3 @@
-#include <mrpt/opengl/CTexturedPlane.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/obs/Drawing.h>
@@ -104,22 +103,7 @@ void drawPatch(mrpt::opengl::CSetOfObjects& scene, const ObservedDoorSign& sign,
   addClosed(*edges, frame);
   scene.insert(edges);
   if (!has_patch) return;
-  auto picture =
-      mrpt::opengl::CTexturedPlane::Create(static_cast<float>(-half_width), static_cast<float>(half_width),
-                                           static_cast<float>(-half_height), static_cast<float>(half_height));
-  picture->assignImage(sign.patch);
-  picture->CRenderizableShaderTexturedTriangles::enableLight(false);
-  // Its first row is at the lowest y of its own frame, so that y is down as in the image.
-  mrpt::math::CMatrixDouble33 rotation;
-  for (int i = 0; i < 3; ++i) {
-    rotation(i, 0) = right[i];
-    rotation(i, 1) = down[i];
-    rotation(i, 2) = sign.ray[i];
-  }
-  mrpt::math::CVectorFixedDouble<3> place;
-  for (int i = 0; i < 3; ++i) place[i] = middle[i];
-  picture->setPose(mrpt::poses::CPose3D(rotation, place));
-  scene.insert(picture);
+  addPicture(scene, middle, half_width * right, half_height * down, sign.patch);
 }
 
 std::string textOf(const ObservedDoorSign& sign) {

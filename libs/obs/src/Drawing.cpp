@@ -1,6 +1,7 @@
 #include <mrpt/opengl/CArrow.h>
 #include <mrpt/opengl/CSphere.h>
 #include <mrpt/opengl/CText.h>
+#include <mrpt/opengl/CTexturedPlane.h>
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/obs/Drawing.h>
 
@@ -87,6 +88,24 @@ void addBall(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middle, 
   ball->enableLight(false);
   ball->setColor_u8(colour);
   scene.insert(ball);
+}
+
+void addPicture(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middle, const Eigen::Vector3d& right,
+                const Eigen::Vector3d& down, const mrpt::img::CImage& image) {
+  const auto width = static_cast<float>(right.norm()), height = static_cast<float>(down.norm());
+  auto picture = mrpt::opengl::CTexturedPlane::Create(-width, width, -height, height);
+  picture->assignImage(image);
+  picture->CRenderizableShaderTexturedTriangles::enableLight(false);
+  // Its first row is at the lowest y of its own frame, so that y is down as in the image.
+  const Eigen::Vector3d axes[] = {right.normalized(), down.normalized(), right.cross(down).normalized()};
+  mrpt::math::CMatrixDouble33 rotation;
+  mrpt::math::CVectorFixedDouble<3> place;
+  for (int i = 0; i < 3; ++i) {
+    for (int axis = 0; axis < 3; ++axis) rotation(i, axis) = axes[axis][i];
+    place[i] = middle[i];
+  }
+  picture->setPose(mrpt::poses::CPose3D(rotation, place));
+  scene.insert(picture);
 }
 
 void addText(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& place, const std::string& text,

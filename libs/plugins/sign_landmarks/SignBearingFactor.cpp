@@ -2,6 +2,7 @@
 
 #include <omnimapper/graph/ByteIo.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -10,54 +11,139 @@ namespace omnimapper::plugins {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-SignBearingFactor::SignBearingFactor(const Vector3d& camera, const Vector3d& direction)
+namespace {
+
+// A point of the map, in the axes of a base.
+struct InBase {
+  InBase(const double* map_from_base_value, const double* point) {
+    const geometry::Se3 map_from_base = graph::se3FromValue(map_from_base_value);
+    base_from_map = map_from_base.rotation.conjugate().toRotationMatrix();
+    position = base_from_map * (Eigen::Map<const Vector3d>(point) - map_from_base.translation);
+  }
+  // Of the position, by the tangent of the base.
+  Eigen::Matrix<double, 3, 6> byBase() const {
+    Eigen::Matrix<double, 3, 6> by_base;
+    by_base << -Eigen::Matrix3d::Identity(), geometry::skew(position);
+    return by_base;
+  }
+
+  Eigen::Matrix3d base_from_map;
+  Vector3d position;
+};
+
+}  // namespace
+
+SeenDirection::SeenDirection(const Vector3d& camera, const Vector3d& direction)
     : camera_(camera), direction_(direction) {
   const Vector3d left = Vector3d::UnitZ().cross(direction).normalized();
   across_.row(0) = left;
   across_.row(1) = left.cross(direction);
 }
 
-void SignBearingFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  const geometry::Se3 map_from_base = graph::se3FromValue(values[0]);
-  const Eigen::Matrix3d base_from_map = map_from_base.rotation.conjugate().toRotationMatrix();
-  const Vector3d in_base = base_from_map * (Eigen::Map<const Vector3d>(values[1]) - map_from_base.translation);
-  const Vector3d seen = in_base - camera_;
+Vector2d SeenDirection::angleTo(const Vector3d& seen, Eigen::Matrix<double, 2, 3>* by_seen) const {
   // The angle to the direction over the sine's share of it: 1 / ahead where both are small.
   const Vector2d aside = across_ * seen;
   const double ahead = direction_.dot(seen), sine = aside.norm();
   const double squared = std::max(sine * sine + ahead * ahead, 1e-18), angle = std::atan2(sine, ahead);
   constexpr double kSmall = 1e-4, kNearest = 1e-9;  // [1] [m]
   if (ahead < kNearest && sine < kNearest) {  // straight behind the camera, or in it: no direction leads to the point
-    residual[0] = ahead < 0 ? angle : 0;
-    residual[1] = 0;
-    if (!jacobians) return;
-    if (auto by_base = jacobian<0>(jacobians)) by_base.setZero();
-    if (auto by_point = jacobian<1>(jacobians)) by_point.setZero();
-    return;
+    if (by_seen) by_seen->setZero();
+    return {ahead < 0 ? angle : 0, 0};
   }
   const bool is_small = sine < kSmall * ahead;
   const double scale = is_small ? 1 / ahead : angle / std::max(sine, 1e-9);
-  Eigen::Map<Vector2d>{residual} = scale * aside;
-  if (!jacobians) return;
-  const double by_sine = is_small ? -2 * sine / (3 * ahead * ahead * ahead)
-                                  : (ahead * sine / squared - angle) / std::max(sine * sine, 1e-18);
-  const double by_ahead = -1 / squared;
-  const Vector2d unit = sine > 0 ? Vector2d(aside / sine) : Vector2d(Vector2d::Zero());
-  const Eigen::Matrix<double, 2, 3> by_seen =
-      scale * across_ + aside * (by_sine * unit.transpose() * across_ + by_ahead * direction_.transpose());
-  if (auto by_base = jacobian<0>(jacobians)) by_base << -by_seen, by_seen * geometry::skew(in_base);
-  if (auto by_point = jacobian<1>(jacobians)) by_point = by_seen * base_from_map;
+  if (by_seen) {
+    const double by_sine = is_small ? -2 * sine / (3 * ahead * ahead * ahead)
+                                    : (ahead * sine / squared - angle) / std::max(sine * sine, 1e-18);
+    const double by_ahead = -1 / squared;
+    const Vector2d unit = sine > 0 ? Vector2d(aside / sine) : Vector2d(Vector2d::Zero());
+    *by_seen = scale * across_ + aside * (by_sine * unit.transpose() * across_ + by_ahead * direction_.transpose());
+  }
+  return scale * aside;
 }
 
-void SignBearingFactor::write(std::ostream& out) const {
+void SeenDirection::write(std::ostream& out) const {
   graph::writeVector(out, camera_);
   graph::writeVector(out, direction_);
 }
 
+SeenDirection SeenDirection::read(std::istream& in) {
+  const Vector3d camera = graph::readVector<3>(in);
+  return {camera, graph::readVector<3>(in)};
+}
+
+void SignBearingFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const InBase point(values[0], values[1]);
+  Eigen::Matrix<double, 2, 3> by_seen;
+  Eigen::Map<Vector2d>{residual} =
+      direction_.angleTo(point.position - direction_.camera(), jacobians ? &by_seen : nullptr);
+  if (auto by_base = jacobian<0>(jacobians)) by_base = by_seen * point.byBase();
+  if (auto by_point = jacobian<1>(jacobians)) by_point = by_seen * point.base_from_map;
+}
+
 void SignBearingFactor::addTo(graph::FactorRegistry& registry) {
-  registry.add("sign_bearing", [](std::istream& in) {
+  registry.add("sign_bearing",
+               [](std::istream& in) { return std::make_shared<SignBearingFactor>(SeenDirection::read(in)); });
+}
+
+void PanTiltBearingFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const InBase point(values[0], values[1]);
+  const double pan = values[2][0], tilt = values[2][1];
+  const Vector3d seen = point.position - direction_.camera();
+  // The point as it would be seen without offsets: turned back by the pan, then by the tilt.
+  const Eigen::Matrix3d unpan = Eigen::AngleAxisd(-pan, Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d untilt = Eigen::AngleAxisd(-tilt, tilt_axis_).toRotationMatrix();
+  const Vector3d unpanned = unpan * seen, reported = untilt * unpanned;
+  Eigen::Matrix<double, 2, 3> by_reported;
+  Eigen::Map<Vector2d>{residual} = direction_.angleTo(reported, jacobians ? &by_reported : nullptr);
+  if (!jacobians) return;
+  const Eigen::Matrix<double, 2, 3> by_seen = by_reported * untilt * unpan;
+  if (auto by_base = jacobian<0>(jacobians)) by_base = by_seen * point.byBase();
+  if (auto by_point = jacobian<1>(jacobians)) by_point = by_seen * point.base_from_map;
+  if (auto by_offsets = jacobian<2>(jacobians)) {
+    by_offsets.col(0) = -(by_reported * untilt * Vector3d::UnitZ().cross(unpanned));
+    by_offsets.col(1) = -(by_reported * tilt_axis_.cross(reported));
+  }
+}
+
+void PanTiltBearingFactor::write(std::ostream& out) const {
+  direction_.write(out);
+  graph::writeVector(out, tilt_axis_);
+}
+
+void PanTiltBearingFactor::addTo(graph::FactorRegistry& registry) {
+  registry.add("sign_bearing_pan_tilt", [](std::istream& in) {
+    const SeenDirection direction = SeenDirection::read(in);
+    return std::make_shared<PanTiltBearingFactor>(direction, graph::readVector<3>(in));
+  });
+}
+
+Vector3d turnedBy(const Vector2d& pan_tilt, const Vector3d& tilt_axis, const Vector3d& direction) {
+  return Eigen::AngleAxisd(pan_tilt[0], Vector3d::UnitZ()) * (Eigen::AngleAxisd(pan_tilt[1], tilt_axis) * direction);
+}
+
+void SignRangeFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  constexpr double kNearest = 0.01;  // [m] nearer the logarithm goes on as a straight line
+  const InBase point(values[0], values[1]);
+  const Vector3d seen = point.position - camera_;
+  const double range = seen.norm(), capped = std::max(range, kNearest);
+  residual[0] = std::log(capped / range_) + (range - capped) / kNearest;
+  if (!jacobians) return;
+  const Eigen::RowVector3d by_seen = range > 0 ? Eigen::RowVector3d(seen.transpose() / (range * capped))
+                                               : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
+  if (auto by_base = jacobian<0>(jacobians)) by_base = by_seen * point.byBase();
+  if (auto by_point = jacobian<1>(jacobians)) by_point = by_seen * point.base_from_map;
+}
+
+void SignRangeFactor::write(std::ostream& out) const {
+  graph::writeVector(out, camera_);
+  graph::writeDouble(out, range_);
+}
+
+void SignRangeFactor::addTo(graph::FactorRegistry& registry) {
+  registry.add("sign_range", [](std::istream& in) {
     const Vector3d camera = graph::readVector<3>(in);
-    return std::make_shared<SignBearingFactor>(camera, graph::readVector<3>(in));
+    return std::make_shared<SignRangeFactor>(camera, graph::readDouble(in));
   });
 }
 

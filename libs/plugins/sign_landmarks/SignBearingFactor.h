@@ -9,23 +9,80 @@
 
 namespace omnimapper::plugins {
 
-/// A point of the map that a camera sees in some direction. Variables: map_from_base (se3, or se2), point in map
-/// (point3). Residual: the rotation vector from the measured direction to the predicted one, across that [rad]: first
-/// to the left about the vertical of the base, as a pan turns, then down, as a tilt does. Derivation:
-/// doc/derivations/bearing.md.
-class SignBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Point3Kind> {
+/// A direction in which a camera sees a point. Derivation: doc/derivations/bearing.md.
+class SeenDirection {
  public:
   /// In the base: where the camera is [m], and the direction, a unit vector that is not vertical.
-  SignBearingFactor(const Eigen::Vector3d& camera, const Eigen::Vector3d& direction);
+  SeenDirection(const Eigen::Vector3d& camera, const Eigen::Vector3d& direction);
+
+  const Eigen::Vector3d& camera() const { return camera_; }
+  const Eigen::Vector3d& direction() const { return direction_; }
+
+  /// The rotation vector from the direction to a point, across the direction [rad]: first to the left about the
+  /// vertical of the base, as a pan turns, then down, as a tilt does. `seen`: from the camera to the point, axes of the
+  /// base [m]. Its derivative by that goes to `by_seen` if that is not null.
+  Eigen::Vector2d angleTo(const Eigen::Vector3d& seen, Eigen::Matrix<double, 2, 3>* by_seen) const;
+
+  void write(std::ostream& out) const;
+  static SeenDirection read(std::istream& in);
+
+ private:
+  Eigen::Vector3d camera_, direction_;
+  Eigen::Matrix<double, 2, 3> across_;  // unit vectors to the left and down
+};
+
+/// A point of the map that a camera sees in some direction. Variables: map_from_base (se3, or se2), point in map
+/// (point3). Residual: SeenDirection::angleTo() the point [rad].
+class SignBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Point3Kind> {
+ public:
+  explicit SignBearingFactor(const SeenDirection& direction) : direction_(direction) {}
 
   std::string_view kind() const override { return "sign_bearing"; }
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override { direction_.write(out); }
+  static void addTo(graph::FactorRegistry& registry);
+
+ private:
+  SeenDirection direction_;
+};
+
+/// The same of a camera on a pan-tilt unit whose zeros are off (thesis 4.3.2.5). Variables: map_from_base (se3, or
+/// se2), point in map (point3), offsets of the unit (pan_tilt). The camera turns about itself.
+class PanTiltBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Point3Kind, graph::PanTiltKind> {
+ public:
+  /// `tilt_axis`: unit vector to the left of the camera as it was panned, level, in the base.
+  PanTiltBearingFactor(const SeenDirection& direction, const Eigen::Vector3d& tilt_axis)
+      : direction_(direction), tilt_axis_(tilt_axis) {}
+
+  std::string_view kind() const override { return "sign_bearing_pan_tilt"; }
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
   static void addTo(graph::FactorRegistry& registry);
 
  private:
-  Eigen::Vector3d camera_, direction_;
-  Eigen::Matrix<double, 2, 3> across_;  // unit vectors to the left and down
+  SeenDirection direction_;
+  Eigen::Vector3d tilt_axis_;
+};
+
+/// The direction that was meant where a pan-tilt unit with these offsets [rad] reported `direction`.
+Eigen::Vector3d turnedBy(const Eigen::Vector2d& pan_tilt, const Eigen::Vector3d& tilt_axis,
+                         const Eigen::Vector3d& direction);
+
+/// How far from the camera a point is. Variables: map_from_base (se3, or se2), point in map (point3). Residual: the
+/// logarithm of its distance over the measured one, so that no distance is infinitely far in either direction.
+class SignRangeFactor : public graph::SizedFactor<1, graph::Se3Kind, graph::Point3Kind> {
+ public:
+  /// `camera`: in the base [m]. `range` [m], positive.
+  SignRangeFactor(const Eigen::Vector3d& camera, double range) : camera_(camera), range_(range) {}
+
+  std::string_view kind() const override { return "sign_range"; }
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+  static void addTo(graph::FactorRegistry& registry);
+
+ private:
+  Eigen::Vector3d camera_;
+  double range_;
 };
 
 }  // namespace omnimapper::plugins

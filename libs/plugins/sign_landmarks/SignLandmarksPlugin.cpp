@@ -5,6 +5,7 @@
 #include <omnimapper/landmarks/InterSessionHypothesis.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -35,6 +36,10 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
                     "Standard deviation of the pan angle that a camera reports, independent in each image.")
             .number("tilt_sigma_deg", &Options::tilt_sigma, Range::notNegative(),
                     "Standard deviation of the tilt angle that a camera reports, independent in each image.")
+            .number(
+                "pan_tilt_offset_sigma_deg", &Options::pan_tilt_offset_sigma, Range::notNegative(),
+                "Standard deviation of the pan offset and of the tilt offset of the camera, which are constant in a "
+                "run and are estimated; 0: there are none.")
             .number("max_sigma_m", &Options::max_sigma, Range::positive(),
                     "Largest standard deviation of the position of a new sign; until then its directions wait.")
             .number("recent_m", &Options::recent_way, Range::positive(),
@@ -53,14 +58,16 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
 class SignLandmarksPlugin::Work {
  public:
   Work(const SignLandmarksOptions& options, const mapper::PluginContext& context, SignTracks& tracks,
-       const map::KeyFrame& frame, const mapper::View& view)
-      : options_(options), context_(context), tracks_(tracks), frame_(frame), view_(view) {}
+       mapper::PanTiltOffsets& offsets, const map::KeyFrame& frame, const mapper::View& view)
+      : options_(options), context_(context), tracks_(tracks), offsets_(offsets), frame_(frame), view_(view) {}
 
   mapper::Batch take(const CObservationDoorSigns& observation) {
     label_ = observation.source_label;
-    const auto sightings = signSightings(observation, options_);
+    const auto sightings = signSightings(observation, optionsHere());
+    if (sightings.empty()) return {};
+    findOffsets();
     std::vector<mapper::Pairing> pairings;
-    for (std::size_t i = 0; i < sightings.size(); ++i) {
+    for (std::size_t i = 0; i < sightings.size() && areOffsetsInGraph(); ++i) {
       for (const auto& [id, known] : tracks_.known()) {
         const bool may_be_met = view_.map_is_held || tracks_.isRecent(known, options_.recent_way);
         if (!may_be_met || agreementOf(sightings[i].text, signOf(view_, id).text()) == Agreement::contradicts) continue;
@@ -87,11 +94,35 @@ class SignLandmarksPlugin::Work {
   }
 
  private:
-  graph::FactorRecord record(const SignSighting& sighting, base::VariableId point, base::LandmarkId landmark) const {
-    auto record = sighting.record(frame_.pose, point, options_);
+  // A map that is held gets no variable of the camera: what its offsets may be is noise.
+  SignLandmarksOptions optionsHere() const {
+    SignLandmarksOptions options = options_;
+    if (!view_.map_is_held) return options;
+    options.pan_sigma = std::hypot(options.pan_sigma, options.pan_tilt_offset_sigma);
+    options.tilt_sigma = std::hypot(options.tilt_sigma, options.pan_tilt_offset_sigma);
+    return options;
+  }
+
+  void findOffsets() {
+    if (view_.map_is_held) return;
+    offset_variable_ = offsets_.find(label_, batch_);
+    if (!offset_variable_) return;
+    known_offsets_ = {mapper::PanTiltOffsets::estimate(offset_variable_, view_.graph), options_.pan_tilt_offset_sigma};
+    if (!areOffsetsInGraph()) return;
+    if (const auto covariance = view_.jointCovariance({*offset_variable_}))
+      known_offsets_.sigma = std::sqrt(covariance->diagonal().maxCoeff());
+  }
+
+  bool areOffsetsInGraph() const { return !offset_variable_ || !mapper::Batch::isProvisional(*offset_variable_); }
+
+  graph::FactorRecord tagged(graph::FactorRecord record, base::LandmarkId landmark) const {
     record.tags.owner = context_.section;
     record.tags.landmark = landmark;
     return record;
+  }
+
+  graph::FactorRecord record(const SignSighting& sighting, base::VariableId point, base::LandmarkId landmark) const {
+    return tagged(sighting.directionRecord(frame_.pose, point, offset_variable_, options_), landmark);
   }
 
   mapper::Decision decisionOf() const {
@@ -114,15 +145,20 @@ class SignLandmarksPlugin::Work {
     if (landmarks::addInterSessionHypothesis(view_, frame_.id, pairing, decision, batch_)) return;
     batch_.log(std::move(decision));
     batch_.addFactor(pairing.record);
-    batch_.addEvidence(pairing.landmark, signOf(view_, pairing.landmark).with(sighting.text, label_));
+    if (auto range = sighting.rangeRecord(frame_.pose, pairing.record.variables[1]))
+      batch_.addFactor(tagged(std::move(*range), pairing.landmark));
+    auto payload = signOf(view_, pairing.landmark).with(sighting.text, label_);
+    if (payload->isBetter(sighting.area_px) && !view_.map_is_held) payload->best_look = sighting.look(frame_.id);
+    batch_.addEvidence(pairing.landmark, std::move(payload));
   }
 
   // A sign that is not in the map: it is added once enough directions meet.
   void wait(const SignSighting& sighting, mapper::Decision decision) {
     // Of two directions nothing would show that one is wrong; words stand on more than one door.
     const std::size_t min_views = sighting.text.number.empty() ? 4 : 3;
-    const auto& views = tracks_.waitingWith({frame_.pose, sighting, tracks_.travelled()}, options_.recent_way);
-    const auto place = triangulate(views, view_.graph, options_.max_sigma, min_views);
+    const auto& views =
+        tracks_.waitingWith({frame_.id, frame_.pose, sighting, tracks_.travelled()}, options_.recent_way);
+    const auto place = triangulate(views, view_.graph, known_offsets_, options_.max_sigma, min_views);
     decision.numbers.emplace_back("directions", static_cast<double>(views.size()));
     if (!place) {
       decision.reason = "waits for a direction that shows where it is";
@@ -133,30 +169,43 @@ class SignLandmarksPlugin::Work {
     batch_.log(std::move(decision));
     const auto variable = batch_.addVariable(graph::point3(), place->point);
     auto payload = std::make_shared<SignPayload>();
-    for (const auto i : place->views) payload = payload->with(views[i].sighting.text, label_);
+    bool has_range = false;
+    for (const auto i : place->views) {
+      const auto& [frame, pose, seen, travelled] = views[i];
+      payload = payload->with(seen.text, label_);
+      if (payload->isBetter(seen.area_px)) payload->best_look = seen.look(frame);
+      has_range = has_range || seen.range;
+    }
     const auto landmark = batch_.addLandmark("sign", {variable}, payload);
     for (std::size_t i = 1; i < place->views.size(); ++i) batch_.addEvidence(landmark);
     for (const auto i : place->views) {
       const auto& each = views[i];
-      auto factor = each.sighting.record(each.pose, variable, options_);
-      factor.tags.owner = context_.section;
-      factor.tags.landmark = landmark;
-      batch_.addFactor(std::move(factor));
+      batch_.addFactor(
+          tagged(each.sighting.directionRecord(each.pose, variable, offset_variable_, options_), landmark));
+      if (auto range = each.sighting.rangeRecord(each.pose, variable))
+        batch_.addFactor(tagged(std::move(*range), landmark));
     }
+    if (!has_range) batch_.addFactor(tagged(sighting.legibilityRecord(frame_.pose, variable), landmark));
     tracks_.forget(place->views);
   }
 
   const SignLandmarksOptions& options_;
   const mapper::PluginContext& context_;
   SignTracks& tracks_;
+  mapper::PanTiltOffsets& offsets_;
   const map::KeyFrame& frame_;
   const mapper::View& view_;
   std::string label_;
+  std::optional<base::VariableId> offset_variable_;
+  KnownOffsets known_offsets_;
   mapper::Batch batch_;
 };
 
 SignLandmarksPlugin::SignLandmarksPlugin(const SignLandmarksOptions& options, const mapper::PluginContext& context)
-    : options_(options), context_(context), tracks_(std::make_unique<SignTracks>(context.section)) {}
+    : options_(options),
+      context_(context),
+      tracks_(std::make_unique<SignTracks>(context.section)),
+      offsets_(options.pan_tilt_offset_sigma, context.section) {}
 
 SignLandmarksPlugin::~SignLandmarksPlugin() = default;
 
@@ -168,11 +217,12 @@ bool SignLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) cons
 mapper::Batch SignLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                            const mapper::View& view) {
   tracks_->goTo(frame, view, options_.recent_way);
-  return Work(options_, context_, *tracks_, frame, view)
+  return Work(options_, context_, *tracks_, offsets_, frame, view)
       .take(dynamic_cast<const CObservationDoorSigns&>(observed.observation));
 }
 
 void SignLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {
+  offsets_.applied(ids);
   for (const auto id : ids.landmarks) tracks_->add(id);
 }
 
@@ -194,6 +244,8 @@ void SignLandmarksPlugin::restore(const map::MapSection*, const mapper::View& vi
 
 void SignLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
   SignBearingFactor::addTo(kinds.factors);
+  PanTiltBearingFactor::addTo(kinds.factors);
+  SignRangeFactor::addTo(kinds.factors);
   SignPayload::addTo(kinds.payloads);
 }
 

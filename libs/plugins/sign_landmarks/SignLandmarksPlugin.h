@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/plugin/Association.h>
+#include <omnimapper/plugin/PanTiltOffsets.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
 #include <memory>
@@ -15,10 +16,11 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
   double pixel_sigma = 0.1 * base::option_text::kRadiansPerDegree;  ///< [rad] of a direction in the camera
   double pan_sigma = 0.5 * base::option_text::kRadiansPerDegree;    ///< [rad] of what is told of the camera's turn
   double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;   ///< [rad] the same of its pitch
-  double max_sigma = 0.15;                                          ///< [m] of the place of a new sign
-  double recent_way = 10;                                           ///< [m] for so long a sign counts as seen just now
-  double same_sigma = 0.03;                                         ///< [m] of the middle of a sign, seen twice
-  double loss_scale = 3;                                            ///< [sigma] of the Huber loss
+  double pan_tilt_offset_sigma = 1 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zeros
+  double max_sigma = 0.15;                                                  ///< [m] of the place of a new sign
+  double recent_way = 10;    ///< [m] for so long a sign counts as seen just now
+  double same_sigma = 0.03;  ///< [m] of the middle of a sign, seen twice
+  double loss_scale = 3;     ///< [sigma] of the Huber loss
 
   static const base::OptionTable<SignLandmarksOptions>& table();
 };
@@ -49,6 +51,7 @@ class SignLandmarksPlugin : public mapper::MeasurementPlugin {
   SignLandmarksOptions options_;
   mapper::PluginContext context_;
   std::unique_ptr<class SignTracks> tracks_;
+  mapper::PanTiltOffsets offsets_;
 };
 
 class SignLandmarksPluginFactory : public mapper::MeasurementPluginFactory {

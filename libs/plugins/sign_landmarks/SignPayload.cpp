@@ -1,16 +1,18 @@
 #include "SignPayload.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/ByteIo.h>
 #include <omnimapper/graph/VariableKinds.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace omnimapper::plugins {
 
 namespace {
 
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;  // 1: without a look
 
 using Votes = std::map<std::string, double>;
 
@@ -40,6 +42,35 @@ Votes readVotes(std::istream& in) {
     votes[text] = graph::readDouble(in);
   }
   return votes;
+}
+
+void write(std::ostream& out, const SignLook& look) {
+  graph::writeId(out, look.frame);
+  graph::writeVector(out, look.direction);
+  graph::writeDouble(out, look.area_px);
+  const map::Photograph none;
+  const map::Photograph& photograph = look.photograph ? *look.photograph : none;
+  graph::writeUint(out, static_cast<std::uint64_t>(photograph.width), 2);
+  graph::writeUint(out, static_cast<std::uint64_t>(photograph.height), 2);
+  graph::writeText(out, {photograph.rgb.begin(), photograph.rgb.end()});
+}
+
+SignLook readLook(std::istream& in) {
+  SignLook look;
+  look.frame = graph::readId<base::KeyFrameId>(in);
+  look.direction = graph::readVector<3>(in);
+  look.area_px = graph::readDouble(in);
+  map::Photograph photograph;
+  photograph.width = static_cast<int>(graph::readUint(in, 2));
+  photograph.height = static_cast<int>(graph::readUint(in, 2));
+  const std::string bytes = graph::readText(in);
+  if (bytes.size() != std::size_t{3} * photograph.width * photograph.height)
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "a door sign's photograph has other pixels than its size: damaged");
+  if (bytes.empty()) return look;
+  photograph.rgb.assign(bytes.begin(), bytes.end());
+  look.photograph = std::make_shared<const map::Photograph>(std::move(photograph));
+  return look;
 }
 
 }  // namespace
@@ -83,6 +114,7 @@ std::shared_ptr<SignPayload> SignPayload::with(const SignPayload& other) const {
   add(both->numbers, other.numbers);
   add(both->words, other.words);
   for (const auto& [label, sightings] : other.seen_by) both->seen_by[label] += sightings;
+  if (other.best_look && isBetter(other.best_look->area_px)) both->best_look = other.best_look;
   return both;
 }
 
@@ -96,12 +128,26 @@ bool SignPayload::fits(const std::vector<std::string_view>& kinds) const {
   return kinds.size() == 1 && kinds[0] == graph::point3()->kind();
 }
 
-map::LandmarkShape SignPayload::shape(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames&) const {
+std::vector<base::KeyFrameId> SignPayload::keyFrames() const {
+  return best_look ? std::vector{best_look->frame} : std::vector<base::KeyFrameId>();
+}
+
+map::LandmarkShape SignPayload::shape(const std::vector<Eigen::VectorXd>& values,
+                                      const map::KeyFrames& key_frames) const {
   map::LandmarkShape shape;
   if (values.empty()) return shape;
   shape.label = "sign";
   shape.caption = title();
   shape.points.emplace_back(values.front());
+  if (best_look) {
+    shape.photograph = best_look->photograph;
+    if (const auto* frame = key_frames.find(best_look->frame)) {
+      // Signs hang upright. The largest look is from the front more or less.
+      Eigen::Vector3d back = geometry::fromMrpt(frame->map_from_base).rotation * -best_look->direction;
+      back.z() = 0;
+      if (back.norm() > 0.1) shape.normal = back.normalized();
+    }
+  }
   const SignText read = text();
   if (!read.number.empty()) shape.properties.emplace_back("number", read.number);
   std::string lines;
@@ -123,11 +169,14 @@ void SignPayload::write(std::ostream& out) const {
     graph::writeText(out, label);
     graph::writeUint(out, sightings, 4);
   }
+  graph::writeUint(out, best_look.has_value(), 1);
+  if (best_look) plugins::write(out, *best_look);
 }
 
 void SignPayload::addTo(map::PayloadRegistry& registry) {
   registry.add("door_sign", [](std::istream& in) {
-    if (const auto version = graph::readUint(in, 1); version > kVersion) {
+    const auto version = graph::readUint(in, 1);
+    if (version > kVersion) {
       throw base::Error(base::ExitCode::unreadable_input,
                         "a door sign of version " + std::to_string(version) + ": this program reads versions up to " +
                             std::to_string(kVersion) + "; take the OmniMapper that wrote the map");
@@ -140,6 +189,7 @@ void SignPayload::addTo(map::PayloadRegistry& registry) {
       const std::string label = graph::readText(in);
       payload->seen_by[label] = static_cast<std::uint32_t>(graph::readUint(in, 4));
     }
+    if (version > 1 && graph::readUint(in, 1) != 0) payload->best_look = readLook(in);
     return payload;
   });
 }

@@ -1,44 +1,120 @@
 #include "SignSighting.h"
 
+#include <mrpt/img/CImage.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "SignBearingFactor.h"
+#include <memory>
+#include <utility>
 
 namespace omnimapper::plugins {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-graph::FactorRecord SignSighting::record(base::VariableId pose, base::VariableId point,
-                                         const SignLandmarksOptions& options) const {
-  graph::FactorRecord record{{pose, point},
-                             std::make_shared<SignBearingFactor>(camera, direction),
-                             graph::SquareRootInformation::fromSigmas(Eigen::Vector2d(sigma_left, sigma_down))};
-  record.loss = graph::Loss::huber(options.loss_scale);
-  record.tags.note = "sign sighting";
+namespace {
+
+graph::FactorRecord recordOf(const std::vector<base::VariableId>& variables,
+                             std::shared_ptr<const graph::Factor> factor, const Eigen::VectorXd& sigmas,
+                             const char* note) {
+  graph::FactorRecord record{variables, std::move(factor), graph::SquareRootInformation::fromSigmas(sigmas)};
+  record.tags.note = note;
   return record;
+}
+
+double areaOf(const obs::ObservedDoorSign& sign) {
+  double doubled = 0;
+  for (std::size_t i = 0; i < sign.corners_px.size(); ++i) {
+    const Eigen::Vector2d a = sign.corners_px[i].cast<double>();
+    const Eigen::Vector2d b = sign.corners_px[(i + 1) % sign.corners_px.size()].cast<double>();
+    doubled += a.x() * b.y() - a.y() * b.x();
+  }
+  return std::isfinite(doubled) ? std::abs(doubled) / 2 : 0;
+}
+
+// Maps are to stay small.
+map::Photograph photographOf(const mrpt::img::CImage& patch) {
+  constexpr double kMostPixels = 120 * 80;
+  const auto width = static_cast<double>(patch.getWidth()), height = static_cast<double>(patch.getHeight());
+  const double scale = std::min(1.0, std::sqrt(kMostPixels / (width * height)));
+  mrpt::img::CImage small;
+  patch.scaleImage(small, std::max(1U, static_cast<unsigned>(width * scale)),
+                   std::max(1U, static_cast<unsigned>(height * scale)), mrpt::img::IMG_INTERP_AREA);
+  map::Photograph photograph;
+  photograph.width = static_cast<int>(small.getWidth());
+  photograph.height = static_cast<int>(small.getHeight());
+  const std::size_t channels = small.isColor() ? 3 : 1;
+  for (int y = 0; y < photograph.height; ++y) {
+    const auto* pixel = small.ptrLine<std::uint8_t>(static_cast<unsigned>(y));
+    for (int x = 0; x < photograph.width; ++x, pixel += channels)  // blue first
+      photograph.rgb.insert(photograph.rgb.end(), {pixel[channels - 1], pixel[channels / 2], pixel[0]});
+  }
+  return photograph;
+}
+
+}  // namespace
+
+SignLook SignSighting::look(base::KeyFrameId frame) const {
+  const bool has_patch = !patch.isEmpty();
+  return {frame, seen.direction(), area_px,
+          has_patch ? std::make_shared<const map::Photograph>(photographOf(patch)) : nullptr};
+}
+
+graph::FactorRecord SignSighting::directionRecord(base::VariableId pose, base::VariableId point,
+                                                  std::optional<base::VariableId> offsets,
+                                                  const SignLandmarksOptions& options) const {
+  std::vector<base::VariableId> variables{pose, point};
+  std::shared_ptr<const graph::Factor> factor;
+  if (offsets) {
+    variables.push_back(*offsets);
+    factor = std::make_shared<PanTiltBearingFactor>(seen, tilt_axis);
+  } else {
+    factor = std::make_shared<SignBearingFactor>(seen);
+  }
+  auto record = recordOf(variables, std::move(factor), Eigen::Vector2d(sigma_left, sigma_down), "sign sighting");
+  record.loss = graph::Loss::huber(options.loss_scale);
+  return record;
+}
+
+std::optional<graph::FactorRecord> SignSighting::rangeRecord(base::VariableId pose, base::VariableId point) const {
+  constexpr double kLossScale = 2;  // [sigma] a beam may end before the sign or behind it
+  if (!range) return std::nullopt;
+  auto record = recordOf({pose, point}, std::make_shared<SignRangeFactor>(seen.camera(), *range),
+                         Eigen::VectorXd::Constant(1, range_sigma / *range), "range of a sign");
+  record.loss = graph::Loss::cauchy(kLossScale);
+  return record;
+}
+
+graph::FactorRecord SignSighting::legibilityRecord(base::VariableId pose, base::VariableId point) const {
+  constexpr double kUsual = 2.5, kFactor = 2.2;  // [m] two signs of three are read from 1.1 to 5.5 m
+  return recordOf({pose, point}, std::make_shared<SignRangeFactor>(seen.camera(), kUsual),
+                  Eigen::VectorXd::Constant(1, std::log(kFactor)), "a sign is read from near");
 }
 
 std::vector<SignSighting> signSightings(const obs::CObservationDoorSigns& observation,
                                         const SignLandmarksOptions& options) {
   constexpr double kLeastLevel = 0.05;  // of the direction, over the floor
   const geometry::Se3 base_from_camera = geometry::fromMrpt(observation.sensorPose);
+  const Vector3d left = base_from_camera.rotation * -Vector3d::UnitX();
+  const double length = left.head<2>().norm();
+  const Vector3d tilt_axis = length > 0.5 ? Vector3d(left.x() / length, left.y() / length, 0) : Vector3d::UnitY();
   std::vector<SignSighting> sightings;
   for (const auto& sign : observation.signs) {
     SignText text = textOf(sign, options.min_confidence);
     const Vector3d direction = base_from_camera.rotation * sign.ray;
     const double level = direction.head<2>().norm();
     if (text.empty() || !direction.allFinite() || !(level > kLeastLevel)) continue;
+    const bool has_range = sign.range && *sign.range > 0 && std::isfinite(*sign.range) && sign.range_sigma > 0;
     // A pan turns what is near the vertical less.
-    sightings.push_back({std::move(text), base_from_camera.translation, direction.normalized(),
-                         std::hypot(options.pixel_sigma, level * options.pan_sigma),
-                         std::hypot(options.pixel_sigma, options.tilt_sigma)});
+    sightings.push_back({std::move(text), SeenDirection(base_from_camera.translation, direction.normalized()),
+                         tilt_axis, std::hypot(options.pixel_sigma, level * options.pan_sigma),
+                         std::hypot(options.pixel_sigma, options.tilt_sigma), has_range ? sign.range : std::nullopt,
+                         sign.range_sigma, areaOf(sign), sign.patch});
   }
   return sightings;
 }
@@ -47,15 +123,18 @@ namespace {
 
 struct Ray {
   Vector3d origin, direction;  // in the map
-  double sigma;                // [rad]
+  double sigma;                // [rad] of its own
+  double sigma_with_offsets;   // [rad] with what all rays have in common
 };
 
-std::vector<Ray> raysOf(const std::vector<SignView>& views, const graph::Graph& graph) {
+std::vector<Ray> raysOf(const std::vector<SignView>& views, const graph::Graph& graph, const KnownOffsets& offsets) {
   std::vector<Ray> rays;
-  for (const auto& [pose, sighting, travelled] : views) {
+  for (const auto& [frame, pose, sighting, travelled] : views) {
     const geometry::Se3 map_from_base = geometry::fromMrpt(mapper::poseOf(graph, pose));
-    rays.push_back({map_from_base * sighting.camera, map_from_base.rotation * sighting.direction,
-                    std::max(sighting.sigma_left, sighting.sigma_down)});
+    const Vector3d direction = turnedBy(offsets.pan_tilt, sighting.tilt_axis, sighting.seen.direction());
+    const double sigma = std::max(sighting.sigma_left, sighting.sigma_down);
+    rays.push_back({map_from_base * sighting.seen.camera(), map_from_base.rotation * direction, sigma,
+                    std::hypot(sigma, offsets.sigma)});
   }
   return rays;
 }
@@ -65,7 +144,7 @@ double missOf(const Ray& ray, const Vector3d& point) {
   constexpr double kNearest = 0.2;  // [m]
   const double ahead = ray.direction.dot(point - ray.origin);
   if (!(ahead > kNearest)) return std::numeric_limits<double>::infinity();
-  return (point - ray.origin).cross(ray.direction).norm() / (ray.sigma * ahead);
+  return (point - ray.origin).cross(ray.direction).norm() / (ray.sigma_with_offsets * ahead);
 }
 
 // By least squares of the distances, weighted by what an angle is at the point of the round before.
@@ -99,9 +178,9 @@ std::optional<Triangulation> meetingOf(const std::vector<const Ray*>& rays) {
 }  // namespace
 
 std::optional<Triangulation> triangulate(const std::vector<SignView>& views, const graph::Graph& graph,
-                                         double max_sigma, std::size_t min_views) {
+                                         const KnownOffsets& offsets, double max_sigma, std::size_t min_views) {
   constexpr double kMostSigmas = 3;
-  const auto rays = raysOf(views, graph);
+  const auto rays = raysOf(views, graph, offsets);
   if (rays.size() < min_views) return std::nullopt;
   // What the last view and one before it meet at, and who else passes there.
   std::vector<std::size_t> best;

@@ -119,6 +119,8 @@ Json propertiesOf(const ShapedLandmark& shaped) {
   Json properties = {{"feature", "landmark"}, {"label", shaped.shape.label}};
   if (!shaped.shape.caption.empty()) properties["caption"] = shaped.shape.caption;
   for (const auto& [name, value] : shaped.shape.properties) properties[name] = valueOf(value);
+  if (const auto photograph = photographAddress(shaped.shape); !photograph.empty())
+    properties["photograph"] = photograph;
   properties["kind"] = landmark.kind;
   properties["state"] = shaped.moved ? "moved" : "present";
   properties["sightings"] = landmark.evidence;

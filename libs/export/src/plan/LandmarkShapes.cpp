@@ -1,5 +1,7 @@
 #include "plan/LandmarkShapes.h"
 
+#include <omnimapper/draw/Image.h>
+#include <omnimapper/draw/Markup.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 
 #include <algorithm>
@@ -39,6 +41,10 @@ void keepFinite(map::LandmarkShape& shape) {
   keep(shape.holes, isSurface);
   keep(shape.lines, [](const auto& line) { return line.first.allFinite() && line.second.allFinite(); });
   keepFinitePoints(shape);
+  if (shape.photograph) {
+    const auto& [width, height, rgb] = *shape.photograph;
+    if (width <= 0 || height <= 0 || rgb.size() != std::size_t{3} * width * height) shape.photograph = nullptr;
+  }
   if (shape.normal && !(shape.normal->norm() > 0.5 && shape.normal->allFinite())) shape.normal.reset();
 }
 
@@ -101,6 +107,14 @@ Eigen::AlignedBox3d boxOf(const map::LandmarkShape& shape) {
   for (const auto& [from, to] : shape.lines) box.extend(from).extend(to);
   for (const auto& point : shape.points) box.extend(point);
   return box;
+}
+
+std::string photographAddress(const map::LandmarkShape& shape) {
+  if (!shape.photograph) return {};
+  const auto& [width, height, rgb] = *shape.photograph;
+  draw::Image image(width, height, {});
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = {rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]};
+  return draw::pngAddress(draw::encodePng(image));
 }
 
 geometry::Plane3 planeOf(const geometry::Polygon3& surface, const map::LandmarkShape& shape) {

@@ -46,6 +46,9 @@ double lengthOf(const map::LandmarkShape& shape);
 /// The least box along the axes of the map around all of it [m]; empty if it is nowhere.
 Eigen::AlignedBox3d boxOf(const map::LandmarkShape& shape);
 
+/// The address of its photograph for pages and data (draw::pngAddress()); empty if it has none.
+std::string photographAddress(const map::LandmarkShape& shape);
+
 /// The plane of a surface, its normal on the side of `shape.normal`.
 geometry::Plane3 planeOf(const geometry::Polygon3& surface, const map::LandmarkShape& shape);
 

@@ -6,7 +6,6 @@
 
 namespace omnimapper::exports {
 
-std::string encodeBase64(std::string_view bytes);
 /// Cells of a table row: text, and numbers, which stand to the right and are sorted as such.
 std::string cell(const std::string& html);
 std::string numberCell(const std::string& html);

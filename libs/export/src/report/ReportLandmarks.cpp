@@ -29,6 +29,11 @@ std::string sensorsOf(const map::LandmarkShape& shape) {
   return text;
 }
 
+std::string photographOf(const map::LandmarkShape& shape) {
+  const std::string address = photographAddress(shape);
+  return address.empty() ? "" : "<img class=\"photograph\" alt=\"\" src=\"" + address + "\"/>";
+}
+
 // What its plugin tells beside size and sightings, which have columns of their own.
 std::string otherProperties(const map::LandmarkShape& shape) {
   std::string text;
@@ -48,7 +53,7 @@ std::string landmarkRow(const ShapedLandmark& shaped, base::Stamp start) {
   const Eigen::AlignedBox3d box = boxOf(shape);
   const auto middle = [&](int axis) { return numberCell(box.isEmpty() ? "" : base::fixed(box.center()(axis), 2)); };
   return "<tr>" + numberCell(toString(landmark->id)) + cell(swatch(shape.label) + draw::escapeMarkup(shape.label)) +
-         cell(draw::escapeMarkup(landmark->kind)) + middle(0) + middle(1) + middle(2) +
+         cell(photographOf(shape)) + cell(draw::escapeMarkup(landmark->kind)) + middle(0) + middle(1) + middle(2) +
          numberCell(area > 0 ? base::fixed(area, 2) : "") + numberCell(length > 0 ? base::fixed(length, 2) : "") +
          numberCell(grouped(landmark->evidence)) + cell(sensorsOf(shape)) + numberCell(since(landmark->first_seen)) +
          numberCell(since(landmark->last_seen)) + cell(moved ? "moved" : "") + cell(otherProperties(shape)) + "</tr>\n";
@@ -74,7 +79,8 @@ std::string drawLandmarkTable(const std::vector<ShapedLandmark>& landmarks, base
   return "<section class=\"card\"><h2>Landmarks</h2>" + note +
          "<div class=\"scroll tall\"><table class=\"sortable\" id=\"landmarks\"><thead><tr><th "
          "class=\"num\">landmark</th>"
-         "<th>what</th><th>kind</th><th class=\"num\">x [m]</th><th class=\"num\">y [m]</th><th class=\"num\">z "
+         "<th>what</th><th>photograph</th><th>kind</th><th class=\"num\">x [m]</th><th class=\"num\">y [m]</th><th "
+         "class=\"num\">z "
          "[m]</th>"
          "<th class=\"num\">area [m&#178;]</th><th class=\"num\">length [m]</th>"
          "<th class=\"num\">sightings</th><th>seen by</th><th class=\"num\">first [s]</th><th class=\"num\">last "

@@ -92,7 +92,7 @@ std::string drawReportMap(const GridPicture& grid, const std::vector<ShapedLandm
                     base::brief(grid.metres_per_pixel, 9) + "\" data-min-x=\"" + base::brief(grid.min_x, 9) +
                     "\" data-max-y=\"" + base::brief(grid.max_y, 9) +
                     "\" role=\"img\" aria-label=\"map from above\">\n<image width=\"" + width + "\" height=\"" +
-                    height + "\" href=\"data:image/png;base64," + encodeBase64(draw::encodePng(grid.image)) + "\"/>\n";
+                    height + "\" href=\"" + draw::pngAddress(draw::encodePng(grid.image)) + "\"/>\n";
   for (const auto& layer : layers) svg += layer.svg;
   svg += closureGroup(grid, closures, false, max_refused) + closureGroup(grid, closures, true, closures.size());
   std::string data;

@@ -48,6 +48,7 @@ header p, .note { color: var(--soft); margin: 4px 0 0; font-size: 13.5px; }
 .toggles, .filters { display: flex; flex-wrap: wrap; gap: 6px 18px; align-items: center; margin: 0 4px 10px; font-size: 14px; }
 .toggles label { display: inline-flex; align-items: center; gap: 6px; }
 .toggles i { width: 22px; height: 0; border-top: 3px solid; }
+img.photograph { display: block; max-width: 120px; max-height: 40px; }
 .swatch { display: inline-block; width: 10px; height: 10px; border-radius: 3px; margin-right: 6px; }
 .kt { color: #2563eb; } .ka { color: #16a34a; } .toggles .kr { color: #dc2626; border-top-style: dashed; border-top-width: 2px; }
 .zoom { margin-left: auto; display: inline-flex; gap: 6px; }

@@ -77,6 +77,25 @@ Eigen::Vector3d namePlace(const map::LandmarkShape& shape) {
   return shape.points.back() + above;
 }
 
+// Of a thing at a point, upright before it.
+void addPhotograph(CSetOfObjects& object, const map::LandmarkShape& shape) {
+  constexpr double kHalfHeight = 0.08, kBefore = 0.05;  // [m]
+  if (!shape.photograph || !shape.normal || shape.points.size() != 1) return;
+  const auto& [width, height, rgb] = *shape.photograph;
+  mrpt::img::CImage image(static_cast<unsigned>(width), static_cast<unsigned>(height), mrpt::img::CH_RGB);
+  for (int y = 0; y < height; ++y) {
+    auto* pixel = image.ptrLine<std::uint8_t>(static_cast<unsigned>(y));
+    for (int x = 0; x < width; ++x, pixel += 3) {  // blue first
+      const auto* from = rgb.data() + std::size_t{3} * (static_cast<std::size_t>(y) * width + x);
+      std::reverse_copy(from, from + 3, pixel);
+    }
+  }
+  const Eigen::Vector3d down = -Eigen::Vector3d::UnitZ(), right = down.cross(-*shape.normal);
+  if (!(right.norm() > 0.5)) return;
+  obs::addPicture(object, shape.points.front() + kBefore * *shape.normal,
+                  kHalfHeight * width / height * right.normalized(), kHalfHeight * down, image);
+}
+
 CSetOfObjects::Ptr objectOf(const ShapedLandmark& landmark, bool with_name) {
   auto object = CSetOfObjects::Create();
   const map::LandmarkShape& shape = landmark.shape;
@@ -90,6 +109,7 @@ CSetOfObjects::Ptr objectOf(const ShapedLandmark& landmark, bool with_name) {
   }
   if (const auto strokes = landmarkStrokes(landmark); strokes->getTrianglesCount() > 0) object->insert(strokes);
   for (const auto& point : shape.points) obs::addBall(*object, point, kPointBall, inkOf(landmark));
+  addPhotograph(*object, shape);
   if (with_name && !landmark.isFaint()) {
     const std::string text =
         shape.label + " " + (shape.caption.empty() ? std::to_string(landmark.landmark->id.index) : shape.caption);

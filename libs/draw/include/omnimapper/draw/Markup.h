@@ -9,4 +9,8 @@ namespace omnimapper::draw {
 /// marks, control characters go.
 std::string escapeMarkup(std::string_view text);
 
+std::string encodeBase64(std::string_view bytes);
+/// The bytes of a PNG file as an address that stands for them, for pages and data that are one file.
+std::string pngAddress(std::string_view bytes);
+
 }  // namespace omnimapper::draw

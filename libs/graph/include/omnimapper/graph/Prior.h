@@ -37,4 +37,18 @@ class PriorSe3 : public SizedFactor<6, Se3Kind> {
   geometry::Se3 map_from_a_;
 };
 
+/// Two angles of a pan-tilt unit that are known beforehand. Variable: pan_tilt. Residual: the angles less the measured
+/// ones [rad].
+class PriorPanTilt : public SizedFactor<2, PanTiltKind> {
+ public:
+  explicit PriorPanTilt(const Eigen::Vector2d& angles) : angles_(angles) {}
+
+  std::string_view kind() const override { return "prior_pan_tilt"; }
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+
+ private:
+  Eigen::Vector2d angles_;
+};
+
 }  // namespace omnimapper::graph

@@ -19,6 +19,8 @@ const std::shared_ptr<const Variable>& se3();
 const std::shared_ptr<const Variable>& point2();
 /// "point3": x y z.
 const std::shared_ptr<const Variable>& point3();
+/// "pan_tilt": two angles, to the left and then down; no place in the map.
+const std::shared_ptr<const Variable>& panTilt();
 
 /// The same kinds as types, for SizedFactor.
 struct Se2Kind {
@@ -36,6 +38,10 @@ struct Point2Kind {
 struct Point3Kind {
   static constexpr std::string_view kName = "point3";
   static constexpr int kTangentSize = 3;
+};
+struct PanTiltKind {
+  static constexpr std::string_view kName = "pan_tilt";
+  static constexpr int kTangentSize = 2;
 };
 
 /// Values of poses as the graph stores them, and back. The pointers are to a whole ambient value.

@@ -24,6 +24,12 @@ inline std::string seenByKey(const std::string& label) {
   return "seen_by_" + (label.empty() ? "no_label" : label);
 }
 
+/// A small picture of something. `rgb`: red, green, blue of each pixel, row by row from the top.
+struct Photograph {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
 /// How a landmark looks in the map, for whoever draws or exports it. All in the frame of the map [m].
 struct LandmarkShape {
   std::string label;                         ///< what a user calls it: "wall", "table", "sign"
@@ -34,8 +40,9 @@ struct LandmarkShape {
   std::vector<geometry::Polygon3> holes;     ///< each in one of `surfaces`, which it is cut out of (holesIn())
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;  ///< from, to
   std::vector<Eigen::Vector3d> points;
-  std::vector<base::Stamp> point_stamps;  ///< when it was at each of `points`; empty: at all times
-  std::optional<Eigen::Vector3d> normal;  ///< unit, to the free side
+  std::vector<base::Stamp> point_stamps;         ///< when it was at each of `points`; empty: at all times
+  std::optional<Eigen::Vector3d> normal;         ///< unit, to the free side
+  std::shared_ptr<const Photograph> photograph;  ///< as a camera saw it; null for none
   std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value: for tables and exports
   /// Of the properties, that of seenByKey() tells how often a sensor saw it.
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt/img/CImage.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
@@ -38,6 +39,9 @@ void addArrow(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& from, c
 /// A small ball.
 void addBall(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middle, double radius,
              const mrpt::img::TColor& colour);
+/// A picture in space: `right` and `down` [m] are its edges from the middle of the picture, half as long as it is.
+void addPicture(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middle, const Eigen::Vector3d& right,
+                const Eigen::Vector3d& down, const mrpt::img::CImage& image);
 /// Text that always faces who looks; MRPT draws ASCII.
 void addText(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& place, const std::string& text,
              const mrpt::img::TColor& colour);
