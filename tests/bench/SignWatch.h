@@ -94,7 +94,7 @@ struct SignWatch {
     for (; next_ < next; ++next_.index) {
       const auto* record = factors.find(next_);
       if (!record) continue;
-      if (record->factor->kind() == "sign_bearing") addSighting(view, *record);
+      if (isDirection(record->factor->kind())) addSighting(view, *record);
       if (record->factor->kind() == graph::SamePointFactor::kKind) addHypothesis(view, next_, *record);
     }
     const auto& frames = view.map.key_frames;
@@ -137,6 +137,7 @@ struct SignWatch {
   }
 
  private:
+  static bool isDirection(std::string_view kind) { return kind == "sign_bearing" || kind == "sign_bearing_pan_tilt"; }
   void addSighting(const mapper::View& view, const graph::FactorRecord& record) {
     std::stringstream bytes;
     record.factor->write(bytes);

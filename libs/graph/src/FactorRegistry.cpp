@@ -38,7 +38,7 @@ FactorRegistry FactorRegistry::withBuiltIns() {
   registry.add("prior_se3", [](std::istream& in) { return std::make_shared<PriorSe3>(readSe3(in)); });
   registry.add("prior_pan_tilt", [](std::istream& in) { return std::make_shared<PriorPanTilt>(readVector<2>(in)); });
   registry.add("point2_from_se2", [](std::istream& in) { return std::make_shared<PointFactor2>(readVector<2>(in)); });
-  registry.add(std::string(SamePointFactor::kKind), [](std::istream&) { return std::make_shared<SamePointFactor>(); });
+  registry.add(std::string(SamePointFactor::kKind), SamePointFactor::read);
   registry.add("point3_from_se3", [](std::istream& in) { return std::make_shared<PointFactor3>(readVector<3>(in)); });
   return registry;
 }

@@ -1,5 +1,9 @@
 #include "omnimapper/graph/PointFactor.h"
 
+#include <omnimapper/base/Error.h>
+
+#include <cmath>
+
 #include "omnimapper/graph/ByteIo.h"
 
 namespace omnimapper::graph {
@@ -41,6 +45,18 @@ void SamePointFactor::evaluate(const double* const* values, double* residual, do
   if (!jacobians) return;
   if (auto by_first = jacobian<0>(jacobians)) by_first = -Eigen::Matrix3d::Identity();
   if (auto by_second = jacobian<1>(jacobians)) by_second = Eigen::Matrix3d::Identity();
+}
+
+void SamePointFactor::write(std::ostream& out) const {
+  writeDouble(out, odds_);
+}
+
+std::shared_ptr<SamePointFactor> SamePointFactor::read(std::istream& in) {
+  const bool is_old = in.peek() == std::istream::traits_type::eof();  // written before odds were known
+  const double odds = is_old ? 1 : readDouble(in);
+  if (!(odds > 0) || !std::isfinite(odds))
+    throw base::Error(base::ExitCode::damaged_input, "graph: two points are one with odds that are no positive number");
+  return std::make_shared<SamePointFactor>(odds);
 }
 
 }  // namespace omnimapper::graph

@@ -2,6 +2,7 @@
 #include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/obs/Drawing.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -115,18 +116,26 @@ std::string textOf(const ObservedDoorSign& sign) {
 }  // namespace
 
 uint8_t CObservationDoorSigns::serializeGetVersion() const {
-  return 0;
+  return 1;
 }
 
 void CObservationDoorSigns::serializeTo(mrpt::serialization::CArchive& out) const {
   writeHead(out);
   writeItems(out, signs, writeSign);
+  for (const auto& sign : signs) out << sign.is_cut;
 }
 
 void CObservationDoorSigns::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
-  if (version != 0) refuseVersion("CObservationDoorSigns", version);
+  if (version > 1) refuseVersion("CObservationDoorSigns", version);
   readHead(in);
   signs = readItems(in, readSign);
+  for (auto& sign : signs) {
+    // Version 0 did not keep it, and nothing tells how large the image was.
+    const auto& corners = sign.corners_px;
+    sign.is_cut = version > 0 ? readNumber<bool>(in)
+                              : std::any_of(corners.begin(), corners.end(),
+                                            [](const auto& corner) { return corner.minCoeff() < 0; });
+  }
 }
 
 void CObservationDoorSigns::describe(std::ostream& out) const {
@@ -134,6 +143,7 @@ void CObservationDoorSigns::describe(std::ostream& out) const {
   for (std::size_t i = 0; i < signs.size(); ++i) {
     const auto& sign = signs[i];
     out << i << ": ray " << shortly(sign.ray.x()) << " " << shortly(sign.ray.y()) << " " << shortly(sign.ray.z());
+    if (sign.is_cut) out << ", cut by the edge of the image";
     if (sign.range) out << ", range " << shortly(*sign.range) << " +- " << shortly(sign.range_sigma) << " m";
     out << ", score " << shortly(sign.score) << ", corners [px]";
     for (const auto& corner : sign.corners_px) out << " (" << corner.x() << ", " << corner.y() << ")";
@@ -149,7 +159,8 @@ void CObservationDoorSigns::describe(std::ostream& out) const {
 
 std::string CObservationDoorSigns::exportTxtHeader() const {
   return "signs { corner_0_x_px corner_0_y_px corner_1_x_px corner_1_y_px corner_2_x_px corner_2_y_px corner_3_x_px "
-         "corner_3_y_px ray_x ray_y ray_z range_m range_sigma_m score patch_width_px patch_height_px texts { text "
+         "corner_3_y_px ray_x ray_y ray_z range_m range_sigma_m is_cut score patch_width_px patch_height_px texts { "
+         "text "
          "confidence } }";
 }
 
@@ -159,7 +170,7 @@ std::string CObservationDoorSigns::exportTxtDataRow() const {
   for (const auto& sign : signs) {
     for (const auto& corner : sign.corners_px) row.vector(Eigen::Vector2d(corner.cast<double>()));
     row.vector(sign.ray).number(sign.range ? *sign.range : std::numeric_limits<double>::quiet_NaN());
-    row.number(sign.range_sigma).number(sign.score);
+    row.number(sign.range_sigma).whole(sign.is_cut).number(sign.score);
     const bool has_patch = !sign.patch.isEmpty();
     row.whole(has_patch ? static_cast<long long>(sign.patch.getWidth()) : 0);
     row.whole(has_patch ? static_cast<long long>(sign.patch.getHeight()) : 0);

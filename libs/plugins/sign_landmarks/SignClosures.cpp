@@ -18,6 +18,8 @@ using graph::SamePointFactor;
 
 // [m] Nearer, what says the same is one sign, whatever the covariance allows.
 constexpr double kOfOneSign = 1;
+// [m] Nearer, a number and words stand on one plate.
+constexpr double kOfOnePlate = 0.15;
 
 std::optional<landmarks::Fit> fitOfGap(base::VariableId a, base::VariableId b, const mapper::View& view, double sigma) {
   const auto joint = view.jointCovariance({a, b});
@@ -81,7 +83,7 @@ class Proposals {
     if (others.empty()) return;
     graph::FactorRecord record{
         {tracks_.known().at(others.front()).variable, own.variable},
-        std::make_shared<SamePointFactor>(),
+        std::make_shared<SamePointFactor>(oddsOfOneSign(text, signOf(view_, others.front()).text())),
         graph::SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(options_.same_sigma))};
     record.tags.owner = section_;
     record.tags.landmark = id;
@@ -136,9 +138,10 @@ mapper::Batch mergeSameSigns(const SignTracks& tracks, const SignLandmarksOption
       const auto hypothesis = hypothesisOf(a->second.variable, b->second.variable, view);
       const bool is_accepted = hypothesis && view.graph.factor(*hypothesis).weight > 0;
       if (agreement == Agreement::contradicts && hypothesis) batch.removeFactor(*hypothesis);  // read otherwise since
-      if (agreement == Agreement::contradicts || (agreement == Agreement::unknown && !is_accepted)) continue;
+      if (agreement == Agreement::contradicts) continue;
+      const double most = agreement == Agreement::agrees ? kOfOneSign : kOfOnePlate;
       const auto gap = view.graph.value(b->second.variable) - view.graph.value(a->second.variable);
-      if (!is_accepted && gap.norm() > kOfOneSign) continue;
+      if (!is_accepted && gap.norm() > most) continue;
       const auto fit = fitOfGap(a->second.variable, b->second.variable, view, options.same_sigma);
       if (!is_accepted && (!fit || fit->chi2 > limit)) continue;
       merged = merged->with(other);

@@ -70,7 +70,9 @@ class SignLandmarksPlugin::Work {
     for (std::size_t i = 0; i < sightings.size() && areOffsetsInGraph(); ++i) {
       for (const auto& [id, known] : tracks_.known()) {
         const bool may_be_met = view_.map_is_held || tracks_.isRecent(known, options_.recent_way);
-        if (!may_be_met || agreementOf(sightings[i].text, signOf(view_, id).text()) == Agreement::contradicts) continue;
+        // A number is not brought to a sign of which words alone are known by its place: that may be a poster beside
+        // it.
+        if (!may_be_met || agreementOf(sightings[i].text, signOf(view_, id).text()) < Agreement::partly) continue;
         pairings.push_back({i, id, record(sightings[i], known.variable, id)});
       }
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 namespace omnimapper::plugins {
 
@@ -63,7 +64,14 @@ double likeness(const std::string& a, const std::string& b) {
 Agreement agreementOf(const SignText& a, const SignText& b) {
   if (!a.number.empty() && !b.number.empty()) return a.number == b.number ? Agreement::agrees : Agreement::contradicts;
   if (a.number.empty() && b.number.empty()) return haveWordsAlike(a, b) ? Agreement::agrees : Agreement::contradicts;
-  return a.words.empty() || b.words.empty() || haveWordsAlike(a, b) ? Agreement::unknown : Agreement::contradicts;
+  if (a.words.empty() || b.words.empty()) return Agreement::unknown;
+  return haveWordsAlike(a, b) ? Agreement::partly : Agreement::contradicts;
+}
+
+double oddsOfOneSign(const SignText& a, const SignText& b) {
+  constexpr std::size_t kMostLetters = 4;
+  if (a.number.empty() || a.number != b.number) return 1;
+  return std::pow(10.0, static_cast<double>(std::min(a.number.size(), kMostLetters)) - 1);
 }
 
 }  // namespace omnimapper::plugins

@@ -25,9 +25,15 @@ double likeness(const std::string& a, const std::string& b);
 /// How far two texts can be of one sign.
 enum class Agreement {
   contradicts,  ///< other numbers, or words that are not alike
-  unknown,      ///< one tells a number, the other words: both may stand on one sign
+  unknown,      ///< one tells a number alone, the other words: both may stand on one sign
+  partly,       ///< one tells a number that the other lacks; their words are alike
   agrees        ///< the same number, or, where neither has one, words that are alike by more than 60 %
 };
 Agreement agreementOf(const SignText& a, const SignText& b);
+
+/// How many times likelier than not two signs of which the texts agree are one, before it is known where they are. A
+/// number of n letters stands on another sign by chance once in 10^n, words often do: 10^(n - 1), at most 1000; 1 for
+/// words.
+double oddsOfOneSign(const SignText& a, const SignText& b);
 
 }  // namespace omnimapper::plugins

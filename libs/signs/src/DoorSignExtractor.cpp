@@ -88,6 +88,15 @@ std::optional<Eigen::Vector3d> rayTo(const Corners& quad, const perception::Lens
 }
 
 // BGR, as MRPT's images are.
+// Or touches its edge.
+bool leavesImage(const Corners& quad, int columns, int rows) {
+  constexpr float kMargin = 1;  // [px]
+  return std::any_of(quad.begin(), quad.end(), [&](const Eigen::Vector2f& corner) {
+    return corner.minCoeff() < kMargin || corner.x() > static_cast<float>(columns - 1) - kMargin ||
+           corner.y() > static_cast<float>(rows - 1) - kMargin;
+  });
+}
+
 mrpt::img::CImage imageOf(const cv::Mat& patch) {
   return mrpt::img::CImage(patch, mrpt::img::DEEP_COPY);
 }
@@ -143,6 +152,7 @@ class DoorSignExtractor::Finder {
       ObservedDoorSign sign;
       sign.corners_px = plate.quad;
       sign.ray = *ray;
+      sign.is_cut = leavesImage(plate.quad, picture.cols, picture.rows);
       if (is_salient) sign.score = plate.score;
       for (const auto line : plate.lines) {
         const auto& text = lines[line].text;

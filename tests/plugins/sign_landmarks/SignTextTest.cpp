@@ -45,9 +45,16 @@ TEST(SignText, numbersMustAgreeAndWordsBeAlike) {
   EXPECT_EQ(agreementOf(text("213", {"OFFICE"}), text("214", {"OFFICE"})), Agreement::contradicts);
   EXPECT_EQ(agreementOf(text("", {"MEN"}), text("", {"WOMEN"})), Agreement::contradicts);
   EXPECT_EQ(agreementOf(text("", {"SEMINAR"}), text("", {"SEMNAR"})), Agreement::agrees);
-  EXPECT_EQ(agreementOf(text("213", {"OFFICE"}), text("", {"OFFICE"})), Agreement::unknown);
+  EXPECT_EQ(agreementOf(text("213", {"OFFICE"}), text("", {"OFFICE"})), Agreement::partly);
   EXPECT_EQ(agreementOf(text("213", {"OFFICE"}), text("", {"KITCHEN"})), Agreement::contradicts);
   EXPECT_EQ(agreementOf(text("213"), text("", {"KITCHEN"})), Agreement::unknown);
+}
+
+TEST(SignText, aLongNumberIsOneSignMoreSurelyThanAShortOne) {
+  EXPECT_EQ(oddsOfOneSign(text("213"), text("213")), 100);
+  EXPECT_EQ(oddsOfOneSign(text("4"), text("4")), 1);
+  EXPECT_EQ(oddsOfOneSign(text("1.234.567"), text("1.234.567")), 1000);
+  EXPECT_EQ(oddsOfOneSign(text("", {"EXIT"}), text("", {"EXIT"})), 1);
 }
 
 TEST(SignPayload, whatWasReadMostIsWhatIsWritten) {

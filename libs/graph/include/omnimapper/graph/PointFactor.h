@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 
 #include "omnimapper/graph/SizedFactor.h"
 #include "omnimapper/graph/VariableKinds.h"
@@ -40,9 +41,18 @@ class PointFactor3 : public SizedFactor<3, Se3Kind, Point3Kind> {
 class SamePointFactor : public SizedFactor<3, Point3Kind, Point3Kind> {
  public:
   static constexpr std::string_view kKind = "same_point3";
+  /// `odds`: how many times likelier than not they are one, before it is known where they are; the consistency test
+  /// takes that into account.
+  explicit SamePointFactor(double odds = 1) : odds_(odds) {}
+  double odds() const { return odds_; }
+
   std::string_view kind() const override { return kKind; }
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
-  void write(std::ostream&) const override {}
+  void write(std::ostream& out) const override;
+  static std::shared_ptr<SamePointFactor> read(std::istream& in);
+
+ private:
+  double odds_;
 };
 
 }  // namespace omnimapper::graph

@@ -25,6 +25,7 @@ struct ObservedDoorSign {
   Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();  ///< unit, from the camera to the middle of the sign
   std::optional<double> range;                     ///< [m] along the ray, where something measured it
   double range_sigma = 0;                          ///< [m]
+  bool is_cut = false;                             ///< its region leaves the image: the ray may be off
   double score = 0;                                ///< of the classifier that says it is a sign, 0 to 1
   std::vector<ReadText> texts;                     ///< from top to bottom
   mrpt::img::CImage patch;                         ///< what the region shows, 8 bit, grey or colour; may be empty
