@@ -14,8 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "BoxWorld.h"
+#include "map/MapOutput.h"
 #include "run/GraphOutput.h"
-#include "run/MapOutput.h"
 #include "run/SummaryOutput.h"
 #include "run/TrajectoryOutput.h"
 #include "scene/PointsOutput.h"

@@ -8,11 +8,11 @@
 
 #include "BoxWorld.h"
 #include "grid/GridOutput.h"
+#include "map/MapOutput.h"
 #include "plan/GeoJsonOutput.h"
 #include "plan/SurfacesOutput.h"
 #include "report/ReportOutput.h"
 #include "run/GraphOutput.h"
-#include "run/MapOutput.h"
 #include "run/SummaryOutput.h"
 #include "run/TrajectoryOutput.h"
 #include "scene/PointsOutput.h"

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <limits>
+#include <set>
 
 namespace omnimapper::map {
 
@@ -54,17 +56,16 @@ class FileBytes {
   }
 
   std::string raw(std::uint64_t count) {
-    if (count > left_) {
-      throw base::Error(base::ExitCode::unreadable_input, what_ + ": truncated: something of " + std::to_string(count) +
-                                                              " bytes begins where only " + std::to_string(left_) +
-                                                              " are left. Take another copy of the file.");
-    }
+    expectLeft(count);
     std::string bytes(count, '\0');
     in_.read(bytes.data(), static_cast<std::streamsize>(count));
-    if (!in_)
-      throw base::Error(base::ExitCode::damaged_input, what_ + ": cannot be read to its end; is the disk whole?");
-    left_ -= count;
+    expectRead(count);
     return bytes;
+  }
+  void skip(std::uint64_t count) {
+    expectLeft(count);
+    in_.seekg(static_cast<std::streamoff>(count), std::ios::cur);
+    expectRead(count);
   }
   std::uint64_t uint(int bytes) { return base::fromBytes(raw(static_cast<std::uint64_t>(bytes)).data(), bytes); }
   bool atEnd() const { return left_ == 0; }
@@ -72,12 +73,27 @@ class FileBytes {
   void setWhat(const std::string& what) { what_ = what; }
 
  private:
+  void expectLeft(std::uint64_t count) const {
+    if (count <= left_) return;
+    throw base::Error(base::ExitCode::unreadable_input, what_ + ": truncated: something of " + std::to_string(count) +
+                                                            " bytes begins where only " + std::to_string(left_) +
+                                                            " are left. Take another copy of the file.");
+  }
+  void expectRead(std::uint64_t count) {
+    if (!in_)
+      throw base::Error(base::ExitCode::damaged_input, what_ + ": cannot be read to its end; is the disk whole?");
+    left_ -= count;
+  }
+
   std::ifstream in_;
   std::string what_;
   std::uint64_t left_;
 };
 
-MapSection readSection(FileBytes& in, const std::string& path, std::uint32_t number) {
+using Wanted = std::function<bool(const std::string& name)>;
+
+// A section that is not wanted has no bytes.
+MapSection readSection(FileBytes& in, const std::string& path, std::uint32_t number, const Wanted& is_wanted) {
   in.setWhat(path + ", section number " + std::to_string(number));
   const auto checksum = static_cast<std::uint32_t>(in.uint(4));
   MapSection section;
@@ -85,16 +101,20 @@ MapSection readSection(FileBytes& in, const std::string& path, std::uint32_t num
   const std::string what = path + ", section \"" + section.name + "\"";
   in.setWhat(what);
   section.version = static_cast<std::uint32_t>(in.uint(4));
-  section.bytes = in.raw(in.uint(8));
+  const std::uint64_t size = in.uint(8);
+  if (!is_wanted(section.name)) {
+    in.skip(size);
+    return section;
+  }
+  section.bytes = in.raw(size);
   if (checksumOf(headerOf(section), section.bytes) != checksum) {
     refuseFile(what, "its checksum does not fit: the file is damaged. Take another copy of it.");
   }
   return section;
 }
 
-}  // namespace
-
-MapFile MapFile::read(const std::string& path) {
+// Of sections that are not wanted only the names are looked at.
+std::vector<MapSection> readSections(const std::string& path, const Wanted& is_wanted) {
   FileBytes in(path);
   std::string magic;
   try {
@@ -108,15 +128,32 @@ MapFile MapFile::read(const std::string& path) {
                          std::to_string(kFormatVersion) + ". Use the OmniMapper that wrote it, or a later one.");
   }
   const std::uint64_t count = in.uint(4);
-  MapFile file;
+  std::vector<MapSection> sections;
+  std::set<std::string> names;
   for (std::uint64_t i = 0; i < count; ++i) {
-    MapSection section = readSection(in, path, static_cast<std::uint32_t>(i + 1));
-    if (file.find(section.name)) refuseFile(path, "has two sections \"" + section.name + "\": the file is damaged.");
-    file.sections_.push_back(std::move(section));
+    MapSection section = readSection(in, path, static_cast<std::uint32_t>(i + 1), is_wanted);
+    if (!names.insert(section.name).second)
+      refuseFile(path, "has two sections \"" + section.name + "\": the file is damaged.");
+    if (is_wanted(section.name)) sections.push_back(std::move(section));
   }
   if (!in.atEnd()) {
     refuseFile(path, "goes on after the last of its " + std::to_string(count) + " sections: the file is damaged.");
   }
+  return sections;
+}
+
+}  // namespace
+
+MapFile MapFile::read(const std::string& path) {
+  MapFile file;
+  file.sections_ = readSections(path, [](const std::string&) { return true; });
+  return file;
+}
+
+MapFile MapFile::readOnly(const std::string& path, const std::vector<std::string>& names) {
+  MapFile file;
+  file.sections_ = readSections(
+      path, [&](const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); });
   return file;
 }
 

@@ -21,7 +21,8 @@ namespace omnimapper::mapper {
 namespace {
 
 constexpr std::uint32_t kGraphVersion = 1;
-const std::array<std::string, 5> kOwnSections{"graph", "frames", "landmarks", "sessions", "level"};
+// Those that are not kept as they are: read here, or, as "places", written anew by whoever writes the map.
+const std::array<std::string, 6> kOwnSections{"graph", "frames", "landmarks", "sessions", "level", map::kPlacesSection};
 
 [[noreturn]] void refuse(const std::string& reason) {
   throw base::Error(base::ExitCode::unreadable_input, reason);

@@ -2,6 +2,7 @@
 
 #include <omnimapper/map/Map.h>
 #include <omnimapper/map/PayloadRegistry.h>
+#include <omnimapper/map/Places.h>
 
 #include <cstdint>
 #include <string>
@@ -21,6 +22,9 @@ class MapFile {
  public:
   /// Throws Error(unreadable_input) if it is no map file, was written by a later format, or a checksum fails.
   static MapFile read(const std::string& path);
+  /// Only the sections of these names, as far as the file has them. It seeks over the others, so that their size costs
+  /// nothing and their checksums are not looked at. Throws as read().
+  static MapFile readOnly(const std::string& path, const std::vector<std::string>& names);
   /// Atomically: at any moment `path` holds a whole map. Throws Error(disk_full).
   void write(const std::string& path) const;
 
@@ -54,6 +58,13 @@ std::vector<Session> sessionsFromSection(const MapSection& section);
 /// The sessions of a map from before there was such a section: one for each number that key frames carry, joined, its
 /// anchor the pose of its first key frame.
 std::vector<Session> sessionsOfFrames(const KeyFrames& key_frames);
+
+/// The name of the section that holds what a query needs. Every run that writes a map makes it anew, so whoever loads a
+/// map to go on from it leaves it out.
+inline constexpr char kPlacesSection[] = "places";
+MapSection placesToSection(const Places& places);
+/// Throws Error(unreadable_input) as framesFromSection(), and where a number is not finite or a direction is none.
+Places placesFromSection(const MapSection& section);
 
 /// The "level" section, of maps whose level was estimated.
 MapSection levelToSection(const Level& level);

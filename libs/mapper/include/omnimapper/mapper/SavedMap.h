@@ -15,7 +15,9 @@ namespace omnimapper::mapper {
 struct SavedMap {
   map::Map map;
   graph::Graph graph;
-  std::vector<map::MapSection> sections;  ///< all others: of plugins, and those that nobody here knows, in their order
+  /// All others in their order: of plugins, and those that nobody here knows. Not "places", which follows from the
+  /// rest.
+  std::vector<map::MapSection> sections;
 
   /// Whether its poses lie in the plane.
   Motion motion() const;

@@ -1,7 +1,8 @@
-#include "run/MapOutput.h"
+#include "map/MapOutput.h"
 
 #include <omnimapper/mapper/SavedMap.h>
 
+#include "map/Places.h"
 #include "run/OutputFile.h"
 
 IMPLEMENTS_MRPT_OBJECT(MapOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
@@ -22,7 +23,9 @@ MapOutput::MapOutput(const MapOutputOptions& options, const mapper::PluginContex
     : path_(outputPath(context, "map.omnimap")), keep_raw_(options.keep_raw) {}
 
 void MapOutput::finish(const mapper::View& view) {
-  mapper::mapFileOf(view.map, view.graph, view.sections).write(path_);
+  map::MapFile file = mapper::mapFileOf(view.map, view.graph, view.sections);
+  file.set(map::placesToSection(placesOf(view)));
+  file.write(path_);
 }
 
 std::unique_ptr<mapper::OutputPlugin> MapOutputFactory::make(const base::ConfigSection& section,

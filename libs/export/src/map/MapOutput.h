@@ -13,7 +13,8 @@ struct MapOutputOptions {
   static const base::OptionTable<MapOutputOptions>& table();
 };
 
-/// Writes map.omnimap, the map as it is loaded again (mapper::mapFileOf). The same log and INI give the same bytes.
+/// Writes map.omnimap: the map as it is loaded again (mapper::mapFileOf), and what queries need of it. The same log and
+/// INI give the same bytes.
 class MapOutput : public mapper::OutputPlugin {
  public:
   MapOutput(const MapOutputOptions& options, const mapper::PluginContext& context);
