@@ -1,0 +1,95 @@
+// omnimapper-query: asks a map by name.
+#include <omnimapper/base/Names.h>
+#include <omnimapper/query/Verbs.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "program/Program.h"
+
+namespace {
+
+using namespace omnimapper;
+
+struct Arguments {
+  std::string map;
+  bool json = false;
+  std::vector<std::string> words;                  // without a verb
+  std::map<std::string, query::Request> requests;  // by verb
+};
+
+CLI::Validator finite() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        const bool is_number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+        return is_number ? std::string() : "'" + text + "' is not a finite number";
+      },
+      "");
+}
+
+CLI::Validator validatorOf(query::NumberOption::Range range) {
+  using Range = query::NumberOption::Range;
+  return range == Range::any ? finite() : range == Range::positive ? program::positive() : program::notNegative();
+}
+
+void addVerb(CLI::App& app, const query::Verb& verb, query::Request& request, bool& json) {
+  CLI::App* added = app.add_subcommand(verb.name, verb.help);
+  added->add_option(verb.words, request.words, verb.words_help)
+      ->type_name("")
+      ->required(verb.least_words > 0)
+      ->expected(std::max(1, verb.least_words), verb.most_words);
+  for (const auto& option : verb.options)
+    added->add_option("--" + option.name, request.numbers[option.name], option.help)
+        ->expected(option.count)
+        ->check(validatorOf(option.range));
+  added->add_flag("--json", json, "print one JSON document");
+}
+
+void addOptions(CLI::App& app, Arguments& arguments) {
+  app.description("Asks a map by name: where something is, what is near a point, where to stand before it.");
+  app.add_option("MAP", arguments.map, "folder of a map, or its map.omnimap")->type_name("")->required();
+  app.add_option("TEXT", arguments.words, "without a verb: what to find")->type_name("")->expected(1, -1);
+  app.add_flag("--json", arguments.json, "print one JSON document");
+  for (const auto& verb : query::verbs()) addVerb(app, verb, arguments.requests[verb.name], arguments.json);
+  app.footer(
+      "Examples:\n"
+      "  omnimapper-query out/map 213                        where the sign 213 is\n"
+      "  omnimapper-query out/map near 3.5 -2 --within 4     what is at most 4 m from that point\n"
+      "  omnimapper-query out/map goal kitchen --from 0 0    a free pose before it, facing it\n"
+      "  omnimapper-query out/map list sign --json           all signs, for programs\n"
+      "Options of one verb: omnimapper-query out/map goal --help. A text that is a verb: omnimapper-query out/map find "
+      "list.\n"
+      "Exit codes: doc/exit_codes.md (20: the map has no answer). More: doc/query.md.");
+}
+
+int answer(const CLI::App& app, const Arguments& arguments) {
+  const auto parsed = app.get_subcommands();
+  const query::Verb* asked = parsed.empty() ? &query::verbs().front() : nullptr;
+  for (const auto& verb : query::verbs())
+    if (!parsed.empty() && verb.name == parsed.front()->get_name()) asked = &verb;
+  query::Request request = arguments.requests.at(asked->name);
+  if (parsed.empty()) request.words = arguments.words;
+  program::require({{"TEXT to find, or a verb", !parsed.empty() || !arguments.words.empty()}});
+  if (!parsed.empty() && !arguments.words.empty())
+    throw base::Error(base::ExitCode::command_line, "'" + base::printable(arguments.words.front().substr(0, 40)) +
+                                                        "' stands before the verb " + asked->name +
+                                                        ": after the map stands a text or a verb");
+  const query::Answer answer = asked->answer(query::openMap(arguments.map), request);
+  if (arguments.json) {
+    std::cout << answer.json;
+  } else {
+    (answer.code == base::ExitCode::ok ? std::cout : std::cerr << app.get_name() << ": ") << answer.text;
+  }
+  return static_cast<int>(answer.code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("", "omnimapper-query");
+  addOptions(app, arguments);
+  return omnimapper::program::run(app, argc, argv, [&] { return answer(app, arguments); });
+}

@@ -1,0 +1,110 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Names.h>
+#include <omnimapper/query/Find.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <tuple>
+
+#include "Letters.h"
+
+namespace omnimapper::query {
+
+namespace {
+
+constexpr std::size_t kLongestText = 200;  // characters
+constexpr std::size_t kMostNames = 3;      // that are named where nothing fits
+
+[[noreturn]] void refuseText(const std::string& reason) {
+  throw base::Error(base::ExitCode::command_line, reason);
+}
+
+// Says what is wrong without repeating a text that would fill the screen.
+void expectText(const std::string& text) {
+  if (text.find_first_not_of(" \t") == std::string::npos)
+    refuseText("the text to find is empty: say what stands on a sign, or a kind such as wall");
+  if (text.size() > 4 * kLongestText || charactersOf(text).size() > kLongestText)
+    refuseText("the text to find has " + std::to_string(text.size()) + " bytes: at most " +
+               std::to_string(kLongestText) + " characters are compared. Give a few words of it.");
+  if (const std::string shown = base::printable(text); shown != text)
+    refuseText("the text to find has control characters or is no UTF-8: '" + shown + "'. Give it without them.");
+}
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+// The names of measures end in their unit; what says yes or no, or when something was, names nothing either.
+bool isMeasure(const std::pair<std::string, std::string>& property) {
+  static const std::array<std::string, 8> ends{"_m", "_m2", "_m3", "_deg", "_s", "_kg", "_seen", "_sightings"};
+  return property.second == "yes" || property.second == "no" ||
+         std::any_of(ends.begin(), ends.end(), [&](const auto& end) { return endsWith(property.first, end); });
+}
+
+std::vector<std::string> partsOf(const std::string& list) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(", ", begin), list.size());
+    if (end > begin) parts.push_back(list.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  return parts;
+}
+
+TextMatch bestOf(const AskedText& asked, const std::vector<std::string>& names) {
+  TextMatch best{MatchGrade::near, 2, ""};
+  for (const auto& name : names) {
+    const TextMatch match = asked.compare(name);
+    if (std::tie(match.grade, match.cost) < std::tie(best.grade, best.cost)) best = match;
+  }
+  return best;
+}
+
+bool isBefore(const FoundPlace& a, const FoundPlace& b) {
+  if (a.match.grade != b.match.grade) return a.match.grade < b.match.grade;
+  if (a.match.cost != b.match.cost) return a.match.cost < b.match.cost;
+  if (a.match.name != b.match.name) return naturallyBefore(a.match.name, b.match.name);
+  if (a.place->moved != b.place->moved) return b.place->moved;
+  return a.place->id < b.place->id;
+}
+
+}  // namespace
+
+std::vector<std::string> namesOf(const map::Place& place) {
+  std::vector<std::string> names;
+  for (const auto& name : {place.caption, place.label})
+    if (!name.empty()) names.push_back(name);
+  for (const auto& property : place.properties) {
+    if (isMeasure(property) || property.second.empty()) continue;
+    names.push_back(property.second);
+    const auto parts = partsOf(property.second);
+    if (parts.size() > 1) names.insert(names.end(), parts.begin(), parts.end());
+  }
+  return names;
+}
+
+Found find(const std::vector<map::Place>& places, const std::string& text) {
+  expectText(text);
+  const AskedText asked(text);
+  std::vector<FoundPlace> all;
+  for (const auto& place : places)
+    if (const TextMatch match = bestOf(asked, namesOf(place)); !match.name.empty()) all.push_back({&place, match});
+  std::sort(all.begin(), all.end(), isBefore);
+  Found found;
+  if (all.empty()) return found;
+  constexpr double kAsNear = 0.1;
+  const bool is_only_near = all.front().match.grade == MatchGrade::near;
+  const double most = std::min(AskedText::kNear, all.front().match.cost + kAsNear);
+  for (const auto& each : all) {
+    const bool fits = is_only_near ? each.match.cost <= most : each.match.grade != MatchGrade::near;
+    if (fits) found.places.push_back(each);
+  }
+  std::set<std::string> named;
+  for (const auto& each : all)
+    if (found.places.empty() && named.size() < kMostNames && named.insert(each.match.name).second)
+      found.closest.push_back(each.match.name);
+  return found;
+}
+
+}  // namespace omnimapper::query

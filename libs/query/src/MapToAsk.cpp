@@ -1,0 +1,51 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/map/MapFile.h>
+#include <omnimapper/query/MapToAsk.h>
+
+#include <filesystem>
+#include <system_error>
+
+namespace omnimapper::query {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuseMap(const std::string& file, const std::string& reason) {
+  throw base::Error(base::ExitCode::unreadable_input, file + ": " + reason);
+}
+
+std::string mapFileAt(const std::string& path) {
+  std::error_code none;
+  if (!fs::is_directory(path, none)) return path;
+  const fs::path map = fs::path(path) / "map.omnimap", checkpoint = fs::path(path) / "checkpoint.omnimap";
+  if (!fs::exists(map, none) && fs::exists(checkpoint, none))
+    refuseMap(checkpoint,
+              "is the checkpoint of a live run that did not end, which answers no queries. Make a map of it: "
+              "omnimapper-graphslam --replay " +
+                  path);
+  return map;
+}
+
+}  // namespace
+
+MapToAsk openMap(const std::string& path) {
+  MapToAsk opened;
+  opened.file = mapFileAt(path);
+  opened.folder = fs::path(opened.file).parent_path();
+  if (opened.folder.empty()) opened.folder = ".";
+  const auto file = map::MapFile::readOnly(opened.file, {map::kPlacesSection});
+  const auto* section = file.find(map::kPlacesSection);
+  if (!section)
+    refuseMap(opened.file, "has no section \"" + std::string(map::kPlacesSection) +
+                               "\", which queries need: an earlier OmniMapper wrote it, or it is a checkpoint. Map its "
+                               "log again, or go on from it with omnimapper-graphslam --continue.");
+  try {
+    opened.places = map::placesFromSection(*section);
+  } catch (const base::Error& error) {
+    throw base::Error(error.code(), opened.file + ": " + error.what());
+  }
+  return opened;
+}
+
+}  // namespace omnimapper::query

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <omnimapper/map/Places.h>
+#include <omnimapper/query/MapToAsk.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace omnimapper::query {
+
+using Json = nlohmann::ordered_json;
+
+/// All that is known of a place. Lengths [m], angles [rad], times ISO 8601 in UTC; null where something is not known.
+Json jsonOf(const map::Place& place);
+
+/// A document that begins with the verb and the map, ready for what was asked and the answer.
+Json answerTo(const std::string& verb, const MapToAsk& map);
+
+/// The document as text: ASCII, one line feed at the end.
+std::string textOf(const Json& document);
+
+}  // namespace omnimapper::query

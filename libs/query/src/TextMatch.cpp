@@ -1,0 +1,121 @@
+#include <omnimapper/query/TextMatch.h>
+
+#include <algorithm>
+
+#include "Letters.h"
+
+namespace omnimapper::query {
+
+namespace {
+
+constexpr std::size_t kLongest = 200;   // characters that are compared
+constexpr std::size_t kMostWords = 32;  // that the words of a text are sought among
+constexpr double kPartOfName = 0.05;    // what it costs that a name has more words
+constexpr std::size_t kShortestAbbreviation = 3;
+
+std::u32string beginningOf(const std::string& text) {
+  return charactersOf(text).substr(0, kLongest);
+}
+
+double relativeCost(const std::u32string& a, const std::u32string& b) {
+  const auto longer = static_cast<double>(std::max(a.size(), b.size()));
+  return longer > 0 ? editCost(a, b) / longer : 0;
+}
+
+// "conf" for "conference", "ktchn" for "kitchen": the characters of the text in their order are characters of the name,
+// the first of which they share. Of a number nothing may be left out.
+double abbreviationCost(const std::u32string& text, const std::u32string& name) {
+  constexpr double kFar = 1, kLeast = 0.15, kOfMissing = 0.3, kLeastShare = 0.4;
+  const bool has_digit = std::any_of(text.begin(), text.end(), isDigit);
+  if (has_digit || text.size() < kShortestAbbreviation || text.front() != name.front()) return kFar;
+  const double share = static_cast<double>(text.size()) / static_cast<double>(name.size());
+  if (share < kLeastShare || commonSubsequence(text, name) < text.size()) return kFar;
+  return kLeast + kOfMissing * (1 - share);
+}
+
+double wordCost(const std::u32string& text, const std::u32string& name) {
+  return std::min(relativeCost(text, name), abbreviationCost(text, name));
+}
+
+// Each word of the text by that of the name which is nearest, the longer words count more.
+double costOfWords(const std::vector<std::u32string>& text, const std::vector<std::u32string>& name) {
+  double sum = 0, length = 0;
+  for (const auto& word : text) {
+    double least = 1;
+    for (std::size_t i = 0; i < std::min(name.size(), kMostWords); ++i)
+      least = std::min(least, wordCost(word, name[i]));
+    sum += least * static_cast<double>(word.size());
+    length += static_cast<double>(word.size());
+  }
+  return length > 0 ? sum / length : 1;
+}
+
+bool isPart(const std::vector<std::u32string>& text, const std::vector<std::u32string>& name) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [&](const auto& word) {
+    return std::find(name.begin(), name.end(), word) != name.end();
+  });
+}
+
+// Below, at or above zero as the texts of digits are as numbers.
+int compareNumbers(std::u32string_view a, std::u32string_view b) {
+  while (a.size() > 1 && a.front() == U'0') a.remove_prefix(1);
+  while (b.size() > 1 && b.front() == U'0') b.remove_prefix(1);
+  if (a.size() != b.size()) return a.size() < b.size() ? -1 : 1;
+  return a.compare(b);
+}
+
+}  // namespace
+
+std::string toString(MatchGrade grade) {
+  switch (grade) {
+    case MatchGrade::exact:
+      return "exact";
+    case MatchGrade::same_letters:
+      return "same letters";
+    case MatchGrade::part:
+      return "part";
+    case MatchGrade::near:
+      break;
+  }
+  return "near";
+}
+
+AskedText::AskedText(const std::string& text)
+    : text_(text), folded_(folded(beginningOf(text))), words_(wordsOf(folded_)) {}
+
+TextMatch AskedText::compare(const std::string& name) const {
+  if (name == text_) return {MatchGrade::exact, 0, name};
+  const std::u32string other = folded(beginningOf(name));
+  if (folded_.empty() || other.empty()) return {MatchGrade::near, 1, name};
+  if (other == folded_) return {MatchGrade::same_letters, 0, name};
+  const auto words = wordsOf(other);
+  if (isPart(words_, words)) return {MatchGrade::part, 0, name};
+  double cost = relativeCost(folded_, other);
+  cost = std::min(cost, costOfWords(words_, words) + (words.size() == words_.size() ? 0 : kPartOfName));
+  return {MatchGrade::near, cost, name};
+}
+
+bool naturallyBefore(const std::string& a, const std::string& b) {
+  const std::u32string left = folded(beginningOf(a)), right = folded(beginningOf(b));
+  std::size_t i = 0, j = 0;
+  while (i < left.size() && j < right.size()) {
+    if (isDigit(left[i]) && isDigit(right[j])) {
+      const auto digitsFrom = [](const std::u32string& text, std::size_t begin) {
+        const auto end = std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(begin), text.end(), isDigit);
+        return std::u32string_view(text).substr(begin, static_cast<std::size_t>(end - text.begin()) - begin);
+      };
+      const auto of_left = digitsFrom(left, i), of_right = digitsFrom(right, j);
+      if (const int order = compareNumbers(of_left, of_right); order != 0) return order < 0;
+      i += of_left.size();
+      j += of_right.size();
+      continue;
+    }
+    if (left[i] != right[j]) return left[i] < right[j];
+    ++i;
+    ++j;
+  }
+  if (left.size() - i != right.size() - j) return left.size() - i < right.size() - j;
+  return a < b;
+}
+
+}  // namespace omnimapper::query
