@@ -2,13 +2,13 @@
 # shellcheck shell=bash
 
 # The system tests: programs, installed package and scripts, optimised, as users have them.
-readonly system_tests=(system system-mapping system-mapping-2 system-input system-live system-robust system-simulate system-perceive system-viewer fuzz-runs-share package scripts)
+readonly system_tests=(system system-mapping system-mapping-2 system-input system-live system-robust system-simulate system-perceive system-query system-viewer fuzz-runs-share package scripts)
 # Unit tests that run in the optimized build alone, unless scripts/test is asked to be --thorough: the simulator reads
 # nothing that a stranger made, and takes an eighth of the sanitizers' build; calibration reads logs by the library source,
 # which is tested under the sanitizers, and would adjust its bundles there for minutes; signs_simulated renders pictures.
 readonly trusted_tests=(sim_world sim calibration signs_simulated)
 # The unit tests of all other libraries, under the address and undefined-behaviour sanitizers.
-readonly unit_tests=(drivers live net perception signs tesseract plugins export graph plugin mapper mapper-2 source matching geometry base obs map check eval fuzz)
+readonly unit_tests=(drivers live net perception signs tesseract plugins export graph plugin mapper mapper-2 source matching geometry base obs map query check eval fuzz)
 # Left out: stock tools, which cannot load a library built with a sanitizer; walks over every place, which would take
 # minutes, of which one seed is left; and false closures in Manhattan, which take half a minute, of which Intel's and those
 # of a simulated town are left.

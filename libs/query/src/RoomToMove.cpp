@@ -34,8 +34,10 @@ std::vector<std::uint16_t> cellsToBlocked(const GridMap& grid) {
   return result;
 }
 
+// Half widths of a disc in the rows from its middle up, half a cell larger than the robot: a cell that is not free is
+// not free up to its edge.
 std::vector<int> discOf(double radius_in_cells) {
-  const double radius = std::min<double>(radius_in_cells, kMostCellsOfRadius);
+  const double radius = std::min<double>(radius_in_cells + 0.5, kMostCellsOfRadius);
   std::vector<int> half_widths;
   for (int row = 0; row <= radius; ++row)
     half_widths.push_back(static_cast<int>(std::sqrt(radius * radius - static_cast<double>(row) * row)));
