@@ -44,7 +44,7 @@ bool says(const std::string& text, const std::string& words) {
 TEST_F(HandMadeFolder, FindSaysWhatIsExactAndWhatIsNear) {
   const Answer exact = ask("find", {{"213"}, {}});
   EXPECT_EQ(exact.code, base::ExitCode::ok);
-  EXPECT_TRUE(says(exact.text, "'213' is 1 landmark")) << exact.text;
+  EXPECT_TRUE(says(exact.text, "'213' fits 1 landmark")) << exact.text;
   EXPECT_TRUE(says(exact.text, "sign \"213\"") && says(exact.text, "2.00 0.10 1.50") && says(exact.text, "7 x camera"));
   const Answer near = ask("find", {{"2l3"}, {}});
   EXPECT_EQ(near.code, base::ExitCode::ok);

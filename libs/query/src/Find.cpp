@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <charconv>
+#include <cstdlib>
+#include <limits>
+#include <optional>
 #include <tuple>
 
 #include "Letters.h"
@@ -69,6 +72,34 @@ bool isBefore(const FoundPlace& a, const FoundPlace& b) {
   return a.place->id < b.place->id;
 }
 
+// None of what is no number of at most nine digits.
+std::optional<long> wholeNumber(const std::string& text) {
+  constexpr std::size_t kMostDigits = 9;
+  long number = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  if (text.size() > kMostDigits || read.ec != std::errc() || read.ptr != end || number < 0) return std::nullopt;
+  return number;
+}
+
+// The first few names of the sorted places; where a number is asked for, the numbers beside it come first.
+std::vector<std::string> closestNames(const std::string& text, std::vector<FoundPlace> sorted) {
+  if (const auto asked = wholeNumber(text)) {
+    const auto off = [&](const FoundPlace& place) {
+      const auto number = wholeNumber(place.match.name);
+      return number ? std::abs(*number - *asked) : std::numeric_limits<long>::max();
+    };
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [&](const FoundPlace& a, const FoundPlace& b) { return off(a) < off(b); });
+  }
+  std::vector<std::string> names;
+  for (const auto& each : sorted) {
+    if (names.size() == kMostNames) break;
+    if (std::find(names.begin(), names.end(), each.match.name) == names.end()) names.push_back(each.match.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> namesOf(const map::Place& place) {
@@ -100,10 +131,7 @@ Found find(const std::vector<map::Place>& places, const std::string& text) {
     const bool fits = is_only_near ? each.match.cost <= most : each.match.grade != MatchGrade::near;
     if (fits) found.places.push_back(each);
   }
-  std::set<std::string> named;
-  for (const auto& each : all)
-    if (found.places.empty() && named.size() < kMostNames && named.insert(each.match.name).second)
-      found.closest.push_back(each.match.name);
+  if (found.places.empty()) found.closest = closestNames(text, all);
   return found;
 }
 

@@ -37,7 +37,7 @@ std::string nothingCalled(const std::string& text, const Found& found) {
 std::string foundLine(const std::string& text, const Found& found) {
   if (found.isOnlyNear())
     return "nothing is called '" + shownName(text) + "'; nearest: " + listed(distinctNames(found)) + "\n";
-  return "'" + shownName(text) + "' is " + base::counted(found.places.size(), "landmark") +
+  return "'" + shownName(text) + "' fits " + base::counted(found.places.size(), "landmark") +
          (found.places.size() > 1 ? ", all listed\n" : "\n");
 }
 
