@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "../MapFolder.h"
 #include "SignedOffice.h"
 
 namespace {
@@ -219,6 +220,11 @@ TEST_F(Query, DamagedFilesAreErrorsThatNameThem) {
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ask({"goal", "118"}, folder), {"grid.pgm: is truncated"}));
   writeFile(folder + "/grid.pgm", "P5\n90000 90000\n255\n");
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ask({"goal", "118"}, folder), {"90000 x 90000 cells"}));
+}
+
+TEST_F(Query, ThePlacesAreInTheFileAndNotInWhatGoesOnFromIt) {
+  EXPECT_TRUE(omnimapper::map::MapFile::read(map() + "/map.omnimap").find(omnimapper::map::kPlacesSection));
+  for (const auto& section : loadMap(map()).sections) EXPECT_NE(section.name, omnimapper::map::kPlacesSection);
 }
 
 // Its places are made anew of what both sessions saw.
