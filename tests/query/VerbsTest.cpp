@@ -51,7 +51,7 @@ TEST_F(HandMadeFolder, FindSaysWhatIsExactAndWhatIsNear) {
   EXPECT_TRUE(says(near.text, "nothing is called '2l3'; nearest: 213")) << near.text;
   EXPECT_EQ(json::parse(near.json)["matches"][0]["match"], "near");
   const Answer none = ask("find", {{"777"}, {}});
-  EXPECT_EQ(none.code, kNothingFound);
+  EXPECT_EQ(none.code, base::ExitCode::nothing_found);
   EXPECT_TRUE(says(none.text, "nothing is called '777', nor nearly so; closest: ")) << none.text;
   EXPECT_EQ(json::parse(none.json)["matches"], json::array());
 }
@@ -75,7 +75,7 @@ TEST_F(HandMadeFolder, NearIsByDistance) {
   EXPECT_NEAR(near["places"][0]["distance_m"].get<double>(), 0.9, 1e-9);
   EXPECT_EQ(near["places"][1]["label"], "wall");
   EXPECT_EQ(asked("near", {{"2", "1"}, {{"within", {0.95}}}})["places"].size(), 1U);
-  EXPECT_EQ(ask("near", {{"90", "1"}, {{"within", {1}}}}).code, kNothingFound);
+  EXPECT_EQ(ask("near", {{"90", "1"}, {{"within", {1}}}}).code, base::ExitCode::nothing_found);
   for (const char* word : {"nan", "inf", "1e999", "x", "", "1.0x", "-nan"})
     EXPECT_NE(refusalOf([&] { ask("near", {{word, "0"}, {}}); }, base::ExitCode::command_line), "") << word;
 }
@@ -87,7 +87,7 @@ TEST_F(HandMadeFolder, ListCountsKindsAndOrdersByNumber) {
   EXPECT_EQ(signs[1]["caption"], "98");
   EXPECT_EQ(signs[2]["caption"], "213");
   const Answer none = ask("list", {{"giraffe"}, {}});
-  EXPECT_EQ(none.code, kNothingFound);
+  EXPECT_EQ(none.code, base::ExitCode::nothing_found);
   EXPECT_TRUE(says(none.text, "no kind is called 'giraffe'; there are: sign, wall")) << none.text;
 }
 
@@ -104,13 +104,13 @@ TEST_F(HandMadeFolder, OfSeveralThatFitTheNearestToTheStartIsTheGoal) {
 
 TEST_F(HandMadeFolder, AGoalThatCannotBeIsSaidToBeSo) {
   const Answer tight = ask("goal", {{"213"}, {{"radius", {3}}}});
-  EXPECT_EQ(tight.code, kNothingFound);
+  EXPECT_EQ(tight.code, base::ExitCode::nothing_found);
   EXPECT_TRUE(says(tight.text, "is free for a robot of 3 m radius")) << tight.text;
-  EXPECT_EQ(ask("goal", {{"777"}, {}}).code, kNothingFound);
+  EXPECT_EQ(ask("goal", {{"777"}, {}}).code, base::ExitCode::nothing_found);
   EXPECT_NE(refusalOf([&] { ask("goal", {{"213"}, {{"radius", {1e9}}}}); }, base::ExitCode::command_line), "");
   EXPECT_NE(refusalOf([&] { ask("goal", {{"213"}, {{"from", {NAN, 0}}}}); }, base::ExitCode::command_line), "");
   for (auto& place : map_.places.places) place.moved = true;
-  EXPECT_EQ(ask("goal", {{"213"}, {}}).code, kNothingFound);
+  EXPECT_EQ(ask("goal", {{"213"}, {}}).code, base::ExitCode::nothing_found);
   map_.places.last_pose.reset();
   EXPECT_NE(refusalOf(
                 [&] {

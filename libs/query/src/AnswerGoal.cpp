@@ -102,7 +102,9 @@ Answer answerGoal(const MapToAsk& map, const Request& request) {
   document["target"] = nullptr;
   document["matches"] = matchesJson(found);
   document["closest"] = found.closest;
-  const auto nothing = [&](const std::string& said) { return Answer{said, textOf(document), kNothingFound}; };
+  const auto nothing = [&](const std::string& said) {
+    return Answer{said, textOf(document), base::ExitCode::nothing_found};
+  };
   if (found.places.empty()) return nothing(nothingCalled(text, found));
   const auto targets = targetsOf(found, start);
   if (targets.empty())

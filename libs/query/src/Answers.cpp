@@ -100,7 +100,7 @@ Answer answerFind(const MapToAsk& map, const Request& request) {
   document["text"] = text;
   document["matches"] = matchesJson(found);
   document["closest"] = found.closest;
-  if (found.places.empty()) return {nothingCalled(text, found), textOf(document), kNothingFound};
+  if (found.places.empty()) return {nothingCalled(text, found), textOf(document), base::ExitCode::nothing_found};
   Lines lines{withFirst("match", placeHeads())};
   for (const auto& each : found.places) lines.push_back(withFirst(toString(each.match.grade), cellsOf(*each.place)));
   return {foundLine(text, found) + tableOf(lines), textOf(document), base::ExitCode::ok};
@@ -128,7 +128,7 @@ Answer answerNear(const MapToAsk& map, const Request& request) {
   const std::string where = within.empty() ? "the map has no landmarks"
                                            : "nothing is within " + base::brief(within[0]) + " m of " +
                                                  base::fixed(point.x(), 2) + " " + base::fixed(point.y(), 2);
-  return {where + "\n", textOf(document), kNothingFound};
+  return {where + "\n", textOf(document), base::ExitCode::nothing_found};
 }
 
 Answer answerList(const MapToAsk& map, const Request& request) {
@@ -149,7 +149,7 @@ Answer answerList(const MapToAsk& map, const Request& request) {
   document["closest"] = found.closest;
   if (found.places.empty())
     return {"no kind is called '" + shownName(asked) + "'; there are: " + namesText(kinds) + "\n", textOf(document),
-            kNothingFound};
+            base::ExitCode::nothing_found};
   Lines lines{placeHeads()};
   for (const auto* place : ofKind(map, found.places.front().place->kind)) {
     lines.push_back(cellsOf(*place));

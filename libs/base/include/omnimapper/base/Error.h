@@ -27,6 +27,7 @@ enum class ExitCode : int {
   suspicious_map = 17,      ///< --strict: the map is written, and contradicts itself
   mostly_left_out = 18,     ///< the map is written, of less than half of the observations
   out_of_memory = 19,       ///< what was written until then is kept
+  nothing_found = 20,       ///< omnimapper-query: the map has no answer
   interrupted = 130,        ///< Ctrl-C: the map so far is written
 };
 

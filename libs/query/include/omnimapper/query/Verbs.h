@@ -9,9 +9,6 @@
 
 namespace omnimapper::query {
 
-/// The exit code of a query that the map has no answer to (doc/exit_codes.md).
-inline constexpr auto kNothingFound = static_cast<base::ExitCode>(20);
-
 /// What is asked of a map.
 struct Request {
   std::vector<std::string> words;                      ///< what stands after the verb
@@ -21,7 +18,7 @@ struct Request {
 struct Answer {
   std::string text;                          ///< lines for a terminal: nothing of the map in it moves the cursor
   std::string json;                          ///< the same as one document, ASCII
-  base::ExitCode code = base::ExitCode::ok;  ///< or kNothingFound
+  base::ExitCode code = base::ExitCode::ok;  ///< or nothing_found
 };
 
 /// An option of a verb that takes numbers.
