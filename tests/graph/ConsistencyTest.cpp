@@ -192,6 +192,41 @@ TEST_P(ConsistencyMethodTest, WhatCouldFitByChanceWaitsForAnotherToBearItOut) {
   EXPECT_TRUE(verdicts[1].changed);
 }
 
+// At the end of a long way the heading is off so far that one sign says, to first order, the wrong place of the next.
+TEST_P(ConsistencyMethodTest, PointsAtTheEndOfALongWayBearOneAnotherOut) {
+  Ring ring(1200, 3);
+  const auto pointSeenFrom = [&](int pose, const Eigen::Vector2d& in_map) {
+    const Eigen::Vector2d in_base = inverse(ring.truth()[pose]) * in_map;
+    const Se2 estimate = se2FromValue(ring.graph().value(ring.ids()[pose]).data());
+    const Eigen::Vector2d guess = estimate * in_base;
+    const auto point = ring.graph().addVariable(point3(), Eigen::Vector3d(guess.x(), guess.y(), 1.5));
+    ring.graph().addFactor({{ring.ids()[pose], point},
+                            std::make_shared<PointFactor3>(Eigen::Vector3d(in_base.x(), in_base.y(), 1.5)),
+                            SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(0.03))});
+    return point;
+  };
+  const auto one = [&](VariableId a, VariableId b) {
+    FactorRecord record{{a, b},
+                        std::make_shared<SamePointFactor>(100),
+                        SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(0.03))};
+    record.tags.hypothesis = true;
+    record.weight = 0;
+    return ring.graph().addFactor(record);
+  };
+  std::vector<FactorId> closures;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d place = ring.truth()[3 * i + 1] * Eigen::Vector2d(1, i % 2 == 0 ? 1.5 : -1.5);
+    closures.push_back(one(pointSeenFrom(3 * i, place), pointSeenFrom(1190 + 3 * i, place)));
+  }
+  const FactorId false_one =
+      one(pointSeenFrom(300, ring.truth()[301].translation()), pointSeenFrom(900, ring.truth()[901].translation()));
+  EXPECT_GT(ring.largestError(), 20);
+  ring.test({false_one}, GetParam());
+  for (const FactorId id : closures) ring.test({id}, GetParam());
+  for (const FactorId id : closures) EXPECT_TRUE(ring.accepted(id));
+  EXPECT_FALSE(ring.accepted(false_one));
+}
+
 TEST_P(ConsistencyMethodTest, ARefusedOneComesBackWhenTheMapHasMovedToIt) {
   Ring ring(60);
   const FactorId closure = ring.closure(0, 59);

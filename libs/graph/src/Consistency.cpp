@@ -9,6 +9,7 @@
 #include "Overturn.h"
 #include "Selection.h"
 #include "Unheld.h"
+#include "omnimapper/graph/PointFactor.h"
 
 namespace omnimapper::graph {
 
@@ -84,6 +85,7 @@ class Test {
     bringNear(acting_before);
     solve(graph_, solve_options_);
     if (!contradicting.empty()) overturnBy(contradicting);
+    bearOut(some);
     takeBackWhatNoLongerFits();
     letInWhatFitsNow();
   }
@@ -197,6 +199,24 @@ class Test {
     for (const FactorId id : overturned->taken_back)
       decide(id, false, misfit(id), "taken back: contradicts others that agree with one another", first);
     solve(graph_, solve_options_);
+  }
+
+  /// Points, of which one says little of the next until it acts; poses go around in cycles, which Overturn looks at.
+  void bearOut(const std::vector<FactorId>& some) {
+    const auto isOfPoints = [&](FactorId id) { return graph_.factor(id).factor->kind() == SamePointFactor::kKind; };
+    for (auto id = some.rbegin(); id != some.rend(); ++id) {
+      if (graph_.factor(*id).weight > 0 || !isOfPoints(*id) || reachesOut(graph_, *id)) continue;
+      std::vector<FactorId> pool = waiting({*id});
+      pool.erase(std::remove_if(pool.begin(), pool.end(), [&](FactorId other) { return !isOfPoints(other); }),
+                 pool.end());
+      if (pool.empty()) continue;
+      OverturnTrial trial(graph_, gate_, options_.inflation, solve_options_);
+      if (!trial.isBorneOut(*id, pool)) continue;
+      std::swap(graph_, trial.graph());
+      for (const FactorId accepted : trial.outcome().accepted)
+        decide(accepted, true, misfit(accepted), "fits the map and is borne out by others that fit once it acts");
+      return;
+    }
   }
 
   /// Worst first, and what is left is solved before the next is looked at.

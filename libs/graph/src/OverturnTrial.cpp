@@ -46,6 +46,21 @@ bool OverturnTrial::fitsBeside(const std::vector<FactorId>& group) {
   return 2 * graph_.cost() - before <= bound(group.front()) + others;
 }
 
+bool OverturnTrial::isBorneOut(FactorId id, const std::vector<FactorId>& pool) {
+  const double before = 2 * graph_.cost();
+  graph_.setWeight(id, 1);
+  solve(graph_, solve_options_);
+  if (misfit(id) > bound(id) || 2 * graph_.cost() - before > bound(id)) return false;
+  outcome_.accepted = {id};
+  if (!letIn(pool)) return false;
+  int others = 0;
+  for (const FactorId accepted : outcome_.accepted) {
+    if (misfit(accepted) > bound(accepted)) return false;
+    if (accepted != id) others += graph_.factor(accepted).factor->residualSize();
+  }
+  return 2 * graph_.cost() - before <= bound(id) + others;
+}
+
 /// Chi-square of what acts, and of those of `some` that do not, up to the bound of each.
 double OverturnTrial::truncatedCost(const std::vector<FactorId>& some) const {
   double cost = 2 * graph_.cost();

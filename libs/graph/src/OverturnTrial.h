@@ -27,6 +27,10 @@ class OverturnTrial {
   /// is wide open, the linear gate is wrong and this is not. The rise is held against the bound of one of the group and
   /// what noise makes of the others.
   bool fitsBeside(const std::vector<base::FactorId>& group);
+  /// True if one that could be there by chance fits, and once it acts others of the pool lie where they must, which
+  /// nobody could tell before. Where the graph is wide open, what one says of another is not linear: a turn by half a
+  /// right angle at the end of a long way moves the next sign by metres.
+  bool isBorneOut(base::FactorId id, const std::vector<base::FactorId>& pool);
   /// After success: the graph, solved but for suspects that fit again, and what changed.
   Graph& graph() { return graph_; }
   const Overturned& outcome() const { return outcome_; }
