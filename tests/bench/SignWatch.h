@@ -86,6 +86,7 @@ struct SignWatch {
   std::vector<Pair> merges;                           ///< of landmarks that are one in the end
   std::set<base::LandmarkId> repeated;                ///< of texts that nothing is proposed of any more
   std::map<base::LandmarkId, base::LandmarkId> kept;  ///< what each is in the end
+  std::optional<Eigen::Vector2d> pan_tilt;            ///< [rad] that was estimated of the camera's offsets
   eval::Trajectory online;                            ///< of the newest pose, from the first one
 
   void look(const mapper::View& view) {
@@ -104,6 +105,8 @@ struct SignWatch {
   }
 
   void finish(const mapper::View& view) {
+    for (const auto& [id, record] : view.graph.variables())
+      if (record.kind == graph::panTilt()) pan_tilt = record.value;
     for (const auto& decision : view.decisions) {
       if (!decision.hypothesis) continue;
       const auto at = hypotheses.find(*decision.hypothesis);

@@ -11,6 +11,7 @@
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/sim/SimulationRun.h>
 #include <omnimapper/testing/registerPlugins.h>
@@ -38,6 +39,7 @@ struct Request {
   std::vector<std::string> settings;
   int seeds = 10, first_seed = 1, threads = 1;
   double min_confidence = 0;
+  std::vector<double> told_offset = {0, 0};  // [deg] pan and tilt that are told less those that are true
   bool with_laser = false, list = false;
 };
 
@@ -49,7 +51,8 @@ struct Mapped {
   std::vector<std::pair<double, double>> by_time;  // [s] [m] of the final trajectory, the first pose on the true one
   std::vector<std::pair<double, double>> online;   // the same of the newest pose when it was new
   int proposed = 0, accepted = 0, wrongly_accepted = 0, wrongly_refused = 0, wrong_merges = 0;
-  int sightings = 0, wrong_sightings = 0, spare = 0;  // landmarks more than true signs that are in the map
+  Eigen::Vector2d pan_tilt = Eigen::Vector2d::Zero();  // [rad] found offsets
+  int sightings = 0, wrong_sightings = 0, spare = 0;   // landmarks more than true signs that are in the map
 };
 
 struct Trial {
@@ -101,6 +104,25 @@ std::vector<std::string> settingsOf(const Request& request, Way way, const SignT
     settings.emplace_back(request.with_laser ? "sign_landmarks.recent_m=1e6" : "hypotheses.test=none");
   }
   return settings;
+}
+
+constexpr double kDegree = geometry::kPi / 180;
+
+// A log whose camera tells another pan and tilt than it has.
+void writeWithOffset(const std::string& from, const std::vector<double>& degrees, const std::string& to) {
+  source::RawlogSource log(from);
+  source::writeRawlog(to, [&](source::RawlogWriter& out) {
+    while (const auto observation = log.next()) {
+      if (auto* signs = dynamic_cast<obs::CObservationDoorSigns*>(observation.get())) {
+        const auto pose = geometry::fromMrpt(signs->sensorPose) * geometry::inverse(geometry::sensorFromOptical());
+        const geometry::Se3 told{Eigen::AngleAxisd(degrees[0] * kDegree, Eigen::Vector3d::UnitZ()) * pose.rotation *
+                                     Eigen::AngleAxisd(degrees[1] * kDegree, Eigen::Vector3d::UnitY()),
+                                 Eigen::Vector3d(pose.translation)};
+        signs->sensorPose = geometry::toMrpt(told * geometry::sensorFromOptical());
+      }
+      out.add(*observation);
+    }
+  });
 }
 
 // Without signs a trajectory has other stamps.
@@ -199,6 +221,7 @@ Mapped mapOneWay(const Request& request, Way way, const SignTruth& truth, const 
   mapped.error = eval::absoluteTrajectoryError(estimate, trajectory, pairing).translation.rmse;
   mapped.by_time = errorFromStart(estimate, trajectory);
   mapped.online = errorFromStart(watch.online, trajectory);
+  mapped.pan_tilt = watch.pan_tilt.value_or(mapped.pan_tilt);
   count(watch, mapped);
   if (request.list) {
     std::fprintf(stderr, "== %s, %s: %.3f m, %zu poses, %d sightings\n", folder.c_str(), kNames[way], mapped.error,
@@ -236,15 +259,17 @@ void printHeading(const Request& request, const SignTruth& truth) {
       "| seed | with signs [m] | true associations [m] | without signs [m] | with / true | with / without | closures: "
       "proposed, accepted | wrong ones accepted | right ones not taken | wrong merges | sightings, of another sign | "
       "true "
-      "ones | landmarks too many |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "ones | landmarks too many | pan, tilt off by [deg] |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
 void print(const Trial& trial) {
   const auto& with = trial.ways[kWith];
-  std::printf("| %d | %.3f | %.3f | %.3f | %.2f | %.2f | %d, %d | %d | %d | %d | %d, %d | %d | %d |\n", trial.seed,
-              with.error, trial.ways[kTrue].error, trial.ways[kWithout].error, trial.toTrue(), trial.toNone(),
-              with.proposed, with.accepted, with.wrongly_accepted, with.wrongly_refused, with.wrong_merges,
-              with.sightings, with.wrong_sightings, trial.ways[kTrue].sightings, with.spare);
+  std::printf("| %d | %.3f | %.3f | %.3f | %.2f | %.2f | %d, %d | %d | %d | %d | %d, %d | %d | %d | %.2f, %.2f |\n",
+              trial.seed, with.error, trial.ways[kTrue].error, trial.ways[kWithout].error, trial.toTrue(),
+              trial.toNone(), with.proposed, with.accepted, with.wrongly_accepted, with.wrongly_refused,
+              with.wrong_merges, with.sightings, with.wrong_sightings, trial.ways[kTrue].sightings, with.spare,
+              with.pan_tilt[0] / kDegree, with.pan_tilt[1] / kDegree);
   std::fflush(stdout);
 }
 
@@ -258,7 +283,7 @@ void printSummary(const std::vector<Trial>& trials) {
     std::printf("| %s |", name);
     for (std::size_t way = 0; way < kWays; ++way)
       std::printf(" %.3f |", over([&](const Trial& trial) { return trial.ways[way].error; }));
-    std::printf(" %.2f | %.2f | | | | | | | |\n", over([](const Trial& trial) { return trial.toTrue(); }),
+    std::printf(" %.2f | %.2f | | | | | | | | |\n", over([](const Trial& trial) { return trial.toTrue(); }),
                 over([](const Trial& trial) { return trial.toNone(); }));
   };
   row("median", medianOf);
@@ -289,8 +314,13 @@ void plot(const Request& request, std::vector<Trial> trials) {
   std::fprintf(stderr, "%s: seed %d, the median of with / without\n", path.c_str(), trial.seed);
 }
 
-void run(const Request& request) {
+void run(Request request) {
   std::filesystem::create_directories(request.out);
+  if (request.told_offset != std::vector<double>{0, 0}) {
+    const std::string told = request.out + "/offset_signs.rawlog";
+    writeWithOffset(request.signs, request.told_offset, told);
+    request.signs = told;
+  }
   const SignTruth truth(request.folder, request.signs, request.out + "/true_signs.rawlog", request.min_confidence);
   printHeading(request, truth);
   std::vector<Trial> trials;
@@ -328,6 +358,8 @@ int main(int argc, char** argv) {
   app.add_option("--true-of", request.min_confidence,
                  "true associations only of signs of which a line is at least so sure (0: of all that are found)");
   app.add_option("--set", request.settings, "section.key=value for the mapper");
+  app.add_option("--told-offset", request.told_offset, "pan and tilt that the camera tells less the true ones [deg]")
+      ->expected(2);
   app.add_flag("--with-laser", request.with_laser, "the whole INI but closures by scans, on a log with a laser");
   app.add_flag("--list", request.list, "list what was taken for one and what was not, on standard error");
   app.add_option("-o,--output", request.out, "folder");

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "EasedSolve.h"
 #include "Overturn.h"
 #include "Selection.h"
 #include "Unheld.h"
@@ -43,7 +44,7 @@ class Test {
   std::vector<Verdict> run() {
     if (options_.method == Method::none) {
       for (const FactorId id : fresh_) decide(id, true, misfit(id), "taken without a test");
-      solve(graph_, solve_options_);
+      solveEased(graph_, fresh_, solve_options_);
       return verdicts();
     }
     later_ = inOrderOfTime();
@@ -83,7 +84,7 @@ class Test {
     const std::vector<FactorId> acting_before = acting();
     const std::vector<FactorId> contradicting = take(some);
     bringNear(acting_before);
-    solve(graph_, solve_options_);
+    solveEased(graph_, newOf(acting_before), solve_options_);
     if (!contradicting.empty()) overturnBy(contradicting);
     bearOut(some);
     takeBackWhatNoLongerFits();
@@ -166,6 +167,14 @@ class Test {
     for (const auto& [id, acted] : acted_) {
       if (graph_.factor(id).weight > 0) all.push_back(id);
     }
+    return all;
+  }
+
+  /// Those that act and did not before.
+  std::vector<FactorId> newOf(const std::vector<FactorId>& acting_before) const {
+    std::vector<FactorId> all = acting();
+    all.erase(std::remove_if(all.begin(), all.end(), [&](FactorId id) { return contains(acting_before, id); }),
+              all.end());
     return all;
   }
 

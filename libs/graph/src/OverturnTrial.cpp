@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "EasedSolve.h"
 #include "Unheld.h"
 
 namespace omnimapper::graph {
@@ -49,7 +50,7 @@ bool OverturnTrial::fitsBeside(const std::vector<FactorId>& group) {
 bool OverturnTrial::isBorneOut(FactorId id, const std::vector<FactorId>& pool) {
   const double before = 2 * graph_.cost();
   graph_.setWeight(id, 1);
-  solve(graph_, solve_options_);
+  solveEased(graph_, {id}, solve_options_);
   if (misfit(id) > bound(id) || 2 * graph_.cost() - before > bound(id)) return false;
   outcome_.accepted = {id};
   if (!letIn(pool)) return false;

@@ -135,10 +135,11 @@ mapper::Batch mergeSameSigns(const SignTracks& tracks, const SignLandmarksOption
       if (gone.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
       const SignPayload& other = signOf(view, b->first);
       const auto agreement = agreementOf(merged->text(), other.text());
+      const bool is_misread = agreement == Agreement::contradicts && mayBeMisread(merged->text(), other.text());
       const auto hypothesis = hypothesisOf(a->second.variable, b->second.variable, view);
-      const bool is_accepted = hypothesis && view.graph.factor(*hypothesis).weight > 0;
+      const bool is_accepted = hypothesis && !is_misread && view.graph.factor(*hypothesis).weight > 0;
       if (agreement == Agreement::contradicts && hypothesis) batch.removeFactor(*hypothesis);  // read otherwise since
-      if (agreement == Agreement::contradicts) continue;
+      if (agreement == Agreement::contradicts && !is_misread) continue;
       const double most = agreement == Agreement::agrees ? kOfOneSign : kOfOnePlate;
       const auto gap = view.graph.value(b->second.variable) - view.graph.value(a->second.variable);
       if (!is_accepted && gap.norm() > most) continue;

@@ -12,6 +12,7 @@
 #include "SignBearingFactor.h"
 #include "SignClosures.h"
 #include "SignPayload.h"
+#include "SignPlacement.h"
 #include "SignSighting.h"
 #include "SignTracks.h"
 
@@ -58,21 +59,28 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
 class SignLandmarksPlugin::Work {
  public:
   Work(const SignLandmarksOptions& options, const mapper::PluginContext& context, SignTracks& tracks,
-       mapper::PanTiltOffsets& offsets, const map::KeyFrame& frame, const mapper::View& view)
-      : options_(options), context_(context), tracks_(tracks), offsets_(offsets), frame_(frame), view_(view) {}
+       mapper::PanTiltOffsets& offsets, Placed& placed, const map::KeyFrame& frame, const mapper::View& view)
+      : options_(options),
+        context_(context),
+        tracks_(tracks),
+        offsets_(offsets),
+        placed_(placed),
+        frame_(frame),
+        view_(view) {}
 
   mapper::Batch take(const CObservationDoorSigns& observation) {
     label_ = observation.source_label;
     const auto sightings = signSightings(observation, optionsHere());
     if (sightings.empty()) return {};
     findOffsets();
+    placeSession(sightings);
     std::vector<mapper::Pairing> pairings;
     for (std::size_t i = 0; i < sightings.size() && areOffsetsInGraph(); ++i) {
       for (const auto& [id, known] : tracks_.known()) {
-        const bool may_be_met = view_.map_is_held || tracks_.isRecent(known, options_.recent_way);
+        if (!mayBeMet(id, known)) continue;
         // A number is not brought to a sign of which words alone are known by its place: that may be a poster beside
         // it.
-        if (!may_be_met || agreementOf(sightings[i].text, signOf(view_, id).text()) < Agreement::partly) continue;
+        if (agreementOf(sightings[i].text, signOf(view_, id).text()) < Agreement::partly) continue;
         pairings.push_back({i, id, record(sightings[i], known.variable, id)});
       }
     }
@@ -113,6 +121,25 @@ class SignLandmarksPlugin::Work {
     if (!areOffsetsInGraph()) return;
     if (const auto covariance = view_.jointCovariance({*offset_variable_}))
       known_offsets_.sigma = std::sqrt(covariance->diagonal().maxCoeff());
+  }
+
+  // A session that signs have placed meets the signs of the map until something ties it to them.
+  bool mayBeMet(base::LandmarkId id, const SignTracks::Known& known) const {
+    if (view_.map_is_held) return true;
+    if (placed_ == Placed::by_two_signs && !view_.map.sessions.back().joined) return id.session != frame_.id.session;
+    return tracks_.isRecent(known, options_.recent_way);
+  }
+
+  void placeSession(const std::vector<SignSighting>& sightings) {
+    if (placed_ != Placed::no || view_.map.sessions.back().joined) return;
+    const auto place = SignPlacement::byOneSighting(sightings, frame_, tracks_, view_);
+    if (!place) return;
+    placed_ = Placed::by_one_sighting;
+    batch_.placeSession(*place);
+    mapper::Decision decision = decisionOf();
+    decision.kind = mapper::kRelocalisation;
+    decision.reason = "a sign is read that the map has once: the session is moved before it";
+    batch_.log(std::move(decision));
   }
 
   bool areOffsetsInGraph() const { return !offset_variable_ || !mapper::Batch::isProvisional(*offset_variable_); }
@@ -195,6 +222,7 @@ class SignLandmarksPlugin::Work {
   const mapper::PluginContext& context_;
   SignTracks& tracks_;
   mapper::PanTiltOffsets& offsets_;
+  Placed& placed_;
   const map::KeyFrame& frame_;
   const mapper::View& view_;
   std::string label_;
@@ -219,7 +247,7 @@ bool SignLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) cons
 mapper::Batch SignLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                            const mapper::View& view) {
   tracks_->goTo(frame, view, options_.recent_way);
-  return Work(options_, context_, *tracks_, offsets_, frame, view)
+  return Work(options_, context_, *tracks_, offsets_, placed_, frame, view)
       .take(dynamic_cast<const CObservationDoorSigns&>(observed.observation));
 }
 
@@ -231,7 +259,22 @@ void SignLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {
 mapper::FollowUp SignLandmarksPlugin::afterCommit(const map::KeyFrame&, const mapper::View& view) {
   if (tracks_->fresh.empty()) return {};
   tracks_->update(view);
-  return {proposeSameSigns(*tracks_, options_, context_.section, view), {}};
+  auto batch = proposeSameSigns(*tracks_, options_, context_.section, view);
+  if (!view.map.sessions.back().joined && placed_ != Placed::by_two_signs) {
+    if (const auto place = SignPlacement::byTwoSigns(*tracks_, view)) {
+      placed_ = Placed::by_two_signs;
+      batch.placeSession(*place);
+      mapper::Decision decision;
+      decision.stamp = view.map.key_frames.back().stamp;
+      decision.plugin = context_.section;
+      decision.kind = mapper::kRelocalisation;
+      decision.from = place->frame;
+      decision.accepted = true;
+      decision.reason = "two signs are as far from each other as in the map: the session is moved there";
+      batch.log(std::move(decision));
+    }
+  }
+  return {std::move(batch), {}};
 }
 
 mapper::Batch SignLandmarksPlugin::atEnd(const mapper::View& view) {

@@ -52,6 +52,8 @@ class SignLandmarksPlugin : public mapper::MeasurementPlugin {
   mapper::PluginContext context_;
   std::unique_ptr<class SignTracks> tracks_;
   mapper::PanTiltOffsets offsets_;
+  /// How signs have placed the session in the map that it continues.
+  enum class Placed { no, by_one_sighting, by_two_signs } placed_ = Placed::no;
 };
 
 class SignLandmarksPluginFactory : public mapper::MeasurementPluginFactory {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 namespace omnimapper::plugins {
 
@@ -68,10 +67,16 @@ Agreement agreementOf(const SignText& a, const SignText& b) {
   return haveWordsAlike(a, b) ? Agreement::partly : Agreement::contradicts;
 }
 
+bool mayBeMisread(const SignText& a, const SignText& b) {
+  return likeness(a.number, b.number) > kAlike;
+}
+
 double oddsOfOneSign(const SignText& a, const SignText& b) {
-  constexpr std::size_t kMostLetters = 4;
-  if (a.number.empty() || a.number != b.number) return 1;
-  return std::pow(10.0, static_cast<double>(std::min(a.number.size(), kMostLetters)) - 1);
+  constexpr double kOften = 0.1, kThreeDigits = 100, kMoreDigits = 1000;
+  if (a.number.empty() || a.number != b.number || a.number.find(':') != std::string::npos) return kOften;
+  const auto digits =
+      std::count_if(a.number.begin(), a.number.end(), [](unsigned char letter) { return std::isdigit(letter) != 0; });
+  return digits < 3 ? kOften : digits == 3 ? kThreeDigits : kMoreDigits;
 }
 
 }  // namespace omnimapper::plugins

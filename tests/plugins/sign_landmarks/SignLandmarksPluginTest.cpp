@@ -2,6 +2,7 @@
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
+#include <omnimapper/plugin/SessionStart.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <algorithm>
@@ -48,8 +49,9 @@ std::string numbered(int number) {
   return std::to_string(200 + number);
 }
 
-/// The log, its beacons as signs.
-std::vector<CObservation::Ptr> signsOf(const SimulatedLog& log, const TextOf& text_of = numbered) {
+/// The log, its beacons as signs. `told_offset`: pan and tilt that are told less those that are true [rad].
+std::vector<CObservation::Ptr> signsOf(const SimulatedLog& log, const TextOf& text_of = numbered,
+                                       const Eigen::Vector2d& told_offset = Eigen::Vector2d::Zero()) {
   auto observations = log.observations();
   for (auto& observation : observations) {
     const auto seen = std::dynamic_pointer_cast<mrpt::obs::CObservationBearingRange>(observation);
@@ -59,7 +61,10 @@ std::vector<CObservation::Ptr> signsOf(const SimulatedLog& log, const TextOf& te
     signs->sensorLabel = "camera.signs";
     signs->source_label = "camera";
     const auto base_from_sensor = geometry::fromMrpt(seen->sensorLocationOnRobot);
-    signs->sensorPose = geometry::toMrpt(base_from_sensor * geometry::sensorFromOptical());
+    const geometry::Se3 told{Eigen::AngleAxisd(told_offset[0], Eigen::Vector3d::UnitZ()) * base_from_sensor.rotation *
+                                 Eigen::AngleAxisd(told_offset[1], Eigen::Vector3d::UnitY()),
+                             base_from_sensor.translation};
+    signs->sensorPose = geometry::toMrpt(told * geometry::sensorFromOptical());
     for (const auto& point : seen->sensedData) {
       const auto yaw = static_cast<double>(point.yaw), pitch = static_cast<double>(point.pitch);
       const Eigen::Vector3d direction(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw),
@@ -158,6 +163,107 @@ TEST(SignLandmarksPlugin, AWordThatIsRepeatedClosesNothing) {
   }
 }
 
+// A robot whose camera believes that it looks two degrees to the left and two up of where it does.
+TEST(SignLandmarksPlugin, OffsetsOfThePanTiltAreFound) {
+  const SimulatedLog log(drive(2));
+  constexpr double kDegree = geometry::kPi / 180;
+  const Mapped mapped(log, signsOf(log, numbered, Eigen::Vector2d(2, -2) * kDegree));
+  std::vector<Eigen::Vector2d> offsets;
+  for (const auto& [id, record] : mapped.engine->view().graph.variables())
+    if (record.kind->kind() == "pan_tilt") offsets.emplace_back(record.value);
+  ASSERT_EQ(offsets.size(), 1U) << "one camera, one run";
+  EXPECT_NEAR(offsets[0][0], -2 * kDegree, 0.2 * kDegree);
+  EXPECT_NEAR(offsets[0][1], 2 * kDegree, 0.2 * kDegree);
+  const Mapped straight(log, signsOf(log));
+  EXPECT_LT(mapped.error, 1.3 * straight.error + 0.02);
+}
+
+// What a first session mapped, and a second whose start nobody knows.
+struct Continued {
+  Continued(const Mapped& first, const SimulatedLog& log, const TextOf& text_of) : engine(testing::makeEngine(kIni)) {
+    const auto view = first.engine->view();
+    engine->sessions().continueFrom({view.map, view.graph, {}}, mapper::startAnywhere(view.map));
+    testing::run(*engine, signsOf(log, text_of));
+  }
+  std::unique_ptr<mapper::Engine> engine;
+};
+
+TEST(SignLandmarksPlugin, TwoDrivesThatShareTwoSignsAreJoined) {
+  const SimulatedLog log(drive(1));
+  const Mapped first(log, signsOf(log));
+  const SimulatedLog again(drive(1, 2));
+  // Of the second drive two signs are those of the first, all others say something else.
+  const auto shared = [](int number) { return std::to_string((number == 2 || number == 3 ? 200 : 400) + number); };
+  const Continued second(first, again, shared);
+  const auto view = second.engine->view();
+  EXPECT_TRUE(view.map.sessions.back().joined);
+  std::map<std::string, int> landmarks;
+  for (const auto& [id, landmark] : view.map.landmarks)
+    if (landmark.state == map::Landmark::State::active)
+      ++landmarks[dynamic_cast<const SignPayload&>(*landmark.payload).title()];
+  EXPECT_EQ(landmarks["202"], 1);
+  EXPECT_EQ(landmarks["203"], 1);
+  // Both drive the same way from the same start.
+  const auto& frames = view.map.key_frames;
+  const auto start =
+      std::find_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.id.session == 1; });
+  EXPECT_LT(frames.front().map_from_base.distanceTo((*start).map_from_base), 1);
+}
+
+TEST(SignLandmarksPlugin, ADriveThatSharesNoSignIsNotJoined) {
+  const SimulatedLog log(drive(1));
+  const Mapped first(log, signsOf(log));
+  const Continued second(first, SimulatedLog(drive(1, 2)), [](int number) { return std::to_string(400 + number); });
+  EXPECT_FALSE(second.engine->view().map.sessions.back().joined);
+}
+
+// As two storeys' doors, or those of two wings.
+TEST(SignLandmarksPlugin, ANumberThatStandsOnTwoDoorsClosesNothing) {
+  const SimulatedLog log(drive(2));
+  const Mapped mapped(log, signsOf(log, [](int number) { return numbered(number == 5 ? 0 : number); }));
+  const Mapped truly(log, signsOf(log));
+  EXPECT_LT(mapped.error, 1.3 * truly.error + 0.02);
+  EXPECT_EQ(mapped.signs.at("200").size(), 2U);
+}
+
+TEST(SignLandmarksPlugin, ASignThatIsMovedToAnotherDoorBendsNothing) {
+  const SimulatedLog log(drive(2));
+  auto before = signsOf(log),
+       after = signsOf(log, [](int number) { return number == 0 ? "" : numbered(number == 6 ? 0 : number); });
+  std::copy(after.begin() + static_cast<std::ptrdiff_t>(after.size() / 2), after.end(),
+            before.begin() + static_cast<std::ptrdiff_t>(before.size() / 2));
+  const Mapped mapped(log, before), truly(log, signsOf(log));
+  EXPECT_LT(mapped.error, 1.3 * truly.error + 0.02);
+  EXPECT_EQ(mapped.signs.at("200").size(), 2U) << "where it was, and where it is";
+}
+
+// Of four readings one is wrong; the sign is one, with the number that was read most.
+TEST(SignLandmarksPlugin, ContradictoryTextsAtOnePlaceAreOneSign) {
+  const SimulatedLog log(drive(1));
+  int readings = 0;
+  const auto misread = [&](int number) { return number == 1 && ++readings % 4 == 0 ? "207" : numbered(number); };
+  const Mapped mapped(log, signsOf(log, misread)), truly(log, signsOf(log));
+  EXPECT_LT(mapped.error, 1.3 * truly.error + 0.02);
+  ASSERT_EQ(mapped.signs.count("201"), 1U);
+  EXPECT_EQ(mapped.signs.at("201").size(), 1U);
+  const auto& real = drive(1).beacons.positions;
+  for (const auto& place : mapped.signs.at("207"))
+    EXPECT_GT((place - real[1]).norm(), 0.5) << "what was misread stands nowhere beside it";
+}
+
+TEST(SignLandmarksPlugin, ATextThatChangesBendsNothing) {
+  const SimulatedLog log(drive(2));
+  auto before = signsOf(log);
+  const auto after =
+      signsOf(log, [](int number) { return number < 3 ? std::to_string(900 - number) : numbered(number); });
+  std::copy(after.begin() + static_cast<std::ptrdiff_t>(after.size() / 2), after.end(),
+            before.begin() + static_cast<std::ptrdiff_t>(before.size() / 2));
+  const Mapped mapped(log, before), truly(log, signsOf(log));
+  EXPECT_LT(mapped.error, 1.3 * truly.error + 0.05);
+  EXPECT_EQ(mapped.signs.at("200").size(), 1U);
+  EXPECT_EQ(mapped.signs.at("900").size(), 1U);
+}
+
 TEST(SignLandmarksPlugin, ASightingOfAnUnknownOneWaitsAndSaysSo) {
   const SimulatedLog log(drive(1));
   auto observations = signsOf(log);
@@ -208,6 +314,44 @@ TEST(SignPayload, ComesBackFromBytes) {
   EXPECT_EQ(back.words, written->words);
   EXPECT_EQ(back.seen_by, written->seen_by);
   EXPECT_TRUE(back.is_repeated);
+  EXPECT_FALSE(back.best_look);
+}
+
+TEST(SignPayload, KeepsItsLargestLook) {
+  map::PayloadRegistry registry;
+  SignPayload::addTo(registry);
+  auto written = SignPayload().with({"213", {}, 0.9}, "a");
+  map::Photograph photograph{2, 1, {1, 2, 3, 4, 5, 6}};
+  written->best_look = SignLook{{0, 7}, Eigen::Vector3d::UnitY(), 900, std::make_shared<map::Photograph>(photograph)};
+  EXPECT_FALSE(written->isBetter(800));
+  EXPECT_TRUE(written->isBetter(1000));
+  std::stringstream bytes;
+  written->write(bytes);
+  const auto read = registry.read("door_sign", bytes.str());
+  const auto& back = dynamic_cast<const SignPayload&>(*read);
+  ASSERT_TRUE(back.best_look);
+  EXPECT_EQ(back.best_look->frame, written->best_look->frame);
+  EXPECT_EQ(back.best_look->photograph->rgb, photograph.rgb);
+  EXPECT_EQ(back.keyFrames(), std::vector<base::KeyFrameId>{written->best_look->frame});
+  // A small look of another sign does not replace it, a larger one does.
+  auto other = SignPayload().with({"213", {}, 0.9}, "a");
+  other->best_look = SignLook{{0, 9}, Eigen::Vector3d::UnitX(), 100, nullptr};
+  EXPECT_EQ(written->with(*other)->best_look->frame.index, 7U);
+  other->best_look->area_px = 2000;
+  EXPECT_EQ(written->with(*other)->best_look->frame.index, 9U);
+}
+
+TEST(SignPayload, IsReadFromMapsOfBeforeItKeptALook) {
+  map::PayloadRegistry registry;
+  SignPayload::addTo(registry);
+  const auto written = SignPayload().with({"213", {}, 0.9}, "a");
+  std::stringstream bytes;
+  written->write(bytes);
+  std::string old = bytes.str();
+  old[0] = 1;
+  old.pop_back();  // whether there is a look
+  const auto read = registry.read("door_sign", old);
+  EXPECT_EQ(dynamic_cast<const SignPayload&>(*read).title(), "213");
 }
 
 }  // namespace

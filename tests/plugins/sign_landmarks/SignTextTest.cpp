@@ -52,9 +52,11 @@ TEST(SignText, numbersMustAgreeAndWordsBeAlike) {
 
 TEST(SignText, aLongNumberIsOneSignMoreSurelyThanAShortOne) {
   EXPECT_EQ(oddsOfOneSign(text("213"), text("213")), 100);
-  EXPECT_EQ(oddsOfOneSign(text("4"), text("4")), 1);
-  EXPECT_EQ(oddsOfOneSign(text("1.234.567"), text("1.234.567")), 1000);
-  EXPECT_EQ(oddsOfOneSign(text("", {"EXIT"}), text("", {"EXIT"})), 1);
+  EXPECT_EQ(oddsOfOneSign(text("271B"), text("271B")), 100);
+  EXPECT_EQ(oddsOfOneSign(text("1.234"), text("1.234")), 1000);
+  EXPECT_EQ(oddsOfOneSign(text("22"), text("22")), 0.1) << "a date";
+  EXPECT_EQ(oddsOfOneSign(text("16:00"), text("16:00")), 0.1) << "a time";
+  EXPECT_EQ(oddsOfOneSign(text("", {"EXIT"}), text("", {"EXIT"})), 0.1);
 }
 
 TEST(SignPayload, whatWasReadMostIsWhatIsWritten) {

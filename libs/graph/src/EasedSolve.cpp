@@ -1,0 +1,31 @@
+#include "EasedSolve.h"
+
+#include <algorithm>
+
+#include "omnimapper/graph/PointFactor.h"
+
+namespace omnimapper::graph {
+
+void solveEased(Graph& graph, const std::vector<base::FactorId>& fresh, const SolveOptions& options) {
+  constexpr double kFar = 1e4;     // of chi-square
+  constexpr double kGentle = 100;  // chi-square that they weigh at first
+  constexpr double kGrowth = 100;  // of the weight from solve to solve
+  std::vector<base::FactorId> far;
+  double worst = 0;
+  for (const auto id : fresh) {
+    const FactorRecord& record = graph.factor(id);
+    if (record.weight == 0 || record.factor->kind() != SamePointFactor::kKind) continue;
+    const double misfit = graph.whitenedResidual(id).squaredNorm();
+    if (misfit < kFar) continue;
+    far.push_back(id);
+    worst = std::max(worst, misfit);
+  }
+  for (double weight = kGentle / worst; !far.empty() && weight < 1; weight *= kGrowth) {
+    for (const auto id : far) graph.setWeight(id, weight);
+    solve(graph, options);
+  }
+  for (const auto id : far) graph.setWeight(id, 1);
+  solve(graph, options);
+}
+
+}  // namespace omnimapper::graph
