@@ -222,8 +222,12 @@ TEST_P(ConsistencyMethodTest, PointsAtTheEndOfALongWayBearOneAnotherOut) {
       one(pointSeenFrom(300, ring.truth()[301].translation()), pointSeenFrom(900, ring.truth()[901].translation()));
   EXPECT_GT(ring.largestError(), 20);
   ring.test({false_one}, GetParam());
-  for (const FactorId id : closures) ring.test({id}, GetParam());
-  for (const FactorId id : closures) EXPECT_TRUE(ring.accepted(id));
+  std::string reasons;
+  for (const FactorId id : closures) {
+    for (const auto& verdict : ring.test({id}, GetParam()))
+      reasons += toString(verdict.factor) + " " + verdict.reason + " " + std::to_string(verdict.chi2) + "\n";
+  }
+  for (const FactorId id : closures) EXPECT_TRUE(ring.accepted(id)) << toString(id) << "\n" << reasons;
   EXPECT_FALSE(ring.accepted(false_one));
 }
 
