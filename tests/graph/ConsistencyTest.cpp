@@ -192,45 +192,6 @@ TEST_P(ConsistencyMethodTest, WhatCouldFitByChanceWaitsForAnotherToBearItOut) {
   EXPECT_TRUE(verdicts[1].changed);
 }
 
-// At the end of a long way the heading is off so far that one sign says, to first order, the wrong place of the next.
-TEST_P(ConsistencyMethodTest, PointsAtTheEndOfALongWayBearOneAnotherOut) {
-  Ring ring(1200, 3);
-  const auto pointSeenFrom = [&](int pose, const Eigen::Vector2d& in_map) {
-    const Eigen::Vector2d in_base = inverse(ring.truth()[pose]) * in_map;
-    const Se2 estimate = se2FromValue(ring.graph().value(ring.ids()[pose]).data());
-    const Eigen::Vector2d guess = estimate * in_base;
-    const auto point = ring.graph().addVariable(point3(), Eigen::Vector3d(guess.x(), guess.y(), 1.5));
-    ring.graph().addFactor({{ring.ids()[pose], point},
-                            std::make_shared<PointFactor3>(Eigen::Vector3d(in_base.x(), in_base.y(), 1.5)),
-                            SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(0.03))});
-    return point;
-  };
-  const auto one = [&](VariableId a, VariableId b) {
-    FactorRecord record{{a, b},
-                        std::make_shared<SamePointFactor>(100),
-                        SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(0.03))};
-    record.tags.hypothesis = true;
-    record.weight = 0;
-    return ring.graph().addFactor(record);
-  };
-  std::vector<FactorId> closures;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector2d place = ring.truth()[3 * i + 1] * Eigen::Vector2d(1, i % 2 == 0 ? 1.5 : -1.5);
-    closures.push_back(one(pointSeenFrom(3 * i, place), pointSeenFrom(1190 + 3 * i, place)));
-  }
-  const FactorId false_one =
-      one(pointSeenFrom(300, ring.truth()[301].translation()), pointSeenFrom(900, ring.truth()[901].translation()));
-  EXPECT_GT(ring.largestError(), 20);
-  ring.test({false_one}, GetParam());
-  std::string reasons;
-  for (const FactorId id : closures) {
-    for (const auto& verdict : ring.test({id}, GetParam()))
-      reasons += toString(verdict.factor) + " " + verdict.reason + " " + std::to_string(verdict.chi2) + "\n";
-  }
-  for (const FactorId id : closures) EXPECT_TRUE(ring.accepted(id)) << toString(id) << "\n" << reasons;
-  EXPECT_FALSE(ring.accepted(false_one));
-}
-
 TEST_P(ConsistencyMethodTest, ARefusedOneComesBackWhenTheMapHasMovedToIt) {
   Ring ring(60);
   const FactorId closure = ring.closure(0, 59);
@@ -351,6 +312,46 @@ TEST_P(ConsistencyMethodTest, ManyAtOnceAreJudgedAsIfOneAfterAnother) {
   for (std::size_t i = 0; i < world.ids.size(); ++i)
     error = std::max(error, (world.graph.value(world.ids[i]).head<2>() - world.truth[i].translation()).norm());
   EXPECT_LT(error, 0.3);
+}
+
+// At the end of a long way the heading is off so far that one sign says, to first order, the wrong place of the next.
+TEST(ConsistencyTest, PointsAtTheEndOfALongWayBearOneAnotherOut) {
+  Ring ring(2400, 8);
+  const auto pointSeenFrom = [&](int pose, const Eigen::Vector2d& in_map) {
+    const Eigen::Vector2d in_base = inverse(ring.truth()[pose]) * in_map;
+    const Se2 estimate = se2FromValue(ring.graph().value(ring.ids()[pose]).data());
+    const Eigen::Vector2d guess = estimate * in_base;
+    const auto point = ring.graph().addVariable(point3(), Eigen::Vector3d(guess.x(), guess.y(), 1.5));
+    ring.graph().addFactor({{ring.ids()[pose], point},
+                            std::make_shared<PointFactor3>(Eigen::Vector3d(in_base.x(), in_base.y(), 1.5)),
+                            SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(0.03))});
+    return point;
+  };
+  const auto one = [&](VariableId a, VariableId b) {
+    FactorRecord record{{a, b},
+                        std::make_shared<SamePointFactor>(0.01),
+                        SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(0.03))};
+    record.tags.hypothesis = true;
+    record.weight = 0;
+    return ring.graph().addFactor(record);
+  };
+  std::vector<FactorId> closures;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d place = ring.truth()[3 * i + 1] * Eigen::Vector2d(1, i % 2 == 0 ? 1.5 : -1.5);
+    closures.push_back(one(pointSeenFrom(3 * i, place), pointSeenFrom(2390 + 3 * i, place)));
+  }
+  const FactorId false_one =
+      one(pointSeenFrom(600, ring.truth()[601].translation()), pointSeenFrom(1800, ring.truth()[1801].translation()));
+  EXPECT_GT(ring.largestError(), 20);
+  ring.test({false_one}, Method::pairwise);
+  std::string reasons;
+  for (const FactorId id : closures) {
+    for (const auto& verdict : ring.test({id}, Method::pairwise))
+      reasons += toString(verdict.factor) + " " + verdict.reason + " " + std::to_string(verdict.chi2) + "\n";
+  }
+  for (const FactorId id : closures) EXPECT_TRUE(ring.accepted(id)) << toString(id) << "\n" << reasons;
+  EXPECT_NE(reasons.find("borne out"), std::string::npos) << reasons;
+  EXPECT_FALSE(ring.accepted(false_one));
 }
 
 TEST(ConsistencyTest, MethodNoneLetsEveryHypothesisAct) {
