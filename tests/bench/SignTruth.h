@@ -38,8 +38,8 @@ class SignTruth {
   std::size_t of_signs = 0, of_posters = 0, elsewhere = 0;  ///< of what was found
   base::Stamp first, last;                                  ///< of the perceived log
 
-  /// Writes the perceived log with numbers of true signs for what was read, without what is none, to `labelled`; only
-  /// of signs of which a line is at least `min_confidence` sure.
+  /// Writes the perceived log with numbers of true signs for what was read, without what is none, to `labelled`; if
+  /// `min_confidence` is not 0, only signs of which a line is at least so sure, and texts of posters as their own.
   SignTruth(const std::string& folder, const std::string& perceived, const std::string& labelled,
             double min_confidence) {
     readPlace(folder);
@@ -182,6 +182,10 @@ class SignTruth {
       const bool is_read = min_confidence <= 0 || std::any_of(each.texts.begin(), each.texts.end(), [&](const auto& t) {
                              return t.confidence >= min_confidence && !t.text.empty();
                            });
+      if (!number && all.back().sign && min_confidence > 0 && is_read) {
+        labelled.signs.push_back(each);
+        labelled.signs.back().texts = {{ofPoster(*all.back().sign, each, min_confidence), 1}};
+      }
       if (!number || !is_read) continue;
       const auto [at, is_first] = of_sign.emplace(*number, each);
       if (!is_first && at->second.score < each.score) at->second = each;
@@ -191,6 +195,19 @@ class SignTruth {
       labelled.signs.push_back(sign);
     }
     return labelled;
+  }
+
+  // A poster has several texts, each at its own place: its number, and the line that tells most.
+  static std::string ofPoster(std::size_t poster, const obs::ObservedDoorSign& sign, double min_confidence) {
+    std::string best;
+    for (const auto& line : sign.texts) {
+      const bool has_digit =
+          std::any_of(line.text.begin(), line.text.end(), [](char c) { return c >= '0' && c <= '9'; });
+      if (line.confidence < min_confidence || line.text.empty()) continue;
+      if (has_digit) return std::to_string(2000 + poster) + "-" + line.text;
+      if (best.empty() || line.text < best) best = line.text;
+    }
+    return std::to_string(2000 + poster) + "-" + best;
   }
 
   std::map<base::Stamp, std::vector<std::pair<std::size_t, Quad>>> quads_;

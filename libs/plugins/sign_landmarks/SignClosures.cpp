@@ -19,7 +19,7 @@ using graph::SamePointFactor;
 // [m] Nearer, what says the same is one sign, whatever the covariance allows.
 constexpr double kOfOneSign = 1;
 // [m] Nearer, a number and words stand on one plate.
-constexpr double kOfOnePlate = 0.15;
+constexpr double kOfOnePlate = 0.25;
 
 std::optional<landmarks::Fit> fitOfGap(base::VariableId a, base::VariableId b, const mapper::View& view, double sigma) {
   const auto joint = view.jointCovariance({a, b});

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "NewSigns.h"
 #include "SignBearingFactor.h"
 #include "SignClosures.h"
 #include "SignPayload.h"
@@ -49,7 +50,7 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
             .number("same_sigma_m", &Options::same_sigma, Range::positive(),
                     "Standard deviation of where the middle of a sign is seen, on two visits.")
             .number("loss_scale", &Options::loss_scale, Range::positive(),
-                    "Scale of the Huber loss, in standard deviations.");
+                    "Scale of the Cauchy loss, in standard deviations.");
     return declareIn(own);
   }();
   return table;
@@ -144,14 +145,9 @@ class SignLandmarksPlugin::Work {
 
   bool areOffsetsInGraph() const { return !offset_variable_ || !mapper::Batch::isProvisional(*offset_variable_); }
 
-  graph::FactorRecord tagged(graph::FactorRecord record, base::LandmarkId landmark) const {
-    record.tags.owner = context_.section;
-    record.tags.landmark = landmark;
-    return record;
-  }
-
   graph::FactorRecord record(const SignSighting& sighting, base::VariableId point, base::LandmarkId landmark) const {
-    return tagged(sighting.directionRecord(frame_.pose, point, offset_variable_, options_), landmark);
+    return ofLandmark(sighting.directionRecord(frame_.pose, point, offset_variable_, options_), landmark,
+                      context_.section);
   }
 
   mapper::Decision decisionOf() const {
@@ -175,7 +171,7 @@ class SignLandmarksPlugin::Work {
     batch_.log(std::move(decision));
     batch_.addFactor(pairing.record);
     if (auto range = sighting.rangeRecord(frame_.pose, pairing.record.variables[1]))
-      batch_.addFactor(tagged(std::move(*range), pairing.landmark));
+      batch_.addFactor(ofLandmark(std::move(*range), pairing.landmark, context_.section));
     auto payload = signOf(view_, pairing.landmark).with(sighting.text, label_);
     if (payload->isBetter(sighting.area_px) && !view_.map_is_held) payload->best_look = sighting.look(frame_.id);
     batch_.addEvidence(pairing.landmark, std::move(payload));
@@ -186,7 +182,7 @@ class SignLandmarksPlugin::Work {
     // Of two directions nothing would show that one is wrong; words stand on more than one door.
     const std::size_t min_views = sighting.text.number.empty() ? 4 : 3;
     const auto& views =
-        tracks_.waitingWith({frame_.id, frame_.pose, sighting, tracks_.travelled()}, options_.recent_way);
+        tracks_.waitingWith({frame_.id, frame_.pose, label_, sighting, tracks_.travelled()}, options_.recent_way);
     const auto place = triangulate(views, view_.graph, known_offsets_, options_.max_sigma, min_views);
     decision.numbers.emplace_back("directions", static_cast<double>(views.size()));
     if (!place) {
@@ -196,25 +192,7 @@ class SignLandmarksPlugin::Work {
     decision.accepted = true;
     decision.reason = "new";
     batch_.log(std::move(decision));
-    const auto variable = batch_.addVariable(graph::point3(), place->point);
-    auto payload = std::make_shared<SignPayload>();
-    bool has_range = false;
-    for (const auto i : place->views) {
-      const auto& [frame, pose, seen, travelled] = views[i];
-      payload = payload->with(seen.text, label_);
-      if (payload->isBetter(seen.area_px)) payload->best_look = seen.look(frame);
-      has_range = has_range || seen.range;
-    }
-    const auto landmark = batch_.addLandmark("sign", {variable}, payload);
-    for (std::size_t i = 1; i < place->views.size(); ++i) batch_.addEvidence(landmark);
-    for (const auto i : place->views) {
-      const auto& each = views[i];
-      batch_.addFactor(
-          tagged(each.sighting.directionRecord(each.pose, variable, offset_variable_, options_), landmark));
-      if (auto range = each.sighting.rangeRecord(each.pose, variable))
-        batch_.addFactor(tagged(std::move(*range), landmark));
-    }
-    if (!has_range) batch_.addFactor(tagged(sighting.legibilityRecord(frame_.pose, variable), landmark));
+    addSign(views, *place, offsets_, options_, context_.section, batch_);
     tracks_.forget(place->views);
   }
 
@@ -280,7 +258,9 @@ mapper::FollowUp SignLandmarksPlugin::afterCommit(const map::KeyFrame&, const ma
 mapper::Batch SignLandmarksPlugin::atEnd(const mapper::View& view) {
   if (view.map_is_held) return {};
   tracks_->update(view);
-  return mergeSameSigns(*tracks_, options_, context_.section, view);
+  auto batch = mergeSameSigns(*tracks_, options_, context_.section, view);
+  addLeftSigns(*tracks_, offsets_, options_, context_.section, view, batch);
+  return batch;
 }
 
 void SignLandmarksPlugin::restore(const map::MapSection*, const mapper::View& view) {

@@ -17,10 +17,10 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
   double pan_sigma = 0.5 * base::option_text::kRadiansPerDegree;    ///< [rad] of what is told of the camera's turn
   double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;   ///< [rad] the same of its pitch
   double pan_tilt_offset_sigma = 1 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zeros
-  double max_sigma = 0.15;                                                  ///< [m] of the place of a new sign
+  double max_sigma = 0.3;                                                   ///< [m] of the place of a new sign
   double recent_way = 10;    ///< [m] for so long a sign counts as seen just now
   double same_sigma = 0.03;  ///< [m] of the middle of a sign, seen twice
-  double loss_scale = 3;     ///< [sigma] of the Huber loss
+  double loss_scale = 2;     ///< [sigma] of the Cauchy loss
 
   static const base::OptionTable<SignLandmarksOptions>& table();
 };

@@ -77,7 +77,7 @@ graph::FactorRecord SignSighting::directionRecord(base::VariableId pose, base::V
     factor = std::make_shared<SignBearingFactor>(seen);
   }
   auto record = recordOf(variables, std::move(factor), Eigen::Vector2d(sigma_left, sigma_down), "sign sighting");
-  record.loss = graph::Loss::huber(options.loss_scale);
+  record.loss = graph::Loss::cauchy(options.loss_scale);
   return record;
 }
 
@@ -133,7 +133,7 @@ struct Ray {
 
 std::vector<Ray> raysOf(const std::vector<SignView>& views, const graph::Graph& graph, const KnownOffsets& offsets) {
   std::vector<Ray> rays;
-  for (const auto& [frame, pose, sighting, travelled] : views) {
+  for (const auto& [frame, pose, label, sighting, travelled] : views) {
     const geometry::Se3 map_from_base = geometry::fromMrpt(mapper::poseOf(graph, pose));
     const Vector3d direction = turnedBy(offsets.pan_tilt, sighting.tilt_axis, sighting.seen.direction());
     const double sigma = std::max(sighting.sigma_left, sighting.sigma_down);

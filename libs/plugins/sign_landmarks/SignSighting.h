@@ -48,6 +48,7 @@ std::vector<SignSighting> signSightings(const obs::CObservationDoorSigns& observ
 struct SignView {
   base::KeyFrameId frame;
   base::VariableId pose;
+  std::string label;  ///< of the camera
   SignSighting sighting;
   double travelled = 0;  ///< [m] when it was seen
 };

@@ -3,6 +3,7 @@
 #include <omnimapper/plugin/PoseFactors.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace omnimapper::plugins {
 
@@ -35,7 +36,10 @@ void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, do
     last_stamp_ = frame.stamp;
   }
   update(state);
-  while (!waiting_.empty() && way_ - waiting_.front().last_seen > recent_way) waiting_.pop_front();
+  while (!waiting_.empty() && way_ - waiting_.front().last_seen > recent_way) {
+    for (const auto& view : waiting_.front().views) keepForTheEnd(view);
+    waiting_.pop_front();
+  }
 }
 
 void SignTracks::add(base::LandmarkId id) {
@@ -54,11 +58,39 @@ std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double rece
     waiting_.erase(found);
     const auto is_old = [&](const SignView& each) { return way_ - each.travelled > recent_way; };
     auto& views = waiting.views;
+    for (const auto& each : views)
+      if (is_old(each)) keepForTheEnd(each);
     views.erase(std::remove_if(views.begin(), views.end(), is_old), views.end());
   }
   waiting.views.push_back(view);
   waiting_.push_back(std::move(waiting));
   return waiting_.back().views;
+}
+
+// A log of a day has many.
+void SignTracks::keepForTheEnd(const SignView& view) {
+  constexpr std::size_t kMost = 2000;
+  left_.push_back(view);
+  if (left_.size() > kMost) left_.pop_front();
+}
+
+std::vector<std::vector<SignView>> SignTracks::left(double recent_way) const {
+  std::vector<std::vector<SignView>> groups;
+  const auto add = [&](const SignView& view) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& views) {
+      return std::abs(views.back().travelled - view.travelled) <= recent_way &&
+             agreementOf(views.back().sighting.text, view.sighting.text) == Agreement::agrees;
+    });
+    if (group == groups.end()) {
+      groups.push_back({view});
+    } else {
+      group->push_back(view);
+    }
+  };
+  for (const auto& view : left_) add(view);
+  for (const auto& waiting : waiting_)
+    for (const auto& view : waiting.views) add(view);
+  return groups;
 }
 
 void SignTracks::forget(const std::vector<std::size_t>& which) {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <omnimapper/plugin/Batch.h>
+#include <omnimapper/plugin/PanTiltOffsets.h>
+#include <omnimapper/plugin/View.h>
+
+#include <string>
+#include <vector>
+
+#include "SignLandmarksPlugin.h"
+#include "SignSighting.h"
+#include "SignTracks.h"
+
+namespace omnimapper::plugins {
+
+/// The record with tags of the plugin's section and of the landmark.
+graph::FactorRecord ofLandmark(graph::FactorRecord record, base::LandmarkId landmark, const std::string& section);
+
+/// A new landmark where views meet, with what binds it to them.
+void addSign(const std::vector<SignView>& views, const Triangulation& place, mapper::PanTiltOffsets& offsets,
+             const SignLandmarksOptions& options, const std::string& section, mapper::Batch& batch);
+
+/// At the end of a log: signs whose directions never met well enough to be of use on the way. They are in the map as
+/// well as they are known, if no sign is there already that says the same.
+void addLeftSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets, const SignLandmarksOptions& options,
+                  const std::string& section, const mapper::View& view, mapper::Batch& batch);
+
+}  // namespace omnimapper::plugins
