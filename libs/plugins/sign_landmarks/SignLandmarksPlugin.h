@@ -16,7 +16,7 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
   double pixel_sigma = 0.1 * base::option_text::kRadiansPerDegree;  ///< [rad] of a direction in the camera
   double pan_sigma = 0.5 * base::option_text::kRadiansPerDegree;    ///< [rad] of what is told of the camera's turn
   double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;   ///< [rad] the same of its pitch
-  double pan_tilt_offset_sigma = 1 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zeros
+  double pan_tilt_offset_sigma = 3 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zeros
   double max_sigma = 0.3;                                                   ///< [m] of the place of a new sign
   double recent_way = 10;    ///< [m] for so long a sign counts as seen just now
   double same_sigma = 0.03;  ///< [m] of the middle of a sign, seen twice
