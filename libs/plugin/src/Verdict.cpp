@@ -8,13 +8,14 @@ namespace omnimapper::mapper {
 Verdict conclude(std::vector<Evidence> all) {
   std::vector<Evidence> evidence;
   for (Evidence& one : all) {
-    const auto vague = std::find_if(evidence.begin(), evidence.end(), [&](const Evidence& other) {
-      return other.name == one.name && other.says == Evidence::Says::too_little;
-    });
-    if (vague == evidence.end()) {
+    const auto same =
+        std::find_if(evidence.begin(), evidence.end(), [&](const Evidence& other) { return other.name == one.name; });
+    if (same == evidence.end()) {
       evidence.push_back(std::move(one));
-    } else {
-      *vague = std::move(one);
+    } else if (same->says == Evidence::Says::too_little) {
+      *same = std::move(one);
+    } else if (one.says != Evidence::Says::too_little) {
+      evidence.push_back(std::move(one));
     }
   }
   const auto any = [&](Evidence::Says says) {

@@ -7,7 +7,7 @@ namespace omnimapper::plugins {
 namespace {
 
 bool placesPoint(std::string_view kind) {
-  return kind == "point_on_wall" || kind == "point_on_plane";
+  return kind == "point_on_wall" || kind == "point3_on_wall" || kind == "point_on_plane";
 }
 
 bool tellsTurn(std::string_view kind) {

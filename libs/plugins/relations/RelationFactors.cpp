@@ -66,16 +66,40 @@ struct Across {
   }
 };
 
+// Of a point, of which x and y count, and a wall.
+struct FromWall {
+  explicit FromWall(const double* const* values) {
+    const geometry::Segment2 wall = landmarks::wallFromValue(values[1]);
+    const Eigen::Vector2d from_middle = Eigen::Vector2d(values[0][0], values[0][1]) - middle(wall);
+    normal = landmarks::normalOf(wall);
+    distance = normal.dot(from_middle);
+    by_wall << -direction(wall).dot(from_middle), -1;
+  }
+
+  Eigen::Vector2d normal;
+  double distance;
+  Eigen::RowVector2d by_wall;
+};
+
 }  // namespace
 
 void PointOnWallFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  const geometry::Segment2 wall = landmarks::wallFromValue(values[1]);
-  const Eigen::Vector2d from_wall = Eigen::Vector2d(values[0][0], values[0][1]) - middle(wall);
-  residual[0] = landmarks::normalOf(wall).dot(from_wall);
+  const FromWall from(values);
+  residual[0] = from.distance;
   if (!jacobians) return;
-  if (auto by_point = jacobian<0>(jacobians)) by_point = landmarks::normalOf(wall).transpose();
-  if (auto by_wall = jacobian<1>(jacobians)) by_wall << -direction(wall).dot(from_wall), -1;
+  if (auto by_point = jacobian<0>(jacobians)) by_point = from.normal.transpose();
+  if (auto by_wall = jacobian<1>(jacobians)) by_wall = from.by_wall;
 }
+
+void Point3OnWallFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+  const FromWall from(values);
+  residual[0] = from.distance;
+  if (!jacobians) return;
+  if (auto by_point = jacobian<0>(jacobians)) by_point << from.normal.transpose(), 0;
+  if (auto by_wall = jacobian<1>(jacobians)) by_wall = from.by_wall;
+}
+
+void Point3OnWallFactor::write(std::ostream&) const {}
 
 void PointOnWallFactor::write(std::ostream&) const {}
 
@@ -172,6 +196,7 @@ void PlaneShiftFactor::write(std::ostream& out) const {
 
 void addRelationsTo(graph::FactorRegistry& registry) {
   registry.add("point_on_wall", [](std::istream&) { return std::make_shared<PointOnWallFactor>(); });
+  registry.add("point3_on_wall", [](std::istream&) { return std::make_shared<Point3OnWallFactor>(); });
   registry.add("point_on_plane", [](std::istream&) { return std::make_shared<PointOnPlaneFactor>(); });
   registry.add("wall_turn", [](std::istream& in) {
     return std::make_shared<WallTurnFactor>(static_cast<int>(graph::readUint(in, 1)));

@@ -21,6 +21,14 @@ class PointOnWallFactor : public graph::SizedFactor<1, graph::Point2Kind, landma
   void write(std::ostream& out) const override;
 };
 
+/// A point of space lies above or below the line of a wall. Variables: point3, wall. Residual as PointOnWallFactor.
+class Point3OnWallFactor : public graph::SizedFactor<1, graph::Point3Kind, landmarks::WallKind> {
+ public:
+  std::string_view kind() const override { return "point3_on_wall"; }
+  void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
+  void write(std::ostream& out) const override;
+};
+
 /// A point lies on a plane. Variables: point3, plane. Residual: its distance [m], positive on the free side.
 class PointOnPlaneFactor : public graph::SizedFactor<1, graph::Point3Kind, landmarks::PlaneKind> {
  public:

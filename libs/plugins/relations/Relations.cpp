@@ -80,7 +80,8 @@ class Finder {
       for (std::size_t j = 0; j < views_.size(); ++j) {
         const LandmarkView &a = views_[i], &b = views_[j];
         if (!mayBeTied(a, b)) continue;
-        if (a.kind == "point2" && b.kind == "wall") pointOnWall(a, b);
+        if (a.kind == "point2" && b.kind == "wall") pointOnWall(a, b, std::make_shared<PointOnWallFactor>());
+        if (a.kind == "point3" && b.kind == "wall") pointOnWall(a, b, std::make_shared<Point3OnWallFactor>());
         if (a.kind == "point3" && b.kind == "plane") pointOnPlane(a, b);
         if (j <= i || a.kind != b.kind) continue;
         if (a.kind == "wall") twoWalls(a, b);
@@ -117,16 +118,15 @@ class Finder {
     return all;
   }
 
-  void pointOnWall(const LandmarkView& point, const LandmarkView& wall) {
+  void pointOnWall(const LandmarkView& point, const LandmarkView& wall, std::shared_ptr<const graph::Factor> factor) {
     if (!options_.point_on_wall || told_.isPlaced(point.variable)) return;
     const geometry::Segment2 segment = landmarks::wallFromValue(state_.graph.value(wall.variable).data());
-    const Eigen::Vector2d place = state_.graph.value(point.variable), along = direction(segment);
+    const Eigen::Vector2d place = state_.graph.value(point.variable).head<2>(), along = direction(segment);
     if (std::abs(landmarks::normalOf(segment).dot(place - segment.from)) > options_.max_distance) return;
     const auto reach =
         stretch(wall, {along.x(), along.y(), 0}).value_or(std::pair(along.dot(segment.from), along.dot(segment.to)));
     if (along.dot(place) < reach.first - kBeyond || along.dot(place) > reach.second + kBeyond) return;
-    weigh(point, wall,
-          {"point on wall", std::make_shared<PointOnWallFactor>(), sigmas(0, 1), 2 * options_.max_distance});
+    weigh(point, wall, {"point on wall", std::move(factor), sigmas(0, 1), 2 * options_.max_distance});
   }
 
   void pointOnPlane(const LandmarkView& point, const LandmarkView& plane) {

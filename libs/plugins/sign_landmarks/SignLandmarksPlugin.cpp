@@ -12,6 +12,7 @@
 #include "NewSigns.h"
 #include "SignBearingFactor.h"
 #include "SignClosures.h"
+#include "SignEvidence.h"
 #include "SignPayload.h"
 #include "SignPlacement.h"
 #include "SignSighting.h"
@@ -261,6 +262,10 @@ mapper::Batch SignLandmarksPlugin::atEnd(const mapper::View& view) {
   auto batch = mergeSameSigns(*tracks_, options_, context_.section, view);
   addLeftSigns(*tracks_, offsets_, options_, context_.section, view, batch);
   return batch;
+}
+
+std::vector<mapper::Evidence> SignLandmarksPlugin::evidence(const mapper::View& view) const {
+  return view.map_is_held ? std::vector<mapper::Evidence>() : signEvidence(view, context_.section);
 }
 
 void SignLandmarksPlugin::restore(const map::MapSection*, const mapper::View& view) {

@@ -43,6 +43,7 @@ class SignLandmarksPlugin : public mapper::MeasurementPlugin {
   void applied(const mapper::AppliedBatch& ids) override;
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
   mapper::Batch atEnd(const mapper::View& view) override;
+  std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
   void restore(const map::MapSection* saved, const mapper::View& view) override;
 
  private:

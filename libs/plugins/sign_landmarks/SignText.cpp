@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kAlike = 0.6;  // the thesis's share
 
-bool hasDigit(const std::string& text) {
-  return std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+std::ptrdiff_t digitsIn(const std::string& text) {
+  return std::count_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 // ASCII letters alone have capitals; of others the bytes stay.
@@ -37,7 +37,7 @@ SignText textOf(const obs::ObservedDoorSign& sign, double min_confidence) {
   double surest_word = 0;
   for (const auto& line : sign.texts) {
     if (line.confidence < min_confidence || line.text.empty()) continue;
-    if (text.number.empty() && hasDigit(line.text)) {
+    if (text.number.empty() && digitsIn(line.text) > 0) {
       text.number = inCapitals(line.text, false);
       text.confidence = line.confidence;
     } else {
@@ -71,12 +71,14 @@ bool mayBeMisread(const SignText& a, const SignText& b) {
   return likeness(a.number, b.number) > kAlike;
 }
 
+bool isOfOneSign(const SignText& text) {
+  return text.number.find(':') == std::string::npos && digitsIn(text.number) >= 3;
+}
+
 double oddsOfOneSign(const SignText& a, const SignText& b) {
   constexpr double kOften = 0.1, kThreeDigits = 100, kMoreDigits = 1000;
-  if (a.number.empty() || a.number != b.number || a.number.find(':') != std::string::npos) return kOften;
-  const auto digits =
-      std::count_if(a.number.begin(), a.number.end(), [](unsigned char letter) { return std::isdigit(letter) != 0; });
-  return digits < 3 ? kOften : digits == 3 ? kThreeDigits : kMoreDigits;
+  if (a.number != b.number || !isOfOneSign(a)) return kOften;
+  return digitsIn(a.number) == 3 ? kThreeDigits : kMoreDigits;
 }
 
 }  // namespace omnimapper::plugins

@@ -34,6 +34,9 @@ Agreement agreementOf(const SignText& a, const SignText& b);
 /// Whether one may be the other misread or rewritten: numbers that are alike by more than 60 %.
 bool mayBeMisread(const SignText& a, const SignText& b);
 
+/// Whether hardly two signs say so: a number of three digits or more that is no time.
+bool isOfOneSign(const SignText& text);
+
 /// How many times likelier than not two signs of which the texts agree are one, before it is known where they are. A
 /// number of three digits stands on another sign by chance once in 1000, one of four once in 10000. Words, times, dates
 /// and other numbers below 100 often stand on several.

@@ -39,6 +39,7 @@ double residualOf(const graph::Factor& factor, const std::vector<Eigen::VectorXd
 TEST(RelationFactors, ResidualsAsWorkedByHand) {
   const Eigen::VectorXd level = wall({0, 2}, {4, 2});
   EXPECT_NEAR(residualOf(PointOnWallFactor(), {Vector2d(1, 2.3), level}), 0.3, 1e-12);
+  EXPECT_NEAR(residualOf(Point3OnWallFactor(), {Vector3d(1, 2.3, 1.5), level}), 0.3, 1e-12);
   EXPECT_NEAR(residualOf(PointOnPlaneFactor(), {Vector3d(1, 2, 0.7), landmarks::toValue(Plane3{{0, 0, 1}, -0.75})}),
               -0.05, 1e-12);
   // A quarter turn and 0.1 rad to the left.
@@ -71,6 +72,8 @@ TEST(RelationFactors, JacobiansMatchDifferences) {
                                                                         landmarks::planeVariable()};
     graph::expectJacobiansMatchDifferences(
         {PointOnWallFactor(), {graph::point2(), landmarks::wallVariable()}, {point2, anyWall(dice)}});
+    graph::expectJacobiansMatchDifferences(
+        {Point3OnWallFactor(), {graph::point3(), landmarks::wallVariable()}, {point3, anyWall(dice)}});
     graph::expectJacobiansMatchDifferences({PointOnPlaneFactor(),
                                             {graph::point3(), landmarks::planeVariable()},
                                             {point3, landmarks::toValue(anyPlane(dice))}});

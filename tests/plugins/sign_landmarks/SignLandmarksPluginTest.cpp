@@ -131,6 +131,27 @@ TEST(SignLandmarksPlugin, ASignThatIsMetAgainClosesTheLoop) {
   for (const auto& [title, places] : with.signs) EXPECT_EQ(places.size(), 1U) << title;
 }
 
+// By wheels and a camera nothing else says whether the map can be trusted.
+TEST(SignLandmarksPlugin, NumbersThatAreMetAgainSpeakForTheMap) {
+  const SimulatedLog log(drive(2)), once(drive(0.5));
+  const auto verdictOf = [](const Mapped& mapped) { return mapped.engine->view().verdict; };
+  const auto verdict = verdictOf(Mapped(log, signsOf(log)));
+  EXPECT_EQ(verdict.answer, mapper::Verdict::Answer::consistent) << sentenceOf(verdict);
+  EXPECT_TRUE(verdictOf(Mapped(once, signsOf(once))).evidence.empty());
+}
+
+// A second round whose signs are all elsewhere: what each number stands on has been exchanged.
+TEST(SignLandmarksPlugin, NumbersThatStandElsewhereSpeakAgainstIt) {
+  const SimulatedLog log(drive(2));
+  auto before = signsOf(log);
+  const auto after = signsOf(log, [](int number) { return numbered((number + 7) % 14); });
+  std::copy(after.begin() + static_cast<std::ptrdiff_t>(after.size() / 2), after.end(),
+            before.begin() + static_cast<std::ptrdiff_t>(before.size() / 2));
+  const Mapped mapped(log, before);
+  EXPECT_EQ(mapped.engine->view().verdict.answer, mapper::Verdict::Answer::suspicious)
+      << sentenceOf(mapped.engine->view().verdict);
+}
+
 TEST(SignLandmarksPlugin, TheThirdVisitClosesTheLoopToo) {
   const SimulatedLog log(drive(3));
   const Mapped mapped(log, signsOf(log));

@@ -26,7 +26,7 @@ struct Verdict {
 };
 
 /// Suspicious if any evidence is against the map, else "cannot tell" if there is too little of some, or none at all.
-/// Where one plugin knows too little and a later one tells more under the same name, the later one counts.
+/// Where one plugin knows too little and another tells more under the same name, the other counts.
 Verdict conclude(std::vector<Evidence> all);
 
 /// "consistent", "cannot tell" or "suspicious".
