@@ -34,7 +34,8 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
             .number("min_confidence", &Options::min_confidence, {0, 1},
                     "Lines of text that are less sure do not count.")
             .number("pixel_sigma_deg", &Options::pixel_sigma, Range::positive(),
-                    "Standard deviation of a direction in the camera.")
+                    "Standard deviation of the direction to the middle of a sign in the image, however the camera is "
+                    "turned.")
             .number("pan_sigma_deg", &Options::pan_sigma, Range::notNegative(),
                     "Standard deviation of the pan angle that a camera reports, independent in each image.")
             .number("tilt_sigma_deg", &Options::tilt_sigma, Range::notNegative(),

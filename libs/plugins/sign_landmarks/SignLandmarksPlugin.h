@@ -13,7 +13,7 @@ namespace omnimapper::plugins {
 struct SignLandmarksOptions : mapper::AssociationOptions {
   std::string label;                                                ///< empty: signs of every camera
   double min_confidence = 0.8;                                      ///< of a line of text
-  double pixel_sigma = 0.1 * base::option_text::kRadiansPerDegree;  ///< [rad] of a direction in the camera
+  double pixel_sigma = 0.5 * base::option_text::kRadiansPerDegree;  ///< [rad] of a direction in the camera
   double pan_sigma = 0.5 * base::option_text::kRadiansPerDegree;    ///< [rad] of what is told of the camera's turn
   double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;   ///< [rad] the same of its pitch
   double pan_tilt_offset_sigma = 3 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zeros
