@@ -92,14 +92,19 @@ class Test {
   }
 
   /// The newest that do not act and were judged before these, in the order of ids.
-  std::vector<FactorId> waiting(const std::vector<FactorId>& some) const {
+  template <class Wanted>
+  std::vector<FactorId> waiting(const std::vector<FactorId>& some, const Wanted& isWanted) const {
     std::vector<FactorId> found;
     for (auto at = acted_.rbegin(); at != acted_.rend() && found.size() < kMostWaiting; ++at)
-      if (graph_.factor(at->first).weight == 0 && !contains(some, at->first) && !contains(later_, at->first) &&
-          !reachesOut(graph_, at->first))
+      if (isWanted(at->first) && graph_.factor(at->first).weight == 0 && !contains(some, at->first) &&
+          !contains(later_, at->first) && !reachesOut(graph_, at->first))
         found.push_back(at->first);
     std::reverse(found.begin(), found.end());
     return found;
+  }
+
+  std::vector<FactorId> waiting(const std::vector<FactorId>& some) const {
+    return waiting(some, [](FactorId) { return true; });
   }
 
   /// Decides about some of the fresh ones; returns those that contradict the map.
@@ -210,14 +215,13 @@ class Test {
     solve(graph_, solve_options_);
   }
 
-  /// Points, of which one says little of the next until it acts; poses go around in cycles, which Overturn looks at.
+  /// Tries each waiting hypothesis about points: it acts if others fit once it does. Those about poses go around in
+  /// cycles, which Overturn looks at.
   void bearOut(const std::vector<FactorId>& some) {
     const auto isOfPoints = [&](FactorId id) { return graph_.factor(id).factor->kind() == SamePointFactor::kKind; };
     for (auto id = some.rbegin(); id != some.rend(); ++id) {
       if (graph_.factor(*id).weight > 0 || !isOfPoints(*id) || reachesOut(graph_, *id)) continue;
-      std::vector<FactorId> pool = waiting({*id});
-      pool.erase(std::remove_if(pool.begin(), pool.end(), [&](FactorId other) { return !isOfPoints(other); }),
-                 pool.end());
+      const std::vector<FactorId> pool = waiting({*id}, isOfPoints);
       if (pool.empty()) continue;
       OverturnTrial trial(graph_, gate_, options_.inflation, solve_options_);
       if (!trial.isBorneOut(*id, pool)) continue;

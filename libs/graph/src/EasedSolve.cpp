@@ -10,6 +10,7 @@ void solveEased(Graph& graph, const std::vector<base::FactorId>& fresh, const So
   constexpr double kFar = 1e4;     // of chi-square
   constexpr double kGentle = 100;  // chi-square that they weigh at first
   constexpr double kGrowth = 100;  // of the weight from solve to solve
+  constexpr double kLeast = 1e-10;
   std::vector<base::FactorId> far;
   double worst = 0;
   for (const auto id : fresh) {
@@ -20,7 +21,7 @@ void solveEased(Graph& graph, const std::vector<base::FactorId>& fresh, const So
     far.push_back(id);
     worst = std::max(worst, misfit);
   }
-  for (double weight = kGentle / worst; !far.empty() && weight < 1; weight *= kGrowth) {
+  for (double weight = std::max(kGentle / worst, kLeast); !far.empty() && weight < 1; weight *= kGrowth) {
     for (const auto id : far) graph.setWeight(id, weight);
     solve(graph, options);
   }

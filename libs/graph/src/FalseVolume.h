@@ -14,7 +14,7 @@ class FalseVolume {
   /// The map is the box around the poses of the graph, at least 1 m wide.
   explicit FalseVolume(const Graph& graph);
   /// Logarithm of the volume that the measurement of a Between factor may lie in, or that between points that are said
-  /// to be one, in whitened units; times the odds of a factor that tells such. None for other kinds: what could be
+  /// to be one, in whitened units; times the prior odds of a factor that has any. None for other kinds: what could be
   /// false about them is not known here.
   std::optional<double> logOf(const FactorRecord& record) const;
 

@@ -89,15 +89,15 @@ bool OverturnTrial::letIn(const std::vector<FactorId>& pool) {
   for (const FactorId id : candidates) log_volumes.push_back(volume.logOf(graph_.factor(id)));
   const std::vector<Choice> choices =
       selectPairwise(Innovation(graph_, Marginals(graph_), candidates, inflation_), log_volumes, gate_);
-  bool some = false;
+  std::vector<FactorId> some;
   for (std::size_t i = 0; i < candidates.size(); ++i)
     if (choices[i].kind == Choice::Kind::fits || choices[i].kind == Choice::Kind::agrees) {
       graph_.setWeight(candidates[i], 1);
       outcome_.accepted.push_back(candidates[i]);
-      some = true;
+      some.push_back(candidates[i]);
     }
-  if (some) solve(graph_, solve_options_);
-  return some;
+  if (!some.empty()) solveEased(graph_, some, solve_options_);
+  return !some.empty();
 }
 
 }  // namespace omnimapper::graph

@@ -122,7 +122,7 @@ uint8_t CObservationDoorSigns::serializeGetVersion() const {
 void CObservationDoorSigns::serializeTo(mrpt::serialization::CArchive& out) const {
   writeHead(out);
   writeItems(out, signs, writeSign);
-  for (const auto& sign : signs) out << sign.is_cut;
+  for (const auto& sign : signs) out << static_cast<std::uint8_t>(sign.is_cut);
 }
 
 void CObservationDoorSigns::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
@@ -132,7 +132,7 @@ void CObservationDoorSigns::serializeFrom(mrpt::serialization::CArchive& in, uin
   for (auto& sign : signs) {
     // Version 0 did not keep it, and nothing tells how large the image was.
     const auto& corners = sign.corners_px;
-    sign.is_cut = version > 0 ? readNumber<bool>(in)
+    sign.is_cut = version > 0 ? readNumber<std::uint8_t>(in) != 0
                               : std::any_of(corners.begin(), corners.end(),
                                             [](const auto& corner) { return corner.minCoeff() < 0; });
   }

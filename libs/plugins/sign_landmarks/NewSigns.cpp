@@ -43,14 +43,14 @@ void addSign(const std::vector<SignView>& views, const Triangulation& place, map
 
 namespace {
 
-struct Place {
+struct SignPlace {
   SignText text;
   Eigen::Vector3d point;
 };
 
-bool isAmong(const std::vector<Place>& places, const SignText& text, const Eigen::Vector3d& point) {
+bool isAmong(const std::vector<SignPlace>& places, const SignText& text, const Eigen::Vector3d& point) {
   constexpr double kOfOneSign = 1;  // [m]
-  return std::any_of(places.begin(), places.end(), [&](const Place& place) {
+  return std::any_of(places.begin(), places.end(), [&](const SignPlace& place) {
     const bool is_alike = agreementOf(text, place.text) == Agreement::agrees || mayBeMisread(text, place.text);
     return is_alike && (place.point - point).norm() < kOfOneSign;
   });
@@ -58,14 +58,14 @@ bool isAmong(const std::vector<Place>& places, const SignText& text, const Eigen
 
 }  // namespace
 
-void addLeftSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets, const SignLandmarksOptions& options,
-                  const std::string& section, const mapper::View& view, mapper::Batch& batch) {
+void addUnplacedSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets, const SignLandmarksOptions& options,
+                      const std::string& section, const mapper::View& view, mapper::Batch& batch) {
   constexpr std::size_t kMinViews = 3;
   constexpr double kWorse = 2;  // times the standard deviation that is asked for on the way
-  std::vector<Place> there;
+  std::vector<SignPlace> there;
   for (const auto& [id, known] : tracks.known())
     there.push_back({signOf(view, id).text(), view.graph.value(known.variable)});
-  for (auto views : tracks.left(options.recent_way)) {
+  for (auto views : tracks.unplacedViews(options.recent_way)) {
     // The last view is one of those that meet: where it does not, the one before it may.
     while (views.size() >= kMinViews) {
       const auto offset_variable = offsets.find(views.back().label, batch);

@@ -22,7 +22,7 @@ void addSign(const std::vector<SignView>& views, const Triangulation& place, map
 
 /// At the end of a log: signs whose directions never met well enough to be of use on the way. They are in the map as
 /// well as they are known, if no sign is there already that says the same.
-void addLeftSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets, const SignLandmarksOptions& options,
-                  const std::string& section, const mapper::View& view, mapper::Batch& batch);
+void addUnplacedSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets, const SignLandmarksOptions& options,
+                      const std::string& section, const mapper::View& view, mapper::Batch& batch);
 
 }  // namespace omnimapper::plugins

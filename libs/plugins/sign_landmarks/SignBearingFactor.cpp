@@ -1,10 +1,12 @@
 #include "SignBearingFactor.h"
 
+#include <omnimapper/base/Error.h>
 #include <omnimapper/graph/ByteIo.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace omnimapper::plugins {
 
@@ -30,6 +32,14 @@ struct InBase {
   Eigen::Matrix3d base_from_map;
   Vector3d position;
 };
+
+bool isUnit(const Vector3d& vector) {
+  return std::abs(vector.norm() - 1) < 1e-6;
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw base::Error(base::ExitCode::damaged_input, "graph: " + what + ": damaged");
+}
 
 }  // namespace
 
@@ -68,8 +78,10 @@ void SeenDirection::write(std::ostream& out) const {
 }
 
 SeenDirection SeenDirection::read(std::istream& in) {
-  const Vector3d camera = graph::readVector<3>(in);
-  return {camera, graph::readVector<3>(in)};
+  const Vector3d camera = graph::readVector<3>(in), direction = graph::readVector<3>(in);
+  if (!camera.allFinite() || !isUnit(direction) || !(direction.head<2>().norm() > 1e-6))
+    refuse("the direction to a sign is none");
+  return {camera, direction};
 }
 
 void SignBearingFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
@@ -114,7 +126,9 @@ void PanTiltBearingFactor::write(std::ostream& out) const {
 void PanTiltBearingFactor::addTo(graph::FactorRegistry& registry) {
   registry.add("sign_bearing_pan_tilt", [](std::istream& in) {
     const SeenDirection direction = SeenDirection::read(in);
-    return std::make_shared<PanTiltBearingFactor>(direction, graph::readVector<3>(in));
+    const Vector3d tilt_axis = graph::readVector<3>(in);
+    if (!isUnit(tilt_axis)) refuse("the tilt axis of a camera is no direction");
+    return std::make_shared<PanTiltBearingFactor>(direction, tilt_axis);
   });
 }
 
@@ -143,7 +157,9 @@ void SignRangeFactor::write(std::ostream& out) const {
 void SignRangeFactor::addTo(graph::FactorRegistry& registry) {
   registry.add("sign_range", [](std::istream& in) {
     const Vector3d camera = graph::readVector<3>(in);
-    return std::make_shared<SignRangeFactor>(camera, graph::readDouble(in));
+    const double range = graph::readDouble(in);
+    if (!camera.allFinite() || !(range > 0) || !std::isfinite(range)) refuse("the range of a sign is no length");
+    return std::make_shared<SignRangeFactor>(camera, range);
   });
 }
 

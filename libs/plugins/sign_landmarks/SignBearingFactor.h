@@ -64,7 +64,7 @@ class PanTiltBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph:
   Eigen::Vector3d tilt_axis_;
 };
 
-/// The direction that was meant where a pan-tilt unit with these offsets [rad] reported `direction`.
+/// The true direction, given the reported one and the offsets of the pan-tilt unit [rad].
 Eigen::Vector3d turnedBy(const Eigen::Vector2d& pan_tilt, const Eigen::Vector3d& tilt_axis,
                          const Eigen::Vector3d& direction);
 

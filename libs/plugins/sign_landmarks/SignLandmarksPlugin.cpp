@@ -58,6 +58,22 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
   return table;
 }
 
+namespace {
+
+mapper::Decision placementDecision(const std::string& section, const map::KeyFrame& frame, bool is_sure,
+                                   std::string reason) {
+  mapper::Decision decision;
+  decision.stamp = frame.stamp;
+  decision.plugin = section;
+  decision.kind = mapper::kRelocalisation;
+  decision.from = frame.id;
+  decision.accepted = is_sure;
+  decision.reason = std::move(reason);
+  return decision;
+}
+
+}  // namespace
+
 // The work on one observation.
 class SignLandmarksPlugin::Work {
  public:
@@ -129,20 +145,28 @@ class SignLandmarksPlugin::Work {
   // A session that signs have placed meets the signs of the map until something ties it to them.
   bool mayBeMet(base::LandmarkId id, const SignTracks::Known& known) const {
     if (view_.map_is_held) return true;
-    if (placed_ == Placed::by_two_signs && !view_.map.sessions.back().joined) return id.session != frame_.id.session;
+    if (isPlacedByTwo() && !view_.map.sessions.back().joined) return id.session != frame_.id.session;
     return tracks_.isRecent(known, options_.recent_way);
   }
 
+  // For as long as what ties the session to the map has not come; then the place was wrong.
+  bool isPlacedByTwo() const {
+    return placed_.by_two_signs && tracks_.travelled() - *placed_.by_two_signs <= options_.recent_way;
+  }
+
+  // One sign tells the place roughly: of a session whose place is known better it says nothing.
   void placeSession(const std::vector<SignSighting>& sightings) {
-    if (placed_ != Placed::no || view_.map.sessions.back().joined) return;
+    constexpr double kLost = 3;  // [m]
+    if (placed_.by_one_sighting || view_.map.sessions.back().joined) return;
+    const auto covariance = view_.jointCovariance({frame_.pose});
+    if (!covariance || std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1))) < kLost) return;
     const auto place = SignPlacement::byOneSighting(sightings, frame_, tracks_, view_);
-    if (!place) return;
-    placed_ = Placed::by_one_sighting;
+    if (!place || !whyFixed(*place, view_.graph, view_.map).empty()) return;
+    placed_.by_one_sighting = true;
     batch_.placeSession(*place);
-    mapper::Decision decision = decisionOf();
-    decision.kind = mapper::kRelocalisation;
-    decision.reason = "a sign is read that the map has once: the session is moved before it";
-    batch_.log(std::move(decision));
+    batch_.log(placementDecision(context_.section, frame_, false,
+                                 "a sign is read that the map has once: the session is moved before it, and waits for "
+                                 "another that agrees"));
   }
 
   bool areOffsetsInGraph() const { return !offset_variable_ || !mapper::Batch::isProvisional(*offset_variable_); }
@@ -240,18 +264,15 @@ mapper::FollowUp SignLandmarksPlugin::afterCommit(const map::KeyFrame&, const ma
   if (tracks_->fresh.empty()) return {};
   tracks_->update(view);
   auto batch = proposeSameSigns(*tracks_, options_, context_.section, view);
-  if (!view.map.sessions.back().joined && placed_ != Placed::by_two_signs) {
-    if (const auto place = SignPlacement::byTwoSigns(*tracks_, view)) {
-      placed_ = Placed::by_two_signs;
+  const bool may_be_placed =
+      !placed_.by_two_signs || tracks_->travelled() - *placed_.by_two_signs > options_.recent_way;
+  if (!view.map.sessions.back().joined && may_be_placed) {
+    const auto place = SignPlacement::byTwoSigns(*tracks_, view);
+    if (place && whyFixed(*place, view.graph, view.map).empty()) {
+      placed_.by_two_signs = tracks_->travelled();
       batch.placeSession(*place);
-      mapper::Decision decision;
-      decision.stamp = view.map.key_frames.back().stamp;
-      decision.plugin = context_.section;
-      decision.kind = mapper::kRelocalisation;
-      decision.from = place->frame;
-      decision.accepted = true;
-      decision.reason = "two signs are as far from each other as in the map: the session is moved there";
-      batch.log(std::move(decision));
+      batch.log(placementDecision(context_.section, view.map.keyFrame(place->frame), true,
+                                  "two signs are as far from each other as in the map: the session is moved there"));
     }
   }
   return {std::move(batch), {}};
@@ -261,12 +282,12 @@ mapper::Batch SignLandmarksPlugin::atEnd(const mapper::View& view) {
   if (view.map_is_held) return {};
   tracks_->update(view);
   auto batch = mergeSameSigns(*tracks_, options_, context_.section, view);
-  addLeftSigns(*tracks_, offsets_, options_, context_.section, view, batch);
+  addUnplacedSigns(*tracks_, offsets_, options_, context_.section, view, batch);
   return batch;
 }
 
 std::vector<mapper::Evidence> SignLandmarksPlugin::evidence(const mapper::View& view) const {
-  return view.map_is_held ? std::vector<mapper::Evidence>() : signEvidence(view, context_.section);
+  return view.map_is_held ? std::vector<mapper::Evidence>() : signEvidence(view, context_.section, options_.recent_way);
 }
 
 void SignLandmarksPlugin::restore(const map::MapSection*, const mapper::View& view) {

@@ -5,6 +5,7 @@
 #include <omnimapper/plugin/PluginFactory.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,7 +55,10 @@ class SignLandmarksPlugin : public mapper::MeasurementPlugin {
   std::unique_ptr<class SignTracks> tracks_;
   mapper::PanTiltOffsets offsets_;
   /// How signs have placed the session in the map that it continues.
-  enum class Placed { no, by_one_sighting, by_two_signs } placed_ = Placed::no;
+  struct Placed {
+    bool by_one_sighting = false;
+    std::optional<double> by_two_signs;  ///< [m] of the way when that was
+  } placed_;
 };
 
 class SignLandmarksPluginFactory : public mapper::MeasurementPluginFactory {

@@ -6,6 +6,7 @@
 #include <omnimapper/graph/VariableKinds.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace omnimapper::plugins {
@@ -60,6 +61,8 @@ SignLook readLook(std::istream& in) {
   look.frame = graph::readId<base::KeyFrameId>(in);
   look.direction = graph::readVector<3>(in);
   look.area_px = graph::readDouble(in);
+  if (!(std::abs(look.direction.norm() - 1) < 1e-6) || !(look.area_px >= 0) || !std::isfinite(look.area_px))
+    throw base::Error(base::ExitCode::unreadable_input, "a door sign's largest look is no view of it: damaged");
   map::Photograph photograph;
   photograph.width = static_cast<int>(graph::readUint(in, 2));
   photograph.height = static_cast<int>(graph::readUint(in, 2));

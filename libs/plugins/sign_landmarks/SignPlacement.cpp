@@ -12,20 +12,20 @@ using Eigen::Vector3d;
 
 namespace {
 
-using Known = std::map<base::LandmarkId, SignTracks::Known>::value_type;
+using KnownSign = std::map<base::LandmarkId, SignTracks::Known>::value_type;
 
 bool isOfNewest(base::LandmarkId id, const mapper::View& view) {
   return id.session == view.map.sessions.back().number;
 }
 
 // The one sign of the earlier sessions with this number; null if there is none, or several.
-const Known* oneWith(const std::string& number, const SignTracks& tracks, const mapper::View& view) {
-  const Known* found = nullptr;
-  if (number.empty()) return found;
+const KnownSign* oneWith(const SignText& text, const SignTracks& tracks, const mapper::View& view) {
+  const KnownSign* found = nullptr;
+  if (!isOfOneSign(text)) return found;
   for (const auto& known : tracks.known()) {
     if (isOfNewest(known.first, view)) continue;
     const SignPayload& sign = signOf(view, known.first);
-    if (sign.text().number != number) continue;
+    if (sign.text().number != text.number) continue;
     if (found || sign.is_repeated) return nullptr;
     found = &known;
   }
@@ -41,9 +41,9 @@ Vector3d placeOf(const SignTracks::Known& known, const mapper::View& view) {
 std::optional<mapper::SessionPlace> SignPlacement::byOneSighting(const std::vector<SignSighting>& sightings,
                                                                  const map::KeyFrame& frame, const SignTracks& tracks,
                                                                  const mapper::View& view) {
-  constexpr double kUsual = 2.5, kPositionSigma = 2, kAngleSigma = 0.7;  // [m] [m] [rad]
+  constexpr double kPositionSigma = 2, kAngleSigma = 0.7;  // [m] [rad]
   for (const auto& sighting : sightings) {
-    const Known* known = oneWith(sighting.text.number, tracks, view);
+    const KnownSign* known = oneWith(sighting.text, tracks, view);
     if (!known) continue;
     const Vector3d sign = placeOf(known->second, view);
     const auto shape = signOf(view, known->first).shape({sign}, view.map.key_frames);
@@ -51,7 +51,7 @@ std::optional<mapper::SessionPlace> SignPlacement::byOneSighting(const std::vect
     const Vector3d& seen = sighting.seen.direction();
     const double yaw = std::atan2(-shape.normal->y(), -shape.normal->x()) - std::atan2(seen.y(), seen.x());
     const Eigen::AngleAxisd turn(yaw, Vector3d::UnitZ());
-    const Vector3d camera = sign + kUsual * *shape.normal;
+    const Vector3d camera = sign + kReadingDistance * *shape.normal;
     Vector3d base = camera - turn * sighting.seen.camera();
     base.z() = frame.map_from_base.z();
     return mapper::SessionPlace{
@@ -68,7 +68,7 @@ std::optional<mapper::SessionPlace> SignPlacement::byTwoSigns(const SignTracks& 
   std::vector<Pair> pairs;
   for (const auto& [id, known] : tracks.known()) {
     if (!isOfNewest(id, view)) continue;
-    if (const Known* old = oneWith(signOf(view, id).text().number, tracks, view))
+    if (const KnownSign* old = oneWith(signOf(view, id).text(), tracks, view))
       pairs.push_back({placeOf(known, view), placeOf(old->second, view)});
   }
   const Pair *first = nullptr, *second = nullptr;

@@ -11,8 +11,8 @@
 
 namespace omnimapper::plugins {
 
-/// Where a session that nothing ties to the map yet is by the signs that it reads. A sign counts if its number stands
-/// on one sign of the map alone.
+/// Where a session that nothing ties to the map yet is by the signs that it reads. A sign counts if its number, of
+/// three digits or more, stands on one sign of the map alone.
 class SignPlacement {
  public:
   /// By one sign in an image: the base is before it, as far as signs are read from. None if no number is known.

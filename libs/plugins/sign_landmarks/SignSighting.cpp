@@ -37,20 +37,26 @@ double areaOf(const obs::ObservedDoorSign& sign) {
   return std::isfinite(doubled) ? std::abs(doubled) / 2 : 0;
 }
 
-// Maps are to stay small.
-map::Photograph photographOf(const mrpt::img::CImage& patch) {
+// So that maps and what waits stay small.
+mrpt::img::CImage reduced(const mrpt::img::CImage& patch) {
   constexpr double kMostPixels = 120 * 80;
+  if (patch.isEmpty()) return patch;
   const auto width = static_cast<double>(patch.getWidth()), height = static_cast<double>(patch.getHeight());
-  const double scale = std::min(1.0, std::sqrt(kMostPixels / (width * height)));
+  const double scale = std::sqrt(kMostPixels / (width * height));
+  if (scale >= 1) return patch;
   mrpt::img::CImage small;
   patch.scaleImage(small, std::max(1U, static_cast<unsigned>(width * scale)),
                    std::max(1U, static_cast<unsigned>(height * scale)), mrpt::img::IMG_INTERP_AREA);
+  return small;
+}
+
+map::Photograph photographOf(const mrpt::img::CImage& patch) {
   map::Photograph photograph;
-  photograph.width = static_cast<int>(small.getWidth());
-  photograph.height = static_cast<int>(small.getHeight());
-  const std::size_t channels = small.isColor() ? 3 : 1;
+  photograph.width = static_cast<int>(patch.getWidth());
+  photograph.height = static_cast<int>(patch.getHeight());
+  const std::size_t channels = patch.isColor() ? 3 : 1;
   for (int y = 0; y < photograph.height; ++y) {
-    const auto* pixel = small.ptrLine<std::uint8_t>(static_cast<unsigned>(y));
+    const auto* pixel = patch.ptrLine<std::uint8_t>(static_cast<unsigned>(y));
     for (int x = 0; x < photograph.width; ++x, pixel += channels)  // blue first
       photograph.rgb.insert(photograph.rgb.end(), {pixel[channels - 1], pixel[channels / 2], pixel[0]});
   }
@@ -91,8 +97,8 @@ std::optional<graph::FactorRecord> SignSighting::rangeRecord(base::VariableId po
 }
 
 graph::FactorRecord SignSighting::legibilityRecord(base::VariableId pose, base::VariableId point) const {
-  constexpr double kUsual = 2.5, kFactor = 2.2;  // [m] two signs of three are read from 1.1 to 5.5 m
-  return recordOf({pose, point}, std::make_shared<SignRangeFactor>(seen.camera(), kUsual),
+  constexpr double kFactor = 2.2;  // two signs of three are read from 1.1 to 5.5 m
+  return recordOf({pose, point}, std::make_shared<SignRangeFactor>(seen.camera(), kReadingDistance),
                   Eigen::VectorXd::Constant(1, std::log(kFactor)), "a sign is read from near");
 }
 
@@ -102,6 +108,7 @@ std::vector<SignSighting> signSightings(const obs::CObservationDoorSigns& observ
   // [rad] how far the middle of what an image shows of a plate is from the plate's, where the edge cuts it: measured on
   // signs_30 and signs_200 (doc/results/signs.md).
   constexpr double kSigmaOfCut = 0.025;
+  constexpr double kLeastRelative = 1e-4, kMostRelative = 10;  // standard deviation over range; others tell nothing
   const geometry::Se3 base_from_camera = geometry::fromMrpt(observation.sensorPose);
   const Vector3d left = base_from_camera.rotation * -Vector3d::UnitX();
   const double length = left.head<2>().norm();
@@ -112,13 +119,15 @@ std::vector<SignSighting> signSightings(const obs::CObservationDoorSigns& observ
     const Vector3d direction = base_from_camera.rotation * sign.ray;
     const double level = direction.head<2>().norm();
     if (text.empty() || !direction.allFinite() || !(level > kLeastLevel)) continue;
-    const bool has_range = sign.range && *sign.range > 0 && std::isfinite(*sign.range) && sign.range_sigma > 0;
+    const double relative = sign.range ? sign.range_sigma / *sign.range : 0;
+    const bool has_range = sign.range && *sign.range > 0 && std::isfinite(*sign.range) && relative > kLeastRelative &&
+                           relative < kMostRelative;
     const double pixel_sigma = sign.is_cut ? std::hypot(options.pixel_sigma, kSigmaOfCut) : options.pixel_sigma;
     // A pan turns what is near the vertical less.
     sightings.push_back({std::move(text), SeenDirection(base_from_camera.translation, direction.normalized()),
                          tilt_axis, std::hypot(pixel_sigma, level * options.pan_sigma),
                          std::hypot(pixel_sigma, options.tilt_sigma), has_range ? sign.range : std::nullopt,
-                         sign.range_sigma, areaOf(sign), sign.patch});
+                         sign.range_sigma, areaOf(sign), reduced(sign.patch)});
   }
   return sightings;
 }

@@ -16,6 +16,9 @@
 
 namespace omnimapper::plugins {
 
+/// [m] Signs are read from about so far.
+inline constexpr double kReadingDistance = 2.5;
+
 /// A sign in an image, as it binds a sign of the map.
 struct SignSighting {
   SignText text;

@@ -7,6 +7,12 @@
 
 namespace omnimapper::plugins {
 
+namespace {
+
+constexpr std::size_t kMostTogether = 50;  // views of one text that are compared with one another
+
+}  // namespace
+
 const SignPayload& signOf(const mapper::State& state, base::LandmarkId id) {
   return dynamic_cast<const SignPayload&>(*state.map.landmark(id).payload);
 }
@@ -49,7 +55,8 @@ void SignTracks::add(base::LandmarkId id) {
 
 std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double recent_way) {
   const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-    return agreementOf(waiting.views.back().sighting.text, view.sighting.text) == Agreement::agrees;
+    return waiting.views.back().label == view.label &&
+           agreementOf(waiting.views.back().sighting.text, view.sighting.text) == Agreement::agrees;
   });
   Waiting waiting{{}, way_};
   if (found != waiting_.end()) {
@@ -61,24 +68,29 @@ std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double rece
     for (const auto& each : views)
       if (is_old(each)) keepForTheEnd(each);
     views.erase(std::remove_if(views.begin(), views.end(), is_old), views.end());
+    if (views.size() >= kMostTogether) {  // a base that stands sees the same again and again
+      keepForTheEnd(views.front());
+      views.erase(views.begin());
+    }
   }
   waiting.views.push_back(view);
   waiting_.push_back(std::move(waiting));
   return waiting_.back().views;
 }
 
-// A log of a day has many.
+// A bound for the memory of a log of a day.
 void SignTracks::keepForTheEnd(const SignView& view) {
-  constexpr std::size_t kMost = 2000;
-  left_.push_back(view);
-  if (left_.size() > kMost) left_.pop_front();
+  constexpr std::size_t kMost = 1000;
+  unplaced_.push_back(view);
+  if (unplaced_.size() > kMost) unplaced_.pop_front();
 }
 
-std::vector<std::vector<SignView>> SignTracks::left(double recent_way) const {
+std::vector<std::vector<SignView>> SignTracks::unplacedViews(double recent_way) const {
   std::vector<std::vector<SignView>> groups;
   const auto add = [&](const SignView& view) {
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& views) {
-      return std::abs(views.back().travelled - view.travelled) <= recent_way &&
+      return views.size() < kMostTogether && views.back().label == view.label &&
+             std::abs(views.back().travelled - view.travelled) <= recent_way &&
              agreementOf(views.back().sighting.text, view.sighting.text) == Agreement::agrees;
     });
     if (group == groups.end()) {
@@ -87,7 +99,7 @@ std::vector<std::vector<SignView>> SignTracks::left(double recent_way) const {
       group->push_back(view);
     }
   };
-  for (const auto& view : left_) add(view);
+  for (const auto& view : unplaced_) add(view);
   for (const auto& waiting : waiting_)
     for (const auto& view : waiting.views) add(view);
   return groups;

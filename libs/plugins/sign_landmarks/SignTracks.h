@@ -45,7 +45,7 @@ class SignTracks {
   void forget(const std::vector<std::size_t>& which);
 
   /// Views of which no sign was made, those of one text and one stretch of the way together.
-  std::vector<std::vector<SignView>> left(double recent_way) const;
+  std::vector<std::vector<SignView>> unplacedViews(double recent_way) const;
 
   std::vector<base::LandmarkId> fresh;  ///< landmarks that nobody has compared with the others yet
 
@@ -59,9 +59,9 @@ class SignTracks {
 
   std::string owner_;
   std::map<base::LandmarkId, Known> known_;
-  std::deque<Waiting> waiting_;  // that which was seen last is last
-  std::deque<SignView> left_;    // views that waited too long
-  double way_ = 0;               // [m] that the base has gone
+  std::deque<Waiting> waiting_;    // that which was seen last is last
+  std::deque<SignView> unplaced_;  // views that waited too long
+  double way_ = 0;                 // [m] that the base has gone
   std::optional<base::VariableId> last_pose_;
   base::Stamp last_stamp_;
 };

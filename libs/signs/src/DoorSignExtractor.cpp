@@ -87,8 +87,7 @@ std::optional<Eigen::Vector3d> rayTo(const Corners& quad, const perception::Lens
   return Eigen::Vector3d(middle.x(), middle.y(), 1).normalized();
 }
 
-// BGR, as MRPT's images are.
-// Or touches its edge.
+// Whether the quad leaves the image or touches its edge.
 bool leavesImage(const Corners& quad, int columns, int rows) {
   constexpr float kMargin = 1;  // [px]
   return std::any_of(quad.begin(), quad.end(), [&](const Eigen::Vector2f& corner) {
@@ -97,6 +96,7 @@ bool leavesImage(const Corners& quad, int columns, int rows) {
   });
 }
 
+// BGR, as MRPT's images are.
 mrpt::img::CImage imageOf(const cv::Mat& patch) {
   return mrpt::img::CImage(patch, mrpt::img::DEEP_COPY);
 }

@@ -231,6 +231,22 @@ TEST(SignLandmarksPlugin, TwoDrivesThatShareTwoSignsAreJoined) {
   EXPECT_LT(frames.front().map_from_base.distanceTo((*start).map_from_base), 1);
 }
 
+// A poster or a number that is read wrong must not carry away a session whose start is known.
+TEST(SignLandmarksPlugin, ASessionWhoseStartIsKnownStaysWhereItIs) {
+  const SimulatedLog log(drive(1));
+  const Mapped first(log, signsOf(log));
+  const auto view = first.engine->view();
+  const auto engine = testing::makeEngine(kIni);
+  engine->sessions().continueFrom({view.map, view.graph, {}}, {{0, 0, 0, 0, 0, 0}, 0.5, 0.1});
+  // One sign says what another one says in the map; all others are new.
+  testing::run(*engine, signsOf(SimulatedLog(drive(0.3, 2)),
+                                [](int number) { return std::to_string(number == 2 ? 208 : 400 + number); }));
+  const auto& frames = engine->view().map.key_frames;
+  const auto start =
+      std::find_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.id.session == 1; });
+  EXPECT_LT((*start).map_from_base.norm(), 0.5);
+}
+
 TEST(SignLandmarksPlugin, ADriveThatSharesNoSignIsNotJoined) {
   const SimulatedLog log(drive(1));
   const Mapped first(log, signsOf(log));

@@ -185,7 +185,8 @@ map::Places placesOf(const mapper::State& state) {
   for (const auto& frame : state.map.key_frames) frames[frame.pose] = &frame;
   map::Places places;
   for (const auto& shaped : shapesOf(state))
-    if (shaped.isSomewhere()) places.places.push_back(placeOf(shaped, state, frames));
+    if (shaped.isSomewhere() && isJoined(shaped.landmark->id.session, state.map))
+      places.places.push_back(placeOf(shaped, state, frames));
   places.last_pose = lastPoseOf(state.map);
   return places;
 }

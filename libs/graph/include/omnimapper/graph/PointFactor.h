@@ -41,8 +41,7 @@ class PointFactor3 : public SizedFactor<3, Se3Kind, Point3Kind> {
 class SamePointFactor : public SizedFactor<3, Point3Kind, Point3Kind> {
  public:
   static constexpr std::string_view kKind = "same_point3";
-  /// `odds`: how many times likelier than not they are one, before it is known where they are; the consistency test
-  /// takes that into account.
+  /// `odds`: the prior odds that both are one point; the consistency test multiplies by them.
   explicit SamePointFactor(double odds = 1) : odds_(odds) {}
   double odds() const { return odds_; }
 
