@@ -1,4 +1,5 @@
 // omnimapper-query: asks a map by name.
+#include <omnimapper/base/Error.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/query/Verbs.h>
 
@@ -52,6 +53,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("MAP", arguments.map, "folder of a map, or its map.omnimap")->type_name("")->required();
   app.add_option("TEXT", arguments.words, "without a verb: what to find")->type_name("")->expected(1, -1);
   app.add_flag("--json", arguments.json, "print one JSON document");
+  app.require_subcommand(0, 1);
   for (const auto& verb : query::verbs()) addVerb(app, verb, arguments.requests[verb.name], arguments.json);
   app.footer(
       "Examples:\n"
@@ -82,6 +84,8 @@ int answer(const CLI::App& app, const Arguments& arguments) {
   } else {
     (answer.code == base::ExitCode::ok ? std::cout : std::cerr << app.get_name() << ": ") << answer.text;
   }
+  if (!std::cout.flush())
+    throw base::Error(base::ExitCode::disk_full, "the answer cannot be written to standard output; is the disk full?");
   return static_cast<int>(answer.code);
 }
 

@@ -51,15 +51,15 @@ bool OverturnTrial::isBorneOut(FactorId id, const std::vector<FactorId>& pool) {
   const double before = 2 * graph_.cost();
   graph_.setWeight(id, 1);
   solveEased(graph_, {id}, solve_options_);
-  if (misfit(id) > bound(id) || 2 * graph_.cost() - before > bound(id)) return false;
   outcome_.accepted = {id};
-  if (!letIn(pool)) return false;
-  int others = 0;
+  if (misfit(id) > bound(id) || !letIn(pool)) return false;
+  // Noise raises chi-square by a row for each row; and each of the others is so many times likelier if all are true.
+  double most = bound(id);
   for (const FactorId accepted : outcome_.accepted) {
     if (misfit(accepted) > bound(accepted)) return false;
-    if (accepted != id) others += graph_.factor(accepted).factor->residualSize();
+    if (accepted != id) most += graph_.factor(accepted).factor->residualSize() + gate_.chi2OfRatio();
   }
-  return 2 * graph_.cost() - before <= bound(id) + others;
+  return 2 * graph_.cost() - before <= most;
 }
 
 /// Chi-square of what acts, and of those of `some` that do not, up to the bound of each.

@@ -17,6 +17,8 @@ class Gate {
   /// Chi-square bound for so many rows.
   double bound(int rows) const;
   bool passes(const Surprise& surprise) const;
+  /// How many times likelier a measurement must be if true than if false, as chi-square: twice the logarithm.
+  double chi2OfRatio() const { return 2 * log_ratio_; }
   /// Logarithm of how many times likelier the measurement is if true than if false, over what is asked; negative where
   /// a false one could be there by chance. `log_volume` as FalseVolume gives it.
   double margin(const Surprise& surprise, std::optional<double> log_volume) const;

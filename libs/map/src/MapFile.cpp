@@ -2,6 +2,7 @@
 #include <omnimapper/base/Bytes.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/InputFile.h>
+#include <omnimapper/base/Names.h>
 #include <omnimapper/map/MapFile.h>
 #include <zlib.h>
 
@@ -21,6 +22,7 @@ namespace {
 // Header: length of the name (4), name, version (4), length of the bytes (8). All little-endian.
 const std::string kMagic = "OMNIMAP\n";
 constexpr std::uint32_t kFormatVersion = 1;
+constexpr std::uint64_t kLongestName = 256;
 
 [[noreturn]] void refuseFile(const std::string& what, const std::string& reason) {
   throw base::Error(base::ExitCode::unreadable_input, what + ": " + reason);
@@ -97,8 +99,11 @@ MapSection readSection(FileBytes& in, const std::string& path, std::uint32_t num
   in.setWhat(path + ", section number " + std::to_string(number));
   const auto checksum = static_cast<std::uint32_t>(in.uint(4));
   MapSection section;
-  section.name = in.raw(in.uint(4));
-  const std::string what = path + ", section \"" + section.name + "\"";
+  const std::uint64_t length = in.uint(4);
+  if (length > kLongestName)
+    refuseFile(path, "has a section whose name is " + std::to_string(length) + " bytes long: the file is damaged.");
+  section.name = in.raw(length);
+  const std::string what = path + ", section \"" + base::printable(section.name) + "\"";
   in.setWhat(what);
   section.version = static_cast<std::uint32_t>(in.uint(4));
   const std::uint64_t size = in.uint(8);

@@ -33,25 +33,25 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
             .text("label", &Options::label, "Sensor label of the signs, \"camera.signs\"; empty for every camera.")
             .number("min_confidence", &Options::min_confidence, {0, 1},
                     "Lines of text that are less sure do not count.")
-            .number("pixel_sigma_deg", &Options::pixel_sigma, Range::positive(),
+            .number("pixel_sigma_deg", &Options::pixel_sigma, Range{0.001, 45},
                     "Standard deviation of the direction to the middle of a sign in the image, however the camera is "
                     "turned.")
-            .number("pan_sigma_deg", &Options::pan_sigma, Range::notNegative(),
+            .number("pan_sigma_deg", &Options::pan_sigma, Range{0, 45},
                     "Standard deviation of the pan angle that a camera reports, independent in each image.")
-            .number("tilt_sigma_deg", &Options::tilt_sigma, Range::notNegative(),
+            .number("tilt_sigma_deg", &Options::tilt_sigma, Range{0, 45},
                     "Standard deviation of the tilt angle that a camera reports, independent in each image.")
             .number(
-                "pan_tilt_offset_sigma_deg", &Options::pan_tilt_offset_sigma, Range::notNegative(),
+                "pan_tilt_offset_sigma_deg", &Options::pan_tilt_offset_sigma, Range{0, 45},
                 "Standard deviation of the pan offset and of the tilt offset of the camera, which are constant in a "
                 "run and are estimated; 0: there are none.")
-            .number("max_sigma_m", &Options::max_sigma, Range::positive(),
+            .number("max_sigma_m", &Options::max_sigma, Range{0.001, 100},
                     "Largest standard deviation of the position of a new sign; until then its directions wait.")
             .number("recent_m", &Options::recent_way, Range::positive(),
                     "Distance travelled without a sighting after which a sign is matched only through a loop closure "
                     "hypothesis.")
-            .number("same_sigma_m", &Options::same_sigma, Range::positive(),
+            .number("same_sigma_m", &Options::same_sigma, Range{0.001, 10},
                     "Standard deviation of where the middle of a sign is seen, on two visits.")
-            .number("loss_scale", &Options::loss_scale, Range::positive(),
+            .number("loss_scale", &Options::loss_scale, Range{0.1, 100},
                     "Scale of the Cauchy loss, in standard deviations.");
     return declareIn(own);
   }();

@@ -56,6 +56,50 @@ bool isPart(const std::vector<std::u32string>& text, const std::vector<std::u32s
   });
 }
 
+bool hasDigit(const std::u32string& word) {
+  return std::any_of(word.begin(), word.end(), isDigit);
+}
+
+// What is easily taken for a digit is one, but for a letter at the end, which tells doors of one number apart.
+std::u32string asNumber(std::u32string word) {
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const bool is_last = i + 1 == word.size() && i > 0;
+    switch (word[i]) {
+      case U'o':
+        word[i] = U'0';
+        break;
+      case U'i':
+      case U'l':
+        word[i] = U'1';
+        break;
+      case U's':
+        if (!is_last) word[i] = U'5';
+        break;
+      case U'b':
+        if (!is_last) word[i] = U'8';
+        break;
+      default:
+        break;
+    }
+  }
+  return word;
+}
+
+std::u32string joined(const std::vector<std::u32string>& words) {
+  std::u32string all;
+  for (const auto& word : words) all += word;
+  return all;
+}
+
+// Another number is another door: each number of the text, and each letter that stands alone, must be one of the name.
+bool hasNumbersOf(const std::vector<std::u32string>& text, const std::vector<std::u32string>& name) {
+  return std::all_of(text.begin(), text.end(), [&](const std::u32string& word) {
+    if (!hasDigit(word) && word.size() > 1) return true;
+    return std::any_of(name.begin(), name.end(),
+                       [&](const std::u32string& other) { return asNumber(word) == asNumber(other); });
+  });
+}
+
 // Below, at or above zero as the texts of digits are as numbers.
 int compareNumbers(std::u32string_view a, std::u32string_view b) {
   while (a.size() > 1 && a.front() == U'0') a.remove_prefix(1);
@@ -92,7 +136,12 @@ TextMatch AskedText::compare(const std::string& name) const {
   if (isPart(words_, words)) return {MatchGrade::part, 0, name};
   double cost = relativeCost(folded_, other);
   cost = std::min(cost, costOfWords(words_, words) + (words.size() == words_.size() ? 0 : kPartOfName));
-  return {MatchGrade::near, cost, name};
+  const bool has_number = std::any_of(words_.begin(), words_.end(), hasDigit);
+  if (!has_number) return {MatchGrade::near, cost, name};
+  constexpr double kSameNumber = 0.1, kNumberAndMore = 0.3, kOtherNumber = 0.5;
+  if (asNumber(joined(words_)) == asNumber(joined(words))) return {MatchGrade::near, std::min(cost, kSameNumber), name};
+  const bool is_same = hasNumbersOf(words_, words);  // "room 213" is 213
+  return {MatchGrade::near, is_same ? std::min(cost, kNumberAndMore) : std::max(cost, kOtherNumber), name};
 }
 
 bool naturallyBefore(const std::string& a, const std::string& b) {

@@ -71,6 +71,11 @@ inline omnimapper::obs::CObservationDoorSigns::Ptr signsSeen(const std::vector<T
     if (!direction) continue;
     omnimapper::obs::ObservedDoorSign observed;
     observed.ray = geometry::inverse(world_from_camera * geometry::sensorFromOptical()).rotation * (off * *direction);
+    // As wide as its front is turned to the camera, and the smaller the farther.
+    const double range = (sign.position - world_from_camera.translation).norm();
+    const auto height = static_cast<float>(200 / range),
+               width = height * static_cast<float>(-direction->dot(sign.normal));
+    observed.corners_px = {Eigen::Vector2f(0, 0), {width, 0}, {width, height}, {0, height}};
     for (const auto& line : sign.lines) observed.texts.push_back({line, 0.97});
     seen->signs.push_back(observed);
   }

@@ -46,8 +46,9 @@ std::string isoTime(base::Stamp stamp) {
   return text;
 }
 
-// As a number where it is one, so that a GIS can sort and style by it.
-Json valueOf(const std::string& text) {
+// A measure or a count as a number, so that a GIS can sort and style by it; what is written on a sign stays a text.
+Json valueOf(const std::string& name, const std::string& text) {
+  if (name == "number" || name == "words") return text;
   const char* const end = text.data() + text.size();
   std::int64_t whole = 0;
   if (const auto read = std::from_chars(text.data(), end, whole); read.ec == std::errc() && read.ptr == end)
@@ -118,7 +119,7 @@ Json propertiesOf(const ShapedLandmark& shaped) {
   const map::Landmark& landmark = *shaped.landmark;
   Json properties = {{"feature", "landmark"}, {"label", shaped.shape.label}};
   if (!shaped.shape.caption.empty()) properties["caption"] = shaped.shape.caption;
-  for (const auto& [name, value] : shaped.shape.properties) properties[name] = valueOf(value);
+  for (const auto& [name, value] : shaped.shape.properties) properties[name] = valueOf(name, value);
   if (const auto photograph = photographAddress(shaped.shape); !photograph.empty())
     properties["photograph"] = photograph;
   properties["kind"] = landmark.kind;
