@@ -24,14 +24,16 @@ FalseVolume::FalseVolume(const Graph& graph) {
 std::optional<double> FalseVolume::logOf(const FactorRecord& record) const {
   const double pi = geometry::kPi;
   double volume = 0, odds = 1;
-  if (record.factor->kind() == "between_se2")
+  if (record.factor->kind() == "between_se2") {
     volume = size_.x() * size_.y() * 2 * pi;
-  else if (record.factor->kind() == "between_se3")
+  } else if (record.factor->kind() == "between_se3") {
     volume = size_.prod() * 8 * pi * pi;  // of the rotation group in rotation vectors
-  else if (record.factor->kind() == SamePointFactor::kKind)
-    volume = size_.prod(), odds = dynamic_cast<const SamePointFactor&>(*record.factor).odds();
-  else
+  } else if (record.factor->kind() == SamePointFactor::kKind) {
+    volume = size_.prod();
+    odds = dynamic_cast<const SamePointFactor&>(*record.factor).odds();
+  } else {
     return std::nullopt;
+  }
   return std::log(odds * volume * std::abs(record.noise.matrix().determinant()));
 }
 
