@@ -159,6 +159,7 @@ inline std::shared_ptr<CObservationDoorSigns> filledSigns() {
   }
   ObservedDoorSign far;
   far.ray = Eigen::Vector3d(0.3, 0, 1).normalized();
+  far.is_cut = true;
   far.patch = mrpt::img::CImage(5, 4, mrpt::img::CH_GRAY);
   for (unsigned y = 0; y < 4; ++y)
     for (unsigned x = 0; x < 5; ++x) far.patch.ptrLine<std::uint8_t>(y)[x] = static_cast<std::uint8_t>(40 * x + y);

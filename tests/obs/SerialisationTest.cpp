@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <sstream>
 
 #include "FilledObjects.h"
@@ -96,6 +97,29 @@ TEST(Serialisation, bytesOfPlanesOfVersion1AreReadAsWhatTheyWere) {
   EXPECT_EQ(planes[0].roughness, 1.25);
   EXPECT_EQ(planes[1].roughness, 0);
   EXPECT_EQ(bytesOf(*object), bytes);
+}
+
+// Signs of version 1 tell whether the edge of the image cuts them.
+TEST(Serialisation, bytesOfSignsOfVersion1AreReadAsWhatTheyWere) {
+  const auto bytes = contentOf(testing::sourceFile("tests/obs/version_1/CObservationDoorSigns.bin"));
+  const auto object = objectFrom(bytes);
+  ASSERT_TRUE(object);
+  const auto& signs = dynamic_cast<const CObservationDoorSigns&>(*object).signs;
+  ASSERT_EQ(signs.size(), 2U);
+  EXPECT_FALSE(signs[0].is_cut);
+  EXPECT_TRUE(signs[1].is_cut);
+  EXPECT_EQ(signs[0].texts.front().text, "Room 241");
+  EXPECT_EQ(bytesOf(*object), bytes);
+}
+
+// A ray so long or so short that no picture can lie square to it.
+TEST(Serialisation, signsOfHopelessRaysAreDrawnWithoutTheirPatches) {
+  const auto signs = filledSigns();
+  for (const double scale : {1e300, 1e-300, 1e38, 1e-5, std::numeric_limits<double>::infinity()}) {
+    for (auto& sign : signs->signs) sign.ray = Eigen::Vector3d(0.3, 0.1, 1) * scale;
+    mrpt::opengl::CSetOfObjects scene;
+    EXPECT_NO_THROW(signs->getVisualizationInto(scene)) << scale;
+  }
 }
 
 TEST(Serialisation, everyClassThrowsOnEveryTruncation) {

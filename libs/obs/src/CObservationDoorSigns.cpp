@@ -159,8 +159,7 @@ void CObservationDoorSigns::describe(std::ostream& out) const {
 
 std::string CObservationDoorSigns::exportTxtHeader() const {
   return "signs { corner_0_x_px corner_0_y_px corner_1_x_px corner_1_y_px corner_2_x_px corner_2_y_px corner_3_x_px "
-         "corner_3_y_px ray_x ray_y ray_z range_m range_sigma_m is_cut score patch_width_px patch_height_px texts { "
-         "text "
+         "corner_3_y_px ray_x ray_y ray_z range_m range_sigma_m score patch_width_px patch_height_px texts { text "
          "confidence } }";
 }
 
@@ -170,7 +169,7 @@ std::string CObservationDoorSigns::exportTxtDataRow() const {
   for (const auto& sign : signs) {
     for (const auto& corner : sign.corners_px) row.vector(Eigen::Vector2d(corner.cast<double>()));
     row.vector(sign.ray).number(sign.range ? *sign.range : std::numeric_limits<double>::quiet_NaN());
-    row.number(sign.range_sigma).whole(sign.is_cut).number(sign.score);
+    row.number(sign.range_sigma).number(sign.score);
     const bool has_patch = !sign.patch.isEmpty();
     row.whole(has_patch ? static_cast<long long>(sign.patch.getWidth()) : 0);
     row.whole(has_patch ? static_cast<long long>(sign.patch.getHeight()) : 0);

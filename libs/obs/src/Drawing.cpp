@@ -93,6 +93,7 @@ void addBall(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middle, 
 void addPicture(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middle, const Eigen::Vector3d& right,
                 const Eigen::Vector3d& down, const mrpt::img::CImage& image) {
   const auto width = static_cast<float>(right.norm()), height = static_cast<float>(down.norm());
+  if (!isFinite(middle) || !(width > 0 && height > 0 && std::isfinite(width) && std::isfinite(height))) return;
   auto picture = mrpt::opengl::CTexturedPlane::Create(-width, width, -height, height);
   picture->assignImage(image);
   picture->CRenderizableShaderTexturedTriangles::enableLight(false);

@@ -53,10 +53,11 @@ std::string landmarkRow(const ShapedLandmark& shaped, base::Stamp start) {
   const Eigen::AlignedBox3d box = boxOf(shape);
   const auto middle = [&](int axis) { return numberCell(box.isEmpty() ? "" : base::fixed(box.center()(axis), 2)); };
   return "<tr>" + numberCell(toString(landmark->id)) + cell(swatch(shape.label) + draw::escapeMarkup(shape.label)) +
-         cell(photographOf(shape)) + cell(draw::escapeMarkup(landmark->kind)) + middle(0) + middle(1) + middle(2) +
+         cell(draw::escapeMarkup(landmark->kind)) + middle(0) + middle(1) + middle(2) +
          numberCell(area > 0 ? base::fixed(area, 2) : "") + numberCell(length > 0 ? base::fixed(length, 2) : "") +
          numberCell(grouped(landmark->evidence)) + cell(sensorsOf(shape)) + numberCell(since(landmark->first_seen)) +
-         numberCell(since(landmark->last_seen)) + cell(moved ? "moved" : "") + cell(otherProperties(shape)) + "</tr>\n";
+         numberCell(since(landmark->last_seen)) + cell(moved ? "moved" : "") + cell(photographOf(shape)) +
+         cell(otherProperties(shape)) + "</tr>\n";
 }
 
 }  // namespace
@@ -79,13 +80,12 @@ std::string drawLandmarkTable(const std::vector<ShapedLandmark>& landmarks, base
   return "<section class=\"card\"><h2>Landmarks</h2>" + note +
          "<div class=\"scroll tall\"><table class=\"sortable\" id=\"landmarks\"><thead><tr><th "
          "class=\"num\">landmark</th>"
-         "<th>what</th><th>photograph</th><th>kind</th><th class=\"num\">x [m]</th><th class=\"num\">y [m]</th><th "
-         "class=\"num\">z "
-         "[m]</th>"
+         "<th>what</th><th>kind</th><th class=\"num\">x [m]</th><th class=\"num\">y [m]</th>"
+         "<th class=\"num\">z [m]</th>"
          "<th class=\"num\">area [m&#178;]</th><th class=\"num\">length [m]</th>"
          "<th class=\"num\">sightings</th><th>seen by</th><th class=\"num\">first [s]</th><th class=\"num\">last "
          "[s]</th>"
-         "<th></th><th>more</th></tr></thead><tbody>\n" +
+         "<th></th><th>photograph</th><th>more</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div></section>\n";
 }
 
