@@ -27,7 +27,7 @@ std::vector<float> depthsOf(const CObservation3DRangeScan& scan) {
       const std::uint16_t range = scan.rangeImage(row, column);
       const double right = (column - camera.cx) / camera.fx, down = (row - camera.cy) / camera.fy;
       const double depth = range * static_cast<double>(scan.rangeUnits) / std::sqrt(1 + right * right + down * down);
-      metres.push_back(range == kSaturated ? 0.F : static_cast<float>(depth));
+      metres.push_back(range == DepthImage::kSaturated ? 0.F : static_cast<float>(depth));
     }
   }
   return metres;

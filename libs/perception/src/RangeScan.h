@@ -28,8 +28,6 @@ inline Eigen::Vector3d toOptical(const Eigen::Vector3d& in_sensor) {
   return {-in_sensor.y(), -in_sensor.z(), in_sensor.x()};
 }
 
-constexpr std::uint16_t kSaturated = 65535;
-
 /// The depth image of an observation. The observation must outlive it.
 class ScanDepth {
  public:
@@ -41,11 +39,7 @@ class ScanDepth {
 
   const DepthImage& image() const { return *image_; }
   /// [m]; 0 where nothing was measured.
-  double at(std::size_t pixel) const {
-    if (image_->units() == nullptr) return static_cast<double>(image_->metres()[pixel]);
-    const std::uint16_t units = image_->units()[pixel];
-    return units == kSaturated ? 0 : units * image_->metresPerUnit();
-  }
+  double at(std::size_t pixel) const { return image_->at(pixel); }
 
  private:
   std::vector<float> metres_;  // where the ranges are no depths

@@ -135,9 +135,11 @@ std::vector<SignSighting> signSightings(const obs::CObservationDoorSigns& observ
 namespace {
 
 struct Ray {
-  Vector3d origin, direction;  // in the map
-  double sigma;                // [rad] of its own
-  double sigma_with_offsets;   // [rad] with what all rays have in common
+  Vector3d origin, direction;   // in the map
+  double sigma;                 // [rad] of its own
+  double sigma_with_offsets;    // [rad] with what all rays have in common
+  std::optional<double> range;  // [m] where it was measured
+  double range_sigma;           // [m]
 };
 
 std::vector<Ray> raysOf(const std::vector<SignView>& views, const graph::Graph& graph, const KnownOffsets& offsets) {
@@ -147,17 +149,19 @@ std::vector<Ray> raysOf(const std::vector<SignView>& views, const graph::Graph& 
     const Vector3d direction = turnedBy(offsets.pan_tilt, sighting.tilt_axis, sighting.seen.direction());
     const double sigma = std::max(sighting.sigma_left, sighting.sigma_down);
     rays.push_back({map_from_base * sighting.seen.camera(), map_from_base.rotation * direction, sigma,
-                    std::hypot(sigma, offsets.sigma)});
+                    std::hypot(sigma, offsets.sigma), sighting.range, sighting.range_sigma});
   }
   return rays;
 }
 
-// How far a ray passes from a point, in standard deviations of its direction; infinite behind its camera.
+// By how much a ray misses a point, in standard deviations of its direction, or of its range where that misses by more;
+// infinite behind its camera.
 double missOf(const Ray& ray, const Vector3d& point) {
   constexpr double kNearest = 0.2;  // [m]
   const double ahead = ray.direction.dot(point - ray.origin);
   if (!(ahead > kNearest)) return std::numeric_limits<double>::infinity();
-  return (point - ray.origin).cross(ray.direction).norm() / (ray.sigma_with_offsets * ahead);
+  const double aside = (point - ray.origin).cross(ray.direction).norm() / (ray.sigma_with_offsets * ahead);
+  return ray.range ? std::max(aside, std::abs(ahead - *ray.range) / ray.range_sigma) : aside;
 }
 
 // [m] along the axis that is known worst.
@@ -166,7 +170,8 @@ double sigmaOf(const Matrix3d& information) {
   return 1 / std::sqrt(std::max(axes.eigenvalues()[0], 1e-12));
 }
 
-// By least squares of the distances, weighted by what an angle is at the point of the round before.
+// By least squares of the distances from the rays, weighted by what an angle is at the point of the round before, and
+// of what their ranges miss by.
 std::optional<Triangulation> meetingOf(const std::vector<const Ray*>& rays) {
   constexpr int kRounds = 5;
   std::vector<double> weights(rays.size(), 1);
@@ -179,6 +184,12 @@ std::optional<Triangulation> meetingOf(const std::vector<const Ray*>& rays) {
       const Matrix3d across = Matrix3d::Identity() - rays[i]->direction * rays[i]->direction.transpose();
       information += weights[i] * across;
       sum += weights[i] * across * rays[i]->origin;
+      if (const auto& range = rays[i]->range) {
+        const Matrix3d along = rays[i]->direction * rays[i]->direction.transpose();
+        const double weight = round == 0 ? 1 : 1 / std::pow(rays[i]->range_sigma, 2);
+        information += weight * along;
+        sum += weight * along * (rays[i]->origin + *range * rays[i]->direction);
+      }
     }
     const Eigen::LDLT<Matrix3d> solver(information);
     if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 1e-9 * information.trace()))
@@ -193,8 +204,8 @@ std::optional<Triangulation> meetingOf(const std::vector<const Ray*>& rays) {
   return Triangulation{point, sigmaOf(information), {}};
 }
 
-// The least sum of squared angles, from a point that is near. Distances favour what is near the cameras, where rays are
-// nearly parallel.
+// The least sum of squared angles and errors of range, from a point that is near. Distances favour what is near the
+// cameras, where rays are nearly parallel.
 std::optional<Triangulation> refined(Vector3d point, const std::vector<const Ray*>& rays) {
   constexpr int kRounds = 10;
   Matrix3d information;
@@ -211,6 +222,11 @@ std::optional<Triangulation> refined(Vector3d point, const std::vector<const Ray
                                 (ray->sigma * ahead);
       information += by_point.transpose() * by_point;
       gradient += by_point.transpose() * aside / (ray->sigma * ahead);
+      if (ray->range) {
+        const Vector3d towards = seen.normalized();
+        information += towards * towards.transpose() / std::pow(ray->range_sigma, 2);
+        gradient += towards * (seen.norm() - *ray->range) / std::pow(ray->range_sigma, 2);
+      }
     }
     const Eigen::LDLT<Matrix3d> solver(information);
     if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 1e-9 * information.trace()))

@@ -19,6 +19,7 @@
 #include "NetworkReader.h"
 #include "PictureChanges.h"
 #include "PlateFinder.h"
+#include "PlateRanges.h"
 #include "TextDetector.h"
 
 namespace omnimapper::signs {
@@ -230,6 +231,17 @@ class DoorSignExtractor::Finder {
 
 namespace {
 
+void measureRanges(const mrpt::obs::CObservation3DRangeScan& scan, const perception::LensModel& lens,
+                   std::vector<ObservedDoorSign>& signs) {
+  const PlateRanges ranges(scan, lens);
+  for (auto& sign : signs) {
+    const auto measured = ranges.of(sign.corners_px, sign.ray);
+    if (!measured) continue;
+    sign.range = measured->range;
+    sign.range_sigma = measured->sigma;
+  }
+}
+
 // The calibration for an image that is larger or smaller than those that it was made of, but shows the same.
 mrpt::img::TCamera fittingCamera(mrpt::img::TCamera camera, const cv::Mat& picture, const std::string& label) {
   const auto columns = static_cast<unsigned>(picture.cols), rows = static_cast<unsigned>(picture.rows);
@@ -270,6 +282,8 @@ CObservationDoorSigns::Ptr DoorSignExtractor::signsIn(const mrpt::obs::CObservat
     if (picture.empty()) return observation;
     const perception::LensModel lens(fittingCamera(*view.camera, picture, raw.sensorLabel), raw.sensorLabel);
     observation->signs = finder_->signsIn(picture, lens);
+    const auto* depth_scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw);
+    if (depth_scan != nullptr && !observation->signs.empty()) measureRanges(*depth_scan, lens, observation->signs);
   } catch (const cv::Exception& error) {
     throw base::Error(base::ExitCode::unreadable_input,
                       raw.sensorLabel + ": OpenCV cannot look for signs in this image: " + error.err);

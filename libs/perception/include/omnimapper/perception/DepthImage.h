@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace omnimapper::perception {
@@ -14,6 +15,8 @@ struct Pinhole {
 /// negative and not finite depths are no measurement; so is 65535, at which 16-bit depths are saturated.
 class DepthImage {
  public:
+  static constexpr std::uint16_t kSaturated = 65535;
+
   /// Both throw Error(unreadable_input) for a negative size, more than 4096 columns or rows, missing pixels, a focal
   /// length below 1 px, an intrinsic parameter beyond 10^6 px, a unit that is not positive or not finite.
   DepthImage(const std::uint16_t* units, double metres_per_unit, int width, int height, const Pinhole& camera);
@@ -26,6 +29,11 @@ class DepthImage {
   const std::uint16_t* units() const { return units_; }
   const float* metres() const { return metres_; }
   double metresPerUnit() const { return metres_per_unit_; }
+  /// [m] of a pixel, counted row by row from the top left; 0 for saturated units.
+  double at(std::size_t pixel) const {
+    if (units_ == nullptr) return static_cast<double>(metres_[pixel]);
+    return units_[pixel] == kSaturated ? 0 : units_[pixel] * metres_per_unit_;
+  }
 
  private:
   const std::uint16_t* units_ = nullptr;
