@@ -14,8 +14,8 @@ namespace {
 using namespace omnimapper;
 
 struct Arguments {
-  std::string map;
   bool json = false;
+  std::string map;
   std::vector<std::string> words;                  // without a verb
   std::map<std::string, query::Request> requests;  // by verb
 };
@@ -37,6 +37,7 @@ CLI::Validator validatorOf(query::NumberOption::Range range) {
 
 void addVerb(CLI::App& app, const query::Verb& verb, query::Request& request, bool& json) {
   CLI::App* added = app.add_subcommand(verb.name, verb.help);
+  added->usage("Usage: omnimapper-query MAP " + verb.name + " [OPTIONS] " + verb.words);
   added->add_option(verb.words, request.words, verb.words_help)
       ->type_name("")
       ->required(verb.least_words > 0)
@@ -68,7 +69,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
 
 int answer(const CLI::App& app, const Arguments& arguments) {
   const auto parsed = app.get_subcommands();
-  const query::Verb* asked = parsed.empty() ? &query::verbs().front() : nullptr;
+  const query::Verb* asked = &query::verbs().front();
   for (const auto& verb : query::verbs())
     if (!parsed.empty() && verb.name == parsed.front()->get_name()) asked = &verb;
   query::Request request = arguments.requests.at(asked->name);

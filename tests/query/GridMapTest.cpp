@@ -55,6 +55,8 @@ TEST_F(GridMapFiles, EachDefectIsNamedWithFileAndRemedy) {
   says("image: grid.pgm\nresolution: 0.5\norigin: 7\n", pgm_, "\"origin\" is no list");
   says("image: grid.pgm\nresolution: 0.5\norigin: [\n", pgm_, "\"origin\" is no");
   says(std::string(1 << 17, ':'), pgm_, "longer");
+  says(yaml_ + "free_thresh: 0.7\noccupied_thresh: 0.6\n", pgm_, "\"free_thresh\" is above");
+  says(yaml_ + "mode: scale\n", pgm_, "only grids of mode trinary");
   says(yaml_, "P2\n2 1\n255\n0 0", "no binary PGM");
   says(yaml_, "", "no binary PGM");
   says(yaml_, "P5", "no header");

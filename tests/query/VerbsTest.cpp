@@ -76,7 +76,7 @@ TEST_F(HandMadeFolder, NearIsByDistance) {
   EXPECT_EQ(near["places"][1]["label"], "wall");
   EXPECT_EQ(asked("near", {{"2", "1"}, {{"within", {0.95}}}})["places"].size(), 1U);
   EXPECT_EQ(ask("near", {{"90", "1"}, {{"within", {1}}}}).code, base::ExitCode::nothing_found);
-  for (const char* word : {"nan", "inf", "1e999", "x", "", "1.0x", "-nan"})
+  for (const char* word : {"nan", "inf", "1e999", "x", "", "1.0x", "-nan", "1e8", "-1e300"})
     EXPECT_NE(refusalOf([&] { ask("near", {{word, "0"}, {}}); }, base::ExitCode::command_line), "") << word;
 }
 
@@ -109,6 +109,14 @@ TEST_F(HandMadeFolder, AGoalThatCannotBeIsSaidToBeSo) {
   EXPECT_EQ(ask("goal", {{"777"}, {}}).code, base::ExitCode::nothing_found);
   EXPECT_NE(refusalOf([&] { ask("goal", {{"213"}, {{"radius", {1e9}}}}); }, base::ExitCode::command_line), "");
   EXPECT_NE(refusalOf([&] { ask("goal", {{"213"}, {{"from", {NAN, 0}}}}); }, base::ExitCode::command_line), "");
+  EXPECT_NE(refusalOf([&] { ask("goal", {{"213"}, {{"from", {1e8, 0}}}}); }, base::ExitCode::command_line), "");
+  const auto places = map_.places.places;
+  for (auto& place : map_.places.places)
+    for (auto& point : place.extent.points) point.x() += 100;
+  const Answer outside = ask("goal", {{"213"}, {}});
+  EXPECT_EQ(outside.code, base::ExitCode::nothing_found);
+  EXPECT_TRUE(says(outside.text, "lies outside the occupancy grid")) << outside.text;
+  map_.places.places = places;
   for (auto& place : map_.places.places) place.moved = true;
   EXPECT_EQ(ask("goal", {{"213"}, {}}).code, base::ExitCode::nothing_found);
   map_.places.last_pose.reset();
@@ -125,7 +133,8 @@ TEST_F(HandMadeFolder, AMapIsOpenedByFolderOrFileAndEachDefectIsNamed) {
   map::MapFile file;
   file.set({"graph", 1, "of any bytes"});
   const auto refusal = [&] { return refusalOf([&] { openMap(folder_.path()); }, base::ExitCode::unreadable_input); };
-  EXPECT_TRUE(says(refusal(), "map.omnimap"));
+  EXPECT_TRUE(says(refusal(), "has no map.omnimap") && says(refusal(), "MapOutput"));
+  EXPECT_TRUE(says(refusalOf([] { openMap(""); }, base::ExitCode::command_line), "MAP is empty"));
   file.write(map_.file);
   EXPECT_TRUE(says(refusal(), "has no section \"places\"") && says(refusal(), "--continue"));
   file.set(map::placesToSection(map_.places));

@@ -27,10 +27,11 @@ void addSign(const std::vector<SignView>& views, const Triangulation& place, map
     has_range = has_range || seen.range;
   }
   const auto variable = batch.addVariable(graph::point3(), place.point);
-  const auto landmark = batch.addLandmark("sign", {variable}, payload);
-  for (std::size_t i = 1; i < place.views.size(); ++i) batch.addEvidence(landmark);
+  const auto seen_at = [&](std::size_t i) { return views[place.views[i]].stamp; };
+  const auto landmark = batch.addLandmark("sign", {variable}, payload, seen_at(0));
+  for (std::size_t i = 1; i < place.views.size(); ++i) batch.addEvidence(landmark, nullptr, seen_at(i));
   for (const auto i : place.views) {
-    const auto& [frame, pose, label, seen, travelled] = views[i];
+    const auto& [frame, stamp, pose, label, seen, travelled] = views[i];
     const auto offset_variable = offsets.find(label, batch);
     batch.addFactor(ofLandmark(seen.directionRecord(pose, variable, offset_variable, options), landmark, section));
     if (auto range = seen.rangeRecord(pose, variable))
@@ -61,7 +62,6 @@ bool isAmong(const std::vector<SignPlace>& places, const SignText& text, const E
 void addUnplacedSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets, const SignLandmarksOptions& options,
                       const std::string& section, const mapper::View& view, mapper::Batch& batch) {
   constexpr std::size_t kMinViews = 3;
-  constexpr double kWorse = 2;  // times the standard deviation that is asked for on the way
   std::vector<SignPlace> there;
   for (const auto& [id, known] : tracks.known())
     there.push_back({signOf(view, id).text(), view.graph.value(known.variable)});
@@ -70,7 +70,7 @@ void addUnplacedSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets,
     while (views.size() >= kMinViews) {
       const auto offset_variable = offsets.find(views.back().label, batch);
       const KnownOffsets known{mapper::PanTiltOffsets::estimate(offset_variable, view.graph), 0};
-      const auto place = triangulate(views, view.graph, known, kWorse * options.max_sigma, kMinViews);
+      const auto place = triangulate(views, view.graph, known, options.max_sigma, kMinViews);
       if (!place) {
         views.pop_back();
         continue;

@@ -10,6 +10,7 @@
 #include "SignLandmarksPlugin.h"
 #include "SignSighting.h"
 #include "SignTracks.h"
+#include "Triangulation.h"
 
 namespace omnimapper::plugins {
 

@@ -59,7 +59,7 @@ std::size_t elsewhereAmong(const std::map<std::string, std::vector<Eigen::Vector
 std::vector<mapper::Evidence> signEvidence(const mapper::View& view, const std::string& section, double recent_travel) {
   using Says = mapper::Evidence::Says;
   constexpr double kEnough = 25;  // [%]
-  constexpr std::size_t kSome = 2;
+  constexpr std::size_t kSome = 2, kOfThree = 3;  // in maps that are right none of some 15 stands elsewhere
   const Travel travel(view.map.key_frames);
   std::map<std::string, std::vector<Eigen::Vector3d>> places;  // of active signs, by number
   Visits visits;
@@ -76,7 +76,7 @@ std::vector<mapper::Evidence> signEvidence(const mapper::View& view, const std::
   const std::size_t elsewhere = elsewhereAmong(places);
   if (visits.empty() && elsewhere < kSome) return {};
   char text[220] = "";
-  if (elsewhere >= kSome && elsewhere > visits.size()) {
+  if (elsewhere >= kSome && kOfThree * elsewhere > visits.size()) {
     std::snprintf(text, sizeof text,
                   "of the numbers on signs that were read again %zu stand at another place than before and %zu at the "
                   "same: the map is bent, or doors have one number",

@@ -17,6 +17,7 @@
 #include "SignPlacement.h"
 #include "SignSighting.h"
 #include "SignTracks.h"
+#include "Triangulation.h"
 
 IMPLEMENTS_MRPT_OBJECT(SignLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -205,11 +206,10 @@ class SignLandmarksPlugin::Work {
 
   // A sign that is not in the map: it is added once enough directions meet.
   void wait(const SignSighting& sighting, mapper::Decision decision) {
-    // Of two directions nothing would show that one is wrong; words stand on more than one door.
-    const std::size_t min_views = sighting.text.number.empty() ? 4 : 3;
-    const auto& views =
-        tracks_.waitingWith({frame_.id, frame_.pose, label_, sighting, tracks_.travelled()}, options_.recent_way);
-    const auto place = triangulate(views, view_.graph, known_offsets_, options_.max_sigma, min_views);
+    constexpr std::size_t kMinViews = 3;  // of two directions nothing would show that one is wrong
+    const auto& views = tracks_.waitingWith(
+        {frame_.id, frame_.stamp, frame_.pose, label_, sighting, tracks_.travelled()}, options_.recent_way);
+    const auto place = triangulate(views, view_.graph, known_offsets_, options_.max_sigma, kMinViews);
     decision.numbers.emplace_back("directions", static_cast<double>(views.size()));
     if (!place) {
       decision.reason = "waits for a direction that shows where it is";

@@ -18,7 +18,7 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
   double pan_sigma = 0.5 * base::option_text::kRadiansPerDegree;    ///< [rad] of what is told of the camera's turn
   double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;   ///< [rad] the same of its pitch
   double pan_tilt_offset_sigma = 3 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zeros
-  double max_sigma = 0.3;                                                   ///< [m] of the place of a new sign
+  double max_sigma = 2;                                                     ///< [m] of the place of a new sign
   double recent_way = 10;    ///< [m] for so long a sign counts as seen just now
   double same_sigma = 0.03;  ///< [m] of the middle of a sign, seen twice
   double loss_scale = 2;     ///< [sigma] of the Cauchy loss
@@ -27,8 +27,8 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
 };
 
 /// Door signs as landmarks (thesis 4.3.2.5): points of space with a text, measured by the directions in which cameras
-/// see them (obs::CObservationDoorSigns). A direction waits until three with the same number meet, or four with the
-/// same words. Which sign a sighting is of is told by its text first and by where it is second.
+/// see them (obs::CObservationDoorSigns). A direction waits until three with the same text meet. Which sign a sighting
+/// is of is told by its text first and by where it is second.
 ///
 /// A sign that was not seen for `recent_way` is not met again at once: a new landmark is made where it is seen, and
 /// that both are one is a hypothesis for the consistency test, which closes loops. A text that is seen at two places

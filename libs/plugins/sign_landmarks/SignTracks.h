@@ -10,6 +10,7 @@
 
 #include "SignPayload.h"
 #include "SignSighting.h"
+#include "Triangulation.h"
 
 namespace omnimapper::plugins {
 

@@ -34,7 +34,10 @@ double lengthOf(const Request& request, const std::string& option, double otherw
 
 Vector2d startOf(const MapToAsk& map, const Request& request) {
   const auto from = numbersOf(request, "from", {});
-  if (!from.empty()) return {from.at(0), from.at(1)};
+  if (!from.empty()) {
+    for (const double coordinate : from) expectInReach(coordinate);
+    return {from.at(0), from.at(1)};
+  }
   if (!map.places.last_pose)
     throw base::Error(base::ExitCode::command_line,
                       map.file + ": the map has no last pose to start from; say where with --from X Y");
@@ -120,6 +123,14 @@ Answer answerGoal(const MapToAsk& map, const Request& request) {
                              goalText(*goal, options, room) + alignedTable({placeHeads(), cellsOf(*targets[i].place)});
     return {said, textOf(document), base::ExitCode::ok};
   }
+  const auto isInGrid = [&](const NearPlace& target) {
+    const auto rim = rimOf(target.place->extent, grid.resolution);
+    return std::any_of(rim.begin(), rim.end(), [&](const Vector2d& edge) { return grid.contains(grid.cellOf(edge)); });
+  };
+  if (std::none_of(targets.begin(), targets.end(), isInGrid))
+    return nothing(titleOf(*targets.front().place) +
+                   " lies outside the occupancy grid, so nobody knows what is free before it: map a log in which the "
+                   "laser saw that part of the building\n");
   return nothing("no pose " + base::brief(options.distance / 2) + " to " + base::brief(2 * options.distance) +
                  " m before " + titleOf(*targets.front().place) + " is free for a robot of " +
                  base::brief(options.radius) + " m radius, with it in sight; try another --distance or --radius\n");

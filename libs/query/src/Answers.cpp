@@ -42,6 +42,7 @@ double coordinateOf(const std::string& word) {
     throw base::Error(
         base::ExitCode::command_line,
         "'" + shownName(word) + "' is no coordinate: give x and y of the map in metres, as in near 3.5 -2");
+  expectInReach(number);
   return number;
 }
 
@@ -82,6 +83,13 @@ std::string textOf(const Request& request) {
   std::string text;
   for (const auto& word : request.words) text += (text.empty() ? "" : " ") + word;
   return text;
+}
+
+void expectInReach(double coordinate) {
+  constexpr double kFarthest = 1e7;  // [m] beyond it a double has no micrometres, and no map has anything
+  if (std::abs(coordinate) > kFarthest)
+    throw base::Error(base::ExitCode::command_line, base::brief(coordinate) + " m is no coordinate of a map: none is " +
+                                                        "farther than 10000 km from the origin");
 }
 
 std::vector<double> numbersOf(const Request& request, const std::string& option, const std::vector<double>& otherwise) {

@@ -1,5 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/InputFile.h>
+#include <omnimapper/base/Names.h>
 #include <omnimapper/query/GridMap.h>
 
 #include <algorithm>
@@ -59,6 +60,9 @@ class GridYaml {
     const auto value = values_.find(key);
     if (value == values_.end() || value->second.empty()) refuseGrid(file_, "lacks the key \"" + key + "\".");
     return value->second;
+  }
+  std::string text(const std::string& key, const std::string& otherwise) const {
+    return values_.count(key) > 0 ? text(key) : otherwise;
   }
   double number(const std::string& key, double least, double most) const {
     return checked(key, numberIn(text(key)), least, most);
@@ -167,6 +171,10 @@ GridMap readGrid(const std::string& folder) {
     refuseGrid(file, "\"origin\" is not x, y and a yaw of 0: grids that are turned are not read.");
   grid.lower_left = {origin[0], origin[1]};
   const double free = yaml.number("free_thresh", 0, 1, 0.196), occupied = yaml.number("occupied_thresh", 0, 1, 0.65);
+  if (free > occupied)
+    refuseGrid(file, "\"free_thresh\" is above \"occupied_thresh\": cells between them would be free and occupied.");
+  if (const std::string mode = yaml.text("mode", "trinary"); mode != "trinary")
+    refuseGrid(file, "\"mode\" is " + base::printable(mode.substr(0, 40)) + ": only grids of mode trinary are read.");
   const bool negate = yaml.number("negate", 0, 1, 0) != 0;
   const Pgm pgm = readPgm((fs::path(folder) / yaml.text("image")).string());
   GridCell cell_of[256];

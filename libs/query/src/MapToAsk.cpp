@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 
 std::string mapFileAt(const std::string& path) {
   std::error_code none;
+  if (path.empty())
+    throw base::Error(base::ExitCode::command_line, "MAP is empty: name the folder of a map, or its map.omnimap");
   if (!fs::is_directory(path, none)) return path;
   const fs::path map = fs::path(path) / "map.omnimap", checkpoint = fs::path(path) / "checkpoint.omnimap";
   if (!fs::exists(map, none) && fs::exists(checkpoint, none))
@@ -24,6 +26,10 @@ std::string mapFileAt(const std::string& path) {
               "is the checkpoint of a live run that did not end, which answers no queries. Make a map of it: "
               "omnimapper-graphslam --replay " +
                   path);
+  if (!fs::exists(map, none))
+    refuseMap(path,
+              "has no map.omnimap: it is not the folder of a map. omnimapper-graphslam -o FOLDER makes one, by an "
+              "INI whose output_plugins have a MapOutput.");
   return map;
 }
 

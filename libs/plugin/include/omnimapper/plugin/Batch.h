@@ -33,11 +33,14 @@ class Batch {
   void placeSession(const SessionPlace& place) { session_place_ = place; }
   void log(Decision decision) { decisions_.push_back(std::move(decision)); }
 
-  /// A new landmark; the sighting that made it is its first evidence.
+  /// A new landmark; the measurement that made it is its first evidence. `seen`: when that was; none: at the key frame
+  /// of the batch.
   base::LandmarkId addLandmark(const std::string& kind, std::vector<base::VariableId> variables,
-                               std::shared_ptr<const map::LandmarkPayload> payload = nullptr);
-  /// One more observation of it. A payload replaces the one it has; null keeps that.
-  void addEvidence(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload = nullptr);
+                               std::shared_ptr<const map::LandmarkPayload> payload = nullptr,
+                               std::optional<base::Stamp> seen = std::nullopt);
+  /// One more observation of it, `seen` then. A payload replaces the one it has; null keeps that.
+  void addEvidence(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload = nullptr,
+                   std::optional<base::Stamp> seen = std::nullopt);
   /// What is known of it has changed without a sighting.
   void describeLandmark(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload);
   /// It is no longer there: nothing is to be associated with it any more.
@@ -58,10 +61,12 @@ class Batch {
     std::string kind;
     std::vector<base::VariableId> variables;
     std::shared_ptr<const map::LandmarkPayload> payload;
+    std::optional<base::Stamp> seen;
   };
   struct Evidence {
     base::LandmarkId landmark;
     std::shared_ptr<const map::LandmarkPayload> payload;
+    std::optional<base::Stamp> seen;
     bool is_sighting = true;
   };
   struct Merge {

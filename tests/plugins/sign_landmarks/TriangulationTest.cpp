@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sign_landmarks/SignSighting.h"
+#include "sign_landmarks/Triangulation.h"
 
 namespace omnimapper::plugins::sign_sighting_test {
 namespace {
@@ -31,7 +32,7 @@ class Views {
       sighting.range = range;
       sighting.range_sigma = range_sigma;
     }
-    views.push_back({{}, pose, "camera", sighting, 0});
+    views.push_back({{}, {}, pose, "camera", sighting, 0});
   }
 
   std::optional<Triangulation> meeting(double max_sigma = 0.3) const {
@@ -77,6 +78,19 @@ TEST(Triangulation, ARangeThatFitsNoOtherViewIsLeftOut) {
   ASSERT_TRUE(found);
   EXPECT_LT((found->point - kSign).norm(), 1e-6);
   EXPECT_EQ(found->views, (std::vector<std::size_t>{1, 2, 3}));
+}
+
+// Two signs that say the same stand 1.4 m apart on one wall: what is seen of both meets between them and the robot.
+TEST(Triangulation, DirectionsToTwoSignsOfOneTextAreNotMixed) {
+  const Vector3d other = kSign + Vector3d(0, 1.4, 0);
+  Views seen;
+  for (const double y : {0., 0.3, 0.6}) seen.add({0, y, 0}, other);
+  for (const double y : {0.9, 1.2, 1.5}) seen.add({0, y, 0}, kSign);
+  const KnownOffsets unknown{Eigen::Vector2d::Zero(), 3 * kDegree};
+  const auto found = triangulate(seen.views, seen.graph, unknown, 2, 3);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->views, (std::vector<std::size_t>{3, 4, 5}));
+  EXPECT_LT((found->point - kSign).norm(), 0.1);
 }
 
 TEST(SignSightings, KeepRangesThatSaySomething) {
