@@ -58,7 +58,7 @@ std::size_t elsewhereAmong(const std::map<std::string, std::vector<Eigen::Vector
 
 std::vector<mapper::Evidence> signEvidence(const mapper::View& view, const std::string& section, double recent_travel) {
   using Says = mapper::Evidence::Says;
-  constexpr double kEnough = 25;  // [%]
+  constexpr double kEnough = 25;                  // [%]
   constexpr std::size_t kSome = 2, kOfThree = 3;  // in maps that are right none of some 15 stands elsewhere
   const Travel travel(view.map.key_frames);
   std::map<std::string, std::vector<Eigen::Vector3d>> places;  // of active signs, by number

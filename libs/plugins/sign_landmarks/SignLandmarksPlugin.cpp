@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "NewSigns.h"
+#include "SessionBySigns.h"
 #include "SignBearingFactor.h"
 #include "SignClosures.h"
 #include "SignEvidence.h"
 #include "SignPayload.h"
-#include "SignPlacement.h"
 #include "SignSighting.h"
 #include "SignTracks.h"
 #include "Triangulation.h"
@@ -79,12 +79,12 @@ mapper::Decision placementDecision(const std::string& section, const map::KeyFra
 class SignLandmarksPlugin::Work {
  public:
   Work(const SignLandmarksOptions& options, const mapper::PluginContext& context, SignTracks& tracks,
-       mapper::PanTiltOffsets& offsets, Placed& placed, const map::KeyFrame& frame, const mapper::View& view)
+       mapper::PanTiltOffsets& offsets, SessionBySigns& session, const map::KeyFrame& frame, const mapper::View& view)
       : options_(options),
         context_(context),
         tracks_(tracks),
         offsets_(offsets),
-        placed_(placed),
+        session_(session),
         frame_(frame),
         view_(view) {}
 
@@ -93,7 +93,7 @@ class SignLandmarksPlugin::Work {
     const auto sightings = signSightings(observation, optionsHere());
     if (sightings.empty()) return {};
     findOffsets();
-    placeSession(sightings);
+    if (placeSession(sightings)) return std::move(batch_);
     std::vector<mapper::Pairing> pairings;
     for (std::size_t i = 0; i < sightings.size() && areOffsetsInGraph(); ++i) {
       for (const auto& [id, known] : tracks_.known()) {
@@ -143,31 +143,23 @@ class SignLandmarksPlugin::Work {
       known_offsets_.sigma = std::sqrt(covariance->diagonal().maxCoeff());
   }
 
-  // A session that signs have placed meets the signs of the map until something ties it to them.
+  // A session that signs have placed meets the signs of the map until something ties it to them; one that is lost meets
+  // its own alone.
   bool mayBeMet(base::LandmarkId id, const SignTracks::Known& known) const {
-    if (view_.map_is_held) return true;
-    if (isPlacedByTwo() && !view_.map.sessions.back().joined) return id.session != frame_.id.session;
-    return tracks_.isRecent(known, options_.recent_way);
+    const bool is_own = id.session == frame_.id.session;
+    if (session_.isPlaced()) return !is_own;
+    if (view_.map_is_held) return !session_.isLost();
+    return (is_own || !session_.isLost()) && tracks_.isRecent(known, options_.recent_way);
   }
 
-  // For as long as what ties the session to the map has not come; then the place was wrong.
-  bool isPlacedByTwo() const {
-    return placed_.by_two_signs && tracks_.travelled() - *placed_.by_two_signs <= options_.recent_way;
-  }
-
-  // One sign tells the place roughly: of a session whose place is known better it says nothing.
-  void placeSession(const std::vector<SignSighting>& sightings) {
-    constexpr double kLost = 3;  // [m]
-    if (placed_.by_one_sighting || view_.map.sessions.back().joined) return;
-    const auto covariance = view_.jointCovariance({frame_.pose});
-    if (!covariance || std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1))) < kLost) return;
-    const auto place = SignPlacement::byOneSighting(sightings, frame_, tracks_, view_);
-    if (!place || !whyFixed(*place, view_.graph, view_.map).empty()) return;
-    placed_.by_one_sighting = true;
-    batch_.placeSession(*place);
-    batch_.log(placementDecision(context_.section, frame_, false,
-                                 "a sign is read that the map has once: the session is moved before it, and waits for "
-                                 "another that agrees"));
+  // Whether it was known well enough: what was seen is then looked at from the new place, the next time.
+  bool placeSession(const std::vector<SignSighting>& sightings) {
+    const double sigma = std::max(known_offsets_.sigma, view_.map_is_held ? options_.pan_tilt_offset_sigma : 0);
+    const auto placement = session_.take(sightings, frame_, tracks_, view_, sigma, options_.recent_way);
+    if (!placement || !whyFixed(placement->place, view_.graph, view_.map).empty()) return false;
+    batch_.placeSession(placement->place);
+    batch_.log(placementDecision(context_.section, frame_, placement->is_sure, placement->reason));
+    return placement->is_sure;
   }
 
   bool areOffsetsInGraph() const { return !offset_variable_ || !mapper::Batch::isProvisional(*offset_variable_); }
@@ -226,7 +218,7 @@ class SignLandmarksPlugin::Work {
   const mapper::PluginContext& context_;
   SignTracks& tracks_;
   mapper::PanTiltOffsets& offsets_;
-  Placed& placed_;
+  SessionBySigns& session_;
   const map::KeyFrame& frame_;
   const mapper::View& view_;
   std::string label_;
@@ -239,6 +231,7 @@ SignLandmarksPlugin::SignLandmarksPlugin(const SignLandmarksOptions& options, co
     : options_(options),
       context_(context),
       tracks_(std::make_unique<SignTracks>(context.section)),
+      session_(std::make_unique<SessionBySigns>()),
       offsets_(options.pan_tilt_offset_sigma, context.section) {}
 
 SignLandmarksPlugin::~SignLandmarksPlugin() = default;
@@ -251,7 +244,7 @@ bool SignLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) cons
 mapper::Batch SignLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                            const mapper::View& view) {
   tracks_->goTo(frame, view, options_.recent_way);
-  return Work(options_, context_, *tracks_, offsets_, placed_, frame, view)
+  return Work(options_, context_, *tracks_, offsets_, *session_, frame, view)
       .take(dynamic_cast<const CObservationDoorSigns&>(observed.observation));
 }
 
@@ -263,19 +256,7 @@ void SignLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {
 mapper::FollowUp SignLandmarksPlugin::afterCommit(const map::KeyFrame&, const mapper::View& view) {
   if (tracks_->fresh.empty()) return {};
   tracks_->update(view);
-  auto batch = proposeSameSigns(*tracks_, options_, context_.section, view);
-  const bool may_be_placed =
-      !placed_.by_two_signs || tracks_->travelled() - *placed_.by_two_signs > options_.recent_way;
-  if (!view.map.sessions.back().joined && may_be_placed) {
-    const auto place = SignPlacement::byTwoSigns(*tracks_, view);
-    if (place && whyFixed(*place, view.graph, view.map).empty()) {
-      placed_.by_two_signs = tracks_->travelled();
-      batch.placeSession(*place);
-      batch.log(placementDecision(context_.section, view.map.keyFrame(place->frame), true,
-                                  "two signs are as far from each other as in the map: the session is moved there"));
-    }
-  }
-  return {std::move(batch), {}};
+  return {proposeSameSigns(*tracks_, options_, context_.section, view), {}};
 }
 
 mapper::Batch SignLandmarksPlugin::atEnd(const mapper::View& view) {

@@ -53,12 +53,8 @@ class SignLandmarksPlugin : public mapper::MeasurementPlugin {
   SignLandmarksOptions options_;
   mapper::PluginContext context_;
   std::unique_ptr<class SignTracks> tracks_;
+  std::unique_ptr<class SessionBySigns> session_;
   mapper::PanTiltOffsets offsets_;
-  /// How signs have placed the session in the map that it continues.
-  struct Placed {
-    bool by_one_sighting = false;
-    std::optional<double> by_two_signs;  ///< [m] of the way when that was
-  } placed_;
 };
 
 class SignLandmarksPluginFactory : public mapper::MeasurementPluginFactory {

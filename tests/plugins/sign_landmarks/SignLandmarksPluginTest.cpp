@@ -254,6 +254,32 @@ TEST(SignLandmarksPlugin, ADriveThatSharesNoSignIsNotJoined) {
   EXPECT_FALSE(second.engine->view().map.sessions.back().joined);
 }
 
+// The robot is set down somewhere in a map that stays as it is.
+TEST(SignLandmarksPlugin, ARobotInAMapThatIsHeldIsFoundBySigns) {
+  const SimulatedLog log(drive(1));
+  const Mapped first(log, signsOf(log));
+  const auto held = first.engine->view();
+  const SimulatedLog again(drive(1, 2));
+  auto observations = signsOf(again);
+  observations.erase(observations.begin(), observations.begin() + static_cast<std::ptrdiff_t>(observations.size() / 3));
+  const auto engine = testing::makeEngine(kIni, {}, 1, true);
+  constexpr int kFreeKeyFrames = 20;
+  engine->sessions().localizeIn({held.map, held.graph, {}}, mapper::startAnywhere(held.map), kFreeKeyFrames);
+  testing::run(*engine, observations);
+  const auto view = engine->view();
+  const mrpt::poses::CPose3D truth_from_map(log.truthAt(held.map.key_frames.front().stamp));
+  std::size_t near = 0, located = 0;
+  for (const auto& estimate : view.localization) {
+    if (!estimate.located()) continue;
+    const mrpt::poses::CPose3D truth(again.truthAt(estimate.stamp));
+    const auto pose = truth_from_map + estimate.map_from_base;
+    ++located;
+    near += std::hypot(pose.x() - truth.x(), pose.y() - truth.y()) < 0.75;
+  }
+  EXPECT_GT(located, view.localization.size() / 2);
+  EXPECT_EQ(near, located);
+}
+
 // As two storeys' doors, or those of two wings.
 TEST(SignLandmarksPlugin, ANumberThatStandsOnTwoDoorsClosesNothing) {
   const SimulatedLog log(drive(2));

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <omnimapper/plugin/SessionStart.h>
+#include <omnimapper/plugin/View.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "SignSighting.h"
+#include "SignTracks.h"
+#include "Triangulation.h"
+
+namespace omnimapper::plugins {
+
+/// Finds a session of which nobody knows where in the map it begins, by the signs that it reads. A sign counts if what
+/// it says stands on one sign of the earlier sessions alone.
+class SessionBySigns {
+ public:
+  struct Placement {
+    mapper::SessionPlace place;
+    bool is_sure;  ///< several sightings agree; else it is a first guess, for searches to begin at
+    std::string reason;
+  };
+
+  /// Learns what is seen at a key frame. `sigma` [rad]: of directions, offsets of the camera included. Gives where the
+  /// session is once that is known, or guessed for the first time.
+  std::optional<Placement> take(const std::vector<SignSighting>& sightings, const map::KeyFrame& frame,
+                                const SignTracks& tracks, const mapper::View& view, double sigma, double recent_travel);
+  /// Nobody knows where the session is: no sign of the map can be told from another by its place.
+  bool isLost() const { return is_lost_; }
+  /// Sightings have told where it is, and what ties it to the map has not come yet.
+  bool isPlaced() const { return placed_at_.has_value(); }
+
+ private:
+  struct Seen {
+    base::KeyFrameId frame;
+    SignSighting sighting;
+    base::LandmarkId sign;
+    double travelled;  // [m]
+  };
+
+  void learnState(const map::KeyFrame& frame, const SignTracks& tracks, const mapper::View& view, double recent_travel);
+  std::optional<mapper::SessionPlace> fit(const map::KeyFrame& frame, const SignTracks& tracks,
+                                          const mapper::View& view, double sigma) const;
+
+  bool is_known_whether_lost_ = false, is_lost_ = false, is_guessed_ = false;
+  std::optional<double> placed_at_;  // [m] of the distance travelled
+  std::deque<Seen> seen_;
+};
+
+}  // namespace omnimapper::plugins
