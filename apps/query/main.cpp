@@ -37,11 +37,7 @@ CLI::Validator validatorOf(query::NumberOption::Range range) {
 
 void addVerb(CLI::App& app, const query::Verb& verb, query::Request& request, bool& json) {
   CLI::App* added = app.add_subcommand(verb.name, verb.help);
-  added->usage("Usage: omnimapper-query MAP " + verb.name + " [OPTIONS] " + verb.words);
-  added->add_option(verb.words, request.words, verb.words_help)
-      ->type_name("")
-      ->required(verb.least_words > 0)
-      ->expected(std::max(1, verb.least_words), verb.most_words);
+  added->add_option(verb.words, request.words, verb.words_help)->type_name("")->expected(0, verb.most_words);
   for (const auto& option : verb.options)
     added->add_option("--" + option.name, request.numbers[option.name], option.help)
         ->expected(option.count)
@@ -74,7 +70,7 @@ int answer(const CLI::App& app, const Arguments& arguments) {
     if (!parsed.empty() && verb.name == parsed.front()->get_name()) asked = &verb;
   query::Request request = arguments.requests.at(asked->name);
   if (parsed.empty()) request.words = arguments.words;
-  program::require({{"TEXT to find, or a verb", !parsed.empty() || !arguments.words.empty()}});
+  query::expectWords(*asked, request);
   if (!parsed.empty() && !arguments.words.empty())
     throw base::Error(base::ExitCode::command_line, "'" + base::printable(arguments.words.front().substr(0, 40)) +
                                                         "' stands before the verb " + asked->name +

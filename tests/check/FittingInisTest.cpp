@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/check/fittingInis.h>
 #include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <memory>
@@ -66,7 +67,8 @@ TEST(FittingInis, OfARangeCameraDependOnWhatTellsItsMotion) {
 
 TEST(FittingInis, OfCloudsAndPicturesWithOdometryAreNamed) {
   EXPECT_EQ(namesFor(without(with<mrpt::obs::CObservationPointCloud>(), "laser")), Names{"ini/home_planes.ini"});
-  EXPECT_EQ(namesFor(without(with<mrpt::obs::CObservationImage>(), "laser")), Names{"ini/landmarks.ini"});
+  EXPECT_EQ(namesFor(without(with<mrpt::obs::CObservationImage>(), "laser")),
+            (Names{"ini/signs.ini", "ini/landmarks.ini"}));
   auto posed = without(without(with<mrpt::obs::CObservationPointCloud>(), "laser"), "odometry");
   EXPECT_EQ(namesFor(posed), Names{});
   auto pose = mrpt::obs::CObservationRobotPose::Create();
@@ -94,6 +96,10 @@ TEST(FittingInis, HaveThePluginsThatTheyAreSaidToHave) {
   inis.push_back(fittingInis(Checked(camera).facts).front());
   const auto robot = without(with<CObservation3DRangeScan>(), "laser");
   inis.push_back(fittingInis(Checked(robot).facts).front());
+  const auto pictures = with<CObservationImage>(with<obs::CObservationDoorSigns>());
+  for (auto& ini : fittingInis(Checked(pictures).facts))
+    if (ini.file == "ini/signs.ini") inis.push_back(ini);
+  EXPECT_EQ(inis.size(), 8U);
   for (const auto& ini : inis) {
     const auto config = base::Config::fromFile(omnimapper::testing::sourceFile(ini.file));
     const auto options = config.section("mapper").read<mapper::EngineOptions>();

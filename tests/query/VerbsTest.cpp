@@ -48,11 +48,11 @@ TEST_F(HandMadeFolder, FindSaysWhatIsExactAndWhatIsNear) {
   EXPECT_TRUE(says(exact.text, "sign \"213\"") && says(exact.text, "2.00 0.10 1.50") && says(exact.text, "7 x camera"));
   const Answer near = ask("find", {{"2l3"}, {}});
   EXPECT_EQ(near.code, base::ExitCode::ok);
-  EXPECT_TRUE(says(near.text, "nothing is called '2l3'; nearest: 213")) << near.text;
+  EXPECT_TRUE(says(near.text, "nothing is called '2l3'; nearest: '213'")) << near.text;
   EXPECT_EQ(json::parse(near.json)["matches"][0]["match"], "near");
   const Answer none = ask("find", {{"777"}, {}});
   EXPECT_EQ(none.code, base::ExitCode::nothing_found);
-  EXPECT_TRUE(says(none.text, "nothing is called '777', nor nearly so; closest: ")) << none.text;
+  EXPECT_TRUE(says(none.text, "nothing is called '777', nor nearly so; omnimapper-query MAP list")) << none.text;
   EXPECT_EQ(json::parse(none.json)["matches"], json::array());
 }
 
@@ -88,7 +88,7 @@ TEST_F(HandMadeFolder, ListCountsKindsAndOrdersByNumber) {
   EXPECT_EQ(signs[2]["caption"], "213");
   const Answer none = ask("list", {{"giraffe"}, {}});
   EXPECT_EQ(none.code, base::ExitCode::nothing_found);
-  EXPECT_TRUE(says(none.text, "no kind is called 'giraffe'; there are: sign, wall")) << none.text;
+  EXPECT_TRUE(says(none.text, "no kind is called 'giraffe'; there are: 'sign', 'wall'")) << none.text;
 }
 
 TEST_F(HandMadeFolder, OfSeveralThatFitTheNearestToTheStartIsTheGoal) {

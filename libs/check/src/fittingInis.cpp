@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <omnimapper/check/fittingInis.h>
 #include <omnimapper/check/judge.h>
+#include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 
 #include <algorithm>
@@ -45,6 +46,18 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
     inis.push_back({"ini/laser_walls.ini",
                     "the same, with walls as landmarks",
                     {of_lasers, {"laser_points", "laser_lines"}, {"walls", "loop_closure", "relations"}, true}});
+  }
+  const bool has_signs = holds<obs::CObservationDoorSigns>(facts);
+  if ((has_signs || holds<mrpt::obs::CObservationImage>(facts)) && (has_laser || has_odometry)) {
+    const std::string what = has_signs ? "door signs with their texts" : "door signs, if its pictures show some";
+    inis.push_back({"ini/signs.ini",
+                    what + (has_laser ? ", and walls" : ""),
+                    {of_lasers,
+                     {"signs", "laser_points", "laser_lines"},
+                     {"walls", "loop_closure", "sign_landmarks", "relations"},
+                     true},
+                    false,
+                    !has_signs});
   }
   if (sees_depth && holds<mrpt::obs::CObservationRobotPose>(facts)) {
     inis.push_back({"ini/rgbd_planes.ini",

@@ -1,3 +1,5 @@
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/check/judge.h>
@@ -52,7 +54,7 @@ class Proposal {
   void proposeWithout(const std::vector<std::string>& names, std::vector<std::string> list, const std::string& section,
                       const std::string& key, const std::string& reason) {
     const auto end = std::remove_if(list.begin(), list.end(), [&](const auto& name) { return has(names, name); });
-    if (end == list.end() || end == list.begin()) return;
+    if (end == list.end() || (end == list.begin() && key != "extractors")) return;  // a map may do without extractors
     list.erase(end, list.end());
     set(section, key, joined(list, ", "), reason);
   }
@@ -66,9 +68,18 @@ class Proposal {
     const std::string no_odometry =
         facts_.odometry.empty() ? "there is no odometry" : "the odometry is worse than none";
     proposeWithout(useless, plugins_.pose, "mapper", "pose_plugins", is_driven ? no_laser : no_odometry);
-    if (!is_blind) return;
-    proposeWithout({"loop_closure", "walls"}, plugins_.measurement, "mapper", "measurement_plugins", no_laser);
-    proposeWithout({"laser_points", kLaserLines}, plugins_.extractors, "perception", "extractors", no_laser);
+    const bool shows_signs = std::any_of(facts_.sensors.begin(), facts_.sensors.end(), [](const auto& sensor) {
+      return sensor.first.second == CLASS_ID(mrpt::obs::CObservationImage)->className ||
+             sensor.first.second == CLASS_ID(mrpt::obs::CObservation3DRangeScan)->className;
+    });
+    std::vector<std::string> unfed =
+        is_blind ? std::vector<std::string>{"laser_points", kLaserLines} : std::vector<std::string>();
+    if (!shows_signs) unfed.push_back("signs");
+    proposeWithout(unfed, plugins_.extractors, "perception", "extractors",
+                   is_blind ? no_laser : "there are no pictures to read signs in");
+    if (is_blind)
+      proposeWithout({"loop_closure", "walls", "relations"}, plugins_.measurement, "mapper", "measurement_plugins",
+                     no_laser);
   }
 
   // How long a step really took nobody knows: what depends on it are speeds alone.

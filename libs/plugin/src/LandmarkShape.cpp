@@ -1,5 +1,7 @@
 #include <omnimapper/plugin/LandmarkShape.h>
 
+#include <cmath>
+#include <optional>
 #include <vector>
 
 namespace omnimapper::mapper {
@@ -16,11 +18,35 @@ std::vector<Eigen::VectorXd> valuesOf(const map::Landmark& landmark, const graph
   return values;
 }
 
+// Of the plane or wall that a factor of its own binds the landmark to, on the side of `towards`.
+std::optional<Eigen::Vector3d> normalOfSurface(const map::Landmark& landmark, const graph::Graph& graph,
+                                               const Eigen::Vector3d& towards) {
+  constexpr double kFacing = 0.3;  // cosine of the angle within which a surface is that which is meant
+  if (landmark.variables.size() != 1 || !graph.contains(landmark.variables.front())) return std::nullopt;
+  for (const auto factor : graph.factorsOf(landmark.variables.front())) {
+    const auto& record = graph.factor(factor);
+    if (!(record.weight > 0)) continue;
+    for (const auto id : record.variables) {
+      const Eigen::VectorXd plane = graph.variable(id).kind->hyperplane(graph.value(id).data());
+      if (plane.size() == 0) continue;
+      Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // of a wall, whose hyperplane is a line on the floor: level
+      normal.head(plane.size() - 1) = plane.head(plane.size() - 1);
+      normal.normalize();
+      const double facing = normal.dot(towards.normalized());
+      if (std::abs(facing) > kFacing) return facing < 0 ? Eigen::Vector3d(-normal) : normal;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 map::LandmarkShape shapeOf(const map::Landmark& landmark, const State& state) {
   map::LandmarkShape shape;
   if (landmark.payload) shape = landmark.payload->shape(valuesOf(landmark, state.graph), state.map.key_frames);
+  if (shape.normal && shape.points.size() == 1 && shape.surfaces.empty()) {
+    if (const auto normal = normalOfSurface(landmark, state.graph, *shape.normal)) shape.normal = normal;
+  }
   if (shape.label.empty()) shape.label = landmark.kind.empty() ? "landmark" : landmark.kind;
   return shape;
 }

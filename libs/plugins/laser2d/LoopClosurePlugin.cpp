@@ -244,6 +244,7 @@ mapper::Batch LoopClosurePlugin::atEnd(const mapper::View& view) {
 }
 
 std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& view) const {
+  if (histories_.empty()) return {};  // without scans it knows nothing of the map
   std::vector<std::string> labels;
   for (const auto& [label, history] : histories_) labels.push_back(label);
   auto all = revisits(view, context_.section, labels, options_.min_way);

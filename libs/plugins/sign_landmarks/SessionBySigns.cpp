@@ -1,6 +1,7 @@
 #include "SessionBySigns.h"
 
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/plugin/LandmarkShape.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -31,7 +32,7 @@ std::optional<base::LandmarkId> oneWith(const SignText& text, const SignTracks& 
 std::optional<SeenKnownSign> seenKnown(const SignSighting& sighting, base::LandmarkId sign, const map::KeyFrame& frame,
                                        const SignTracks& tracks, const mapper::View& view, double sigma) {
   const Vector3d place = view.graph.value(tracks.known().at(sign).variable);
-  const auto normal = signOf(view, sign).shape({place}, view.map.key_frames).normal;
+  const auto normal = mapper::shapeOf(view.map.landmark(sign), view).normal;
   if (!normal) return std::nullopt;
   const double own = std::max(sighting.sigma_left, sighting.sigma_down);
   return SeenKnownSign{

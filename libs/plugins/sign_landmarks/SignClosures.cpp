@@ -94,8 +94,17 @@ class Proposals {
     decision.kind = "same sign";
     decision.reason = "waits for the consistency test";
     decision.from = view_.map.key_frames.back().id;
+    decision.is_loop_closure = true;
+    decision.to = keyFrameOf(others.front());
     decision.numbers.emplace_back("landmark", others.front().index);
     batch_.addHypothesis(std::move(record), std::move(decision));
+  }
+
+  // From which it was read best.
+  std::optional<base::KeyFrameId> keyFrameOf(base::LandmarkId id) const {
+    const auto& look = signOf(view_, id).best_look;
+    if (!look || !view_.map.key_frames.find(look->frame)) return std::nullopt;
+    return look->frame;
   }
 
   bool isOneOf(const std::vector<base::LandmarkId>& others, base::LandmarkId id) const {

@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::size_t kLongestText = 200;  // characters
 constexpr std::size_t kMostNames = 3;      // that are named where nothing fits
+constexpr double kFarFetched = 0.75;       // cost of a name beyond which it is not worth to be named
+constexpr long kNextDoors = 10;            // numbers that differ by as much are worth it
 
 [[noreturn]] void refuseText(const std::string& reason) {
   throw base::Error(base::ExitCode::command_line, reason);
@@ -84,17 +86,17 @@ std::optional<long> wholeNumber(const std::string& text) {
 
 // The first few names of the sorted places; where a number is asked for, the numbers beside it come first.
 std::vector<std::string> closestNames(const std::string& text, std::vector<FoundPlace> sorted) {
-  if (const auto asked = wholeNumber(text)) {
-    const auto off = [&](const FoundPlace& place) {
-      const auto number = wholeNumber(place.match.name);
-      return number ? std::abs(*number - *asked) : std::numeric_limits<long>::max();
-    };
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [&](const FoundPlace& a, const FoundPlace& b) { return off(a) < off(b); });
-  }
+  const auto asked = wholeNumber(text);
+  const auto off = [&](const FoundPlace& place) {
+    const auto number = wholeNumber(place.match.name);
+    return asked && number ? std::abs(*number - *asked) : std::numeric_limits<long>::max();
+  };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const FoundPlace& a, const FoundPlace& b) { return off(a) < off(b); });
   std::vector<std::string> names;
   for (const auto& each : sorted) {
     if (names.size() == kMostNames) break;
+    if (each.match.cost > kFarFetched && off(each) > kNextDoors) continue;
     if (std::find(names.begin(), names.end(), each.match.name) == names.end()) names.push_back(each.match.name);
   }
   return names;
@@ -111,6 +113,7 @@ std::vector<std::string> namesOf(const map::Place& place) {
     names.push_back(property.second);
     const auto parts = partsOf(property.second);
     if (parts.size() > 1) names.insert(names.end(), parts.begin(), parts.end());
+    if (property.first == "words" && !place.caption.empty()) names.push_back(place.caption + ", " + property.second);
   }
   return names;
 }

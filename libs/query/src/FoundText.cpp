@@ -15,7 +15,7 @@ constexpr std::size_t kMostListed = 20;
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
-    text += (text.empty() ? "" : ", ") + shownName(names[i]);
+    text += (text.empty() ? "'" : ", '") + shownName(names[i]) + "'";
   return text + (names.size() > kMostListed ? ", ..." : "");
 }
 
@@ -30,7 +30,7 @@ std::vector<std::string> distinctNames(const Found& found) {
 
 std::string nothingCalled(const std::string& text, const Found& found) {
   const std::string nothing = "nothing is called '" + shownName(text) + "', nor nearly so";
-  if (found.closest.empty()) return nothing + ": the map has nothing with a name\n";
+  if (found.closest.empty()) return nothing + "; omnimapper-query MAP list says what there is\n";
   return nothing + "; closest: " + listed(found.closest) + "\n";
 }
 

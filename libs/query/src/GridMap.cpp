@@ -161,7 +161,9 @@ GridMap readGrid(const std::string& folder) {
   const std::string file = (fs::path(folder) / "grid.yaml").string();
   std::error_code none;
   if (!fs::exists(file, none))
-    refuseGrid(file, "is not there, and without the map's occupancy grid nobody knows what is free.");
+    refuseGrid(file,
+               "is not there, and without the map's occupancy grid nobody knows what is free. A grid needs a log with "
+               "a laser.");
   const GridYaml yaml(file);
   constexpr double kSmallest = 1e-3, kLargest = 10;
   GridMap grid;

@@ -133,6 +133,7 @@ TextMatch AskedText::compare(const std::string& name) const {
   if (folded_.empty() || other.empty()) return {MatchGrade::near, 1, name};
   if (other == folded_) return {MatchGrade::same_letters, 0, name};
   const auto words = wordsOf(other);
+  if (joined(words_) == joined(words)) return {MatchGrade::same_letters, 0, name};
   if (isPart(words_, words)) return {MatchGrade::part, 0, name};
   double cost = relativeCost(folded_, other);
   cost = std::min(cost, costOfWords(words_, words) + (words.size() == words_.size() ? 0 : kPartOfName));

@@ -1,3 +1,4 @@
+#include <omnimapper/base/Error.h>
 #include <omnimapper/query/Verbs.h>
 
 #include "Answers.h"
@@ -42,6 +43,12 @@ const std::vector<Verb>& verbs() {
        {},
        answerList}};
   return all;
+}
+
+void expectWords(const Verb& verb, const Request& request) {
+  if (request.words.size() < static_cast<std::size_t>(verb.least_words))
+    throw base::Error(base::ExitCode::command_line,
+                      "after MAP, " + verb.name + " needs " + verb.words + ": " + verb.words_help + "; see --help");
 }
 
 }  // namespace omnimapper::query

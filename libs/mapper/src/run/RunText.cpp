@@ -56,6 +56,14 @@ std::string liveLines(const LiveFigures& live) {
   return lines + text;
 }
 
+// A robot may be located by landmarks alone: nothing is said of closures then.
+std::string closureLine(const RunResult& result, const std::string& scope) {
+  if (result.localized > 0 && result.closures + result.refused_closures == 0) return "";
+  const std::string head = result.localized > 0 ? "matches with map  " : "loop closures     ";
+  return head + std::to_string(result.closures) + " accepted, " + std::to_string(result.refused_closures) + " refused" +
+         scope + " (reasons: report.html)\n";
+}
+
 }  // namespace
 
 std::string toText(const RunResult& result) {
@@ -80,12 +88,11 @@ std::string toText(const RunResult& result) {
   std::snprintf(text, sizeof text,
                 "key frames        %zu%s\n"
                 "%s"
-                "%-17s %zu accepted, %zu refused%s (reasons: report.html)\n"
+                "%s"
                 "way               %.1f m in %.1f s%s\n"
                 "wall time         %.2f s (%.0f times the log's own pace)\n",
-                result.key_frames - of_map, held.c_str(), factors.c_str(),
-                result.localized > 0 ? "matches with map" : "loop closures", result.closures, result.refused_closures,
-                scope, result.way, result.log_seconds, scope, result.wall_seconds,
+                result.key_frames - of_map, held.c_str(), factors.c_str(), closureLine(result, scope).c_str(),
+                result.way, result.log_seconds, scope, result.wall_seconds,
                 result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
   const std::string verdict =
       result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";

@@ -41,6 +41,9 @@ struct Verb {
   Answer (*answer)(const MapToAsk& map, const Request& request);
 };
 
+/// Throws Error(command_line) if the request has too few words for the verb.
+void expectWords(const Verb& verb, const Request& request);
+
 /// All of them; the first is meant where words follow the map and none of them is a verb.
 const std::vector<Verb>& verbs();
 
