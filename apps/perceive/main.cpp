@@ -1,7 +1,7 @@
 // omnimapper-perceive: rawlog in, rawlog out with what the extractors of an INI derive.
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Progress.h>
-#include <omnimapper/export/Findings.h>
+#include <omnimapper/export/DetectionCounts.h>
 #include <omnimapper/export/PerceptionPictures.h>
 #include <omnimapper/export/registerOutputs.h>
 #include <omnimapper/mapper/Features.h>
@@ -72,7 +72,7 @@ int run(Arguments& arguments) {
   }
   program::listenForInterrupts();
   std::optional<exports::PerceptionPictures> pictures;
-  exports::Findings findings;
+  exports::DetectionCounts findings;
   if (!arguments.pictures.empty()) pictures.emplace(arguments.pictures, arguments.picture_every);
   arguments.run.show = [&](const auto& raw, const auto& derived) {
     findings.add(derived);

@@ -70,11 +70,11 @@ int answer(const CLI::App& app, const Arguments& arguments) {
     if (!parsed.empty() && verb.name == parsed.front()->get_name()) asked = &verb;
   query::Request request = arguments.requests.at(asked->name);
   if (parsed.empty()) request.words = arguments.words;
-  query::expectWords(*asked, request);
   if (!parsed.empty() && !arguments.words.empty())
     throw base::Error(base::ExitCode::command_line, "'" + base::printable(arguments.words.front().substr(0, 40)) +
                                                         "' stands before the verb " + asked->name +
                                                         ": after the map stands a text or a verb");
+  query::expectWords(*asked, request);
   const query::Answer answer = asked->answer(query::openMap(arguments.map), request);
   if (arguments.json) {
     std::cout << answer.json;

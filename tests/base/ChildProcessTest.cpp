@@ -15,18 +15,18 @@ constexpr std::uint64_t kMemory = std::uint64_t{64} << 20;
 
 TEST(ChildProcess, WhatTheWorkChangesStaysInTheChild) {
   int number = 1;
-  EXPECT_EQ(tryInChild([&] { number = 2; }, kMemory).how, TrialEnd::How::finished);
+  EXPECT_EQ(tryInChild([&] { number = 2; }, kMemory).how, ChildOutcome::How::finished);
   EXPECT_EQ(number, 1);
 }
 
 TEST(ChildProcess, TellsHowTheWorkEnded) {
   const auto thrown = tryInChild([] { throw std::runtime_error("a reason"); }, kMemory);
-  EXPECT_EQ(thrown.how, TrialEnd::How::threw);
+  EXPECT_EQ(thrown.how, ChildOutcome::How::threw);
   EXPECT_EQ(thrown.message, "a reason");
-  EXPECT_EQ(tryInChild([] { throw std::bad_alloc(); }, kMemory).how, TrialEnd::How::out_of_memory);
-  EXPECT_EQ(tryInChild([] { ::raise(SIGSEGV); }, kMemory).how, TrialEnd::How::crashed);
-  EXPECT_EQ(tryInChild([] { ::_exit(1); }, kMemory).how, TrialEnd::How::crashed) << "as a sanitizer ends a crash";
-  EXPECT_EQ(tryInChild([] { ::_exit(77); }, kMemory).how, TrialEnd::How::crashed);
+  EXPECT_EQ(tryInChild([] { throw std::bad_alloc(); }, kMemory).how, ChildOutcome::How::out_of_memory);
+  EXPECT_EQ(tryInChild([] { ::raise(SIGSEGV); }, kMemory).how, ChildOutcome::How::crashed);
+  EXPECT_EQ(tryInChild([] { ::_exit(1); }, kMemory).how, ChildOutcome::How::crashed) << "as a sanitizer ends a crash";
+  EXPECT_EQ(tryInChild([] { ::_exit(77); }, kMemory).how, ChildOutcome::How::crashed);
 }
 
 TEST(ChildProcess, AMessageLongerThanThePipeHoldsIsHeardWhole) {

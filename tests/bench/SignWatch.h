@@ -95,7 +95,7 @@ struct SignWatch {
     for (; next_ < next; ++next_.index) {
       const auto* record = factors.find(next_);
       if (!record) continue;
-      if (isDirection(record->factor->kind())) addSighting(view, *record);
+      if (isDirection(record->factor->kind())) addMeasurement(view, *record);
       if (record->factor->kind() == graph::SamePointFactor::kKind) addHypothesis(view, next_, *record);
     }
     const auto& frames = view.map.key_frames;
@@ -141,7 +141,7 @@ struct SignWatch {
 
  private:
   static bool isDirection(std::string_view kind) { return kind == "sign_bearing" || kind == "sign_bearing_pan_tilt"; }
-  void addSighting(const mapper::View& view, const graph::FactorRecord& record) {
+  void addMeasurement(const mapper::View& view, const graph::FactorRecord& record) {
     std::stringstream bytes;
     record.factor->write(bytes);
     const Eigen::Vector3d camera = graph::readVector<3>(bytes), direction = graph::readVector<3>(bytes);

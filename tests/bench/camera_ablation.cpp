@@ -161,7 +161,7 @@ std::vector<AblationVariant> chosenVariants(const std::vector<std::string>& keys
 
 // Over 10 m where the way holds two of these, else over 1 s, and over 2 m where images are too rare for that.
 eval::Delta spanOf(const eval::Trajectory& truth) {
-  if (eval::wayTravelled(truth).back() >= 20) return {10, eval::DeltaUnit::metres};
+  if (eval::distanceTravelled(truth).back() >= 20) return {10, eval::DeltaUnit::metres};
   const double seconds = base::secondsBetween(truth.front().stamp, truth.back().stamp);
   if (seconds < 0.2 * static_cast<double>(truth.size())) return {1, eval::DeltaUnit::seconds};
   return {2, eval::DeltaUnit::metres};
@@ -201,7 +201,7 @@ void judge(AblationRun& run, const std::string& folder, const Log& log) {
   const auto error = eval::absoluteTrajectoryError(estimate, truth, pairing).translation;
   run.ate = error.rmse;
   run.largest = error.max;
-  run.way = eval::wayTravelled(truth).back();
+  run.way = eval::distanceTravelled(truth).back();
   run.span = spanOf(truth);
   try {
     run.drift = eval::relativePoseError(estimate, truth, pairing, run.span).translation.rmse;

@@ -43,7 +43,7 @@ void drawPanel(draw::Svg& svg, double left, const std::string& title, const Rela
 }
 
 // Thesis figures 42, 43 and 44.
-void drawFigures(const std::string& path, unsigned seed) {
+void drawMetrics(const std::string& path, unsigned seed) {
   const RelationBox box(seed);
   const auto without = RelationBox(seed).run(RelationBox::With::no_relations, 0, true),
              with = RelationBox(seed).run(RelationBox::With::found, 0, true);
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   std::string svg;
   app.add_option("--svg", svg, "Draws the first run: before, without and with relations");
   CLI11_PARSE(app, argc, argv);
-  if (!svg.empty()) drawFigures(svg, 1);
+  if (!svg.empty()) drawMetrics(svg, 1);
 
   constexpr int kTrue = 27;
   const Row rows[] = {{"none", RelationBox::With::no_relations, 0, true},

@@ -140,7 +140,7 @@ void drawLandmarks(draw::Svg& svg, double left, const Counts& counts) {
   }
 }
 
-void drawFigures(const std::string& path, const std::vector<Figures>& all) {
+void drawMetrics(const std::string& path, const std::vector<Figures>& all) {
   std::ofstream out(path);
   draw::Svg svg(out, kLeft + kColumn * static_cast<double>(all.size()), 560);
   double left = kLeft;
@@ -175,5 +175,5 @@ int main(int argc, char** argv) {
       "|---|---|---|---|---|---|\n");
   std::vector<Figures> figures;
   for (const auto& folder : folders) figures.push_back(printRow(setup, {folder}));
-  if (!svg.empty()) drawFigures(svg, figures);
+  if (!svg.empty()) drawMetrics(svg, figures);
 }

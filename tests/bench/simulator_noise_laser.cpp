@@ -16,19 +16,19 @@
 
 #include "../sim/SmallWorlds.h"
 #include "CurvePlot.h"
-#include "LaserFigures.h"
+#include "LaserMetrics.h"
 
 namespace {
 
 using namespace omnimapper;
-using bench::LaserFigures;
+using bench::LaserMetrics;
 using bench::PlottedCurve;
 using geometry::Se2;
 
 /// A log as this program needs it: scans are counted while it is read.
 struct Recording {
   std::string name, colour;
-  LaserFigures laser;
+  LaserMetrics laser;
   std::optional<Se2> odometry, at_scan;  // the latest reading, and what it was at the latest scan
 };
 
@@ -45,7 +45,7 @@ void take(Recording& recording, const mrpt::obs::CObservation& observation) {
 // Readings from `farthest` on are no echo [m].
 Recording read(source::ObservationSource& source, const std::string& name, const std::string& colour,
                double farthest = 1e9) {
-  Recording recording{name, colour, LaserFigures(farthest), {}, {}};
+  Recording recording{name, colour, LaserMetrics(farthest), {}, {}};
   while (const auto observation = source.next()) take(recording, *observation);
   return recording;
 }
@@ -106,7 +106,7 @@ class Simulated {
   Recording record(const std::string& laser_keys, const std::string& name, const std::string& colour) const {
     const auto laser = sensor("class = Laser2d\nz_m = 0.4\n" + laser_keys, 1);
     const auto odometry = sensor("class = Odometry\nrate_hz = 20\n", 2);
-    Recording recording{name, colour, LaserFigures(), {}, {}};
+    Recording recording{name, colour, LaserMetrics(), {}, {}};
     int next = 0;
     for (int k = 0; k < laser->count(); ++k) {
       for (; next < odometry->count() && odometry->timeOf(next) <= laser->timeOf(k); ++next)
@@ -124,13 +124,13 @@ class Simulated {
 };
 
 std::vector<PlottedCurve> noiseCurves(const std::vector<Recording>& all,
-                                      std::map<int, LaserFigures::Sum> LaserFigures::*sums) {
+                                      std::map<int, LaserMetrics::Sum> LaserMetrics::*sums) {
   std::vector<PlottedCurve> curves;
   for (const Recording& recording : all) {
     PlottedCurve curve{recording.name, recording.colour, {}};
     for (const auto& [bin, sum] : recording.laser.*sums) {
       if (sum.count > 300 && bin < 16)
-        curve.points.emplace_back((bin + 0.5) * LaserFigures::kBin, 1000 * sum.deviation());
+        curve.points.emplace_back((bin + 0.5) * LaserMetrics::kBin, 1000 * sum.deviation());
     }
     curves.push_back(curve);
   }
@@ -138,7 +138,7 @@ std::vector<PlottedCurve> noiseCurves(const std::vector<Recording>& all,
 }
 
 void writeLaser(const std::vector<Recording>& all, const std::string& folder) {
-  const auto walls = noiseCurves(all, &LaserFigures::on_walls), repeated = noiseCurves(all, &LaserFigures::repeated);
+  const auto walls = noiseCurves(all, &LaserMetrics::on_walls), repeated = noiseCurves(all, &LaserMetrics::repeated);
   bench::plotCurves(folder + "/simulator_laser_walls.svg", "Residual of ranges to lines through walls", "range [m]",
                     "standard deviation [mm]", walls);
   bench::plotCurves(folder + "/simulator_laser_repeated.svg", "Change of a beam while the robot stands, over root 2",
@@ -146,17 +146,17 @@ void writeLaser(const std::vector<Recording>& all, const std::string& folder) {
   std::vector<PlottedCurve> edges;
   std::printf("| laser | beams without echo | mixed at edges of");
   for (std::size_t b = 0; b < 4; ++b)
-    std::printf(" %.1f to %.1f m |", LaserFigures::kGaps[b], LaserFigures::kGaps[b + 1]);
+    std::printf(" %.1f to %.1f m |", LaserMetrics::kGaps[b], LaserMetrics::kGaps[b + 1]);
   std::printf("\n|---|---|---|---|---|---|\n");
   for (const Recording& recording : all) {
-    const LaserFigures& laser = recording.laser;
+    const LaserMetrics& laser = recording.laser;
     PlottedCurve curve{recording.name, recording.colour, {}};
     std::printf("| %s | %.2f %% |", recording.name.c_str(), 100 * laser.no_echo / laser.beams);
     for (std::size_t b = 0; b < 4; ++b) {
       const double share = laser.edges[b] > 0 ? 100 * laser.mixed[b] / laser.edges[b] : 0;
       std::printf(" %.1f %% of %.0f |", share, laser.edges[b]);
       if (laser.edges[b] > 20)
-        curve.points.emplace_back(0.5 * (LaserFigures::kGaps[b] + LaserFigures::kGaps[b + 1]), share);
+        curve.points.emplace_back(0.5 * (LaserMetrics::kGaps[b] + LaserMetrics::kGaps[b + 1]), share);
     }
     std::printf("\n");
     edges.push_back(curve);

@@ -38,7 +38,7 @@ struct Span {
 // Spans of at least so much way between poses of the reference, each begun where the one before it ended.
 std::vector<Span> spansOf(const plugins::ScanOdometryPlugin& odometry, const eval::Trajectory& reference, double way) {
   std::vector<Span> spans;
-  const auto travelled = eval::wayTravelled(reference);
+  const auto travelled = eval::distanceTravelled(reference);
   for (std::size_t begin = 0, end = 1; end < reference.size(); ++end) {
     if (travelled[end] - travelled[begin] < way) continue;
     const auto told = odometry.between(reference[begin].stamp, reference[end].stamp);

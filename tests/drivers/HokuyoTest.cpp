@@ -43,7 +43,7 @@ class HokuyoTest : public ::testing::Test {
   struct Laser {
     std::vector<CObservation2DRangeScan::Ptr> received;
     std::vector<std::size_t> numbers;  // of those in the log
-    SensorFigures figures;
+    SensorMetrics figures;
   };
 
   // A laser at each address; all of them measure the same scans.

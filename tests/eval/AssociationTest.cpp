@@ -141,8 +141,8 @@ TEST(Trajectory, NearestPoseIsWithinTheToleranceAndTheEarlierOfTwo) {
 
 TEST(Trajectory, WayIsTheSumOfSteps) {
   // 3-4-5 triangle, then straight down: 5 m, 5 + 4 m.
-  EXPECT_EQ(wayTravelled({planar(0, 0, 0), planar(1, 3, 4), planar(2, 3, 0)}), (std::vector<double>{0, 5, 9}));
-  EXPECT_TRUE(wayTravelled({}).empty());
+  EXPECT_EQ(distanceTravelled({planar(0, 0, 0), planar(1, 3, 4), planar(2, 3, 0)}), (std::vector<double>{0, 5, 9}));
+  EXPECT_TRUE(distanceTravelled({}).empty());
 }
 
 TEST(Trajectory, OfAPartTurnsWithTheBody) {

@@ -40,11 +40,11 @@ TEST_P(Withdrawal, IsTheGraphWithoutIt) {
 
   Innovation innovation(graph, Marginals(graph), {candidate, acting}, 1);
   innovation.withdraw({1});
-  const Surprise withdrawn = innovation.of(0);
+  const InnovationStatistics withdrawn = innovation.of(0);
 
   // The covariance at the same values; the residual where the values go without it.
   graph.setWeight(acting, 0);
-  const Surprise without = Innovation(graph, Marginals(graph), {candidate}, 1).of(0);
+  const InnovationStatistics without = Innovation(graph, Marginals(graph), {candidate}, 1).of(0);
   EXPECT_LT((withdrawn.covariance - without.covariance).norm(), 1e-6 * without.covariance.norm());
   solve(graph, tight);
   EXPECT_LT((withdrawn.residual - graph.whitenedResidual(candidate)).norm(), 1e-3);

@@ -168,11 +168,11 @@ TEST_F(LiveSourceTest, silenceIsToldAndTheSensorIsOpenedAgain) {
   take(*source, milliseconds(100));
   ScriptedSensor::does = Does::nothing;
   EXPECT_NE(newsWithin(*source, milliseconds(1000), "is silent"), "");
-  EXPECT_EQ(source->sensors().at(0).state, SensorFigures::State::silent);
+  EXPECT_EQ(source->sensors().at(0).state, SensorMetrics::State::silent);
   EXPECT_NE(newsWithin(*source, milliseconds(2000), "is lost"), "");
   ScriptedSensor::does = Does::send;
   EXPECT_NE(newsWithin(*source, milliseconds(2000), "is back"), "");
-  EXPECT_EQ(source->sensors().at(0).state, SensorFigures::State::working);
+  EXPECT_EQ(source->sensors().at(0).state, SensorMetrics::State::working);
   EXPECT_EQ(source->sensors().at(0).losses, 1u);
   EXPECT_GE(ScriptedSensor::opened, 2);
   // The time that it was away is no interval by which it would be waited for longer.

@@ -41,8 +41,8 @@ TEST(Recorder, aRawlogHasAllInOrder) {
   const auto positions = positionsIn(folder / "log.rawlog");
   ASSERT_EQ(positions.size(), 1000u);
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(positions[static_cast<std::size_t>(i)], i);
-  EXPECT_EQ(recorder.figures().observations, 1000u);
-  EXPECT_EQ(recorder.figures().bytes_on_disk, fs::file_size(folder / "log.rawlog"));
+  EXPECT_EQ(recorder.statistics().observations, 1000u);
+  EXPECT_EQ(recorder.statistics().bytes_on_disk, fs::file_size(folder / "log.rawlog"));
   EXPECT_EQ(recorder.failure(), "");
 }
 

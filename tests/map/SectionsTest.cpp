@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/map/MapFile.h>
-#include <omnimapper/map/SessionFigures.h>
+#include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/map/Trajectory.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -173,7 +173,7 @@ TEST(FramesSection, KeepsWhatTheReferenceSensorSaw) {
 }
 
 // 3 m and 4 m, then 1 m of a session that was driven before them.
-TEST(SessionFigures, AreOfEachSessionAndNotOfTheLeapBetween) {
+TEST(SessionMetrics, AreOfEachSessionAndNotOfTheLeapBetween) {
   Map map;
   const auto add = [&](base::KeyFrameId id, double seconds, double x) {
     KeyFrame frame;
@@ -188,7 +188,7 @@ TEST(SessionFigures, AreOfEachSessionAndNotOfTheLeapBetween) {
   add({1, 0}, 50, 1000);
   add({1, 1}, 55, 1001);
   map.key_frames.edit({1, 1}).dependents.push_back({base::stampFromUnix(1e9 + 57), {}});
-  const auto figures = sessionFigures(map);
+  const auto figures = sessionMetrics(map);
   ASSERT_EQ(figures.size(), 2U);
   EXPECT_EQ(figures[0].key_frames, 3U);
   EXPECT_DOUBLE_EQ(figures[0].way, 7);

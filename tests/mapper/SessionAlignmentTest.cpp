@@ -73,11 +73,11 @@ TEST(SessionAlignment, ManyTiesThatAreRefusedPutItInDoubt) {
   for (int i = 0; i < 5; ++i) tie(1);
   tie(0);
   tie(0);
-  EXPECT_FALSE(testedTies(world.graph, 1).areInDoubt());
+  EXPECT_FALSE(testedTies(world.graph, 1).areMostlyRefused());
   tie(0);
   EXPECT_EQ(testedTies(world.graph, 1).accepted, 5U);
   EXPECT_EQ(testedTies(world.graph, 1).refused, 3U);
-  EXPECT_TRUE(testedTies(world.graph, 1).areInDoubt());
+  EXPECT_TRUE(testedTies(world.graph, 1).areMostlyRefused());
   EXPECT_EQ(testedTies(world.graph, 2).accepted, 0U);
 }
 

@@ -41,7 +41,7 @@ TEST(DenseMatcher, FindsTheMotionByDepthsByBrightnessAndByBoth) {
     EXPECT_LT(offOf(match, kMotion).position, 0.002) << kinds;
     EXPECT_LT(offOf(match, kMotion).angle, 0.001) << kinds;
     EXPECT_GT(match.overlap, 0.8) << kinds;
-    EXPECT_LT(match.surprise, 0.02) << kinds;
+    EXPECT_LT(match.outlier_share, 0.02) << kinds;
   }
 }
 

@@ -12,7 +12,7 @@ using mrpt::math::TPose2D;
 using testing::FloorPlan;
 
 // Mean of the squared errors over the claimed covariance, 3 if that is right.
-double meanSurprise(double sigma) {
+double meanSquaredError(double sigma) {
   const PointToLineMatcher matcher(ScanMatcherOptions{});
   const auto plan = FloorPlan::ring();
   double sum = 0;
@@ -35,9 +35,9 @@ double meanSurprise(double sigma) {
 
 TEST(MatchCovariance, IsHonestForSensorsOfAnyNoise) {
   for (const double sigma : {0.005, 0.01, 0.02, 0.05, 0.1, 0.2}) {
-    const double surprise = meanSurprise(sigma);
-    EXPECT_GT(surprise, 0.8) << sigma;
-    EXPECT_LT(surprise, 6) << sigma;
+    const double ratio = meanSquaredError(sigma);
+    EXPECT_GT(ratio, 0.8) << sigma;
+    EXPECT_LT(ratio, 6) << sigma;
   }
 }
 

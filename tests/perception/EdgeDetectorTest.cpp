@@ -102,7 +102,7 @@ TEST(EdgeDetector, AHoleThatReachesTheBorderIsABoundaryAndTheBorderIsNone) {
 TEST(EdgeDetector, WhatIsAslantDoesNotJump) {
   // 1/z falls by 0.02 a pixel, more than the noise explains, and has a hole.
   EdgeOptions options;
-  options.jump_share = 0;
+  options.relative_jump = 0;
   const auto whole =
       shoot([](int x, int y) { return y > 20 && y < 50 && x > 30 && x < 36 ? 0 : 1 / (2 - 0.02 * x); }, options);
   // In the very corners nobody can tell.
@@ -117,7 +117,7 @@ TEST(EdgeDetector, WhatIsAslantDoesNotJump) {
 
 TEST(EdgeDetector, TheLeastJumpGrowsWithTheNoiseAndWithTheDepth) {
   EdgeOptions options;
-  options.jump_share = 0;
+  options.relative_jump = 0;
   // Three deviations of the difference of two pixels, in 1/z.
   const double least = 3 * std::sqrt(2 * options.noise().pixelVariance());
   for (const double z : {1.0, 3.0}) {
@@ -126,7 +126,7 @@ TEST(EdgeDetector, TheLeastJumpGrowsWithTheNoiseAndWithTheDepth) {
       EXPECT_EQ(shot.count(kOccluding), part > 1 ? kHeight : 0) << z << " " << part;
     }
   }
-  options.jump_share = 0.1;
+  options.relative_jump = 0.1;
   EXPECT_EQ(shoot([](int x, int) { return x < 40 ? 1 : 1.1; }, options).count(kOccluding), 0);
   EXPECT_EQ(shoot([](int x, int) { return x < 40 ? 1 : 1.12; }, options).count(kOccluding), kHeight);
 }

@@ -103,7 +103,7 @@ TEST(ObjectFinder, ComparatorsDifferInWhatAFurrowMeans) {
   const auto together = find(table, options).objects;
   ASSERT_EQ(together.size(), 1U);
   EXPECT_NEAR(together[0].box_size.z(), 0.2, 0.005);
-  options.comparator = ObjectOptions::Comparator::convex;
+  options.comparator = ObjectOptions::Comparator::locally_convex;
   const auto apart = find(table, options).objects;
   ASSERT_EQ(apart.size(), 2U);
   EXPECT_EQ(apart[0].pixels.size() + apart[1].pixels.size(), together[0].pixels.size()) << "none is lost at the furrow";
@@ -180,7 +180,8 @@ TEST(ObjectFinder, RandomBytesGiveASoundResult) {
     sensor.min_pixels = 16;
     ObjectOptions options;
     options.on_surfaces_only = seed % 2 == 0;
-    options.comparator = seed % 4 < 2 ? ObjectOptions::Comparator::euclidean : ObjectOptions::Comparator::convex;
+    options.comparator =
+        seed % 4 < 2 ? ObjectOptions::Comparator::euclidean : ObjectOptions::Comparator::locally_convex;
     options.min_points = 3;
     options.max_tilt = M_PI;
     const DepthImage image(units.data(), 1e-3, width, height, {100, 100, 0.5 * width, 0.5 * height});

@@ -99,9 +99,9 @@ int ChildProcess::status() {
   return status_;
 }
 
-TrialEnd tryInChild(const std::function<void()>& work, std::uint64_t bytes) {
+ChildOutcome tryInChild(const std::function<void()>& work, std::uint64_t bytes) {
   ChildProcess child([&work](int to_parent) { return exitCodeOf(work, to_parent); }, bytes);
-  TrialEnd end;
+  ChildOutcome end;
   while (!child.isOver()) child.hear(end.message, -1);
   const int status = child.status();
   // The machine ends with SIGKILL what takes the last of its memory.
@@ -109,14 +109,14 @@ TrialEnd tryInChild(const std::function<void()>& work, std::uint64_t bytes) {
   if (!WIFEXITED(status)) return end;
   switch (WEXITSTATUS(status)) {
     case kFinished:
-      end.how = TrialEnd::How::finished;
+      end.how = ChildOutcome::How::finished;
       break;
     case kThrew:
-      end.how = TrialEnd::How::threw;
+      end.how = ChildOutcome::How::threw;
       break;
     case kOutOfMemory:
       if (!mayHave(held() + bytes)) throw std::bad_alloc();
-      end.how = TrialEnd::How::out_of_memory;
+      end.how = ChildOutcome::How::out_of_memory;
       break;
     default:
       break;

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <sstream>
 
+#include "RenamedKeys.h"
+
 namespace omnimapper::base {
 
 namespace {
@@ -262,8 +264,12 @@ void ConfigSection::refuseUnknownKeys(const std::vector<OptionSpec>& specs,
   if (config_->has(name_)) config_->ini_.getAllKeys(name_, keys);
   for (const auto& key : keys) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    const auto renamed = renamedKeys().find(key);
+    const bool is_old =
+        renamed != renamedKeys().end() && std::find(known.begin(), known.end(), renamed->second) != known.end();
     throw Error(ExitCode::unknown_key,
-                config_->placeOf(name_, key) + ": [" + name_ + "] has no key '" + key + "'" + suggestion(key, known));
+                config_->placeOf(name_, key) + ": [" + name_ + "] has no key '" + key + "'" +
+                    (is_old ? ": it is called '" + renamed->second + "' now" : suggestion(key, known)));
   }
 }
 

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <ostream>
 
-#include "Words.h"
+#include "Format.h"
 #include "checkText.h"
 
 namespace omnimapper::check {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "Words.h"
+#include "Format.h"
 
 namespace omnimapper::check {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "Words.h"
+#include "Format.h"
 
 namespace omnimapper::check {
 

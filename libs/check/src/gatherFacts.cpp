@@ -5,12 +5,12 @@
 #include <cmath>
 #include <iterator>
 
-#include "LevelTally.h"
-#include "OdometryTally.h"
-#include "PoseTally.h"
+#include "LevelStatistics.h"
+#include "OdometryStatistics.h"
+#include "PoseStatistics.h"
 #include "ScanPairs.h"
-#include "ScanTally.h"
-#include "StampTally.h"
+#include "ScanStatistics.h"
+#include "StampStatistics.h"
 #include "compareMotions.h"
 
 namespace omnimapper::check {
@@ -33,7 +33,7 @@ class Gatherer {
     const std::string& label = observation->sensorLabel;
     clock_.add(stamp);
     stamps_[{label, observation->GetRuntimeClass()->className}].add(stamp, clock_);
-    if (OdometryTally::isOdometry(*observation)) odometry_[label].add(*observation);
+    if (OdometryStatistics::isOdometry(*observation)) odometry_[label].add(*observation);
     level_.add(*observation);
     if (const auto pose = std::dynamic_pointer_cast<const mrpt::obs::CObservationRobotPose>(observation)) {
       poses_[label].add(*pose);
@@ -82,12 +82,12 @@ class Gatherer {
 
  private:
   struct Laser {
-    ScanTally tally;
+    ScanStatistics tally;
     ScanPairs pairs;
     std::vector<base::Stamp> stamps;
   };
 
-  StampFacts stampFacts(const StampTally& tally) const {
+  StampFacts stampFacts(const StampStatistics& tally) const {
     StampFacts facts = tally.facts();
     for (const auto& [begin, end] : tally.gaps()) {
       if (isRest(begin, end)) {
@@ -111,7 +111,7 @@ class Gatherer {
   }
 
   static MotionFacts motionOf(const std::string& label, const Laser& laser, const std::string& odometry,
-                              const OdometryTally* tally) {
+                              const OdometryStatistics* tally) {
     const auto between = [&](base::Stamp begin, base::Stamp end) {
       return tally ? tally->between(begin, end) : std::nullopt;
     };
@@ -122,17 +122,17 @@ class Gatherer {
     return facts;
   }
 
-  static double coveredShare(const Laser& laser, const OdometryTally& odometry) {
+  static double coveredShare(const Laser& laser, const OdometryStatistics& odometry) {
     if (laser.stamps.empty()) return 0;
     const auto covered = std::count_if(laser.stamps.begin(), laser.stamps.end(),
                                        [&](base::Stamp stamp) { return odometry.between(stamp, stamp).has_value(); });
     return static_cast<double>(covered) / static_cast<double>(laser.stamps.size());
   }
 
-  std::map<std::pair<std::string, std::string>, StampTally> stamps_;
-  std::map<std::string, OdometryTally> odometry_;
-  std::map<std::string, PoseTally> poses_;
-  LevelTally level_;
+  std::map<std::pair<std::string, std::string>, StampStatistics> stamps_;
+  std::map<std::string, OdometryStatistics> odometry_;
+  std::map<std::string, PoseStatistics> poses_;
+  LevelStatistics level_;
   std::map<std::string, Laser> lasers_;
   StreamClock clock_;
   std::map<std::pair<std::string, std::string>, source::LeftOut> uncalibrated_;  // as LogFacts::unusable

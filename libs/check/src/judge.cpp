@@ -9,7 +9,7 @@
 #include <set>
 
 #include "Conclusions.h"
-#include "Words.h"
+#include "Format.h"
 
 namespace omnimapper::check {
 

@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "Conclusions.h"
-#include "Words.h"
+#include "Format.h"
 
 namespace omnimapper::check {
 

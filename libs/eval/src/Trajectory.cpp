@@ -57,7 +57,7 @@ std::optional<geometry::Se3> interpolatedPose(const Trajectory& trajectory, base
                        (1 - share) * a.translation + share * b.translation};
 }
 
-std::vector<double> wayTravelled(const Trajectory& trajectory) {
+std::vector<double> distanceTravelled(const Trajectory& trajectory) {
   std::vector<double> way(trajectory.size(), 0.0);
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     const Eigen::Vector3d step =

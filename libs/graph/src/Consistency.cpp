@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "EasedSolve.h"
-#include "Overturn.h"
+#include "HypothesisRevision.h"
 #include "Selection.h"
-#include "Unheld.h"
+#include "UnconstrainedVariables.h"
 #include "omnimapper/graph/PointFactor.h"
 
 namespace omnimapper::graph {
@@ -97,7 +97,7 @@ class Test {
     std::vector<FactorId> found;
     for (auto at = acted_.rbegin(); at != acted_.rend() && found.size() < kMostWaiting; ++at)
       if (isWanted(at->first) && graph_.factor(at->first).weight == 0 && !contains(some, at->first) &&
-          !contains(later_, at->first) && !reachesOut(graph_, at->first))
+          !contains(later_, at->first) && !bindsUnconstrained(graph_, at->first))
         found.push_back(at->first);
     std::reverse(found.begin(), found.end());
     return found;
@@ -111,8 +111,8 @@ class Test {
   std::vector<FactorId> take(const std::vector<FactorId>& some) {
     std::vector<FactorId> candidates;
     for (const FactorId id : some)
-      if (reachesOut(graph_, id)) {
-        reachOut(graph_, id);
+      if (bindsUnconstrained(graph_, id)) {
+        initializeUnconstrained(graph_, id);
         decide(id, true, 0, "nothing is known yet of what it measures");
       } else {
         candidates.push_back(id);
@@ -142,7 +142,7 @@ class Test {
   }
 
   std::vector<Choice> select(const Marginals& marginals, const std::vector<FactorId>& candidates) const {
-    const FalseVolume volume(graph_);
+    const OutlierModel volume(graph_);
     std::vector<std::optional<double>> log_volumes;
     for (const FactorId id : candidates) log_volumes.push_back(volume.logOf(graph_.factor(id)));
     const Innovation innovation(graph_, marginals, candidates, options_.inflation);
@@ -202,7 +202,7 @@ class Test {
 
   void overturnBy(const std::vector<FactorId>& contradicting) {
     const auto overturned =
-        overturn(graph_, contradicting, waiting(contradicting), gate_, options_.inflation, solve_options_);
+        reviseHypotheses(graph_, contradicting, waiting(contradicting), gate_, options_.inflation, solve_options_);
     if (!overturned) return;
     const FactorId first = overturned->accepted.front();
     const std::string others = std::to_string(overturned->accepted.size() - 1) + " others";
@@ -220,10 +220,10 @@ class Test {
   void bearOut(const std::vector<FactorId>& some) {
     const auto isOfPoints = [&](FactorId id) { return graph_.factor(id).factor->kind() == SamePointFactor::kKind; };
     for (auto id = some.rbegin(); id != some.rend(); ++id) {
-      if (graph_.factor(*id).weight > 0 || !isOfPoints(*id) || reachesOut(graph_, *id)) continue;
+      if (graph_.factor(*id).weight > 0 || !isOfPoints(*id) || bindsUnconstrained(graph_, *id)) continue;
       const std::vector<FactorId> pool = waiting({*id}, isOfPoints);
       if (pool.empty()) continue;
-      OverturnTrial trial(graph_, gate_, options_.inflation, solve_options_);
+      RevisionTrial trial(graph_, gate_, options_.inflation, solve_options_);
       if (!trial.isBorneOut(*id, pool)) continue;
       std::swap(graph_, trial.graph());
       for (const FactorId accepted : trial.outcome().accepted)
@@ -254,7 +254,7 @@ class Test {
   void letInWhatFitsNow() {
     bool changed = false;
     for (const auto& [id, acted] : acted_) {
-      if (graph_.factor(id).weight > 0 || contains(later_, id) || reachesOut(graph_, id)) continue;
+      if (graph_.factor(id).weight > 0 || contains(later_, id) || bindsUnconstrained(graph_, id)) continue;
       const double chi2 = misfit(id), most = bound(id);
       if (chi2 > most) continue;
       decide(id, true, chi2, "fits the map as it is now");

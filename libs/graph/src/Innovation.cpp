@@ -31,11 +31,11 @@ struct Places {
 
 }  // namespace
 
-double Surprise::chi2() const {
+double InnovationStatistics::chi2() const {
   return residual.dot(covariance.llt().solve(residual));
 }
 
-double Surprise::logDensity() const {
+double InnovationStatistics::logDensity() const {
   const Eigen::LLT<Eigen::MatrixXd> root(covariance);
   const double log_determinant = 2 * Eigen::MatrixXd(root.matrixL()).diagonal().array().log().sum();
   return -0.5 * (residual.dot(root.solve(residual)) + log_determinant +
@@ -66,10 +66,10 @@ Innovation::Innovation(const Graph& graph, const Marginals& marginals, std::vect
         inflation * inflation * jacobian * marginals.jointCovariance(places.variables) * jacobian.transpose();
 }
 
-Surprise Innovation::of(const std::vector<int>& some) const {
+InnovationStatistics Innovation::of(const std::vector<int>& some) const {
   int rows = 0;
   for (const int i : some) rows += degreesOfFreedom(i);
-  Surprise all{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, rows)};
+  InnovationStatistics all{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, rows)};
   int row = 0;
   for (const int i : some) {
     all.residual.segment(row, degreesOfFreedom(i)) = residual(i);
@@ -95,9 +95,9 @@ Eigen::MatrixXd Innovation::crossCovariance(int i, const std::vector<int>& other
   return cross;
 }
 
-Surprise Innovation::given(int i, const std::vector<int>& others) const {
+InnovationStatistics Innovation::given(int i, const std::vector<int>& others) const {
   if (others.empty()) return of(i);
-  const Surprise known = of(others);
+  const InnovationStatistics known = of(others);
   const Eigen::MatrixXd cross = crossCovariance(i, others);
   const Eigen::LLT<Eigen::MatrixXd> root(known.covariance);
   return {residual(i) - cross * root.solve(known.residual), covariance(i, i) - cross * root.solve(cross.transpose())};
@@ -109,7 +109,7 @@ void Innovation::withdraw(const std::vector<int>& acting) {
   // that.
   constexpr double kNothing = 1e-9;
   if (acting.empty()) return;
-  const Surprise acts = of(acting);
+  const InnovationStatistics acts = of(acting);
   Eigen::MatrixXd columns(residual_.size(), acts.residual.size());
   int column = 0;
   for (const int j : acting) {

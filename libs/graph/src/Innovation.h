@@ -10,7 +10,7 @@ namespace omnimapper::graph {
 
 /// What one or several factors say against what the graph knows: whitened residual, and its covariance if they are
 /// true.
-struct Surprise {
+struct InnovationStatistics {
   Eigen::VectorXd residual;
   Eigen::MatrixXd covariance;
 
@@ -29,15 +29,15 @@ class Innovation {
   int size() const { return static_cast<int>(factors_.size()); }
   base::FactorId factor(int i) const { return factors_[i]; }
   int degreesOfFreedom(int i) const { return rows_[i + 1] - rows_[i]; }
-  Surprise of(int i) const { return of(std::vector<int>{i}); }
+  InnovationStatistics of(int i) const { return of(std::vector<int>{i}); }
   /// Of several together.
-  Surprise of(const std::vector<int>& some) const;
+  InnovationStatistics of(const std::vector<int>& some) const;
   /// Of one if others are true.
-  Surprise given(int i, int other) const { return given(i, std::vector<int>{other}); }
-  Surprise given(int i, const std::vector<int>& others) const;
-  /// Takes one as true: the surprise of the others becomes that given it.
+  InnovationStatistics given(int i, int other) const { return given(i, std::vector<int>{other}); }
+  InnovationStatistics given(int i, const std::vector<int>& others) const;
+  /// Takes one as true: the innovation of the others becomes that given it.
   void condition(int i);
-  /// Takes away some that act in the graph: the surprise of the others becomes that without them. Needs inflation 1.
+  /// Takes away some that act in the graph: the innovation of the others becomes that without them. Needs inflation 1.
   void withdraw(const std::vector<int>& acting);
 
  private:

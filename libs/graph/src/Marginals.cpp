@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "Anchors.h"
+#include "GaugeCheck.h"
 #include "NormalEquations.h"
 #include "SparseCholesky.h"
 
@@ -109,7 +109,7 @@ class Marginals::Blocks {
 };
 
 Marginals::Marginals(const Graph& graph) : state_(std::make_unique<State>()), blocks_(std::make_unique<Blocks>()) {
-  checkAnchored(graph);
+  checkGauge(graph);
   NormalEquations equations(graph);
   equations.linearise(equations.values(graph));
   for (const auto& [id, record] : graph.variables()) {

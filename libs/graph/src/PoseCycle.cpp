@@ -75,8 +75,8 @@ Known<Pose> between(const Graph& graph, const Marginals& marginals, VariableId a
 }
 
 template <class Pose>
-std::optional<Surprise> cycle(const Graph& graph, const Marginals& marginals, const FactorRecord& first,
-                              const FactorRecord& second, double inflation) {
+std::optional<InnovationStatistics> cycle(const Graph& graph, const Marginals& marginals, const FactorRecord& first,
+                                          const FactorRecord& second, double inflation) {
   using Factor = typename Types<Pose>::Factor;
   const auto* const one = dynamic_cast<const Factor*>(first.factor.get());
   const auto* const other = dynamic_cast<const Factor*>(second.factor.get());
@@ -89,16 +89,16 @@ std::optional<Surprise> cycle(const Graph& graph, const Marginals& marginals, co
                                between<Pose>(graph, marginals, ij.newer, kl.newer, inflation);
   const Eigen::LLT<Eigen::MatrixXd> noise(kl.older_from_newer.covariance);
   const Eigen::MatrixXd half = noise.matrixL().solve(k_from_l.covariance);
-  Surprise surprise{noise.matrixL().solve(geometry::minus(k_from_l.pose, kl.older_from_newer.pose)),
-                    noise.matrixL().solve(half.transpose())};
-  surprise.covariance.diagonal().array() += 1;
-  return surprise;
+  InnovationStatistics innovation{noise.matrixL().solve(geometry::minus(k_from_l.pose, kl.older_from_newer.pose)),
+                                  noise.matrixL().solve(half.transpose())};
+  innovation.covariance.diagonal().array() += 1;
+  return innovation;
 }
 
 }  // namespace
 
-std::optional<Surprise> poseCycle(const Graph& graph, const Marginals& marginals, base::FactorId first,
-                                  base::FactorId second, double inflation) {
+std::optional<InnovationStatistics> poseCycle(const Graph& graph, const Marginals& marginals, base::FactorId first,
+                                              base::FactorId second, double inflation) {
   const FactorRecord &one = graph.factor(first), &other = graph.factor(second);
   if (auto planar = cycle<Se2>(graph, marginals, one, other, inflation)) return planar;
   return cycle<Se3>(graph, marginals, one, other, inflation);

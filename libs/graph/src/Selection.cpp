@@ -15,12 +15,12 @@ double Gate::bound(int rows) const {
   return bounds_[rows];
 }
 
-bool Gate::passes(const Surprise& surprise) const {
-  return surprise.chi2() <= bound(static_cast<int>(surprise.residual.size()));
+bool Gate::passes(const InnovationStatistics& innovation) const {
+  return innovation.chi2() <= bound(static_cast<int>(innovation.residual.size()));
 }
 
-double Gate::margin(const Surprise& surprise, std::optional<double> log_volume) const {
-  return log_volume ? *log_volume + surprise.logDensity() - log_ratio_ : 0;
+double Gate::margin(const InnovationStatistics& innovation, std::optional<double> log_volume) const {
+  return log_volume ? *log_volume + innovation.logDensity() - log_ratio_ : 0;
 }
 
 namespace {
@@ -37,8 +37,8 @@ class PairwiseSelection {
     while (takeSurest() || takePair()) {
     }
     for (const int i : open_) {
-      const Surprise surprise = candidates_.of(i);
-      choices_[i] = {gate_.passes(surprise) ? Choice::Kind::waits : Choice::Kind::contradicts, surprise.chi2(),
+      const InnovationStatistics innovation = candidates_.of(i);
+      choices_[i] = {gate_.passes(innovation) ? Choice::Kind::waits : Choice::Kind::contradicts, innovation.chi2(),
                      std::nullopt};
     }
     return choices_;
@@ -55,9 +55,9 @@ class PairwiseSelection {
     int surest = -1;
     double best = 0;
     for (const int i : open_) {
-      const Surprise surprise = candidates_.of(i);
-      if (!gate_.passes(surprise)) continue;
-      const double margin = gate_.margin(surprise, log_volumes_[i]);
+      const InnovationStatistics innovation = candidates_.of(i);
+      if (!gate_.passes(innovation)) continue;
+      const double margin = gate_.margin(innovation, log_volumes_[i]);
       if (margin < best || (margin == best && surest >= 0)) continue;
       surest = i;
       best = margin;
@@ -72,7 +72,7 @@ class PairwiseSelection {
     for (const int i : open_)
       for (const int j : open_) {
         if (j >= i || !gate_.passes(candidates_.of(i)) || !gate_.passes(candidates_.of(j))) continue;
-        const Surprise of_i = candidates_.given(i, j), of_j = candidates_.given(j, i);
+        const InnovationStatistics of_i = candidates_.given(i, j), of_j = candidates_.given(j, i);
         if (!gate_.passes(of_i) || !gate_.passes(of_j)) continue;
         const double margin = std::min(gate_.margin(of_i, log_volumes_[i]), gate_.margin(of_j, log_volumes_[j]));
         if (margin <= best) continue;
@@ -98,7 +98,7 @@ class PairwiseSelection {
 std::vector<double> graduatedWeights(const Innovation& candidates, const std::vector<int>& among, const Gate& gate) {
   constexpr double kGrowth = 1.4;
   constexpr int kMaxIterations = 60;
-  const Surprise all = candidates.of(among);
+  const InnovationStatistics all = candidates.of(among);
   const Eigen::Index rows = all.residual.size();
   const Eigen::MatrixXd spread = all.covariance - Eigen::MatrixXd::Identity(rows, rows);
   std::vector<double> weights(among.size(), 1);
@@ -165,8 +165,9 @@ std::vector<Choice> selectGraduated(const Innovation& candidates, const std::vec
     for (std::size_t k = 0; k < inliers.size(); ++k) {
       std::vector<int> others = inliers;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      const Surprise surprise = candidates.given(inliers[k], others);
-      const double margin = gate.passes(surprise) ? gate.margin(surprise, log_volumes[inliers[k]]) : -surprise.chi2();
+      const InnovationStatistics innovation = candidates.given(inliers[k], others);
+      const double margin =
+          gate.passes(innovation) ? gate.margin(innovation, log_volumes[inliers[k]]) : -innovation.chi2();
       if (margin >= least) continue;
       worst = k;
       least = margin;

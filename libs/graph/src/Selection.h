@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "FalseVolume.h"
 #include "Innovation.h"
+#include "OutlierModel.h"
 #include "omnimapper/graph/ChiSquare.h"
 #include "omnimapper/graph/Consistency.h"
 
@@ -16,12 +16,12 @@ class Gate {
   explicit Gate(const ConsistencyOptions& options);
   /// Chi-square bound for so many rows.
   double bound(int rows) const;
-  bool passes(const Surprise& surprise) const;
+  bool passes(const InnovationStatistics& innovation) const;
   /// How many times likelier a measurement must be if true than if false, as chi-square: twice the logarithm.
   double chi2OfRatio() const { return 2 * log_ratio_; }
   /// Logarithm of how many times likelier the measurement is if true than if false, over what is asked; negative where
-  /// a false one could be there by chance. `log_volume` as FalseVolume gives it.
-  double margin(const Surprise& surprise, std::optional<double> log_volume) const;
+  /// a false one could be there by chance. `log_volume` as OutlierModel gives it.
+  double margin(const InnovationStatistics& innovation, std::optional<double> log_volume) const;
 
  private:
   double confidence_, log_ratio_;

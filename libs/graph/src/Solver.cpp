@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "Anchors.h"
+#include "GaugeCheck.h"
 #include "NormalEquations.h"
-#include "OneThread.h"
+#include "SingleThreadedBlas.h"
 #include "StepRule.h"
 
 namespace omnimapper::graph {
@@ -75,8 +75,8 @@ class Descent {
 }  // namespace
 
 SolveSummary solve(Graph& graph, const SolveOptions& options) {
-  checkAnchored(graph);
-  const OneThread one_thread;
+  checkGauge(graph);
+  const SingleThreadedBlas one_thread;
   Descent descent(graph, options);
   const SolveSummary summary = descent.run();
   descent.store(graph);

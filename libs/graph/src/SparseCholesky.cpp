@@ -3,7 +3,7 @@
 #include <cholmod.h>
 #include <omnimapper/base/Error.h>
 
-#include "OneThread.h"
+#include "SingleThreadedBlas.h"
 
 namespace omnimapper::graph {
 
@@ -84,7 +84,7 @@ std::vector<int> expand(const std::vector<int>& group_order, const std::vector<i
 SparseCholesky::SparseCholesky(const SymmetricMatrix& pattern, const std::vector<int>& groups)
     : state_(std::make_unique<State>()) {
   cholmod_common& common = state_->common;
-  const OneThread one_thread;
+  const SingleThreadedBlas one_thread;
   cholmod_sparse matrix = view(pattern);
   matrix.xtype = CHOLMOD_PATTERN;
   if (groups.empty()) {
@@ -111,7 +111,7 @@ SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 bool SparseCholesky::factorize(const SymmetricMatrix& matrix, Storage storage) {
-  const OneThread one_thread;
+  const SingleThreadedBlas one_thread;
   cholmod_sparse sparse = view(matrix);
   cholmod_common& common = state_->common;
   cholmod_factor& factor = *state_->factor;
@@ -127,7 +127,7 @@ bool SparseCholesky::factorize(const SymmetricMatrix& matrix, Storage storage) {
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& b) {
-  const OneThread one_thread;
+  const SingleThreadedBlas one_thread;
   cholmod_common& common = state_->common;
   cholmod_dense dense{};
   dense.nrow = dense.d = static_cast<std::size_t>(b.rows());

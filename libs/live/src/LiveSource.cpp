@@ -18,8 +18,8 @@ constexpr std::chrono::milliseconds kToOpen(
 
 }  // namespace
 
-std::string toString(SensorFigures::State state) {
-  using State = SensorFigures::State;
+std::string toString(SensorMetrics::State state) {
+  using State = SensorMetrics::State;
   switch (state) {
     case State::opening:
       return "opening";
@@ -128,8 +128,8 @@ std::vector<std::string> LiveSource::takeNews() {
   return all;
 }
 
-std::vector<SensorFigures> LiveSource::sensors() const {
-  std::vector<SensorFigures> all;
+std::vector<SensorMetrics> LiveSource::sensors() const {
+  std::vector<SensorMetrics> all;
   for (const auto& thread : parts_->threads) all.push_back(thread.figures());
   return all;
 }
@@ -139,7 +139,7 @@ std::string LiveSource::sensorsText() const {
   for (const auto& sensor : sensors()) {
     char rate[32];
     std::snprintf(rate, sizeof rate, "%.0f Hz", sensor.rate);
-    const bool is_working = sensor.state == SensorFigures::State::working;
+    const bool is_working = sensor.state == SensorMetrics::State::working;
     text += (text.empty() ? "" : ", ") + sensor.name + " " + (is_working ? rate : toString(sensor.state));
   }
   return text;

@@ -118,9 +118,9 @@ void Recorder::discard() {
   if (has_made_folder_) std::filesystem::remove(folder_, none);
 }
 
-Recorder::Figures Recorder::figures() const {
+Recorder::Statistics Recorder::statistics() const {
   const std::lock_guard lock(mutex_);
-  return figures_;
+  return statistics_;
 }
 
 std::string Recorder::failure() const {
@@ -171,10 +171,10 @@ void Recorder::run() {
     }
     const std::lock_guard lock(mutex_);
     waiting_bytes_ -= bytes;
-    figures_.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+    statistics_.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     if (failure.empty()) {
-      figures_.observations += block.size();
-      figures_.bytes += bytes;
+      statistics_.observations += block.size();
+      statistics_.bytes += bytes;
       continue;
     }
     if (failure_.empty()) failure_ = folder_ + "/" + files_.back() + ": recording ended: " + failure;
@@ -196,7 +196,7 @@ void Recorder::writeBlock(const std::vector<Encoded>& block, std::size_t bytes) 
   }
   file_bytes_ += member.size();
   const std::lock_guard lock(mutex_);
-  figures_.bytes_on_disk += member.size();
+  statistics_.bytes_on_disk += member.size();
 }
 
 std::string Recorder::compressed(const std::vector<Encoded>& block, std::size_t bytes) const {

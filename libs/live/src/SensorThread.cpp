@@ -17,7 +17,7 @@ namespace omnimapper::live {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using State = SensorFigures::State;
+using State = SensorMetrics::State;
 
 constexpr auto kBetweenAttempts = std::chrono::milliseconds(500);  // often enough, and no load for a device
 constexpr auto kRateWindow = std::chrono::seconds(3);
@@ -48,7 +48,7 @@ struct SensorThread::Shared {
   std::mutex mutex;
   std::condition_variable changed;
   bool stopping = false, was_open = false, failed_to_open = false, ended = false;
-  SensorFigures figures;
+  SensorMetrics figures;
   Clock::time_point last_arrival = Clock::now();
   std::uint64_t left_out_before = 0;  // by drivers of this sensor before the present one
   std::uint64_t tells_left_out_at = 1;
@@ -256,9 +256,9 @@ std::vector<std::string> SensorThread::takeNews() {
   return std::exchange(shared_->news, {});
 }
 
-SensorFigures SensorThread::figures() const {
+SensorMetrics SensorThread::figures() const {
   const std::lock_guard lock(shared_->mutex);
-  SensorFigures figures = shared_->figures;
+  SensorMetrics figures = shared_->figures;
   const auto since = Clock::now() - kRateWindow;
   const auto newest =
       std::count_if(shared_->arrived.begin(), shared_->arrived.end(), [&](const auto& when) { return when > since; });

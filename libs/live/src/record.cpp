@@ -38,7 +38,7 @@ Recorded record(const LiveOptions& options, const base::Config& config, const st
     source.takeDropped();
     progress.reportState(source.sensorsText() +
                          formatted("; %.0f s, %.1f MB", elapsed(),
-                                   static_cast<double>(source.recorder()->figures().bytes_on_disk) / kMegabyte));
+                                   static_cast<double>(source.recorder()->statistics().bytes_on_disk) / kMegabyte));
   }
   Recorded recorded;
   recorded.seconds = elapsed();
@@ -50,7 +50,7 @@ Recorded record(const LiveOptions& options, const base::Config& config, const st
     recorded.sensors[i].left_out = at_end[i].left_out;
   }
   recorded.counts = source.counts();
-  recorded.figures = source.recorder()->figures();
+  recorded.statistics = source.recorder()->statistics();
   for (const auto& file : source.recorder()->files()) recorded.files.push_back(folder + "/" + file);
   recorded.failure = source.recorder()->failure();
   return recorded;
@@ -62,7 +62,7 @@ std::vector<std::string> troublesOf(const Recorded& recorded) {
     std::string trouble;
     if (sensor.observations == 0) {
       trouble = "sent nothing that can be used";
-    } else if (sensor.state != SensorFigures::State::working) {
+    } else if (sensor.state != SensorMetrics::State::working) {
       trouble = "is " + toString(sensor.state);
     } else {
       continue;
@@ -84,18 +84,19 @@ std::string toText(const Recorded& recorded) {
                   toString(sensor.state).c_str());
     text += line;
   }
-  const auto& figures = recorded.figures;
+  const auto& statistics = recorded.statistics;
   const auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / kMegabyte; };
   char line[256];
-  std::snprintf(
-      line, sizeof line, "recorded          %llu of %llu observations in %.1f s: %.1f MB, on the disk %.1f MB\n",
-      static_cast<unsigned long long>(figures.observations), static_cast<unsigned long long>(recorded.counts.arrived),
-      recorded.seconds, megabytes(figures.bytes), megabytes(figures.bytes_on_disk));
+  std::snprintf(line, sizeof line,
+                "recorded          %llu of %llu observations in %.1f s: %.1f MB, on the disk %.1f MB\n",
+                static_cast<unsigned long long>(statistics.observations),
+                static_cast<unsigned long long>(recorded.counts.arrived), recorded.seconds, megabytes(statistics.bytes),
+                megabytes(statistics.bytes_on_disk));
   text += line;
-  if (figures.seconds > 0)
-    text +=
-        formatted("write speed       %.0f MB/s (sensors sent %.1f MB/s)\n", megabytes(figures.bytes) / figures.seconds,
-                  recorded.seconds > 0 ? megabytes(figures.bytes) / recorded.seconds : 0.0);
+  if (statistics.seconds > 0)
+    text += formatted("write speed       %.0f MB/s (sensors sent %.1f MB/s)\n",
+                      megabytes(statistics.bytes) / statistics.seconds,
+                      recorded.seconds > 0 ? megabytes(statistics.bytes) / recorded.seconds : 0.0);
   for (const auto& file : recorded.files) text += "rawlog            " + file + "\n";
   return text;
 }

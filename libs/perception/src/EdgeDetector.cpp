@@ -7,8 +7,8 @@
 
 #include "DepthSensor.h"
 #include "edges/Canny.h"
-#include "edges/Creases.h"
-#include "edges/Jumps.h"
+#include "edges/CurvatureEdges.h"
+#include "edges/DepthDiscontinuities.h"
 
 namespace omnimapper::perception {
 
@@ -19,7 +19,7 @@ const base::OptionTable<EdgeOptions>& EdgeOptions::table() {
           .flag("jumps", &EdgeOptions::jumps, "Look for occluding, occluded and boundary edges.")
           .number("jump_sigmas", &EdgeOptions::jump_sigmas, Range::positive(),
                   "Least jump in depth of an occluding edge, in standard deviations of a difference of two pixels.")
-          .number("jump_share", &EdgeOptions::jump_share, {0, 1}, "The same, in parts of the depth.")
+          .number("relative_jump", &EdgeOptions::relative_jump, {0, 1}, "The same, in parts of the depth.")
           .integer("max_hole_px", &EdgeOptions::max_hole, {0, 4096},
                    "Holes in the data up to so wide are bridged; beside wider ones are boundary edges.")
           .flag("high_curvature", &EdgeOptions::high_curvature, "Look for edges where the surface turns.")
@@ -91,8 +91,8 @@ EdgeImage geometricEdges(const planes::InverseDepth& inverse, const DepthImage& 
   if (options.jumps) {
     const double of_difference = std::sqrt(2 * options.noise().pixelVariance());
     edges::markJumps(inverse,
-                     {static_cast<float>(options.jump_sigmas * of_difference), static_cast<float>(options.jump_share),
-                      options.max_hole},
+                     {static_cast<float>(options.jump_sigmas * of_difference),
+                      static_cast<float>(options.relative_jump), options.max_hole},
                      edges.labels.data());
   }
   if (options.high_curvature && !edges.labels.empty()) markHighCurvature(inverse, image, options, edges);

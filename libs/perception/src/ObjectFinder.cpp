@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "DepthSensor.h"
+#include "objects/NonPlanarPoints.h"
 #include "objects/OrientedBox.h"
-#include "objects/Remainders.h"
 #include "objects/Surfaces.h"
 
 namespace omnimapper::perception {
@@ -24,8 +24,10 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
       base::OptionTable<Options>()
           .choice<Options::Comparator>(
               "comparator", &Options::comparator,
-              {{"euclidean", Options::Comparator::euclidean}, {"convex", Options::Comparator::convex}},
-              "Neighbours are of one thing if they are near one another; convex: and no furrow is between them.")
+              {{"euclidean", Options::Comparator::euclidean}, {"locally_convex", Options::Comparator::locally_convex}},
+              "Neighbouring surface patches belong to one object if they are near each other; locally_convex: and if "
+              "the "
+              "boundary between them is not concave.")
           .number("min_surface_area_m2", &Options::min_surface_area, Range::positive(),
                   "Planes as large belong to the place, smaller ones to the things in it.")
           .number("max_tilt_deg", &Options::max_tilt, {0, 180},

@@ -21,7 +21,7 @@ std::vector<Eigen::VectorXd> valuesOf(const map::Landmark& landmark, const graph
 // Of the plane or wall that a factor of its own binds the landmark to, on the side of `towards`.
 std::optional<Eigen::Vector3d> normalOfSurface(const map::Landmark& landmark, const graph::Graph& graph,
                                                const Eigen::Vector3d& towards) {
-  constexpr double kFacing = 0.3;  // cosine of the angle within which a surface is that which is meant
+  constexpr double kFacing = 0.3;  // smallest cosine between the surface's normal and `towards`
   if (landmark.variables.size() != 1 || !graph.contains(landmark.variables.front())) return std::nullopt;
   for (const auto factor : graph.factorsOf(landmark.variables.front())) {
     const auto& record = graph.factor(factor);

@@ -1,7 +1,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
-#include <omnimapper/graph/GrownMarginals.h>
+#include <omnimapper/graph/MarginalExtrapolation.h>
 #include <omnimapper/plugin/Uncertainty.h>
 
 #include <Eigen/LU>

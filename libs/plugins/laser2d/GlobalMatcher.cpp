@@ -118,7 +118,7 @@ bool GlobalMatcher::fitsAllTheWay(const Found& found, const mapper::State& state
     decision.reason = "what was seen on the way there does not fit";
     return false;
   }
-  if (travel < options_.join_way) {
+  if (travel < options_.join_travel) {
     decision.reason = "so much is alike that it waits for a longer way that fits";
     return false;
   }

@@ -73,7 +73,7 @@ bool GlobalRelocalization::isLost(const mapper::State& state, mapper::Decision& 
   const double uncertainty =
       kSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));  // [m] of either axis
   decision.numbers.emplace_back("may be off by [m]", uncertainty);
-  return uncertainty > options_.max_window || way_ > options_.lost_way;
+  return uncertainty > options_.max_window || way_ > options_.lost_travel;
 }
 
 }  // namespace omnimapper::plugins

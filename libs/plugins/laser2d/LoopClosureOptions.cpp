@@ -9,14 +9,14 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
           .list("labels", &Options::labels, "Labels of the clouds to match; empty for all made from 2D scans.")
           .number("radius_m", &Options::radius, base::Range::positive(),
                   "Places so far from where the base may be are tried.")
-          .number("min_way_m", &Options::min_way, base::Range::positive(),
+          .number("min_travel_m", &Options::min_travel, base::Range::positive(),
                   "Places left less than this way ago are no loop.")
           .number(
               "spacing_m", &Options::spacing, base::Range::notNegative(),
               "Way between the key frames that search: closures side by side tell the same, and make solves dearer.")
           .integer("candidates", &Options::candidates, base::Range{1, 1000}, "Places tried per key frame.")
           .number(
-              "context_m", &Options::context, base::Range::positive(),
+              "submap_length_m", &Options::context, base::Range::positive(),
               "Way before a key frame whose scans are sought together, in a local map of twice that before and after "
               "a place; both are longer by as much as the estimate may be off.")
           .number("max_window_m", &Options::max_window, base::Range::positive(),
@@ -24,11 +24,11 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
           .number("max_window_deg", &Options::max_window_angle, base::Range{0, 180},
                   "However uncertain the estimate is, a heading is sought no farther from it.")
           .number(
-              "lost_way_m", &Options::lost_way, base::Range::notNegative(),
+              "lost_travel_m", &Options::lost_travel, base::Range::notNegative(),
               "Without a closure on this way the last metres are sought in all that was seen before, as far as what "
               "is seen does not fit the map there; a session that continues a map and was not joined, in all of "
               "that, at once if its start is vaguer than the windows.")
-          .number("join_way_m", &Options::join_way, base::Range::notNegative(),
+          .number("join_travel_m", &Options::join_travel, base::Range::notNegative(),
                   "Where much of the map is alike, what was seen on this way must fit where such a search finds it.")
           .number("known_sigma_m", &Options::known_sigma, base::Range::notNegative(),
                   "Where the estimate is as good as this and the next, no closure is sought: it would tell little.")

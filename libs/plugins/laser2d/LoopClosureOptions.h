@@ -10,14 +10,14 @@ namespace omnimapper::plugins {
 struct LoopClosureOptions {
   std::vector<std::string> labels;  ///< of the clouds; empty: every cloud made from a 2D scan
   double radius = 4.0;              ///< [m]
-  double min_way = 8.0;             ///< [m]
+  double min_travel = 8.0;          ///< [m]
   double spacing = 1.5;             ///< [m]
   int candidates = 2;
   double context = 2.0;                                                   ///< [m]
   double max_window = 15.0;                                               ///< [m]
   double max_window_angle = 60.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double lost_way = 15.0;                                                 ///< [m]
-  double join_way = 15.0;                                                 ///< [m]
+  double lost_travel = 15.0;                                              ///< [m]
+  double join_travel = 15.0;                                              ///< [m]
   double known_sigma = 0.05;                                              ///< [m]
   double known_angle_sigma = 1.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double min_overlap = 0.75;

@@ -89,7 +89,7 @@ std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& 
     // How far the base was carried between sessions nobody knows: all of an earlier one counts as left long ago.
     const bool same_session = before.key_scan.frame.session == frame.id.session;
     way = before.key_scan.way +
-          (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_way);
+          (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_travel);
   }
   closures_.add(frame);
   const auto place = history.insert(after, {{frame.id, scan, way}, frame.stamp});
@@ -135,7 +135,7 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   if (context_.map_is_held || !state.map.sessions.back().joined) return;
   const double travel = history[index].key_scan.way;
   const auto tied = closures_.newestTied(state.graph);
-  if (travelSince(tied, history, index) < options_.lost_way) return;
+  if (travelSince(tied, history, index) < options_.lost_travel) return;
   const auto answered = std::max(tied, closures_.newestWithNote(state.graph, kGlobalClosure));
   const double since_answer = travelSince(answered, history, index);
   const double spacing = std::max({kSpacing, kShareOfLost * since_answer, kShareOfAll * travel});
@@ -146,7 +146,7 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   const bool on_new_ground = std::abs(travel - last.on_new_ground) >= rarely;
   if (on_new_ground) last.on_new_ground = travel;
   std::vector<LoopSearch::KeyScan> earlier;
-  for (std::size_t i = 0; i < index && travel - history[i].key_scan.way >= options_.min_way; ++i)
+  for (std::size_t i = 0; i < index && travel - history[i].key_scan.way >= options_.min_travel; ++i)
     earlier.push_back(history[i].key_scan);
   if (earlier.empty()) return;
   const bool has_grown = static_cast<double>(earlier.size()) > kGrown * static_cast<double>(last.size);
@@ -158,7 +158,7 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
     last.corrections = closures_.corrections();
   }
   global_searches_.emplace_back(options_, context_, matcher_, last.places, label,
-                                keyScans(history, index, options_.join_way + kSpacing, 0), std::move(earlier),
+                                keyScans(history, index, options_.join_travel + kSpacing, 0), std::move(earlier),
                                 on_new_ground);
 }
 
@@ -184,7 +184,7 @@ void LoopClosurePlugin::seekInMap(const std::string& label, const History& histo
   if (!is_first && way - last.way < std::max(kSpacing, kShareOfWay * (way - last.answered))) return;
   last.way = way;
   map_searches_.emplace_back(options_, context_, matcher_, places_, label,
-                             keyScans(history, index, options_.join_way + kSpacing, 0), way);
+                             keyScans(history, index, options_.join_travel + kSpacing, 0), way);
 }
 
 void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view) {
@@ -247,7 +247,7 @@ std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& vi
   if (histories_.empty()) return {};  // without scans it knows nothing of the map
   std::vector<std::string> labels;
   for (const auto& [label, history] : histories_) labels.push_back(label);
-  auto all = revisits(view, context_.section, labels, options_.min_way);
+  auto all = revisits(view, context_.section, labels, options_.min_travel);
   all.insert(all.begin(), scansThroughWalls(view.map, labels));
   for (auto& one : slips(view, context_.section, view.decisions)) all.push_back(std::move(one));
   return all;
@@ -280,7 +280,7 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
                                                              std::size_t index, const mapper::State& state) const {
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t i = 0; i < index; ++i) {
-    if (history[index].key_scan.way - history[i].key_scan.way < options_.min_way) break;
+    if (history[index].key_scan.way - history[i].key_scan.way < options_.min_travel) break;
     if (context_.map_is_held && history[i].key_scan.frame.session == frame.id.session) break;
     const auto& place = state.map.keyFrame(history[i].key_scan.frame).map_from_base;
     const double distance = (place.translation() - frame.map_from_base.translation()).norm();
@@ -294,7 +294,7 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
     const std::size_t i = candidate.second;
     // Neighbours along the path would only repeat it.
     const bool repeats = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
-      return std::abs(history[other].key_scan.way - history[i].key_scan.way) < options_.min_way;
+      return std::abs(history[other].key_scan.way - history[i].key_scan.way) < options_.min_travel;
     });
     if (repeats) continue;
     chosen.push_back(i);

@@ -59,11 +59,11 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
                   "After a longer time without a match the laser begins anew, and other sources tell the motion.")
           .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
                   "A prediction that is faster is not believed.")
-          .number("guess_sigma_m", &Options::guess_sigma, base::Range::positive(),
+          .number("prediction_sigma_m", &Options::prediction_sigma, base::Range::positive(),
                   "Standard deviation of a predicted position; counts where the walls leave a direction open.")
-          .number("guess_sigma_deg", &Options::guess_angle_sigma, base::Range::positive(),
+          .number("prediction_sigma_deg", &Options::guess_angle_sigma, base::Range::positive(),
                   "Standard deviation of a predicted heading.")
-          .number("guess_sigma_per_m", &Options::guess_sigma_per_m, zero_or_more,
+          .number("prediction_sigma_per_m", &Options::prediction_sigma_per_m, zero_or_more,
                   "Both grow by this share of the motion that is predicted.")
           .number("point_sigma_m", &Options::point_sigma, base::Range::positive(),
                   "Standard deviation of a point from the wall it lies on, at least; a match may find more.")
@@ -358,11 +358,11 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
       kMostAngle + kStampError * std::abs(velocity_.phi) + 0.5 * kMostTurnAcceleration * mrpt::square(seconds);
   const auto predicted = [&](const Predictor& predictor, double change, double turn_change) {
     const TPose2D& motion = *predictor.motion;
-    const double position =
-        std::hypot(options_.guess_sigma + options_.guess_sigma_per_m * std::hypot(motion.x, motion.y) + change,
-                   std::sqrt(predictor.position_error));
+    const double position = std::hypot(
+        options_.prediction_sigma + options_.prediction_sigma_per_m * std::hypot(motion.x, motion.y) + change,
+        std::sqrt(predictor.position_error));
     const double angle =
-        std::hypot(options_.guess_angle_sigma + options_.guess_sigma_per_m * std::abs(motion.phi) + turn_change,
+        std::hypot(options_.guess_angle_sigma + options_.prediction_sigma_per_m * std::abs(motion.phi) + turn_change,
                    std::sqrt(predictor.angle_error));
     const Eigen::Vector3d sigmas(position, position, angle);
     return matching::MotionPrediction{

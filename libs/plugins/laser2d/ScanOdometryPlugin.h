@@ -18,14 +18,14 @@
 namespace omnimapper::plugins {
 
 struct ScanOdometryOptions {
-  std::string label;           ///< of the laser; empty: the first that comes
-  std::string odometry_label;  ///< of the odometry that predicts; empty: the best of all
-  double sweep = 0;            ///< [s] from the first beam of a scan, when it is stamped, to the last
-  double max_gap = 1.0;        ///< [s] between scans that are matched
-  double max_speed = 10.0;     ///< [m/s] of a prediction
-  double guess_sigma = 0.01;   ///< [m]
+  std::string label;               ///< of the laser; empty: the first that comes
+  std::string odometry_label;      ///< of the odometry that predicts; empty: the best of all
+  double sweep = 0;                ///< [s] from the first beam of a scan, when it is stamped, to the last
+  double max_gap = 1.0;            ///< [s] between scans that are matched
+  double max_speed = 10.0;         ///< [m/s] of a prediction
+  double prediction_sigma = 0.01;  ///< [m]
   double guess_angle_sigma = 0.5 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double guess_sigma_per_m = 0.1;
+  double prediction_sigma_per_m = 0.1;
   double point_sigma = 0.02;                                                 ///< [m] at least
   double position_noise_per_root_m = 0.01;                                   ///< [m / sqrt(m)]
   double yaw_noise_per_root_m = 0.2 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(m)]

@@ -91,7 +91,7 @@ PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& kn
     const auto needed = sightingsToDraw(level.all()[i].plane, rough, view.map.key_frames.size());
     // That a laser saw it often tells that something is there, not how far it reaches: it counts as one view.
     constexpr std::size_t kOften = 8;
-    const std::size_t planes = payload.planeSightings(), lines = payload.sightings() - planes;
+    const std::size_t planes = payload.planeMeasurements(), lines = payload.sightings() - planes;
     payload.is_candidate = !payload.isAccepted() && (!needed || planes + (lines >= kOften ? 1 : 0) < *needed);
     payload.judgement = judgements[i];
   }

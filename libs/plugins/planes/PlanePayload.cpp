@@ -84,7 +84,7 @@ std::uint32_t PlanePayload::sightings() const {
   return sum;
 }
 
-std::uint32_t PlanePayload::planeSightings() const {
+std::uint32_t PlanePayload::planeMeasurements() const {
   std::uint32_t sum = 0;
   for (const auto& [label, seen] : seen_by) sum += seen.planes;
   return sum;
@@ -109,7 +109,7 @@ std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, c
   }
   SeenBy& seen = more->seen_by[sighting.sensor_label];
   ++(sighting.is_line ? seen.lines : seen.planes);
-  more->forgetDoubt();
+  more->forgetSearchUncertainty();
   more->last_seen_from = frame;
   return more;
 }
@@ -127,12 +127,12 @@ std::shared_ptr<const PlanePayload> PlanePayload::with(const PlanePayload& other
     both->judgement = other.judgement;
     both->is_candidate = false;
   }
-  both->forgetDoubt();
+  both->forgetSearchUncertainty();
   both->last_seen_from = std::max(last_seen_from, other.last_seen_from);
   return both;
 }
 
-void PlanePayload::forgetDoubt() {
+void PlanePayload::forgetSearchUncertainty() {
   if (isAccepted()) return;
   judgement.reset();
   is_candidate = false;

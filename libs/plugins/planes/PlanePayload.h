@@ -114,7 +114,7 @@ struct PlanePayload : map::LandmarkPayload {
   /// z of where people walk, in the map [m].
   double groundIn(const map::KeyFrames& key_frames) const;
   /// How often it was seen as a plane.
-  std::uint32_t planeSightings() const;
+  std::uint32_t planeMeasurements() const;
   /// With one more sighting; its outline only where that is news.
   std::shared_ptr<const PlanePayload> with(base::KeyFrameId frame, const struct PlaneMeasurement& sighting,
                                            const News& news) const;
@@ -126,7 +126,7 @@ struct PlanePayload : map::LandmarkPayload {
 
  private:
   // What was seen once more is judged anew at the next end, and drawn until then.
-  void forgetDoubt();
+  void forgetSearchUncertainty();
   // What is drawn of it [m, PlaneAxes of the plane of that value].
   geometry::Areas2 coveredOn(const Eigen::VectorXd& value, const map::KeyFrames& key_frames) const;
 

@@ -10,9 +10,9 @@
 #include <set>
 
 #include "PointLandmarkIndex.h"
+#include "PointMeasurement.h"
 #include "PointMerging.h"
 #include "PointPayload.h"
-#include "PointSighting.h"
 #include "RangeBearingFactor.h"
 
 IMPLEMENTS_MRPT_OBJECT(PointLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
@@ -55,7 +55,7 @@ class PointLandmarksPlugin::Moment {
     const auto measurements = pointMeasurements(observation, context_.motion, options_);
     std::vector<const PointMeasurement*> numbered, nameless;
     for (const auto& measured : measurements) {
-      if (measured.sighting) {
+      if (measured.constraint) {
         (measured.number < 0 ? nameless : numbered).push_back(&measured);
       } else {
         mapper::Decision decision = decisionOf(measured);
@@ -74,7 +74,7 @@ class PointLandmarksPlugin::Moment {
     std::vector<mapper::Pairing> pairings;
     for (std::size_t i = 0; i < measurements.size(); ++i) {
       const auto id = known_.ofNumber(measurements[i]->number);
-      if (id) pairings.push_back({i, *id, record(*measurements[i]->sighting, known_.variableOf(*id), *id)});
+      if (id) pairings.push_back({i, *id, record(*measurements[i]->constraint, known_.variableOf(*id), *id)});
     }
     mapper::AssociationOptions options = options_;
     options.method = mapper::AssociationOptions::Method::nearest;
@@ -101,10 +101,10 @@ class PointLandmarksPlugin::Moment {
     if (measurements.empty()) return;
     std::vector<mapper::Pairing> pairings;
     for (std::size_t i = 0; i < measurements.size(); ++i) {
-      const PointSighting& sighting = *measurements[i]->sighting;
+      const PointConstraint& constraint = *measurements[i]->constraint;
       for (const auto& [id, variable] : known_.all()) {
-        if (met_.count(id) == 0 && mayBe(sighting, variable))
-          pairings.push_back({i, id, record(sighting, variable, id)});
+        if (met_.count(id) == 0 && mayBe(constraint, variable))
+          pairings.push_back({i, id, record(constraint, variable, id)});
       }
     }
     const auto found = mapper::associate(measurements.size(), pairings, view_, options_, mapper::Repeats::no);
@@ -124,13 +124,13 @@ class PointLandmarksPlugin::Moment {
   }
 
   // Wide open: what is near enough is for the covariance to say.
-  bool mayBe(const PointSighting& sighting, base::VariableId variable) {
+  bool mayBe(const PointConstraint& constraint, base::VariableId variable) {
     constexpr double kNear = 0.5, kSigmas = 5;  // [m]
     const Eigen::VectorXd& there = view_.graph.value(variable);
-    Eigen::Vector3d way = map_from_base_ * sighting.point_in_base;
+    Eigen::Vector3d way = map_from_base_ * constraint.point_in_base;
     for (int i = 0; i < 3; ++i) way[i] = i < there.size() ? there[i] - way[i] : 0;
-    const double own = kNear + 2 * kSigmas * sighting.sigma;
-    return way.norm() <= own || way.norm() <= own + kSigmas * poseSigma(sighting.point_in_base.norm());
+    const double own = kNear + 2 * kSigmas * constraint.sigma;
+    return way.norm() <= own || way.norm() <= own + kSigmas * poseSigma(constraint.point_in_base.norm());
   }
 
   // Of a point so far from the base, by what is not known of the base [m].
@@ -145,8 +145,9 @@ class PointLandmarksPlugin::Moment {
     return std::sqrt(pose_variances_->first + range * range * pose_variances_->second);
   }
 
-  graph::FactorRecord record(const PointSighting& sighting, base::VariableId point, base::LandmarkId landmark) const {
-    graph::FactorRecord record{{frame_.pose, point}, sighting.factor, sighting.noise};
+  graph::FactorRecord record(const PointConstraint& constraint, base::VariableId point,
+                             base::LandmarkId landmark) const {
+    graph::FactorRecord record{{frame_.pose, point}, constraint.factor, constraint.noise};
     record.loss = graph::Loss::huber(options_.loss_scale);
     record.tags.owner = context_.section;
     record.tags.landmark = landmark;
@@ -170,7 +171,7 @@ class PointLandmarksPlugin::Moment {
     batch_.log(std::move(decision));
     batch_.addFactor(pairing.record);
     const auto& payload = dynamic_cast<const PointPayload&>(*view_.map.landmark(pairing.landmark).payload);
-    batch_.addEvidence(pairing.landmark, payload.with(label_, measured.sighting->point_in_base.z()));
+    batch_.addEvidence(pairing.landmark, payload.with(label_, measured.constraint->point_in_base.z()));
   }
 
   // It says of itself which it is, and it is not where that one is: it may have moved.
@@ -190,16 +191,16 @@ class PointLandmarksPlugin::Moment {
     decision.accepted = true;
     decision.reason = "new: " + decision.reason;
     batch_.log(std::move(decision));
-    const PointSighting& sighting = *measured.sighting;
-    const Eigen::Vector3d point = map_from_base_ * sighting.point_in_base;
+    const PointConstraint& constraint = *measured.constraint;
+    const Eigen::Vector3d point = map_from_base_ * constraint.point_in_base;
     const bool planar = context_.motion == mapper::Motion::planar;
     const auto variable =
         planar ? batch_.addVariable(graph::point2(), point.head<2>()) : batch_.addVariable(graph::point3(), point);
     PointPayload payload;
     payload.number = measured.number;
     const auto landmark = batch_.addLandmark(measured.number < 0 ? "point" : "marker", {variable},
-                                             payload.with(label_, sighting.point_in_base.z()));
-    batch_.addFactor(record(sighting, variable, landmark));
+                                             payload.with(label_, constraint.point_in_base.z()));
+    batch_.addFactor(record(constraint, variable, landmark));
   }
 
   const PointLandmarksOptions& options_;

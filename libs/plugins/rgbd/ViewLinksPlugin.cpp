@@ -120,10 +120,11 @@ mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const CObserv
       batch.addFactor(std::move(factor));
       continue;
     }
-    mapper::Decision decision{frame.stamp,       context_.section,
-                              "view seen again", frame.id,
-                              link.to->frame,    true,
-                              "the images fit",  {{"overlap", link.match.overlap}, {"surprise", link.match.surprise}}};
+    mapper::Decision decision{
+        frame.stamp,       context_.section,
+        "view seen again", frame.id,
+        link.to->frame,    true,
+        "the images fit",  {{"overlap", link.match.overlap}, {"outlier_share", link.match.outlier_share}}};
     decision.is_loop_closure = link.is_return;
     batch.addHypothesis(std::move(factor), std::move(decision));
   }
@@ -150,9 +151,9 @@ std::optional<ViewLinksPlugin::Link> ViewLinksPlugin::linkTo(const Seen& to, con
                                                              const matching::RgbdPyramid& pyramid,
                                                              const matching::CameraMotion& motion,
                                                              const mapper::State& state) const {
-  constexpr double kSurprise = 0.1;
+  constexpr double kOutlierShare = 0.1;
   auto match = matcher_.match(*to.reference, pyramid, {between(to, image, state)}, motion);
-  if (!match.succeeded || match.surprise > kSurprise) return std::nullopt;
+  if (!match.succeeded || match.outlier_share > kOutlierShare) return std::nullopt;
   return Link{&to, std::move(match)};
 }
 

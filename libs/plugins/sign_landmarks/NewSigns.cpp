@@ -65,7 +65,7 @@ void addUnplacedSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets,
   std::vector<SignPlace> there;
   for (const auto& [id, known] : tracks.known())
     there.push_back({signOf(view, id).text(), view.graph.value(known.variable)});
-  for (auto views : tracks.unplacedViews(options.recent_way)) {
+  for (auto views : tracks.unplacedViews(options.recent_travel)) {
     // The last view is one of those that meet: where it does not, the one before it may.
     while (views.size() >= kMinViews) {
       const auto offset_variable = offsets.find(views.back().label, batch);

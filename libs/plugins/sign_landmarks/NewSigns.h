@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "SignLandmarksPlugin.h"
-#include "SignSighting.h"
+#include "SignMeasurement.h"
 #include "SignTracks.h"
 #include "Triangulation.h"
 
@@ -21,8 +21,8 @@ graph::FactorRecord ofLandmark(graph::FactorRecord record, base::LandmarkId land
 void addSign(const std::vector<SignView>& views, const Triangulation& place, mapper::PanTiltOffsets& offsets,
              const SignLandmarksOptions& options, const std::string& section, mapper::Batch& batch);
 
-/// At the end of a log: signs whose directions never met well enough to be of use on the way. They are in the map as
-/// well as they are known, if no sign is there already that says the same.
+/// At the end of a log: signs that were given up while it was mapped, because their latest direction never met enough
+/// others. Each is added where most of its directions meet, unless a sign that says the same is there already.
 void addUnplacedSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets, const SignLandmarksOptions& options,
                       const std::string& section, const mapper::View& view, mapper::Batch& batch);
 

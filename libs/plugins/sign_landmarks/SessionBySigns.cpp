@@ -19,8 +19,9 @@ namespace {
 // The one sign of the earlier sessions that says this; none if there is none, or several.
 std::optional<base::LandmarkId> oneWith(const SignText& text, const SignTracks& tracks, const mapper::View& view) {
   std::optional<base::LandmarkId> found;
+  const auto first = view.map.sessions.front().number;
   for (const auto& [id, known] : tracks.known()) {
-    if (id.session == view.map.sessions.back().number) continue;
+    if (id.session == view.map.sessions.back().number || !view.areJoined(id.session, first)) continue;
     const SignPayload& sign = signOf(view, id);
     if (agreementOf(text, sign.text()) != Agreement::agrees) continue;
     if (found || sign.is_repeated) return std::nullopt;
@@ -29,35 +30,47 @@ std::optional<base::LandmarkId> oneWith(const SignText& text, const SignTracks& 
   return found;
 }
 
-std::optional<SeenKnownSign> seenKnown(const SignSighting& sighting, base::LandmarkId sign, const map::KeyFrame& frame,
-                                       const SignTracks& tracks, const mapper::View& view, double sigma) {
-  const Vector3d place = view.graph.value(tracks.known().at(sign).variable);
-  const auto normal = mapper::shapeOf(view.map.landmark(sign), view).normal;
-  if (!normal) return std::nullopt;
-  const double own = std::max(sighting.sigma_left, sighting.sigma_down);
-  return SeenKnownSign{
-      sign.index,    isOfOneSign(sighting.text), place, *normal, geometry::fromMrpt(frame.map_from_base),
-      sighting.seen, std::hypot(own, sigma)};
+// [m] 0 of a sign that is held.
+double sigmaOf(base::VariableId variable, const mapper::View& view) {
+  const auto covariance = view.jointCovariance({variable});
+  return covariance && covariance->allFinite() ? std::sqrt(covariance->diagonal().maxCoeff()) : 0;
 }
 
-// Before the sign, as far as signs are read from.
+// None of a sign that is poorly known.
+std::optional<SeenKnownSign> seenKnown(const SignMeasurement& measurement, base::LandmarkId sign,
+                                       const map::KeyFrame& frame, const SignTracks& tracks, const mapper::View& view,
+                                       const KnownOffsets& offsets) {
+  constexpr double kPoorly = 0.5;  // [m]
+  const auto variable = tracks.known().at(sign).variable;
+  const auto normal = mapper::shapeOf(view.map.landmark(sign), view).normal;
+  const double sign_sigma = sigmaOf(variable, view);
+  if (!normal || !(sign_sigma < kPoorly)) return std::nullopt;
+  const double own = std::max(measurement.sigma_left, measurement.sigma_down);
+  const Vector3d direction = turnedBy(offsets.pan_tilt, measurement.tilt_axis, measurement.seen.direction());
+  return SeenKnownSign{sign,
+                       isOfOneSign(measurement.text),
+                       view.graph.value(variable),
+                       *normal,
+                       geometry::fromMrpt(frame.map_from_base),
+                       SeenDirection(measurement.seen.camera(), direction),
+                       std::hypot(own, std::hypot(offsets.sigma, sign_sigma / kReadingDistance))};
+}
+
+// Before the sign, as far as signs are read from. How the base is tilted stays.
 mapper::SessionPlace guessBefore(const SeenKnownSign& seen, const map::KeyFrame& frame) {
   constexpr double kPositionSigma = 2, kAngleSigma = 0.7;  // [m] [rad]
-  return {frame.id, {geometry::toMrpt(baseBefore(seen, kReadingDistance)), kPositionSigma, kAngleSigma}};
+  const auto before = baseBefore(seen, kReadingDistance);
+  const Vector3d ahead = before.rotation * Vector3d::UnitX(), now = seen.session_from_base.rotation * Vector3d::UnitX();
+  const double turn = std::atan2(ahead.y(), ahead.x()) - std::atan2(now.y(), now.x());
+  const Eigen::Quaterniond rotation = Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * seen.session_from_base.rotation;
+  return {frame.id, {geometry::toMrpt(geometry::Se3{rotation, before.translation}), kPositionSigma, kAngleSigma}};
 }
 
 }  // namespace
 
 void SessionBySigns::learnState(const map::KeyFrame& frame, const SignTracks& tracks, const mapper::View& view,
                                 double recent_travel) {
-  constexpr double kLost = 3;  // [m]
-  if (view.map.sessions.back().joined) {
-    is_known_whether_lost_ = true;
-    is_lost_ = false;
-    placed_at_.reset();
-    seen_.clear();
-    return;
-  }
+  constexpr double kLost = 3;                                            // [m]
   if (placed_at_ && tracks.travelled() - *placed_at_ > recent_travel) {  // nothing tied it to the map there
     placed_at_.reset();
     is_lost_ = true;
@@ -69,49 +82,65 @@ void SessionBySigns::learnState(const map::KeyFrame& frame, const SignTracks& tr
   is_lost_ = std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1))) >= kLost;
 }
 
-std::optional<mapper::SessionPlace> SessionBySigns::fit(const map::KeyFrame& frame, const SignTracks& tracks,
-                                                        const mapper::View& view, double sigma) const {
-  std::vector<SeenKnownSign> sightings;
-  for (const auto& seen : seen_) {
-    if (tracks.known().count(seen.sign) == 0 || !view.map.key_frames.find(seen.frame)) continue;
-    const auto known = seenKnown(seen.sighting, seen.sign, view.map.keyFrame(seen.frame), tracks, view, sigma);
-    if (known) sightings.push_back(*known);
-  }
-  const auto fit = resection(sightings);
-  if (!fit) return std::nullopt;
-  return mapper::SessionPlace{frame.id,
-                              {geometry::toMrpt(fit->map_from_session * geometry::fromMrpt(frame.map_from_base)),
-                               fit->position_sigma, fit->angle_sigma}};
+// What is read of a sign from one spot is one measurement, and no sign takes the room of the others.
+void SessionBySigns::remember(const map::KeyFrame& frame, const SeenKnownSign& known, double travelled,
+                              double recent_travel) {
+  constexpr double kSpot = 0.2;  // [m]
+  constexpr std::ptrdiff_t kMostOfOne = 5;
+  const auto isOld = [&](const Seen& seen) { return travelled - seen.travelled > recent_travel; };
+  seen_.erase(std::remove_if(seen_.begin(), seen_.end(), isOld), seen_.end());
+  const auto isSame = [&](const Seen& seen) { return seen.known.sign == known.sign; };
+  const auto last = std::find_if(seen_.rbegin(), seen_.rend(), isSame);
+  if (last != seen_.rend() && travelled - last->travelled < kSpot) return;
+  if (std::count_if(seen_.begin(), seen_.end(), isSame) >= kMostOfOne)
+    seen_.erase(std::find_if(seen_.begin(), seen_.end(), isSame));
+  constexpr std::size_t kMost = 30;
+  if (seen_.size() >= kMost) seen_.pop_front();
+  seen_.push_back({frame.id, known, travelled});
 }
 
-std::optional<SessionBySigns::Placement> SessionBySigns::take(const std::vector<SignSighting>& sightings,
+std::optional<SessionFit> SessionBySigns::fit(const mapper::View& view) const {
+  std::vector<SeenKnownSign> measurements;
+  for (const auto& seen : seen_) {
+    const auto* frame = view.map.key_frames.find(seen.frame);
+    if (!frame) continue;
+    measurements.push_back(seen.known);
+    measurements.back().session_from_base = geometry::fromMrpt(frame->map_from_base);
+  }
+  return resection(measurements);
+}
+
+std::optional<SessionBySigns::Placement> SessionBySigns::take(const std::vector<SignMeasurement>& measurements,
                                                               const map::KeyFrame& frame, const SignTracks& tracks,
-                                                              const mapper::View& view, double sigma,
+                                                              const mapper::View& view, const KnownOffsets& offsets,
                                                               double recent_travel) {
-  constexpr std::size_t kMost = 20;
   learnState(frame, tracks, view, recent_travel);
   if (!is_lost_) return std::nullopt;
-  std::optional<SeenKnownSign> newest;
-  for (const auto& sighting : sightings) {
-    const auto sign = oneWith(sighting.text, tracks, view);
+  bool has_known = false;
+  std::optional<SeenKnownSign> numbered;
+  for (const auto& measurement : measurements) {
+    const auto sign = oneWith(measurement.text, tracks, view);
     if (!sign) continue;
-    const auto known = seenKnown(sighting, *sign, frame, tracks, view, sigma);
+    const auto known = seenKnown(measurement, *sign, frame, tracks, view, offsets);
     if (!known) continue;
-    if (known->is_numbered) newest = known;
-    seen_.push_back({frame.id, sighting, *sign, tracks.travelled()});
+    has_known = true;
+    if (known->is_numbered) numbered = known;
+    remember(frame, *known, tracks.travelled(), recent_travel);
   }
-  while (!seen_.empty() && (seen_.size() > kMost || tracks.travelled() - seen_.front().travelled > recent_travel))
-    seen_.pop_front();
-  if (const auto place = fit(frame, tracks, view, sigma)) {
+  if (!has_known) return std::nullopt;
+  if (const auto found = fit(view)) {
     is_lost_ = false;
     is_guessed_ = true;
     placed_at_ = tracks.travelled();
+    const std::string reason = std::to_string(found->fitting) + " of " + std::to_string(seen_.size()) +
+                               " measurements of signs fit one place of the map: the session is moved there";
     seen_.clear();
-    return Placement{*place, true, "signs are seen as from one place of the map: the session is moved there"};
+    const auto pose = geometry::toMrpt(found->map_from_session * geometry::fromMrpt(frame.map_from_base));
+    return Placement{{frame.id, {pose, found->position_sigma, found->angle_sigma}}, true, reason};
   }
-  if (is_guessed_ || !newest) return std::nullopt;
+  if (is_guessed_ || !numbered) return std::nullopt;
   is_guessed_ = true;
-  return Placement{guessBefore(*newest, frame), false,
+  return Placement{guessBefore(*numbered, frame), false,
                    "a sign is read that the map has once: the session is moved before it, and waits for others that "
                    "agree"};
 }

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "SignSighting.h"
+#include "SignMeasurement.h"
+#include "SignResection.h"
 #include "SignTracks.h"
 #include "Triangulation.h"
 
@@ -24,26 +25,27 @@ class SessionBySigns {
     std::string reason;
   };
 
-  /// Learns what is seen at a key frame. `sigma` [rad]: of directions, offsets of the camera included. Gives where the
-  /// session is once that is known, or guessed for the first time.
-  std::optional<Placement> take(const std::vector<SignSighting>& sightings, const map::KeyFrame& frame,
-                                const SignTracks& tracks, const mapper::View& view, double sigma, double recent_travel);
+  /// Learns what is seen at a key frame of the newest session, which may be moved (whyFixed()). `offsets`: what is
+  /// known of the pan-tilt offsets of the camera. Gives where the session is once that is known, or guessed for the
+  /// first time.
+  std::optional<Placement> take(const std::vector<SignMeasurement>& measurements, const map::KeyFrame& frame,
+                                const SignTracks& tracks, const mapper::View& view, const KnownOffsets& offsets,
+                                double recent_travel);
   /// Nobody knows where the session is: no sign of the map can be told from another by its place.
   bool isLost() const { return is_lost_; }
-  /// Sightings have told where it is, and what ties it to the map has not come yet.
+  /// Signs have shown where it is, and nothing ties it to the map yet.
   bool isPlaced() const { return placed_at_.has_value(); }
 
  private:
   struct Seen {
     base::KeyFrameId frame;
-    SignSighting sighting;
-    base::LandmarkId sign;
-    double travelled;  // [m]
+    SeenKnownSign known;  // but for where the base is in the session
+    double travelled;     // [m]
   };
 
   void learnState(const map::KeyFrame& frame, const SignTracks& tracks, const mapper::View& view, double recent_travel);
-  std::optional<mapper::SessionPlace> fit(const map::KeyFrame& frame, const SignTracks& tracks,
-                                          const mapper::View& view, double sigma) const;
+  void remember(const map::KeyFrame& frame, const SeenKnownSign& known, double travelled, double recent_travel);
+  std::optional<SessionFit> fit(const mapper::View& view) const;
 
   bool is_known_whether_lost_ = false, is_lost_ = false, is_guessed_ = false;
   std::optional<double> placed_at_;  // [m] of the distance travelled

@@ -66,7 +66,7 @@ class Proposals {
       if (other == id || agreementOf(text, signOf(view_, other).text()) != Agreement::agrees) continue;
       is_repeated = is_repeated || signOf(view_, other).is_repeated;
       if (id < other) continue;
-      if (tracks_.isRecent(known, options_.recent_way) && view_.areJoined(id.session, other.session)) {
+      if (tracks_.isRecent(known, options_.recent_travel) && view_.areJoined(id.session, other.session)) {
         // Seen on one stretch of the way, and they are two.
         const bool is_far = (view_.graph.value(own.variable) - view_.graph.value(known.variable)).norm() > kOfOneSign;
         if (is_far) repeated_.insert(other);

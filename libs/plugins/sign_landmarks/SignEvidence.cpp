@@ -58,8 +58,9 @@ std::size_t elsewhereAmong(const std::map<std::string, std::vector<Eigen::Vector
 
 std::vector<mapper::Evidence> signEvidence(const mapper::View& view, const std::string& section, double recent_travel) {
   using Says = mapper::Evidence::Says;
-  constexpr double kEnough = 25;                  // [%]
-  constexpr std::size_t kSome = 2, kOfThree = 3;  // in maps that are right none of some 15 stands elsewhere
+  constexpr double kEnough = 25;  // [%]
+  // One number elsewhere for three at the same place counts against the map; correct maps had 0 for about 15.
+  constexpr std::size_t kSome = 2, kPerElsewhere = 3;
   const Travel travel(view.map.key_frames);
   std::map<std::string, std::vector<Eigen::Vector3d>> places;  // of active signs, by number
   Visits visits;
@@ -76,7 +77,7 @@ std::vector<mapper::Evidence> signEvidence(const mapper::View& view, const std::
   const std::size_t elsewhere = elsewhereAmong(places);
   if (visits.empty() && elsewhere < kSome) return {};
   char text[220] = "";
-  if (elsewhere >= kSome && kOfThree * elsewhere > visits.size()) {
+  if (elsewhere >= kSome && kPerElsewhere * elsewhere > visits.size()) {
     std::snprintf(text, sizeof text,
                   "of the numbers on signs that were read again %zu stand at another place than before and %zu at the "
                   "same: the map is bent, or doors have one number",

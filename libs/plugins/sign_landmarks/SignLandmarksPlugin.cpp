@@ -14,8 +14,8 @@
 #include "SignBearingFactor.h"
 #include "SignClosures.h"
 #include "SignEvidence.h"
+#include "SignMeasurement.h"
 #include "SignPayload.h"
-#include "SignSighting.h"
 #include "SignTracks.h"
 #include "Triangulation.h"
 
@@ -47,7 +47,7 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
                 "run and are estimated; 0: there are none.")
             .number("max_sigma_m", &Options::max_sigma, Range{0.001, 100},
                     "Largest standard deviation of the position of a new sign; until then its directions wait.")
-            .number("recent_m", &Options::recent_way, Range::positive(),
+            .number("recent_m", &Options::recent_travel, Range::positive(),
                     "Distance travelled without a sighting after which a sign is matched only through a loop closure "
                     "hypothesis.")
             .number("same_sigma_m", &Options::same_sigma, Range{0.001, 10},
@@ -90,7 +90,7 @@ class SignLandmarksPlugin::Work {
 
   mapper::Batch take(const CObservationDoorSigns& observation) {
     label_ = observation.source_label;
-    const auto sightings = signSightings(observation, optionsHere());
+    const auto sightings = signMeasurements(observation, optionsHere());
     if (sightings.empty()) return {};
     findOffsets();
     if (placeSession(sightings)) return std::move(batch_);
@@ -149,14 +149,17 @@ class SignLandmarksPlugin::Work {
     const bool is_own = id.session == frame_.id.session;
     if (session_.isPlaced()) return !is_own;
     if (view_.map_is_held) return !session_.isLost();
-    return (is_own || !session_.isLost()) && tracks_.isRecent(known, options_.recent_way);
+    return (is_own || !session_.isLost()) && tracks_.isRecent(known, options_.recent_travel);
   }
 
   // Whether it was known well enough: what was seen is then looked at from the new place, the next time.
-  bool placeSession(const std::vector<SignSighting>& sightings) {
-    const double sigma = std::max(known_offsets_.sigma, view_.map_is_held ? options_.pan_tilt_offset_sigma : 0);
-    const auto placement = session_.take(sightings, frame_, tracks_, view_, sigma, options_.recent_way);
-    if (!placement || !whyFixed(placement->place, view_.graph, view_.map).empty()) return false;
+  bool placeSession(const std::vector<SignMeasurement>& sightings) {
+    if (!mapper::whyFixed({frame_.id, {}}, view_.graph, view_.map).empty()) {
+      session_ = SessionBySigns();  // something ties it to the map; should that be taken back, it is sought anew
+      return false;
+    }
+    const auto placement = session_.take(sightings, frame_, tracks_, view_, known_offsets_, options_.recent_travel);
+    if (!placement) return false;
     batch_.placeSession(placement->place);
     batch_.log(placementDecision(context_.section, frame_, placement->is_sure, placement->reason));
     return placement->is_sure;
@@ -164,7 +167,7 @@ class SignLandmarksPlugin::Work {
 
   bool areOffsetsInGraph() const { return !offset_variable_ || !mapper::Batch::isProvisional(*offset_variable_); }
 
-  graph::FactorRecord record(const SignSighting& sighting, base::VariableId point, base::LandmarkId landmark) const {
+  graph::FactorRecord record(const SignMeasurement& sighting, base::VariableId point, base::LandmarkId landmark) const {
     return ofLandmark(sighting.directionRecord(frame_.pose, point, offset_variable_, options_), landmark,
                       context_.section);
   }
@@ -178,13 +181,13 @@ class SignLandmarksPlugin::Work {
     return decision;
   }
 
-  static bool isOneOfSeveral(const std::vector<SignSighting>& sightings, std::size_t which) {
+  static bool isOneOfSeveral(const std::vector<SignMeasurement>& sightings, std::size_t which) {
     for (std::size_t i = 0; i < sightings.size(); ++i)
       if (i != which && agreementOf(sightings[i].text, sightings[which].text) == Agreement::agrees) return true;
     return false;
   }
 
-  void addToKnown(const SignSighting& sighting, const mapper::Pairing& pairing, mapper::Decision decision) {
+  void addToKnown(const SignMeasurement& sighting, const mapper::Pairing& pairing, mapper::Decision decision) {
     tracks_.seen(pairing.landmark);
     if (landmarks::addInterSessionHypothesis(view_, frame_.id, pairing, decision, batch_)) return;
     batch_.log(std::move(decision));
@@ -197,10 +200,10 @@ class SignLandmarksPlugin::Work {
   }
 
   // A sign that is not in the map: it is added once enough directions meet.
-  void wait(const SignSighting& sighting, mapper::Decision decision) {
+  void wait(const SignMeasurement& sighting, mapper::Decision decision) {
     constexpr std::size_t kMinViews = 3;  // of two directions nothing would show that one is wrong
     const auto& views = tracks_.waitingWith(
-        {frame_.id, frame_.stamp, frame_.pose, label_, sighting, tracks_.travelled()}, options_.recent_way);
+        {frame_.id, frame_.stamp, frame_.pose, label_, sighting, tracks_.travelled()}, options_.recent_travel);
     const auto place = triangulate(views, view_.graph, known_offsets_, options_.max_sigma, kMinViews);
     decision.numbers.emplace_back("directions", static_cast<double>(views.size()));
     if (!place) {
@@ -243,7 +246,7 @@ bool SignLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) cons
 
 mapper::Batch SignLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                            const mapper::View& view) {
-  tracks_->goTo(frame, view, options_.recent_way);
+  tracks_->goTo(frame, view, options_.recent_travel);
   return Work(options_, context_, *tracks_, offsets_, *session_, frame, view)
       .take(dynamic_cast<const CObservationDoorSigns&>(observed.observation));
 }
@@ -268,7 +271,8 @@ mapper::Batch SignLandmarksPlugin::atEnd(const mapper::View& view) {
 }
 
 std::vector<mapper::Evidence> SignLandmarksPlugin::evidence(const mapper::View& view) const {
-  return view.map_is_held ? std::vector<mapper::Evidence>() : signEvidence(view, context_.section, options_.recent_way);
+  return view.map_is_held ? std::vector<mapper::Evidence>()
+                          : signEvidence(view, context_.section, options_.recent_travel);
 }
 
 void SignLandmarksPlugin::restore(const map::MapSection*, const mapper::View& view) {

@@ -19,9 +19,9 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
   double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;   ///< [rad] the same of its pitch
   double pan_tilt_offset_sigma = 3 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zeros
   double max_sigma = 2;                                                     ///< [m] of the place of a new sign
-  double recent_way = 10;    ///< [m] for so long a sign counts as seen just now
-  double same_sigma = 0.03;  ///< [m] of the middle of a sign, seen twice
-  double loss_scale = 2;     ///< [sigma] of the Cauchy loss
+  double recent_travel = 10;  ///< [m] for so long a sign counts as seen just now
+  double same_sigma = 0.03;   ///< [m] of the middle of a sign, seen twice
+  double loss_scale = 2;      ///< [sigma] of the Cauchy loss
 
   static const base::OptionTable<SignLandmarksOptions>& table();
 };
@@ -30,7 +30,7 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
 /// see them (obs::CObservationDoorSigns). A direction waits until three with the same text meet. Which sign a sighting
 /// is of is told by its text first and by where it is second.
 ///
-/// A sign that was not seen for `recent_way` is not met again at once: a new landmark is made where it is seen, and
+/// A sign that was not seen for `recent_travel` is not met again at once: a new landmark is made where it is seen, and
 /// that both are one is a hypothesis for the consistency test, which closes loops. A text that is seen at two places
 /// makes no such hypothesis. What turns out to be one is merged at the end.
 class SignLandmarksPlugin : public mapper::MeasurementPlugin {

@@ -42,18 +42,36 @@ Vector3d placeBefore(const SeenKnownSign& sighting, double distance) {
   return {shift.x(), shift.y(), yaw};
 }
 
+// Before each sign, as it was seen last, at several distances and from several sides: a side is known roughly, and two
+// signs seen on a short way fit more than one place.
+std::vector<Vector3d> startsOf(const std::vector<SeenKnownSign>& sightings) {
+  std::vector<Vector3d> starts;
+  std::set<base::LandmarkId> done;
+  for (auto seen = sightings.rbegin(); seen != sightings.rend(); ++seen) {
+    if (!done.insert(seen->sign).second) continue;
+    for (const double turn : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+      SeenKnownSign turned = *seen;
+      turned.normal = Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * seen->normal;
+      for (const double distance : {1.2, 2.5, 5.0}) starts.push_back(placeBefore(turned, distance));
+    }
+  }
+  return starts;
+}
+
 struct Descent {
-  Vector3d place;
-  Matrix3d information;
+  std::vector<Vector3d> places;  // on the way, the last is where it ended
+  Matrix3d information;          // there
 };
 
 // Gauss-Newton with a Cauchy loss, so that one sign that was moved does not count for much.
-Descent descended(const std::vector<SeenKnownSign>& sightings, Vector3d place) {
-  constexpr int kRounds = 20;
+Descent descended(const std::vector<SeenKnownSign>& sightings, const Vector3d& start) {
+  constexpr int kRounds = 30;
   constexpr double kStep = 1e-6, kDamping = 1e-3;
-  Matrix3d information = Matrix3d::Zero();
+  constexpr double kLongestStep = 2, kLargestTurn = 0.3;  // [m] [rad]
+  Descent descent{{start}, Matrix3d::Zero()};
   for (int round = 0; round < kRounds; ++round) {
-    information = kDamping * Matrix3d::Identity();
+    const Vector3d place = descent.places.back();
+    Matrix3d information = kDamping * Matrix3d::Identity();
     Vector3d gradient = Vector3d::Zero();
     for (const auto& sighting : sightings) {
       const Vector2d miss = missOf(sighting, place);
@@ -64,36 +82,50 @@ Descent descended(const std::vector<SeenKnownSign>& sightings, Vector3d place) {
       information += weight * jacobian.transpose() * jacobian;
       gradient += weight * jacobian.transpose() * miss;
     }
-    place -= information.ldlt().solve(gradient);
-    if (!place.allFinite()) return {Vector3d::Zero(), Matrix3d::Zero()};
+    Vector3d step = information.ldlt().solve(gradient);
+    step *= std::min({1.0, kLongestStep / step.head<2>().norm(), kLargestTurn / std::abs(step[2])});
+    if (!step.allFinite()) break;
+    descent.places.push_back(place - step);
+    descent.information = information;
   }
-  return {place, information};
+  return descent;
 }
 
 struct Candidate {
   Vector3d place;
-  Matrix3d information;
   Vector3d base;  // of the newest sighting, in the map
   std::size_t fitting = 0;
-  std::set<std::size_t> signs = {};
-  bool is_numbered = false;  // one of them at least
+  double chi2 = 0;  // of those that fit
+  std::set<base::LandmarkId> signs = {};
+  bool is_numbered = false;        // one of them at least
+  Eigen::AlignedBox3d bases = {};  // from which they are seen, in the session
+
+  bool isBetterThan(const Candidate& other) const {
+    return fitting != other.fitting ? fitting > other.fitting : chi2 < other.chi2;
+  }
+  // It is somewhere else and hardly less likely.
+  bool isRivalOf(const Candidate& best) const {
+    constexpr double kElsewhere = 1, kTurned = 0.3;  // [m] [rad]
+    constexpr double kLikely = 11.3;                 // chi-square of three unknowns, 99 %
+    const bool is_elsewhere = (base - best.base).norm() > kElsewhere ||
+                              std::abs(std::remainder(place[2] - best.place[2], 2 * M_PI)) > kTurned;
+    const bool fits_as_many = fitting >= best.fitting && chi2 < best.chi2 + kLikely;
+    return is_elsewhere && (fits_as_many || (fitting + 1 == best.fitting && chi2 < best.chi2));
+  }
 };
 
-Candidate candidateAt(const std::vector<SeenKnownSign>& sightings, const Descent& descent) {
-  Candidate candidate{descent.place, descent.information,
-                      levelPose(descent.place) * sightings.back().session_from_base.translation};
+Candidate candidateAt(const std::vector<SeenKnownSign>& sightings, const Vector3d& place) {
+  Candidate candidate{place, levelPose(place) * sightings.back().session_from_base.translation};
   for (const auto& sighting : sightings) {
-    if (missOf(sighting, descent.place).norm() > kFits) continue;
+    const double miss = missOf(sighting, place).norm();
+    if (!(miss <= kFits)) continue;
     ++candidate.fitting;
+    candidate.chi2 += miss * miss;
     candidate.signs.insert(sighting.sign);
+    candidate.bases.extend(sighting.session_from_base.translation);
     candidate.is_numbered = candidate.is_numbered || sighting.is_numbered;
   }
   return candidate;
-}
-
-bool isOther(const Candidate& a, const Candidate& b) {
-  constexpr double kElsewhere = 1, kTurned = 0.3;  // [m] [rad]
-  return (a.base - b.base).norm() > kElsewhere || std::abs(std::remainder(a.place[2] - b.place[2], 2 * M_PI)) > kTurned;
 }
 
 }  // namespace
@@ -107,31 +139,38 @@ Se3 baseBefore(const SeenKnownSign& sighting, double distance) {
   return {Eigen::Quaterniond(turn), base};
 }
 
-std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& sightings) {
+std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& measurements) {
   constexpr std::size_t kFewest = 4, kSigns = 2;
-  constexpr double kMostSigma = 0.7;  // [m]
-  if (sightings.size() < kFewest) return std::nullopt;
-  std::vector<Candidate> candidates;
-  for (const auto& sighting : sightings)
-    for (const double distance : {1.2, 2.5, 5.0})
-      candidates.push_back(candidateAt(sightings, descended(sightings, placeBefore(sighting, distance))));
-  const auto best = std::max_element(candidates.begin(), candidates.end(),
-                                     [](const auto& a, const auto& b) { return a.fitting < b.fitting; });
+  constexpr double kMostSigma = 0.35, kLeastBase = 0.5;  // [m]
+  if (measurements.size() < kFewest) return std::nullopt;
+  // The session turns about the newest base: about an origin far away no step of a turn would be small.
+  const Vector3d& newest = measurements.back().session_from_base.translation;
+  const Vector3d pivot(newest.x(), newest.y(), 0);
+  auto sightings = measurements;
+  for (auto& sighting : sightings) sighting.session_from_base.translation -= pivot;
+  std::vector<Descent> descents;
+  for (const auto& start : startsOf(sightings)) descents.push_back(descended(sightings, start));
+  std::optional<Candidate> best;
+  const Descent* to_best = nullptr;
+  for (const auto& descent : descents) {
+    const Candidate candidate = candidateAt(sightings, descent.places.back());
+    if (best && !candidate.isBetterThan(*best)) continue;
+    best = candidate;
+    to_best = &descent;
+  }
   if (best->fitting < kFewest || best->signs.size() < kSigns || !best->is_numbered ||
-      3 * best->fitting < 2 * sightings.size())
+      best->bases.diagonal().norm() < kLeastBase || 3 * best->fitting < 2 * sightings.size())
     return std::nullopt;
-  for (const auto& other : candidates)
-    if (other.fitting == best->fitting && isOther(other, *best)) return std::nullopt;
-  // The session's origin may be far away: the position that counts is that of the newest base.
-  const Vector2d arm = best->base.head<2>() - best->place.head<2>();
-  const Matrix3d covariance = best->information.inverse();
-  Eigen::Matrix<double, 2, 3> by_place;
-  by_place << 1, 0, -arm.y(), 0, 1, arm.x();
-  const Eigen::Matrix2d of_base = by_place * covariance * by_place.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(of_base, Eigen::EigenvaluesOnly);
+  // Two signs seen on a short way fit a whole arc of places nearly alike, which no covariance at one of them shows.
+  for (const auto& descent : descents)
+    for (const auto& place : descent.places)
+      if (const Candidate other = candidateAt(sightings, place); other.isRivalOf(*best)) return std::nullopt;
+  const Matrix3d covariance = to_best->information.inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
   const double position_sigma = std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
   if (!(position_sigma <= kMostSigma)) return std::nullopt;
-  return SessionFit{levelPose(best->place), position_sigma, std::sqrt(covariance(2, 2)), best->fitting};
+  const Se3 pivoted{Eigen::Quaterniond::Identity(), -pivot};
+  return SessionFit{levelPose(best->place) * pivoted, position_sigma, std::sqrt(covariance(2, 2)), best->fitting};
 }
 
 }  // namespace omnimapper::plugins

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/base/Id.h>
 #include <omnimapper/geometry/Se3.h>
 
 #include <Eigen/Core>
@@ -12,13 +13,13 @@ namespace omnimapper::plugins {
 
 /// A direction in which a sign of the map is seen from a session that is lost.
 struct SeenKnownSign {
-  std::size_t sign;                 ///< number of the sign, whichever way they are counted
-  bool is_numbered;                 ///< its text is hardly on another door
-  Eigen::Vector3d in_map;           ///< [m]
-  Eigen::Vector3d normal;           ///< unit: to where the sign is read from
+  base::LandmarkId sign;
+  bool is_numbered;                 ///< it has a number that is probably on no other sign
+  Eigen::Vector3d in_map;           ///< [m] where the map has it
+  Eigen::Vector3d normal;           ///< unit, to the side from which it is read
   geometry::Se3 session_from_base;  ///< by odometry
   SeenDirection seen;
-  double sigma;  ///< [rad]
+  double sigma;  ///< [rad] standard deviation, with that of the sign's position
 };
 
 /// The base in the map, level, if the sign is seen from `distance` [m] straight before it.
@@ -29,12 +30,13 @@ struct SessionFit {
   geometry::Se3 map_from_session;  ///< a turn about the vertical and a shift on the floor
   double position_sigma = 0;       ///< [m] of the newest base, along the direction that is known worst
   double angle_sigma = 0;          ///< [rad]
-  std::size_t fitting = 0;         ///< sightings within three standard deviations
+  std::size_t fitting = 0;         ///< measurements within three standard deviations
 };
 
-/// Resection: the place and turn from which the signs are seen in these directions, the newest last. None unless at
-/// least four sightings of two signs fit, of which one is numbered, two in three of all sightings fit, the position
-/// comes out to 0.7 m, and no other place fits as many.
+/// Resection: the pose from which the signs are seen in these directions, the newest of them last. None unless at least
+/// four measurements of two signs fit, one of which is numbered, two in three of all measurements fit, the base went
+/// 0.5 m between them, the position comes out to 0.35 m, and nowhere else nearly as many fit. Derivation:
+/// doc/derivations/bearing.md.
 std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& sightings);
 
 }  // namespace omnimapper::plugins

@@ -34,7 +34,7 @@ void SignTracks::update(const mapper::State& state) {
   }
 }
 
-void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_way) {
+void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_travel) {
   if (!last_pose_ || frame.stamp > last_stamp_) {  // not of a frame that came late
     if (last_pose_ && state.graph.contains(*last_pose_))
       way_ += mapper::poseOf(state.graph, *last_pose_).distanceTo(mapper::poseOf(state.graph, frame.pose));
@@ -42,7 +42,7 @@ void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, do
     last_stamp_ = frame.stamp;
   }
   update(state);
-  while (!waiting_.empty() && way_ - waiting_.front().last_seen > recent_way) {
+  while (!waiting_.empty() && way_ - waiting_.front().last_seen > recent_travel) {
     for (const auto& view : waiting_.front().views) keepForTheEnd(view);
     waiting_.pop_front();
   }
@@ -53,7 +53,7 @@ void SignTracks::add(base::LandmarkId id) {
   fresh.push_back(id);
 }
 
-std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double recent_way) {
+std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double recent_travel) {
   const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
     return waiting.views.back().label == view.label &&
            agreementOf(waiting.views.back().sighting.text, view.sighting.text) == Agreement::agrees;
@@ -63,7 +63,7 @@ std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double rece
     waiting = std::move(*found);
     waiting.last_seen = way_;
     waiting_.erase(found);
-    const auto is_old = [&](const SignView& each) { return way_ - each.travelled > recent_way; };
+    const auto is_old = [&](const SignView& each) { return way_ - each.travelled > recent_travel; };
     auto& views = waiting.views;
     for (const auto& each : views)
       if (is_old(each)) keepForTheEnd(each);
@@ -85,12 +85,12 @@ void SignTracks::keepForTheEnd(const SignView& view) {
   if (unplaced_.size() > kMost) unplaced_.pop_front();
 }
 
-std::vector<std::vector<SignView>> SignTracks::unplacedViews(double recent_way) const {
+std::vector<std::vector<SignView>> SignTracks::unplacedViews(double recent_travel) const {
   std::vector<std::vector<SignView>> groups;
   const auto add = [&](const SignView& view) {
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& views) {
       return views.size() < kMostTogether && views.back().label == view.label &&
-             std::abs(views.back().travelled - view.travelled) <= recent_way &&
+             std::abs(views.back().travelled - view.travelled) <= recent_travel &&
              agreementOf(views.back().sighting.text, view.sighting.text) == Agreement::agrees;
     });
     if (group == groups.end()) {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "SignMeasurement.h"
 #include "SignPayload.h"
-#include "SignSighting.h"
 #include "Triangulation.h"
 
 namespace omnimapper::plugins {
@@ -24,7 +24,7 @@ class SignTracks {
 
   void restore(const mapper::State& state);
   /// Learns what the map has now, and that the base came to this key frame.
-  void goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_way);
+  void goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_travel);
   /// Forgets what was retired or merged.
   void update(const mapper::State& state);
   void add(base::LandmarkId id);
@@ -36,17 +36,17 @@ class SignTracks {
   };
   double travelled() const { return way_; }
   const std::map<base::LandmarkId, Known>& known() const { return known_; }
-  bool isRecent(const Known& known, double recent_way) const {
-    return known.last_seen && way_ - *known.last_seen <= recent_way;
+  bool isRecent(const Known& known, double recent_travel) const {
+    return known.last_seen && way_ - *known.last_seen <= recent_travel;
   }
 
-  /// The views of one sign that waits, not older than `recent_way`, with this one.
-  std::vector<SignView>& waitingWith(const SignView& view, double recent_way);
+  /// The views of one sign that waits, not older than `recent_travel`, with this one.
+  std::vector<SignView>& waitingWith(const SignView& view, double recent_travel);
   /// Removes the views with these ascending indices from those that waitingWith() gave last.
   void forget(const std::vector<std::size_t>& which);
 
   /// Views of which no sign was made, those of one text and one stretch of the way together.
-  std::vector<std::vector<SignView>> unplacedViews(double recent_way) const;
+  std::vector<std::vector<SignView>> unplacedViews(double recent_travel) const;
 
   std::vector<base::LandmarkId> fresh;  ///< landmarks that nobody has compared with the others yet
 

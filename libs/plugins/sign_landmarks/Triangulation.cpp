@@ -60,12 +60,6 @@ double missOf(const Ray& ray, const Vector3d& point) {
   return ray.range ? std::max(aside, std::abs(ahead - *ray.range) / ray.range_sigma) : aside;
 }
 
-// [m] along the axis that is known worst.
-double sigmaOf(const Matrix3d& information) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(information, Eigen::EigenvaluesOnly);
-  return 1 / std::sqrt(std::max(axes.eigenvalues()[0], 1e-12));
-}
-
 // By least squares of the distances from the rays, weighted by what an angle is at the point of the round before, and
 // of what their ranges miss by.
 std::optional<Vector3d> meetingOf(const std::vector<const Ray*>& rays) {
@@ -104,7 +98,7 @@ std::optional<Vector3d> meetingOf(const std::vector<const Ray*>& rays) {
 struct Meeting {
   Vector3d point;
   Eigen::Vector2d pan_tilt = Eigen::Vector2d::Zero();
-  double sigma = 0;  // [m] of the point along the axis that is known worst, the offsets taken as exact
+  double sigma = 0;  // [m] of the point along the axis that is known worst
 };
 
 // By how much a ray misses it, in standard deviations of its own: what all rays have in common is in the offsets.
@@ -156,7 +150,9 @@ std::optional<Meeting> refined(const Vector3d& start, const std::vector<const Ra
     meeting.pan_tilt -= step.tail<2>();
   }
   if (!meeting.point.allFinite() || !meeting.pan_tilt.allFinite()) return std::nullopt;
-  meeting.sigma = sigmaOf(information.topLeftCorner<3, 3>());
+  meeting.sigma = std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3d>(
+                                Matrix3d(information.inverse().topLeftCorner<3, 3>()), Eigen::EigenvaluesOnly)
+                                .eigenvalues()[2]);
   return meeting;
 }
 
@@ -209,7 +205,9 @@ std::optional<Triangulation> triangulate(const std::vector<SignView>& views, con
   if (rays.size() < min_views) return std::nullopt;
   std::optional<Agreed> best;
   std::set<std::vector<std::size_t>> tried;
-  for (std::size_t i = 0; i + 1 < rays.size(); ++i) {
+  constexpr std::size_t kMostPairs = 15;
+  const std::size_t first = rays.size() > kMostPairs ? rays.size() - 1 - kMostPairs : 0;
+  for (std::size_t i = first; i + 1 < rays.size(); ++i) {
     const auto pair = meetingOf({&rays[i], &rays.back()});
     if (!pair) continue;
     auto passing = passingNear(*pair, rays);

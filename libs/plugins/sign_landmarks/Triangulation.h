@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "SignSighting.h"
+#include "SignMeasurement.h"
 
 namespace omnimapper::plugins {
 
@@ -17,13 +17,13 @@ struct SignView {
   base::Stamp stamp;
   base::VariableId pose;
   std::string label;  ///< of the camera
-  SignSighting sighting;
+  SignMeasurement sighting;
   double travelled = 0;  ///< [m] when it was seen
 };
 
 struct Triangulation {
   Eigen::Vector3d point;           ///< [m] in the map
-  double sigma;                    ///< [m] along the direction that is known worst, the poses taken as exact
+  double sigma;                    ///< [m] along the axis that is known worst, the poses taken as exact
   std::vector<std::size_t> views;  ///< that pass within three standard deviations
 };
 /// What is known of the offsets of the pan-tilt unit that turned the camera.

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::size_t kLongestText = 200;  // characters
 constexpr std::size_t kMostNames = 3;      // that are named where nothing fits
-constexpr double kFarFetched = 0.75;       // cost of a name beyond which it is not worth to be named
-constexpr long kNextDoors = 10;            // numbers that differ by as much are worth it
+constexpr double kFarFetched = 0.75;       // names that cost more are not suggested, ...
+constexpr long kNextDoors = 10;            // ... unless they are numbers that differ by at most this
 
 [[noreturn]] void refuseText(const std::string& reason) {
   throw base::Error(base::ExitCode::command_line, reason);

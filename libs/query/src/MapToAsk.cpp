@@ -28,8 +28,8 @@ std::string mapFileAt(const std::string& path) {
                   path);
   if (!fs::exists(map, none))
     refuseMap(path,
-              "has no map.omnimap: it is not the folder of a map. omnimapper-graphslam -o FOLDER makes one, by an "
-              "INI whose output_plugins have a MapOutput.");
+              "has no map.omnimap: it is not the folder of a map. omnimapper-graphslam -o FOLDER makes one "
+              "if [mapper] output_plugins names a MapOutput.");
   return map;
 }
 

@@ -133,11 +133,12 @@ TextMatch AskedText::compare(const std::string& name) const {
   if (folded_.empty() || other.empty()) return {MatchGrade::near, 1, name};
   if (other == folded_) return {MatchGrade::same_letters, 0, name};
   const auto words = wordsOf(other);
-  if (joined(words_) == joined(words)) return {MatchGrade::same_letters, 0, name};
+  const bool has_number = std::any_of(words_.begin(), words_.end(), hasDigit);
+  // Blanks between digits part numbers: "1 12" is not "11 2".
+  if (!has_number && joined(words_) == joined(words)) return {MatchGrade::same_letters, 0, name};
   if (isPart(words_, words)) return {MatchGrade::part, 0, name};
   double cost = relativeCost(folded_, other);
   cost = std::min(cost, costOfWords(words_, words) + (words.size() == words_.size() ? 0 : kPartOfName));
-  const bool has_number = std::any_of(words_.begin(), words_.end(), hasDigit);
   if (!has_number) return {MatchGrade::near, cost, name};
   constexpr double kSameNumber = 0.1, kNumberAndMore = 0.3, kOtherNumber = 0.5;
   if (asNumber(joined(words_)) == asNumber(joined(words))) return {MatchGrade::near, std::min(cost, kSameNumber), name};

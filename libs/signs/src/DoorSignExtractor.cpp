@@ -233,12 +233,16 @@ namespace {
 
 void measureRanges(const mrpt::obs::CObservation3DRangeScan& scan, const perception::LensModel& lens,
                    std::vector<ObservedDoorSign>& signs) {
-  const PlateRanges ranges(scan, lens);
-  for (auto& sign : signs) {
-    const auto measured = ranges.of(sign.corners_px, sign.ray);
-    if (!measured) continue;
-    sign.range = measured->range;
-    sign.range_sigma = measured->sigma;
+  try {
+    const PlateRanges ranges(scan, lens);
+    for (auto& sign : signs) {
+      const auto measured = ranges.of(sign.corners_px, sign.ray);
+      if (!measured) continue;
+      sign.range = measured->range;
+      sign.range_sigma = measured->sigma;
+    }
+  } catch (const base::Error&) {
+    // Depths that are not there, or of a camera without a calibration: a sign does without its range.
   }
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ImageFile.h"
-#include "Payload.h"
+#include "PayloadSize.h"
 
 namespace omnimapper::source {
 

@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "Payload.h"
+#include "PayloadSize.h"
 
 namespace omnimapper::source {
 

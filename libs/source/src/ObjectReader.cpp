@@ -58,9 +58,9 @@ void ObjectReader::Archive::readBody(CSerializable* object, const Header& header
 
 CSerializable::Ptr ObjectReader::next() {
   while (ending_ == Ending::open) {
-    const auto may_read = may_read_after_ ? may_read_after_(objects_) : LogTrial::Answer::yes;
-    if (may_read == LogTrial::Answer::not_known) break;
-    if (may_read == LogTrial::Answer::no) {
+    const auto may_read = may_read_after_ ? may_read_after_(objects_) : SandboxedReader::Answer::yes;
+    if (may_read == SandboxedReader::Answer::not_known) break;
+    if (may_read == SandboxedReader::Answer::no) {
       end(Ending::corrupt, "has an object that cannot be read");
       break;
     }

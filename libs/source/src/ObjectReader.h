@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "CompressedFile.h"
-#include "LogTrial.h"
+#include "SandboxedReader.h"
 
 namespace omnimapper::source {
 
@@ -23,7 +23,7 @@ class ObjectReader {
 
   /// Asked before each object, with the number of objects before it. If the answer is no, the reading ends as corrupt;
   /// if it is not known, next() returns null once, and the ending stays open.
-  void ask(std::function<LogTrial::Answer(std::uint64_t)> may_read_after) {
+  void ask(std::function<SandboxedReader::Answer(std::uint64_t)> may_read_after) {
     may_read_after_ = std::move(may_read_after);
   }
 
@@ -81,7 +81,7 @@ class ObjectReader {
   bool in_rawlog_ = false;          // inside a CRawlog saved as one object
   bool rawlog_old_format_ = false;  // no end flag after it
   std::uint32_t rawlog_left_ = 0;   // objects left in it
-  std::function<LogTrial::Answer(std::uint64_t)> may_read_after_;
+  std::function<SandboxedReader::Answer(std::uint64_t)> may_read_after_;
   std::uint64_t objects_ = 0;
   std::uint64_t bytes_ = 0;
 };

@@ -16,9 +16,9 @@
 
 #include "ActionSpans.h"
 #include "ExternalFiles.h"
-#include "LogTrial.h"
 #include "ObjectReader.h"
-#include "Selection.h"
+#include "ObservationFilter.h"
+#include "SandboxedReader.h"
 #include "StepClock.h"
 #include "describeInput.h"
 
@@ -77,7 +77,7 @@ class RawlogSource::Stream {
         trial_(path, useOnce),
         spans_(options.action_span, options.action_label),
         steps_(options.step),
-        selection_(options),
+        filter_(options),
         images_folder_(options.images_folder.empty() ? externalFolderOf(path) : options.images_folder) {
     bool stopped = false;
     stop_waiting_ = [&] { return stopped = stopped || (stop && stop()); };
@@ -130,7 +130,7 @@ class RawlogSource::Stream {
     return std::nullopt;
   }
 
-  void setLogStart(base::Stamp log_start) { selection_.setLogStart(log_start); }
+  void setLogStart(base::Stamp log_start) { filter_.setLogStart(log_start); }
   void setGate(std::shared_ptr<ObservationGate> gate) { gate_ = std::move(gate); }
   void interrupt() { interrupted_ = true; }
 
@@ -180,11 +180,10 @@ class RawlogSource::Stream {
   }
 
   bool passes(const CObservation& observation) {
-    if (!selection_.knowsLogStart() && base::isValid(observation.timestamp))
-      selection_.setLogStart(observation.timestamp);
-    after_the_end_ = selection_.isAfterTheEnd(observation) ? after_the_end_ + 1 : 0;
+    if (!filter_.knowsLogStart() && base::isValid(observation.timestamp)) filter_.setLogStart(observation.timestamp);
+    after_the_end_ = filter_.isAfterTheEnd(observation) ? after_the_end_ + 1 : 0;
     if (after_the_end_ >= kEnoughAfterTheEnd) is_over_ = true;
-    if (!selection_.wants(observation)) {
+    if (!filter_.wants(observation)) {
       ++report_.filtered_out;
       report_.filtered_labels.insert(observation.sensorLabel);
       return false;
@@ -201,12 +200,12 @@ class RawlogSource::Stream {
   }
 
   ObjectReader reader_;
-  LogTrial trial_;
+  SandboxedReader trial_;
   std::function<bool()> stop_waiting_;  // for the trial
   std::atomic<bool> interrupted_{false};
   ActionSpans spans_;
   StepClock steps_;
-  Selection selection_;
+  ObservationFilter filter_;
   std::string images_folder_;
   std::shared_ptr<ObservationGate> gate_ = std::make_shared<ObservationGate>();
   std::deque<CObservation::Ptr> waiting_;

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "Payload.h"
+#include "PayloadSize.h"
 
 namespace omnimapper::source {
 

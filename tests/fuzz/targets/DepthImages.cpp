@@ -78,7 +78,7 @@ void requireSound(const std::vector<ObjectRegion>& objects, const PlaneSegmentat
 
 void findObjects(Input& input, const DepthImage& image, const PlaneOptions& sensor, const PlaneSegmentation& planes) {
   ObjectOptions options;
-  options.comparator = input.flag() ? ObjectOptions::Comparator::convex : ObjectOptions::Comparator::euclidean;
+  options.comparator = input.flag() ? ObjectOptions::Comparator::locally_convex : ObjectOptions::Comparator::euclidean;
   options.on_surfaces_only = input.flag();
   options.min_points = 1 + input.below(40);
   options.min_size = 0;

@@ -46,7 +46,7 @@ TEST(EdgeExtractorOfAnIni, ReadsItsOptionsFromTheIni) {
   EXPECT_EQ(made("high_curvature = false\n").extractors.front().plugin->extract(board()).size(), 3U);
   EXPECT_THROW(made("min_depth_m = 12\n"), base::Error);
   EXPECT_THROW(made("rgb_low = 200\n"), base::Error);
-  EXPECT_THROW(made("jump_share = 2\n"), base::Error);
+  EXPECT_THROW(made("relative_jump = 2\n"), base::Error);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sign_landmarks/SignSighting.h"
+#include "sign_landmarks/SignMeasurement.h"
 #include "sign_landmarks/Triangulation.h"
 
 namespace omnimapper::plugins::sign_sighting_test {
@@ -27,7 +27,7 @@ class Views {
     const auto pose = graph.addVariable(graph::se3(), graph::toValue(Se3{Eigen::Quaterniond::Identity(), base}));
     const Vector3d camera(0, 0, 1);
     const Vector3d direction = geometry::expSo3({0, 0, error}) * (sign - base - camera).normalized();
-    SignSighting sighting{{}, SeenDirection(camera, direction), Vector3d::UnitY(), kDegree, kDegree, {}, 0, 0, {}};
+    SignMeasurement sighting{{}, SeenDirection(camera, direction), Vector3d::UnitY(), kDegree, kDegree, {}, 0, 0, {}};
     if (range > 0) {
       sighting.range = range;
       sighting.range_sigma = range_sigma;
@@ -93,7 +93,7 @@ TEST(Triangulation, DirectionsToTwoSignsOfOneTextAreNotMixed) {
   EXPECT_LT((found->point - kSign).norm(), 0.1);
 }
 
-TEST(SignSightings, KeepRangesThatSaySomething) {
+TEST(SignMeasurements, KeepRangesThatSaySomething) {
   obs::CObservationDoorSigns observation;
   observation.sensorPose = mrpt::poses::CPose3D(0, 0, 1, -90 * kDegree, 0, -90 * kDegree);
   obs::ObservedDoorSign sign;
@@ -110,7 +110,7 @@ TEST(SignSightings, KeepRangesThatSaySomething) {
     sign.range = range;
     sign.range_sigma = sigma;
     observation.signs = {sign};
-    const auto sightings = signSightings(observation, {});
+    const auto sightings = signMeasurements(observation, {});
     ASSERT_EQ(sightings.size(), 1U);
     EXPECT_EQ(sightings[0].range.has_value(), is_kept) << range << " +- " << sigma;
     EXPECT_EQ(sightings[0].rangeRecord(base::VariableId{1}, base::VariableId{2}).has_value(), is_kept);

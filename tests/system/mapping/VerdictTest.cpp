@@ -29,8 +29,8 @@ class Verdict : public ::testing::Test {
   ScratchFolder scratch_;
   std::string log_ = scratch_ / "log.rawlog", folder_ = scratch_ / "map";
   // Neither laser odometry nor closures: the map is as bent as the wheels are.
-  Words wheels_alone_{"--set", "mapper.pose_plugins=odometry", "--set", "odometry.fallback=false",
-                      "--set", "loop_closure.min_way_m=10000"};
+  Words wheels_alone_{"--set", "mapper.pose_plugins=odometry",   "--set", "odometry.fallback=false",
+                      "--set", "loop_closure.min_travel_m=10000"};
 };
 
 TEST_F(Verdict, OnAGoodMapIsConsistent) {

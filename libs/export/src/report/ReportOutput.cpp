@@ -5,7 +5,7 @@
 #include "plan/MapPicture.h"
 #include "report/ReportPage.h"
 #include "run/OutputFile.h"
-#include "run/RunFigures.h"
+#include "run/RunMetrics.h"
 #include "scene/CloudPicture.h"
 
 IMPLEMENTS_MRPT_OBJECT(ReportOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)

@@ -11,7 +11,7 @@
 #include "report/ReportMap.h"
 #include "report/ReportStyle.h"
 #include "report/ReportTables.h"
-#include "run/RunFigures.h"
+#include "run/RunMetrics.h"
 
 namespace omnimapper::exports {
 
@@ -34,7 +34,7 @@ std::string large(double value) {
   return value < 1000 || value > 1e15 ? base::brief(value, 4) : grouped(static_cast<std::size_t>(std::llround(value)));
 }
 
-std::string drawFigures(const ReportInput& input, const RunFigures& figures) {
+std::string drawMetrics(const ReportInput& input, const RunMetrics& figures) {
   const mapper::View& view = input.view;
   std::string html = figure(grouped(view.map.key_frames.size()), "key frames") +
                      figure(base::fixed(figures.way, figures.way < 100 ? 1 : 0) + " m", "way driven") +
@@ -96,7 +96,7 @@ std::string drawReport(const ReportInput& input) {
   html +=
       "</style>\n</head>\n<body>\n<main>\n<header><h1>" + title + "</h1><p>Mapping report of OmniMapper</p></header>\n";
   html +=
-      drawVerdict(view.verdict) + drawWarnings(view.warnings) + drawFigures(input, figuresOf(view, input.trajectory));
+      drawVerdict(view.verdict) + drawWarnings(view.warnings) + drawMetrics(input, figuresOf(view, input.trajectory));
   if (input.picture)
     html +=
         drawReportMap(*input.picture, input.drawn_landmarks, input.trajectory, input.closures, kMostRefusedClosures);

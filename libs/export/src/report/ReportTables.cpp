@@ -2,7 +2,7 @@
 
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/draw/Markup.h>
-#include <omnimapper/map/SessionFigures.h>
+#include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/mapper/SessionAlignment.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ std::string countTable(const std::string& title, const Counts& counts) {
 std::string drawSessionTable(const map::Map& map) {
   if (map.sessions.size() < 2) return {};
   std::string rows;
-  for (const auto& figures : map::sessionFigures(map)) {
+  for (const auto& figures : map::sessionMetrics(map)) {
     const auto session = std::find_if(map.sessions.begin(), map.sessions.end(),
                                       [&](const auto& other) { return other.number == figures.number; });
     if (session == map.sessions.end()) continue;
@@ -130,7 +130,7 @@ std::string drawDecisionTable(const map::Map& map, const mapper::DecisionLog& de
 }
 
 std::string drawCountTables(const mapper::View& view) {
-  const GraphFigures graph = figuresOf(view.graph);
+  const GraphMetrics graph = figuresOf(view.graph);
   return "<div class=\"columns\">" + countTable("Observations", namedCounts(view.counts)) +
          countTable("Variables by kind", graph.variables_by_kind) +
          countTable("Factors by kind", graph.factors_by_kind) +

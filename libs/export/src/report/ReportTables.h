@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "run/RunFigures.h"
+#include "run/RunMetrics.h"
 
 namespace omnimapper::exports {
 

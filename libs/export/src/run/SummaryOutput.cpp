@@ -1,13 +1,13 @@
 #include "run/SummaryOutput.h"
 
-#include <omnimapper/map/SessionFigures.h>
+#include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 
 #include <nlohmann/json.hpp>
 
 #include "run/OutputFile.h"
-#include "run/RunFigures.h"
+#include "run/RunMetrics.h"
 
 IMPLEMENTS_MRPT_OBJECT(SummaryOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
 
@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kDegrees = 180 / 3.14159265358979323846;  // in a radian
 
 Json graphOf(const mapper::View& view) {
-  const GraphFigures figures = figuresOf(view.graph);
+  const GraphMetrics figures = figuresOf(view.graph);
   return {{"variables", view.graph.variables().size()},
           {"variables_by_kind", figures.variables_by_kind},
           {"factors", view.graph.factors().size()},
@@ -85,7 +85,7 @@ Json costsOf(const std::vector<mapper::StageTimes::PerKeyFrame>& costs) {
 
 Json sessionsOf(const map::Map& map) {
   Json list = Json::array();
-  const auto all = map::sessionFigures(map);
+  const auto all = map::sessionMetrics(map);
   for (const map::Session& session : map.sessions) {
     Json entry = {{"number", session.number}, {"title", session.title}, {"joined", session.joined}};
     if (session.joined_at) entry["joined_at"] = toString(*session.joined_at);
@@ -114,7 +114,7 @@ Json levelOf(const map::Level& level) {
           {"reason", level.reason}};
 }
 
-Json liveOf(const mapper::LiveFigures& live) {
+Json liveOf(const mapper::LiveMetrics& live) {
   Json sensors = Json::array();
   for (const auto& sensor : live.sensors) {
     sensors.push_back({{"name", sensor.name},
@@ -142,7 +142,7 @@ Json liveOf(const mapper::LiveFigures& live) {
 
 Json summaryOf(const mapper::View& view, const std::string& title) {
   const auto trajectory = trajectoryOf(view);
-  const RunFigures figures = figuresOf(view, trajectory);
+  const RunMetrics figures = figuresOf(view, trajectory);
   Json counts = Json::object();
   for (const auto& [name, count] : namedCounts(view.counts)) counts[name] = count;
   Json summary = {

@@ -5,7 +5,7 @@
 #include <omnimapper/map/Trajectory.h>
 
 #include "run/OutputFile.h"
-#include "run/RunFigures.h"
+#include "run/RunMetrics.h"
 
 IMPLEMENTS_MRPT_OBJECT(TrajectoryOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
 

@@ -178,8 +178,8 @@ void LiveFeed::warnOfSensors(Engine& engine) const {
   if (recorder && !recorder->failure().empty()) engine.warn(recorder->failure());
 }
 
-LiveFigures LiveFeed::figures() const {
-  LiveFigures figures;
+LiveMetrics LiveFeed::figures() const {
+  LiveMetrics figures;
   for (const auto& sensor : sensors_->sensors())
     figures.sensors.push_back({sensor.name, toString(sensor.state), sensor.observations, sensor.clock_offset,
                                sensor.clock_jumps, sensor.reopened, sensor.left_out});
@@ -193,7 +193,7 @@ LiveFigures LiveFeed::figures() const {
   figures.latency_99 = trace_->latencies.quantile(0.99);
   if (const auto* recorder = sensors_->recorder()) {
     for (const auto& file : recorder->files()) figures.recording.push_back(std::string(kRecording) + "/" + file);
-    const auto recorded = recorder->figures();
+    const auto recorded = recorder->statistics();
     figures.recorded = recorded.observations;
     figures.recorded_bytes = recorded.bytes;
     figures.bytes_on_disk = recorded.bytes_on_disk;

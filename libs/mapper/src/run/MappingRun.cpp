@@ -2,7 +2,7 @@
 #include <omnimapper/base/OutputFolder.h>
 #include <omnimapper/live/LiveOptions.h>
 #include <omnimapper/live/SensorSection.h>
-#include <omnimapper/map/SessionFigures.h>
+#include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/SessionAlignment.h>
 #include <omnimapper/mapper/SessionOptions.h>
@@ -120,7 +120,7 @@ RunResult resultOf(const View& view) {
   for (const auto& estimate : view.localization) result.located += estimate.located();
   for (const auto& decision : view.decisions)
     result.awaits_confirmation |= decision.kind == kRelocalisation && decision.accepted;
-  const auto figures = map::sessionFigures(view.map);
+  const auto figures = map::sessionMetrics(view.map);
   if (!figures.empty() && figures.back().number == result.sessions.back().number) {
     result.new_key_frames = figures.back().key_frames;
     result.way = figures.back().way;

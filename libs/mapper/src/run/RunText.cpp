@@ -1,4 +1,4 @@
-#include <omnimapper/map/SessionFigures.h>
+#include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/SessionAlignment.h>
 
@@ -32,7 +32,7 @@ std::string foreignLine(const std::vector<std::string>& files) {
 }
 
 // Of a run on sensors: how they were, what became of their observations, and what was recorded.
-std::string liveLines(const LiveFigures& live) {
+std::string liveLines(const LiveMetrics& live) {
   std::string sensors;
   for (const auto& sensor : live.sensors) {
     sensors += (sensors.empty() ? "" : ", ") + sensor.name + " " + std::to_string(sensor.observations);
@@ -58,7 +58,7 @@ std::string liveLines(const LiveFigures& live) {
 
 // A robot may be located by landmarks alone: nothing is said of closures then.
 std::string closureLine(const RunResult& result, const std::string& scope) {
-  if (result.localized > 0 && result.closures + result.refused_closures == 0) return "";
+  if (result.localized > 0 && result.closures + result.refused_closures == 0 && !result.landmarks.empty()) return "";
   const std::string head = result.localized > 0 ? "matches with map  " : "loop closures     ";
   return head + std::to_string(result.closures) + " accepted, " + std::to_string(result.refused_closures) + " refused" +
          scope + " (reasons: report.html)\n";

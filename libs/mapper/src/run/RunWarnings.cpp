@@ -19,9 +19,9 @@ bool isMeasured(const View& view, const std::set<std::string>& measuring) {
 }
 
 // A wrong start may look right where rooms are alike.
-void warnOfDoubt(const map::Session& session, bool stopped, Engine& engine) {
+void warnOfRefusedTies(const map::Session& session, bool stopped, Engine& engine) {
   const TestedTies ties = testedTies(engine.view().graph, session.number);
-  if (!ties.areInDoubt()) return;
+  if (!ties.areMostlyRefused()) return;
   engine.warn(joinedText(session) + ", but " + std::to_string(ties.refused) + " of the " +
               std::to_string(ties.refused + ties.accepted) + " measurements that tie it to the map " +
               (stopped ? "do not fit, or might have been borne out had the run not been interrupted"
@@ -89,7 +89,7 @@ void warnOfEarlierSessions(const std::vector<map::Session>& sessions, Engine& en
 }
 
 void warnOfSession(const map::Session& session, bool stopped, Engine& engine) {
-  if (session.joined) return warnOfDoubt(session, stopped, engine);
+  if (session.joined) return warnOfRefusedTies(session, stopped, engine);
   if (engine.view().map_is_held) return;
   engine.warn(
       joinedText(session) + " to the map: it lies where [session] start or a single " +

@@ -43,7 +43,7 @@ void loadMapInto(const RunRequest& request, const SessionOptions& session, const
   const auto start = session.startOn(saved.map);
   try {
     if (request.localize_map.empty()) return engine.sessions().continueFrom(std::move(saved), start);
-    engine.sessions().localizeIn(std::move(saved), start, session.free_key_frames);
+    engine.sessions().localizeIn(std::move(saved), start, session.window_key_frames);
   } catch (const base::Error&) {
     throw;
   } catch (const std::bad_alloc&) {

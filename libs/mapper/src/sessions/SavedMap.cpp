@@ -55,13 +55,13 @@ map::Map framesOf(const map::MapSection& section) {
   const std::uint64_t memory = (std::uint64_t{256} << 20) + 4 * map::uncompressedSize(section);
   const auto end = base::tryInChild([&] { map::framesFromSection(section); }, memory);
   switch (end.how) {
-    case base::TrialEnd::How::finished:
+    case base::ChildOutcome::How::finished:
       break;
-    case base::TrialEnd::How::threw:
+    case base::ChildOutcome::How::threw:
       refuse(end.message);
-    case base::TrialEnd::How::out_of_memory:
+    case base::ChildOutcome::How::out_of_memory:
       refuse("section \"frames\" asks for far more memory than its bytes could fill: damaged");
-    case base::TrialEnd::How::crashed:
+    case base::ChildOutcome::How::crashed:
       refuse("section \"frames\" has an observation that MRPT cannot read: damaged");
   }
   return map::framesFromSection(section);

@@ -21,7 +21,7 @@ const base::OptionTable<SessionOptions>& SessionOptions::table() {
                   "Standard deviation of the position: how far off the start may be, and how far closures are sought.")
           .number("start_sigma_deg", &Options::start_angle_sigma, base::Range::positive(),
                   "Standard deviation of the angles.")
-          .integer("free_key_frames", &Options::free_key_frames, base::Range{5, 1e6},
+          .integer("window_key_frames", &Options::window_key_frames, base::Range{5, 1e6},
                    "With --localize so many of the newest key frames are estimated together; older ones are held.");
   return table;
 }

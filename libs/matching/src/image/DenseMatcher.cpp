@@ -21,7 +21,7 @@ using geometry::Vector6d;
 
 constexpr float kFreedom = 5;  // of Student's t
 // A point is hidden, or not there any more, that is nearer or farther by so much of its depth.
-constexpr float kSurprise = 0.08F;
+constexpr float kRelativeOutlier = 0.08F;
 // Of neighbours of one surface, in parts of the inverse depth: between them the image is interpolated.
 constexpr float kGap = 0.05F;
 
@@ -109,8 +109,8 @@ struct Scales {
 struct Evaluation {
   DenseSums depth, grey;
   Exposure exposure;
-  double shown = 0, surprising = 0, measured = 0;  // points that the image shows, that are not there, that have a depth
-  double correlation = 0;                          // of brightness
+  double shown = 0, outliers = 0, measured = 0;  // points that the image shows, that are not there, that have a depth
+  double correlation = 0;                        // of brightness
 };
 
 // Between four pixels; 0 where they are not of one surface, or one is not known.
@@ -182,7 +182,7 @@ Evaluation evaluate(const DenseReferenceLevel& reference, const ImageView& view)
   const Eigen::Vector3f back = rotation.transpose() * translation;
   LaneSums depth_sums, grey_sums;
   ExposureSums exposure_sums;
-  Lanes shown = Lanes::Zero(), surprising = Lanes::Zero(), depths = Lanes::Zero();
+  Lanes shown = Lanes::Zero(), outliers = Lanes::Zero(), depths = Lanes::Zero();
   const float one_over_depth = 1 / view.scales.depth, one_over_grey = 1 / view.scales.grey;
   const auto weightOf = [](const Lanes& residual, const Lanes& is_used) -> Lanes {
     return is_used * ((kFreedom + 1) / (kFreedom + residual.square()));
@@ -202,9 +202,9 @@ Evaluation evaluate(const DenseReferenceLevel& reference, const ImageView& view)
     const Lanes has_depth = where(measured > 0);
     depths += has_depth;
     const Lanes difference = has_depth * (measured - seen.inverse);
-    const Lanes is_surprising = where(difference.abs() > kSurprise * seen.inverse);
-    surprising += is_surprising;
-    const Lanes is_fair = (1 - is_surprising) * is_shown;
+    const Lanes is_outlier = where(difference.abs() > kRelativeOutlier * seen.inverse);
+    outliers += is_outlier;
+    const Lanes is_fair = (1 - is_outlier) * is_shown;
     if (view.use_depth) {
       // n . q of the turned normal, as n . (p + R^T t); negative: the normal is towards the camera.
       const Lanes across = p.nx * (p.x + back.x()) + p.ny * (p.y + back.y()) + p.nz * (p.z + back.z());
@@ -243,7 +243,7 @@ Evaluation evaluate(const DenseReferenceLevel& reference, const ImageView& view)
           grey_sums.total(),
           view.use_grey ? exposure_sums.solved(view.exposure) : view.exposure,
           shown.cast<double>().sum(),
-          surprising.cast<double>().sum(),
+          outliers.cast<double>().sum(),
           depths.cast<double>().sum(),
           exposure_sums.correlation()};
 }
@@ -278,7 +278,7 @@ const base::OptionTable<DenseMatcherOptions>& DenseMatcherOptions::table() {
                   "Standard deviation of brightness, of 255, at least.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
                   "Least share of a key frame's points that an image must show.")
-          .number("max_surprise", &Options::max_surprise, base::Range{0, 1},
+          .number("max_outlier_share", &Options::max_outlier_share, base::Range{0, 1},
                   "Largest share of them whose depth is far off.");
   return table;
 }
@@ -383,7 +383,7 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
   match.reference_from_image = inverse(search.image_from_reference);
   if (points == 0) return match;
   match.overlap = last.shown / static_cast<double>(points);
-  match.surprise = last.measured > 0 ? last.surprising / last.measured : 0;
+  match.outlier_share = last.measured > 0 ? last.outliers / last.measured : 0;
   match.depth_sigma = scales.depth / std::sqrt(options_.noise.pixelVariance());
   match.grey_sigma = use_grey ? scales.grey : 0;
   // What is left of the pose when the delay is found from the same residuals.
@@ -417,8 +417,8 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
   constexpr double kLeastMeasured = 0.3;
   const bool is_alike = (options_.use_depth && last.measured >= kLeastMeasured * last.shown) ||
                         (use_grey && last.correlation >= kLeastAlike);
-  match.fits =
-      last.shown > 0 && match.overlap >= options_.min_overlap && match.surprise <= options_.max_surprise && is_alike;
+  match.fits = last.shown > 0 && match.overlap >= options_.min_overlap &&
+               match.outlier_share <= options_.max_outlier_share && is_alike;
   match.succeeded = match.fits && match.open_directions == 0;
   return match;
 }

@@ -114,7 +114,7 @@ void RgbdTracker::makeKeyFrame(base::Stamp stamp, const Image& image, const Se3&
 }
 
 // With the key frame of the image before, from where the camera should be. Where that does not fit, or many depths are
-// not what they should be, from where it was, too, and with the key frame that is nearest to either; what surprises
+// not what they should be, from where it was, too, and with the key frame that is nearest to either; what differs
 // least is taken. What fits but leaves a direction open goes on there as expected. The motion that is found tells the
 // shutters' motion better than that of before did: the match is made once more with the mean of both.
 std::optional<RgbdTracker::Found> RgbdTracker::follow(const Image& image, const Expected& expected,
@@ -135,7 +135,7 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const Image& image, const 
     const Se3 map_from_camera = keys_[key].map_from_camera * first.reference_from_image;
     if (!first.fits || !expected.allows(map_from_camera)) continue;
     // Other key frames that seem to tell all of it are wrong more often than not: a bare wall looks like any other.
-    if (i == 0 && first.open_directions > 0 && first.surprise < kDoubtful) blind = Found{key, first};
+    if (i == 0 && first.open_directions > 0 && first.outlier_share < kDoubtful) blind = Found{key, first};
     if (!first.succeeded) continue;
     CameraMotion moved = motion();
     moved.velocity = 0.5 * (velocity_ + minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds);
@@ -143,16 +143,16 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const Image& image, const 
     const bool is_better =
         second.succeeded && expected.allows(keys_[key].map_from_camera * second.reference_from_image);
     const Found found{key, is_better ? second : first};
-    if (!best || found.match.surprise < best->match.surprise) best = found;
-    if (best->match.surprise < kDoubtful) break;
+    if (!best || found.match.outlier_share < best->match.outlier_share) best = found;
+    if (best->match.outlier_share < kDoubtful) break;
   }
   // What wheels tell is a better beginning than corners.
-  if (options_.use_features && !expected.is_measured && (!best || best->match.surprise >= kDoubtful)) {
+  if (options_.use_features && !expected.is_measured && (!best || best->match.outlier_share >= kDoubtful)) {
     std::vector<std::size_t> keys;
     for (const auto& [key, pose] : tries)
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
     const auto other = followByFeatures(keys, image, expected, seconds);
-    if (other && (!best || other->match.surprise < best->match.surprise)) best = other;
+    if (other && (!best || other->match.outlier_share < best->match.outlier_share)) best = other;
   }
   return best ? best : blind;
 }
@@ -175,7 +175,7 @@ std::optional<RgbdTracker::Found> RgbdTracker::followByFeatures(const std::vecto
     moved.velocity = minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds;
     const auto found = match(key, image, map_from_camera, Matrix6d::Zero(), moved);
     if (!found.succeeded || !expected.allows(keys_[key].map_from_camera * found.reference_from_image)) continue;
-    if (!best || found.surprise < best->match.surprise) best = Found{key, found};
+    if (!best || found.outlier_share < best->match.outlier_share) best = Found{key, found};
   }
   return best;
 }
@@ -187,13 +187,13 @@ std::optional<RgbdTracker::Found> RgbdTracker::seek(const Image& image, const Ex
   unknown.velocity.setZero();
   std::optional<Found> best;
   if (!image.pyramid.medianDepth()) return best;
-  constexpr double kSurely = 0.5, kSurprise = 0.1;  // it could be anywhere: only what fits well is believed
+  constexpr double kSurely = 0.5, kOutlierShare = 0.1;  // it could be anywhere: only what fits well is believed
   const Matrix6d known = expected.is_measured ? expected.information : Matrix6d::Zero();
   const auto tryFrom = [&](std::size_t key, const Se3& map_from_camera, double least_overlap) {
     const auto found = match(key, image, map_from_camera, known, unknown);
-    if (!found.succeeded || found.overlap < least_overlap || found.surprise > kSurprise) return;
+    if (!found.succeeded || found.overlap < least_overlap || found.outlier_share > kOutlierShare) return;
     if (!expected.allows(keys_[key].map_from_camera * found.reference_from_image)) return;
-    if (!best || found.surprise < best->match.surprise) best = Found{key, found};
+    if (!best || found.outlier_share < best->match.outlier_share) best = Found{key, found};
   };
   constexpr double kSeenBefore = 0.2;  // corners tell that it is the same place
   if (!expected.is_measured)

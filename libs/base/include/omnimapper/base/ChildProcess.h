@@ -37,7 +37,7 @@ class ChildProcess {
 };
 
 /// How work ended that was tried in a child process.
-struct TrialEnd {
+struct ChildOutcome {
   enum class How {
     finished,
     threw,          ///< an exception that is no std::bad_alloc
@@ -50,6 +50,6 @@ struct TrialEnd {
 
 /// Does the work in a ChildProcess of so many bytes, and waits for its end. Throws Error(internal) if no process can be
 /// made, and std::bad_alloc if this process may not have so much memory, or the machine has not.
-TrialEnd tryInChild(const std::function<void()>& work, std::uint64_t bytes);
+ChildOutcome tryInChild(const std::function<void()>& work, std::uint64_t bytes);
 
 }  // namespace omnimapper::base

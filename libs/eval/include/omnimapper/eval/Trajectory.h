@@ -33,6 +33,6 @@ std::optional<geometry::Se3> interpolatedPose(const Trajectory& trajectory, base
                                               base::Duration longest_gap);
 
 /// Way travelled from the first pose to each [m].
-std::vector<double> wayTravelled(const Trajectory& trajectory);
+std::vector<double> distanceTravelled(const Trajectory& trajectory);
 
 }  // namespace omnimapper::eval

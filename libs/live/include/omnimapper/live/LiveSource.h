@@ -34,7 +34,7 @@ struct LiveCounts {
 };
 
 /// How one sensor is.
-struct SensorFigures {
+struct SensorMetrics {
   enum class State { opening, working, silent, lost, stopped };
 
   std::string name;  ///< of its section
@@ -49,7 +49,7 @@ struct SensorFigures {
   std::string problem;         ///< why it was lost the last time, in the driver's words; empty if it never was
 };
 
-std::string toString(SensorFigures::State state);
+std::string toString(SensorMetrics::State state);
 
 /// The sensors of a live run, each read by a thread of its own through its MRPT driver.
 class LiveSource {
@@ -81,7 +81,7 @@ class LiveSource {
   /// jumped; the recording ended early.
   std::vector<std::string> takeNews();
 
-  std::vector<SensorFigures> sensors() const;
+  std::vector<SensorMetrics> sensors() const;
   LiveCounts counts() const;
   /// A few words for a line of a screen: each sensor with its rate, or how it is.
   std::string sensorsText() const;

@@ -54,13 +54,13 @@ class Recorder {
   /// Ends, and removes its files, and its folder if it made that and nothing else is in it.
   void discard();
 
-  struct Figures {
+  struct Statistics {
     std::uint64_t observations = 0;
     std::uint64_t bytes = 0;  ///< written, before compression
     std::uint64_t bytes_on_disk = 0;
     double seconds = 0;  ///< that the thread worked
   };
-  Figures figures() const;
+  Statistics statistics() const;
   /// Why recording ended early; empty if it did not. What was written until then can be read.
   std::string failure() const;
   /// Their names in the folder, as far as they have been begun.
@@ -83,7 +83,7 @@ class Recorder {
   std::deque<Encoded> waiting_;
   std::size_t waiting_bytes_ = 0;
   bool closing_ = false;
-  Figures figures_;
+  Statistics statistics_;
   std::string failure_;
   std::vector<std::string> files_;
   std::thread thread_;

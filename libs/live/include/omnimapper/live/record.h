@@ -14,9 +14,9 @@ namespace omnimapper::live {
 /// How a recording went.
 struct Recorded {
   std::vector<std::string> files;  ///< rawlogs, with the folder
-  std::vector<SensorFigures> sensors;
+  std::vector<SensorMetrics> sensors;
   LiveCounts counts;
-  Recorder::Figures figures;
+  Recorder::Statistics statistics;
   double seconds = 0;   ///< that sensors were open
   std::string failure;  ///< why it ended early; empty if it did not
 

@@ -5,7 +5,7 @@
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/PluginHelp.h>
-#include <omnimapper/plugin/LiveFigures.h>
+#include <omnimapper/plugin/LiveMetrics.h>
 #include <omnimapper/plugin/Verdict.h>
 #include <omnimapper/source/SourceReport.h>
 
@@ -35,7 +35,7 @@ struct RunResult {
   std::map<std::string, std::size_t> landmarks;  ///< of the whole map, by label
   std::vector<map::Session> sessions;            ///< of the whole map; the last is this run
   std::optional<map::Level> level;               ///< of the whole map; none of a run that localizes in an old one
-  std::optional<LiveFigures> live;               ///< of a run on sensors
+  std::optional<LiveMetrics> live;               ///< of a run on sensors
   double log_seconds = 0;                        ///< from first to last stamp
   double wall_seconds = 0;                       ///< of the whole run
   double way = 0;                                ///< [m] of this run's trajectory

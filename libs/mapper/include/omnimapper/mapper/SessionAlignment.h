@@ -24,7 +24,7 @@ struct TestedTies {
   std::size_t accepted = 0, refused = 0;
 
   /// Whether so many contradict the map that the session may lie in a wrong place that looks alike.
-  bool areInDoubt() const { return refused >= 3 && 2 * refused > accepted; }
+  bool areMostlyRefused() const { return refused >= 3 && 2 * refused > accepted; }
 };
 TestedTies testedTies(const graph::Graph& graph, std::uint16_t session);
 

@@ -20,7 +20,7 @@ struct SessionOptions {
   double start_sigma = 1;                                                ///< [m]
   double start_angle_sigma = 30 * base::option_text::kRadiansPerDegree;  ///< [rad]
 
-  int free_key_frames = 50;  ///< of a session that is localized in a map
+  int window_key_frames = 50;  ///< of a session that is localized in a map
   static const base::OptionTable<SessionOptions>& table();
   /// On a map with at least one key frame.
   SessionStart startOn(const map::Map& map) const;

@@ -11,15 +11,15 @@
 namespace omnimapper::matching {
 
 struct DenseMatcherOptions {
-  bool use_depth = true;         ///< distances along the rays, from the reference's planes
-  bool use_grey = true;          ///< brightness, where both have a picture
-  int finest_level = 2;          ///< of the pyramids, at which a match ends; 0 is the whole image
-  int max_points = 3000;         ///< of the reference, on each level
-  int max_iterations = 12;       ///< on each level
-  perception::DepthNoise noise;  ///< of the depth camera
-  double grey_noise = 3;         ///< standard deviation of brightness, of 255, at least
-  double min_overlap = 0.2;      ///< least share of the reference's points that the image shows
-  double max_surprise = 0.35;    ///< largest share of them that are more than 8 % of their depth off
+  bool use_depth = true;            ///< distances along the rays, from the reference's planes
+  bool use_grey = true;             ///< brightness, where both have a picture
+  int finest_level = 2;             ///< of the pyramids, at which a match ends; 0 is the whole image
+  int max_points = 3000;            ///< of the reference, on each level
+  int max_iterations = 12;          ///< on each level
+  perception::DepthNoise noise;     ///< of the depth camera
+  double grey_noise = 3;            ///< standard deviation of brightness, of 255, at least
+  double min_overlap = 0.2;         ///< least share of the reference's points that the image shows
+  double max_outlier_share = 0.35;  ///< largest share of them that are more than 8 % of their depth off
 
   static const base::OptionTable<DenseMatcherOptions>& table();
 };
@@ -50,14 +50,14 @@ struct DenseMatch {
   /// Of that, in the image's frame, by the residuals alone, without what the guess knew. A direction that they leave
   /// open has a variance of kOpen, and is as good as the guess.
   geometry::Matrix6d covariance = kOpen * geometry::Matrix6d::Identity();
-  double overlap = 0;       ///< share of the reference's points that the image shows, [0, 1]
-  double surprise = 1;      ///< share of those with a depth that are far nearer or farther than they should be
-  double depth_sigma = 0;   ///< standard deviation of the depths' residuals, in those of the camera's noise
-  double correlation = 0;   ///< of the brightness in both, [-1, 1]; 0 without contrast
-  double grey_sigma = 0;    ///< standard deviation of brightness, of 255
-  int open_directions = 6;  ///< how many the residuals do not fix
-  bool fits = false;        ///< enough overlap, few surprises; depths or brightness are alike
-  bool succeeded = false;   ///< it fits and leaves no direction open
+  double overlap = 0;        ///< share of the reference's points that the image shows, [0, 1]
+  double outlier_share = 1;  ///< share of those with a depth that are far nearer or farther than they should be
+  double depth_sigma = 0;    ///< standard deviation of the depths' residuals, in those of the camera's noise
+  double correlation = 0;    ///< of the brightness in both, [-1, 1]; 0 without contrast
+  double grey_sigma = 0;     ///< standard deviation of brightness, of 255
+  int open_directions = 6;   ///< how many the residuals do not fix
+  bool fits = false;         ///< enough overlap, few outliers; depths or brightness are alike
+  bool succeeded = false;    ///< it fits and leaves no direction open
 
   static constexpr double kOpen = 1e4;  ///< [m2], [rad2]
 };

@@ -15,10 +15,10 @@ struct EdgeOptions {
   double min_depth = 0.2;                              ///< [m]
   double max_depth = 12;                               ///< [m]
   bool jumps = true;                                   ///< whether to look for occluding, occluded and boundary edges
-  double jump_sigmas = 3;      ///< least jump in depth, in standard deviations of a difference of pixels
-  double jump_share = 0.03;    ///< least jump in depth, in parts of the depth (thesis: tau_dd)
-  int max_hole = 50;           ///< [px] holes up to so wide are bridged along rows and columns
-  bool high_curvature = true;  ///< whether to look for them
+  double jump_sigmas = 3;       ///< least jump in depth, in standard deviations of a difference of pixels
+  double relative_jump = 0.03;  ///< least jump in depth, in parts of the depth (thesis: tau_dd)
+  int max_hole = 50;            ///< [px] holes up to so wide are bridged along rows and columns
+  bool high_curvature = true;   ///< whether to look for them
   double min_turn = 25 * base::option_text::kRadiansPerDegree;  ///< [rad] least angle between two sides of an edge
   double turn_sigmas = 2;   ///< the same, in standard deviations of the angle between two normals
   int window_radius = 4;    ///< [px] of the windows of normals
@@ -33,7 +33,7 @@ struct EdgeOptions {
 
 /// Finds the five kinds of edges of thesis 3.1 in a depth image and the picture of the same view.
 /// - A jump: two of 8-connected neighbours, or the pixels on both sides of a hole of a row or column, differ by more
-///   than the noise and `jump_share` allow, and do so too if the surface on either side is continued to the other:
+///   than the noise and `relative_jump` allow, and do so too if the surface on either side is continued to the other:
 ///   what is merely aslant does not jump. Their near one is occluding, the far one occluded.
 /// - Boundary: a pixel beside a hole that is open (longer than `max_hole`, or reaching the image's border) in each
 ///   direction in which it touches it, and which is on no jump. The image's border alone is none.

@@ -10,8 +10,8 @@
 namespace omnimapper::perception {
 
 struct ObjectOptions {
-  enum class Comparator { euclidean, convex };
-  Comparator comparator = Comparator::convex;  ///< which neighbours are of one thing
+  enum class Comparator { euclidean, locally_convex };
+  Comparator comparator = Comparator::locally_convex;  ///< which neighbours are of one thing
   double min_surface_area = 0.1;  ///< [m^2]; planes as large belong to the place, smaller ones to the things in it
   double max_tilt = 50 * base::option_text::kRadiansPerDegree;  ///< [rad] of a surface that things stand on, from level
   double coplanar_angle = 8 * base::option_text::kRadiansPerDegree;  ///< [rad]

@@ -2,7 +2,7 @@
 
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/plugin/DecisionLog.h>
-#include <omnimapper/plugin/LiveFigures.h>
+#include <omnimapper/plugin/LiveMetrics.h>
 #include <omnimapper/plugin/LocalizationEstimate.h>
 #include <omnimapper/plugin/StageTimes.h>
 #include <omnimapper/plugin/State.h>
@@ -58,7 +58,7 @@ struct View : State {
   /// What the run thinks of the map, once it is finished.
   const Verdict& verdict;
   /// Of a run on live sensors.
-  const std::optional<LiveFigures>& live;
+  const std::optional<LiveMetrics>& live;
 };
 
 /// The map of a run and what the run notes beside it: what a View shows.
@@ -75,7 +75,7 @@ struct ViewedRun {
   bool map_is_held = false;
   std::vector<LocalizationEstimate> localization;
   Verdict verdict;
-  std::optional<LiveFigures> live;
+  std::optional<LiveMetrics> live;
 
   View view() const {
     return {{map, graph, uncertainty},

@@ -1,0 +1,138 @@
+#include "LevelStatistics.h"
+
+#include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/Polygon3.h>
+#include <omnimapper/obs/GivenPose.h>
+#include <omnimapper/perception/PlaneExtractor.h>
+#include <omnimapper/surfaces/levelOfSurfaces.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "Format.h"
+
+namespace omnimapper::check {
+
+namespace {
+
+constexpr std::size_t kMostImages = 24;
+constexpr std::size_t kMostLabels = 10;
+
+void tell(LevelFacts& facts, const std::optional<Eigen::Vector3d>& up, const Eigen::Matrix3d& covariance) {
+  if (!up) return;
+  facts.is_known = true;
+  facts.up = *up;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  facts.sigma = std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+}
+
+}  // namespace
+
+double LevelFacts::lean() const {
+  return std::atan2(std::hypot(up.x(), up.y()), up.z());
+}
+
+void LevelStatistics::add(const mrpt::obs::CObservation& observation) {
+  const std::string& label = observation.sensorLabel;
+  if (!base::isValid(observation.timestamp)) return;
+  if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation)) {
+    if (imus_.count(label) > 0 || imus_.size() < kMostLabels) imus_[label].add(*imu);
+  } else if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
+    const auto reference_from_base = obs::referenceFromBase(*pose);
+    if (reference_from_base && (poses_.count(label) > 0 || poses_.size() < kMostLabels))
+      poses_[label].push_back({pose->timestamp, *reference_from_base});
+  } else if (const auto* image = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation)) {
+    if (image->hasRangeImage && seen_++ % stride_ == 0) addImage(*image);
+  }
+}
+
+// Images far apart in the log tell most: of too many every second one is dropped.
+void LevelStatistics::addImage(const mrpt::obs::CObservation3DRangeScan& image) {
+  static const perception::PlaneExtractor extractor({}, {});
+  try {
+    images_.push_back({image.sensorLabel, extractor.extract(image)});
+  } catch (const base::Error&) {
+    return;  // other findings tell of images that nobody can use
+  }
+  if (images_.size() < kMostImages) return;
+  std::vector<Image> kept;
+  for (std::size_t i = 0; i < images_.size(); i += 2) kept.push_back(images_[i]);
+  images_ = std::move(kept);
+  stride_ *= 2;
+}
+
+const LevelStatistics::Pose* LevelStatistics::poseAt(const std::vector<Pose>& poses, base::Stamp stamp) const {
+  constexpr double kNear = 0.05;  // [s]
+  auto best = std::lower_bound(poses.begin(), poses.end(), stamp,
+                               [](const Pose& pose, base::Stamp when) { return pose.stamp < when; });
+  if (best == poses.end() && best != poses.begin()) --best;
+  if (best == poses.end()) return nullptr;
+  if (best != poses.begin() &&
+      base::secondsBetween(std::prev(best)->stamp, stamp) < base::secondsBetween(stamp, best->stamp))
+    --best;
+  return std::abs(base::secondsBetween(best->stamp, stamp)) < kNear ? &*best : nullptr;
+}
+
+LevelFacts LevelStatistics::byImu(const std::string& label, const matching::SteadySpans& spans,
+                                  const std::vector<Pose>* poses) const {
+  std::vector<matching::RotatedSpan> rotated;
+  for (const auto& span : spans.all()) {
+    const Pose* pose = poses ? poseAt(*poses, span.stamp) : nullptr;
+    if (poses && !pose) continue;
+    rotated.push_back(
+        {pose ? geometry::fromMrpt(pose->reference_from_base).rotation : Eigen::Quaterniond::Identity(), span});
+  }
+  const auto gravity = matching::gravityOf(rotated);
+  LevelFacts facts;
+  facts.by = "the accelerometer " + check::quoted(label);
+  facts.reason = gravity.reason;
+  tell(facts, gravity.up, gravity.covariance);
+  return facts;
+}
+
+LevelFacts LevelStatistics::byPlanes(const std::vector<Pose>* poses) const {
+  std::vector<surfaces::FlatArea> areas;
+  std::vector<surfaces::Viewpoint> viewpoints;
+  std::string label;
+  for (const auto& image : images_) {
+    const Pose* pose = poses ? poseAt(*poses, image.planes->timestamp) : nullptr;
+    if (poses && !pose) continue;
+    const auto frame_from_sensor =
+        geometry::fromMrpt((pose ? pose->reference_from_base : mrpt::poses::CPose3D()) + image.planes->sensorPose);
+    viewpoints.push_back({frame_from_sensor.translation, frame_from_sensor.rotation * Eigen::Vector3d::UnitZ(),
+                          frame_from_sensor.rotation * Eigen::Vector3d::UnitX()});
+    label = image.label;
+    for (const auto& plane : image.planes->planes)
+      areas.push_back({frame_from_sensor.rotation * plane.plane_in_sensor.normal, frame_from_sensor * plane.centroid,
+                       geometry::area(plane.outline), 1});
+  }
+  const auto level = surfaces::levelOfSurfaces(areas, viewpoints);
+  LevelFacts facts;
+  facts.by = "the surfaces that " + std::to_string(viewpoints.size()) + " images of " + check::quoted(label) + " show";
+  facts.reason = level.reason;
+  tell(facts, level.up, level.covariance);
+  return facts;
+}
+
+std::vector<LevelFacts> LevelStatistics::facts(bool has_wheels) const {
+  std::vector<LevelFacts> all;
+  const auto collect = [&](const std::string& poses_label, const std::vector<Pose>* poses) {
+    const auto add = [&](LevelFacts facts) {
+      facts.poses = poses_label;
+      facts.of_poses = poses != nullptr;
+      all.push_back(std::move(facts));
+    };
+    for (const auto& [label, spans] : imus_) add(byImu(label, spans, poses));
+    if (!images_.empty()) add(byPlanes(poses));
+  };
+  for (auto [label, poses] : poses_) {
+    std::stable_sort(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) { return a.stamp < b.stamp; });
+    collect(label, &poses);
+  }
+  if (has_wheels) collect("", nullptr);
+  return all;
+}
+
+}  // namespace omnimapper::check

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <omnimapper/check/LogFacts.h>
+#include <omnimapper/matching/Gravity.h>
+#include <omnimapper/obs/CObservationPlanes.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace omnimapper::check {
+
+/// What inertial sensors and the planes in some of the depth images tell of which way is up: in the frame of given
+/// poses, or, for a robot on wheels, in its base.
+class LevelStatistics {
+ public:
+  void add(const mrpt::obs::CObservation& observation);
+  /// `has_wheels`: the base is level by assumption.
+  std::vector<LevelFacts> facts(bool has_wheels) const;
+
+ private:
+  struct Pose {
+    base::Stamp stamp;
+    mrpt::poses::CPose3D reference_from_base;
+  };
+  struct Image {
+    std::string label;
+    std::shared_ptr<const obs::CObservationPlanes> planes;
+  };
+  void addImage(const mrpt::obs::CObservation3DRangeScan& image);
+  const Pose* poseAt(const std::vector<Pose>& poses, base::Stamp stamp) const;
+  LevelFacts byImu(const std::string& label, const matching::SteadySpans& spans, const std::vector<Pose>* poses) const;
+  LevelFacts byPlanes(const std::vector<Pose>* poses) const;
+
+  std::map<std::string, matching::SteadySpans> imus_;  // by label
+  std::map<std::string, std::vector<Pose>> poses_;     // by label
+  std::vector<Image> images_;                          // a few, evenly spread
+  std::size_t seen_ = 0, stride_ = 1;                  // depth images; every so many is looked at
+};
+
+}  // namespace omnimapper::check

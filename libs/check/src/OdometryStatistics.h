@@ -1,0 +1,39 @@
+#pragma once
+
+#include <mrpt/poses/CPose2D.h>
+#include <omnimapper/check/LogFacts.h>
+#include <omnimapper/matching/WheelOdometry.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace omnimapper::check {
+
+/// Counts the odometry of one label, and answers for the motion as the mapper would have it.
+class OdometryStatistics {
+ public:
+  /// Whether it is odometry at all.
+  static bool isOdometry(const mrpt::obs::CObservation& observation);
+  void add(const mrpt::obs::CObservation& observation);
+  const OdometryFacts& facts() const { return facts_; }
+  std::optional<mrpt::poses::CPose2D> between(base::Stamp begin, base::Stamp end) const;
+  /// Those of its readings that are valid, in order of arrival.
+  const std::vector<base::Stamp>& stamps() const { return stamps_; }
+
+ private:
+  void addStep(const mrpt::poses::CPose2D& step, double seconds, base::Stamp stamp);
+
+  OdometryFacts facts_;
+  std::optional<mrpt::poses::CPose2D> previous_;
+  base::Stamp previous_stamp_;
+  std::vector<base::Stamp> stamps_;
+  matching::WheelOdometry source_{matching::WheelOdometryOptions()};
+};
+
+/// Holds two odometries against one another over spans of a second or more that begin and end with readings of the one
+/// that has fewer; of a long log some hundred.
+OdometryPair compareOdometries(const std::string& a, const OdometryStatistics& of_a, const std::string& b,
+                               const OdometryStatistics& of_b);
+
+}  // namespace omnimapper::check

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <omnimapper/check/LogFacts.h>
+
+#include <vector>
+
+namespace omnimapper::check {
+
+/// Counts the scans of one label.
+class ScanStatistics {
+ public:
+  void add(const mrpt::obs::CObservation2DRangeScan& scan);
+  ScanFacts facts() const;
+
+ private:
+  void addBlind(const mrpt::obs::CObservation2DRangeScan& scan);
+  void addRange(float range);
+
+  ScanFacts facts_;
+  std::size_t all_beams_ = 0, valid_beams_ = 0, at_longest_ = 0;
+  std::vector<float> previous_;  // [m] ranges of the scan before
+  std::vector<float> sampled_;   // [m] valid ranges, of some beams
+};
+
+}  // namespace omnimapper::check

@@ -1,0 +1,48 @@
+#include "GaugeCheck.h"
+
+#include <omnimapper/base/Error.h>
+
+#include <unordered_set>
+#include <vector>
+
+namespace omnimapper::graph {
+
+namespace {
+
+using base::VariableId;
+
+/// Everything that is reached from the given variables over factors of positive weight is added to `reached`.
+void flood(const Graph& graph, std::vector<VariableId> open, std::unordered_set<VariableId>& reached) {
+  while (!open.empty()) {
+    const VariableId id = open.back();
+    open.pop_back();
+    for (const base::FactorId factor : graph.factorsOf(id)) {
+      const FactorRecord& record = graph.factor(factor);
+      if (record.weight == 0) continue;
+      for (const VariableId next : record.variables)
+        if (reached.insert(next).second) open.push_back(next);
+    }
+  }
+}
+
+}  // namespace
+
+void checkGauge(const Graph& graph) {
+  std::unordered_set<VariableId> reached;
+  std::vector<VariableId> anchors;
+  for (const auto& [id, record] : graph.factors()) {
+    if (record.weight == 0) continue;
+    for (const VariableId variable : record.variables) {
+      const bool is_held = record.variables.size() == 1 || graph.variable(variable).fixed;
+      if (is_held && reached.insert(variable).second) anchors.push_back(variable);
+    }
+  }
+  flood(graph, std::move(anchors), reached);
+  for (const auto& [id, record] : graph.factors())
+    if (record.weight > 0 && reached.count(record.variables[0]) == 0)
+      throw base::Error(base::ExitCode::internal,
+                        "graph: variable " + toString(record.variables[0]) +
+                            " and what is connected to it hang free: fix a variable there or add a prior");
+}
+
+}  // namespace omnimapper::graph
