@@ -106,7 +106,7 @@ inline std::vector<DepthFrame> simulate(const sim::World& world, const sim::Trac
   context.scenes = &scenes;
   context.map_from_base = &map_from_base;
   const auto sensor =
-      sim::makeSensor(base::Config::fromText("[depth]\nclass = RgbdCamera\n" + ini, "bench"), "depth", context);
+      sim::makeSensor(base::Config::fromText("[depth]\nclass = DepthCamera\n" + ini, "bench"), "depth", context);
   std::vector<DepthFrame> frames;
   for (int i = 0; i < count; ++i) {
     const auto observation = sensor->measure(i * sensor->count() / count).observation;

@@ -17,16 +17,16 @@ namespace {
 using namespace omnimapper;
 
 const char* kSensors = R"([kinect]
-class = RgbdCamera
+class = DepthCamera
 labels = true
 [xtion]
-class = RgbdCamera
+class = DepthCamera
 model = xtion
 [stereo]
-class = RgbdCamera
+class = DepthCamera
 model = stereo
 [ideal]
-class = RgbdCamera
+class = DepthCamera
 model = ideal
 [picture]
 class = ColourCamera

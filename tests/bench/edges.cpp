@@ -231,7 +231,7 @@ int main(int argc, char** argv) {
   app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
   app.add_option("--ini", truth.ini, "simulated place");
   app.add_option("--set", truth.settings, "section.key=value, over that INI");
-  app.add_option("--sensor", truth.sensor, "its RgbdCamera");
+  app.add_option("--sensor", truth.sensor, "its DepthCamera");
   app.add_option("--frames", truth.frames, "how many of its frames")->check(CLI::PositiveNumber);
   app.add_option("--reach", truth.reach, "[px] between found and true edges")->check(CLI::PositiveNumber);
   app.add_option("--jump", truth.least_jump, "least true jump, in parts of the depth");

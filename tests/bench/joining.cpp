@@ -6,7 +6,7 @@
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SavedMap.h>

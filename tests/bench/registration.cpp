@@ -334,7 +334,7 @@ int main(int argc, char** argv) {
          "in their place so many pairs of images 2 to 3 cm and 1 to 2 deg apart, each of another simulated place; "
          "their guess is no motion")
       ->check(CLI::PositiveNumber);
-  app.add_option("--place", place, "INI of these places, whose seeds are 1, 2, ...; its first sensor is an RgbdCamera")
+  app.add_option("--place", place, "INI of these places, whose seeds are 1, 2, ...; its first sensor is an DepthCamera")
       ->check(CLI::ExistingFile)
       ->capture_default_str();
   app.add_option("--only", only, "only methods with this in their row or name");

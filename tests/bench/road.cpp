@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   CLI::App app("The ground that a stereo camera sees of a simulated road.");
   app.add_option("--ini", ini, "simulated place");
   app.add_option("--set", settings, "section.key=value, over that INI");
-  app.add_option("--sensor", name, "its RgbdCamera");
+  app.add_option("--sensor", name, "its DepthCamera");
   app.add_option("--frames", frames, "how many of its frames")->check(CLI::PositiveNumber);
   app.add_option("--sigmas", options.grow_sigmas, "of the second pass");
   app.add_option("--step", options.step_sigmas, "deviations of a step that is no ground");

@@ -33,8 +33,8 @@ class Room {
     truth.depth_scale = is_registered ? 1 : 1.02;
   }
 
-  RgbdCamera truth;
-  std::vector<View> views;
+  DepthCamera truth;
+  std::vector<CalibrationView> views;
   std::vector<geometry::Se3> picture_from_world;
   std::vector<Eigen::Vector3d> points;
   std::vector<Measurement> measurements;
@@ -66,12 +66,12 @@ class Room {
     }
   }
 
-  BundleInput input(const RgbdCamera& log) const {
+  BundleInput input(const DepthCamera& log) const {
     BundleInput input{views, measurements, spans, log, std::vector<bool>(views.size(), false), {}};
     input.are_held[0] = true;
     return input;
   }
-  Estimate start(const RgbdCamera& log) const {
+  Estimate start(const DepthCamera& log) const {
     Estimate estimate{log, picture_from_world, points, {}};
     testing::Dice dice(3);
     for (auto& pose : estimate.picture_from_world)
@@ -114,7 +114,7 @@ class Room {
   double half_[3] = {2, 1.5, 2.5};
 };
 
-void expectTruth(const Adjusted& adjusted, const RgbdCamera& truth) {
+void expectTruth(const Adjusted& adjusted, const DepthCamera& truth) {
   const auto& camera = adjusted.estimate.camera;
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(camera.picture[i], truth.picture[i], 1.5) << i;
   for (std::size_t i = 4; i < 9; ++i) EXPECT_NEAR(camera.picture[i], truth.picture[i], 0.06) << i;
@@ -130,7 +130,7 @@ void expectTruth(const Adjusted& adjusted, const RgbdCamera& truth) {
 TEST(Bundle, FindsOneCameraThatTheLogHasWrong) {
   Room room(true);
   room.see(20, 0.2);
-  RgbdCamera log = room.truth;
+  DepthCamera log = room.truth;
   log.picture = {530, 532, 323, 239};  // 2 % and 5 px off, and without the lens
   log.depth = log.picture;
   const auto adjusted = adjust(room.input(log), room.start(log), {Group::focal, Group::centre, Group::lens});
@@ -140,7 +140,7 @@ TEST(Bundle, FindsOneCameraThatTheLogHasWrong) {
 TEST(Bundle, FindsTwoCamerasTheirPlaceAndTheScaleWhereMetresAreMeasured) {
   Room room(false);
   room.see(20, 0.2);
-  RgbdCamera log = room.truth;
+  DepthCamera log = room.truth;
   log.picture = {530, 512, 323, 239};
   log.depth = {582, 560, 327, 243};
   log.depth_from_picture =

@@ -4,7 +4,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/calibration/CalibrationRun.h>
-#include <omnimapper/calibration/RgbdCamera.h>
+#include <omnimapper/calibration/DepthCamera.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/CameraCalibration.h>
@@ -116,7 +116,7 @@ class CalibrationRunTest : public ::testing::Test {
     return "";
   }
   // The log's camera as the calibration that was written corrects it.
-  RgbdCamera corrected(const Log& log) {
+  DepthCamera corrected(const Log& log) {
     auto scan = imageOf(log, 0);
     const auto config = base::Config::fromFile(request_.output + "/calibration.ini");
     const auto calibration = perception::CameraCalibration::read(config);

@@ -2,7 +2,7 @@
 #include <mrpt/img/CImage.h>
 #include <omnimapper/draw/Image.h>
 #include <omnimapper/draw/Markup.h>
-#include <omnimapper/obs/Drawing.h>
+#include <omnimapper/obs/SceneDrawing.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <cmath>

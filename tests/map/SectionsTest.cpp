@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/map/DenseTrajectory.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/map/SessionMetrics.h>
-#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <iterator>

@@ -2,7 +2,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
 #include <omnimapper/testing/MapperRun.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/geometry/Angle.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/graph/Between.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <algorithm>

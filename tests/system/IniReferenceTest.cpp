@@ -1,20 +1,12 @@
 // ini/README.md and ini/simulator.md are what the option tables say.
 #include <gtest/gtest.h>
-#include <stdio.h>
 
-#include <memory>
-
+#include "CommandOutput.h"
 #include "SourceTree.h"
 
 namespace {
 
-/// What a shell command prints.
-std::string outputOf(const std::string& command) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
-  std::string output(1 << 16, '\0'), all;
-  while (const std::size_t count = ::fread(output.data(), 1, output.size(), pipe.get())) all.append(output, 0, count);
-  return all;
-}
+using command_output::outputOf;
 
 void expectReference(const std::string& file, const std::string& program) {
   const auto now = source_tree::lines(outputOf("'" OMNIMAPPER_BIN_DIR "/" + program + "' --ini-reference"));

@@ -22,7 +22,7 @@ Eigen::Vector3d inDepths(const Measurement& one, const Estimate& estimate) {
 }
 
 // The surface that the depth image has where the estimate sees the point.
-void associate(Measurement& one, const View& view, const Estimate& estimate) {
+void associate(Measurement& one, const CalibrationView& view, const Estimate& estimate) {
   const Eigen::Vector3d p = inDepths(one, estimate);
   one.plane = p.z() > 0.1 ? view.planeAt(project(estimate.camera.depthCamera().data(), p)) : std::nullopt;
   if (one.plane) one.depth_row_share = one.plane->pixel.y() / view.depth_height - 0.5;
@@ -82,7 +82,7 @@ Adjusted adjust(const BundleInput& input, const Estimate& start, const std::set<
   return adjusted;
 }
 
-ViewMisses fitView(const std::vector<Measurement>& of_view, const View& view, const Estimate& estimate,
+ViewMisses fitView(const std::vector<Measurement>& of_view, const CalibrationView& view, const Estimate& estimate,
                    const geometry::Se3& picture_from_world) {
   Estimate alone{estimate.camera, {picture_from_world}, {}, estimate.timing};
   std::vector<Measurement> measurements = of_view;

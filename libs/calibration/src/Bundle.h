@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/calibration/RgbdCamera.h>
+#include <omnimapper/calibration/DepthCamera.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -10,8 +10,8 @@
 #include <set>
 #include <vector>
 
+#include "CalibrationView.h"
 #include "Tracks.h"
-#include "View.h"
 
 namespace omnimapper::calibration {
 
@@ -20,7 +20,7 @@ enum class Group { focal, centre, lens, depth_focal, depth_centre, place, turn, 
 
 /// What bundle adjustment changes.
 struct Estimate {
-  RgbdCamera camera;
+  DepthCamera camera;
   std::vector<geometry::Se3> picture_from_world;  ///< by view
   std::vector<Eigen::Vector3d> points;            ///< by track, in the world [m]
   std::array<double, 3>
@@ -46,10 +46,10 @@ struct MetricSpan {
 };
 
 struct BundleInput {
-  const std::vector<View>& views;
+  const std::vector<CalibrationView>& views;
   std::vector<Measurement> measurements;
   std::vector<MetricSpan> spans;
-  RgbdCamera log;              ///< about which the weak priors are
+  DepthCamera log;             ///< about which the weak priors are
   std::vector<bool> are_held;  ///< views whose pose stays: the first of each stretch
   std::function<bool()> stop;  ///< asked between two iterations
 };
@@ -86,7 +86,7 @@ struct ViewMisses {
   std::vector<double> depth_misses;     ///< [1/m]
   double cost = 0;                      ///< with losses
 };
-ViewMisses fitView(const std::vector<Measurement>& of_view, const View& view, const Estimate& estimate,
+ViewMisses fitView(const std::vector<Measurement>& of_view, const CalibrationView& view, const Estimate& estimate,
                    const geometry::Se3& picture_from_world);
 
 }  // namespace omnimapper::calibration

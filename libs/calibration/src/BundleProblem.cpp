@@ -64,7 +64,7 @@ void BundleProblem::add(const Measurement& one) {
                             timing_.data());
 }
 
-void BundleProblem::add(const MetricSpan& span, const std::vector<View>& views) {
+void BundleProblem::add(const MetricSpan& span, const std::vector<CalibrationView>& views) {
   const auto base_in = [&](std::size_t view) { return inverse(views[view].base_from_picture).translation; };
   problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<DistanceResidual, 1, 6, 6>(new DistanceResidual{
                                 base_in(span.first), base_in(span.second), span.distance, span.sigma}),
@@ -111,7 +111,7 @@ std::vector<BundleProblem::Number> BundleProblem::numbersOf(const std::set<Group
   return all;
 }
 
-void BundleProblem::setFree(const std::set<Group>& free, const RgbdCamera& log) {
+void BundleProblem::setFree(const std::set<Group>& free, const DepthCamera& log) {
   free_ = numbersOf(free);
   const BundleProblem of_log(Estimate{log, {}, {}, {}});
   const std::vector<std::pair<double*, const double*>> blocks = {

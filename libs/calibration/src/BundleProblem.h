@@ -15,9 +15,9 @@ class BundleProblem {
   BundleProblem& operator=(const BundleProblem&) = delete;
 
   void add(const Measurement& measurement);
-  void add(const MetricSpan& span, const std::vector<View>& views);
+  void add(const MetricSpan& span, const std::vector<CalibrationView>& views);
   /// Weak priors about `log` on what is free; all else of the camera is held.
-  void setFree(const std::set<Group>& free, const RgbdCamera& log);
+  void setFree(const std::set<Group>& free, const DepthCamera& log);
   void holdCamera() { setFree({}, start_.camera); }
   void holdPoint(std::size_t track) { problem_.SetParameterBlockConstant(points_[track].data()); }
   void holdView(std::size_t view);

@@ -25,7 +25,7 @@ bool isHeldBack(std::size_t view) {
   return view % kHoldEvery == kHoldEvery / 2;
 }
 
-std::vector<Measurement> measurementsOf(const std::vector<Track>& tracks, const std::vector<View>& views,
+std::vector<Measurement> measurementsOf(const std::vector<Track>& tracks, const std::vector<CalibrationView>& views,
                                         bool held_back) {
   std::vector<Measurement> all;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -50,7 +50,7 @@ std::vector<Measurement> measurementsOf(const std::vector<Track>& tracks, const 
 }
 
 // The first of each stretch that is measured.
-std::vector<bool> firstViews(const std::vector<View>& views, const std::vector<Measurement>& measurements) {
+std::vector<bool> firstViews(const std::vector<CalibrationView>& views, const std::vector<Measurement>& measurements) {
   std::vector<bool> is_seen(views.size(), false), first(views.size(), false);
   for (const auto& one : measurements) is_seen[one.view] = true;
   int stretch = -1;
@@ -142,7 +142,7 @@ HeldBack testOn(const std::vector<Measurement>& held, const BundleInput& used, c
 }
 
 // Whether the scale of the depths may as well be the log's.
-bool isScaleOfLog(const Adjusted& adjusted, const RgbdCamera& log) {
+bool isScaleOfLog(const Adjusted& adjusted, const DepthCamera& log) {
   const auto is_scale = [](const Parameter& one) { return one.group == Group::scale; };
   const auto scale = std::find_if(adjusted.parameters.begin(), adjusted.parameters.end(), is_scale);
   return scale == adjusted.parameters.end() || std::abs(scale->value - log.depth_scale) < 2 * scale->sigma;
@@ -203,7 +203,7 @@ Adjusted adjustWhatIsDetermined(const BundleInput& input, const Estimate& start,
   }
 }
 
-std::set<Group> allGroups(const RgbdCamera& camera, bool has_metres) {
+std::set<Group> allGroups(const DepthCamera& camera, bool has_metres) {
   std::set<Group> all{Group::focal, Group::centre, Group::lens, Group::timing};
   if (!camera.is_registered) all.insert({Group::depth_focal, Group::depth_centre, Group::place, Group::turn});
   if (has_metres) all.insert(Group::scale);
@@ -212,8 +212,9 @@ std::set<Group> allGroups(const RgbdCamera& camera, bool has_metres) {
 
 }  // namespace
 
-Calibration calibrate(const std::vector<View>& views, const RgbdCamera& log, const std::vector<MetricSpan>& spans,
-                      base::Progress& progress, const std::function<bool()>& stop) {
+Calibration calibrate(const std::vector<CalibrationView>& views, const DepthCamera& log,
+                      const std::vector<MetricSpan>& spans, base::Progress& progress,
+                      const std::function<bool()>& stop) {
   if (views.size() < kFewestViews) refuseTooLittle(views.size(), 0);
   progress.report(0.8, "matching corners");
   auto tracks = findTracks(views, log, kFewestInTrack, kMostTracks);

@@ -36,7 +36,7 @@ struct HeldBack {
 };
 
 struct Calibration {
-  RgbdCamera log, estimate;  ///< what is not determined is in `estimate` as in `log`
+  DepthCamera log, estimate;  ///< what is not determined is in `estimate` as in `log`
   std::vector<Finding> findings;
   std::size_t views = 0, held_views = 0, tracks = 0, corners = 0, surfaces = 0, spans = 0;
   HeldBack before, after;
@@ -45,7 +45,8 @@ struct Calibration {
 
 /// Refines what a log says of its camera by bundle adjustment over corners and the surfaces of depth images. Throws
 /// Error(nothing_to_map), with the remedy, where too little was seen, and Error(interrupted).
-Calibration calibrate(const std::vector<View>& views, const RgbdCamera& log, const std::vector<MetricSpan>& spans,
-                      base::Progress& progress, const std::function<bool()>& stop);
+Calibration calibrate(const std::vector<CalibrationView>& views, const DepthCamera& log,
+                      const std::vector<MetricSpan>& spans, base::Progress& progress,
+                      const std::function<bool()>& stop);
 
 }  // namespace omnimapper::calibration

@@ -40,7 +40,7 @@ class Metres {
   bool areWheels() const { return given_.empty(); }
 
   /// A span ends with the first view that is far enough from its first one.
-  std::vector<MetricSpan> spansOf(const std::vector<View>& views) const {
+  std::vector<MetricSpan> spansOf(const std::vector<CalibrationView>& views) const {
     constexpr double kFixed = 0.005, kOfWheels = 0.03, kWheelsScale = 0.01;  // [m] [-]
     const double far_enough = areWheels() ? 0.3 : 0.08;                      // [m] wheels slip at every start
     std::vector<MetricSpan> spans;

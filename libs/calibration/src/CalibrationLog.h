@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "Bundle.h"
-#include "View.h"
+#include "CalibrationView.h"
 
 namespace omnimapper::calibration {
 
 /// What of a log can calibrate its camera.
 struct CalibrationLog {
-  RgbdCamera camera;
+  DepthCamera camera;
   std::string label;  ///< of the camera
-  std::vector<View> views;
+  std::vector<CalibrationView> views;
   std::vector<MetricSpan> spans;         ///< of wheels or given poses
   bool are_wheels = false;               ///< spans are of wheels, whose own scale is uncertain
   bool is_corrected = false;             ///< by an INI, from which the calibration starts

@@ -65,7 +65,7 @@ void writeCamera(std::ostream& out, const std::string& prefix, const Intrinsics&
   }
 }
 
-void writePose(std::ostream& out, const RgbdCamera& camera) {
+void writePose(std::ostream& out, const DepthCamera& camera) {
   const auto pose = geometry::toMrpt(geometry::sensorFromOptical() * camera.depth_from_picture);
   constexpr double kDegree = base::option_text::kRadiansPerDegree;
   out << "picture_x_m = " << brief(pose.x(), 8) << "\npicture_y_m = " << brief(pose.y(), 8)

@@ -14,7 +14,7 @@ constexpr int kRadius = 6, kSide = 2 * kRadius + 1;  // [px]
 using Patch = std::array<double, kSide * kSide>;
 
 // Between pixels; none outside.
-std::optional<double> greyAt(const View& view, const Eigen::Vector2d& p) {
+std::optional<double> greyAt(const CalibrationView& view, const Eigen::Vector2d& p) {
   const int x = static_cast<int>(std::floor(p.x())), y = static_cast<int>(std::floor(p.y()));
   if (x < 0 || y < 0 || x + 1 >= view.width || y + 1 >= view.height) return std::nullopt;
   const double u = p.x() - x, v = p.y() - y;
@@ -26,7 +26,7 @@ std::optional<double> greyAt(const View& view, const Eigen::Vector2d& p) {
 }
 
 // What `view` shows around a place, each step of the patch turned and stretched.
-std::optional<Patch> patchAt(const View& view, const Eigen::Vector2d& place, const Eigen::Matrix2d& step) {
+std::optional<Patch> patchAt(const CalibrationView& view, const Eigen::Vector2d& place, const Eigen::Matrix2d& step) {
   Patch patch;
   std::size_t i = 0;
   for (int row = -kRadius; row <= kRadius; ++row) {
@@ -40,8 +40,8 @@ std::optional<Patch> patchAt(const View& view, const Eigen::Vector2d& place, con
 }
 
 // How the surroundings of a pixel of `from` are turned and stretched in `to`, by the surface that is seen there.
-std::optional<Eigen::Matrix2d> warpOf(const View& from, const Eigen::Vector2d& pixel, const View& to,
-                                      const RgbdCamera& camera) {
+std::optional<Eigen::Matrix2d> warpOf(const CalibrationView& from, const Eigen::Vector2d& pixel,
+                                      const CalibrationView& to, const DepthCamera& camera) {
   constexpr double kStep = 4;  // [px]
   const auto place = depthPixelOf(from, camera, pixel);
   const auto plane = place ? from.planeAt(*place) : std::nullopt;
@@ -71,7 +71,7 @@ struct Aligned {
 };
 
 // Lucas and Kanade's method, over shift, contrast and brightness.
-std::optional<Aligned> align(const Patch& reference, const View& view, const Eigen::Vector2d& start,
+std::optional<Aligned> align(const Patch& reference, const CalibrationView& view, const Eigen::Vector2d& start,
                              const Eigen::Matrix2d& warp) {
   constexpr int kRounds = 20;
   constexpr double kDone = 0.005, kFarthest = 3;  // [px]
@@ -113,7 +113,7 @@ std::optional<Aligned> align(const Patch& reference, const View& view, const Eig
 }
 
 // The view in the middle of the track is the reference: the others look from either side of it.
-void alignTrack(Track& track, const std::vector<View>& views, const RgbdCamera& camera) {
+void alignTrack(Track& track, const std::vector<CalibrationView>& views, const DepthCamera& camera) {
   constexpr double kLeastLikeness = 0.85, kSigma = 0.35;  // [-] [px] of an aligned corner
   const Sighting reference = track.sightings[track.sightings.size() / 2];
   const auto patch = patchAt(views[reference.view], reference.pixel, Eigen::Matrix2d::Identity());
@@ -133,7 +133,7 @@ void alignTrack(Track& track, const std::vector<View>& views, const RgbdCamera& 
 
 }  // namespace
 
-void alignCorners(std::vector<Track>& tracks, const std::vector<View>& views, const RgbdCamera& camera,
+void alignCorners(std::vector<Track>& tracks, const std::vector<CalibrationView>& views, const DepthCamera& camera,
                   std::size_t fewest) {
   for (auto& track : tracks) alignTrack(track, views, camera);
   tracks.erase(

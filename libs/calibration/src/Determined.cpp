@@ -29,7 +29,7 @@ const std::vector<std::string>& keysOf(Group group) {
   return keys.at(group);
 }
 
-std::vector<double> valuesOf(Group group, const RgbdCamera& camera) {
+std::vector<double> valuesOf(Group group, const DepthCamera& camera) {
   const auto& p = camera.picture;
   const auto& d = camera.depth;
   const Eigen::Vector3d& place = camera.depth_from_picture.translation;
@@ -92,7 +92,7 @@ double lensSigma(const Adjusted& adjusted, const std::vector<std::size_t>& indic
 }
 
 // Whether the lens turns back on itself before the corner of the picture, where two directions would have one pixel.
-bool folds(const RgbdCamera& camera) {
+bool folds(const DepthCamera& camera) {
   const auto& c = camera.picture;
   const double corner = std::hypot(0.5 * camera.width / c[0], 0.5 * camera.height / c[1]);
   constexpr int kSteps = 50;
@@ -190,7 +190,7 @@ double undetermined(Group group, const Adjusted& adjusted) {
   return worst;
 }
 
-std::vector<Finding> findingsOf(const RgbdCamera& log, const Adjusted& adjusted,
+std::vector<Finding> findingsOf(const DepthCamera& log, const Adjusted& adjusted,
                                 const std::map<Group, Adjusted>& attempts, bool has_metres) {
   std::vector<Group> groups{Group::focal, Group::centre, Group::lens};
   if (!log.is_registered) groups.insert(groups.end(), {Group::depth_focal, Group::depth_centre});

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <ceres/rotation.h>
-#include <omnimapper/calibration/RgbdCamera.h>
+#include <omnimapper/calibration/DepthCamera.h>
 
 #include <array>
 
-#include "View.h"
+#include "CalibrationView.h"
 
 namespace omnimapper::calibration {
 

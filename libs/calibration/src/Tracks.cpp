@@ -47,7 +47,7 @@ std::vector<cv::KeyPoint> spread(std::vector<cv::KeyPoint> all, int width, int h
   return chosen;
 }
 
-Corners cornersOf(const View& view, const RgbdCamera& camera) {
+Corners cornersOf(const CalibrationView& view, const DepthCamera& camera) {
   constexpr int kDetected = 6000, kLevels = 5, kEdge = 16, kFastThreshold = 8;
   constexpr std::size_t kMost = 800;
   constexpr float kScale = 1.2F;
@@ -116,7 +116,7 @@ std::optional<std::size_t> likestNear(const Corners& corners, const Eigen::Vecto
 using Links = std::vector<std::size_t>;  // by corner of the one view the other's; npos: none
 constexpr auto kNone = static_cast<std::size_t>(-1);
 
-Links linksTo(const Corners& from, const Corners& to, const geometry::Se3& to_from_from, const RgbdCamera& camera) {
+Links linksTo(const Corners& from, const Corners& to, const geometry::Se3& to_from_from, const DepthCamera& camera) {
   Links links(from.pixels.size(), kNone);
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (!from.points[i]) continue;
@@ -147,7 +147,7 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-bool seeTheSame(const View& a, const View& b) {
+bool seeTheSame(const CalibrationView& a, const CalibrationView& b) {
   constexpr double kWidest = 32 * 3.14159265358979323846 / 180, kFarthest = 0.8;  // [rad] [m]
   const auto b_from_a = inverse(b.world_from_picture) * a.world_from_picture;
   return a.stretch == b.stretch && geometry::logSo3(b_from_a.rotation).norm() < kWidest &&
@@ -156,7 +156,8 @@ bool seeTheSame(const View& a, const View& b) {
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> depthPixelOf(const View& view, const RgbdCamera& camera, const Eigen::Vector2d& pixel) {
+std::optional<Eigen::Vector2d> depthPixelOf(const CalibrationView& view, const DepthCamera& camera,
+                                            const Eigen::Vector2d& pixel) {
   if (camera.is_registered) return pixel;
   const Eigen::Vector3d ray = rayThrough(camera.picture, pixel);
   double depth = 2;  // [m] at first; the two cameras are near one another
@@ -173,7 +174,8 @@ std::optional<Eigen::Vector2d> depthPixelOf(const View& view, const RgbdCamera& 
   return place;
 }
 
-std::optional<Eigen::Vector3d> pointAt(const View& view, const RgbdCamera& camera, const Eigen::Vector2d& pixel) {
+std::optional<Eigen::Vector3d> pointAt(const CalibrationView& view, const DepthCamera& camera,
+                                       const Eigen::Vector2d& pixel) {
   const auto place = depthPixelOf(view, camera, pixel);
   const auto plane = place ? view.planeAt(*place) : std::nullopt;
   if (!plane) return std::nullopt;
@@ -182,7 +184,7 @@ std::optional<Eigen::Vector3d> pointAt(const View& view, const RgbdCamera& camer
   return rayThrough(camera.picture, pixel) / inverse;
 }
 
-std::vector<Track> findTracks(const std::vector<View>& views, const RgbdCamera& camera, std::size_t fewest,
+std::vector<Track> findTracks(const std::vector<CalibrationView>& views, const DepthCamera& camera, std::size_t fewest,
                               std::size_t most) {
   std::vector<Corners> corners;
   std::vector<std::size_t> first{0};  // number of a view's first corner

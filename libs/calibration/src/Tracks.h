@@ -1,12 +1,12 @@
 #pragma once
 
-#include <omnimapper/calibration/RgbdCamera.h>
+#include <omnimapper/calibration/DepthCamera.h>
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
-#include "View.h"
+#include "CalibrationView.h"
 
 namespace omnimapper::calibration {
 
@@ -25,12 +25,14 @@ struct Track {
 
 /// Corners (ORB) that look alike in views which by their poses see the same, linked to tracks of at least `fewest`
 /// views. The same input gives the same tracks.
-std::vector<Track> findTracks(const std::vector<View>& views, const RgbdCamera& camera, std::size_t fewest,
+std::vector<Track> findTracks(const std::vector<CalibrationView>& views, const DepthCamera& camera, std::size_t fewest,
                               std::size_t most);
 
 /// Where the depth image shows what is in that pixel of the picture; none where there is no depth.
-std::optional<Eigen::Vector2d> depthPixelOf(const View& view, const RgbdCamera& camera, const Eigen::Vector2d& pixel);
+std::optional<Eigen::Vector2d> depthPixelOf(const CalibrationView& view, const DepthCamera& camera,
+                                            const Eigen::Vector2d& pixel);
 /// The point that a pixel of the picture shows, in the picture's optical frame; none where there is no depth.
-std::optional<Eigen::Vector3d> pointAt(const View& view, const RgbdCamera& camera, const Eigen::Vector2d& pixel);
+std::optional<Eigen::Vector3d> pointAt(const CalibrationView& view, const DepthCamera& camera,
+                                       const Eigen::Vector2d& pixel);
 
 }  // namespace omnimapper::calibration

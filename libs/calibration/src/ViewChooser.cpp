@@ -80,7 +80,7 @@ void ViewChooser::follow(const CObservation3DRangeScan::ConstPtr& scan) {
     return;
   }
   if (tracked.how == How::begun) ++stretch_;
-  View view;
+  CalibrationView view;
   if (tracked.how != How::begun) {
     const auto& depth_from_picture = camera_->depth_from_picture;
     const auto motion = inverse(depth_from_picture) * tracked.last_from_camera * depth_from_picture;
@@ -136,10 +136,10 @@ void ViewChooser::thin() {
   spacing_ *= 2;
 }
 
-std::vector<View> ViewChooser::take() {
+std::vector<CalibrationView> ViewChooser::take() {
   while (kept_.size() > most_ && spacing_ < kWidestSpacing) thin();
   if (kept_.size() > most_) kept_.resize(most_);
-  std::vector<View> views;
+  std::vector<CalibrationView> views;
   for (auto& one : kept_) views.push_back(std::move(one.view));
   kept_.clear();
   return views;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
-#include <omnimapper/calibration/RgbdCamera.h>
+#include <omnimapper/calibration/DepthCamera.h>
 #include <omnimapper/matching/RgbdTracker.h>
 #include <omnimapper/perception/LensStraightener.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "View.h"
+#include "CalibrationView.h"
 
 namespace omnimapper::calibration {
 
@@ -24,11 +24,11 @@ class ViewChooser {
   /// An image with depths and picture; one of another size than the first, or that cannot be read, is left out.
   void add(const mrpt::obs::CObservation3DRangeScan::ConstPtr& scan);
   /// The views in the order of time. To be called once, at the end.
-  std::vector<View> take();
+  std::vector<CalibrationView> take();
 
   /// Whether there are so many views that more of the log would only take them farther apart than they can be matched.
   bool isFull() const { return spacing_ >= kWidestSpacing && kept_.size() > most_; }
-  const std::optional<RgbdCamera>& camera() const { return camera_; }
+  const std::optional<DepthCamera>& camera() const { return camera_; }
   std::size_t images() const { return images_; }
   std::size_t lost() const { return lost_; }
   /// Images that were left out, and why the first was.
@@ -40,7 +40,7 @@ class ViewChooser {
 
  private:
   struct Candidate {
-    View view;
+    CalibrationView view;
     std::size_t bin;
   };
   void leaveOut(const std::string& why);
@@ -52,7 +52,7 @@ class ViewChooser {
   std::size_t most_;
   matching::RgbdTracker tracker_;
   perception::LensStraightener lens_;
-  std::optional<RgbdCamera> camera_;
+  std::optional<DepthCamera> camera_;
   std::vector<Candidate> kept_;
   std::size_t images_ = 0, lost_ = 0, left_out_ = 0;
   std::string why_left_out_;

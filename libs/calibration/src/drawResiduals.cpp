@@ -21,7 +21,7 @@ Eigen::Vector2d medianOf(std::vector<double> across, std::vector<double> down) {
 }
 
 // In each part of the picture the median of what its corners miss by, as a line from the part's middle.
-void drawPanel(draw::Svg& svg, const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const RgbdCamera& camera,
+void drawPanel(draw::Svg& svg, const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const DepthCamera& camera,
                const HeldBack& held, const std::string& name) {
   svg.box(corner, size, "#f4f4f4");
   svg.text(corner + Eigen::Vector2d(0, -8), name + ": " + base::fixed(held.pixel_median, 2) + " px in the median",

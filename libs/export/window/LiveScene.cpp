@@ -5,7 +5,7 @@
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/stock_objects.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 
 #include <algorithm>
 #include <cmath>

@@ -10,28 +10,28 @@ const base::OptionTable<LiveOptions>& LiveOptions::table() {
                 "Sections of the sensors that --live reads, in the order in which they are opened. Each names an MRPT "
                 "driver (driver = CHokuyoURG) and has that driver's own keys.")
           .text("grabber", &LiveOptions::grabber,
-                "An INI of MRPT's rawlog-grabber, whose sensors are read as they stand there; a relative path "
+                "INI file of MRPT's rawlog-grabber, whose sensor sections are used unchanged. A relative path "
                 "counts from the folder of the first INI.")
           .list("libraries", &LiveOptions::libraries,
                 "Shared libraries that register drivers (classes of mrpt::hwdrivers::CGenericSensor) when they are "
                 "loaded.")
           .flag("record", &LiveOptions::record,
-                "Writes what the sensors say into rawlogs in the folder recording of the output folder, with a journal "
+                "Records the sensor data as rawlogs in the folder recording of the output folder, with a journal "
                 "from which --replay makes the same map again.")
           .choice("images", &LiveOptions::images,
                   {{"lossless", source::ColourImages::lossless}, {"jpeg", source::ColourImages::jpeg}},
-                  "How colour images are recorded. The mapper sees what was recorded: with jpeg that of quality 95.")
+                  "How colour images are recorded. The mapper uses the image as recorded, with jpeg at quality 95.")
           .integer("compression", &LiveOptions::compression, Range{0, 9},
-                   "Compression level of the recording by zlib: 0 none, 1 the fastest, 9 the smallest files.")
+                   "zlib compression level of the recording: 0 for none, 1 for the fastest, 9 for the smallest "
+                   "files.")
           .number("split_mb", &LiveOptions::split_mb, Range::notNegative(),
-                  "Size of a file on the disk at which a new rawlog is begun; 0 never splits a recording.")
+                  "Size of a rawlog on the disk at which a new one is begun; 0 never splits a recording.")
           .number("queue_mb", &LiveOptions::queue_mb, Range::positive(),
-                  "Size of the write buffer. When it is full because the disk is too slow, frames of cameras are "
+                  "Size of the write buffer. When it is full because the disk is too slow, camera frames are "
                   "discarded, neither recorded nor mapped, and counted.")
-          .integer(
-              "camera_queue", &LiveOptions::camera_queue, Range{1, 1000},
-              "Frames of one camera that wait for the mapper; of more than that the oldest is left out of the map, "
-              "and counted. It stays in the recording. Lasers and odometry are never left out.")
+          .integer("camera_queue", &LiveOptions::camera_queue, Range{1, 1000},
+                   "Largest number of frames of one camera that wait for the mapper; beyond it the oldest is recorded "
+                   "but left out of the map, and counted. Lasers and odometry are never left out.")
           .number("silent_after_s", &LiveOptions::silent_after, Range::positive(),
                   "A sensor is reported as silent after this time without data, or after twice the longest of its last "
                   "ten intervals if that is longer.")

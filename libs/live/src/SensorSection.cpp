@@ -89,13 +89,12 @@ void tryDrivers(const std::vector<SensorSection>& sensors) {
 const base::OptionTable<SensorOptions>& SensorOptions::table() {
   static const auto table =
       base::OptionTable<SensorOptions>()
-          .choice(
-              "clock", &SensorOptions::clock,
-              {{"automatic", Clock::automatic}, {"driver", Clock::driver}, {"arrival", Clock::arrival}},
-              "What stamps an observation: driver, the driver's stamp; arrival, the time of its arrival; automatic, "
-              "the driver's stamp, corrected by the estimated offset where its clock is not the host's.")
+          .choice("clock", &SensorOptions::clock,
+                  {{"automatic", Clock::automatic}, {"driver", Clock::driver}, {"arrival", Clock::arrival}},
+                  "Source of an observation's stamp: the driver, the time of arrival, or (automatic) the driver, "
+                  "corrected by the estimated offset where its clock is not the host's.")
           .number("clock_offset_s", &SensorOptions::clock_offset, base::Range(),
-                  "Added to every stamp of the driver; a known latency is negative.");
+                  "Offset added to every stamp of the driver; a known latency is a negative offset.");
   return table;
 }
 

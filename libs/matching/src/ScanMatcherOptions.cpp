@@ -10,19 +10,21 @@ const base::OptionTable<ScanMatcherOptions>& ScanMatcherOptions::table() {
       base::OptionTable<Options>()
           .choice("matcher", &Options::matcher,
                   {{"point_to_line", MatcherKind::point_to_line}, {"icp", MatcherKind::icp}},
-                  "How scans are matched: points to lines, or MRPT's ICP.")
+                  "Algorithm that matches scans: point-to-line matching, or MRPT's ICP.")
           .number("max_distance_m", &Options::max_distance, base::Range::positive(),
-                  "Largest distance of paired points at the start.")
+                  "Largest distance between corresponding points in the first iterations.")
           .number("min_distance_m", &Options::min_distance, base::Range::positive(),
-                  "Largest distance of paired points at the end.")
-          .integer("max_iterations", &Options::max_iterations, base::Range{1, 10000}, "Iterations at most.")
+                  "Largest distance between corresponding points in the last iterations.")
+          .integer("max_iterations", &Options::max_iterations, base::Range{1, 10000},
+                   "Largest number of iterations of a match.")
           .choice("icp_method", &Options::icp_method,
                   {{"classic", IcpMethod::classic}, {"levenberg_marquardt", IcpMethod::levenberg_marquardt}},
                   "Variant of MRPT's ICP.")
           .number("icp_max_angle_deg", &Options::icp_max_angle, base::Range{0, 45},
-                  "MRPT's ICP: widens the pairing distance with the distance from the sensor.")
+                  "MRPT's ICP: angle by which the largest distance of a correspondence widens with the distance "
+                  "from the sensor.")
           .integer("icp_decimation", &Options::icp_decimation, base::Range{1, 1000},
-                   "MRPT's ICP: pairs every n-th point only.");
+                   "MRPT's ICP: only every n-th point is used for correspondences.");
   return table;
 }
 

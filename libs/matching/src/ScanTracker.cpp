@@ -78,15 +78,17 @@ const base::OptionTable<ScanTrackerOptions>& ScanTrackerOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .integer("local_scans", &Options::local_scans, base::Range{1, 1000},
-                   "Scans of the local map that a scan is matched against.")
-          .number("local_distance_m", &Options::local_distance, base::Range::positive(), "Way between them.")
-          .number("local_angle_deg", &Options::local_angle, base::Range{0.1, 180}, "Turn between them.")
+                   "Largest number of scans in the local map that a new scan is matched against.")
+          .number("local_distance_m", &Options::local_distance, base::Range::positive(),
+                  "A scan is added to the local map once it is farther than this from the last one there.")
+          .number("local_angle_deg", &Options::local_angle, base::Range{0.1, 180},
+                  "A scan is added to the local map once it is rotated by more than this from the last one there.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
-                  "Share of the points that must find a partner.")
+                  "Smallest share of a scan's points that must find a correspondence in the local map.")
           .number("max_correction_m", &Options::max_correction, base::Range::positive(),
-                  "A match farther from the prediction is refused.")
+                  "A match whose position is farther from the prediction than this is rejected.")
           .number("max_turn_correction_deg", &Options::max_turn_correction, base::Range{0, 180},
-                  "A match turned farther from the prediction is refused.");
+                  "A match whose heading differs from the prediction by more than this is rejected.");
   return table;
 }
 

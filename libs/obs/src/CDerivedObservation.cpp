@@ -1,6 +1,6 @@
 #include <mrpt/opengl/stock_objects.h>
 #include <omnimapper/obs/CDerivedObservation.h>
-#include <omnimapper/obs/Drawing.h>
+#include <omnimapper/obs/SceneDrawing.h>
 
 #include "Fields.h"
 #include "TextRow.h"

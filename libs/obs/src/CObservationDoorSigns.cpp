@@ -1,6 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/obs/CObservationDoorSigns.h>
-#include <omnimapper/obs/Drawing.h>
+#include <omnimapper/obs/SceneDrawing.h>
 
 #include <algorithm>
 #include <cmath>

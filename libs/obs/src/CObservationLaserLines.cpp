@@ -1,7 +1,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
-#include <omnimapper/obs/Drawing.h>
+#include <omnimapper/obs/SceneDrawing.h>
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/obs/CObservationObjects.h>
-#include <omnimapper/obs/Drawing.h>
+#include <omnimapper/obs/SceneDrawing.h>
 
 #include <cmath>
 

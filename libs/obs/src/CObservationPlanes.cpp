@@ -1,5 +1,5 @@
 #include <omnimapper/obs/CObservationPlanes.h>
-#include <omnimapper/obs/Drawing.h>
+#include <omnimapper/obs/SceneDrawing.h>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 #include <omnimapper/geometry/PlaneTangent.h>
-#include <omnimapper/obs/Drawing.h>
+#include <omnimapper/obs/SceneDrawing.h>
 
 #include <algorithm>
 #include <cmath>

@@ -27,16 +27,18 @@ const base::OptionTable<ArucoMarkerOptions>& ArucoMarkerOptions::table() {
                       {"7x7_50", D::dict_7x7_50},     {"7x7_100", D::dict_7x7_100},    {"7x7_250", D::dict_7x7_250},
                       {"7x7_1000", D::dict_7x7_1000}, {"original", D::original},       {"april_16h5", D::april_16h5},
                       {"april_25h9", D::april_25h9},  {"april_36h10", D::april_36h10}, {"april_36h11", D::april_36h11}},
-                     "Which markers there are: cells along a side and how many; ArUco's original ones; AprilTags.")
-          .number("side_m", &Options::side, {1e-3, 100}, "Side of the black square.")
+                     "Dictionary of the markers: cells along a side and number of markers, ArUco's original one, "
+                     "or an AprilTag family.")
+          .number("side_m", &Options::side, {1e-3, 100}, "Side length of a marker's black square.")
           .number("corner_sigma_px", &Options::corner_sigma, {1e-3, 100},
-                  "Standard deviation of a corner in the image; covariances are made of it.")
-          .number("min_side_px", &Options::min_side, {8, 10000}, "Markers with a shorter side are left out.")
+                  "Standard deviation of a marker's corner in the image, from which covariances are computed.")
+          .number("min_side_px", &Options::min_side, {8, 10000},
+                  "Markers with a shorter side in the image are left out.")
           .choice<Refinement>(
               "refinement", &Options::refinement,
               {{"none", Refinement::none}, {"gradients", Refinement::gradients}, {"edges", Refinement::edges}},
-              "How corners are found to parts of a pixel: not at all, by gradients around them, by the "
-              "lines along the sides.");
+              "Subpixel refinement of marker corners: none, by the image gradients around them, or by the lines "
+              "along the marker's sides.");
   return table;
 }
 

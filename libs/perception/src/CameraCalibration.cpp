@@ -67,38 +67,56 @@ const base::OptionTable<Options>& Options::table() {
   const base::Range focal{1, 1e5}, centre{-1e5, 1e5}, lens{-1000, 1000}, scale{0.1, 10}, place{-10, 10};
   static const auto table =
       base::OptionTable<Options>()
-          .text("label", &Options::label, "Sensor label of the camera with depths; empty for all of them.")
+          .text("label", &Options::label, "Sensor label of the depth camera that is calibrated; empty for all of them.")
           .number("depth_fx_px", &Options::depth_fx, focal, "Focal length of the depth camera, along the columns.")
           .number("depth_fy_px", &Options::depth_fy, focal, "Focal length of the depth camera, along the rows.")
           .number("depth_cx_px", &Options::depth_cx, centre, "Column of the depth camera's optical axis.")
           .number("depth_cy_px", &Options::depth_cy, centre, "Row of the depth camera's optical axis.")
-          .number("depth_k1", &Options::depth_k1, lens, "Radial distortion of the depth camera's lens, OpenCV's model.")
-          .number("depth_k2", &Options::depth_k2, lens, "Its second radial coefficient.")
-          .number("depth_p1", &Options::depth_p1, lens, "Its first tangential coefficient.")
-          .number("depth_p2", &Options::depth_p2, lens, "Its second tangential coefficient.")
-          .number("depth_k3", &Options::depth_k3, lens, "Its third radial coefficient.")
+          .number("depth_k1", &Options::depth_k1, lens,
+                  "First radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
+          .number("depth_k2", &Options::depth_k2, lens,
+                  "Second radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
+          .number("depth_p1", &Options::depth_p1, lens,
+                  "First tangential distortion coefficient of the depth camera's lens, in OpenCV's model.")
+          .number("depth_p2", &Options::depth_p2, lens,
+                  "Second tangential distortion coefficient of the depth camera's lens, in OpenCV's model.")
+          .number("depth_k3", &Options::depth_k3, lens,
+                  "Third radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
           .number("picture_fx_px", &Options::picture_fx, focal,
-                  "Focal length of the picture's camera, along the columns.")
-          .number("picture_fy_px", &Options::picture_fy, focal, "Focal length of the picture's camera, along the rows.")
-          .number("picture_cx_px", &Options::picture_cx, centre, "Column of the picture's optical axis.")
-          .number("picture_cy_px", &Options::picture_cy, centre, "Row of the picture's optical axis.")
+                  "Focal length of the picture camera, along the columns.")
+          .number("picture_fy_px", &Options::picture_fy, focal, "Focal length of the picture camera, along the rows.")
+          .number("picture_cx_px", &Options::picture_cx, centre, "Column of the picture camera's optical axis.")
+          .number("picture_cy_px", &Options::picture_cy, centre, "Row of the picture camera's optical axis.")
           .number("picture_k1", &Options::picture_k1, lens,
-                  "Radial distortion of the picture camera's lens, OpenCV's model.")
-          .number("picture_k2", &Options::picture_k2, lens, "Its second radial coefficient.")
-          .number("picture_p1", &Options::picture_p1, lens, "Its first tangential coefficient.")
-          .number("picture_p2", &Options::picture_p2, lens, "Its second tangential coefficient.")
-          .number("picture_k3", &Options::picture_k3, lens, "Its third radial coefficient.")
-          .number("depth_scale", &Options::depth_scale, scale, "True depth over the depth that the log tells.")
+                  "First radial distortion coefficient of the picture camera's lens, in OpenCV's model.")
+          .number("picture_k2", &Options::picture_k2, lens,
+                  "Second radial distortion coefficient of the picture camera's lens, in OpenCV's model.")
+          .number("picture_p1", &Options::picture_p1, lens,
+                  "First tangential distortion coefficient of the picture camera's lens, in OpenCV's model.")
+          .number("picture_p2", &Options::picture_p2, lens,
+                  "Second tangential distortion coefficient of the picture camera's lens, in OpenCV's model.")
+          .number("picture_k3", &Options::picture_k3, lens,
+                  "Third radial distortion coefficient of the picture camera's lens, in OpenCV's model.")
+          .number("depth_scale", &Options::depth_scale, scale, "Ratio of the true depth to the depth in the log.")
           .list("depth_distortion_per_m", &Options::depth_distortion,
-                "By how much inverse depths are too small over the image: coefficients of products of Legendre "
-                "polynomials, as omnimapper-calibrate depth writes them; applied before depth_scale.")
+                "Correction that is added to the inverse depth over the image, before depth_scale is applied: "
+                "coefficients of products of Legendre polynomials, as omnimapper-calibrate depth writes them.")
           .number("picture_x_m", &Options::picture_x, place,
-                  "Picture's camera in the depth camera's frame (x forward, y left, z up), as MRPT keeps it: forward.")
-          .number("picture_y_m", &Options::picture_y, place, "Picture's camera in that frame: left.")
-          .number("picture_z_m", &Options::picture_z, place, "Picture's camera in that frame: up.")
-          .number("picture_yaw_deg", &Options::picture_yaw, {}, "Picture's optical frame in that frame: turn about z.")
-          .number("picture_pitch_deg", &Options::picture_pitch, {}, "Picture's optical frame: turn about y.")
-          .number("picture_roll_deg", &Options::picture_roll, {}, "Picture's optical frame: turn about x.");
+                  "Forward position of the picture camera in the depth camera's frame (x forward, y left, z up), "
+                  "as in MRPT.")
+          .number("picture_y_m", &Options::picture_y, place,
+                  "Leftward position of the picture camera in the depth camera's frame (x forward, y left, z up).")
+          .number("picture_z_m", &Options::picture_z, place,
+                  "Upward position of the picture camera in the depth camera's frame (x forward, y left, z up).")
+          .number("picture_yaw_deg", &Options::picture_yaw, {},
+                  "Rotation about z of the picture camera's optical frame in the depth camera's frame (x "
+                  "forward, y left, z up).")
+          .number("picture_pitch_deg", &Options::picture_pitch, {},
+                  "Rotation about y of the picture camera's optical frame in the depth camera's frame (x "
+                  "forward, y left, z up).")
+          .number("picture_roll_deg", &Options::picture_roll, {},
+                  "Rotation about x of the picture camera's optical frame in the depth camera's frame (x "
+                  "forward, y left, z up).");
   return table;
 }
 

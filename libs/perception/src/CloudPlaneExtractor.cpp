@@ -15,7 +15,7 @@ using mrpt::obs::CObservationVelodyneScan;
 const base::OptionTable<CloudSensorOptions>& CloudSensorOptions::table() {
   static const auto table = base::OptionTable<CloudSensorOptions>().list(
       "sensor_labels", &CloudSensorOptions::sensor_labels,
-      "Labels of the clouds that count; none: all but those that other extractors make.");
+      "Labels of the point clouds that are used; empty uses all except those made by other extractors.");
   return table;
 }
 

@@ -12,38 +12,43 @@ const base::OptionTable<CloudPlaneOptions>& CloudPlaneOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .number("voxel_m", &Options::voxel, Range::notNegative(),
-                  "Points are averaged over cubes of that side; 0 leaves them as they are.")
-          .number("min_range_m", &Options::min_range, Range::notNegative(), "Nearer points are left out.")
-          .number("max_range_m", &Options::max_range, Range::positive(), "Farther points are left out.")
+                  "Side of the voxels over which points are averaged; 0 leaves the points as they are.")
+          .number("min_range_m", &Options::min_range, Range::notNegative(), "Points nearer than this are left out.")
+          .number("max_range_m", &Options::max_range, Range::positive(), "Points farther than this are left out.")
           .number("range_sigma_m", &Options::range_sigma, Range::positive(),
                   "Standard deviation of a point along its ray, near the sensor.")
           .number("noise_at_1m_m", &Options::noise_at_1m, Range::notNegative(),
-                  "The part of it that grows with the square of the range, at 1 m: 0.0023 for a Kinect.")
+                  "Standard deviation at 1 m of the range noise that grows with the square of the range; 0.0023 "
+                  "for a Kinect.")
           .number("correlated_points", &Options::correlated_points, {1, 10000},
-                  "How many neighbouring points share one error: 9 for a Kinect.")
-          .number(
-              "bias_sigma_m", &Options::bias_sigma, Range::notNegative(),
-              "Standard deviation of what neighbouring points are off alike along their rays; covariances count it.")
+                  "Number of neighbouring points that share one error; 9 for a Kinect.")
+          .number("bias_sigma_m", &Options::bias_sigma, Range::notNegative(),
+                  "Standard deviation of the range error that neighbouring points have in common, which covariances "
+                  "include.")
           .number("bend_at_1m_m", &Options::bend_at_1m, Range::notNegative(),
-                  "The most of it that grows with the square of the range, at 1 m: 0.004 for a Kinect.")
+                  "Largest systematic range error at 1 m that neighbouring points have in common and that grows "
+                  "with the square of the range; 0.004 for a Kinect.")
           .number("scale_sigma", &Options::scale_sigma, {0, 1},
-                  "The part of it that grows with the range: 0.01 for a Kinect.")
+                  "Standard deviation of the relative range error that neighbouring points have in common; 0.01 "
+                  "for a Kinect.")
           .number("gate_sigmas", &Options::gate, Range::positive(),
-                  "A point more standard deviations than that from a plane is not on it.")
+                  "A point farther from a plane than this many standard deviations is not on it.")
           .number("sample_radius_m", &Options::sample_radius, Range::positive(),
-                  "Side of the cubes that three points are drawn from.")
-          .integer("trials", &Options::trials, {1, 1000000}, "Most triples of points that are drawn for each plane.")
-          .integer("seed", &Options::seed, {0, 2147483647}, "Of those triples.")
+                  "Side of the cubes from which the three points of a plane hypothesis are drawn.")
+          .integer("trials", &Options::trials, {1, 1000000},
+                   "Largest number of point triples that are drawn for each plane.")
+          .integer("seed", &Options::seed, {0, 2147483647},
+                   "Seed of the random numbers by which point triples are drawn.")
           .number("max_gap_m", &Options::max_gap, Range::positive(),
-                  "Surfaces on one plane that are farther apart than that are several.")
-          .number(
-              "min_incidence_deg", &Options::min_incidence, {0, 89},
-              "Between a plane and the rays to it: nothing is seen edge-on, but the points of one turn of a laser lie "
-              "on planes through it.")
+                  "Parts of a plane that are farther apart than this are separate surfaces.")
+          .number("min_incidence_deg", &Options::min_incidence, {0, 89},
+                  "Smallest angle between a plane and the rays to it: no surface is seen edge-on, but the points of "
+                  "one turn of a laser lie on planes through the laser.")
           .integer("min_points", &Options::min_points, {3, 100000000},
-                   "Surfaces of fewer points, after averaging, are left out.")
+                   "Surfaces with fewer points, after averaging over voxels, are left out.")
           .choice<Outline>("outline", &Options::outline, {{"concave", Outline::concave}, {"convex", Outline::convex}},
-                           "Where a surface ends: around its points with holes, or their convex hull.");
+                           "Outline of a surface: concave follows its points and has holes, convex is their "
+                           "convex hull.");
   return table;
 }
 

@@ -16,24 +16,32 @@ const base::OptionTable<EdgeOptions>& EdgeOptions::table() {
   using base::Range;
   static const auto table =
       depthSensorTable<EdgeOptions>()
-          .flag("jumps", &EdgeOptions::jumps, "Look for occluding, occluded and boundary edges.")
+          .flag("jumps", &EdgeOptions::jumps, "Detect occluding, occluded and boundary edges.")
           .number("jump_sigmas", &EdgeOptions::jump_sigmas, Range::positive(),
-                  "Least jump in depth of an occluding edge, in standard deviations of a difference of two pixels.")
-          .number("relative_jump", &EdgeOptions::relative_jump, {0, 1}, "The same, in parts of the depth.")
+                  "Smallest depth discontinuity that is an occluding edge, in standard deviations of the "
+                  "difference of two pixels.")
+          .number("relative_jump", &EdgeOptions::relative_jump, {0, 1},
+                  "Smallest depth discontinuity that is an occluding edge, relative to the depth (thesis: "
+                  "tau_dd).")
           .integer("max_hole_px", &EdgeOptions::max_hole, {0, 4096},
-                   "Holes in the data up to so wide are bridged; beside wider ones are boundary edges.")
-          .flag("high_curvature", &EdgeOptions::high_curvature, "Look for edges where the surface turns.")
-          .number("min_turn_deg", &EdgeOptions::min_turn, {1, 180}, "By at least so much.")
+                   "Holes in the depth image up to this width are bridged. Pixels beside wider holes are "
+                   "boundary edges.")
+          .flag("high_curvature", &EdgeOptions::high_curvature, "Detect high curvature edges, where the surface turns.")
+          .number("min_turn_deg", &EdgeOptions::min_turn, {1, 180},
+                  "Smallest angle between the surfaces on the two sides of a high curvature edge.")
           .number("turn_sigmas", &EdgeOptions::turn_sigmas, Range::notNegative(),
-                  "And by at least so many standard deviations of the angle between two normals.")
+                  "Smallest angle between the two sides of a high curvature edge, in standard deviations of the "
+                  "angle between two normals.")
           .integer("window_radius_px", &EdgeOptions::window_radius, {1, 7},
-                   "The window of a normal has 2 radius + 1 pixels a side.")
+                   "Radius of the window from which a normal is estimated, which has 2 radius + 1 pixels a side.")
           .integer("min_turn_pixels", &EdgeOptions::min_turn_pixels, {1, 1000000},
-                   "Edges of high curvature with fewer pixels are left out.")
-          .flag("rgb", &EdgeOptions::rgb, "Look for edges in the picture.")
+                   "High curvature edges with fewer pixels are left out.")
+          .flag("rgb", &EdgeOptions::rgb, "Detect edges in the picture.")
           .number("rgb_low", &EdgeOptions::rgb_low, {0, 2040},
-                  "Edges go on where the picture's gradient is above that.")
-          .number("rgb_high", &EdgeOptions::rgb_high, {0, 2040}, "Edges begin where it is above that.");
+                  "Lower Canny threshold: an edge of the picture continues where the gradient is above this "
+                  "value.")
+          .number("rgb_high", &EdgeOptions::rgb_high, {0, 2040},
+                  "Upper Canny threshold: an edge of the picture starts where the gradient is above this value.");
   return table;
 }
 

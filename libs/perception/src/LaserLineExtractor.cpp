@@ -18,23 +18,25 @@ const base::OptionTable<LaserLineOptions>& LaserLineOptions::table() {
       base::OptionTable<Options>()
           .choice<Method>("method", &Options::method,
                           {{"split_and_merge", Method::split_and_merge}, {"ransac", Method::ransac}},
-                          "How points that are on one line are found.")
-          .number("min_range_m", &Options::min_range, Range::notNegative(), "Nearer readings are dropped.")
-          .number("max_range_m", &Options::max_range, Range::positive(), "Farther readings are dropped.")
-          .number("range_sigma_m", &Options::range_sigma, Range::positive(), "Standard deviation of a range.")
+                          "Algorithm that finds the scan points on one line.")
+          .number("min_range_m", &Options::min_range, Range::notNegative(), "Readings nearer than this are dropped.")
+          .number("max_range_m", &Options::max_range, Range::positive(), "Readings farther than this are dropped.")
+          .number("range_sigma_m", &Options::range_sigma, Range::positive(), "Standard deviation of a range reading.")
           .number("beam_width_deg", &Options::beam_width, {0, 10},
-                  "Full angle of a beam: where it meets a wall aslant, its range is as uncertain as that stretch is "
-                  "deep.")
-          .number("roughness_m", &Options::roughness, Range::notNegative(), "Standard deviation of walls from flat.")
+                  "Full angle of a beam. Where a beam meets a wall obliquely, its range is as uncertain as the "
+                  "stretch of wall it covers is deep.")
+          .number("roughness_m", &Options::roughness, Range::notNegative(),
+                  "Standard deviation of a wall's surface from a flat one.")
           .number("gate_sigmas", &Options::gate, Range::positive(),
-                  "A point more standard deviations than that from a line is not on it.")
+                  "A point farther from a line than this many standard deviations is not on it.")
           .number("max_gap_m", &Options::max_gap, Range::notNegative(),
-                  "Where beams along a line met something else for longer than that, it is two lines.")
-          .number("min_length_m", &Options::min_length, Range::positive(), "Shorter lines are dropped.")
-          .integer("min_points", &Options::min_points, {3, 100000}, "Lines of fewer points are dropped.")
+                  "A line is split where the beams along it met something else over a longer distance than this.")
+          .number("min_length_m", &Options::min_length, Range::positive(), "Lines shorter than this are dropped.")
+          .integer("min_points", &Options::min_points, {3, 100000}, "Lines with fewer points are dropped.")
           .integer("ransac_trials", &Options::ransac_trials, {1, 100000},
-                   "Pairs of points that ransac draws for each line.")
-          .integer("seed", &Options::seed, {0, 2147483647}, "Of the pairs that ransac draws.");
+                   "Number of point pairs that RANSAC draws for each line.")
+          .integer("seed", &Options::seed, {0, 2147483647},
+                   "Seed of the random numbers by which RANSAC draws point pairs.");
   return table;
 }
 

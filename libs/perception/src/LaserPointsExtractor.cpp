@@ -64,12 +64,15 @@ const base::OptionTable<LaserPointsOptions>& LaserPointsOptions::table() {
   using Options = LaserPointsOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .number("min_range_m", &Options::min_range, base::Range::notNegative(), "Nearer readings are dropped.")
-          .number("max_range_m", &Options::max_range, base::Range::positive(), "Farther readings are dropped.")
+          .number("min_range_m", &Options::min_range, base::Range::notNegative(),
+                  "Readings nearer than this are dropped.")
+          .number("max_range_m", &Options::max_range, base::Range::positive(),
+                  "Readings farther than this are dropped.")
           .number("spacing_m", &Options::spacing, base::Range::notNegative(),
-                  "Least distance between kept points along the scan; 0 keeps all.")
+                  "Smallest distance between kept points along the scan; 0 keeps all.")
           .number("isolated_distance_m", &Options::isolated_distance, base::Range::notNegative(),
-                  "A point this far from both neighbours is dropped as a mixed pixel; 0 keeps all.");
+                  "A point farther than this from both of its neighbours is dropped as a mixed pixel; 0 keeps "
+                  "all.");
   return table;
 }
 

@@ -9,7 +9,7 @@ namespace omnimapper::perception {
 
 const base::OptionTable<ObjectPointOptions>& ObjectPointOptions::table() {
   static const auto table = base::OptionTable<ObjectPointOptions>().integer(
-      "max_points", &ObjectPointOptions::max_points, {1, 1e9}, "So many points of an object are kept at most.");
+      "max_points", &ObjectPointOptions::max_points, {1, 1e9}, "Largest number of points that are kept of an object.");
   return table;
 }
 

@@ -25,29 +25,32 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
           .choice<Options::Comparator>(
               "comparator", &Options::comparator,
               {{"euclidean", Options::Comparator::euclidean}, {"locally_convex", Options::Comparator::locally_convex}},
-              "Neighbouring surface patches belong to one object if they are near each other; locally_convex: and if "
-              "the "
-              "boundary between them is not concave.")
+              "Neighbouring surface patches belong to one object if they are near each other. With "
+              "locally_convex, the boundary between them must also not be concave.")
           .number("min_surface_area_m2", &Options::min_surface_area, Range::positive(),
-                  "Planes as large belong to the place, smaller ones to the things in it.")
+                  "Planes at least this large belong to the environment, smaller ones to the objects in it.")
           .number("max_tilt_deg", &Options::max_tilt, {0, 180},
-                  "Of a surface that things stand on, from level: by the sensor's pose on the base.")
+                  "Largest tilt from level of a surface that objects stand on, according to the sensor's pose on "
+                  "the base.")
           .number("coplanar_angle_deg", &Options::coplanar_angle, {0, 90},
-                  "Planes whose normals differ by no more may be pieces of one surface.")
-          .number(
-              "coplanar_distance_m", &Options::coplanar_distance, Range::notNegative(),
-              "Planes are pieces of one surface if their middles lie no farther from the other plane, the bend of the "
-              "sensor apart.")
+                  "Largest angle between the normals of planes that may be pieces of one surface.")
+          .number("coplanar_distance_m", &Options::coplanar_distance, Range::notNegative(),
+                  "Largest distance between the middle of one plane and the other plane if both are pieces of one "
+                  "surface, in addition to the sensor's systematic distortion.")
           .number("min_height_m", &Options::min_height, Range::notNegative(),
-                  "What lies lower on a surface, noise apart, is taken for the surface itself.")
+                  "Points above a surface by less than this and the noise together belong to the surface itself.")
           .number("max_gap_m", &Options::max_gap, Range::notNegative(),
-                  "Neighbouring pixels farther from one another, noise apart, are of two things.")
+                  "Neighbouring pixels farther apart than this and the noise together belong to different "
+                  "objects.")
           .number("max_standing_gap_m", &Options::max_standing_gap, Range::notNegative(),
-                  "From a surface to the lowest that is seen of a thing on it: nearer things may hide its foot.")
-          .integer("min_points", &Options::min_points, {1, 1e9}, "Smaller clusters are dropped.")
-          .number("min_size_m", &Options::min_size, Range::notNegative(), "Clusters whose box is shorter are dropped.")
-          .number("max_volume_m3", &Options::max_volume, Range::positive(), "Clusters whose box is larger are dropped.")
-          .flag("on_surfaces_only", &Options::on_surfaces_only, "Drop clusters that stand on no level surface.");
+                  "Largest distance between a surface and the lowest visible point of an object on it, whose "
+                  "foot nearer objects may hide.")
+          .integer("min_points", &Options::min_points, {1, 1e9}, "Clusters with fewer points are dropped.")
+          .number("min_size_m", &Options::min_size, Range::notNegative(),
+                  "Clusters are dropped if the longest side of their bounding box is shorter.")
+          .number("max_volume_m3", &Options::max_volume, Range::positive(),
+                  "Clusters are dropped if the volume of their bounding box is larger.")
+          .flag("on_surfaces_only", &Options::on_surfaces_only, "Drop clusters that do not stand on a level surface.");
   return table;
 }
 

@@ -30,11 +30,12 @@ const base::OptionTable<PlaneComparisonOptions>& PlaneComparisonOptions::table()
           .choice<const PlaneComparison*>(
               "comparator", &Options::comparison,
               {{"plane", &kSamePlane}, {"plane_colour", &kSamePlaneAndColour}, {"normals", &kSimilarNormals}},
-              "Neighbouring pixels are of one plane if they lie on it; plane_colour: and have one colour, for which "
-              "each scan needs a picture; normals: if their normals are alike, as the thesis has it.")
+              "Criterion for neighbouring pixels of one plane: both lie on it (plane), and also have one colour, "
+              "which needs a picture with each scan (plane_colour), or have similar normals, as in the thesis "
+              "(normals).")
           .number("max_colour_distance", &Options::max_colour_distance, {0, 442},
-                  "plane_colour: colours that differ by more from one pixel to the next few are two; Euclidean in RGB, "
-                  "in the 256 steps of a channel.");
+                  "With comparator = plane_colour, largest Euclidean RGB distance, in the 256 steps of a "
+                  "channel, between a pixel and the next few of the same colour.");
   return table;
 }
 

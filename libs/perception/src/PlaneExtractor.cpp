@@ -10,7 +10,8 @@ namespace omnimapper::perception {
 const base::OptionTable<OutlineOptions>& OutlineOptions::table() {
   static const auto table = base::OptionTable<OutlineOptions>().number(
       "outline_tolerance_px", &OutlineOptions::tolerance, base::Range::notNegative(),
-      "Corners of an outline nearer than that to the line through the others are left out; 0 keeps all.");
+      "Outlines are simplified: a corner nearer than this to the line through the remaining corners is left out; "
+      "0 keeps all corners.");
   return table;
 }
 

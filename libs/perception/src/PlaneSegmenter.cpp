@@ -14,12 +14,12 @@ const base::OptionTable<PlaneOptions>& PlaneOptions::table() {
   static const auto table =
       depthSensorTable<PlaneOptions>()
           .number("bend_at_1m_m", &PlaneOptions::bend_at_1m, Range::notNegative(),
-                  "By how much the sensor may show a flat wall bent, at 1 m; covariances count half of it as a "
-                  "standard deviation.")
+                  "Largest systematic distortion of a flat wall by the sensor, at 1 m. Covariances count half of "
+                  "it as a standard deviation.")
           .number("scale_sigma", &PlaneOptions::scale_sigma, {0, 1}, kScaleHelp)
           .integer("min_pixels", &PlaneOptions::min_pixels, {1, 1e9}, "Planes with fewer pixels are left out.")
           .integer("min_hole_pixels", &PlaneOptions::min_hole_pixels, {1, 1e9},
-                   "Holes with fewer pixels are not outlined.");
+                   "Holes in a plane with fewer pixels are not outlined.");
   return table;
 }
 

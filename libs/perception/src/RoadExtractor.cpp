@@ -10,7 +10,8 @@ namespace omnimapper::perception {
 const base::OptionTable<RoadPoseOptions>& RoadPoseOptions::table() {
   static const auto table =
       base::OptionTable<RoadPoseOptions>().number("ground_height_m", &RoadPoseOptions::ground_height, {},
-                                                  "Of the ground that the wheels stand on, in the base's frame.");
+                                                  "Height of the ground that the wheels stand on, in the base's "
+                                                  "frame.");
   return table;
 }
 

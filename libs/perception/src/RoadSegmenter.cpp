@@ -18,22 +18,25 @@ const base::OptionTable<RoadOptions>& RoadOptions::table() {
       depthSensorTable<RoadOptions>()
           .number("scale_sigma", &RoadOptions::scale_sigma, {0, 1}, kScaleHelp)
           .integer("window_radius_px", &RoadOptions::window_radius, {1, 7},
-                   "The window of a normal has 2 radius + 1 pixels a side.")
-          .number("max_tilt_deg", &RoadOptions::max_tilt, {0, 89}, "Of the ground from the expected one.")
-          .number("max_turn_deg", &RoadOptions::max_turn, {0, 89}, "Of the ground from one pixel to the next.")
+                   "Radius of the window from which a normal is estimated, which has 2 radius + 1 pixels a side.")
+          .number("max_tilt_deg", &RoadOptions::max_tilt, {0, 89},
+                  "Largest angle between the ground's normal and that of the expected ground.")
+          .number("max_turn_deg", &RoadOptions::max_turn, {0, 89},
+                  "Largest angle between the normals of neighbouring ground pixels.")
           .number("max_off_m", &RoadOptions::max_off, Range::notNegative(),
-                  "How far the ground may be above or below the expected one, near the sensor.")
-          .number("max_slope_deg", &RoadOptions::max_slope, {0, 45}, "By how much that grows with the depth.")
-          .number(
-              "grow_sigmas", &RoadOptions::grow_sigmas, {1, 100},
-              "Pixels of which no normal is known are ground within so many standard deviations of the ground around "
-              "them.")
+                  "Largest distance of the ground above or below the expected ground, near the sensor.")
+          .number("max_slope_deg", &RoadOptions::max_slope, {0, 45},
+                  "Angle at which the tolerated distance above or below the expected ground widens with the "
+                  "depth.")
+          .number("grow_sigmas", &RoadOptions::grow_sigmas, {1, 100},
+                  "A pixel without a known normal is ground if it is within this many standard deviations of the "
+                  "ground around it.")
           .number("step_sigmas", &RoadOptions::step_sigmas, {1, 100},
-                  "A step in the height of the ground, such as a kerb, is not ground if it exceeds so many standard "
-                  "deviations.")
-          .integer("min_pixels", &RoadOptions::min_pixels, {1, 1e9}, "Pieces of ground with fewer pixels are left out.")
+                  "A step in the height of the ground, such as a kerb, is not ground if it exceeds this many "
+                  "standard deviations.")
+          .integer("min_pixels", &RoadOptions::min_pixels, {1, 1e9}, "Ground regions with fewer pixels are left out.")
           .integer("min_hole_pixels", &RoadOptions::min_hole_pixels, {1, 1e9},
-                   "Holes with fewer pixels are not outlined.");
+                   "Holes in the ground with fewer pixels are not outlined.");
   return table;
 }
 

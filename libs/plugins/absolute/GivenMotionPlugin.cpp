@@ -10,14 +10,17 @@ namespace omnimapper::plugins {
 
 const base::OptionTable<GivenMotionOptions>& GivenMotionOptions::table() {
   using Options = GivenMotionOptions;
-  static const auto table = base::OptionTable<Options>()
-                                .text("label", &Options::label, "Sensor label; empty for the first that comes.")
-                                .number("max_gap_s", &Options::max_gap, base::Range::positive(),
-                                        "Between poses farther apart in time the motion is not known.")
-                                .number("position_sigma_m", &Options::position_sigma, base::Range::positive(),
-                                        "Standard deviation of each coordinate after 1 s; grows with the root of time.")
-                                .number("angle_sigma_deg", &Options::angle_sigma, base::Range::positive(),
-                                        "Standard deviation of each angle after 1 s; grows with the root of time.");
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("label", &Options::label, "Sensor label of the poses; empty for the first one observed.")
+          .number("max_gap_s", &Options::max_gap, base::Range::positive(),
+                  "Longest time between two poses across which the motion counts as known.")
+          .number("position_sigma_m", &Options::position_sigma, base::Range::positive(),
+                  "Standard deviation of each coordinate of the motion after 1 s; it grows "
+                  "with the root of time.")
+          .number("angle_sigma_deg", &Options::angle_sigma, base::Range::positive(),
+                  "Standard deviation of each angle of the motion after 1 s; it grows with "
+                  "the root of time.");
   return table;
 }
 

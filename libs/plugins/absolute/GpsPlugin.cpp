@@ -24,20 +24,28 @@ const base::OptionTable<GpsOptions>& GpsOptions::table() {
   const auto positive = base::Range::positive();
   static const auto table =
       base::OptionTable<Options>()
-          .text("label", &Options::label, "Sensor label; empty for every GPS observation.")
+          .text("label", &Options::label, "Sensor label of the GPS receiver; empty for every GPS observation.")
           .number("sigma_m", &Options::sigma, positive, "Horizontal standard deviation of a plain fix at HDOP 1.")
-          .number("sigma_rtk_float_m", &Options::sigma_rtk_float, positive, "The same of an RTK fix, float solution.")
-          .number("sigma_rtk_m", &Options::sigma_rtk, positive, "The same of an RTK fix, fixed solution.")
-          .number("up_factor", &Options::up_factor, positive, "Vertical over horizontal standard deviation.")
-          .number("max_hdop", &Options::max_hdop, positive, "Fixes of worse geometry are refused.")
+          .number("sigma_rtk_float_m", &Options::sigma_rtk_float, positive,
+                  "Horizontal standard deviation of an RTK fix with float solution, whatever its HDOP is.")
+          .number("sigma_rtk_m", &Options::sigma_rtk, positive,
+                  "Horizontal standard deviation of an RTK fix with fixed solution, whatever its HDOP is.")
+          .number("up_factor", &Options::up_factor, positive,
+                  "Ratio of the vertical to the horizontal standard deviation of a fix.")
+          .number("max_hdop", &Options::max_hdop, positive,
+                  "Largest HDOP of a fix that is used; fixes of worse geometry are rejected.")
           .number("min_spread_m", &Options::min_spread, positive,
-                  "Fixes wait until they lie so far apart that the map's heading can be told.")
+                  "Extent that the fixes must cover for the map's heading to be determined; until then they wait.")
           .number("loss_scale", &Options::loss_scale, positive, "Scale of the Cauchy loss, in standard deviations.")
           .flag("map_is_enu", &Options::map_is_enu,
-                "The map is the east-north-up frame of the origin below; else its place there is estimated.")
-          .number("origin_latitude", &Options::origin_latitude, base::Range{-90, 90}, "Origin [degrees north].")
-          .number("origin_longitude", &Options::origin_longitude, base::Range{-180, 180}, "Origin [degrees east].")
-          .number("origin_altitude_m", &Options::origin_altitude, {}, "Origin, above the ellipsoid.");
+                "The map frame is the east-north-up frame at the origin given by latitude, longitude and altitude; "
+                "otherwise its pose there is estimated.")
+          .number("origin_latitude", &Options::origin_latitude, base::Range{-90, 90},
+                  "Latitude of the origin of the east-north-up frame [degrees north].")
+          .number("origin_longitude", &Options::origin_longitude, base::Range{-180, 180},
+                  "Longitude of the origin of the east-north-up frame [degrees east].")
+          .number("origin_altitude_m", &Options::origin_altitude, {},
+                  "Altitude of the origin of the east-north-up frame above the ellipsoid.");
   return table;
 }
 

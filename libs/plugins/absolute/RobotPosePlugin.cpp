@@ -30,16 +30,16 @@ const base::OptionTable<RobotPoseOptions>& RobotPoseOptions::table() {
   using Options = RobotPoseOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .text("label", &Options::label, "Sensor label; empty for every such observation.")
+          .text("label", &Options::label, "Sensor label of the pose observations; empty for all of them.")
           .flag("reference_is_map", &Options::reference_is_map,
-                "The poses are in the map's frame; else the place of their frame in the map is estimated.")
+                "The poses are given in the map frame; otherwise the pose of their frame in the map is estimated.")
           .number("position_sigma_m", &Options::position_sigma, base::Range::positive(),
-                  "Standard deviation where an observation tells no covariance.")
+                  "Standard deviation of each coordinate where an observation reports no covariance.")
           .number("angle_sigma_deg", &Options::angle_sigma, base::Range::positive(),
-                  "Standard deviation where an observation tells no covariance.")
+                  "Standard deviation of each angle where an observation reports no covariance.")
           .number("loss_scale", &Options::loss_scale, base::Range::notNegative(),
-                  "Scale of a Cauchy loss, in standard deviations, for poses of which some are wrong: what is seen may "
-                  "then overrule them. 0: none, the poses hold.");
+                  "Scale of the Cauchy loss, in standard deviations, for poses of which some are wrong, so that "
+                  "other measurements may overrule them; 0 uses no loss.");
   return table;
 }
 

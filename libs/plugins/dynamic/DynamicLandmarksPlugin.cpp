@@ -24,18 +24,22 @@ const base::OptionTable<DynamicLandmarksOptions>& DynamicLandmarksOptions::table
   using base::Range;
   static const auto table =
       base::OptionTable<Options>()
-          .list("landmarks", &Options::landmarks, "Sections whose landmarks may have been moved; empty for all.")
+          .list("landmarks", &Options::landmarks,
+                "INI sections whose landmarks may have been moved; empty for all sections.")
           .integer("every_solves", &Options::every_solves, Range::notNegative(),
-                   "Looks for them after so many solves, too; 0: at the end of the log alone.")
+                   "Number of solves after which moved landmarks are searched for, in addition to the end of the "
+                   "log; 0 searches only at the end.")
           .number("max_weight", &Options::max_weight, Range{0, 1},
-                  "A landmark of less weight is looked at; one that stands keeps 0.9 or more, 99 times of 100.")
+                  "Weight below which a landmark is examined for having moved; one that has not keeps 0.9 or more "
+                  "in 99 of 100 cases.")
           .integer("min_sightings", &Options::min_sightings, Range{1, 1e6},
-                   "A place is one where it was seen so often; what was seen elsewhere less often was an error.")
-          .number("min_move_m", &Options::min_move, Range::notNegative(), "What moved by less has not moved.")
+                   "Smallest number of measurements at a place for a landmark to have been there; fewer are taken "
+                   "as errors.")
+          .number("min_move_m", &Options::min_move, Range::notNegative(), "Smallest displacement that counts as moved.")
           .number("visit_gap_s", &Options::visit_gap, Range::positive(),
-                  "What was out of sight for longer may have been moved in between.")
+                  "Longest time for which a landmark may be out of sight without possibly having been moved.")
           .number("confidence", &Options::confidence, Range{0.5, 0.999999999},
-                  "Sightings of one place are taken for that with this probability.");
+                  "Probability with which measurements at one place are recognized as such.");
   return table;
 }
 

@@ -6,49 +6,56 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
   using Options = LoopClosureOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .list("labels", &Options::labels, "Labels of the clouds to match; empty for all made from 2D scans.")
+          .list("labels", &Options::labels, "Labels of the clouds to match; empty for all clouds made from 2D scans.")
           .number("radius_m", &Options::radius, base::Range::positive(),
-                  "Places so far from where the base may be are tried.")
+                  "Largest distance of a place from where the base may be, given its uncertainty, for a loop "
+                  "closure to be tried.")
           .number("min_travel_m", &Options::min_travel, base::Range::positive(),
-                  "Places left less than this way ago are no loop.")
-          .number(
-              "spacing_m", &Options::spacing, base::Range::notNegative(),
-              "Way between the key frames that search: closures side by side tell the same, and make solves dearer.")
-          .integer("candidates", &Options::candidates, base::Range{1, 1000}, "Places tried per key frame.")
-          .number(
-              "submap_length_m", &Options::context, base::Range::positive(),
-              "Way before a key frame whose scans are sought together, in a local map of twice that before and after "
-              "a place; both are longer by as much as the estimate may be off.")
+                  "Smallest distance travelled since a place was left for a return to it to count as a loop.")
+          .number("spacing_m", &Options::spacing, base::Range::notNegative(),
+                  "Distance travelled between the key frames that search for loop closures; closures side by side add "
+                  "little information and make solves slower.")
+          .integer("candidates", &Options::candidates, base::Range{1, 1000},
+                   "Largest number of places tried for a loop closure per key frame.")
+          .number("submap_length_m", &Options::context, base::Range::positive(),
+                  "Distance travelled before a key frame whose scans are matched together, with a local map of twice "
+                  "this length before and after a place. Both are extended by the uncertainty of the estimate.")
           .number("max_window_m", &Options::max_window, base::Range::positive(),
-                  "However uncertain the estimate is, a place is sought no farther from it.")
+                  "Largest distance from the estimated position at which a loop closure is searched for, however "
+                  "uncertain the estimate is.")
           .number("max_window_deg", &Options::max_window_angle, base::Range{0, 180},
-                  "However uncertain the estimate is, a heading is sought no farther from it.")
-          .number(
-              "lost_travel_m", &Options::lost_travel, base::Range::notNegative(),
-              "Without a closure on this way the last metres are sought in all that was seen before, as far as what "
-              "is seen does not fit the map there; a session that continues a map and was not joined, in all of "
-              "that, at once if its start is vaguer than the windows.")
+                  "Largest deviation from the estimated heading at which a loop closure is searched for, however "
+                  "uncertain the estimate is.")
+          .number("lost_travel_m", &Options::lost_travel, base::Range::notNegative(),
+                  "Distance travelled without a closure after which recent scans that do not fit the map are sought in "
+                  "all earlier ones. An unaligned session is sought in the map it continues, at once if its start is "
+                  "vaguer than max_window_m.")
           .number("join_travel_m", &Options::join_travel, base::Range::notNegative(),
-                  "Where much of the map is alike, what was seen on this way must fit where such a search finds it.")
+                  "Distance travelled over which all scans must fit the place found by a global search, where much "
+                  "of the map looks alike.")
           .number("known_sigma_m", &Options::known_sigma, base::Range::notNegative(),
-                  "Where the estimate is as good as this and the next, no closure is sought: it would tell little.")
+                  "Standard deviation of the position below which no closure is searched for, if the heading is "
+                  "within known_sigma_deg, because it would add little information.")
           .number("known_sigma_deg", &Options::known_angle_sigma, base::Range::notNegative(),
-                  "The same of the heading.")
+                  "Standard deviation of the heading below which no closure is searched for, if the position is "
+                  "within known_sigma_m, because it would add little information.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
-                  "Share of the points that must find a partner.")
+                  "Smallest share of the points of a match that must have a correspondence.")
           .number("max_sigma_m", &Options::max_sigma, base::Range::positive(),
-                  "A match that the walls fix less well in some direction is no closure.")
+                  "Largest standard deviation of a match, in the direction that the walls constrain least, for a "
+                  "loop closure.")
           .number("point_sigma_m", &Options::point_sigma, base::Range::positive(),
-                  "Standard deviation of a point from the wall it lies on.")
+                  "Standard deviation of the distance of a point from the wall it lies on.")
           .number("wall_sigma_factor", &Options::wall_sigma_factor, base::Range::notNegative(),
-                  "The same as a multiple of the distance that the points of a match have from the walls; the larger "
-                  "counts.")
+                  "Standard deviation of a point's distance from its wall, as a multiple of the distance found in "
+                  "the match; used where it exceeds point_sigma_m.")
           .number("position_sigma_floor_m", &Options::position_sigma_floor, base::Range::positive(),
-                  "No closure is trusted more than this: its local map is as bent as the trajectory was then.")
+                  "Smallest standard deviation of the position of a loop closure, because its local map is as "
+                  "distorted as the trajectory was when it was matched.")
           .number("angle_sigma_floor_deg", &Options::angle_sigma_floor, base::Range::positive(),
-                  "No closure is trusted more than this.")
+                  "Smallest standard deviation of the heading of a loop closure.")
           .number("loss_scale", &Options::loss_scale, base::Range::positive(),
-                  "Scale of the Cauchy loss on closures, in standard deviations.");
+                  "Scale of the Cauchy loss on loop closures, in standard deviations.");
   return table;
 }
 

@@ -49,30 +49,38 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
   const auto zero_or_more = base::Range::notNegative();
   static const auto table =
       base::OptionTable<Options>()
-          .text("label", &Options::label, "Sensor label of the laser; empty for the first that comes.")
+          .text("label", &Options::label, "Sensor label of the laser; empty for the first one observed.")
           .text("odometry_label", &Options::odometry_label,
-                "Sensor label of the odometry that predicts; empty for that which agrees best with the matches.")
+                "Sensor label of the odometry used for prediction; empty for the one that agrees best with the scan "
+                "matches.")
           .number("sweep_s", &Options::sweep, zero_or_more,
-                  "Time from the first beam of a scan, when it is stamped, to the last: the motion meanwhile is taken "
-                  "out of it. 0: all at once.")
+                  "Time from the first beam of a scan, when it is stamped, to the last, over which the scan is "
+                  "corrected for motion; 0 if all beams are simultaneous.")
           .number("max_gap_s", &Options::max_gap, base::Range::positive(),
-                  "After a longer time without a match the laser begins anew, and other sources tell the motion.")
+                  "Longest time without a match; after it scan matching starts anew and other sources give the "
+                  "motion.")
           .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
-                  "A prediction that is faster is not believed.")
+                  "Largest speed of a prediction; faster predictions are rejected.")
           .number("prediction_sigma_m", &Options::prediction_sigma, base::Range::positive(),
-                  "Standard deviation of a predicted position; counts where the walls leave a direction open.")
+                  "Standard deviation of a predicted position, which matters where the walls leave a direction "
+                  "unconstrained.")
           .number("prediction_sigma_deg", &Options::guess_angle_sigma, base::Range::positive(),
                   "Standard deviation of a predicted heading.")
           .number("prediction_sigma_per_m", &Options::prediction_sigma_per_m, zero_or_more,
-                  "Both grow by this share of the motion that is predicted.")
+                  "Share of the predicted motion by which the standard deviations of predicted position and heading "
+                  "grow.")
           .number("point_sigma_m", &Options::point_sigma, base::Range::positive(),
-                  "Standard deviation of a point from the wall it lies on, at least; a match may find more.")
+                  "Smallest standard deviation of the distance of a point from the wall it lies on; a match may "
+                  "yield a larger one.")
           .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
-                  "Standard deviation of the position after 1 m of way [m] beside that of the matches.")
+                  "Additional standard deviation of the position after 1 m of distance travelled [m], beside that "
+                  "of the scan matches.")
           .number("yaw_noise_per_root_m_deg", &Options::yaw_noise_per_root_m, zero_or_more,
-                  "Standard deviation of the heading after 1 m of way beside that of the matches.")
+                  "Additional standard deviation of the heading after 1 m of distance travelled, beside that of the "
+                  "scan matches.")
           .number("yaw_noise_per_root_turn", &Options::yaw_noise_per_root_turn, zero_or_more,
-                  "Standard deviation of the heading after 1 rad of turning [rad] beside that of the matches.");
+                  "Additional standard deviation of the heading after 1 rad of rotation [rad], beside that of the "
+                  "scan matches.");
   return table;
 }
 

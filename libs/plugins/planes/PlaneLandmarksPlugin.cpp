@@ -21,41 +21,48 @@ const base::OptionTable<PlaneLandmarksOptions>& PlaneLandmarksOptions::table() {
     auto own =
         base::OptionTable<Options>()
             .choice("form", &Options::form, {{"plane", Options::Form::plane}, {"wall", Options::Form::wall}},
-                    "What is optimised: planes in space, or, in a planar map with level lasers, walls as lines on the "
-                    "floor. Of walls only lines are taken.")
+                    "Parametrization of the landmarks: planes in space, or, in a planar map with level lasers, "
+                    "walls as lines on the floor, for which only lines are used.")
             .choice(
                 "ground", &Options::ground, {{"start", Options::Ground::start}, {"map", Options::Ground::map}},
-                "What tables and floors are told apart by their height from: where the first key frame's base is, or "
+                "Height from which tables and floors are distinguished: that of the base at the first key frame, or "
                 "z = 0 of the map, for a camera on given poses.")
             .choice("boundary", &Options::boundary,
                     {{"hull", Options::Boundary::hull}, {"seen", Options::Boundary::seen}},
-                    "Boundary of a surface in the map: what was seen of it, with bays and holes, or the convex hull of "
-                    "that.")
-            .flag("planes", &Options::planes, "Take the planes of depth images and clouds.")
-            .flag("lines", &Options::lines, "Take the lines of 2D lasers.")
+                    "Boundary of a surface in the map: the union of its observed parts, with bays and holes, or the "
+                    "convex hull of them.")
+            .flag("planes", &Options::planes, "Uses the planes of depth images and clouds.")
+            .flag("lines", &Options::lines, "Uses the lines of 2D lasers.")
             .number("min_area_m2", &Options::min_area, Range::notNegative(),
-                    "A new landmark seen as a plane is so large.")
+                    "Smallest area of a plane measurement that creates a new landmark.")
             .number("min_length_m", &Options::min_length, Range::notNegative(),
-                    "A new landmark seen as a line is so long.")
+                    "Smallest length of a line measurement that creates a new landmark.")
             .number("max_gap_m", &Options::max_gap, Range::notNegative(),
-                    "Stretches of one wall that are farther apart are landmarks of their own: lines of a laser, and "
-                    "surfaces that reach higher than 1.5 m above the ground.")
+                    "Largest gap between stretches of one wall in one landmark, for laser lines and for surfaces "
+                    "that reach higher than 1.5 m above the ground.")
             .number("max_plane_gap_m", &Options::max_plane_gap, Range::notNegative(),
-                    "Other surfaces on one plane that are farther apart are landmarks of their own.")
+                    "Largest gap between coplanar surfaces in one landmark, for surfaces that reach no higher than "
+                    "1.5 m above the ground.")
             .number("well_seen_within_m", &Options::well_seen_within, Range::positive(),
-                    "What was seen of a surface from farther off draws it only until something was seen better.")
+                    "Distance from the sensor beyond which a measured part of a surface is drawn only until a "
+                    "better measurement exists.")
             .number("well_seen_under_deg", &Options::well_seen_under, Range::positive(),
-                    "The same for what was seen more aslant, from the normal.")
+                    "Angle between the ray and the normal beyond which a measured part of a surface is drawn only "
+                    "until a better measurement exists.")
             .number("plane_sigma_m", &Options::plane_sigma, Range::notNegative(),
-                    "Standard deviation of a surface from flat, beside the noise that an observed plane tells of.")
+                    "Standard deviation of a surface from flat, in addition to the noise that a plane measurement "
+                    "reports.")
             .number("plane_angle_sigma_deg", &Options::plane_angle_sigma, Range::notNegative(),
-                    "The same of its normal.")
+                    "Standard deviation of the normal of a surface, in addition to the noise that a plane "
+                    "measurement reports.")
             .number("line_sigma_m", &Options::line_sigma, Range::notNegative(),
-                    "Standard deviation of a wall from straight, beside the noise that an observed line tells of.")
+                    "Standard deviation of a wall from straight, in addition to the noise that a line measurement "
+                    "reports.")
             .number("line_angle_sigma_deg", &Options::line_angle_sigma, Range::notNegative(),
-                    "The same of its direction.")
+                    "Standard deviation of the direction of a wall, in addition to the noise that a line "
+                    "measurement reports.")
             .number("upright_sigma_deg", &Options::upright_sigma, Range::positive(),
-                    "What only lines of one height have shown is upright, with this standard deviation.")
+                    "Standard deviation from upright of a landmark that only lines of one height have measured.")
             .number("loss_scale", &Options::loss_scale, Range::positive(),
                     "Scale of the Huber loss, in standard deviations.");
     return declareIn(own);

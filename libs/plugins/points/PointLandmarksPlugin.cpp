@@ -25,14 +25,17 @@ const base::OptionTable<PointLandmarksOptions>& PointLandmarksOptions::table() {
   using Options = PointLandmarksOptions;
   using base::Range;
   static const auto table = [] {
-    auto own = base::OptionTable<Options>()
-                   .text("label", &Options::label, "Sensor label; empty for every sensor of ranges and bearings.")
-                   .number("sigma_range_m", &Options::sigma_range, Range::notNegative(),
-                           "Standard deviation of a range; 0 takes what the observation tells.")
-                   .number("sigma_yaw_deg", &Options::sigma_yaw, Range::notNegative(), "The same of a yaw.")
-                   .number("sigma_pitch_deg", &Options::sigma_pitch, Range::notNegative(), "The same of a pitch.")
-                   .number("loss_scale", &Options::loss_scale, Range::positive(),
-                           "Scale of the Huber loss, in standard deviations.");
+    auto own =
+        base::OptionTable<Options>()
+            .text("label", &Options::label, "Sensor label of the range-bearing sensor; empty for every such sensor.")
+            .number("sigma_range_m", &Options::sigma_range, Range::notNegative(),
+                    "Standard deviation of a measured range; 0 uses the value that the observation reports.")
+            .number("sigma_yaw_deg", &Options::sigma_yaw, Range::notNegative(),
+                    "Standard deviation of a measured yaw; 0 uses the value that the observation reports.")
+            .number("sigma_pitch_deg", &Options::sigma_pitch, Range::notNegative(),
+                    "Standard deviation of a measured pitch; 0 uses the value that the observation reports.")
+            .number("loss_scale", &Options::loss_scale, Range::positive(),
+                    "Scale of the Huber loss, in standard deviations.");
     return declareIn(own);
   }();
   return table;

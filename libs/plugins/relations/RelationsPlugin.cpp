@@ -14,23 +14,26 @@ const base::OptionTable<RelationsOptions>& RelationsOptions::table() {
   using base::Range;
   static const auto table =
       base::OptionTable<Options>()
-          .flag("point_on_wall", &Options::point_on_wall, "Points that lie on walls, tables and other surfaces.")
-          .flag("parallel", &Options::parallel, "Walls and planes in parallel.")
-          .flag("perpendicular", &Options::perpendicular, "Walls and planes at right angles.")
-          .flag("aligned", &Options::aligned, "Walls on one line, surfaces on one plane.")
+          .flag("point_on_wall", &Options::point_on_wall,
+                "Relates points to the walls, tables and other surfaces that they lie on.")
+          .flag("parallel", &Options::parallel, "Relates walls and planes that are parallel.")
+          .flag("perpendicular", &Options::perpendicular, "Relates walls and planes that are at right angles.")
+          .flag("aligned", &Options::aligned, "Relates walls that lie on one line and surfaces that lie on one plane.")
           .number("distance_sigma_m", &Options::distance_sigma, Range::positive(),
-                  "Standard deviation of a point from its wall or table, and of walls from one line.")
+                  "Standard deviation of the distance of a point from its wall or table, and of walls from a common "
+                  "line.")
           .number("angle_sigma_deg", &Options::angle_sigma, Range::positive(),
-                  "Standard deviation of walls from parallel and from the right angle.")
+                  "Standard deviation of the angle by which related walls deviate from parallel or perpendicular.")
           .number("max_distance_m", &Options::max_distance, Range::positive(),
-                  "Points farther from a surface have nothing to do with it; nor walls farther from one line.")
+                  "Largest distance of a point from a surface, and of walls from a common line, at which a relation "
+                  "is considered.")
           .number("max_angle_deg", &Options::max_angle, Range::positive(),
-                  "Walls farther from parallel and from the right angle stand as they like.")
-          .number(
-              "min_likelihood_ratio", &Options::min_likelihood_ratio, Range::positive(),
-              "A relation is proposed when what is known is so many times likelier if it holds than if the two have "
-              "nothing to do with each other.")
-          .integer("min_sightings", &Options::min_sightings, Range{1, 1e9}, "Of each of the two landmarks.");
+                  "Largest deviation of two walls from parallel or perpendicular at which a relation is considered.")
+          .number("min_likelihood_ratio", &Options::min_likelihood_ratio, Range::positive(),
+                  "Ratio by which the estimate must be likelier if a relation holds than if its two landmarks are "
+                  "unrelated, for the relation to be proposed.")
+          .integer("min_sightings", &Options::min_sightings, Range{1, 1e9},
+                   "Smallest number of measurements that each of the two landmarks of a relation must have.");
   return table;
 }
 

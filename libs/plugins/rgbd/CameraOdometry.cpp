@@ -21,31 +21,34 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
   const auto zero_or_more = base::Range::notNegative();
   static const auto table =
       base::OptionTable<Options>()
-          .text("label", &Options::label, "Sensor label of the camera; empty for the first that comes.")
+          .text("label", &Options::label, "Sensor label of the camera; empty for the first one observed.")
           .text("odometry_label", &Options::odometry_label,
-                "Sensor label of the wheels' odometry that predicts; empty for the first that comes, if any does. An "
-                "odometry plugin beside this one needs fallback = true.")
+                "Sensor label of the wheel odometry used for prediction; empty for the first one observed, if any. "
+                "An odometry plugin for the wheels then needs fallback = true.")
           .text("imu_label", &Options::imu_label,
-                "Sensor label of the inertial sensor whose turn rates predict; empty for the first that comes, if any "
-                "does.")
+                "Sensor label of the inertial sensor whose turn rates are used for prediction; empty for the first "
+                "one observed, if any.")
           .number("turn_rate_noise_per_root_s_deg", &Options::turn_rate_noise, base::Range::positive(),
-                  "Standard deviation of the turning that it tells after 1 s; grows with the root of time.")
+                  "Standard deviation of the rotation that the inertial sensor measures in 1 s; it grows with the "
+                  "root of time.")
           .number("turn_rate_bias_per_s_deg", &Options::turn_rate_bias, zero_or_more,
-                  "Standard deviation of the turn rates that it shows at rest; they are learnt.")
+                  "Standard deviation of the inertial sensor's turn rate bias, its reading at rest, which is "
+                  "estimated.")
           .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
-                  "More than a hand or a robot moves the camera: a map with such motions is suspicious.")
+                  "Largest plausible speed of a camera that a hand or a robot moves; a map with faster motions is "
+                  "reported as suspicious.")
           .number("position_noise_m", &Options::position_noise, base::Range::positive(),
-                  "Standard deviation of each coordinate from one image to the next, at rest.")
+                  "Standard deviation of each coordinate of the motion from one image to the next, at rest.")
           .number("angle_noise_deg", &Options::angle_noise, base::Range::positive(),
-                  "Standard deviation of each angle from one image to the next, at rest.")
+                  "Standard deviation of each angle of the motion from one image to the next, at rest.")
           .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
-                  "Standard deviation of each coordinate after 1 m of way [m] beside that.")
+                  "Additional standard deviation of each coordinate after 1 m of distance travelled [m].")
           .number("position_noise_per_root_turn", &Options::position_noise_per_root_turn, zero_or_more,
-                  "Standard deviation of each coordinate after 1 rad of turning [m] beside that.")
+                  "Additional standard deviation of each coordinate after 1 rad of rotation [m].")
           .number("angle_noise_per_root_m_deg", &Options::angle_noise_per_root_m, zero_or_more,
-                  "Standard deviation of each angle after 1 m of way beside that.")
+                  "Additional standard deviation of each angle after 1 m of distance travelled.")
           .number("angle_noise_per_root_turn", &Options::angle_noise_per_root_turn, zero_or_more,
-                  "Standard deviation of each angle after 1 rad of turning [rad] beside that.");
+                  "Additional standard deviation of each angle after 1 rad of rotation [rad].");
   return table;
 }
 

@@ -37,18 +37,19 @@ const base::OptionTable<ViewLinksOptions>& ViewLinksOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .text("odometry", &Options::odometry,
-                "Section of the camera's odometry: its label, matching and shutters hold here, too.")
+                "INI section of the camera odometry whose label, matching and shutter settings are used here, too.")
           .integer("key_frames_back", &Options::key_frames_back, base::Range{0, 20},
-                   "A key frame is linked to the second before it, and so on up to this one; the odometry links it to "
-                   "the first.")
+                   "Number of key frames back to which a key frame is linked, beginning with the second before it; "
+                   "odometry links it to the first.")
           .integer("old_views", &Options::old_views, base::Range{0, 20},
-                   "A key frame is linked to at most so many older views that the camera should have again.")
+                   "Largest number of older views, expected to be visible again, to which a key frame is linked.")
           .integer("stored_views", &Options::stored_views, base::Range{1, 100000},
-                   "So many older views are stored, then the oldest goes; a thousand take 250 MB at most.")
+                   "Largest number of older views that are stored before the oldest is dropped; a thousand take 250 "
+                   "MB at most.")
           .number("overlap", &Options::overlap, base::Range{0.1, 1},
-                  "Share of an older view that the camera must still see to be linked to it.")
+                  "Smallest share of an older view that the camera must still see to be linked to it.")
           .number("loss_scale", &Options::loss_scale, base::Range::positive(),
-                  "Links that are off by more than so many standard deviations count less and less.");
+                  "Scale of the Cauchy loss on links between views, in standard deviations.");
   return table;
 }
 

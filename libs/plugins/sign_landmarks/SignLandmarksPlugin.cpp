@@ -31,27 +31,28 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
   static const auto table = [] {
     auto own =
         base::OptionTable<Options>()
-            .text("label", &Options::label, "Sensor label of the signs, \"camera.signs\"; empty for every camera.")
+            .text("label", &Options::label,
+                  "Sensor label of the sign observations, such as \"camera.signs\"; empty for those of every camera.")
             .number("min_confidence", &Options::min_confidence, {0, 1},
-                    "Lines of text that are less sure do not count.")
+                    "Smallest confidence of a line of text that is used.")
             .number("pixel_sigma_deg", &Options::pixel_sigma, Range{0.001, 45},
-                    "Standard deviation of the direction to the middle of a sign in the image, however the camera is "
-                    "turned.")
+                    "Standard deviation of the direction to the middle of a sign in the image, whatever the "
+                    "camera's pan and tilt are.")
             .number("pan_sigma_deg", &Options::pan_sigma, Range{0, 45},
                     "Standard deviation of the pan angle that a camera reports, independent in each image.")
             .number("tilt_sigma_deg", &Options::tilt_sigma, Range{0, 45},
                     "Standard deviation of the tilt angle that a camera reports, independent in each image.")
-            .number(
-                "pan_tilt_offset_sigma_deg", &Options::pan_tilt_offset_sigma, Range{0, 45},
-                "Standard deviation of the pan offset and of the tilt offset of the camera, which are constant in a "
-                "run and are estimated; 0: there are none.")
+            .number("pan_tilt_offset_sigma_deg", &Options::pan_tilt_offset_sigma, Range{0, 45},
+                    "Standard deviation of the camera's pan and tilt offsets, which are constant in a run and are "
+                    "estimated; 0 assumes no offsets.")
             .number("max_sigma_m", &Options::max_sigma, Range{0.001, 100},
-                    "Largest standard deviation of the position of a new sign; until then its directions wait.")
+                    "Largest standard deviation of the position at which a new sign is added; until then its "
+                    "measured directions are kept.")
             .number("recent_m", &Options::recent_travel, Range::positive(),
-                    "Distance travelled without a sighting after which a sign is matched only through a loop closure "
-                    "hypothesis.")
+                    "Distance travelled without a measurement after which a sign is matched only through a loop "
+                    "closure hypothesis.")
             .number("same_sigma_m", &Options::same_sigma, Range{0.001, 10},
-                    "Standard deviation of where the middle of a sign is seen, on two visits.")
+                    "Standard deviation of the middle of a sign between measurements on two visits.")
             .number("loss_scale", &Options::loss_scale, Range{0.1, 100},
                     "Scale of the Cauchy loss, in standard deviations.");
     return declareIn(own);

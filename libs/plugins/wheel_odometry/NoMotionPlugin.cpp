@@ -10,9 +10,11 @@ const base::OptionTable<NoMotionOptions>& NoMotionOptions::table() {
   using Options = NoMotionOptions;
   static const auto table = base::OptionTable<Options>()
                                 .number("position_sigma_m", &Options::position_sigma, base::Range::positive(),
-                                        "Standard deviation of each coordinate after 1 s; grows with the root of time.")
+                                        "Standard deviation of each coordinate after 1 s of assumed rest; it grows "
+                                        "with the root of time.")
                                 .number("angle_sigma_deg", &Options::angle_sigma, base::Range::positive(),
-                                        "Standard deviation of each angle after 1 s; grows with the root of time.");
+                                        "Standard deviation of each angle after 1 s of assumed rest; it grows with "
+                                        "the root of time.");
   return table;
 }
 

@@ -9,8 +9,8 @@ const base::OptionTable<OdometryOptions>& OdometryOptions::table() {
     base::OptionTable<OdometryOptions> options;
     return declareIn(options).flag(
         "fallback", &OdometryOptions::fallback,
-        "Tell the motion only where no other source does: beside laser odometry, whose guess it is already, "
-        "wheels that slip, freeze or jump then bend nothing.");
+        "Uses the odometry only where no other source measures the motion. Beside laser odometry, which already "
+        "predicts with it, wheels that slip, freeze or jump then distort nothing.");
   }();
   return table;
 }

@@ -33,34 +33,37 @@ const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
       base::OptionTable<Options>()
           .choice<Detector>("detector", &Options::detector,
                             {{"text", Detector::text}, {"saliency", Detector::saliency}},
-                            "How signs are found: by lines of text, or, as in the thesis, by what is salient and looks "
-                            "like the signs that a classifier was trained on. Both need the networks, which read them.")
+                            "How signs are detected: by lines of text, or, as in the thesis, by saliency and a "
+                            "classifier that was trained on signs. Both need the networks, which read the signs.")
           .text("model", &Options::model,
-                "With detector = saliency, the file of omnimapper-train-doorsigns; empty: the model that is shipped.")
+                "With detector = saliency, the classifier file written by omnimapper-train-doorsigns; empty uses "
+                "the model that is shipped.")
           .number("min_score", &Options::min_score, {0, 1},
-                  "With detector = saliency, the least probability of a region that is taken for a sign.")
+                  "With detector = saliency, the smallest probability of a region that is accepted as a sign.")
           .text("models", &Options::models,
-                "Folder of the networks that scripts/models makes; empty: omnimapper/models in $XDG_DATA_HOME or "
-                "~/.local/share, from which alone the library of ONNX Runtime is taken, for it is a program.")
+                "Folder of the networks made by scripts/models; empty: omnimapper/models in $XDG_DATA_HOME or "
+                "~/.local/share. The ONNX Runtime library is taken only from that default folder, because it is "
+                "executable code.")
           .choice<Backend>("backend", &Options::backend,
                            {{"opencv", Backend::opencv}, {"onnx_runtime", Backend::onnx_runtime}},
-                           "What computes the networks: OpenCV, or ONNX Runtime, which is twice as fast and which "
-                           "scripts/models --onnxruntime fetches.")
+                           "Library that runs the networks: OpenCV, or ONNX Runtime, which is twice as fast and "
+                           "which scripts/models --onnxruntime fetches.")
           .choice<Options::Reader>(
               "reader", &Options::reader,
               {{"network", Options::Reader::network}, {"tesseract", Options::Reader::tesseract}},
-              "What reads the lines that are found: a network, or Tesseract, which takes a tenth of the time and needs "
-              "larger letters.")
+              "How the detected lines of text are read: by a network, or by Tesseract, which takes a tenth of "
+              "the time and needs larger letters.")
           .text("letters", &Options::letters,
-                "What texts consist of; empty: the English alphabet, digits and -.,:/&'(). A middle dot is read as a "
-                "hyphen; a line with a letter that they lack is not sure.")
-          .number("min_confidence", &Options::min_confidence, {0, 1}, "Lines that are less likely right are left out.")
-          .number("min_height_px", &Options::min_height, {4, 1000}, "Lines that are lower are left out.")
-          .number(
-              "least_change", &Options::least_change, {0, 255},
-              "Grey levels of 255 by which some part of an image, a sixty-fourth of its width, must differ from the "
-              "last image of this camera that was looked at. What differs less gets the signs of that one in "
-              "omnimapper-perceive. 0: every image is looked at.");
+                "Characters that texts consist of; empty: the English alphabet, digits and -.,:/&'(). A middle "
+                "dot is read as a hyphen, and a line with a character outside this set is uncertain.")
+          .number("min_confidence", &Options::min_confidence, {0, 1},
+                  "Lines of text with a lower confidence are left out.")
+          .number("min_height_px", &Options::min_height, {4, 1000},
+                  "Lines of text that are lower in the image are left out.")
+          .number("least_change", &Options::least_change, {0, 255},
+                  "Smallest change in grey levels (of 255), in some part of an image a sixty-fourth of its width, "
+                  "since the camera's last examined image. With less change omnimapper-perceive reuses that image's "
+                  "signs; 0 examines every image.");
   return table;
 }
 

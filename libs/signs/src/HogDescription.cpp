@@ -63,13 +63,14 @@ const base::OptionTable<HogOptions>& HogOptions::table() {
   using O = HogOptions;
   static const auto table =
       base::OptionTable<O>()
-          .integer("columns", &O::columns, {1, 16}, "Cells across the window.")
-          .integer("rows", &O::rows, {1, 16}, "Cells down the window.")
-          .integer("cell_px", &O::cell, {2, 32}, "Side of a cell.")
-          .integer("block", &O::block, {1, 16}, "Cells across a block, over which contrast is normalised.")
-          .integer("orientations", &O::orientations, {2, 36}, "Directions of edges over half a turn.")
+          .integer("columns", &O::columns, {1, 16}, "Number of HOG cells across the window.")
+          .integer("rows", &O::rows, {1, 16}, "Number of HOG cells down the window.")
+          .integer("cell_px", &O::cell, {2, 32}, "Side of a HOG cell.")
+          .integer("block", &O::block, {1, 16},
+                   "Number of HOG cells across a block, over which contrast is normalised.")
+          .integer("orientations", &O::orientations, {2, 36}, "Number of edge orientations over half a turn.")
           .number("margin", &O::margin, {0, 0.4},
-                  "Part of the window on each side that shows what is around the region.");
+                  "Share of the window on each side that shows the surroundings of the region.");
   return table;
 }
 

@@ -98,12 +98,17 @@ const base::OptionTable<SignTrainingOptions>& SignTrainingOptions::table() {
   using O = SignTrainingOptions;
   static const auto table =
       base::OptionTable<O>()
-          .number("cost", &O::cost, Range::positive(), "What a region on the wrong side costs the machine.")
-          .number("gamma", &O::gamma, Range::positive(), "Of its kernel.")
-          .integer("folds", &O::folds, {2, 100}, "Of cross-validation.")
-          .integer("others", &O::others, {1, 100000}, "Regions of a picture that are no signs, at most.")
-          .number("min_score", &O::min_score, {0, 1}, "Above this a probability counts as a sign in the tables.")
-          .integer("seed", &O::seed, Range::notNegative(), "Of what is drawn by chance: folds, and those regions.");
+          .number("cost", &O::cost, Range::positive(),
+                  "Cost C of the support vector machine for a region on the wrong side.")
+          .number("gamma", &O::gamma, Range::positive(),
+                  "Parameter gamma of the support vector machine's kernel, exp(-gamma |x - y|^2).")
+          .integer("folds", &O::folds, {2, 100}, "Number of folds of the cross-validation.")
+          .integer("others", &O::others, {1, 100000},
+                   "Largest number of regions without a sign that are taken from each picture.")
+          .number("min_score", &O::min_score, {0, 1},
+                  "Probability above which a region counts as a sign in the tables.")
+          .integer("seed", &O::seed, Range::notNegative(),
+                   "Seed of the random numbers by which the folds and the regions without a sign are drawn.");
   return table;
 }
 

@@ -8,7 +8,7 @@
 
 #include "CarmenLasers.h"
 #include "CarmenLine.h"
-#include "LineReader.h"
+#include "TextFileLines.h"
 #include "describeInput.h"
 #include "refuse.h"
 
@@ -25,7 +25,7 @@ constexpr std::uint64_t kLinesUntilFirstWord = 1000;
 
 // Throws if none of the first lines begins with a word of CARMEN.
 void checkKind(const std::string& path) {
-  LineReader lines(path);
+  TextFileLines lines(path);
   for (std::string line; lines.number() < kLinesUntilFirstWord && lines.next(line);) {
     if (line.find('\0') != std::string::npos) break;
     if (isCarmenWord(line.substr(0, line.find(' ')))) return;
@@ -37,7 +37,7 @@ void checkKind(const std::string& path) {
 
 // Reads the log once for its clock: lines if there are ODOM lines and no label's stamps run backwards.
 CarmenOdometry chooseOdometry(const std::string& path) {
-  LineReader lines(path);
+  TextFileLines lines(path);
   std::map<std::string, base::Stamp> latest;
   for (std::string line; lines.next(line);) {
     std::string label;
@@ -189,7 +189,7 @@ class CarmenLog::Stream {
           " First bad line: " + std::to_string(bad_lines_[0].number) + ", it " + bad_lines_[0].reason + ".";
   }
 
-  LineReader lines_;
+  TextFileLines lines_;
   CarmenOdometry odometry_;
   CarmenLasers lasers_;
   std::string line_;

@@ -31,8 +31,13 @@ class Drive {
     Vector3d normal = map_from_base * camera - in_map;
     normal.z() = 0;
     normal = geometry::expSo3({0, 0, normal_off}) * normal.normalized();
-    seen.push_back({{0, sign}, true, in_map, normal, geometry::inverse(map_from_session_) * map_from_base,
-                    SeenDirection(camera, direction), 1 * kDegree});
+    seen.push_back({{0, sign},
+                    true,
+                    in_map,
+                    normal,
+                    geometry::inverse(map_from_session_) * map_from_base,
+                    SeenDirection(camera, direction),
+                    1 * kDegree});
   }
 
  private:

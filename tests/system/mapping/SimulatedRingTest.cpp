@@ -5,7 +5,7 @@
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/graph/G2o.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 
 #include <algorithm>
 #include <cmath>

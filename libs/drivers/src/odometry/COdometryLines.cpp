@@ -20,14 +20,15 @@ const base::OptionTable<OdometryLinesOptions>& OdometryLinesOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .text("bind", &Options::bind,
-                "Address of this machine at which lines are taken: 127.0.0.1 from this machine alone, 0.0.0.0 from "
-                "everybody who reaches it.")
-          .integer("port", &Options::port, {0, 65535}, "Port at which lines are taken; 0 lets the system choose.")
+                "Address of this machine on which lines are accepted: 127.0.0.1 from this machine alone, 0.0.0.0 "
+                "from everyone who can reach it.")
+          .integer("port", &Options::port, {0, 65535}, "Port on which lines are accepted; 0 lets the system choose.")
           .choice("protocol", &Options::protocol, {{"tcp", Protocol::tcp}, {"udp", Protocol::udp}},
                   "Whether lines come over a TCP connection or in UDP datagrams.")
-          .integer("max_rate_hz", &Options::max_rate, {1, 100'000}, "Lines beyond so many in a second are rejected.")
+          .integer("max_rate_hz", &Options::max_rate, {1, 100'000},
+                   "Largest number of lines accepted in a second; lines beyond it are rejected.")
           .number("max_clock_offset_s", &Options::max_clock_offset, base::Range::positive(),
-                  "A line is rejected if its stamp differs from the clock of this machine by more.");
+                  "A line is rejected if its time stamp differs from this machine's clock by more than this.");
   return table;
 }
 

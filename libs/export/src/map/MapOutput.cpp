@@ -2,7 +2,7 @@
 
 #include <omnimapper/mapper/SavedMap.h>
 
-#include "map/Places.h"
+#include "map/PlacesOfMap.h"
 #include "run/OutputFile.h"
 
 IMPLEMENTS_MRPT_OBJECT(MapOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::exports)
@@ -14,8 +14,8 @@ const base::OptionTable<MapOutputOptions>& MapOutputOptions::table() {
   static const auto table = base::OptionTable<MapOutputOptions>().choice(
       "keep_raw", &MapOutputOptions::keep_raw,
       {{"none", RawImages::none}, {"depth", RawImages::depth}, {"all", RawImages::all}},
-      "What key frames keep of images in the log: nothing (a thinned coloured cloud stays), depth images, or all. What "
-      "is not kept cannot be had from the map later.");
+      "What key frames keep of the images in the log: none (a thinned coloured cloud stays), depth images, or all. "
+      "What is not kept cannot be recovered from the map later.");
   return table;
 }
 

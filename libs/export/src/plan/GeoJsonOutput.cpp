@@ -11,8 +11,8 @@ const base::OptionTable<GeoJsonOptions>& GeoJsonOptions::table() {
   using Options = GeoJsonOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .flag("metres", &Options::metres, "Give x and y of the map even where GPS tells longitude and latitude.")
-          .flag("trajectory", &Options::trajectory, "Give the way of each session, too.");
+          .flag("metres", &Options::metres, "Writes x and y of the map even where GPS provides longitude and latitude.")
+          .flag("trajectory", &Options::trajectory, "Writes the trajectory of each session, too.");
   return table;
 }
 

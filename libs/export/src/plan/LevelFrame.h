@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/geometry/Se3.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 
 #include <string>
 #include <vector>

@@ -17,9 +17,12 @@ const base::OptionTable<ReportOptions>& ReportOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .number("resolution_m", &Options::resolution, {0.005, 10}, "Side of a cell of the grid behind the map.")
-          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Beams are entered up to this length.")
-          .integer("picture_side_pixels", &Options::picture_side, {200, 8000}, "Longer side of the pictures, about.")
-          .integer("max_rows", &Options::max_rows, {0, 1000000}, "Rows of the decision log that the report lists.");
+          .number("max_range_m", &Options::max_range, {0.1, 1000},
+                  "Length up to which beams are entered into the grid.")
+          .integer("picture_side_pixels", &Options::picture_side, {200, 8000},
+                   "Approximate length of the longer side of the pictures.")
+          .integer("max_rows", &Options::max_rows, {0, 1000000},
+                   "Largest number of rows of the decision log that the report lists.");
   return table;
 }
 

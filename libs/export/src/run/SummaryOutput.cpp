@@ -1,7 +1,7 @@
 #include "run/SummaryOutput.h"
 
+#include <omnimapper/map/DenseTrajectory.h>
 #include <omnimapper/map/SessionMetrics.h>
-#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/TumLine.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 
 #include "run/OutputFile.h"
 #include "run/RunMetrics.h"
@@ -13,7 +13,7 @@ namespace omnimapper::exports {
 
 const base::OptionTable<TrajectoryOptions>& TrajectoryOptions::table() {
   static const auto table = base::OptionTable<TrajectoryOptions>().flag(
-      "key_frames_only", &TrajectoryOptions::key_frames_only, "Leave out the observations between key frames.");
+      "key_frames_only", &TrajectoryOptions::key_frames_only, "Leaves out the observations between key frames.");
   return table;
 }
 

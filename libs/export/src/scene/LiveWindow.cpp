@@ -1,7 +1,7 @@
 #include "scene/LiveWindow.h"
 
 #include <omnimapper/base/LibraryBeside.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 
 #include <algorithm>
 #include <chrono>
@@ -18,12 +18,16 @@ const base::OptionTable<LiveWindowOptions>& LiveWindowOptions::table() {
       base::OptionTable<Options>()
           .integer("width_pixels", &Options::width, {200, 8000}, "Width of the window.")
           .integer("height_pixels", &Options::height, {200, 8000}, "Height of the window.")
-          .integer("points_per_key_frame", &Options::points_per_key_frame, {1, 1000000}, "Points drawn of a key frame.")
-          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Points further from their sensor are not drawn.")
-          .flag("grid", &Options::grid, "Draw the occupancy grid of the 2D scans on the floor.")
-          .number("grid_resolution_m", &Options::grid_resolution, {0.005, 10}, "Side of its cells.")
-          .flag("follow", &Options::follow, "Keep the whole map in view; false leaves the camera to the mouse.")
-          .flag("keep_open", &Options::keep_open, "At the end, when all is written, wait until the window is closed.");
+          .integer("points_per_key_frame", &Options::points_per_key_frame, {1, 1000000},
+                   "Largest number of points drawn for each key frame.")
+          .number("max_range_m", &Options::max_range, {0.1, 1000},
+                  "Distance from the sensor beyond which points are not drawn.")
+          .flag("grid", &Options::grid, "Draws the occupancy grid of the 2D scans on the floor.")
+          .number("grid_resolution_m", &Options::grid_resolution, {0.005, 10},
+                  "Side of the cells of the drawn occupancy grid.")
+          .flag("follow", &Options::follow, "Keeps the whole map in view; false leaves the camera to the mouse.")
+          .flag("keep_open", &Options::keep_open,
+                "Waits at the end, when all output is written, until the window is closed.");
   return table;
 }
 

@@ -13,13 +13,14 @@ const base::OptionTable<PointsOptions>& PointsOptions::table() {
   using Options = PointsOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .number("voxel_m", &Options::voxel, {0, 100}, "One point is kept of each cube of this side; 0 keeps all.")
-          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Points further from their sensor are left out.")
+          .number("voxel_m", &Options::voxel, {0, 100},
+                  "Side of the cubes in each of which one point is kept; 0 keeps all points.")
+          .number("max_range_m", &Options::max_range, {0.1, 1000},
+                  "Distance from the sensor beyond which points are left out.")
           .choice("colour", &Options::colour,
                   {{"auto", PointColour::automatic}, {"height", PointColour::height}, {"time", PointColour::time}},
-                  "What the colours mean; auto: those of the camera where there are depth images, else height where "
-                  "the map has "
-                  "any, else time.");
+                  "Meaning of the point colours; auto uses the camera's colours where there are depth images, else "
+                  "height where the map has any, else time.");
   return table;
 }
 

@@ -1,6 +1,6 @@
 #include "scene/SceneLandmarks.h"
 
-#include <omnimapper/obs/Drawing.h>
+#include <omnimapper/obs/SceneDrawing.h>
 
 #include <algorithm>
 #include <cmath>

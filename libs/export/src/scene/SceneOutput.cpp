@@ -3,7 +3,7 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/serialization/CArchive.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 
 #include "run/OutputFile.h"
 #include "scene/SceneLandmarks.h"
@@ -17,12 +17,14 @@ const base::OptionTable<SceneOptions>& SceneOptions::table() {
   using Options = SceneOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .number("voxel_m", &Options::voxel, {0, 100}, "One point is kept of each cube of this side; 0 keeps all.")
-          .number("max_range_m", &Options::max_range, {0.1, 1000}, "Points further from their sensor are left out.")
+          .number("voxel_m", &Options::voxel, {0, 100},
+                  "Side of the cubes in each of which one point is kept; 0 keeps all points.")
+          .number("max_range_m", &Options::max_range, {0.1, 1000},
+                  "Distance from the sensor beyond which points are left out.")
           .number("corner_spacing_m", &Options::corner_spacing, base::Range::notNegative(),
-                  "Way between two key frames whose axes are drawn.")
-          .flag("refused_closures", &Options::refused_closures, "Draw the closures that were refused, too.")
-          .flag("names", &Options::names, "Write the names of landmarks beside them.");
+                  "Distance travelled between two key frames whose axes are drawn.")
+          .flag("refused_closures", &Options::refused_closures, "Draws the loop closures that were rejected, too.")
+          .flag("names", &Options::names, "Writes the names of landmarks beside them.");
   return table;
 }
 

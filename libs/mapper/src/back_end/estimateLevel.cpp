@@ -4,7 +4,7 @@
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Polygon3.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 #include <omnimapper/surfaces/levelOfSurfaces.h>

@@ -61,16 +61,19 @@ const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
   using Options = SensorPoseOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .text("label", &Options::label, "Sensor label of the observations this is about.")
-          .number("pose_x_m", &Options::x, {}, "Sensor on the base: forward.")
-          .number("pose_y_m", &Options::y, {}, "Sensor on the base: left.")
-          .number("pose_z_m", &Options::z, {}, "Sensor on the base: up.")
-          .number("pose_yaw_deg", &Options::yaw, {}, "Sensor on the base: turn about z.")
-          .number("pose_pitch_deg", &Options::pitch, {}, "Sensor on the base: turn about y.")
-          .number("pose_roll_deg", &Options::roll, {}, "Sensor on the base: turn about x; 180 for upside down.")
+          .text("label", &Options::label, "Sensor label of the observations that this section applies to.")
+          .number("pose_x_m", &Options::x, {}, "Position of the sensor in the base frame: x, forward.")
+          .number("pose_y_m", &Options::y, {}, "Position of the sensor in the base frame: y, to the left.")
+          .number("pose_z_m", &Options::z, {}, "Position of the sensor in the base frame: z, up.")
+          .number("pose_yaw_deg", &Options::yaw, {}, "Orientation of the sensor in the base frame: yaw, about z.")
+          .number("pose_pitch_deg", &Options::pitch, {}, "Orientation of the sensor in the base frame: pitch, about y.")
+          .number("pose_roll_deg", &Options::roll, {},
+                  "Orientation of the sensor in the base frame: roll, about x; 180 for a sensor mounted upside down.")
           .number("aperture_deg", &Options::aperture, {0, 360},
-                  "Of its 2D scans, from the first beam to the last; 0 leaves what the scans say.")
-          .text("pose_file", &Options::file, "TUM file of base_from_sensor for a sensor that moves on the base.");
+                  "Angle of the sensor's 2D scans from the first beam to the last; 0 keeps the aperture that the "
+                  "scans report.")
+          .text("pose_file", &Options::file,
+                "TUM file of base_from_sensor poses over time, for a sensor that moves on the base.");
   return table;
 }
 

@@ -11,13 +11,17 @@ const base::OptionTable<TriggerOptions>& TriggerOptions::table() {
       base::OptionTable<Options>()
           .flag("every_observation", &Options::every_observation, "Every observation becomes a key frame.")
           .number("distance_m", &Options::distance, base::Range::positive(),
-                  "A key frame after this way, by the pose plugins.")
+                  "Distance moved since the sensor's last key frame, measured by the pose plugins, at which a new "
+                  "one is made.")
           .number("angle_deg", &Options::angle, base::Range{0.01, 180},
-                  "A key frame after this turn, by the pose plugins.")
+                  "Rotation since the sensor's last key frame, measured by the pose plugins, at which a new one is "
+                  "made.")
           .number("period_s", &Options::period, base::Range::notNegative(),
-                  "A key frame after this time even at rest; 0 for never.")
+                  "Time since the sensor's last key frame after which a new one is made even at rest; 0 disables "
+                  "this.")
           .number("period_without_odometry_s", &Options::period_without_odometry, base::Range::notNegative(),
-                  "A key frame after this time where no pose plugin has measured the motion.");
+                  "Time since the sensor's last key frame after which a new one is made where no pose plugin has "
+                  "measured the motion.");
   return table;
 }
 

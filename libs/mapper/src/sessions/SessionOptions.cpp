@@ -11,18 +11,23 @@ const base::OptionTable<SessionOptions>& SessionOptions::table() {
                    {"origin", Options::Start::origin},
                    {"pose", Options::Start::pose},
                    {"anywhere", Options::Start::anywhere}},
-                  "Where a session that continues a map, or is localized in one, begins: where the last one ended, at "
-                  "the map's origin, at the "
-                  "pose below, or where nobody knows: then it is sought in the whole map.")
-          .number("start_x_m", &Options::start_x, {}, "Position in the map, for start = pose.")
-          .number("start_y_m", &Options::start_y, {}, "Position in the map, for start = pose.")
-          .number("start_yaw_deg", &Options::start_yaw, {}, "Heading in the map, for start = pose.")
+                  "Start of a session that continues a map or is localized in one: where the last one ended, the "
+                  "origin of the map, the pose start_x_m, start_y_m, start_yaw_deg, or anywhere, by a search of the "
+                  "whole map.")
+          .number("start_x_m", &Options::start_x, {},
+                  "x coordinate in the map at which the session starts, for start = pose.")
+          .number("start_y_m", &Options::start_y, {},
+                  "y coordinate in the map at which the session starts, for start = pose.")
+          .number("start_yaw_deg", &Options::start_yaw, {},
+                  "Heading in the map at which the session starts, for start = pose.")
           .number("start_sigma_m", &Options::start_sigma, base::Range::positive(),
-                  "Standard deviation of the position: how far off the start may be, and how far closures are sought.")
+                  "Standard deviation of the session's start position, which also sets how far away loop closures "
+                  "are searched for.")
           .number("start_sigma_deg", &Options::start_angle_sigma, base::Range::positive(),
-                  "Standard deviation of the angles.")
+                  "Standard deviation of the angles of the session's start pose.")
           .integer("window_key_frames", &Options::window_key_frames, base::Range{5, 1e6},
-                   "With --localize so many of the newest key frames are estimated together; older ones are held.");
+                   "Number of newest key frames that are estimated together with --localize; older ones are held "
+                   "fixed.");
   return table;
 }
 

@@ -22,11 +22,11 @@ const base::OptionTable<CloudSourceOptions>& CloudSourceOptions::table() {
                    {"high_curvature_edges", CloudSource::high_curvature_edges},
                    {"voxels", CloudSource::voxels},
                    {"all_points", CloudSource::all_points}},
-                  "Which points of an image are registered.")
-          .number("voxel_m", &Options::voxel, base::Range{0.001, 10}, "Side of the cubes of voxels.")
-          .number("max_depth_m", &Options::max_depth, base::Range{0.3, 100}, "What is farther is left out.")
+                  "Kind of points of a depth image that are registered.")
+          .number("voxel_m", &Options::voxel, base::Range{0.001, 10}, "Side of a voxel, with source = voxels.")
+          .number("max_depth_m", &Options::max_depth, base::Range{0.3, 100}, "Points with a larger depth are left out.")
           .number("pixel_noise", &Options::pixel_noise, base::Range::positive(),
-                  "Standard deviation of points across their rays [px].");
+                  "Standard deviation of a point across its ray [px].");
   return table;
 }
 

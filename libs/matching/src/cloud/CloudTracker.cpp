@@ -11,12 +11,15 @@ const base::OptionTable<CloudTrackerOptions>& CloudTrackerOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .number("key_angle_deg", &Options::key_angle, base::Range::positive(),
-                  "Turn of the camera after which an image becomes a key frame.")
-          .number("key_distance_m", &Options::key_distance, base::Range::positive(), "Way after which it does.")
+                  "An image becomes a key frame once the camera has rotated by more than this from the last key "
+                  "frame.")
+          .number("key_distance_m", &Options::key_distance, base::Range::positive(),
+                  "An image becomes a key frame once the camera is farther than this from the last key frame.")
           .number("key_overlap", &Options::key_overlap, base::Range{0, 1},
-                  "Share of points that are still near those of the key frame, below which it does.")
+                  "An image becomes a key frame if a smaller share of its points is near points of the last key "
+                  "frame.")
           .number("longest_loss_s", &Options::longest_loss, base::Range::positive(),
-                  "A camera that is lost for longer begins anew.");
+                  "Tracking starts anew if the camera has been lost for longer than this.");
   return table;
 }
 

@@ -21,21 +21,30 @@ const base::OptionTable<CloudMatcherOptions>& CloudMatcherOptions::table() {
                   {{"point_to_point", CloudMethod::point_to_point},
                    {"point_to_plane", CloudMethod::point_to_plane},
                    {"gicp", CloudMethod::gicp}},
-                  "What is made small: distances of points, those across surfaces, or those in standard deviations.")
-          .number("max_distance_m", &Options::max_distance, base::Range::positive(), "Of points that may be the same.")
+                  "Residual that is minimised: the distance between points, their distance across the surface, "
+                  "or their distance in standard deviations (gicp).")
+          .number("max_distance_m", &Options::max_distance, base::Range::positive(),
+                  "Largest distance between corresponding points on the finest level of a match.")
           .number("coarse_distance_m", &Options::coarse_distance, base::Range::positive(),
-                  "The same, when few points are matched first.")
-          .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000}, "Steps of a match, on each level.")
+                  "Largest distance between corresponding points on the coarsest level of a match.")
+          .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000},
+                   "Largest number of iterations of a match on each level.")
           .number("tolerance", &Options::tolerance, base::Range::positive(),
-                  "Steps that are shorter [m] [rad] end the last level; ten times as long ones the others.")
+                  "The finest level of a match ends once a step is shorter than this [m] [rad], each coarser "
+                  "level once it is shorter than ten times this.")
           .integer("coarse_points", &Options::coarse_points, base::Range{10, 1000000},
-                   "Points that are matched first; each further level has four times as many.")
-          .integer("max_points", &Options::max_points, base::Range{10, 1000000}, "Points that are matched last.")
+                   "Number of points that are matched on the coarsest level; each further level has four times "
+                   "as many.")
+          .integer("max_points", &Options::max_points, base::Range{10, 1000000},
+                   "Number of points that are matched on the finest level.")
           .number("normal_noise_deg", &Options::normal_noise, base::Range::notNegative(),
-                  "Standard deviation of normals: what these alone seem to fix is left open.")
-          .number("alike", &Options::alike, base::Range{1, 10000}, "So many points err alike and count as one.")
+                  "Standard deviation of surface normals. A direction that seems constrained only by their noise "
+                  "is left unconstrained.")
+          .number("alike", &Options::alike, base::Range{1, 10000},
+                  "Number of points whose errors are alike, so that they count as one.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
-                  "Least share of a cloud's points that must have one of the other near.");
+                  "Smallest share of a cloud's points that must have a point of the other cloud nearby for a "
+                  "match to be accepted.");
   return table;
 }
 

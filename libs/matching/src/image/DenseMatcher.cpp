@@ -268,18 +268,22 @@ const base::OptionTable<DenseMatcherOptions>& DenseMatcherOptions::table() {
   using Options = DenseMatcherOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .flag("use_depth", &Options::use_depth, "Register by depths.")
-          .flag("use_brightness", &Options::use_grey, "Register by the brightness of the picture.")
+          .flag("use_depth", &Options::use_depth, "Register images by their depths.")
+          .flag("use_brightness", &Options::use_grey, "Register images by the brightness of their pictures.")
           .integer("finest_level", &Options::finest_level, base::Range{0, 3},
-                   "Images are halved so many times where a match ends.")
-          .integer("max_points", &Options::max_points, base::Range{50, 400000}, "Points of a key frame, on each level.")
-          .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000}, "Steps of a match, on each level.")
+                   "Finest pyramid level of a match, as the number of times that images are halved; 0 is the "
+                   "full resolution.")
+          .integer("max_points", &Options::max_points, base::Range{50, 400000},
+                   "Largest number of points of a key frame on each pyramid level.")
+          .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000},
+                   "Largest number of iterations of a match on each pyramid level.")
           .number("brightness_noise", &Options::grey_noise, base::Range::positive(),
-                  "Standard deviation of brightness, of 255, at least.")
+                  "Smallest standard deviation of brightness that is assumed, on a scale from 0 to 255.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
-                  "Least share of a key frame's points that an image must show.")
+                  "Smallest share of a key frame's points that an image must show for a match to be accepted.")
           .number("max_outlier_share", &Options::max_outlier_share, base::Range{0, 1},
-                  "Largest share of them whose depth is far off.");
+                  "Largest share of a key frame's visible points that may be outliers in depth for a match to be "
+                  "accepted.");
   return table;
 }
 

@@ -194,11 +194,13 @@ const base::OptionTable<FeatureMatcherOptions>& FeatureMatcherOptions::table() {
   using Options = FeatureMatcherOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .integer("max_features", &Options::max_features, base::Range{10, 20000}, "Corners of a picture.")
+          .integer("max_features", &Options::max_features, base::Range{10, 20000},
+                   "Largest number of corners that are extracted from a picture.")
           .integer("min_feature_inliers", &Options::min_inliers, base::Range{6, 10000},
-                   "Fewest pairs of corners that agree on a motion that is believed.")
+                   "Smallest number of corner correspondences that must agree on a motion for it to be accepted.")
           .number("max_feature_ratio", &Options::max_ratio, base::Range{0.1, 1},
-                  "Largest ratio of a descriptor's distances to the nearest and the second nearest.");
+                  "Largest ratio of a descriptor's distances to its nearest and second nearest neighbour in a "
+                  "correspondence.");
   return table;
 }
 

@@ -31,28 +31,33 @@ const base::OptionTable<RgbdTrackerOptions>& RgbdTrackerOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .number("key_angle_deg", &Options::key_angle, base::Range{0.5, 90},
-                  "A new key frame where the camera has turned so far from the last.")
+                  "A new key frame is made once the camera has rotated by more than this from the last one.")
           .number("key_distance_share", &Options::key_distance, base::Range{0.005, 1},
-                  "A new one where it has moved so far, in parts of the median depth.")
+                  "A new key frame is made once the camera has moved farther than this from the last one, "
+                  "relative to that key frame's median depth.")
           .number("key_overlap", &Options::key_overlap, base::Range{0.3, 1},
-                  "A new one where less of the last is still seen.")
+                  "A new key frame is made once less than this share of the last one is still visible.")
           .integer("key_frames", &Options::key_frames, base::Range{1, 10000},
-                   "Key frames that are kept for coming back.")
+                   "Largest number of key frames that are kept for returning to known places.")
           .number("acceleration_m_per_s2", &Options::acceleration, base::Range::positive(),
-                  "Standard deviation of what the motion may change by.")
+                  "Standard deviation of the camera's linear acceleration, from which the uncertainty of a "
+                  "motion prediction is computed.")
           .number("turn_acceleration_rad_per_s2", &Options::turn_acceleration, base::Range::positive(),
-                  "Standard deviation of what the turning may change by.")
+                  "Standard deviation of the camera's angular acceleration, from which the uncertainty of a "
+                  "motion prediction is computed.")
           .number("depth_readout_s", &Options::depth_readout, any,
-                  "Time from the first row of depths to the last; 0: all at once.")
+                  "Time from the first row of a depth image to its last; 0 if all rows are taken at once.")
           .number("picture_readout_s", &Options::picture_readout, any,
-                  "Time from the first row of the picture to the last; 0: all at once.")
-          .number("picture_delay_s", &Options::picture_delay, any, "Time of the picture after the depths.")
+                  "Time from the first row of a picture to its last; 0 if all rows are taken at once.")
+          .number("picture_delay_s", &Options::picture_delay, any,
+                  "Delay of a picture after its depth image, each taken at its middle row.")
           .number("picture_delay_sigma_s", &Options::picture_delay_sigma, base::Range{0, 0.1},
-                  "Standard deviation of that; the delay of each image is found by its match. 0: it is exact.")
+                  "Standard deviation of the delay between depth image and picture, which each match estimates; "
+                  "0 if the delay is known exactly.")
           .number("longest_loss_s", &Options::longest_loss, base::Range::positive(),
-                  "After a longer time without a view it knows the camera begins anew.")
+                  "Tracking starts anew if the camera has seen nothing known for longer than this.")
           .flag("use_features", &Options::use_features,
-                "Where depths and brightness do not tell a fast motion, corners that look alike do.");
+                "Match corner features where depths and brightness do not determine a fast motion.");
   return table;
 }
 

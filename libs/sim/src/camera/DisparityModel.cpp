@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Noise.h"
+#include "CameraNoise.h"
 
 namespace omnimapper::sim {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Noise.h"
+#include "CameraNoise.h"
 #include "Srgb.h"
 
 namespace omnimapper::sim {

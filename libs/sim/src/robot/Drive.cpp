@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "Carrier.h"
-#include "Motion.h"
+#include "DrivenMotion.h"
 #include "Tour.h"
 
 namespace omnimapper::sim {
@@ -61,7 +61,7 @@ std::string format(const Eigen::Vector2d& place) {
 /// Reads places of section [robot] and refuses those where the robot cannot be.
 class Places {
  public:
-  Places(const base::Config& config, const World& world, const FloorPlan& plan, double radius)
+  Places(const base::Config& config, const World& world, const RobotSpace& plan, double radius)
       : file_(config.file()), world_(world), plan_(plan), radius_(radius) {}
 
   /// At least one, unless the text is empty.
@@ -145,7 +145,7 @@ class Places {
 
   std::string file_;
   const World& world_;
-  const FloorPlan& plan_;
+  const RobotSpace& plan_;
   double radius_;
 };
 
@@ -155,7 +155,7 @@ class Planner {
   Planner(const DriveOptions& options, const base::Config& config, const World& world)
       : options_(options), world_(world), plan_(world, options.radius), places_(config, world, plan_, options.radius) {}
 
-  Motion plan() const {
+  DrivenMotion plan() const {
     auto start = places_.readSingle("start", options_.start);
     std::vector<Stop> stops;
     if (options_.mode == DriveMode::waypoints) stops = waypoints(start);
@@ -163,8 +163,9 @@ class Planner {
     if (options_.mode == DriveMode::still) stops = still(start);
     if (!start) start = stops.front();
     const double yaw = start->yaw ? *start->yaw : firstHeading(*start, stops);
-    Motion motion({start->in_map.x(), start->in_map.y(), yaw},
-                  {options_.max_speed, options_.max_turn, options_.max_acceleration, options_.max_turn_acceleration});
+    DrivenMotion motion(
+        {start->in_map.x(), start->in_map.y(), yaw},
+        {options_.max_speed, options_.max_turn, options_.max_acceleration, options_.max_turn_acceleration});
     goAlong(motion, stops);
     return motion;
   }
@@ -204,7 +205,7 @@ class Planner {
 
   double firstHeading(const Stop& start, const std::vector<Stop>& stops) const {
     for (const Stop& stop : stops) {
-      if ((stop.in_map - start.in_map).norm() < FloorPlan::kCell) continue;
+      if ((stop.in_map - start.in_map).norm() < RobotSpace::kCell) continue;
       const Eigen::Vector2d first = (*plan_.findPath(start.in_map, stop.in_map))[1] - start.in_map;
       return std::atan2(first.y(), first.x());
     }
@@ -215,7 +216,7 @@ class Planner {
     return stop.yaw || options_.pause > 0 || (options_.mode == DriveMode::tour && options_.look_around > 0);
   }
 
-  void goAlong(Motion& motion, const std::vector<Stop>& stops) const {
+  void goAlong(DrivenMotion& motion, const std::vector<Stop>& stops) const {
     std::map<std::pair<std::size_t, std::size_t>, Polyline> known;  // ways from stop to stop
     Polyline way{motion.end().translation()};
     std::optional<std::size_t> from;
@@ -256,7 +257,7 @@ class Planner {
   }
 
   // Where duration_s cuts a drive off, what comes after does not count.
-  void refuseTooLong(const Motion& motion) const {
+  void refuseTooLong(const DrivenMotion& motion) const {
     if (options_.duration > 0 || motion.duration() <= kLongestRun) return;
     places_.fail(base::ExitCode::out_of_range, "duration_s", "0",
                  "the whole way takes more than " + base::option_text::format(kLongestRun) +
@@ -265,7 +266,7 @@ class Planner {
 
   const DriveOptions& options_;
   const World& world_;
-  FloorPlan plan_;
+  RobotSpace plan_;
   Places places_;
 };
 
@@ -279,7 +280,7 @@ Track planDrive(const base::Config& config, const World& world) {
                           "INI files of the mapper describe no world");
   }
   const auto options = config.section("robot").read<DriveOptions>();
-  const Motion motion = Planner(options, config, world).plan();
+  const DrivenMotion motion = Planner(options, config, world).plan();
   constexpr double kStep = 1.0 / kDriveRate;
   auto poses = poseOnGround(motion.sampled(kStep, options.duration > 0 ? options.duration : motion.duration()), world,
                             options.radius);

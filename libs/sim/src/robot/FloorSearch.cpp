@@ -1,9 +1,9 @@
-// Lines and ways on a FloorPlan.
+// Lines and ways on a RobotSpace.
 #include <algorithm>
 #include <cmath>
 #include <queue>
 
-#include "FloorPlan.h"
+#include "RobotSpace.h"
 
 namespace omnimapper::sim {
 
@@ -20,25 +20,25 @@ void forEachSample(const Eigen::Vector2d& from, const Eigen::Vector2d& to, doubl
 
 }  // namespace
 
-bool FloorPlan::isFree(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+bool RobotSpace::isFree(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   bool free = true;
   forEachSample(from, to, kStep, [&](const Eigen::Vector2d& point) { free = free && isFree(point); });
   return free;
 }
 
-bool FloorPlan::isSeen(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+bool RobotSpace::isSeen(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   bool seen = true;
   forEachSample(from, to, kCell,
                 [&](const Eigen::Vector2d& point) { seen = seen && clearance(point) > kHalfDiagonal; });
   return seen;
 }
 
-double FloorPlan::costOf(int cell) const {
+double RobotSpace::costOf(int cell) const {
   const double tight = std::max(0.0, (radius_ + kComfort - static_cast<double>(clearance_[cell])) / kComfort);
   return (1 + kTightFactor * tight * tight) * (is_in_room_[cell] ? 1 : kOutsideFactor);
 }
 
-double FloorPlan::costOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+double RobotSpace::costOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   double sum = 0;
   int count = 0;
   forEachSample(from, to, kStep, [&](const Eigen::Vector2d& point) {
@@ -51,7 +51,7 @@ double FloorPlan::costOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to)
 
 // Best first over the free cells; ends when `arrived(cell, cost)` says so. Ties go by the cell's number.
 template <class Estimate, class Arrived>
-void FloorPlan::grow(int from, const Estimate& estimate, const Arrived& arrived) const {
+void RobotSpace::grow(int from, const Estimate& estimate, const Arrived& arrived) const {
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   auto& [cost, closed, came_from, touched] = scratch_;
@@ -91,7 +91,7 @@ void FloorPlan::grow(int from, const Estimate& estimate, const Arrived& arrived)
   }
 }
 
-std::optional<Polyline> FloorPlan::findPath(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+std::optional<Polyline> RobotSpace::findPath(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   if (!canReach(from, to)) return std::nullopt;
   const std::vector<int>& came_from = scratch_.came_from;
   const int goal = cellOf(to);
@@ -108,7 +108,7 @@ std::optional<Polyline> FloorPlan::findPath(const Eigen::Vector2d& from, const E
 }
 
 // Leaves out corners where the straight line costs no more than the way around.
-Polyline FloorPlan::shortened(const Polyline& path) const {
+Polyline RobotSpace::shortened(const Polyline& path) const {
   constexpr double kSlack = 1.02;
   std::vector<double> so_far{0};
   for (std::size_t i = 1; i < path.size(); ++i) so_far.push_back(so_far.back() + costOf(path[i - 1], path[i]));
@@ -130,7 +130,7 @@ Polyline FloorPlan::shortened(const Polyline& path) const {
   return kept;
 }
 
-int FloorPlan::nearest(const Eigen::Vector2d& from, const std::vector<Target>& targets) const {
+int RobotSpace::nearest(const Eigen::Vector2d& from, const std::vector<Target>& targets) const {
   std::vector<std::pair<int, int>> at_cell;
   for (std::size_t i = 0; i < targets.size(); ++i) at_cell.emplace_back(cellOf(targets[i].point), static_cast<int>(i));
   std::sort(at_cell.begin(), at_cell.end());

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "FloorPlan.h"
+#include "RobotSpace.h"
 
 namespace omnimapper::sim {
 

@@ -62,7 +62,7 @@ class Lattice {
 };
 
 // Greedy cover: again and again the place that sees most of what has not been seen.
-std::vector<Eigen::Vector2d> placesToSee(const Room& room, const FloorPlan& plan, const Eigen::Vector2d& start,
+std::vector<Eigen::Vector2d> placesToSee(const Room& room, const RobotSpace& plan, const Eigen::Vector2d& start,
                                          double reach) {
   const Lattice to_see(room, std::max(kSeenSpacing, reach / 12));
   std::vector<Eigen::Vector2d> places = Lattice(room, std::max(kViewSpacing, reach / 6)).points();
@@ -107,7 +107,7 @@ std::vector<Eigen::Vector2d> placesToSee(const Room& room, const FloorPlan& plan
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> goodPlaceIn(const Room& room, const FloorPlan& plan) {
+std::optional<Eigen::Vector2d> goodPlaceIn(const Room& room, const RobotSpace& plan) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& corner : room.outline) middle += corner / static_cast<double>(room.outline.size());
   std::optional<Eigen::Vector2d> best;
@@ -122,7 +122,7 @@ std::optional<Eigen::Vector2d> goodPlaceIn(const Room& room, const FloorPlan& pl
   return best;
 }
 
-std::vector<Stop> planTour(const World& world, const std::vector<int>& rooms, const FloorPlan& plan,
+std::vector<Stop> planTour(const World& world, const std::vector<int>& rooms, const RobotSpace& plan,
                            const std::optional<Eigen::Vector2d>& start, double reach) {
   std::optional<Eigen::Vector2d> at = start;
   for (const int room : rooms) {
@@ -131,7 +131,7 @@ std::vector<Stop> planTour(const World& world, const std::vector<int>& rooms, co
     if (place && plan.isInLargestPart(*place)) at = place;
   }
   if (!at) return {};
-  std::vector<FloorPlan::Target> left;
+  std::vector<RobotSpace::Target> left;
   std::vector<int> room_of;
   for (const int room : rooms) {
     for (const Eigen::Vector2d& place : placesToSee(world.rooms[room], plan, *at, reach)) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <opencv2/aruco.hpp>
 
-#include "Drawing.h"
-#include "Plate.h"
+#include "SignPlate.h"
+#include "TextureDrawing.h"
 
 namespace omnimapper::sim {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "Drawing.h"
+#include "TextureDrawing.h"
 
 namespace omnimapper::sim {
 

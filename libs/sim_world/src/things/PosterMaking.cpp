@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "Drawing.h"
-#include "Plate.h"
+#include "SignPlate.h"
+#include "TextureDrawing.h"
 
 namespace omnimapper::sim {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Drawing.h"
-#include "Plate.h"
+#include "SignPlate.h"
+#include "TextureDrawing.h"
 
 namespace omnimapper::sim {
 
@@ -194,8 +194,9 @@ MadeSign makeSign(const SignSpec& spec) {
   const Layout layout = layOut(spec, look);
   const Texture picture = draw(spec.style, layout, look);
   const double width = picture.width / kPixelsPerMetre, height = picture.height / kPixelsPerMetre;
-  Plate plate{spec.name,  SurfaceKind::sign, std::make_shared<const Texture>(picture), width, height, kSignThickness,
-              look.plate, spec.map_from_sign};
+  SignPlate plate{
+      spec.name,  SurfaceKind::sign, std::make_shared<const Texture>(picture), width, height, kSignThickness,
+      look.plate, spec.map_from_sign};
   std::vector<double> capitals;
   for (const Line& line : layout.lines) capitals.push_back(line.style.capital_height / kPixelsPerMetre);
   return {makePlate(plate), {spec.name, spec.lines, spec.room, spec.map_from_sign, width, height, capitals}};

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "Drawing.h"
+#include "TextureDrawing.h"
 
 namespace omnimapper::sim {
 

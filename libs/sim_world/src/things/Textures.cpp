@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "Drawing.h"
+#include "TextureDrawing.h"
 
 namespace omnimapper::sim {
 

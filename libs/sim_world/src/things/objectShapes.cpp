@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "Drawing.h"
+#include "TextureDrawing.h"
 
 namespace omnimapper::sim {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/eval/Association.h>
+#include <omnimapper/eval/PosePairs.h>
 
 #include <Eigen/Core>
 #include <string>

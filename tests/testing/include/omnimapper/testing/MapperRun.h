@@ -2,8 +2,8 @@
 
 #include <omnimapper/base/Config.h>
 #include <omnimapper/graph/GraphArchive.h>
+#include <omnimapper/map/DenseTrajectory.h>
 #include <omnimapper/map/MapFile.h>
-#include <omnimapper/map/Trajectory.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/testing/SimulatedLog.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/eval/Association.h>
+#include <omnimapper/eval/PosePairs.h>
 
 #include <algorithm>
 #include <set>

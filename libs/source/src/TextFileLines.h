@@ -7,10 +7,10 @@
 namespace omnimapper::source {
 
 /// Lines of a text file, compressed or not.
-class LineReader {
+class TextFileLines {
  public:
   /// Throws as CompressedFile.
-  explicit LineReader(const std::string& path) : file_(path) {}
+  explicit TextFileLines(const std::string& path) : file_(path) {}
 
   /// The next line without its end. False at the end of the file, of whatever kind.
   bool next(std::string& line);

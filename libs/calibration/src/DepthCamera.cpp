@@ -1,4 +1,4 @@
-#include <omnimapper/calibration/RgbdCamera.h>
+#include <omnimapper/calibration/DepthCamera.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/PictureView.h>
@@ -29,8 +29,8 @@ Eigen::Vector3d rayThrough(const Intrinsics& camera, const Eigen::Vector2d& pixe
   return ray;
 }
 
-std::optional<RgbdCamera> cameraOf(const mrpt::obs::CObservation3DRangeScan& scan) {
-  RgbdCamera camera;
+std::optional<DepthCamera> cameraOf(const mrpt::obs::CObservation3DRangeScan& scan) {
+  DepthCamera camera;
   camera.is_registered = perception::isPictureOfDepthView(scan);
   const auto depth = intrinsicsOf(scan.cameraParams);
   const auto picture =

@@ -3,7 +3,7 @@
 #include <mrpt/opengl/CText.h>
 #include <mrpt/opengl/CTexturedPlane.h>
 #include <omnimapper/geometry/PlaneTangent.h>
-#include <omnimapper/obs/Drawing.h>
+#include <omnimapper/obs/SceneDrawing.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "map/Places.h"
+#include "map/PlacesOfMap.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

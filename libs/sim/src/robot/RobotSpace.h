@@ -12,11 +12,11 @@ using Polyline = std::vector<Eigen::Vector2d>;
 
 /// Where a round robot may be on the floor: a grid over the rooms with the distance of each cell to what stands there.
 /// One thread at a time: searches share their memory.
-class FloorPlan {
+class RobotSpace {
  public:
   static constexpr double kCell = 0.05;  ///< [m]
 
-  FloorPlan(const World& world, double radius);
+  RobotSpace(const World& world, double radius);
 
   /// May the robot's middle be here? Never true where it would touch an obstacle.
   bool isFree(const Eigen::Vector2d& point) const;

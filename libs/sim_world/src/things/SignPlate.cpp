@@ -1,4 +1,4 @@
-#include "Plate.h"
+#include "SignPlate.h"
 
 #include <omnimapper/sim_world/MeshBuilder.h>
 
@@ -6,7 +6,7 @@
 
 namespace omnimapper::sim {
 
-Body makePlate(const Plate& plate) {
+Body makePlate(const SignPlate& plate) {
   const double x = plate.width / 2, y = plate.height / 2, back = -plate.thickness;
   MeshBuilder builder(plate.name, Track(plate.map_from_plate));
   builder.layout(TextureLayout::fitted());

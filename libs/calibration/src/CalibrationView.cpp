@@ -1,4 +1,4 @@
-#include "View.h"
+#include "CalibrationView.h"
 
 #include <omnimapper/perception/DepthNoise.h>
 
@@ -8,7 +8,7 @@
 
 namespace omnimapper::calibration {
 
-std::optional<LocalPlane> View::planeAt(const Eigen::Vector2d& depth_pixel) const {
+std::optional<LocalPlane> CalibrationView::planeAt(const Eigen::Vector2d& depth_pixel) const {
   constexpr int kRadius = 4, kFewest = 41;  // [px], of 81 pixels
   constexpr double kOneSurface = 0.08;      // in parts of the inverse depth
   const int column = static_cast<int>(std::lround(depth_pixel.x())),

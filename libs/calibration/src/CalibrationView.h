@@ -20,7 +20,7 @@ struct LocalPlane {
 };
 
 /// One image of the log with its depths, raw: the lens is in them.
-struct View {
+struct CalibrationView {
   base::Stamp stamp;
   int stretch = 0;  ///< images between which the tracking did not begin anew have one number
   geometry::Vector6d velocity = geometry::Vector6d::Zero();  ///< [m/s] [rad/s] in the picture's frame, then

@@ -1,4 +1,4 @@
-#include "Noise.h"
+#include "CameraNoise.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/map/Trajectory.h>
+#include <omnimapper/map/DenseTrajectory.h>
 
 #include <algorithm>
 

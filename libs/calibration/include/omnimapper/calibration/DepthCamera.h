@@ -26,7 +26,7 @@ Eigen::Matrix<Scalar, 2, 1> project(const Scalar* camera, const Eigen::Matrix<Sc
 Eigen::Vector3d rayThrough(const Intrinsics& camera, const Eigen::Vector2d& pixel);
 
 /// A camera with depths, and what a log or a calibration says of it.
-struct RgbdCamera {
+struct DepthCamera {
   Intrinsics picture{}, depth{};
   geometry::Se3 depth_from_picture;  ///< optical frames
   double depth_scale = 1;            ///< true depth over the log's
@@ -37,6 +37,6 @@ struct RgbdCamera {
 };
 
 /// As the log has it. None for a fisheye lens, one of more than five numbers, or a camera without a calibration.
-std::optional<RgbdCamera> cameraOf(const mrpt::obs::CObservation3DRangeScan& scan);
+std::optional<DepthCamera> cameraOf(const mrpt::obs::CObservation3DRangeScan& scan);
 
 }  // namespace omnimapper::calibration

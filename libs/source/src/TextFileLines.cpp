@@ -1,4 +1,4 @@
-#include "LineReader.h"
+#include "TextFileLines.h"
 
 namespace omnimapper::source {
 
@@ -7,14 +7,14 @@ constexpr std::size_t kReadAtOnce = 1 << 16;
 constexpr std::size_t kLongest = 1 << 20;
 }  // namespace
 
-bool LineReader::refill() {
+bool TextFileLines::refill() {
   buffer_.resize(kReadAtOnce);
   buffer_.resize(file_.read(buffer_.data(), kReadAtOnce));
   next_ = 0;
   return !buffer_.empty();
 }
 
-bool LineReader::next(std::string& line) {
+bool TextFileLines::next(std::string& line) {
   line.clear();
   is_whole_ = false;
   bool any = false;

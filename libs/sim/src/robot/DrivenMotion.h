@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "FloorPlan.h"
+#include "RobotSpace.h"
 
 namespace omnimapper::sim {
 
@@ -16,9 +16,9 @@ struct MotionLimits {
 
 /// A motion of the plane over time, put together from what a robot with two driven wheels can do, each from rest to
 /// rest.
-class Motion {
+class DrivenMotion {
  public:
-  Motion(const geometry::Se2& start, const MotionLimits& limits);
+  DrivenMotion(const geometry::Se2& start, const MotionLimits& limits);
 
   void wait(double seconds);
   /// By this much, in place; any sign, more than a turn too [rad].
@@ -26,7 +26,7 @@ class Motion {
   void turnTo(double yaw);
   /// Along a polyline that begins where the motion ends: corners are rounded where the plan leaves room, driven with a
   /// stop and a turn in place where not.
-  void follow(const Polyline& corners, const FloorPlan& plan);
+  void follow(const Polyline& corners, const RobotSpace& plan);
 
   double duration() const { return duration_; }
   const geometry::Se2& end() const { return end_; }

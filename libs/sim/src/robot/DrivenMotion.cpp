@@ -1,4 +1,4 @@
-#include "Motion.h"
+#include "DrivenMotion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ double yawOf(const Eigen::Vector2d& direction) {
 
 // The largest rounding of the corner that is free, if one is large enough to be driven.
 std::optional<Blend> roundedCorner(const Eigen::Vector2d& before, const Eigen::Vector2d& corner,
-                                   const Eigen::Vector2d& after, const FloorPlan& plan) {
+                                   const Eigen::Vector2d& after, const RobotSpace& plan) {
   const Eigen::Vector2d into = (corner - before).normalized(), out_of = (after - corner).normalized();
   const double angle = std::abs(geometry::wrapToPi(yawOf(out_of) - yawOf(into)));
   if (angle > kLargestCorner) return std::nullopt;
@@ -104,15 +104,15 @@ void addBlend(std::vector<Knot>& knots, const Blend& blend) {
 
 }  // namespace
 
-Motion::Motion(const geometry::Se2& start, const MotionLimits& limits) : limits_(limits), end_(start) {}
+DrivenMotion::DrivenMotion(const geometry::Se2& start, const MotionLimits& limits) : limits_(limits), end_(start) {}
 
-void Motion::wait(double seconds) {
+void DrivenMotion::wait(double seconds) {
   if (seconds <= 0) return;
   legs_.push_back({duration_, {}, {duration_, seconds, end_.yaw, 0, end_.translation()}});
   duration_ += seconds;
 }
 
-void Motion::turn(double angle) {
+void DrivenMotion::turn(double angle) {
   if (std::abs(angle) < 1e-9) return;
   const double size = std::abs(angle), ramp = limits_.turn * limits_.turn / limits_.turn_acceleration;
   const double seconds = size > ramp ? size / limits_.turn + limits_.turn / limits_.turn_acceleration
@@ -122,11 +122,11 @@ void Motion::turn(double angle) {
   end_.yaw = geometry::wrapToPi(end_.yaw + angle);
 }
 
-void Motion::turnTo(double yaw) {
+void DrivenMotion::turnTo(double yaw) {
   turn(geometry::wrapToPi(yaw - end_.yaw));
 }
 
-void Motion::follow(const Polyline& corners, const FloorPlan& plan) {
+void DrivenMotion::follow(const Polyline& corners, const RobotSpace& plan) {
   Polyline way;
   for (const Eigen::Vector2d& corner : corners) {
     if (way.empty() || (corner - way.back()).norm() > 1e-6) way.push_back(corner);
@@ -154,7 +154,7 @@ void Motion::follow(const Polyline& corners, const FloorPlan& plan) {
 }
 
 // The fastest speeds within the limits: those of each knot, then what can be reached from the one before and after.
-void Motion::drive(std::vector<Knot> knots) {
+void DrivenMotion::drive(std::vector<Knot> knots) {
   const std::size_t count = knots.size();
   std::vector<double> acceleration(count, limits_.acceleration);
   for (std::size_t i = 0; i < count; ++i) {
@@ -192,7 +192,7 @@ void Motion::drive(std::vector<Knot> knots) {
   legs_.push_back({begin, std::move(knots), {}});
 }
 
-geometry::Se2 Motion::poseIn(const Leg& leg, double time) const {
+geometry::Se2 DrivenMotion::poseIn(const Leg& leg, double time) const {
   if (leg.knots.empty()) {
     const Turn& turn = leg.turn;
     // Speeds up, goes on, slows down; by symmetry the second half is the first one backwards.
@@ -222,7 +222,7 @@ geometry::Se2 Motion::poseIn(const Leg& leg, double time) const {
   return {position.x(), position.y(), geometry::wrapToPi(yaw)};
 }
 
-std::vector<geometry::Se2> Motion::sampled(double step, double until) const {
+std::vector<geometry::Se2> DrivenMotion::sampled(double step, double until) const {
   std::vector<geometry::Se2> poses;
   std::size_t leg = 0;
   if (legs_.empty()) return {end_};

@@ -1,4 +1,4 @@
-#include "Drawing.h"
+#include "TextureDrawing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "FloorPlan.h"
+#include "RobotSpace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,8 @@ void forEachEdge(const Polyline& polygon, const Visit& visit) {
 
 }  // namespace
 
-FloorPlan::FloorPlan(const World& world, double radius) : radius_(radius), needed_(radius + kHalfDiagonal + kStep / 2) {
+RobotSpace::RobotSpace(const World& world, double radius)
+    : radius_(radius), needed_(radius + kHalfDiagonal + kStep / 2) {
   Eigen::Vector2d high = Eigen::Vector2d::Constant(-1e9);
   low_ = -high;
   const auto take = [&](const Polyline& polygon) {
@@ -34,19 +35,19 @@ FloorPlan::FloorPlan(const World& world, double radius) : radius_(radius), neede
   labelParts();
 }
 
-int FloorPlan::cellOf(const Eigen::Vector2d& point) const {
+int RobotSpace::cellOf(const Eigen::Vector2d& point) const {
   const Eigen::Vector2d cell = ((point - low_) / kCell).array().floor();
   if (!(cell.x() >= 0 && cell.y() >= 0 && cell.x() < columns_ && cell.y() < rows_)) return -1;
   return static_cast<int>(cell.y()) * columns_ + static_cast<int>(cell.x());
 }
 
-Eigen::Vector2d FloorPlan::middleOf(int cell) const {
+Eigen::Vector2d RobotSpace::middleOf(int cell) const {
   return low_ + kCell * Eigen::Vector2d(cell % columns_ + 0.5, cell / columns_ + 0.5);
 }
 
 template <class Visit>
-void FloorPlan::forEachCellNear(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double margin,
-                                const Visit& visit) const {
+void RobotSpace::forEachCellNear(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double margin,
+                                 const Visit& visit) const {
   const auto bound = [&](double value, double origin, int count) {
     return static_cast<int>(std::clamp(std::floor((value - origin) / kCell), 0.0, count - 1.0));
   };
@@ -62,7 +63,7 @@ void FloorPlan::forEachCellNear(const Eigen::Vector2d& low, const Eigen::Vector2
   }
 }
 
-void FloorPlan::markRooms(const World& world) {
+void RobotSpace::markRooms(const World& world) {
   is_in_room_.assign(static_cast<std::size_t>(columns_) * rows_, world.rooms.empty());
   clearance_.assign(is_in_room_.size(), world.rooms.empty() ? static_cast<float>(radius_ + kComfort) : -1.0f);
   for (const Room& room : world.rooms) {
@@ -80,7 +81,7 @@ void FloorPlan::markRooms(const World& world) {
   }
 }
 
-void FloorPlan::measureClearance(const World& world) {
+void RobotSpace::measureClearance(const World& world) {
   for (const Polyline& obstacle : world.obstacles) {
     if (obstacle.empty()) continue;
     const auto [low, high] = boundsOf(obstacle);
@@ -96,7 +97,7 @@ void FloorPlan::measureClearance(const World& world) {
   }
 }
 
-void FloorPlan::labelParts() {
+void RobotSpace::labelParts() {
   part_.assign(clearance_.size(), -1);
   std::vector<int> open;
   int parts = 0;
@@ -126,17 +127,17 @@ void FloorPlan::labelParts() {
   }
 }
 
-bool FloorPlan::isFree(const Eigen::Vector2d& point) const {
+bool RobotSpace::isFree(const Eigen::Vector2d& point) const {
   return isFreeCell(cellOf(point));
 }
 
-double FloorPlan::clearance(const Eigen::Vector2d& point) const {
+double RobotSpace::clearance(const Eigen::Vector2d& point) const {
   const int cell = cellOf(point);
   return cell < 0 ? -1.0 : static_cast<double>(clearance_[cell]);
 }
 
-std::optional<Eigen::Vector2d> FloorPlan::nearestFree(const Eigen::Vector2d& point,
-                                                      const std::optional<Eigen::Vector2d>& from) const {
+std::optional<Eigen::Vector2d> RobotSpace::nearestFree(const Eigen::Vector2d& point,
+                                                       const std::optional<Eigen::Vector2d>& from) const {
   const int part = from && cellOf(*from) >= 0 ? part_[cellOf(*from)] : largest_part_;
   int best = -1;
   double best_distance = std::numeric_limits<double>::infinity();
@@ -149,11 +150,11 @@ std::optional<Eigen::Vector2d> FloorPlan::nearestFree(const Eigen::Vector2d& poi
   return middleOf(best);
 }
 
-bool FloorPlan::canReach(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+bool RobotSpace::canReach(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   return isFree(from) && isFree(to) && part_[cellOf(from)] == part_[cellOf(to)];
 }
 
-bool FloorPlan::isInLargestPart(const Eigen::Vector2d& point) const {
+bool RobotSpace::isInLargestPart(const Eigen::Vector2d& point) const {
   return isFree(point) && part_[cellOf(point)] == largest_part_;
 }
 

@@ -9,7 +9,7 @@ namespace omnimapper::sim {
 
 /// What hangs flat on a wall. Frame: x to the reader's right, y up, z to the reader; origin in the middle of the front,
 /// the back at z = -thickness.
-struct Plate {
+struct SignPlate {
   std::string name;
   SurfaceKind kind;
   std::shared_ptr<const Texture> picture;
@@ -19,6 +19,6 @@ struct Plate {
 };
 
 /// Surface "<name>" is the front, a planar face; "<name>/edge" is the rest.
-Body makePlate(const Plate& plate);
+Body makePlate(const SignPlate& plate);
 
 }  // namespace omnimapper::sim

@@ -1,4 +1,4 @@
-#include <omnimapper/eval/Association.h>
+#include <omnimapper/eval/PosePairs.h>
 
 #include <algorithm>
 #include <queue>
