@@ -9,7 +9,7 @@
 
 namespace omnimapper::plugins {
 
-/// The point landmarks that a sighting may be of.
+/// The point landmarks with which a measurement may be associated.
 class PointLandmarkIndex {
  public:
   /// `owner`: INI section.
@@ -17,7 +17,7 @@ class PointLandmarkIndex {
 
   void restore(const mapper::State& state);
   void add(base::LandmarkId id) { variables_[id]; }
-  /// Forgets what was retired or merged, learns what was added.
+  /// Removes landmarks that were retired or merged, and takes over those that were added.
   void update(const mapper::State& state);
 
   /// The landmark of that number; none for -1.

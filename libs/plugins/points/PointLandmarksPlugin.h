@@ -10,20 +10,20 @@
 namespace omnimapper::plugins {
 
 struct PointLandmarksOptions : mapper::AssociationOptions {
-  std::string label;       ///< empty: every sensor of ranges and bearings
-  double sigma_range = 0;  ///< [m] 0: as the observation tells
-  double sigma_yaw = 0;    ///< [rad] 0: as the observation tells
-  double sigma_pitch = 0;  ///< [rad] 0: as the observation tells
+  std::string label;       ///< empty: every range-bearing sensor
+  double sigma_range = 0;  ///< [m] 0: as the observation reports
+  double sigma_yaw = 0;    ///< [rad] 0: as the observation reports
+  double sigma_pitch = 0;  ///< [rad] 0: as the observation reports
   double loss_scale = 3;   ///< [sigma] of the Huber loss
 
   static const base::OptionTable<PointLandmarksOptions>& table();
 };
 
-/// Points as landmarks, measured by ranges and bearings (mrpt::obs::CObservationBearingRange, thesis 4.6.2.1): of the
-/// plane by range and yaw in a planar map, of space by pitch too in a spatial one. What tells its number is the
-/// landmark of that number; a sighting of it that does not fit is kept in the graph with weight 0, so that who asks
-/// whether the landmark has moved finds it. What tells none (id -1) is associated, and
-/// points that turn out to be one are merged.
+/// Points as landmarks, measured by ranges and bearings (mrpt::obs::CObservationBearingRange, thesis 4.6.2.1): points
+/// of the plane by range and yaw in a planar map, points in space by range, yaw and pitch in a spatial one. A
+/// measurement that reports a number is of the landmark with that number; if it does not fit, it is kept in the graph
+/// with weight 0, so that the search for moved landmarks finds it. A measurement without a number (id -1) is
+/// associated, and landmarks that turn out to be the same point are merged.
 class PointLandmarksPlugin : public mapper::MeasurementPlugin {
  public:
   PointLandmarksPlugin(const PointLandmarksOptions& options, const mapper::PluginContext& context);

@@ -16,20 +16,20 @@
 
 namespace omnimapper::plugins {
 
-/// A point seen by a sensor of ranges and bearings, as it binds a point landmark.
+/// The factor and noise with which a range-bearing measurement binds a point landmark.
 struct PointConstraint {
   Eigen::Vector3d point_in_base;  ///< [m]
-  double sigma;                   ///< [m] of the point, along the direction that is known worst
+  double sigma;                   ///< [m] of the point, along the least certain direction
   std::shared_ptr<const graph::Factor> factor;
   graph::SquareRootInformation noise;
 };
 
 /// One measurement of an observation.
 struct PointMeasurement {
-  std::int32_t number;  ///< of the landmark; -1 if the sensor cannot tell
+  std::int32_t number;  ///< of the landmark; -1 if the sensor does not report one
   double range;         ///< [m]
   std::optional<PointConstraint> constraint;
-  std::string why_useless;  ///< where there is no constraint
+  std::string why_useless;  ///< the reason, if there is no constraint
 };
 
 /// All measurements of an observation, in its order.

@@ -10,8 +10,8 @@
 
 namespace omnimapper::plugins {
 
-/// Merges points without numbers that turn out to be one: they differ by no more than the map leaves open, and were
-/// never seen at once.
+/// Merges landmarks without numbers that are the same point: their positions agree within the map's uncertainty, and
+/// they were never seen at the same time.
 mapper::Batch mergeAlike(const PointLandmarkIndex& known, const PointLandmarksOptions& options,
                          const std::string& section, const mapper::View& view);
 

@@ -8,11 +8,11 @@
 
 namespace omnimapper::plugins {
 
-/// What is known of a point landmark beside where it is.
+/// What the map knows about a point landmark in addition to its position.
 struct PointPayload : map::LandmarkPayload {
-  std::int32_t number = -1;                      ///< that the sensor tells; -1: none
-  double height = 0;                             ///< [m] above the base, mean of the sightings: a planar map has none
-  std::map<std::string, std::uint32_t> seen_by;  ///< sensor label: sightings
+  std::int32_t number = -1;                      ///< reported by the sensor; -1: none
+  double height = 0;                             ///< [m] above the base, mean of all measurements, for planar maps
+  std::map<std::string, std::uint32_t> seen_by;  ///< sensor label: number of measurements
 
   std::string_view kind() const override { return "point"; }
   void write(std::ostream& out) const override;
@@ -22,9 +22,9 @@ struct PointPayload : map::LandmarkPayload {
 
   /// "marker 7", "point".
   std::string label() const;
-  /// With one more sighting, so high above the base.
+  /// A copy with one more measurement, at this height above the base [m].
   std::shared_ptr<const PointPayload> with(const std::string& sensor_label, double height_of_sighting) const;
-  /// With the sightings of another.
+  /// A copy with the measurements of another landmark added.
   std::shared_ptr<const PointPayload> with(const PointPayload& other) const;
   std::uint32_t sightings() const;
 };

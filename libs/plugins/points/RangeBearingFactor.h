@@ -9,13 +9,14 @@
 
 namespace omnimapper::plugins {
 
-/// A point of the map as a sensor of ranges and bearings sees it. Derivation: doc/derivations/range_bearing.md.
+/// The factors measure a point of the map with a range-bearing sensor. Derivation: doc/derivations/range_bearing.md.
 
 /// In a planar map (thesis 4.6.2.1, equation 10). Variables: map_from_base (se2), point in map (point2). Residual:
-/// range over the floor [m], bearing [rad, in (-pi, pi]], each predicted - measured.
+/// horizontal range [m], bearing [rad, in (-pi, pi]], each predicted - measured.
 class RangeBearingFactor2 : public graph::SizedFactor<2, graph::Se2Kind, graph::Point2Kind> {
  public:
-  /// `sensor_in_base`: [m] over the floor. `bearing`: direction over the floor from the sensor, from the x of the base.
+  /// `sensor_in_base`: horizontal position [m]. `bearing`: horizontal direction from the sensor, from the base's x
+  /// axis.
   RangeBearingFactor2(const Eigen::Vector2d& sensor_in_base, double range, double bearing)
       : sensor_in_base_(sensor_in_base), range_(range), bearing_(bearing) {}
 

@@ -14,15 +14,15 @@
 
 namespace omnimapper::plugins {
 
-/// The record with tags of the plugin's section and of the landmark.
+/// The record, with the plugin's section as owner and the landmark in its tags.
 graph::FactorRecord ofLandmark(graph::FactorRecord record, base::LandmarkId landmark, const std::string& section);
 
-/// A new landmark where views meet, with what binds it to them.
+/// Adds a new landmark where the directions of the views meet, with the factors that bind it to them.
 void addSign(const std::vector<SignView>& views, const Triangulation& place, mapper::PanTiltOffsets& offsets,
              const SignLandmarksOptions& options, const std::string& section, mapper::Batch& batch);
 
-/// At the end of a log: signs that were given up while it was mapped, because their latest direction never met enough
-/// others. Each is added where most of its directions meet, unless a sign that says the same is there already.
+/// At the end of a log, adds signs that were given up during mapping because their latest direction never met enough
+/// others. Each is added where most of its directions meet, unless a sign with the same text is there already.
 void addUnplacedSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets, const SignLandmarksOptions& options,
                       const std::string& section, const mapper::View& view, mapper::Batch& batch);
 

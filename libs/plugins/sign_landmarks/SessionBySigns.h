@@ -15,31 +15,31 @@
 
 namespace omnimapper::plugins {
 
-/// Finds a session of which nobody knows where in the map it begins, by the signs that it reads. A sign counts if what
-/// it says stands on one sign of the earlier sessions alone.
+/// Locates a session with an unknown start in the map by the signs that it reads. A sign is used only if exactly one
+/// sign of the earlier sessions has its text.
 class SessionBySigns {
  public:
   struct Placement {
     mapper::SessionPlace place;
-    bool is_sure;  ///< several sightings agree; else it is a first guess, for searches to begin at
+    bool is_sure;  ///< several measurements agree; else it is a first guess, from which searches start
     std::string reason;
   };
 
-  /// Learns what is seen at a key frame of the newest session, which may be moved (whyFixed()). `offsets`: what is
-  /// known of the pan-tilt offsets of the camera. Gives where the session is once that is known, or guessed for the
+  /// Takes the measurements at a key frame of the newest session, which must be free to move (whyFixed()). `offsets`:
+  /// the known pan-tilt offsets of the camera. Returns the place of the session once it is known, or guessed for the
   /// first time.
   std::optional<Placement> take(const std::vector<SignMeasurement>& measurements, const map::KeyFrame& frame,
                                 const SignTracks& tracks, const mapper::View& view, const KnownOffsets& offsets,
                                 double recent_travel);
-  /// Nobody knows where the session is: no sign of the map can be told from another by its place.
+  /// The place of the session is unknown, so that positions cannot tell which sign of the map a measurement is of.
   bool isLost() const { return is_lost_; }
-  /// Signs have shown where it is, and nothing ties it to the map yet.
+  /// Signs have located the session, and no factor connects it to the map yet.
   bool isPlaced() const { return placed_at_.has_value(); }
 
  private:
   struct Seen {
     base::KeyFrameId frame;
-    SeenKnownSign known;  // but for where the base is in the session
+    SeenKnownSign known;  // all but the pose of the base in the session
     double travelled;     // [m]
   };
 

@@ -9,18 +9,18 @@
 
 namespace omnimapper::plugins {
 
-/// A direction in which a camera sees a point. Derivation: doc/derivations/bearing.md.
+/// A measured direction from a camera to a point. Derivation: doc/derivations/bearing.md.
 class SeenDirection {
  public:
-  /// In the base: where the camera is [m], and the direction, a unit vector that is not vertical.
+  /// Both in the base: position of the camera [m], and the direction, a unit vector that is not vertical.
   SeenDirection(const Eigen::Vector3d& camera, const Eigen::Vector3d& direction);
 
   const Eigen::Vector3d& camera() const { return camera_; }
   const Eigen::Vector3d& direction() const { return direction_; }
 
   /// The rotation vector from the direction to a point, across the direction [rad]: first to the left about the
-  /// vertical of the base, as a pan turns, then down, as a tilt does. `seen`: from the camera to the point, axes of the
-  /// base [m]. Its derivative by that goes to `by_seen` if that is not null.
+  /// vertical of the base, as a pan turns, then down, as a tilt does. `seen`: vector from the camera to the point, in
+  /// the axes of the base [m]. The derivative by `seen` is written to `by_seen` if that is not null.
   Eigen::Vector2d angleTo(const Eigen::Vector3d& seen, Eigen::Matrix<double, 2, 3>* by_seen) const;
 
   void write(std::ostream& out) const;
@@ -31,7 +31,7 @@ class SeenDirection {
   Eigen::Matrix<double, 2, 3> across_;  // unit vectors to the left and down
 };
 
-/// A point of the map that a camera sees in some direction. Variables: map_from_base (se3, or se2), point in map
+/// The direction in which a camera sees a point of the map. Variables: map_from_base (se3, or se2), point in map
 /// (point3). Residual: SeenDirection::angleTo() the point [rad].
 class SignBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Point3Kind> {
  public:
@@ -46,11 +46,11 @@ class SignBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Po
   SeenDirection direction_;
 };
 
-/// The same of a camera on a pan-tilt unit whose zeros are off (thesis 4.3.2.5). Variables: map_from_base (se3, or
-/// se2), point in map (point3), offsets of the unit (pan_tilt). The camera turns about itself.
+/// The same for a camera on a pan-tilt unit with unknown zero offsets (thesis 4.3.2.5). Variables: map_from_base (se3,
+/// or se2), point in map (point3), offsets of the unit (pan_tilt). The axes of the unit pass through the camera.
 class PanTiltBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Point3Kind, graph::PanTiltKind> {
  public:
-  /// `tilt_axis`: unit vector to the left of the camera as it was panned, level, in the base.
+  /// `tilt_axis`: level unit vector to the left of the panned camera, in the base.
   PanTiltBearingFactor(const SeenDirection& direction, const Eigen::Vector3d& tilt_axis)
       : direction_(direction), tilt_axis_(tilt_axis) {}
 
@@ -68,11 +68,11 @@ class PanTiltBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph:
 Eigen::Vector3d turnedBy(const Eigen::Vector2d& pan_tilt, const Eigen::Vector3d& tilt_axis,
                          const Eigen::Vector3d& direction);
 
-/// How far from the camera a point is. Variables: map_from_base (se3, or se2), point in map (point3). Residual: the
-/// logarithm of its distance over the measured one, so that no distance is infinitely far in either direction.
+/// The distance of a point from the camera. Variables: map_from_base (se3, or se2), point in map (point3). Residual:
+/// the logarithm of predicted over measured distance, so that distances near 0 and infinity both have a large residual.
 class SignRangeFactor : public graph::SizedFactor<1, graph::Se3Kind, graph::Point3Kind> {
  public:
-  /// `camera`: in the base [m]. `range` [m], positive.
+  /// `camera`: position in the base [m]. `range`: measured distance [m], positive.
   SignRangeFactor(const Eigen::Vector3d& camera, double range) : camera_(camera), range_(range) {}
 
   std::string_view kind() const override { return "sign_range"; }

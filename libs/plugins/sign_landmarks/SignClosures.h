@@ -10,14 +10,14 @@
 
 namespace omnimapper::plugins {
 
-/// Of each sign that is new: if another one, that was not seen just now, has the same text, that both are one is a
-/// hypothesis. Where two others have it, or the same text is seen at another place at the same time, it is noted that
-/// the text is repeated, and nothing is proposed.
+/// Adds a hypothesis for each new sign that is the same as an older one: exactly one other sign has its text, and that
+/// was not seen recently. If two others have the text, or the same text is seen recently at another place, the signs
+/// are marked as repeated and no hypothesis is added.
 mapper::Batch proposeSameSigns(SignTracks& tracks, const SignLandmarksOptions& options, const std::string& section,
                                const mapper::View& view);
 
-/// Merges what turned out to be one: by a hypothesis that was accepted, or because their texts agree and their places
-/// differ by no more than the map leaves open and a metre.
+/// Merges signs that are the same: a hypothesis says so and was accepted, or their texts agree and their positions
+/// differ by less than 1 m and less than the gate of the map's uncertainty.
 mapper::Batch mergeSameSigns(const SignTracks& tracks, const SignLandmarksOptions& options, const std::string& section,
                              const mapper::View& view);
 

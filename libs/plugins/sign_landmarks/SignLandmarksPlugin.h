@@ -13,26 +13,26 @@ namespace omnimapper::plugins {
 
 struct SignLandmarksOptions : mapper::AssociationOptions {
   std::string label;                                                ///< empty: signs of every camera
-  double min_confidence = 0.8;                                      ///< of a line of text
+  double min_confidence = 0.8;                                      ///< of a line of text that is used
   double pixel_sigma = 0.5 * base::option_text::kRadiansPerDegree;  ///< [rad] of a direction in the camera
-  double pan_sigma = 0.5 * base::option_text::kRadiansPerDegree;    ///< [rad] of what is told of the camera's turn
-  double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;   ///< [rad] the same of its pitch
-  double pan_tilt_offset_sigma = 3 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zeros
-  double max_sigma = 2;                                                     ///< [m] of the place of a new sign
-  double recent_travel = 10;  ///< [m] for so long a sign counts as seen just now
-  double same_sigma = 0.03;   ///< [m] of the middle of a sign, seen twice
+  double pan_sigma = 0.5 * base::option_text::kRadiansPerDegree;    ///< [rad] of the camera's reported pan
+  double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;   ///< [rad] of the camera's reported tilt
+  double pan_tilt_offset_sigma = 3 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zero offsets
+  double max_sigma = 2;                                                     ///< [m] of the position of a new sign, at most
+  double recent_travel = 10;  ///< [m] distance travelled for which a sign counts as seen recently
+  double same_sigma = 0.03;   ///< [m] between two estimates of the centre of one sign
   double loss_scale = 2;      ///< [sigma] of the Cauchy loss
 
   static const base::OptionTable<SignLandmarksOptions>& table();
 };
 
-/// Door signs as landmarks (thesis 4.3.2.5): points of space with a text, measured by the directions in which cameras
-/// see them (obs::CObservationDoorSigns). A direction waits until three with the same text meet. Which sign a sighting
-/// is of is told by its text first and by where it is second.
+/// Door signs as landmarks (thesis 4.3.2.5): points in space with a text, measured by the directions in which cameras
+/// see them (obs::CObservationDoorSigns). A new sign is added once three directions with the same text meet. A
+/// measurement is associated by its text first and by its position second.
 ///
-/// A sign that was not seen for `recent_travel` is not met again at once: a new landmark is made where it is seen, and
-/// that both are one is a hypothesis for the consistency test, which closes loops. A text that is seen at two places
-/// makes no such hypothesis. What turns out to be one is merged at the end.
+/// A sign that was not seen for `recent_travel` is not associated directly. A new landmark is made instead, and a
+/// hypothesis that both are the same sign goes to the consistency test, which so closes loops. A text that is seen at
+/// two places yields no such hypothesis. Landmarks that turn out to be the same sign are merged at the end.
 class SignLandmarksPlugin : public mapper::MeasurementPlugin {
  public:
   SignLandmarksPlugin(const SignLandmarksOptions& options, const mapper::PluginContext& context);

@@ -16,34 +16,34 @@
 
 namespace omnimapper::plugins {
 
-/// [m] Signs are read from about so far.
+/// [m] Typical distance from which signs are read.
 inline constexpr double kReadingDistance = 2.5;
 
-/// A sign in an image, as it binds a sign of the map.
+/// The measurement of a sign in an image, from which its factors are made.
 struct SignMeasurement {
   SignText text;
   SeenDirection seen;
   Eigen::Vector3d tilt_axis;      ///< unit, level, to the left of the camera, in the base
   double sigma_left, sigma_down;  ///< [rad] of the direction
-  std::optional<double> range;    ///< [m] where something measured it
+  std::optional<double> range;    ///< [m] if it was measured
   double range_sigma;             ///< [m]
   double area_px;                 ///< [px^2] of its region in the image
-  mrpt::img::CImage patch;        ///< what the region shows; may be empty
+  mrpt::img::CImage patch;        ///< image of the region; may be empty
 
   SignLook look(base::KeyFrameId frame) const;
 
-  /// What binds the direction; `offsets`: the pan-tilt unit's, if they are estimated.
+  /// The factor of the direction. `offsets`: variable of the pan-tilt offsets, if they are estimated.
   graph::FactorRecord directionRecord(base::VariableId pose, base::VariableId point,
                                       std::optional<base::VariableId> offsets,
                                       const SignLandmarksOptions& options) const;
-  /// What binds the measured range, or none.
+  /// The factor of the measured range; none if no range was measured.
   std::optional<graph::FactorRecord> rangeRecord(base::VariableId pose, base::VariableId point) const;
-  /// What everybody knows: a sign that was read is neither next to the camera nor far away. It keeps a sign of which
-  /// the directions tell little from going to infinity.
+  /// A weak factor on the distance: a sign that was read is neither very close to the camera nor far away. It keeps the
+  /// point from going to infinity if the directions determine its distance poorly.
   graph::FactorRecord legibilityRecord(base::VariableId pose, base::VariableId point) const;
 };
 
-/// Those of an observation that have a text, and are neither straight above nor below the camera.
+/// The signs of an observation that have a text and are neither straight above nor straight below the camera.
 std::vector<SignMeasurement> signMeasurements(const obs::CObservationDoorSigns& observation,
                                               const SignLandmarksOptions& options);
 

@@ -14,21 +14,21 @@
 
 namespace omnimapper::plugins {
 
-/// A sign as an image shows it.
+/// How one image shows a sign.
 struct SignLook {
   base::KeyFrameId frame;
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit, from the camera to the sign, in the base
   double area_px = 0;                                    ///< [px^2] of its region in the image
-  std::shared_ptr<const map::Photograph> photograph;     ///< of the sign alone; null for none
+  std::shared_ptr<const map::Photograph> photograph;     ///< of the sign alone; null if there is none
 };
 
-/// What is known of a sign beside where it is.
+/// What the map knows about a sign in addition to its position.
 struct SignPayload : map::LandmarkPayload {
-  std::map<std::string, double> numbers;         ///< as they were read, with the sum of their confidences
-  std::map<std::string, double> words;           ///< the same of the other lines
-  bool is_repeated = false;                      ///< another sign elsewhere says the same
-  std::map<std::string, std::uint32_t> seen_by;  ///< sensor label: sightings
-  std::optional<SignLook> best_look;             ///< the largest; none in maps from before it was kept
+  std::map<std::string, double> numbers;         ///< each number that was read, with the sum of its confidences
+  std::map<std::string, double> words;           ///< the same for the other lines of text
+  bool is_repeated = false;                      ///< another sign elsewhere has the same text
+  std::map<std::string, std::uint32_t> seen_by;  ///< sensor label: number of measurements
+  std::optional<SignLook> best_look;             ///< the one with the largest area; none in maps of older versions
 
   std::string_view kind() const override { return "door_sign"; }
   void write(std::ostream& out) const override;
@@ -37,14 +37,14 @@ struct SignPayload : map::LandmarkPayload {
   map::LandmarkShape shape(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames& key_frames) const override;
   static void addTo(map::PayloadRegistry& registry);
 
-  /// The number that was read most, and words with at least half the votes of the most frequent.
+  /// The number with the most votes, and the words with at least half as many votes as the most frequent word.
   SignText text() const;
-  /// "213", or the words where there is no number.
+  /// The number, such as "213", or the words if there is no number.
   std::string title() const;
   std::uint32_t sightings() const;
 
   std::shared_ptr<SignPayload> with(const SignText& text, const std::string& sensor_label) const;
-  /// With the sightings of another.
+  /// A copy with the measurements of another sign added.
   std::shared_ptr<SignPayload> with(const SignPayload& other) const;
   std::shared_ptr<SignPayload> repeated() const;
   bool isBetter(double area_px) const { return !best_look || area_px > best_look->area_px; }

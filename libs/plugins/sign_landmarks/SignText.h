@@ -7,39 +7,39 @@
 
 namespace omnimapper::plugins {
 
-/// What is written on a sign, as far as it tells signs apart.
+/// The text on a sign, in the form in which signs are compared.
 struct SignText {
   std::string number;              ///< the first line with a digit, without blanks, in capitals; empty if none has one
   std::vector<std::string> words;  ///< the other lines, in capitals, from the top
-  double confidence = 0;           ///< that the number was read right, or, without one, the surest line
+  double confidence = 0;           ///< of the number, or, without a number, of the most certain line
 
   bool empty() const { return number.empty() && words.empty(); }
 };
 
-/// Lines that are less sure than `min_confidence` are left out.
+/// The text of a sign, without lines whose confidence is below `min_confidence`.
 SignText textOf(const obs::ObservedDoorSign& sign, double min_confidence);
 
-/// Share of the longer text that is their longest common subsequence, 0 to 1 (thesis 3.5.3.3); bytes of UTF-8 count.
+/// Length of the longest common subsequence over that of the longer text, 0 to 1, in UTF-8 bytes (thesis 3.5.3.3).
 double likeness(const std::string& a, const std::string& b);
 
-/// How far two texts can be of one sign.
+/// Whether two texts can be of the same sign.
 enum class Agreement {
-  contradicts,  ///< other numbers, or words that are not alike
-  unknown,      ///< one tells a number alone, the other words: both may stand on one sign
-  partly,       ///< one tells a number that the other lacks; their words are alike
-  agrees        ///< the same number, or, where neither has one, words that are alike by more than 60 %
+  contradicts,  ///< different numbers, or words that are not similar
+  unknown,      ///< one has a number only, the other words only: one sign may have both
+  partly,       ///< one has a number that the other lacks; their words are similar
+  agrees        ///< same number, or, if neither has one, words with a likeness above 60 %
 };
 Agreement agreementOf(const SignText& a, const SignText& b);
 
-/// Whether one may be the other misread or rewritten: numbers that are alike by more than 60 %.
+/// Whether one text may be a misreading or a new version of the other: the likeness of their numbers is above 60 %.
 bool mayBeMisread(const SignText& a, const SignText& b);
 
-/// Whether hardly two signs say so: a number of three digits or more that is no time.
+/// Whether the text is probably on one sign only: it has a number of three or more digits that is not a time.
 bool isOfOneSign(const SignText& text);
 
-/// How many times likelier than not two signs of which the texts agree are one, before it is known where they are. A
-/// number of three digits stands on another sign by chance once in 1000, one of four once in 10000. Words, times, dates
-/// and other numbers below 100 often stand on several.
+/// Prior odds that two signs whose texts agree are the same sign, before their positions are considered. A number of
+/// three digits is on another sign by chance once in 1000, one of four digits once in 10000. Words, times, dates and
+/// other numbers below 100 are often on several signs.
 double oddsOfOneSign(const SignText& a, const SignText& b);
 
 }  // namespace omnimapper::plugins

@@ -16,23 +16,23 @@ namespace omnimapper::plugins {
 
 const SignPayload& signOf(const mapper::State& state, base::LandmarkId id);
 
-/// The signs of the map, how long ago each was seen, and sightings that wait until they show where a sign is.
+/// The signs of the map, how long ago each was seen, and measurements that wait until they determine a sign's position.
 class SignTracks {
  public:
   /// `owner`: INI section.
   explicit SignTracks(std::string owner) : owner_(std::move(owner)) {}
 
   void restore(const mapper::State& state);
-  /// Learns what the map has now, and that the base came to this key frame.
+  /// Takes over the current signs of the map, and adds the distance that the base travelled to this key frame.
   void goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_travel);
-  /// Forgets what was retired or merged.
+  /// Removes landmarks that were retired or merged.
   void update(const mapper::State& state);
   void add(base::LandmarkId id);
   void seen(base::LandmarkId id) { known_.at(id).last_seen = way_; }
 
   struct Known {
     base::VariableId variable;
-    std::optional<double> last_seen;  ///< [m] of the way; none in this session
+    std::optional<double> last_seen;  ///< [m] distance travelled then; none if not seen in this session
   };
   double travelled() const { return way_; }
   const std::map<base::LandmarkId, Known>& known() const { return known_; }
@@ -40,15 +40,15 @@ class SignTracks {
     return known.last_seen && way_ - *known.last_seen <= recent_travel;
   }
 
-  /// The views of one sign that waits, not older than `recent_travel`, with this one.
+  /// Adds a view to the waiting views with the same text, and returns those not older than `recent_travel` [m].
   std::vector<SignView>& waitingWith(const SignView& view, double recent_travel);
-  /// Removes the views with these ascending indices from those that waitingWith() gave last.
+  /// Removes the views with these indices, in ascending order, from those that waitingWith() returned last.
   void forget(const std::vector<std::size_t>& which);
 
-  /// Views of which no sign was made, those of one text and one stretch of the way together.
+  /// Views from which no sign was made, grouped by text and by stretches of the distance travelled.
   std::vector<std::vector<SignView>> unplacedViews(double recent_travel) const;
 
-  std::vector<base::LandmarkId> fresh;  ///< landmarks that nobody has compared with the others yet
+  std::vector<base::LandmarkId> fresh;  ///< landmarks that were not compared with the others yet
 
  private:
   struct Waiting {
@@ -60,9 +60,9 @@ class SignTracks {
 
   std::string owner_;
   std::map<base::LandmarkId, Known> known_;
-  std::deque<Waiting> waiting_;    // that which was seen last is last
+  std::deque<Waiting> waiting_;    // in the order in which they were last seen
   std::deque<SignView> unplaced_;  // views that waited too long
-  double way_ = 0;                 // [m] that the base has gone
+  double way_ = 0;                 // [m] distance travelled by the base
   std::optional<base::VariableId> last_pose_;
   base::Stamp last_stamp_;
 };

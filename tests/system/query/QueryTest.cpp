@@ -171,11 +171,11 @@ TEST_F(Query, WrongWordsGetTheNearestRightOnes) {
                                                                                      {"sgin", "sign"}}) {
     const auto ended = ask({wrong});
     EXPECT_EQ(ended.code, 0) << toString(ended);
-    EXPECT_EQ(ended.out.rfind("nothing is called '" + wrong + "'; nearest: " + right, 0), 0U) << ended.out;
+    EXPECT_EQ(ended.out.rfind("nothing is called '" + wrong + "'; nearest: '" + right, 0), 0U) << ended.out;
   }
   const auto none = ask({"777"});
   EXPECT_EQ(none.code, kNothingFound);
-  EXPECT_NE(none.err.find("nothing is called '777', nor nearly so; closest: "), std::string::npos);
+  EXPECT_NE(none.err.find("nothing is called '777', nor nearly so; omnimapper-query MAP list says what there is"), std::string::npos);
 }
 
 TEST_F(Query, WhatCannotBeAskedIsAnErrorThatSaysWhy) {
@@ -185,7 +185,7 @@ TEST_F(Query, WhatCannotBeAskedIsAnErrorThatSaysWhy) {
     EXPECT_EQ(ended.err.find('\x1b'), std::string::npos);
     EXPECT_LT(ended.err.size(), 600U) << ended.err;
   };
-  refuses({}, ExitCode::command_line, "TEXT to find");
+  refuses({}, ExitCode::command_line, "after MAP say what to find: TEXT");
   refuses({""}, ExitCode::command_line, "empty");
   refuses({"a\x1b[31m"}, ExitCode::command_line, "\\x1b");
   refuses({"\xff\xfe"}, ExitCode::command_line, "UTF-8");

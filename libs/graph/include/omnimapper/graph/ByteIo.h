@@ -9,18 +9,18 @@
 
 namespace omnimapper::graph {
 
-/// Numbers and text as bytes, little-endian whatever the machine; doubles keep every bit.
-/// The readers throw Error(damaged_input) where the stream ends early.
+/// These functions write and read numbers and text as bytes, little-endian on every machine; doubles keep every bit.
+/// The readers throw Error(damaged_input) if the stream ends early.
 void writeUint(std::ostream& out, std::uint64_t value, int bytes);
 void writeDouble(std::ostream& out, double value);
-/// Length (4 bytes), then the bytes.
+/// Writes the length (4 bytes), then the bytes.
 void writeText(std::ostream& out, const std::string& text);
 
 std::uint64_t readUint(std::istream& in, int bytes);
 double readDouble(std::istream& in);
 std::string readText(std::istream& in);
 
-/// Session and index.
+/// Writes the session (2 bytes), then the index (4 bytes).
 template <class Tag>
 void writeId(std::ostream& out, base::Id<Tag> id) {
   writeUint(out, id.session, 2);
@@ -34,7 +34,7 @@ Id readId(std::istream& in) {
   return id;
 }
 
-/// The numbers of a vector, one after the other.
+/// Writes the numbers of a vector one after the other.
 template <int Size>
 void writeVector(std::ostream& out, const Eigen::Matrix<double, Size, 1>& vector) {
   for (const double number : vector) writeDouble(out, number);

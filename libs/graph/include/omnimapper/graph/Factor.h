@@ -7,7 +7,7 @@
 namespace omnimapper::graph {
 
 /// A measurement as a pure function of the values of its variables: the residual before whitening.
-/// Which variables it binds, how much it is trusted and which loss it gets are kept by the FactorRecord around it.
+/// The FactorRecord around it keeps which variables it binds, how much it is trusted and which loss it gets.
 class Factor {
  public:
   virtual ~Factor() = default;
@@ -15,14 +15,14 @@ class Factor {
   virtual std::string_view kind() const = 0;
   /// Rows of the residual.
   virtual int residualSize() const = 0;
-  /// Kinds of the variables it takes, in order (Variable::kind()). An "se3" slot takes an "se2" variable too: the graph
-  /// lifts it into space and keeps the Jacobian's columns x, y and yaw.
+  /// Kinds of the variables it takes, in order (Variable::kind()). An "se3" slot also takes an "se2" variable: the
+  /// graph then lifts the planar pose into space and uses the Jacobian's columns x, y and yaw only.
   virtual const std::vector<std::string_view>& variableKinds() const = 0;
   /// values[i]: ambient value of variable i. residual [residualSize].
   /// jacobians may be null; jacobians[i], where not null, is [residualSize x tangentSize of variable i], row-major:
   /// the derivative of the residual by the tangent (delta of Variable::plus) at zero.
   virtual void evaluate(const double* const* values, double* residual, double* const* jacobians) const = 0;
-  /// Writes what it measured with ByteIo.h, for the reader that a FactorRegistry holds under its kind.
+  /// Writes its measurement with ByteIo.h; the reader that a FactorRegistry holds for this kind() reads it back.
   virtual void write(std::ostream& out) const = 0;
 };
 

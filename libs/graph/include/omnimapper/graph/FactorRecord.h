@@ -13,11 +13,11 @@
 
 namespace omnimapper::graph {
 
-/// What the makers of a factor want to know of it later; the solver looks at none of it.
+/// Labels of a factor for the code that added it and for reports; the solver does not use them.
 struct Tags {
   std::string owner;                         ///< name of the plugin that added it
-  std::optional<base::LandmarkId> landmark;  ///< the landmark it speaks of
-  bool hypothesis = false;                   ///< could be wrong in a way that bends the map
+  std::optional<base::LandmarkId> landmark;  ///< the landmark that the factor describes
+  bool hypothesis = false;                   ///< it may be wrong and would then distort the map
   std::string note;                          ///< for reports
 };
 

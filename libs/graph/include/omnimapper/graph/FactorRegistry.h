@@ -11,20 +11,20 @@
 
 namespace omnimapper::graph {
 
-/// What a stored graph may hold: kinds of variables, and how each kind of factor is read back.
+/// The kinds of variables that a stored graph may hold, and a reader for each kind of factor.
 class FactorRegistry {
  public:
   /// Reads what Factor::write() wrote; throws Error(damaged_input) as ByteIo.h does.
   using Reader = std::function<std::shared_ptr<const Factor>(std::istream&)>;
 
-  /// The kinds of VariableKinds.h, Between.h, Prior.h and PointFactor.h.
+  /// A registry with the kinds of VariableKinds.h, Between.h, Prior.h and PointFactor.h.
   static FactorRegistry withBuiltIns();
 
-  /// Throws Error(internal) if the kind is taken.
+  /// Throws Error(internal) if the kind is registered already.
   void add(std::shared_ptr<const Variable> variable_kind);
   void add(const std::string& factor_kind, Reader reader);
 
-  /// Throws Error(unregistered_class), naming the kind, if nobody registered it.
+  /// Throws Error(unregistered_class), naming the kind, if it is not registered.
   const std::shared_ptr<const Variable>& variable(const std::string& kind) const;
   std::shared_ptr<const Factor> readFactor(const std::string& kind, std::istream& in) const;
 

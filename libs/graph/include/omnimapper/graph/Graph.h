@@ -16,30 +16,30 @@ namespace omnimapper::graph {
 struct VariableRecord {
   std::shared_ptr<const Variable> kind;
   Eigen::VectorXd value;                ///< [ambientSize]
-  bool fixed = false;                   ///< held at its value by every solution
-  std::vector<base::FactorId> factors;  ///< those that bind it, in the order of ids
+  bool fixed = false;                   ///< no solver changes its value
+  std::vector<base::FactorId> factors;  ///< the factors that bind it, in the order of ids
 };
 
-/// Variables and the factors between them. Every edit takes a time that does not grow with the graph. Copies are
-/// independent and cheap: they share what neither has changed since (base::IdTable). Every method that is given an id
-/// throws Error(internal), naming it, if the graph has no such thing.
+/// Variables and the factors between them. The time of an edit does not grow with the graph. Copies are independent and
+/// cheap: they share the records that neither copy has changed since (base::IdTable). Every method that takes an id
+/// throws Error(internal), naming the id, if the graph does not contain it.
 class Graph {
  public:
-  /// New ids carry the number of the session.
+  /// New ids carry this session number.
   explicit Graph(std::uint16_t session = 0) : session_(session) {}
   std::uint16_t session() const { return session_; }
-  /// From here on, new ids carry this number.
+  /// Ids that are added from now on carry this session number.
   void setSession(std::uint16_t session) { session_ = session; }
 
-  /// Throws Error(internal) if the value's size is not the kind's or it is not finite.
+  /// Throws Error(internal) if the value does not have the size of the kind or is not finite.
   base::VariableId addVariable(std::shared_ptr<const Variable> kind, const Eigen::VectorXd& value, bool fixed = false);
-  /// Throws Error(internal) while a factor binds it.
+  /// Throws Error(internal) if a factor still binds the variable.
   void removeVariable(base::VariableId id);
   /// Throws Error(internal) if a variable does not exist, is bound twice or is not of the kind that the factor takes,
   /// if the noise is not of the residual's size, or if the weight is negative or not finite.
   base::FactorId addFactor(FactorRecord record);
   void removeFactor(base::FactorId id);
-  /// Lets a factor speak of other variables; id, noise, weight and tags stay. Throws as addFactor().
+  /// Binds a factor to other variables; its id, noise, weight and tags stay. Throws as addFactor().
   void rebind(base::FactorId id, const std::vector<base::VariableId>& variables);
 
   bool contains(base::VariableId id) const { return variables_.find(id) != nullptr; }
@@ -52,18 +52,18 @@ class Graph {
   const std::vector<base::FactorId>& factorsOf(base::VariableId id) const { return variable(id).factors; }
 
   const Eigen::VectorXd& value(base::VariableId id) const { return variable(id).value; }
-  /// Throws Error(internal) if the value's size is not the kind's or it is not finite.
+  /// Throws Error(internal) if the value does not have the size of the kind or is not finite.
   void setValue(base::VariableId id, const Eigen::VectorXd& value);
   void setFixed(base::VariableId id, bool fixed);
-  /// Throws Error(internal) if it is negative or not finite.
+  /// Throws Error(internal) if the weight is negative or not finite.
   void setWeight(base::FactorId id, double weight);
   void setLoss(base::FactorId id, const Loss& loss);
-  /// The landmark in its tags.
+  /// Sets the landmark in the factor's tags.
   void setLandmark(base::FactorId id, base::LandmarkId landmark);
 
-  /// noise * residual at the current values; weight and loss do not enter.
+  /// noise * residual at the current values; weight and loss are not applied.
   Eigen::VectorXd whitenedResidual(base::FactorId id) const;
-  /// Sum of weight |whitened residual|^2, losses left out.
+  /// Sum of weight |whitened residual|^2, losses are not applied.
   double chi2() const;
   /// Sum of 1/2 weight loss(|whitened residual|^2): what solve() minimises.
   double cost() const;

@@ -4,18 +4,19 @@
 
 namespace omnimapper::graph {
 
-/// Starting values for solve(), from the factors alone. Both set the poses (variables "se2" and "se3") by the Between
-/// factors of positive weight, and then each point that a PointFactor binds to the mean of what its poses saw. Fixed
-/// variables stay as they are; variables of other kinds too. In a connected part without fixed pose, the first pose of
-/// a prior is set to what the prior measured, else the first pose stays.
+/// The two functions compute initial values for solve() from the factors alone. Both set the poses (variables "se2" and
+/// "se3") by the Between factors of positive weight, and then each point that a PointFactor binds to the mean of its
+/// measurements from these poses. Fixed variables and variables of other kinds keep their values. In a connected part
+/// without a fixed pose, the first pose that has a prior is set to it; if none has one, the first pose keeps its value.
 
-/// Along the edges, each pose from one that is already set: over edges between ids that follow one another as far as
-/// there are, then breadth first over the others. What odometry alone says.
+/// Sets each pose from a neighbour that is already set: first along the edges between consecutive ids, then breadth
+/// first along the others. Without loop closures the result is plain odometry.
 void initialiseByChaining(Graph& graph);
 
-/// Chordal relaxation: rotations first, as the linear least-squares solution over matrices, each then projected to the
-/// nearest rotation; then translations, linear once the rotations are held. Both take the weights of the factors, not
-/// their losses. Needs no start and finds the basin of the optimum where odometry misses it.
+/// Chordal relaxation: it solves for the rotations first, as a linear least-squares problem over matrices, and projects
+/// each to the nearest rotation; then for the translations, which is linear with fixed rotations. Both steps use the
+/// factors' weights, not their losses. It needs no initial values and reaches the basin of the optimum even where
+/// odometry misses it.
 /// Source: Martinec and Pajdla, CVPR 2007; Carlone et al., ICRA 2015, "Initialization techniques for 3D SLAM".
 void initialiseRotationsFirst(Graph& graph);
 

@@ -7,12 +7,12 @@
 
 namespace omnimapper::graph {
 
-/// A factor to first order at the graph's values.
+/// A factor, linearised at the graph's values.
 struct Linearised {
   Eigen::VectorXd residual;                ///< whitened
   std::vector<Eigen::MatrixXd> jacobians;  ///< whitened, by the tangent of each of its variables
 
-  /// Of a factor that is not in the graph, but binds variables of it. Throws Error(internal) if it does not.
+  /// Linearises a factor that need not be in the graph. Throws Error(internal) if its variables are not in the graph.
   Linearised(const Graph& graph, const FactorRecord& record);
   Linearised(const Graph& graph, base::FactorId factor) : Linearised(graph, graph.factor(factor)) {}
 };

@@ -4,8 +4,8 @@
 
 namespace omnimapper::graph {
 
-/// What an outlier may cost. rho is a function of s, the squared norm of the whitened residual; the scale c is a number
-/// of sigmas. All are s itself near 0 (rho(0) = 0, rho'(0) = 1), so that inliers keep their chi-square.
+/// A robust loss, which limits the cost of an outlier. rho is a function of s, the squared norm of the whitened
+/// residual; the scale c is in sigmas. Near 0 every rho is s (rho(0) = 0, rho'(0) = 1): inliers keep their chi-square.
 ///
 /// | kind          | rho(s)                                             | rho'(s)              |
 /// |---------------|----------------------------------------------------|----------------------|
@@ -16,7 +16,7 @@ namespace omnimapper::graph {
 /// | geman_mcclure | c^2 s / (c^2 + s)                                  | (c^2 / (c^2 + s))^2  |
 class Loss {
  public:
-  /// The numbers stand in files.
+  /// These numbers are written to files.
   enum class Kind : std::uint8_t { none = 0, huber = 1, cauchy = 2, tukey = 3, geman_mcclure = 4 };
   struct Value {
     double rho = 0, first_derivative = 1, second_derivative = 0;

@@ -7,25 +7,25 @@
 
 namespace omnimapper::graph {
 
-/// How well the variables of a graph are known at its present values: blocks of the inverse of the information matrix,
-/// in the variables' tangents, with weights and losses as the solver counts them. Made at once, then independent of the
-/// graph. A block costs a path through the factored matrix, not the whole inverse, and next to nothing when it was
-/// asked for lately. Fixed variables have zeros.
+/// Marginal covariances of the variables of a graph at its present values: blocks of the inverse of the information
+/// matrix, in the variables' tangents, with weights and losses as the solver applies them. The constructor factors the
+/// matrix; after that, the object is independent of the graph. A block needs one path through the factored matrix, not
+/// the whole inverse, and recent blocks are cached. Blocks of fixed variables are zero.
 class Marginals {
  public:
-  /// Throws Error(internal) if a part of the graph hangs free (see solve()), or if a direction of some variable is
-  /// determined by nothing.
+  /// Throws Error(internal) if a connected part of the graph is not held anywhere (see solve()), or if no factor
+  /// determines some direction of a variable.
   explicit Marginals(const Graph& graph);
   ~Marginals();
   Marginals(Marginals&&) noexcept;
   Marginals& operator=(Marginals&&) noexcept;
 
-  /// Whether it is fixed, or bound by a factor of positive weight: what the functions below can answer for.
+  /// Whether the variable is fixed or bound by a factor of positive weight, as the functions below require.
   bool contains(base::VariableId id) const;
   /// [tangentSize x tangentSize]. Throws Error(internal) if no factor of positive weight binds the variable.
   Eigen::MatrixXd covariance(base::VariableId id) const;
-  /// Of several variables together, blocks in the order of `ids`. Throws as covariance(). An id may stand there twice.
-  /// Several threads may ask at once.
+  /// Joint covariance of several variables, blocks in the order of `ids`, which may contain an id twice. Throws as
+  /// covariance(). Several threads may call it at once.
   Eigen::MatrixXd jointCovariance(const std::vector<base::VariableId>& ids) const;
   /// Covariance of each of `others` with `id`: block i is [tangentSize of others[i] x tangentSize of id].
   std::vector<Eigen::MatrixXd> crossCovariances(base::VariableId id, const std::vector<base::VariableId>& others) const;

@@ -5,7 +5,8 @@
 namespace omnimapper::graph {
 
 /// How much a residual is trusted: a square matrix W with W^T W = information = covariance^-1. W * residual is the
-/// whitened residual, whose unit is one sigma. Born valid; the rows and columns are those of the residual.
+/// whitened residual, whose unit is one sigma. W is always valid; it has a row and a column for each row of the
+/// residual.
 class SquareRootInformation {
  public:
   /// Each throws Error(internal) if the matrix is not square, not symmetric, not positive definite or not finite.
@@ -13,7 +14,7 @@ class SquareRootInformation {
   static SquareRootInformation fromInformation(const Eigen::MatrixXd& information);
   /// Standard deviations, in the unit of each row.
   static SquareRootInformation fromSigmas(const Eigen::VectorXd& sigmas);
-  /// W itself, as matrix() gave it. Throws if it is not square, not finite or singular.
+  /// Takes W itself, as matrix() returns it. Throws Error(internal) if it is not square, not finite or singular.
   static SquareRootInformation fromMatrix(const Eigen::MatrixXd& matrix);
   /// Every row has sigma 1.
   static SquareRootInformation identity(int size);

@@ -8,8 +8,8 @@
 
 namespace omnimapper::graph {
 
-/// A point of the map seen from a pose. Variables: map_from_base, point_in_map.
-/// Residual: inverse(map_from_base) * point_in_map - point_in_base measured, axes of the base [m].
+/// A point of the map, measured from a pose. Variables: map_from_base, point_in_map.
+/// Residual: inverse(map_from_base) * point_in_map - point_in_base measured, in the axes of the base [m].
 /// Derivation: doc/derivations/point.md.
 class PointFactor2 : public SizedFactor<2, Se2Kind, Point2Kind> {
  public:
@@ -37,11 +37,11 @@ class PointFactor3 : public SizedFactor<3, Se3Kind, Point3Kind> {
   Eigen::Vector3d point_in_base_;
 };
 
-/// Two points of the map are one. Variables: point, point. Residual: second - first [m].
+/// States that two points of the map are the same point. Variables: point, point. Residual: second - first [m].
 class SamePointFactor : public SizedFactor<3, Point3Kind, Point3Kind> {
  public:
   static constexpr std::string_view kKind = "same_point3";
-  /// `odds`: the prior odds that both are one point; the consistency test multiplies by them.
+  /// `odds`: prior odds that both are the same point; the consistency test multiplies its likelihood ratio by them.
   explicit SamePointFactor(double odds = 1) : odds_(odds) {}
   double odds() const { return odds_; }
 

@@ -37,8 +37,8 @@ class PriorSe3 : public SizedFactor<6, Se3Kind> {
   geometry::Se3 map_from_a_;
 };
 
-/// Two angles of a pan-tilt unit that are known beforehand. Variable: pan_tilt. Residual: the angles less the measured
-/// ones [rad].
+/// Two angles of a pan-tilt unit that are known beforehand. Variable: pan_tilt. Residual: the angles minus the
+/// measured ones [rad].
 class PriorPanTilt : public SizedFactor<2, PanTiltKind> {
  public:
   explicit PriorPanTilt(const Eigen::Vector2d& angles) : angles_(angles) {}

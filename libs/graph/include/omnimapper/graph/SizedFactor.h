@@ -10,7 +10,7 @@
 
 namespace omnimapper::graph {
 
-/// A factor whose rows and kinds of variables are known to the compiler. A kind is a type with `kName`, which is
+/// A factor whose rows and kinds of variables are known at compile time. A kind is a type with `kName`, which is
 /// Variable::kind(), and `kTangentSize`.
 template <int Rows, class... Kinds>
 class SizedFactor : public Factor {
@@ -22,8 +22,8 @@ class SizedFactor : public Factor {
   }
 
  protected:
-  /// The derivative by variable `Index`, [Rows x tangentSize of its kind], to assign to. It converts to
-  /// false if the caller does not want it.
+  /// The derivative by variable `Index`, [Rows x tangentSize of its kind], to which evaluate() assigns. It converts to
+  /// false if the caller does not ask for it.
   template <std::size_t Index>
   static auto jacobian(double* const* jacobians) {
     using Kind = std::tuple_element_t<Index, std::tuple<Kinds...>>;

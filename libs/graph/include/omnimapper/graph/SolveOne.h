@@ -4,8 +4,8 @@
 
 namespace omnimapper::graph {
 
-/// Moves one variable to the least cost of the factors that bind it, all others held: the cheap estimate of a variable
-/// that was just added. A fixed variable, or one that nothing binds, stays. The cost never rises.
+/// Minimises the cost of the factors that bind one variable by moving this variable alone: a cheap estimate for a
+/// variable that was just added. A fixed variable, or one that no factor binds, keeps its value. The cost never rises.
 void solveOne(Graph& graph, base::VariableId id);
 
 }  // namespace omnimapper::graph

@@ -9,12 +9,12 @@ namespace omnimapper::graph {
 
 struct SolveOptions {
   enum class Method { levenberg_marquardt, dogleg };
-  /// Dogleg takes fewer factorisations where the valley is curved; see doc/results/graph.md.
+  /// Dogleg needs fewer factorisations where the minimum lies in a curved valley; see doc/results/graph.md.
   Method method = Method::dogleg;
   int max_iterations = 100;
-  /// Converged when a step lowers the cost by less than this part of it.
+  /// The solver has converged when a step lowers the cost by less than this fraction of it.
   double function_tolerance = 1e-9;
-  /// Asked after each iteration; true ends the solution with the best values so far (Ctrl-C).
+  /// Called after each iteration; if it returns true, solve() ends with the best values so far (Ctrl-C).
   std::function<bool()> stop;
 };
 
@@ -26,11 +26,11 @@ struct SolveSummary {
   std::string reason;  ///< why it ended, in words
 };
 
-/// Moves the values of the variables to a minimum of the cost. One thread, so that bits do not depend on the machine.
-/// Fixed variables, and variables that no factor of positive weight binds, stay as they are. Not to converge is no
-/// error; the summary says so.
-/// Throws Error(internal), naming a variable, if a connected part of the graph hangs free: no fixed variable in it and
-/// no factor of a single variable (a prior).
+/// Moves the values of the variables to a minimum of the cost. It uses one thread, so that the result does not depend
+/// on the machine in any bit. Fixed variables, and variables that no factor of positive weight binds, keep their
+/// values. It is not an error if it does not converge; the summary reports it.
+/// Throws Error(internal), naming a variable, if a connected part of the graph has neither a fixed variable nor a
+/// factor of a single variable (a prior).
 SolveSummary solve(Graph& graph, const SolveOptions& options = {});
 
 }  // namespace omnimapper::graph

@@ -19,7 +19,7 @@ const std::shared_ptr<const Variable>& se3();
 const std::shared_ptr<const Variable>& point2();
 /// "point3": x y z.
 const std::shared_ptr<const Variable>& point3();
-/// "pan_tilt": two angles, to the left and then down; no place in the map.
+/// "pan_tilt": two angles, to the left and then down; it has no position in the map.
 const std::shared_ptr<const Variable>& panTilt();
 
 /// The same kinds as types, for SizedFactor.
@@ -44,7 +44,7 @@ struct PanTiltKind {
   static constexpr int kTangentSize = 2;
 };
 
-/// Values of poses as the graph stores them, and back. The pointers are to a whole ambient value.
+/// Converts poses to values as the graph stores them, and back. The pointers are to a whole ambient value.
 Eigen::Vector3d toValue(const geometry::Se2& pose);
 Eigen::Matrix<double, 7, 1> toValue(const geometry::Se3& pose);
 inline geometry::Se2 se2FromValue(const double* value) {

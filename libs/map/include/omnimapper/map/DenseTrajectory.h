@@ -18,7 +18,7 @@ struct StampedPose {
 /// so that the path has no steps.
 std::vector<StampedPose> denseTrajectory(const Map& map);
 
-/// Where the base was last: at the newest key frame, or at its last dependent frame. The map has a key frame.
+/// The last pose of the base: that of the newest key frame or its last dependent frame. The map must have a key frame.
 mrpt::poses::CPose3D newestPose(const Map& map);
 
 }  // namespace omnimapper::map

@@ -10,7 +10,7 @@
 
 namespace omnimapper::map {
 
-/// An observation of the reference sensor between two key frames: it depends on the key frame before it.
+/// An observation of the reference sensor between two key frames: its pose follows from the key frame before it.
 struct DependentFrame {
   base::Stamp stamp;
   mrpt::poses::CPose3D keyframe_from_base;  ///< motion since the key frame, by the continuous pose source
@@ -22,11 +22,11 @@ struct KeyFrame {
   base::Stamp stamp;
   base::VariableId pose;               ///< its variable in the graph
   mrpt::poses::CPose3D map_from_base;  ///< latest estimate
-  /// Raw and derived, all of `stamp`; sensor frames. Images are in them only as far as an output asks for them.
+  /// Raw and derived observations of `stamp`, in sensor frames. They keep only those images that an output asks for.
   std::vector<mrpt::obs::CObservation::ConstPtr> observations;
-  std::vector<CloudPoint> cloud;           ///< of its depth images, where no earlier key frame had a point
+  std::vector<CloudPoint> cloud;           ///< points of its depth images where no earlier key frame had one
   std::vector<DependentFrame> dependents;  ///< in order of stamp, before the next key frame
-  /// Motion to the next key frame by the source that gave `dependents`; identity for the newest.
+  /// Motion to the next key frame, from the same pose source as `dependents`; identity for the newest key frame.
   mrpt::poses::CPose3D keyframe_from_next;
   bool reference = true;  ///< the reference sensor saw something here: the trajectory has a line for it
 };

@@ -10,7 +10,7 @@
 namespace omnimapper::map {
 
 /// The key frames of a map in the order they were driven: by session, then stamp. Ids are given in the order of commit,
-/// so a key frame that came late has a larger id than its successor. Copies share what neither has changed since.
+/// so a key frame that came late has a larger id than its successor. Copies share the key frames that neither changed.
 class KeyFrames {
  public:
   class Iterator {
@@ -38,7 +38,7 @@ class KeyFrames {
 
   std::size_t size() const { return order_.size(); }
   bool empty() const { return order_.empty(); }
-  /// By position in the order above.
+  /// The key frame at a position in the order above.
   const KeyFrame& operator[](std::size_t position) const { return *frames_.find(order_[position]); }
   const KeyFrame& front() const { return (*this)[0]; }
   const KeyFrame& back() const { return (*this)[size() - 1]; }
@@ -50,14 +50,14 @@ class KeyFrames {
   /// Throws Error(internal) if there is none, as position() and edit() do.
   const KeyFrame& at(base::KeyFrameId id) const;
   std::size_t position(base::KeyFrameId id) const;
-  /// Position of the first key frame of the session at or after `stamp`; where the session ends if all are before.
+  /// Position of the first key frame of the session at or after `stamp`; the end of the session if all are earlier.
   std::size_t lowerBound(std::uint16_t session, base::Stamp stamp) const;
 
   /// The id for the next key frame of a session.
   base::KeyFrameId nextId(std::uint16_t session) const { return frames_.nextId(session); }
-  /// Puts it in its place and gives the position. Throws Error(internal) if id or stamp is taken in its session.
+  /// Inserts it in order and returns its position. Throws Error(internal) if its session has used the id or stamp.
   std::size_t insert(KeyFrame frame);
-  /// To change anything but id and stamp; the reference holds until the key frames are copied or inserted to.
+  /// For changes of anything but id and stamp. The reference is valid until the key frames are copied or insert() runs.
   KeyFrame& edit(base::KeyFrameId id);
 
  private:

@@ -19,7 +19,7 @@ namespace omnimapper::map {
 
 class KeyFrames;
 
-/// The property that tells how often the sensor of that label saw a landmark.
+/// The name of the property that counts how often the sensor of that label measured a landmark.
 inline std::string seenByKey(const std::string& label) {
   return "seen_by_" + (label.empty() ? "no_label" : label);
 }
@@ -30,29 +30,29 @@ struct Photograph {
   std::vector<std::uint8_t> rgb;
 };
 
-/// How a landmark looks in the map, for whoever draws or exports it. All in the frame of the map [m].
+/// The shape of a landmark, for drawing and export. All geometry is in the frame of the map [m].
 struct LandmarkShape {
   std::string label;                         ///< what a user calls it: "wall", "table", "sign"
   std::string caption;                       ///< what is written beside it in drawings: a sign's text; may be empty
   std::string reason;                        ///< why it is called so; may be empty
-  bool is_candidate = false;                 ///< seen too little to be drawn
+  bool is_candidate = false;                 ///< not drawn: seen too rarely or too rough
   std::vector<geometry::Polygon3> surfaces;  ///< flat, each may be concave
-  std::vector<geometry::Polygon3> holes;     ///< each in one of `surfaces`, which it is cut out of (holesIn())
+  std::vector<geometry::Polygon3> holes;     ///< each is cut out of one of `surfaces` (holesIn())
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;  ///< from, to
   std::vector<Eigen::Vector3d> points;
-  std::vector<base::Stamp> point_stamps;         ///< when it was at each of `points`; empty: at all times
-  std::optional<Eigen::Vector3d> normal;         ///< unit, to the free side
-  std::shared_ptr<const Photograph> photograph;  ///< as a camera saw it; null for none
+  std::vector<base::Stamp> point_stamps;         ///< when it was at each of `points`; empty means at all times
+  std::optional<Eigen::Vector3d> normal;         ///< unit, points to the free side
+  std::shared_ptr<const Photograph> photograph;  ///< image of it by a camera; null for none
   std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value: for tables and exports
-  /// Of the properties, that of seenByKey() tells how often a sensor saw it.
+  /// The property that seenByKey() names counts how often a sensor measured the landmark.
 };
 
-/// The holes of a surface of the shape: of those that go around a hole it is the smallest, for an island may lie in a
-/// hole and have holes itself.
+/// The holes of a surface of the shape. A hole belongs to the smallest surface around it, because an island may lie in
+/// a hole and have holes itself.
 std::vector<geometry::Polygon3> holesIn(const LandmarkShape& shape, std::size_t surface);
 
-/// What a landmark is beside what is optimised: a plane's extent, a sign's text, an object's model. Immutable; a plugin
-/// that learns more gives a new one. Points in it are in the base of the key frame that saw them.
+/// The part of a landmark that is not optimised: a plane's extent, a sign's text, an object's model. It is immutable;
+/// a plugin that learns more makes a new one. Its points are in the base frame of the key frame that saw them.
 class LandmarkPayload {
  public:
   virtual ~LandmarkPayload() = default;
@@ -63,29 +63,29 @@ class LandmarkPayload {
   virtual bool fits(const std::vector<std::string_view>& /*kinds*/) const { return true; }
   /// The key frames that it refers to. A map that lacks one of them, or whose variables do not fit, is damaged.
   virtual std::vector<base::KeyFrameId> keyFrames() const { return {}; }
-  /// The same landmark as only these key frames saw it; null where that makes no difference or nothing is left of it.
+  /// The payload as these key frames alone saw the landmark; null if it would be the same or if nothing would be left.
   virtual std::shared_ptr<const LandmarkPayload> seenFrom(const std::set<base::KeyFrameId>& /*frames*/) const {
     return nullptr;
   }
-  /// `values`: those of the landmark's variables, in their order; none if it has none or they are gone.
+  /// `values` are those of the landmark's variables, in their order; empty if there are none or if one was removed.
   virtual LandmarkShape shape(const std::vector<Eigen::VectorXd>& /*values*/, const KeyFrames& /*key_frames*/) const {
     return {};
   }
 };
 
-/// Something in the place that was seen, and may be seen again (thesis 4).
+/// Something in the environment that was seen and may be seen again (thesis 4).
 struct Landmark {
   enum class State : std::uint8_t {
     active,
     retired,  ///< no longer there: kept with its factors, but nothing is associated with it any more
-    merged,   ///< found to be another one, which has its factors now
+    merged,   ///< found to be the same as another landmark, which has its factors now
   };
   base::LandmarkId id;
   std::string kind;   ///< "wall", "door sign", ...: what a user calls it
-  std::string owner;  ///< INI section of the plugin that knows it
+  std::string owner;  ///< INI section of the plugin that made it
   std::vector<base::VariableId> variables;
   std::shared_ptr<const LandmarkPayload> payload;  ///< null if there is nothing beside the variables
-  std::uint32_t evidence = 0;                      ///< observations counted for it
+  std::uint32_t evidence = 0;                      ///< number of times it was measured
   base::Stamp first_seen, last_seen;
   State state = State::active;
   base::LandmarkId merged_into;  ///< while state is merged

@@ -7,24 +7,24 @@
 
 namespace omnimapper::map {
 
-/// Which way is up in a map, and by what that is known. The map is not turned by it.
+/// Which way is up in a map, and how that was found. The map itself is not rotated to be level.
 struct Level {
   enum class Source : std::uint8_t {
-    unknown = 0,  ///< nobody can tell
+    unknown = 0,  ///< no source could determine it
     base = 1,     ///< a robot on wheels stands level
     planes = 2,   ///< most of the surfaces that were seen are level or upright
     imu = 3,      ///< an accelerometer measured gravity
   };
   Source source = Source::unknown;
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit, in the map; where it is unknown the map's z
-  /// Of the rotation vector in the map that takes the true up to `up` [rad^2]; nothing about `up` itself.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit, in the map; the map's z if it is unknown
+  /// Covariance of the rotation vector in the map that turns the true up into `up` [rad^2]; zero about `up` itself.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   std::string reason;  ///< half a sentence: "gravity in 41 spans of 'imu', 9.81 m/s^2"
 
   bool isKnown() const { return source != Source::unknown; }
-  /// About the axis that is known least [rad].
+  /// Standard deviation about the least certain axis [rad].
   double standardDeviation() const;
-  /// The least rotation that takes `up` to z: surfaces are judged and drawn from above in that frame.
+  /// The smallest rotation that turns `up` into z. Surfaces are judged, and drawn from above, in the rotated frame.
   Eigen::Quaterniond levelFromMap() const;
 };
 

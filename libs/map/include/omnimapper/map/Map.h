@@ -11,21 +11,21 @@
 
 namespace omnimapper::map {
 
-/// One run that added to the map. Everything it made carries its number.
+/// One run that added to the map. The ids of all that it added contain its number.
 struct Session {
   std::uint16_t number = 0;
   std::string title;        ///< name of its log
-  base::VariableId anchor;  ///< map_from_session: where the session began, as the graph has it now
-  bool joined = true;       ///< something measured ties it to the first session, which needs nothing
-  std::optional<base::KeyFrameId> joined_at = std::nullopt;  ///< the key frame that tied it, where one did
+  base::VariableId anchor;  ///< map_from_session: where the session began, as estimated now
+  bool joined = true;       ///< a measurement ties it to the first session; the first one needs none
+  std::optional<base::KeyFrameId> joined_at = std::nullopt;  ///< the key frame whose measurement tied it, if one did
 };
 
-/// What is known of the place, in plain data. Lengths [m], angles [rad]. Copies are cheap (base::IdTable).
+/// The map as plain data. Lengths are in [m] and angles in [rad]. Copies are cheap (base::IdTable).
 struct Map {
   KeyFrames key_frames;
   base::IdTable<base::LandmarkId, Landmark> landmarks;
   std::vector<Session> sessions;  ///< in order of number
-  /// Which way is up; none before a run has ended, and in maps from before it was asked: z counts as up then.
+  /// Which way is up. None until the run ends, and in old maps that do not store it: z counts as up then.
   std::optional<Level> level;
 
   /// The key frame of that id. Throws Error(internal) if there is none.

@@ -10,22 +10,22 @@
 
 namespace omnimapper::map {
 
-/// One named part of a map file. Who owns it knows what its bytes mean at its version.
+/// One named part of a map file. Its owner defines what the bytes mean at each version.
 struct MapSection {
   std::string name;
   std::uint32_t version = 1;
   std::string bytes;
 };
 
-/// The container `map.omnimap`: sections with a checksum each. Sections nobody knows are kept as they are.
+/// The container `map.omnimap`: sections with a checksum each. Sections of unknown names are kept unchanged.
 class MapFile {
  public:
-  /// Throws Error(unreadable_input) if it is no map file, was written by a later format, or a checksum fails.
+  /// Throws Error(unreadable_input) if it is not a map file, has a later format, or fails a checksum.
   static MapFile read(const std::string& path);
-  /// Only the sections of these names, as far as the file has them. It seeks over the others, so that their size costs
-  /// nothing and their checksums are not looked at. Throws as read().
+  /// Reads only the sections of these names, as far as the file has them. It seeks over the others, so their size costs
+  /// no time and their checksums are not verified. Throws as read().
   static MapFile readOnly(const std::string& path, const std::vector<std::string>& names);
-  /// Atomically: at any moment `path` holds a whole map. Throws Error(disk_full).
+  /// Writes atomically: at any time `path` holds a complete map. Throws Error(disk_full).
   void write(const std::string& path) const;
 
   /// Replaces the section of that name or appends it.
@@ -40,14 +40,14 @@ class MapFile {
 
 /// The "frames" section: every key frame with its observations.
 MapSection framesToSection(const Map& map);
-/// How many bytes all its key frames have when they are not compressed; of damaged bytes any number.
+/// Size of all its key frames without compression [bytes]; an arbitrary number if the section is damaged.
 std::uint64_t uncompressedSize(const MapSection& frames);
-/// A map of nothing else. Throws Error(unreadable_input) if the bytes are not frames of a known version.
+/// A map that has only these key frames. Throws Error(unreadable_input) if the bytes are not frames of a known version.
 Map framesFromSection(const MapSection& section);
 
-/// The "landmarks" section. A payload of a kind that nobody registered keeps its bytes.
+/// The "landmarks" section. A payload of an unregistered kind is written with the bytes it was read from.
 MapSection landmarksToSection(const Map& map);
-/// Throws Error(unreadable_input) as framesFromSection(), and what the readers of payloads throw.
+/// Throws Error(unreadable_input) as framesFromSection(), and whatever the readers of payloads throw.
 base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection& section,
                                                                const PayloadRegistry& payloads);
 
@@ -55,20 +55,20 @@ base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection&
 MapSection sessionsToSection(const Map& map);
 /// Throws Error(unreadable_input) as framesFromSection().
 std::vector<Session> sessionsFromSection(const MapSection& section);
-/// The sessions of a map from before there was such a section: one for each number that key frames carry, joined, its
-/// anchor the pose of its first key frame.
+/// The sessions of an old map that lacks this section: one for each session number of the key frames. Each is joined,
+/// and its anchor is the pose of its first key frame.
 std::vector<Session> sessionsOfFrames(const KeyFrames& key_frames);
 
-/// The name of the section that holds what a query needs. Every run that writes a map makes it anew, so whoever loads a
-/// map to go on from it leaves it out.
+/// The name of the section that holds the answers to queries. Every run that writes a map writes this section anew, so
+/// a run that continues a map does not load it.
 inline constexpr char kPlacesSection[] = "places";
 MapSection placesToSection(const Places& places);
-/// Throws Error(unreadable_input) as framesFromSection(), and where a number is not finite or a direction is none.
+/// Throws Error(unreadable_input) as framesFromSection(), and if a number is not finite or a direction is not unit.
 Places placesFromSection(const MapSection& section);
 
 /// The "level" section, of maps whose level was estimated.
 MapSection levelToSection(const Level& level);
-/// Throws Error(unreadable_input) as framesFromSection(), and where up is no direction.
+/// Throws Error(unreadable_input) as framesFromSection(), and if a number is not finite or up is not a unit vector.
 Level levelFromSection(const MapSection& section);
 
 }  // namespace omnimapper::map

@@ -10,16 +10,16 @@
 
 namespace omnimapper::map {
 
-/// How each kind of landmark payload is read back.
+/// The readers of all kinds of landmark payloads.
 class PayloadRegistry {
  public:
-  /// Reads what LandmarkPayload::write() wrote. Throws base::Error if the bytes do not fit.
+  /// Reads what LandmarkPayload::write() wrote. Throws base::Error if the bytes are not such a payload.
   using Reader = std::function<std::shared_ptr<const LandmarkPayload>(std::istream&)>;
 
-  /// Throws Error(internal) if the kind is taken.
+  /// Throws Error(internal) if the kind is registered already.
   void add(const std::string& kind, Reader reader);
-  /// A kind that nobody registered gives a payload that keeps the bytes and writes them again as they are.
-  /// Throws Error(unreadable_input) if the reader leaves bytes over, and what it throws.
+  /// For an unregistered kind it returns a payload that keeps the bytes and writes them unchanged.
+  /// Throws Error(unreadable_input) if the reader leaves bytes unread, and whatever the reader throws.
   std::shared_ptr<const LandmarkPayload> read(const std::string& kind, const std::string& bytes) const;
 
  private:

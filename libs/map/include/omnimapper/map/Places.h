@@ -13,33 +13,33 @@
 
 namespace omnimapper::map {
 
-/// What a thing covers of the floor, seen from above, and how high it reaches. Frame of the map [m].
+/// The part of the floor that an object covers, seen from above, and its height range. Frame of the map [m].
 struct Extent {
   std::vector<Eigen::Vector2d> points;
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> lines;  ///< from, to
-  std::vector<std::vector<Eigen::Vector2d>> outlines;              ///< closed; that of an upright surface has no area
+  std::vector<std::vector<Eigen::Vector2d>> outlines;              ///< closed; of an upright surface: zero area
   std::vector<std::vector<Eigen::Vector2d>> holes;                 ///< closed, cut out of the outlines
   double bottom = 0, top = 0;                                      ///< z of its lowest and highest point
 };
 
-/// A landmark as somebody asks for it by name: all that an answer needs, without graph and key frames.
+/// A landmark as the answer to a query by name. It needs neither graph nor key frames.
 struct Place {
   base::LandmarkId id;
   std::string kind;                                             ///< what it is counted as: "sign", "marker"
   std::string label;                                            ///< what a user calls it: "sign", "marker 12"
-  std::string caption;                                          ///< what stands on it; may be empty
-  bool moved = false;                                           ///< no longer there: the rest is how it was
+  std::string caption;                                          ///< the text on it; may be empty
+  bool moved = false;                                           ///< no longer there; the rest describes it as it was
   std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value
   Eigen::Vector3d position = Eigen::Vector3d::Zero();           ///< [m] middle of its extent, or where it was last
   Extent extent;
   std::optional<Eigen::Vector3d> normal;     ///< unit, to the free side
-  std::optional<Eigen::Vector3d> seen_from;  ///< unit, from it to where it was seen from; none if that was all around
+  std::optional<Eigen::Vector3d> seen_from;  ///< unit, from it towards the viewpoints; none if seen from all around
   std::uint32_t sightings = 0;
   std::map<std::string, std::uint64_t> seen_by;  ///< sightings by sensor label, as far as they are known
   base::Stamp first_seen, last_seen;
-  /// Standard deviation of its position in the direction that is known worst [m]; none if nobody knows.
+  /// Standard deviation of its position in the least certain direction [m]; none if it is unknown.
   std::optional<double> sigma;
-  bool sigma_is_along_normal = false;  ///< of a plane or wall: only that direction is known
+  bool sigma_is_along_normal = false;  ///< for a plane or wall: only its distance along the normal is known
 };
 
 /// Where the base was when the map was written. Frame of the map [m] [rad].
@@ -49,7 +49,7 @@ struct LastPose {
   std::uint16_t session = 0;
 };
 
-/// What a map answers when it is asked by name.
+/// The answers of a saved map to queries by name.
 struct Places {
   std::vector<Place> places;  ///< in the order of ids
   std::optional<LastPose> last_pose;

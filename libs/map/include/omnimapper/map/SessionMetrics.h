@@ -8,15 +8,15 @@
 
 namespace omnimapper::map {
 
-/// How much one session drove.
+/// How far and how long one session drove.
 struct SessionMetrics {
   std::uint16_t number = 0;
   std::size_t key_frames = 0;
-  double way = 0;      ///< [m] from key frame to key frame
+  double way = 0;      ///< [m] distance travelled, from key frame to key frame
   double seconds = 0;  ///< from its first observation to its last
 };
 
-/// Of every session that has a key frame, in order.
+/// The metrics of every session that has a key frame, in order of sessions.
 std::vector<SessionMetrics> sessionMetrics(const Map& map);
 
 }  // namespace omnimapper::map

@@ -12,9 +12,9 @@
 
 namespace omnimapper::mapper {
 
-/// The cloud that key frames keep of depth images.
+/// Options of the point cloud that key frames keep of depth images.
 struct CloudOptions {
-  double voxel = 0.05;   ///< [m]; 0: none is kept
+  double voxel = 0.05;   ///< [m]; 0: no cloud is kept
   double max_range = 5;  ///< [m]
 };
 
@@ -24,7 +24,7 @@ struct EngineOptions {
   std::vector<std::string> pose_plugins, measurement_plugins, output_plugins;
   std::vector<std::string> sensors;
   std::vector<std::string> plugin_libraries;
-  std::string reference_sensor;  ///< label; empty: the first sensor that earns a key frame
+  std::string reference_sensor;  ///< label; empty: the first sensor that gets a key frame
   double window = 0.5;           ///< [s]
   double horizon = 30;           ///< [s]
   int queue_limit = 10000;       ///< stamps
@@ -67,19 +67,19 @@ struct SolverOptions {
   double final_tolerance = 1e-9;
 
   static const base::OptionTable<SolverOptions>& table();
-  /// While the map grows, and at its end.
+  /// Options of the solves while the map grows (running) and of the one at its end (final).
   graph::SolveOptions running() const { return {method, max_iterations, tolerance, {}}; }
   graph::SolveOptions final() const { return {method, final_max_iterations, final_tolerance, {}}; }
 };
 
-/// Everything the engine itself is told by an INI.
+/// All settings of the engine itself in an INI.
 struct EngineSettings {
   EngineOptions engine;
   TriggerOptions trigger;
   SolverOptions solver;
   HypothesisOptions hypotheses;
 
-  /// Reads the sections of that name. Throws base::Error as base::ConfigSection::read().
+  /// Reads [mapper], [trigger], [solver] and [hypotheses]. Throws base::Error as base::ConfigSection::read().
   static EngineSettings read(const base::Config& config);
 };
 

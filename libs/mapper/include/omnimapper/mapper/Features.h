@@ -6,23 +6,23 @@
 
 namespace omnimapper::mapper {
 
-/// The folder of the features' libraries: `omnimapper` beside the library of the engine that was loaded. Neither the
-/// current folder nor a variable of the environment names another one.
+/// The folder of the features' libraries: `omnimapper` beside the loaded library of the engine. It does not depend on
+/// the current folder or on environment variables.
 std::string featureFolder();
 
-/// Loads from featureFolder() the library of every feature of this build, which registers the feature's plugins, and
-/// registers the observation classes. A library that cannot be loaded is left out: whyUnavailable() says so. Does
-/// nothing when called again.
+/// Registers the observation classes and loads from featureFolder() the library of every feature of this build; a
+/// library registers its plugins as it is loaded. A library that cannot be loaded is skipped, and whyUnavailable()
+/// reports it. Further calls do nothing.
 void loadFeatures();
 
-/// The feature of the project that a plugin class belongs to, whether it is there or not; empty if it is of none.
+/// The feature of the project that a plugin class belongs to, whether it is available or not; empty if there is none.
 std::string_view featureOf(std::string_view plugin_class);
 
-/// Every plugin class of the project's features, those that are not there, too.
+/// Every plugin class of the project's features, available or not.
 std::vector<std::string> pluginsOfFeatures();
 
-/// Half a sentence on why a plugin class of the project is not registered and how to get it; empty for one that is
-/// registered, and for a class that is none of the project's.
+/// A clause that says why a plugin class of the project is not registered and how to get it. Empty for a class that is
+/// registered, and for one that does not belong to the project.
 std::string whyUnavailable(std::string_view plugin_class);
 
 }  // namespace omnimapper::mapper

@@ -23,57 +23,57 @@ namespace omnimapper::mapper {
 struct RunResult {
   base::ExitCode code = base::ExitCode::ok;
   std::vector<std::string> warnings;
-  Verdict verdict;  ///< on the whole map; without evidence in a run that localizes
+  Verdict verdict;  ///< on the whole map; it has no evidence in a run that localizes
   source::SourceReport source;
-  std::string output_folder;                ///< where the outputs are: that of the request, or one in it
-  bool took_place = false;                  ///< they replaced those of an earlier run
-  std::vector<std::string> foreign_files;   ///< what else is in the folder of the request, and no run made
+  std::string output_folder;                ///< where the outputs are: the requested folder or one inside it
+  bool took_place = false;                  ///< the outputs replaced those of an earlier run
+  std::vector<std::string> foreign_files;   ///< other files in the requested folder, which no run wrote
   std::size_t key_frames = 0, factors = 0;  ///< of the whole map
   std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;
-  std::size_t localized = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
-  bool awaits_confirmation = false;        ///< it found a place in the map, and no second one that agrees
+  std::size_t localized = 0, located = 0;  ///< in a run that localizes: key frames, and those with a known pose
+  bool awaits_confirmation = false;        ///< one measurement locates it in the map; none confirms it yet
   std::map<std::string, std::size_t> landmarks;  ///< of the whole map, by label
-  std::vector<map::Session> sessions;            ///< of the whole map; the last is this run
-  std::optional<map::Level> level;               ///< of the whole map; none of a run that localizes in an old one
-  std::optional<LiveMetrics> live;               ///< of a run on sensors
+  std::vector<map::Session> sessions;            ///< of the whole map; the last one is this run
+  std::optional<map::Level> level;               ///< of the whole map; none if the run localizes in an old one
+  std::optional<LiveMetrics> live;               ///< only of a live run on sensors
   double log_seconds = 0;                        ///< from first to last stamp
   double wall_seconds = 0;                       ///< of the whole run
-  double way = 0;                                ///< [m] of this run's trajectory
+  double way = 0;                                ///< [m] distance travelled in this run
 };
 
-/// What a user asks of one run.
+/// What a user requests of one run.
 struct RunRequest {
   std::vector<std::string> logs;  ///< rawlogs, merged by stamp
-  bool live = false;              ///< instead of logs: the sensors of [live], until `stop`
-  std::string replay;             ///< instead of logs: the journal of such a run, whose map is made again
+  bool live = false;              ///< reads the sensors of [live] until `stop`, instead of logs
+  std::string replay;             ///< journal of a live run to repeat, instead of logs
   std::string output_folder;
-  std::vector<std::string> more_outputs;  ///< sections of outputs beside those of the INI, such as the live window
-  std::string continue_map;               ///< map file that the logs are a new session of; empty: a new map
-  std::string localize_map;               ///< map file that the logs are only localized in, which stays as it is
-  /// Workers for perception and jobs; the map does not depend on their number.
+  std::vector<std::string> more_outputs;  ///< output sections in addition to the INI's, as the live window
+  std::string continue_map;               ///< map file to which the logs add a session; empty: a new map
+  std::string localize_map;               ///< map file in which the logs are only localized; it is not changed
+  /// Number of worker threads for perception and jobs; the map does not depend on it.
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  double speed = 0;     ///< times the log's own pace; 0: as fast as possible
-  bool strict = false;  ///< a map that the run itself finds suspicious ends with its own code
-  /// Told the result when all of a run that did not break off is written and a window still shows the map, before it is
-  /// waited for; may be empty. The progress is not reported to after that.
+  double speed = 0;     ///< relative to the log's own speed; 0: as fast as possible
+  bool strict = false;  ///< if the run's verdict on its map is suspicious, it ends with its own exit code
+  /// Called with the result if the run did not break off and a window still shows the map: after all outputs are
+  /// written and before the run waits for the window to close. May be empty. No progress is reported after this call.
   std::function<void(const RunResult&)> before_window_closes;
 };
 
-/// Log in, map out: opens the logs, makes the plugins, feeds the engine, writes the outputs. Damaged input and `stop`
-/// still give the map of what was read, with their own code; nothing is written if that holds no key frame. The outputs
-/// take the place of an older run's all together, or not at all; those of a run that was stopped, broke off, or could
-/// not write all of them do so only where there was none, and else are in the folder "interrupted" in it. Throws
-/// base::Error for everything that keeps a map from being written. `stop` is asked while the logs are
-/// opened, between observations and while one is waited for; stopped while they are opened, it throws too. A live run
-/// that is stopped is a whole one; it records into the folder "recording", and replaces checkpoint.omnimap from time to
-/// time, in the output folder.
+/// Makes a map of logs: opens them, makes the plugins, feeds the engine and writes the outputs. After damaged input or
+/// `stop`, it still writes the map of what was read and returns the exit code of the cause; it writes nothing if that
+/// map has no key frame. The outputs replace all outputs of an older run in the folder, or none of them. If the run was
+/// stopped, broke off or could not write every output, it does not replace an older run: its outputs then go to the
+/// subfolder "interrupted". Throws base::Error for everything that prevents a map from being written. `stop` is called
+/// while the logs are opened, between observations and while waiting for one; a stop while the logs are opened throws,
+/// too. A live run that is stopped counts as complete. In the output folder, a live run records into the folder
+/// "recording" and regularly replaces checkpoint.omnimap.
 RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
                      const std::function<bool()>& stop);
 
-/// The summary for a screen, without the warnings.
+/// The summary to print on a terminal, without the warnings.
 std::string toText(const RunResult& result);
 
-/// The sections of an INI that runMapping() reads beside those of the plugins.
+/// The sections of an INI that runMapping() reads in addition to those of the plugins.
 const FixedSections& fixedSections();
 
 }  // namespace omnimapper::mapper

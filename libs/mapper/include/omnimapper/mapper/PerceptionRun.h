@@ -13,13 +13,13 @@
 
 namespace omnimapper::mapper {
 
-/// What a user asks of one run of perception alone.
+/// What a user requests of one run of perception alone.
 struct PerceptionRequest {
   std::vector<std::string> logs;  ///< rawlogs, merged by stamp
   std::string output;             ///< rawlog to write
-  bool with_raw = false;          ///< the observations that were read go into it too, images inside
-  int threads = 1;                ///< the bytes do not depend on it
-  /// Where there is one, it is told each observation and what was derived of it, in the order of the log.
+  bool with_raw = false;          ///< also write the observations that were read, with their images embedded
+  int threads = 1;                ///< the bytes of the output do not depend on it
+  /// Called with each observation and what was derived from it, in the order of the log; may be empty.
   std::function<void(const mrpt::obs::CObservation& raw, const std::vector<mrpt::obs::CObservation::Ptr>& derived)>
       show;
 };
@@ -27,13 +27,13 @@ struct PerceptionRequest {
 struct PerceptionResult {
   base::ExitCode code = base::ExitCode::ok;
   std::vector<std::string> warnings;
-  source::SourceReport source;  ///< of what was read
+  source::SourceReport source;  ///< on the observations that were read
   struct Count {
     std::string section;
-    std::size_t taken = 0;    ///< observations it made something of
-    std::size_t derived = 0;  ///< what of that was written
-    std::size_t failed = 0;   ///< observations it threw base::Error for; they are left out
-    /// Of those taken, how many showed nothing new, so that what was made of the one before is what they gave.
+    std::size_t taken = 0;    ///< observations from which it derived something
+    std::size_t derived = 0;  ///< derived observations that were written
+    std::size_t failed = 0;   ///< observations for which it threw base::Error; they are left out
+    /// How many of those taken showed nothing new, so that the result of the one before was used again.
     std::size_t unchanged = 0;
   };
   std::vector<Count> extractors;
@@ -41,12 +41,13 @@ struct PerceptionResult {
 };
 std::string toText(const PerceptionResult& result, const std::string& output);
 
-/// Log in, log out: what the extractors of [perception] derive from each observation, in the order of the log. They are
-/// the ones the mapper runs, and get the same bits, so a map of the perceived log is that of the raw one. Of several
-/// with one stamp, label and class the first is written, and with `with_raw` the one that was read. Damaged input and
-/// `stop` still give the log of what was read, with their own code; so do observations that an extractor throws
-/// base::Error for, with missing_images if the first lacks them, else damaged_input. Throws that error if none could be
-/// taken, base::Error if no extractor is named or takes anything, and all that keeps a log from being written.
+/// Writes a log of what the extractors of [perception] derive from each observation, in the order of the input log. The
+/// mapper runs the same extractors on the same bits, so the map of this log is that of the raw log. Of several derived
+/// observations with the same stamp, label and class, the first is written; with `with_raw`, one that was read goes
+/// first. After damaged input or `stop`, it still writes the log of what was read and returns the exit code of the
+/// cause. If an extractor throws base::Error for some observations, the code is missing_images if the first of them
+/// lacks its images, else damaged_input. Throws that error if no observation could be used, base::Error if no extractor
+/// is named or none uses any observation, and base::Error for everything that prevents the log from being written.
 PerceptionResult runPerception(const PerceptionRequest& request, const base::Config& config, base::Progress& progress,
                                const std::function<bool()>& stop);
 

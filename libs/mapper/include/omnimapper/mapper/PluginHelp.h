@@ -9,14 +9,14 @@
 
 namespace omnimapper::mapper {
 
-/// Every registered plugin class with its sentence, for --list-plugins.
+/// Every registered plugin class with its one-sentence summary, for --list-plugins.
 std::string listPlugins();
 
-/// An INI section of that plugin class with every option at its default and what it means, for --print-ini.
-/// Throws Error(unknown_plugin).
+/// An INI section of that plugin class, with every option at its default value and its meaning, for --print-ini.
+/// Throws Error(unknown_plugin) if the class is not registered.
 std::string printIni(const std::string& class_name);
 
-/// The sections that are no plugin's, with their options.
+/// The sections that do not belong to a plugin, with their options.
 using FixedSections = std::vector<std::pair<std::string, std::vector<base::OptionSpec>>>;
 
 /// Markdown tables of all sections and plugin classes: ini/README.md is this text.

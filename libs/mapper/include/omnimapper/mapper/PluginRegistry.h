@@ -8,21 +8,22 @@
 
 namespace omnimapper::mapper {
 
-/// Every factory that is registered with MRPT by now, by kind, then name.
+/// Every factory that is registered with MRPT at the time of the call, sorted by kind, then name.
 std::vector<std::shared_ptr<const PluginFactory>> registeredFactories();
 
-/// What the plugins of all registered factories put into maps, beside the kinds of `graph` itself.
+/// The kinds that the plugins of all registered factories put into maps, in addition to those of `graph` itself.
 Kinds registeredKinds();
 
-/// The factory an INI means by `class = name`. Throws Error(unknown_plugin) naming the nearest known class.
+/// The factory for `class = name` of an INI. Throws Error(unknown_plugin), naming the most similar known class.
 std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::string& name, const std::string& place);
 
 /// Loads a shared library that registers factories (mrpt::system::loadPluginModule). Throws Error(plugin_library).
 void loadPluginLibrary(const std::string& path);
-/// Those that [mapper] plugin_libraries of an INI names. Throws as loadPluginLibrary() and base::ConfigSection::read().
+/// Loads the libraries that [mapper] plugin_libraries of an INI names. Throws as loadPluginLibrary() and
+/// base::ConfigSection::read().
 void loadPluginLibraries(const base::Config& config);
 
-/// A plugin with the name of its INI section, the owner of its factors and decisions.
+/// A plugin with the name of its INI section; its factors and decisions have this name as their owner.
 template <class Plugin>
 struct Named {
   std::string section;
@@ -45,7 +46,7 @@ struct PluginSections {
 /// Makes every plugin from its section. Throws base::Error as findFactory() and the factories do.
 PluginSet makePlugins(const PluginSections& sections, const base::Config& config, PluginContext context);
 
-/// "pose plugin" and so on, for messages.
+/// "pose plugin" and so on, for use in messages.
 std::string toString(PluginKind kind);
 
 }  // namespace omnimapper::mapper

@@ -15,21 +15,21 @@ namespace omnimapper::mapper {
 struct SavedMap {
   map::Map map;
   graph::Graph graph;
-  /// All others in their order: of plugins, and those that nobody here knows. Not "places", which follows from the
-  /// rest.
+  /// All other sections in their order, both of plugins and unknown ones. "places" is left out, because it is computed
+  /// from the rest.
   std::vector<map::MapSection> sections;
 
-  /// Whether its poses lie in the plane.
+  /// Planar if the poses of the map lie in the plane, else spatial.
   Motion motion() const;
 };
 
-/// Reads a map file of this or any earlier version; `path` may be the folder that holds map.omnimap. What it gives has
-/// at least one key frame, and its parts fit each other. Throws Error(unreadable_input) naming the file if that cannot
-/// be had: missing, damaged, of a later version, of plugins that are not loaded.
+/// Reads a map file of this or any earlier version; `path` may be the folder that holds map.omnimap. The result has at
+/// least one key frame and is consistent in itself. Throws Error(unreadable_input), naming the file, if it is missing
+/// or damaged, has a later version, or needs plugins that are not loaded.
 SavedMap readMap(const std::string& path, const Kinds& kinds);
 
-/// The file of a map: graph, frames, landmarks and sessions, then the others as they stand. Written, read and written
-/// again it has the same bytes.
+/// The file of a map: the sections for graph, frames, landmarks and sessions, then `sections` unchanged. If the file is
+/// written, read and written again, it has the same bytes.
 map::MapFile mapFileOf(const map::Map& map, const graph::Graph& graph, const std::vector<map::MapSection>& sections);
 
 }  // namespace omnimapper::mapper

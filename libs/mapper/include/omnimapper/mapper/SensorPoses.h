@@ -13,38 +13,38 @@
 
 namespace omnimapper::mapper {
 
-/// One sensor whose place on the base, or whose aperture, the INI tells, because its observations do not or tell it
-/// wrong.
+/// One sensor whose pose on the base, or whose aperture, is given in the INI because its observations do not have it or
+/// have a wrong one.
 struct SensorPoseOptions {
   std::string label;                    ///< of the observations
   double x = 0, y = 0, z = 0;           ///< [m] base_from_sensor
   double yaw = 0, pitch = 0, roll = 0;  ///< [rad] MRPT's order: about z, then y, then x
-  double aperture = 0;  ///< [rad] of its 2D scans, from the first beam to the last; 0: as the scans have it
+  double aperture = 0;  ///< [rad] of its 2D scans, from the first beam to the last; 0: the scans' own aperture
   std::string file;     ///< a TUM file of base_from_sensor over time, for a sensor that moves; overrides the pose above
 
   static const base::OptionTable<SensorPoseOptions>& table();
 };
 
-/// Where sensors are on the base (thesis 5.3.3: static or dynamic transform from sensor to base), and how its cameras
-/// with depths are calibrated.
+/// The poses of sensors on the base (thesis 5.3.3: static or dynamic transform from sensor to base), and the
+/// calibration of depth cameras.
 class SensorPoses {
  public:
   SensorPoses() = default;
-  /// One section of `config` for each name, and [calibration], if it is there. Throws base::Error if a section or a
-  /// pose file does not fit.
+  /// Reads one section of `config` for each name, and [calibration] if there is one. Throws base::Error if a section or
+  /// a pose file is not valid.
   SensorPoses(const std::vector<std::string>& sections, const base::Config& config);
 
-  /// base_from_sensor for an observation, if the INI tells it; between stamps of a file it is interpolated, beyond
-  /// its ends the nearest holds.
+  /// base_from_sensor for an observation, if the INI gives it. It is interpolated between the stamps of a pose file;
+  /// before the first and after the last stamp, the nearest pose is used.
   std::optional<mrpt::poses::CPose3D> find(const std::string& label, base::Stamp stamp) const;
 
-  /// The observation itself where the INI tells nothing, else a copy with that sensor pose, aperture and calibration.
+  /// The observation itself if the INI gives nothing for it, else a copy with the INI's pose, aperture and calibration.
   mrpt::obs::CObservation::Ptr applied(const mrpt::obs::CObservation::Ptr& observation) const;
 
  private:
   using Track = std::map<base::Stamp, mrpt::poses::CPose3D>;
-  std::map<std::string, Track> tracks_;      // a static pose is a track of one
-  std::map<std::string, double> apertures_;  // [rad] where one is told
+  std::map<std::string, Track> tracks_;      // a static pose is a track with one entry
+  std::map<std::string, double> apertures_;  // [rad] of the sensors for which the INI gives one
   perception::CameraCalibration calibration_;
 };
 

@@ -10,25 +10,26 @@
 
 namespace omnimapper::mapper {
 
-/// Says of each session of `map` whether factors that act tie it to the first one, be it by way of others, and which
-/// key frame was first to. What the plugins `absolute` measure ties a session to the map itself; what relates landmarks
-/// alone, without a pose, ties none.
+/// Marks for each session of `map` whether acting factors connect it to the first session, directly or through other
+/// sessions, and which key frame was connected first. A factor of one of the plugins `absolute` connects a session to
+/// the map itself. A factor between landmarks alone, without a pose, does not connect sessions.
 void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
 
-/// The same of the last session of a map that is held: whether something ties it to a session that is joined.
+/// Does the same for the last session of a map whose older sessions are held: marks whether a factor connects it to a
+/// joined session or, by a plugin of `absolute`, to the map itself.
 void markLocated(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
 
-/// Sightings and closures that tie a session to others by the consistency test: those that act, and those that were
-/// refused or wait.
+/// Counts of the hypotheses (measurements and closures) that connect a session to others: those that the consistency
+/// test accepted, and those that it refused or that still wait.
 struct TestedTies {
   std::size_t accepted = 0, refused = 0;
 
-  /// Whether so many contradict the map that the session may lie in a wrong place that looks alike.
+  /// Whether so many contradict the map that the session may be aligned to a wrong place that looks similar.
   bool areMostlyRefused() const { return refused >= 3 && 2 * refused > accepted; }
 };
 TestedTies testedTies(const graph::Graph& graph, std::uint16_t session);
 
-/// "session 1 was joined at key frame 1:4", or that it was never joined.
+/// "session 1 was joined at key frame 1:4" or "session 1 was never joined".
 std::string joinedText(const map::Session& session);
 
 }  // namespace omnimapper::mapper

@@ -6,13 +6,13 @@
 
 namespace omnimapper::mapper {
 
-/// Section [session] of an INI: where a session that continues a map begins, until something ties it to the map.
+/// Section [session] of an INI: where a session that continues a map begins, until a factor connects it to the map.
 struct SessionOptions {
   enum class Start {
     end,      ///< where the last session ended
     origin,   ///< at the map's origin
     pose,     ///< at the pose below
-    anywhere  ///< nobody knows: it is sought in the whole map
+    anywhere  ///< unknown: the start is searched for in the whole map
   };
   Start start = Start::end;
   double start_x = 0, start_y = 0;                                       ///< [m] in the map
@@ -20,9 +20,9 @@ struct SessionOptions {
   double start_sigma = 1;                                                ///< [m]
   double start_angle_sigma = 30 * base::option_text::kRadiansPerDegree;  ///< [rad]
 
-  int window_key_frames = 50;  ///< of a session that is localized in a map
+  int window_key_frames = 50;  ///< key frames in the window of a session that is localized in a map
   static const base::OptionTable<SessionOptions>& table();
-  /// On a map with at least one key frame.
+  /// The start on `map`, which must have at least one key frame.
   SessionStart startOn(const map::Map& map) const;
 };
 

@@ -22,30 +22,30 @@ struct TriggerOptions {
   static const base::OptionTable<TriggerOptions>& table();
 };
 
-/// Decides which observations earn a pose of their own, from stamp and the motion that pose plugins measured alone
-/// (thesis 5.3.2.1): never from the estimate, so that the decision does not depend on what the graph makes of it. Each
-/// sensor label has its own state.
+/// Decides which observations get a pose of their own. It uses only the stamp and the motion that pose plugins measured
+/// (thesis 5.3.2.1), never the estimate, so that the decision does not depend on the graph. Each sensor label has its
+/// own state.
 class Trigger {
  public:
   explicit Trigger(const TriggerOptions& options) : options_(options) {}
 
-  /// Motion over a span by the continuous sources; none if they do not cover it.
+  /// Motion over a time span, measured by the continuous sources; none if they do not cover the span.
   using MotionBetween = std::function<std::optional<RelativeMotion>(base::Stamp begin, base::Stamp end)>;
 
-  /// Whether the observation of that label and stamp gets a pose. The first of a label does. Call in order of stamp.
+  /// Whether the observation of that label and stamp gets a pose; the first of a label does. Call it in order of stamp.
   bool fires(const std::string& label, base::Stamp stamp, const MotionBetween& motion);
-  /// The same of an observation that is older than the last of its label: it does if it is as far from the triggered
-  /// ones before and after it as they are to be from each other.
+  /// The same for an observation that is older than the last of its label. It gets a pose if it is as far from the
+  /// triggered observations before and after it as triggered observations must be from each other.
   bool firesLate(const std::string& label, base::Stamp stamp, const MotionBetween& motion);
-  /// No late observation before `stamp` will be asked about.
+  /// Drops the state that only late observations before `stamp` need; firesLate() must not be called for them any more.
   void forgetBefore(base::Stamp stamp);
 
  private:
-  /// What happened to a label since its last triggered observation.
+  /// State of a label since its last triggered observation.
   struct Since {
     base::Stamp fired, seen;
-    std::optional<mrpt::poses::CPose3D> motion;  // from fired to seen; none if a part of it is not covered
-    std::set<base::Stamp> all_fired = {};        // as far back as late ones may come
+    std::optional<mrpt::poses::CPose3D> motion;  // from fired to seen; none if a part of the span is not covered
+    std::set<base::Stamp> all_fired = {};        // as far back as late observations may be
   };
   bool isDue(const Since& since) const;
 

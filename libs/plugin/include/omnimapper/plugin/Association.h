@@ -11,49 +11,49 @@
 
 namespace omnimapper::mapper {
 
-/// A measurement that may be of a landmark, as the factor it would be if it were. Its variables are in the graph.
+/// A possible association of a measurement with a landmark, with its factor. The factor's variables are in the graph.
 struct Pairing {
-  std::size_t measurement;  ///< number within what is associated together
+  std::size_t measurement;  ///< its index among the measurements that are associated together
   base::LandmarkId landmark;
   graph::FactorRecord record;
 };
 
-/// How measurements are told which landmark they are of (thesis 4.2.2.2). The options struct of a plugin that
-/// associates derives from this one.
+/// Data association options (thesis 4.2.2.2). The options struct of a plugin that associates measurements with
+/// landmarks derives from this one.
 struct AssociationOptions {
   enum class Method {
-    nearest,  ///< each measurement the landmark that it fits best, best fits first
+    nearest,  ///< each measurement gets the landmark it fits best; best fits are assigned first
     joint     ///< joint compatibility branch and bound (Neira and Tardos, TRA 2001)
   };
   Method method = Method::joint;
   double confidence = 0.999;  ///< a true match passes a gate with this probability
-  double inflation = 1;       ///< of the standard deviations of what the map says
-  /// An interpretation of all measurements must be so many times likelier than the best one that takes this measurement
-  /// for another landmark; else it is left alone. 1: the best is taken. Method::joint only.
+  double inflation = 1;       ///< factor on the standard deviations of what the map predicts
+  /// Smallest ratio of the likelihood of the best interpretation to that of the best one that gives this measurement
+  /// another landmark; below it the match is ambiguous. 1 takes the best. Only for Method::joint.
   double min_likelihood_ratio = 20;
-  int max_nodes = 20000;  ///< of the search; then the best so far is taken
+  int max_nodes = 20000;  ///< limit of the search; beyond it the best so far is taken
 
   /// Adds its keys to the table of a struct that derives from it.
   template <class Options>
   static base::OptionTable<Options>& declareIn(base::OptionTable<Options>& table);
 };
 
-/// What became of one measurement.
+/// The association result of one measurement.
 struct Match {
   enum class Kind {
     matched,
-    unknown,    ///< fits no landmark that is left: it may be a new one
-    ambiguous,  ///< fits several alike: of one of them, nobody can tell which
-    untold      ///< nothing is known of how well the map is known: it cannot be told whether it fits
+    unknown,    ///< fits no landmark that is still free: it may be a new one
+    ambiguous,  ///< fits several landmarks about equally well
+    untold      ///< the covariance of the map is not available, so it could not be gated
   };
   Kind kind = Kind::unknown;
-  std::optional<std::size_t> pairing;  ///< the one it is, of an ambiguous one the likeliest; else the nearest
+  std::optional<std::size_t> pairing;  ///< the matched one; if ambiguous the likeliest; else the nearest
   double chi2 = 0;                     ///< of that pairing alone
   double limit = 0;                    ///< of chi2
   std::optional<base::LandmarkId> rival;
   double likelihood_ratio = 0;  ///< to the best interpretation with the rival, where there is one
 
-  /// "matched", "none is near", "fits two landmarks alike", with the numbers behind it.
+  /// Writes the result into `decision`: a reason such as "matched" or "none is near", and the numbers behind it.
   void tell(Decision& decision) const;
 };
 
@@ -62,22 +62,22 @@ struct Association {
   std::vector<Match> matches;  ///< of each measurement
   double chi2 = 0;             ///< of all matches together
   double limit = 0;            ///< of chi2
-  int nodes = 0;               ///< that the search looked at
+  int nodes = 0;               ///< number of nodes that the search visited
   bool complete = true;        ///< the search did not run out of nodes
 
-  /// As Match::tell(), with what is to be said of the search.
+  /// As Match::tell(); also notes if the search was cut short.
   void tell(std::size_t measurement, Decision& decision) const;
 };
 
-/// Whether a landmark may be met twice by measurements of one moment.
+/// Whether several measurements that were made together may match the same landmark.
 enum class Repeats { no, yes };
 
-/// Associates `measurements` things that were measured together, of which `pairings` says what each may be. What the
-/// map predicts is compared in units of what is not known of it: the covariance of residual i and j is
-/// J_i cov J_j^T, plus the noise where i = j. A measurement alone, and all that are matched together, must pass the
-/// chi-square gate. Among the interpretations that do, the likeliest is taken, where a measurement that is left
-/// unmatched counts like one at its gate. Landmarks that no factor of positive weight binds are none to match. Of the
-/// landmarks that pass the gate of a measurement the best 32 are looked at.
+/// Associates measurements that were made together with landmarks. `measurements` is their number and `pairings` lists
+/// the landmarks that each may be of. Innovations are weighted by their covariance: that of residuals i and j is
+/// J_i cov J_j^T, plus the noise if i = j. Each matched measurement alone, and all of them jointly, must pass the
+/// chi-square gate. The likeliest interpretation that passes is returned; an unmatched measurement counts in it like
+/// one at its gate. Landmarks that no factor of positive weight binds are not matched. For each measurement only the
+/// best 32 landmarks that pass its gate are considered.
 Association associate(std::size_t measurements, const std::vector<Pairing>& pairings, const State& state,
                       const AssociationOptions& options, Repeats repeats);
 

@@ -22,31 +22,32 @@ class Batch {
   base::VariableId addVariable(std::shared_ptr<const graph::Variable> kind, const Eigen::VectorXd& value,
                                bool fixed = false);
   void addFactor(graph::FactorRecord record) { added_factors_.push_back(std::move(record)); }
-  /// A factor that could be wrong in a way that bends the map: it acts once the consistency test has accepted it, and
-  /// the verdict completes `decision`.
+  /// A factor that would bend the map if it were wrong. It has no weight until the consistency test accepts it, and the
+  /// result of the test completes `decision`.
   void addHypothesis(graph::FactorRecord record, Decision decision);
   void removeFactor(base::FactorId id) { removed_factors_.push_back(id); }
-  /// Once nothing binds it any more.
+  /// Every factor that binds the variable must have been removed before or in this batch.
   void removeVariable(base::VariableId id) { removed_variables_.push_back(id); }
   void setWeight(base::FactorId id, double weight) { weights_.emplace_back(id, weight); }
-  /// A better guess of where the newest session lies in the map, as long as nothing ties it to that.
+  /// A better estimate of where the newest session lies in the map; allowed only while nothing ties it to the map.
   void placeSession(const SessionPlace& place) { session_place_ = place; }
   void log(Decision decision) { decisions_.push_back(std::move(decision)); }
 
-  /// A new landmark; the measurement that made it is its first evidence. `seen`: when that was; none: at the key frame
-  /// of the batch.
+  /// Adds a landmark; the measurement that it is made from is its first evidence. `seen` is the time of that
+  /// measurement, or none for the stamp of the batch's key frame.
   base::LandmarkId addLandmark(const std::string& kind, std::vector<base::VariableId> variables,
                                std::shared_ptr<const map::LandmarkPayload> payload = nullptr,
                                std::optional<base::Stamp> seen = std::nullopt);
-  /// One more observation of it, `seen` then. A payload replaces the one it has; null keeps that.
+  /// Counts one more measurement of it, made at time `seen`. A payload replaces the one it has; null keeps that.
   void addEvidence(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload = nullptr,
                    std::optional<base::Stamp> seen = std::nullopt);
-  /// What is known of it has changed without a sighting.
+  /// Replaces the payload of a landmark without counting a measurement.
   void describeLandmark(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload);
-  /// It is no longer there: nothing is to be associated with it any more.
+  /// Marks the landmark as no longer there: nothing is associated with it any more.
   void retireLandmark(base::LandmarkId id) { retired_landmarks_.push_back(id); }
-  /// Both are one thing: `from` gives its factors and evidence to `into`, variable by variable, and its variables go.
-  /// A payload replaces the one of `into`; null keeps that. One may take in several; one that goes takes in none.
+  /// Merges two landmarks that are one: factors and evidence of `from` move to `into`, variable by variable, and the
+  /// variables of `from` are removed. A payload replaces that of `into`; null keeps it. A batch may merge several
+  /// landmarks into one, but must not merge any into one that it merges away.
   void mergeLandmarks(base::LandmarkId from, base::LandmarkId into,
                       std::shared_ptr<const map::LandmarkPayload> payload = nullptr) {
     merges_.push_back({from, into, std::move(payload)});
@@ -75,7 +76,7 @@ class Batch {
   };
   /// No edit and no decision.
   bool empty() const;
-  /// Whether it is more than decisions, evidence and retired landmarks.
+  /// Whether it changes the graph: decisions, evidence, new and retired landmarks alone do not.
   bool changesGraph() const;
   const std::vector<NewVariable>& addedVariables() const { return added_variables_; }
   const std::vector<graph::FactorRecord>& addedFactors() const { return added_factors_; }
@@ -87,10 +88,10 @@ class Batch {
   const std::vector<base::LandmarkId>& retiredLandmarks() const { return retired_landmarks_; }
   const std::vector<Merge>& merges() const { return merges_; }
   const std::optional<SessionPlace>& sessionPlace() const { return session_place_; }
-  /// A decision's `hypothesis`, where it has one, is the number of the factor in addedFactors().
+  /// `hypothesis` of a decision, if set, is a provisional id: its index is the factor's position in addedFactors().
   const std::vector<Decision>& decisions() const { return decisions_; }
 
-  /// Provisional ids carry a session that no map has.
+  /// Provisional ids have this session number, which no map uses.
   static constexpr std::uint16_t kProvisionalSession = 0xFFFF;
   template <class Tag>
   static bool isProvisional(base::Id<Tag> id) {
@@ -111,25 +112,25 @@ class Batch {
   std::optional<SessionPlace> session_place_;
 };
 
-/// What applying a batch gave: final ids in the order they were added.
+/// The final ids of what an applied batch added, in the order of addition.
 struct AppliedBatch {
   std::vector<base::VariableId> variables;
   std::vector<base::FactorId> factors;
   std::vector<base::LandmarkId> landmarks;
 };
 
-/// Who made a batch, and when: written into its landmarks.
+/// Which plugin made a batch, and when; both are written into its new landmarks.
 struct BatchOrigin {
   std::string owner;  ///< INI section of the plugin
   base::Stamp stamp;  ///< of the key frame it was made at
 };
 
-/// Why `batch` cannot be applied as things are; empty if it can. A batch that a job made of an older state may speak of
-/// what is gone since.
+/// Why `batch` cannot be applied to this graph and map; empty if it can. A batch that a job made from an older state
+/// may refer to something that has been removed since.
 std::string whyUnfit(const Batch& batch, const graph::Graph& graph, const map::Map& map);
 
-/// Applies all edits of `batch`, or throws Error(internal) naming the edit that does not fit and leaves graph and map
-/// as they were. New landmarks carry the graph's session.
+/// Applies all edits of `batch`. If one cannot be applied, it throws Error(internal) that names this edit, and graph
+/// and map are unchanged. The ids of new landmarks contain the graph's session.
 AppliedBatch apply(const Batch& batch, const BatchOrigin& origin, graph::Graph& graph, map::Map& map);
 
 }  // namespace omnimapper::mapper

@@ -8,9 +8,9 @@
 
 namespace omnimapper::mapper {
 
-/// The factory of an extractor that is made of structs of options: `Made(const Structs&...)`. Its section of the INI
-/// holds the keys of all of them, in that order. `Made` has the constants kName, what an INI writes after "class =",
-/// and kSummary, one sentence for --list-plugins.
+/// The factory of an extractor whose constructor takes structs of options: `Made(const Structs&...)`. Its section of
+/// the INI has the keys of all these structs, in that order. `Made` has two constants: kName is the name after
+/// "class =" in an INI, and kSummary is one sentence for --list-plugins.
 template <class Made, class... Structs>
 class ExtractorFactoryOf : public ExtractorFactory {
  public:
@@ -23,7 +23,7 @@ class ExtractorFactoryOf : public ExtractorFactory {
     return std::make_unique<Made>(SharedSection<Structs...>::template read<Structs>(section)...);
   }
 
-  // What MRPT's macros write for a run-time class; they take no templates.
+  // This is what MRPT's macros generate for a run-time class; the macros do not support templates.
   static const mrpt::rtti::TRuntimeClassId& GetRuntimeClassIdStatic() {
     static const std::string class_name = std::string("omnimapper::mapper::ExtractorFactoryOf:") + Made::kName;
     static const mrpt::rtti::TRuntimeClassId id{class_name.c_str(), &create, &baseClass};

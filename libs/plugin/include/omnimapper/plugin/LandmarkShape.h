@@ -8,12 +8,12 @@
 
 namespace omnimapper::mapper {
 
-/// How a landmark looks in the map [m], as its payload tells of its variables; its kind stands for a label that nobody
-/// tells.
+/// The shape of a landmark in the map [m], computed by its payload from its variables. If the payload gives no label,
+/// the label is the landmark's kind.
 map::LandmarkShape shapeOf(const map::Landmark& landmark, const State& state);
 
-/// How many landmarks there are by what a user calls them: by their label, "wall", or by the kind that it begins with,
-/// "marker" of "marker 12". Those merged into another one, and those that are no longer there, are not counted.
+/// The number of landmarks by label, such as "wall", or by kind if the label begins with it: "marker 12" counts as
+/// "marker". Candidates, merged landmarks and those that are no longer there are not counted.
 std::map<std::string, std::size_t> countLandmarks(const State& state);
 
 }  // namespace omnimapper::mapper

@@ -9,20 +9,20 @@
 
 namespace omnimapper::mapper {
 
-/// Where a run that localizes in a map knew the base to be when a key frame came, from nothing that came later.
+/// The pose of the base that a run which localizes in a map estimated at a key frame, without any later data.
 struct LocalizationEstimate {
   base::KeyFrameId key_frame;
   base::Stamp stamp;
   mrpt::poses::CPose3D map_from_base;
-  /// In the tangent at the pose: x y z [m], rotation vector [rad]; the map itself counts as exact. None while a
-  /// direction is open.
+  /// In the tangent at the pose: x y z [m], rotation vector [rad]; the map itself counts as exact. None while some
+  /// direction of a variable is undetermined.
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
-  bool joined = false;  ///< something measured had tied the session to the map
+  bool joined = false;  ///< a measurement had tied the session to the map
 
-  /// Of the position, along the map's axes [m^2]; none as above.
+  /// Covariance of the position along the map's axes [m^2]; none if `covariance` is none.
   std::optional<Eigen::Matrix3d> positionCovariance() const;
-  /// Joined, and the position on the floor known to within kLocatedSigma [m] (standard deviation in the worst
-  /// direction): a laser in the plane never tells the height.
+  /// Whether it is joined and the standard deviation of its position on the floor in the least certain direction is at
+  /// most kLocatedSigma [m]. The height is left out because a planar laser does not measure it.
   bool located() const;
   static constexpr double kLocatedSigma = 0.5;
 };

@@ -4,27 +4,27 @@
 
 namespace omnimapper::mapper {
 
-/// How much of the images in a log key frames keep: nothing, depth images, or all.
+/// Which images of a log the key frames keep: none, depth images, or all.
 enum class RawImages { none, depth, all };
 
 /// Shows or writes the map (thesis 5.3.5).
 class OutputPlugin {
  public:
   virtual ~OutputPlugin() = default;
-  /// Whether what it writes is the map itself, which a run that localizes in one does not make anew.
+  /// Whether it writes the map itself. A run that localizes in a map skips such outputs, because it makes no new map.
   virtual bool isOfMap() const { return false; }
-  /// What it needs of the images in a log. Key frames keep what the output that needs most asks for.
+  /// Which images of a log it needs. Key frames keep as many as the output that needs most.
   virtual RawImages needsOfImages() const { return RawImages::none; }
-  /// After each solve, for what is shown live.
+  /// Called after each solve, for live display.
   virtual void update(const View& /*view*/) {}
-  /// After each key frame, for what is shown live between solves, too. It must not take long.
+  /// Called after each key frame, for live display between solves. It must not take long.
   virtual void keyFrameAdded(const View& /*view*/) {}
-  /// After each frame of the reference sensor that is no key frame, for where the robot is shown live. It must not take
-  /// long.
+  /// Called after each frame of the reference sensor that is not a key frame, for live display of the robot's pose. It
+  /// must not take long.
   virtual void frameAdded(const View& /*view*/) {}
-  /// Once, at the end of the run. Throws base::Error if an output cannot be written.
+  /// Called once, at the end of the run. Throws base::Error if an output cannot be written.
   virtual void finish(const View& view) = 0;
-  /// Whether somebody may still look at it: the run ends when this says no, and all is written by then.
+  /// Whether a user may still be viewing it: the run ends only once this is false for every output.
   virtual bool isLookedAt() const { return false; }
 };
 

@@ -10,22 +10,22 @@
 
 namespace omnimapper::mapper {
 
-/// How far the zeros of a pan-tilt unit are off (thesis 4.3.2.5), as one variable of kind "pan_tilt" for each camera
-/// and run: the true angles less the reported ones [rad], pan to the left and tilt down, with a prior at zero. What
-/// changes from image to image is noise of the measurements. See SensorCorrections for sensors that are mounted askew.
+/// Zero offsets of pan-tilt units (thesis 4.3.2.5): one variable of kind "pan_tilt" for each camera and run. Its value
+/// is true minus reported angles [rad], pan to the left and tilt down, with a prior at zero. Errors that change from
+/// image to image belong to the measurement noise. See SensorCorrections for sensors that are mounted askew.
 class PanTiltOffsets {
  public:
-  /// `sigma` [rad] of each angle before anything is measured; 0: the reported angles have no offset. `owner`: the
-  /// plugin's INI section.
+  /// `sigma` [rad] is the prior standard deviation of each angle; 0 means that the reported angles have no offset.
+  /// `owner` is the plugin's INI section.
   PanTiltOffsets(double sigma, std::string owner) : sigma_(sigma), owner_(std::move(owner)) {}
 
-  /// The variable of a camera; added to `batch` with its prior if it is new, and then provisional. None if the angles
-  /// have no offset.
+  /// The variable of a camera. If it is new, it is added to `batch` with its prior, and the id is provisional. None if
+  /// the angles have no offset.
   std::optional<base::VariableId> find(const std::string& label, Batch& batch);
-  /// To be called from the plugin's applied(), of every batch that find() was given.
+  /// The plugin's applied() must call this for every batch that was passed to find().
   void applied(const AppliedBatch& ids);
 
-  /// Pan and tilt as they are estimated now; zero for none and for one that is still provisional.
+  /// The current estimate of the pan and tilt offsets [rad]; zero if `id` is none or still provisional.
   static Eigen::Vector2d estimate(std::optional<base::VariableId> id, const graph::Graph& graph);
 
  private:

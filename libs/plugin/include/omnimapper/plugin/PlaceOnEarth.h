@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-// Where a map is on the earth, as a plugin that knows tells it to outputs: by its section of the map file, which ends
-// with a mark that says so.
+// Where a map is on the earth. A plugin that knows it passes it to outputs in its section of the map file; a mark at
+// the end of the section identifies it.
 namespace omnimapper::mapper {
 
 /// [deg] WGS84, altitude [m] above the ellipsoid.
@@ -21,13 +21,13 @@ struct PlaceOnEarth {
   Geodetic origin;
 };
 
-/// The bytes of such a section.
+/// The bytes of a plugin's section that holds `place`.
 std::string writePlace(const PlaceOnEarth& place);
 
-/// What the sections of a map tell; the first one if there are several. None if nobody knows, or its variable is gone.
+/// The first place on earth in the sections of a map whose variable is still in the graph; none if there is none.
 std::optional<PlaceOnEarth> placeOnEarth(const View& view);
 
-/// Turns points of the map into longitude and latitude.
+/// Converts points of the map to longitude, latitude and altitude.
 class EarthFrame {
  public:
   EarthFrame(const PlaceOnEarth& place, const View& view);

@@ -19,17 +19,17 @@ namespace omnimapper::mapper {
 using perception::DerivedName;
 using perception::Extractor;
 
-/// What every plugin may know of the run when it is made.
+/// What every plugin is given about the run when it is made.
 struct PluginContext {
   std::string section;  ///< its section of the INI; owner of its factors and decisions
   Motion motion = Motion::planar;
-  bool map_is_held = false;   ///< the run localizes in a map that stands
+  bool map_is_held = false;   ///< the run localizes in a map that it does not change
   std::string output_folder;  ///< exists; empty in a run without outputs
   std::string title;          ///< of the run, for reports: the log's name
   std::string config_text;    ///< the INI of the run
 };
 
-/// What a map file may hold.
+/// The kinds of factors and payloads that a map file may contain.
 struct Kinds {
   graph::FactorRegistry factors = graph::FactorRegistry::withBuiltIns();
   map::PayloadRegistry payloads;
@@ -37,22 +37,22 @@ struct Kinds {
 
 enum class PluginKind { pose, measurement, output, extractor };
 
-/// An MRPT run-time class that stands for a plugin class and makes it: it has no state and exists without options.
-/// Derive from one of the four below; a plugin library registers its factories when it is loaded.
+/// An MRPT run-time class that makes the plugins of one class. It has no state and needs no options to exist.
+/// Derive from one of the four classes below; a plugin library registers its factories when it is loaded.
 class PluginFactory : public mrpt::rtti::CObject {
   DEFINE_VIRTUAL_MRPT_OBJECT(PluginFactory)
  public:
   virtual PluginKind kind() const = 0;
-  /// What an INI writes after "class =".
+  /// The name after "class =" in an INI.
   virtual std::string name() const = 0;
   /// One sentence for --list-plugins.
   virtual std::string summary() const = 0;
   virtual const std::vector<base::OptionSpec>& options() const = 0;
-  /// Makes known the variables, factors and payloads that its plugin puts into a map, so that a map file can be read.
+  /// Registers the variables, factors and payloads that its plugin puts into a map, so that a map file can be read.
   virtual void registerKinds(Kinds& /*kinds*/) const {}
 };
 
-/// make() reads the options from `section` and throws base::Error if they do not fit.
+/// make() reads the options from `section` and throws base::Error if they are invalid.
 class PosePluginFactory : public PluginFactory {
   DEFINE_VIRTUAL_MRPT_OBJECT(PosePluginFactory)
  public:

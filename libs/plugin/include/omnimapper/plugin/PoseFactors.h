@@ -10,10 +10,10 @@
 
 namespace omnimapper::mapper {
 
-// Between the poses that plugins speak of and the variables and factors of the graph: SE(2) in a planar map, where z,
-// roll and pitch are left out, SE(3) in a spatial one.
+// Conversions between the poses that plugins use and the variables and factors of the graph: SE(2) in a planar map,
+// where z, roll and pitch are left out, and SE(3) in a spatial one.
 
-/// Kind of the pose variables of such a map.
+/// Kind of the pose variables of a map with this motion.
 std::shared_ptr<const graph::Variable> poseVariable(Motion motion);
 /// Ambient value of a pose variable.
 Eigen::VectorXd poseValue(Motion motion, const mrpt::poses::CPose3D& map_from_base);
@@ -21,7 +21,7 @@ Eigen::VectorXd poseValue(Motion motion, const mrpt::poses::CPose3D& map_from_ba
 mrpt::poses::CPose3D poseOf(const graph::Graph& graph, base::VariableId id);
 
 /// Factor for a measured motion from pose `begin` to pose `end`. Variances below (0.1 mm)^2 and (0.001 deg)^2 are
-/// raised to that: nothing is known exactly. Of a matrix that is no covariance the diagonal alone is taken.
+/// raised to these values. If a matrix is not positive definite, only its diagonal is used.
 graph::FactorRecord betweenPoses(Motion motion, base::VariableId begin, base::VariableId end,
                                  const RelativeMotion& measured, const std::string& owner);
 /// Factor for a measured pose in the map; covariance in the tangent at the pose.

@@ -11,42 +11,42 @@
 
 namespace omnimapper::mapper {
 
-/// A continuous pose source: it can tell the motion over any span it covers (thesis 5.2.2.1, 5.3.4).
+/// A continuous pose source: it returns the motion over any span that it covers (thesis 5.2.2.1, 5.3.4).
 class PosePlugin {
  public:
   virtual ~PosePlugin() = default;
   enum class Taken {
     not_mine,  ///< of another kind or sensor
     taken,
-    unusable,  ///< of its kind, but not finite, or its time runs backwards
+    unusable,  ///< of its kind, but with values that are not finite or time that runs backwards
   };
-  /// Takes an observation, never null, into its history if it is of its kind. Called in order of arrival, which need
-  /// not be that of stamps. A source that works on it later keeps the pointer: nobody changes what it points to.
+  /// Takes an observation, never null, into its history if it is of its kind. Called in order of arrival, which may
+  /// differ from the order of stamps. A source may keep the pointer for later: the observation is never changed.
   virtual Taken add(const mrpt::obs::CObservation::ConstPtr& observation) = 0;
   struct Span {
     base::Stamp begin, end;
   };
-  /// The span of time of which the last add() taught it something; none if there is none. Key frames in it that were
-  /// linked by what was known before are linked anew.
+  /// The time span for which the last add() brought new information; none if it brought none. Key frames in the span
+  /// that were linked with older information are linked again.
   virtual std::optional<Span> news() const { return std::nullopt; }
-  /// Everything stamped up to `stamp` has arrived, late data apart: what takes work and needs the order of stamps is
-  /// done here. Called before motions up to there are asked for.
+  /// Called when everything stamped up to `stamp` has arrived, except late data, and before motions up to `stamp` are
+  /// requested. Heavy work that needs the order of stamps is done here.
   virtual void processUntil(base::Stamp /*stamp*/) {}
-  /// Motion from `begin` to `end` (begin <= end), none if the span is not covered.
-  /// Additive: cov(a, c) = cov(a, b) transported + cov(b, c), so that a span may be split without gain or loss.
+  /// Motion from `begin` to `end` (begin <= end); none if the span is not covered.
+  /// Additive: cov(a, c) = cov(a, b) transported + cov(b, c), so a span may be split and its covariance stays the same.
   virtual std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const = 0;
-  /// Until when it can answer; none before it has data.
+  /// The time up to which it can return motions; none before it has data.
   virtual std::optional<base::Stamp> coveredUntil() const = 0;
-  /// A fallback is asked only for a span that no other source covers, and never holds up the queue. Of several
-  /// the first in the order of the INI that covers it answers alone.
+  /// A fallback is used only for a span that no other source covers, and the queue never waits for it. If there are
+  /// several, only the first in the order of the INI that covers the span is used.
   virtual bool isFallback() const { return false; }
-  /// Whether it tells what it measured. One that only guesses is not asked whether the base has moved.
+  /// Whether its motions are measured. A source that only guesses is not asked whether the base has moved.
   virtual bool measures() const { return true; }
-  /// What a user should know at the end of a run: sentences that name the sensor and the remedy.
+  /// Warnings for the user at the end of a run: sentences that name the sensor and the remedy.
   virtual std::vector<std::string> warnings() const { return {}; }
-  /// At the end of a run: what the source knows for or against the map.
+  /// The evidence of this source for or against the map, at the end of a run.
   virtual std::vector<Evidence> evidence() const { return {}; }
-  /// Spans before `stamp` will not be asked for any more.
+  /// Called when spans before `stamp` will not be requested any more.
   virtual void forgetBefore(base::Stamp /*stamp*/) {}
 };
 

@@ -7,7 +7,7 @@
 #include <iosfwd>
 #include <string>
 
-// A variable that a plugin's section of a map file names.
+// Reading and writing the id of a variable in a plugin's section of a map file.
 namespace omnimapper::mapper {
 
 inline void writeVariableId(std::ostream& out, base::VariableId id) {
@@ -24,7 +24,7 @@ inline base::VariableId readVariableId(std::istream& in, const View& view, const
   return id;
 }
 
-/// Throws Error(unreadable_input) on a version of the future.
+/// Throws Error(unreadable_input) if the version is later than `newest`.
 inline void expectVersion(const map::MapSection& saved, std::uint32_t newest) {
   if (saved.version <= newest) return;
   throw base::Error(base::ExitCode::unreadable_input,

@@ -11,25 +11,25 @@
 
 namespace omnimapper::mapper {
 
-/// How far a measurement plugin trusts where its sensor is on the base, as an observation tells it (or the INI, see
-/// SensorPoses). The options struct of a plugin that leaves the choice to its user derives from this one.
+/// How far a measurement plugin trusts the pose of its sensor on the base that an observation (or the INI, see
+/// SensorPoses) reports. The options struct of a plugin that leaves the choice to its user derives from this one.
 struct SensorPoseTrust {
   enum class Estimate {
-    no,             ///< what is told is exact
+    no,             ///< the reported pose is exact
     once,           ///< one correction for all key frames of a run: a sensor mounted a little askew
     each_key_frame  ///< one for each: a pan-tilt head whose encoders are noisy
   };
   Estimate estimate = Estimate::no;
-  double position_sigma = 0.01;                               ///< [m] of what is told
-  double angle_sigma = base::option_text::kRadiansPerDegree;  ///< [rad] of what is told
+  double position_sigma = 0.01;                               ///< [m] of the reported pose
+  double angle_sigma = base::option_text::kRadiansPerDegree;  ///< [rad] of the reported pose
 
   /// Adds its keys to the table of a struct that derives from it.
   template <class Options>
   static base::OptionTable<Options>& declareIn(base::OptionTable<Options>& table);
 };
 
-/// A sensor's place on the base as a variable with a prior (thesis 5.3.3: static or dynamic transform from sensor to
-/// base). What is told may move from key frame to key frame, so the variable is what is missing from it:
+/// The pose of a sensor on the base as a variable with a prior (thesis 5.3.3: static or dynamic transform from sensor
+/// to base). The reported pose may differ between key frames, so the variable is a correction to it:
 ///   base_from_sensor = base_from_reported * reported_from_sensor,
 /// kind se3, prior at the identity. A factor that uses it binds (pose, reported_from_sensor, ...) and keeps
 /// base_from_reported as a measurement.
@@ -38,19 +38,19 @@ class SensorCorrections {
   /// `owner`: the plugin's INI section.
   SensorCorrections(const SensorPoseTrust& trust, std::string owner) : trust_(trust), owner_(std::move(owner)) {}
 
-  /// The variable reported_from_sensor of a sensor at a key frame; added to `batch` with its prior if it is new, and
-  /// then provisional. None if what is told is taken as exact.
+  /// The variable reported_from_sensor of a sensor at a key frame. If it is new, it is added to `batch` with its prior,
+  /// and the id is provisional. None if the reported pose counts as exact.
   std::optional<base::VariableId> find(const std::string& label, base::KeyFrameId frame, Batch& batch);
-  /// To be called from the plugin's applied(), of every batch that find() was given.
+  /// The plugin's applied() must call this for every batch that was passed to find().
   void applied(const AppliedBatch& ids);
 
-  /// What is estimated of it now; the identity for none and for one that is still provisional.
+  /// The current estimate of the correction; the identity if `id` is none or still provisional.
   static geometry::Se3 estimate(std::optional<base::VariableId> id, const graph::Graph& graph);
-  /// Of the prior, in the tangent of the variable; zero if what is told is taken as exact.
+  /// Covariance of the prior in the tangent of the variable; zero if the reported pose counts as exact.
   geometry::Matrix6d priorCovariance() const;
 
  private:
-  using Key = std::pair<std::string, std::optional<base::KeyFrameId>>;  // no key frame: the one of all
+  using Key = std::pair<std::string, std::optional<base::KeyFrameId>>;  // no key frame: one for all of them
 
   SensorPoseTrust trust_;
   std::string owner_;

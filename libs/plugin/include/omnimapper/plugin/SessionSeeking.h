@@ -2,21 +2,22 @@
 
 namespace omnimapper::mapper {
 
-/// What a measurement plugin also is that seeks the newest session, while nothing ties it to the saved map, in all of
-/// that map.
+/// A second base class for measurement plugins that search the whole saved map for the newest session while nothing
+/// ties it to the map.
 class SeeksSession {
  public:
   virtual ~SeeksSession() = default;
-  /// Whether it does so now: it has something of the map and of the session to compare.
+  /// Whether it is searching now: it needs data of both the map and the session to compare.
   virtual bool isSeeking() const = 0;
 };
 
-/// What a measurement plugin also is whose landmarks many places have alike, such as walls: one of them is too little
-/// to tell where a session lies, and what it ties wrongly hides the session from those who seek it.
+/// A second base class for measurement plugins whose landmarks look alike in many places, such as walls. One of them
+/// does not determine where a session lies, and a wrong tie to it ends the search of the plugins that seek.
 class LeavesSeeking {
  public:
   virtual ~LeavesSeeking() = default;
-  /// Told before each key frame is measured: while `others_seek`, nothing ties the newest session to those before.
+  /// Called before each key frame is measured. `others_seek` is true while the newest session is not tied to the
+  /// earlier ones and another plugin is searching for it.
   virtual void leaveSeeking(bool others_seek) = 0;
 };
 

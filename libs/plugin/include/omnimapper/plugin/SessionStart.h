@@ -11,29 +11,30 @@ namespace omnimapper::mapper {
 
 /// Where a session begins on a map that is continued.
 struct SessionStart {
-  mrpt::poses::CPose3D map_from_base;  ///< the guess
+  mrpt::poses::CPose3D map_from_base;  ///< the initial estimate
   double position_sigma = 1;           ///< [m]
   double angle_sigma = 0.5;            ///< [rad]
 };
 
-/// Nothing is known of it: anywhere among the key frames, any heading. On a map with at least one key frame.
+/// The start of a session whose pose is unknown: anywhere among the key frames, with any heading. The map must have a
+/// key frame.
 SessionStart startAnywhere(const map::Map& map);
 
-/// The guess as a factor on the session's anchor. What measurements contradict by much does not pull at the map for
-/// ever.
+/// The initial estimate as a prior on the session's anchor, with a robust loss: if measurements contradict it by much,
+/// it has little effect on the map.
 graph::FactorRecord startFactor(Motion motion, base::VariableId anchor, const SessionStart& start);
 
-/// A better guess for a session that nothing ties to the map yet.
+/// A better initial estimate for a session that nothing ties to the map yet.
 struct SessionPlace {
-  base::KeyFrameId frame;  ///< of the newest session
+  base::KeyFrameId frame;  ///< a key frame of the newest session
   SessionStart start;      ///< where that key frame is, and how well this is known
 };
 
-/// Why it cannot be placed: it is not the newest, or joined; empty if it can.
+/// Why the session cannot be placed, such as that it is not the newest or is joined; empty if it can be placed.
 std::string whyFixed(const SessionPlace& place, const graph::Graph& graph, const map::Map& map);
 
-/// Moves the session as a whole, so that its key frame is there: key frames, anchor, landmarks of its own, and the
-/// guess that holds it.
+/// Moves the whole session, so that the key frame is at its new pose: key frames, anchor, the session's own landmarks,
+/// and the prior on its anchor.
 void placeSession(const SessionPlace& place, graph::Graph& graph, map::Map& map);
 
 }  // namespace omnimapper::mapper

@@ -9,7 +9,7 @@
 
 namespace omnimapper::mapper {
 
-/// A section of a plugin that holds the options of several structs.
+/// An INI section of a plugin that has the options of several structs.
 template <class... Structs>
 struct SharedSection {
   static const std::vector<base::OptionSpec>& options() {
@@ -24,7 +24,7 @@ struct SharedSection {
   template <class Struct>
   static Struct read(const base::ConfigSection& section) {
     auto keys = sectionKeysOfEngine();
-    const auto& own = Struct::table().specs();  // which read() knows
+    const auto& own = Struct::table().specs();  // these are read by read() itself
     for (const auto& spec : options()) {
       const auto is_it = [&](const base::OptionSpec& other) { return other.key == spec.key; };
       if (std::none_of(own.begin(), own.end(), is_it)) keys.push_back(spec.key);

@@ -9,7 +9,7 @@
 
 namespace omnimapper::mapper {
 
-/// Seconds since it was made.
+/// Measures the seconds since its construction.
 class StopWatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -29,8 +29,8 @@ enum class Stage {
   engine,  ///< all the rest
 };
 
-/// Wall time of the engine's thread by stage, in total and for each key frame. The engine measures it, algorithms do
-/// not.
+/// Wall time of the engine's thread by stage, in total and for each key frame. Only the engine measures it; algorithms
+/// do not.
 class StageTimes {
  public:
   struct Total {
@@ -40,11 +40,11 @@ class StageTimes {
   struct PerKeyFrame {
     double plugins_ms = 0;
     double solve_ms = 0;
-    double engine_ms = 0;  ///< everything else but waiting; letting go of old data included
+    double engine_ms = 0;  ///< everything else except waiting; includes releasing old data
   };
 
-  /// Measures a stage until it is destroyed. While a second one measures, the first stands still: each second counts
-  /// once.
+  /// Measures a stage until it is destroyed. It pauses while a timer that was started within it measures, so each
+  /// second counts once.
   class [[nodiscard]] Timer {
    public:
     Timer(StageTimes& times, Stage stage, const std::string& section);
@@ -58,23 +58,23 @@ class StageTimes {
     double& of_stage_;
     Timer* outer_;
     double before_ = 0;  // [s] until a timer within this one took over
-    StopWatch watch_;    // since it began or went on
+    StopWatch watch_;    // since it began or resumed
   };
-  /// `section`: of the INI, for plugins and outputs; else empty. These times must outlive the timer and stay in their
-  /// place.
+  /// `section` is the INI section of a plugin or output, else empty. This object must outlive the timer and must not be
+  /// moved.
   Timer measure(Stage stage, const std::string& section = {}) { return {*this, stage, section}; }
 
   /// Adds a time that was measured.
   void add(Stage stage, const std::string& section, double seconds);
   void addKeyFrame(const PerKeyFrame& times) { key_frames_.push_back(times); }
 
-  /// What has been spent until some point of the run.
+  /// The times spent until some point of the run.
   struct Mark {
     StopWatch watch;
     double plugin, solve, wait;
   };
   Mark mark() const;
-  /// What has passed since `begin` was the work on one key frame.
+  /// Adds the times since `begin` as those of one key frame.
   void addKeyFrameSince(const Mark& begin);
 
   /// By name: "source", "perception wait", "job wait", "plugin <section>", "solve", "output <section>", "engine".
@@ -87,7 +87,7 @@ class StageTimes {
   std::map<std::string, Total> totals_;
   std::array<double, static_cast<std::size_t>(Stage::engine) + 1> seconds_{};
   std::vector<PerKeyFrame> key_frames_;
-  /// The innermost timer that measures. It stays with the times that it began with: a copy has none.
+  /// The innermost running timer. It is not copied: a copy of these times has no running timer.
   struct Running {
     Running() = default;
     Running(const Running&) {}

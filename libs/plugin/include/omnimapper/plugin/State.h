@@ -11,7 +11,7 @@
 
 namespace omnimapper::mapper {
 
-/// Map, graph and what is known of their accuracy, const. Valid during the call it is given to.
+/// Read-only map, graph and their uncertainty. Valid only during the call that it is passed to.
 struct State {
   const map::Map& map;
   const graph::Graph& graph;
@@ -25,15 +25,15 @@ struct State {
   std::optional<Eigen::MatrixXd> jointCovariance(const std::vector<base::VariableId>& ids) const {
     return uncertainty.joint(graph, ids);
   }
-  /// Whether it is known how two sessions lie to each other: they are one, or both are joined to the map.
+  /// Whether the relative pose of two sessions is known: they are the same, or both are joined to the map.
   bool areJoined(std::uint16_t session, std::uint16_t other) const;
-  /// Every factor that speaks of the landmark, in the order of ids.
+  /// Every factor on the landmark's variables, in the order of ids.
   std::vector<base::FactorId> factorsOf(base::LandmarkId id) const;
-  /// Active landmarks of a plugin, by its INI section: what a new observation may be associated with.
+  /// Active landmarks of the plugin with this INI section, which new observations may be associated with.
   std::vector<base::LandmarkId> candidates(const std::string& owner) const;
 };
 
-/// A state of its own that nothing changes any more, for jobs. Making it costs little: it shares what has not changed.
+/// An own copy of the state for jobs, which does not change any more. It is cheap to make: unchanged data is shared.
 struct Snapshot {
   map::Map map;
   graph::Graph graph;

@@ -5,28 +5,28 @@
 
 namespace omnimapper::mapper {
 
-/// One figure of a finished map that says whether it can be trusted, as a plugin found it.
+/// One number that a plugin computed of a finished map, and whether it is for or against the map.
 struct Evidence {
   enum class Says {
-    good,        ///< nothing against the map
-    too_little,  ///< what would show an error is not there
-    against_it,  ///< a consistent map would not have it
+    good,        ///< it is not against the map
+    too_little,  ///< there is too little data to show an error
+    against_it,  ///< a consistent map would not have this value
   };
   std::string name;  ///< key in summary.json, ending in its unit
   double value = 0;
   Says says = Says::good;
-  std::string reason;  ///< half a sentence that says what, where and when; empty if nothing is to be said
+  std::string reason;  ///< part of a sentence: what, where and when; empty if there is nothing to report
 };
 
-/// What a run thinks of its own map.
+/// The judgement of a run on its own map.
 struct Verdict {
   enum class Answer { consistent, cannot_tell, suspicious };
   Answer answer = Answer::cannot_tell;
   std::vector<Evidence> evidence;
 };
 
-/// Suspicious if any evidence is against the map, else "cannot tell" if there is too little of some, or none at all.
-/// Where one plugin knows too little and another tells more under the same name, the other counts.
+/// Suspicious if any evidence is against the map; else "cannot tell" if any is too_little or there is none at all; else
+/// consistent. A too_little is ignored if another plugin has better evidence of the same name.
 Verdict conclude(std::vector<Evidence> all);
 
 /// "consistent", "cannot tell" or "suspicious".

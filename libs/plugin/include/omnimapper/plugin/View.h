@@ -16,20 +16,20 @@
 
 namespace omnimapper::mapper {
 
-/// What the engine counted of what it was given.
+/// The engine's counts of the observations that it was given.
 struct RunCounts {
   std::size_t observations = 0;    ///< handed to the engine
-  std::size_t unwanted = 0;        ///< no plugin or extractor takes them
-  std::size_t not_triggered = 0;   ///< taken, but the trigger gave them no pose of their own
+  std::size_t unwanted = 0;        ///< no plugin or extractor uses them
+  std::size_t not_triggered = 0;   ///< used, but the trigger made no key frame of them
   std::size_t no_stamp = 0;        ///< refused: zero stamp
   std::size_t repeated_stamp = 0;  ///< refused: the same sensor and stamp a second time
   std::size_t too_late = 0;        ///< refused: older than [mapper] horizon_s
-  std::size_t late = 0;            ///< came after their window and were put in their place
-  std::size_t spliced = 0;         ///< key frames that late observations made between others
-  std::size_t hurried = 0;         ///< stamps worked on before their window was over, [mapper] queue_limit
-  std::size_t left_out = 0;        ///< by the source: nothing can be made of them (source::ObservationGate)
-  std::size_t unusable = 0;        ///< refused: odometry that runs backwards in time or leaps
-  std::size_t unconnected = 0;     ///< refused: no pose plugin tells the motion since the key frame before
+  std::size_t late = 0;            ///< came after their window and were inserted in order
+  std::size_t spliced = 0;         ///< key frames inserted between others for late observations
+  std::size_t hurried = 0;         ///< stamps processed before their window was over, by [mapper] queue_limit
+  std::size_t left_out = 0;        ///< discarded by the source as unusable (source::ObservationGate)
+  std::size_t unusable = 0;        ///< refused: odometry that runs backwards in time or jumps
+  std::size_t unconnected = 0;     ///< refused: no pose plugin has the motion since the previous key frame
   std::size_t solves = 0;
 };
 
@@ -38,30 +38,30 @@ struct SolveRecord {
   std::size_t key_frames = 0;
   std::size_t factors = 0;
   double initial_cost = 0, final_cost = 0;
-  double seconds = 0;  ///< that it took
+  double seconds = 0;  ///< duration of the solve
 };
 
-/// Everything there is to see, const. Valid during the call it is given to.
+/// Read-only access to the whole run. Valid only during the call that it is passed to.
 struct View : State {
   const DecisionLog& decisions;
   const StageTimes& times;
   const RunCounts& counts;
   const std::vector<SolveRecord>& solves;
-  /// What a user should know of this run: damaged input, interruption, observations left out.
+  /// Warnings for the user of this run: damaged input, interruption, observations left out.
   const std::vector<std::string>& warnings;
-  /// What a map file holds beside graph, frames and landmarks: sections of plugins, and those that nobody here knows.
+  /// The other sections of a map file, beside graph, frames and landmarks: those of plugins and unknown ones.
   const std::vector<map::MapSection>& sections;
-  /// The run only finds its way in a map that stands: what earlier sessions made is not its own.
+  /// Whether the run only localizes in a saved map: it does not change what earlier sessions made.
   bool map_is_held = false;
-  /// Of such a run, one for each key frame in the order they came.
+  /// The estimates of a run that localizes, one for each key frame in the order of arrival.
   const std::vector<LocalizationEstimate>& localization;
-  /// What the run thinks of the map, once it is finished.
+  /// The judgement of the run on the map, once the map is finished.
   const Verdict& verdict;
-  /// Of a run on live sensors.
+  /// The metrics of a run on live sensors; none for other runs.
   const std::optional<LiveMetrics>& live;
 };
 
-/// The map of a run and what the run notes beside it: what a View shows.
+/// The data of a run that a View refers to: its map and everything recorded with it.
 struct ViewedRun {
   map::Map map;
   graph::Graph graph;
