@@ -15,8 +15,7 @@ namespace omnimapper::plugins {
 /// horizontal range [m], bearing [rad, in (-pi, pi]], each predicted - measured.
 class RangeBearingFactor2 : public graph::SizedFactor<2, graph::Se2Kind, graph::Point2Kind> {
  public:
-  /// `sensor_in_base`: horizontal position [m]. `bearing`: horizontal direction from the sensor, from the base's x
-  /// axis.
+  /// `sensor_in_base`: position on the floor [m]. `bearing`: horizontal angle at the sensor, from the base's x axis.
   RangeBearingFactor2(const Eigen::Vector2d& sensor_in_base, double range, double bearing)
       : sensor_in_base_(sensor_in_base), range_(range), bearing_(bearing) {}
 

@@ -31,7 +31,7 @@ class SessionBySigns {
   std::optional<Placement> take(const std::vector<SignMeasurement>& measurements, const map::KeyFrame& frame,
                                 const SignTracks& tracks, const mapper::View& view, const KnownOffsets& offsets,
                                 double recent_travel);
-  /// The place of the session is unknown, so that positions cannot tell which sign of the map a measurement is of.
+  /// The place of the session is unknown, so that positions do not show which sign of the map a measurement is of.
   bool isLost() const { return is_lost_; }
   /// Signs have located the session, and no factor connects it to the map yet.
   bool isPlaced() const { return placed_at_.has_value(); }

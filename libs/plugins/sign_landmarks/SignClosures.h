@@ -10,14 +10,14 @@
 
 namespace omnimapper::plugins {
 
-/// Adds a hypothesis for each new sign that is the same as an older one: exactly one other sign has its text, and that
-/// was not seen recently. If two others have the text, or the same text is seen recently at another place, the signs
-/// are marked as repeated and no hypothesis is added.
+/// For each new sign, adds the hypothesis that it is the same as another sign if exactly one other sign has its text
+/// and was not seen recently. If two others have the text, or the same text is seen at another place at the same time,
+/// the signs are marked as repeated and no hypothesis is added.
 mapper::Batch proposeSameSigns(SignTracks& tracks, const SignLandmarksOptions& options, const std::string& section,
                                const mapper::View& view);
 
-/// Merges signs that are the same: a hypothesis says so and was accepted, or their texts agree and their positions
-/// differ by less than 1 m and less than the gate of the map's uncertainty.
+/// Merges signs that are the same: either the hypothesis was accepted, or their texts agree and their positions agree
+/// within the map's uncertainty and to 1 m (0.25 m if the texts agree only partly or one may be misread).
 mapper::Batch mergeSameSigns(const SignTracks& tracks, const SignLandmarksOptions& options, const std::string& section,
                              const mapper::View& view);
 

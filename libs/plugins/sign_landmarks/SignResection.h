@@ -35,8 +35,8 @@ struct SessionFit {
 
 /// Resection: the pose from which the signs are seen in these directions, the newest of them last. It has a result only
 /// if at least four measurements of at least two signs fit, one of them numbered; at least two thirds of all
-/// measurements fit; the base moved at least 0.5 m between them; the standard deviation of the position is at most 0.35
-/// m; and no other place fits nearly as many. Derivation: doc/derivations/bearing.md.
+/// measurements fit; the base moved at least 0.5 m between them; the position's sigma is at most 0.35 m; and no other
+/// place fits nearly as many. Derivation: doc/derivations/bearing.md.
 std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& sightings);
 
 }  // namespace omnimapper::plugins

@@ -175,7 +175,8 @@ TEST_F(Query, WrongWordsGetTheNearestRightOnes) {
   }
   const auto none = ask({"777"});
   EXPECT_EQ(none.code, kNothingFound);
-  EXPECT_NE(none.err.find("nothing is called '777', nor nearly so; omnimapper-query MAP list says what there is"), std::string::npos);
+  EXPECT_NE(none.err.find("nothing is called '777', nor nearly so; omnimapper-query MAP list says what there is"),
+            std::string::npos);
 }
 
 TEST_F(Query, WhatCannotBeAskedIsAnErrorThatSaysWhy) {

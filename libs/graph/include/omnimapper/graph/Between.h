@@ -8,9 +8,8 @@
 namespace omnimapper::graph {
 
 /// Measured motion from pose a to pose b. Variables: map_from_a, map_from_b.
-/// Residual: minus(inverse(map_from_a) * map_from_b, a_from_b measured), that is, translation [m],
-/// then yaw or rotation vector [rad], in the measured frame b. Its noise is the covariance of a_from_b in its own
-/// tangent.
+/// Residual: minus(inverse(map_from_a) * map_from_b, a_from_b measured), that is, translation [m] and
+/// then yaw or rotation vector [rad], in the measured frame b. Noise: covariance of a_from_b in its own tangent.
 /// Derivation: doc/derivations/between.md.
 class BetweenSe2 : public SizedFactor<3, Se2Kind, Se2Kind> {
  public:

@@ -63,7 +63,7 @@ class Graph {
 
   /// noise * residual at the current values; weight and loss are not applied.
   Eigen::VectorXd whitenedResidual(base::FactorId id) const;
-  /// Sum of weight |whitened residual|^2, losses are not applied.
+  /// Sum of weight |whitened residual|^2; losses are not applied.
   double chi2() const;
   /// Sum of 1/2 weight loss(|whitened residual|^2): what solve() minimises.
   double cost() const;

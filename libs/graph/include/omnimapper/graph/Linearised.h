@@ -12,7 +12,7 @@ struct Linearised {
   Eigen::VectorXd residual;                ///< whitened
   std::vector<Eigen::MatrixXd> jacobians;  ///< whitened, by the tangent of each of its variables
 
-  /// Linearises a factor that need not be in the graph. Throws Error(internal) if its variables are not in the graph.
+  /// Linearises a factor that need not be in the graph. Its variables must be, else Error(internal) is thrown.
   Linearised(const Graph& graph, const FactorRecord& record);
   Linearised(const Graph& graph, base::FactorId factor) : Linearised(graph, graph.factor(factor)) {}
 };

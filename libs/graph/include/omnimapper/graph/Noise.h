@@ -5,8 +5,7 @@
 namespace omnimapper::graph {
 
 /// How much a residual is trusted: a square matrix W with W^T W = information = covariance^-1. W * residual is the
-/// whitened residual, whose unit is one sigma. W is always valid; it has a row and a column for each row of the
-/// residual.
+/// whitened residual, whose unit is one sigma. W is always valid; its size is that of the residual.
 class SquareRootInformation {
  public:
   /// Each throws Error(internal) if the matrix is not square, not symmetric, not positive definite or not finite.

@@ -30,11 +30,11 @@ struct RunResult {
   std::vector<std::string> foreign_files;   ///< other files in the requested folder, which no run wrote
   std::size_t key_frames = 0, factors = 0;  ///< of the whole map
   std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;
-  std::size_t localized = 0, located = 0;  ///< in a run that localizes: key frames, and those with a known pose
-  bool awaits_confirmation = false;        ///< one measurement locates it in the map; none confirms it yet
+  std::size_t localized = 0, located = 0;        ///< in a run that localizes: key frames, and those with a known pose
+  bool awaits_confirmation = false;              ///< one match locates it in the map; no second one confirms it
   std::map<std::string, std::size_t> landmarks;  ///< of the whole map, by label
   std::vector<map::Session> sessions;            ///< of the whole map; the last one is this run
-  std::optional<map::Level> level;               ///< of the whole map; none if the run localizes in an old one
+  std::optional<map::Level> level;               ///< of the whole map; none if the run only localizes
   std::optional<LiveMetrics> live;               ///< only of a live run on sensors
   double log_seconds = 0;                        ///< from first to last stamp
   double wall_seconds = 0;                       ///< of the whole run

@@ -43,11 +43,12 @@ std::string toText(const PerceptionResult& result, const std::string& output);
 
 /// Writes a log of what the extractors of [perception] derive from each observation, in the order of the input log. The
 /// mapper runs the same extractors on the same bits, so the map of this log is that of the raw log. Of several derived
-/// observations with the same stamp, label and class, the first is written; with `with_raw`, one that was read goes
-/// first. After damaged input or `stop`, it still writes the log of what was read and returns the exit code of the
-/// cause. If an extractor throws base::Error for some observations, the code is missing_images if the first of them
-/// lacks its images, else damaged_input. Throws that error if no observation could be used, base::Error if no extractor
-/// is named or none uses any observation, and base::Error for everything that prevents the log from being written.
+/// observations with the same stamp, label and class, only the first is written, and none if `with_raw` writes such an
+/// observation of the input log. After damaged input or `stop`, it still writes the log of what was read and returns
+/// the exit code of the cause. If an extractor throws base::Error for some observations, the code is missing_images if
+/// the first of them lacks its images, else damaged_input. Throws that error if no observation could be used,
+/// base::Error if no extractor is named or none uses any observation, and base::Error for all that prevents the log
+/// from being written.
 PerceptionResult runPerception(const PerceptionRequest& request, const base::Config& config, base::Progress& progress,
                                const std::function<bool()>& stop);
 

@@ -14,8 +14,8 @@ struct LocalizationEstimate {
   base::KeyFrameId key_frame;
   base::Stamp stamp;
   mrpt::poses::CPose3D map_from_base;
-  /// In the tangent at the pose: x y z [m], rotation vector [rad]; the map itself counts as exact. None while some
-  /// direction of a variable is undetermined.
+  /// Covariance in the tangent at the pose: x y z [m], rotation vector [rad]; the map itself counts as exact. None
+  /// while some direction of a variable is undetermined.
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
   bool joined = false;  ///< a measurement had tied the session to the map
 

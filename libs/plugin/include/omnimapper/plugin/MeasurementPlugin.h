@@ -65,7 +65,7 @@ class MeasurementPlugin {
   /// if frames, landmarks and graph suffice.
   virtual std::optional<map::MapSection> save() const { return std::nullopt; }
   /// Called once, before the first observation, when a map is continued: restores what save() returned and what it
-  /// needs of earlier sessions. `saved` is null if the file has no section of the plugin. Throws Error(unreadable_input).
+  /// needs of earlier sessions. `saved` is null if the file has no section of it. Throws Error(unreadable_input).
   virtual void restore(const map::MapSection* /*saved*/, const View& /*view*/) {}
 };
 
