@@ -289,7 +289,7 @@ class Judge {
       add(Weight::problem,
           quoted(label) + ": the poses are not level: on average the base is tilted by " +
               fixed(degrees(poses.tilt), 0) +
-              " deg against the z axis of their frame, by which floors and walls are told apart; turn "
+              " deg against the z axis of their frame, by which floors and walls are distinguished; turn "
               "the poses so that z points up, or tell [mapper] sensors where the sensor is on the base");
     }
   }

@@ -12,18 +12,18 @@ base::OptionTable<Options> depthSensorTable() {
   using base::Range;
   return base::OptionTable<Options>()
       .number("noise_at_1m_m", &Options::noise_at_1m, Range::positive(),
-              "Standard deviation of a pixel's depth at 1 m; it grows with the square of the depth.")
+              "Standard deviation of a pixel's depth at 1 m. It grows with the square of the depth.")
       .number("step_at_1m_m", &Options::step_at_1m, Range::notNegative(),
-              "Step between two depths that the sensor can tell apart at 1 m; 0 if it has none.")
+              "Step between two depths that the sensor can distinguish at 1 m. 0 means that it has no such step.")
       .number("correlation_area_px2", &Options::correlation_area, {1, 10000},
-              "How many neighbouring pixels share one error.")
-      .number("min_depth_m", &Options::min_depth, Range::positive(), "Nearer pixels are left out.")
-      .number("max_depth_m", &Options::max_depth, Range::positive(), "Farther pixels are left out.");
+              "Number of neighbouring pixels that share one depth error.")
+      .number("min_depth_m", &Options::min_depth, Range::positive(), "Pixels with a smaller depth are left out.")
+      .number("max_depth_m", &Options::max_depth, Range::positive(), "Pixels with a larger depth are left out.");
 }
 
 /// What the options of those that tell covariances add.
 inline constexpr char kScaleHelp[] =
-    "Relative error of depth that all pixels share, standard deviation; covariances count it.";
+    "Standard deviation of the relative depth error that all pixels share. Reported covariances include it.";
 
 /// Throws Error(out_of_range) unless 0 < min_depth < max_depth.
 template <class Options>

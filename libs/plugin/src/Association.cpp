@@ -219,7 +219,7 @@ void Match::tell(Decision& decision) const {
       decision.reason = "fits two landmarks alike";
       break;
     case Kind::untold:
-      decision.reason = "how well the map is known cannot be told: left out";
+      decision.reason = "the covariance is not known: left out";
       break;
     case Kind::unknown:
       decision.reason = !pairing       ? "none is near"

@@ -67,7 +67,7 @@ bool GlobalRelocalization::isLost(const mapper::State& state, mapper::Decision& 
   constexpr double kSigmas = 3;
   const auto& frame = state.map.keyFrame(newest_.back().frame);
   const auto near = places_->nearest(planar(frame.map_from_base), 1);
-  decision.numbers.emplace_back("way of the session [m]", way_);
+  decision.numbers.emplace_back("distance travelled in the session [m]", way_);
   const auto covariance = state.covarianceBetween(near.front().key_scan.frame, frame.id);
   if (!covariance) return true;
   const double uncertainty =

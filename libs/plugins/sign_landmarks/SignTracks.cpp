@@ -37,19 +37,19 @@ void SignTracks::update(const mapper::State& state) {
 void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_travel) {
   if (!last_pose_ || frame.stamp > last_stamp_) {  // not of a frame that came late
     if (last_pose_ && state.graph.contains(*last_pose_))
-      way_ += mapper::poseOf(state.graph, *last_pose_).distanceTo(mapper::poseOf(state.graph, frame.pose));
+      travelled_ += mapper::poseOf(state.graph, *last_pose_).distanceTo(mapper::poseOf(state.graph, frame.pose));
     last_pose_ = frame.pose;
     last_stamp_ = frame.stamp;
   }
   update(state);
-  while (!waiting_.empty() && way_ - waiting_.front().last_seen > recent_travel) {
+  while (!waiting_.empty() && travelled_ - waiting_.front().last_seen > recent_travel) {
     for (const auto& view : waiting_.front().views) keepForTheEnd(view);
     waiting_.pop_front();
   }
 }
 
 void SignTracks::add(base::LandmarkId id) {
-  known_[id].last_seen = way_;
+  known_[id].last_seen = travelled_;
   fresh.push_back(id);
 }
 
@@ -58,12 +58,12 @@ std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double rece
     return waiting.views.back().label == view.label &&
            agreementOf(waiting.views.back().sighting.text, view.sighting.text) == Agreement::agrees;
   });
-  Waiting waiting{{}, way_};
+  Waiting waiting{{}, travelled_};
   if (found != waiting_.end()) {
     waiting = std::move(*found);
-    waiting.last_seen = way_;
+    waiting.last_seen = travelled_;
     waiting_.erase(found);
-    const auto is_old = [&](const SignView& each) { return way_ - each.travelled > recent_travel; };
+    const auto is_old = [&](const SignView& each) { return travelled_ - each.travelled > recent_travel; };
     auto& views = waiting.views;
     for (const auto& each : views)
       if (is_old(each)) keepForTheEnd(each);

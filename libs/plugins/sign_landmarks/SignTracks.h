@@ -28,16 +28,16 @@ class SignTracks {
   /// Removes landmarks that were retired or merged.
   void update(const mapper::State& state);
   void add(base::LandmarkId id);
-  void seen(base::LandmarkId id) { known_.at(id).last_seen = way_; }
+  void seen(base::LandmarkId id) { known_.at(id).last_seen = travelled_; }
 
   struct Known {
     base::VariableId variable;
     std::optional<double> last_seen;  ///< [m] distance travelled then; none if not seen in this session
   };
-  double travelled() const { return way_; }
+  double travelled() const { return travelled_; }
   const std::map<base::LandmarkId, Known>& known() const { return known_; }
   bool isRecent(const Known& known, double recent_travel) const {
-    return known.last_seen && way_ - *known.last_seen <= recent_travel;
+    return known.last_seen && travelled_ - *known.last_seen <= recent_travel;
   }
 
   /// Adds a view to the waiting views with the same text, and returns those not older than `recent_travel` [m].
@@ -62,7 +62,7 @@ class SignTracks {
   std::map<base::LandmarkId, Known> known_;
   std::deque<Waiting> waiting_;    // in the order in which they were last seen
   std::deque<SignView> unplaced_;  // views that waited too long
-  double way_ = 0;                 // [m] distance travelled by the base
+  double travelled_ = 0;           // [m] distance travelled by the base
   std::optional<base::VariableId> last_pose_;
   base::Stamp last_stamp_;
 };

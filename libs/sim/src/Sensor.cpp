@@ -39,18 +39,22 @@ const base::OptionTable<SensorOptions>& SensorOptions::table() {
   using base::Range;
   static const auto table =
       base::OptionTable<SensorOptions>()
-          .text("label", &SensorOptions::label, "Sensor label of its observations; empty: the name of the section.")
-          .number("x_m", &SensorOptions::x, {}, "Where the sensor is in the base, forward.")
-          .number("y_m", &SensorOptions::y, {}, "The same, to the left.")
-          .number("z_m", &SensorOptions::z, {}, "The same, up.")
-          .number("yaw_deg", &SensorOptions::yaw, {}, "How it is turned, to the left.")
-          .number("pitch_deg", &SensorOptions::pitch, {}, "How it is tilted, down.")
-          .number("roll_deg", &SensorOptions::roll, {}, "How it is rolled, to the right.")
-          .number("rate_hz", &SensorOptions::rate, {1e-6, 1e5}, "Measurements in a second.")
-          .number("first_s", &SensorOptions::first, Range::notNegative(), "When it measures first.")
-          .number("latency_s", &SensorOptions::latency, Range::notNegative(), "From its stamp to its place in the log.")
+          .text("label", &SensorOptions::label,
+                "Sensor label of the observations. Empty means the name of the section.")
+          .number("x_m", &SensorOptions::x, {}, "Position of the sensor in the robot's base frame, forward.")
+          .number("y_m", &SensorOptions::y, {}, "Position of the sensor in the robot's base frame, to the left.")
+          .number("z_m", &SensorOptions::z, {}, "Position of the sensor in the robot's base frame, upwards.")
+          .number("yaw_deg", &SensorOptions::yaw, {}, "Yaw of the sensor in the base frame, positive to the left.")
+          .number("pitch_deg", &SensorOptions::pitch, {}, "Pitch of the sensor in the base frame, positive downwards.")
+          .number("roll_deg", &SensorOptions::roll, {}, "Roll of the sensor in the base frame, positive to the right.")
+          .number("rate_hz", &SensorOptions::rate, {1e-6, 1e5}, "Number of measurements per second.")
+          .number("first_s", &SensorOptions::first, Range::notNegative(),
+                  "Time of the first measurement after the start of the run.")
+          .number("latency_s", &SensorOptions::latency, Range::notNegative(),
+                  "Latency from the stamp of a measurement to its arrival, which decides its place in the log.")
           .number("jitter_s", &SensorOptions::jitter, Range::notNegative(), "Standard deviation of the latency.")
-          .number("dropout", &SensorOptions::dropout, {0, 1}, "Part of its measurements that never arrive.");
+          .number("dropout", &SensorOptions::dropout, {0, 1},
+                  "Fraction of the sensor's measurements that never arrive.");
   return table;
 }
 

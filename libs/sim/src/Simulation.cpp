@@ -51,17 +51,17 @@ void refuseUnframed(const base::Config& config, const std::vector<std::unique_pt
 const base::OptionTable<SimulationOptions>& SimulationOptions::table() {
   static const auto table =
       base::OptionTable<SimulationOptions>()
-          .integer("seed", &SimulationOptions::seed, {0, 2147483647}, "Of all that is random in the measurements.")
+          .integer("seed", &SimulationOptions::seed, {0, 2147483647}, "Seed of all random numbers in the measurements.")
           .number("duration_s", &SimulationOptions::duration, {0, kLongestRun},
-                  "How long the sensors measure; 0: until the robot has arrived.")
-          .number("start_s", &SimulationOptions::start, {1e6, 4e9}, "Unix time at which it begins.")
-          .list("sensors", &SimulationOptions::sensors, "Sections of the sensors.")
+                  "Time for which the sensors measure. 0 means until the robot has arrived.")
+          .number("start_s", &SimulationOptions::start, {1e6, 4e9}, "Unix time at which the simulation begins.")
+          .list("sensors", &SimulationOptions::sensors, "Names of the sections that describe the sensors.")
           .choice("format", &SimulationOptions::format,
                   {{"observations", Format::observations}, {"frames", Format::frames}},
-                  "Of the rawlog: single observations, or MRPT's pairs of actions and sensory frames.")
+                  "Format of the rawlog: single observations, or MRPT's pairs of actions and sensory frames.")
           .choice("images", &SimulationOptions::images,
                   {{"embedded", Images::embedded}, {"external", Images::external}},
-                  "Where images are: in the rawlog, or in files beside it.");
+                  "Where images are stored: in the rawlog, or in files beside it.");
   return table;
 }
 

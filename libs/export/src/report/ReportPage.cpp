@@ -37,7 +37,7 @@ std::string large(double value) {
 std::string drawMetrics(const ReportInput& input, const RunMetrics& figures) {
   const mapper::View& view = input.view;
   std::string html = figure(grouped(view.map.key_frames.size()), "key frames") +
-                     figure(base::fixed(figures.way, figures.way < 100 ? 1 : 0) + " m", "way driven") +
+                     figure(base::fixed(figures.way, figures.way < 100 ? 1 : 0) + " m", "distance travelled") +
                      figure(duration(figures.log_seconds), "recorded");
   if (view.map_is_held) {
     html += figure(grouped(figures.located) + " of " + grouped(figures.localized), "new key frames located");

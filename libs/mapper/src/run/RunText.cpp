@@ -89,7 +89,7 @@ std::string toText(const RunResult& result) {
                 "key frames        %zu%s\n"
                 "%s"
                 "%s"
-                "way               %.1f m in %.1f s%s\n"
+                "travelled         %.1f m in %.1f s%s\n"
                 "wall time         %.2f s (%.0f times the log's own pace)\n",
                 result.key_frames - of_map, held.c_str(), factors.c_str(), closureLine(result, scope).c_str(),
                 result.way, result.log_seconds, scope, result.wall_seconds,

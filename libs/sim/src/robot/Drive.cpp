@@ -20,33 +20,47 @@ const base::OptionTable<DriveOptions>& DriveOptions::table() {
       base::OptionTable<Options>()
           .choice("mode", &Options::mode,
                   {{"tour", DriveMode::tour}, {"waypoints", DriveMode::waypoints}, {"still", DriveMode::still}},
-                  "Through all rooms so that all is seen, along waypoints, or not at all.")
+                  "Motion of the robot: a tour through all rooms so that everything is seen, a drive along waypoints, "
+                  "or none.")
           .text("waypoints", &Options::waypoints,
-                "Names of rooms or places 'x y' or 'x y heading' in metres and degrees, separated by commas.")
-          .text("start", &Options::start, "Where it begins, one of the same; empty: the first place of its way.")
-          .list("rooms", &Options::rooms, "Rooms of a tour; none: all that can be reached.")
-          .number("radius_m", &Options::radius, positive, "Of the robot, about the origin of its base.")
-          .number("max_speed_m_s", &Options::max_speed, {0.01, 100}, "Its largest speed.")
-          .number("max_turn_per_s_deg", &Options::max_turn, positive, "How far it turns in a second at most.")
+                "Waypoints separated by commas: names of rooms, or places 'x y' or 'x y heading' in metres and "
+                "degrees.")
+          .text("start", &Options::start,
+                "Start of the drive: the name of a room, or a place 'x y' or 'x y heading' in metres and degrees. "
+                "Empty means the first place of the route.")
+          .list("rooms", &Options::rooms, "Names of the rooms of a tour. Empty means all rooms that can be reached.")
+          .number("radius_m", &Options::radius, positive, "Radius of the robot about the origin of its base frame.")
+          .number("max_speed_m_s", &Options::max_speed, {0.01, 100}, "Largest speed of the robot.")
+          .number("max_turn_per_s_deg", &Options::max_turn, positive, "Largest turn rate of the robot.")
           .number("max_acceleration_m_s2", &Options::max_acceleration, positive,
-                  "Largest acceleration along its way, and the largest across it.")
+                  "Largest acceleration of the robot along its path, and also the largest across it.")
           .number("max_turn_acceleration_per_s2_deg", &Options::max_turn_acceleration, positive,
-                  "How much the turn in a second changes in a second at most.")
+                  "Largest angular acceleration of the robot.")
           .number("pause_s", &Options::pause, {0, 3600},
-                  "Stay at each waypoint or place of a tour; 0: waypoints without a heading are passed by.")
-          .number("look_around_deg", &Options::look_around, zero_or_more, "Turned at each place of a tour.")
+                  "Time that the robot stays at each waypoint or place of a tour. With 0 it drives past waypoints "
+                  "without a heading.")
+          .number("look_around_deg", &Options::look_around, zero_or_more,
+                  "Angle that the robot turns at each place of a tour.")
           .number("reach_m", &Options::reach, {0.5, 100},
-                  "A tour has seen what was this near and not hidden by anything.")
-          .integer("repeat", &Options::repeat, {1, 10000}, "How often it goes its way.")
+                  "A tour counts as seen what was within this distance of the robot and was not hidden.")
+          .integer("repeat", &Options::repeat, {1, 10000}, "Number of times that the robot drives its route.")
           .number("duration_s", &Options::duration, {0, kLongestRun},
-                  "Of the drive, repeated until then and cut off there; 0: as long as it takes.")
-          .flag("handheld", &Options::handheld, "Carried by somebody who walks, at eye height, instead of driven.")
-          .number("eye_height_m", &Options::eye_height, positive, "Hand-held: above the floor.")
-          .number("sway_m", &Options::sway, zero_or_more, "Hand-held: amplitude of the walker's sway.")
-          .number("sway_deg", &Options::sway_turn, zero_or_more, "Hand-held: the same of its angles.")
-          .number("gaze_deg", &Options::gaze, zero_or_more, "Hand-held: how far the gaze wanders to the sides.")
-          .number("shake_m", &Options::shake, zero_or_more, "Hand-held: amplitude of the hands' shake.")
-          .number("shake_deg", &Options::shake_turn, zero_or_more, "Hand-held: the same of its angles.");
+                  "Duration of the drive, which is repeated until then and cut off there. 0 means as long as the drive "
+                  "takes.")
+          .flag("handheld", &Options::handheld,
+                "The sensors are carried at eye height by a walking person instead of driven by the robot.")
+          .number("eye_height_m", &Options::eye_height, positive,
+                  "Height above the floor at which a handheld base is carried.")
+          .number("sway_m", &Options::sway, zero_or_more,
+                  "Amplitude of the walking person's sway in position, if handheld.")
+          .number("sway_deg", &Options::sway_turn, zero_or_more,
+                  "Amplitude of the walking person's sway in angle, if handheld.")
+          .number("gaze_deg", &Options::gaze, zero_or_more,
+                  "Amplitude by which the gaze wanders to the sides, if handheld.")
+          .number("shake_m", &Options::shake, zero_or_more,
+                  "Amplitude of the shake of the person's hands in position, if handheld.")
+          .number("shake_deg", &Options::shake_turn, zero_or_more,
+                  "Amplitude of the shake of the person's hands in angle, if handheld.");
   return table;
 }
 

@@ -23,25 +23,34 @@ const base::OptionTable<ColourCameraOptions>& ColourCameraOptions::table() {
   using O = ColourCameraOptions;
   static const auto table =
       base::OptionTable<O>()
-          .integer("width_px", &O::width, {16, 4096}, "Columns of the picture.")
-          .integer("height_px", &O::height, {16, 4096}, "Rows of the picture.")
-          .number("focal_px", &O::focal, Range::positive(), "Focal length at 640 columns; in proportion to them else.")
-          .number("pan_deg", &O::pan, {-360, 360}, "Middle of its pan, to the left.")
-          .number("tilt_deg", &O::tilt, {-180, 180}, "Middle of its tilt, down.")
-          .number("pan_sweep_deg", &O::pan_sweep, {0, 360}, "How far it sweeps to either side.")
-          .number("tilt_sweep_deg", &O::tilt_sweep, {0, 90}, "The same, up and down.")
-          .number("pan_period_s", &O::pan_period, Range::positive(), "Time of a sweep to both sides and back.")
-          .number("tilt_period_s", &O::tilt_period, Range::positive(), "The same, up and down.")
-          .number("arm_m", &O::arm, {-10, 10}, "How far before the crossing of the axes the camera is.")
-          .number("pan_sigma_deg", &O::pan_sigma, {0, 45}, "Standard deviation of the pan that is told.")
-          .number("tilt_sigma_deg", &O::tilt_sigma, {0, 45}, "The same of the tilt.")
-          .number("pan_bias_deg", &O::pan_bias, {-45, 45}, "How much more is told than is true, always.")
-          .number("tilt_bias_deg", &O::tilt_bias, {-45, 45}, "The same of the tilt.")
-          .number("gain", &O::gain, Range::positive(), "Times the light: 1 shows a white wall bright.")
-          .number("exposure_s", &O::exposure, {0, 1}, "How long the picture takes light.")
-          .number("noise", &O::noise, {0, 1}, "Noise at full white, as part of full white.")
-          .number("vignetting", &O::vignetting, {0, 1}, "Part of the light that the corners lose.")
-          .flag("labels", &O::labels, "Truth: a picture of surface numbers for each frame.");
+          .integer("width_px", &O::width, {16, 4096}, "Number of columns of the image.")
+          .integer("height_px", &O::height, {16, 4096}, "Number of rows of the image.")
+          .number("focal_px", &O::focal, Range::positive(),
+                  "Focal length of an image with 640 columns. It scales with the number of columns.")
+          .number("pan_deg", &O::pan, {-360, 360}, "Centre of the pan sweep, positive to the left.")
+          .number("tilt_deg", &O::tilt, {-180, 180}, "Centre of the tilt sweep, positive downwards.")
+          .number("pan_sweep_deg", &O::pan_sweep, {0, 360}, "Amplitude of the pan sweep to either side.")
+          .number("tilt_sweep_deg", &O::tilt_sweep, {0, 90}, "Amplitude of the tilt sweep up and down.")
+          .number("pan_period_s", &O::pan_period, Range::positive(), "Period of the pan sweep to both sides and back.")
+          .number("tilt_period_s", &O::tilt_period, Range::positive(), "Period of the tilt sweep up, down and back.")
+          .number("arm_m", &O::arm, {-10, 10},
+                  "Distance of the camera in front of the point where the pan and tilt axes cross.")
+          .number("pan_sigma_deg", &O::pan_sigma, {0, 45},
+                  "Standard deviation of the reported pan angle, independent in each image.")
+          .number("tilt_sigma_deg", &O::tilt_sigma, {0, 45},
+                  "Standard deviation of the reported tilt angle, independent in each image.")
+          .number("pan_bias_deg", &O::pan_bias, {-45, 45},
+                  "Constant offset of the reported pan angle from the true one.")
+          .number("tilt_bias_deg", &O::tilt_bias, {-45, 45},
+                  "Constant offset of the reported tilt angle from the true one.")
+          .number("gain", &O::gain, Range::positive(),
+                  "Factor on the light in the image. With 1 a white wall is bright.")
+          .number("exposure_s", &O::exposure, {0, 1}, "Exposure time of the image.")
+          .number("noise", &O::noise, {0, 1},
+                  "Standard deviation of the noise at full white as a fraction of full white.")
+          .number("vignetting", &O::vignetting, {0, 1},
+                  "Fraction of the light that is lost in the corners of the image.")
+          .flag("labels", &O::labels, "The ground truth contains an image of surface numbers for each frame.");
   return table;
 }
 

@@ -38,19 +38,26 @@ const base::OptionTable<GpsOptions>& GpsOptions::table() {
   using Options = GpsOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .number("origin_latitude", &Options::origin_latitude, {-89.9, 89.9}, "Of the map's origin [degrees north].")
-          .number("origin_longitude", &Options::origin_longitude, {-180, 180}, "The same [degrees east].")
-          .number("origin_altitude_m", &Options::origin_altitude, {-500, 10000}, "The same, above the ellipsoid.")
+          .number("origin_latitude", &Options::origin_latitude, {-89.9, 89.9},
+                  "Latitude of the map's origin [degrees north].")
+          .number("origin_longitude", &Options::origin_longitude, {-180, 180},
+                  "Longitude of the map's origin [degrees east].")
+          .number("origin_altitude_m", &Options::origin_altitude, {-500, 10000},
+                  "Altitude of the map's origin above the ellipsoid.")
           .number("map_heading_deg", &Options::east_from_map, {},
-                  "By how much the map's x axis is turned from east towards north.")
-          .number("sigma_m", &Options::sigma, Range::notNegative(), "Horizontal standard deviation.")
-          .number("up_factor", &Options::up_factor, Range::notNegative(), "Vertical over horizontal deviation.")
+                  "Angle by which the map's x axis is turned from east towards north.")
+          .number("sigma_m", &Options::sigma, Range::notNegative(),
+                  "Standard deviation of the horizontal position error, on each axis.")
+          .number("up_factor", &Options::up_factor, Range::notNegative(),
+                  "Ratio of the vertical to the horizontal standard deviation of the position error.")
           .number("correlation_s", &Options::correlation, Range::notNegative(),
-                  "Errors fade to 1/e in this time; 0: each has its own.")
-          .integer("fix_quality", &Options::fix_quality, {1, 8}, "As GGA tells it: 1 plain, 4 RTK, 5 RTK float.")
-          .number("hdop", &Options::hdop, Range::positive(), "As GGA tells it.")
-          .integer("satellites", &Options::satellites, {0, 100}, "As GGA tells it.")
-          .flag("needs_sky", &Options::needs_sky, "No fix where something is above the antenna.");
+                  "Time in which the correlation of position errors falls to 1/e. With 0 the errors are independent.")
+          .integer("fix_quality", &Options::fix_quality, {1, 8},
+                   "Fix quality that the GGA message reports: 1 plain, 4 RTK, 5 RTK float.")
+          .number("hdop", &Options::hdop, Range::positive(),
+                  "Horizontal dilution of precision that the GGA message reports.")
+          .integer("satellites", &Options::satellites, {0, 100}, "Number of satellites that the GGA message reports.")
+          .flag("needs_sky", &Options::needs_sky, "There is no fix while something is above the antenna.");
   return table;
 }
 

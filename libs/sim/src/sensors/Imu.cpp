@@ -30,14 +30,22 @@ const base::OptionTable<ImuOptions>& ImuOptions::table() {
   const auto zero_or_more = base::Range::notNegative();
   static const auto table =
       base::OptionTable<Options>()
-          .number("gyro_noise", &Options::gyro_noise, zero_or_more, "Density of its white noise [rad/s/sqrt(Hz)].")
-          .number("accelerometer_noise", &Options::accelerometer_noise, zero_or_more, "The same [m/s^2/sqrt(Hz)].")
-          .number("gyro_bias_rad_s", &Options::gyro_bias, zero_or_more, "Standard deviation of the bias at the start.")
-          .number("accelerometer_bias_m_s2", &Options::accelerometer_bias, zero_or_more, "The same.")
+          .number("gyro_noise", &Options::gyro_noise, zero_or_more,
+                  "Density of the gyroscope's white noise [rad/s/sqrt(Hz)].")
+          .number("accelerometer_noise", &Options::accelerometer_noise, zero_or_more,
+                  "Density of the accelerometer's white noise [m/s^2/sqrt(Hz)].")
+          .number("gyro_bias_rad_s", &Options::gyro_bias, zero_or_more,
+                  "Standard deviation of the gyroscope's bias at the start.")
+          .number("accelerometer_bias_m_s2", &Options::accelerometer_bias, zero_or_more,
+                  "Standard deviation of the accelerometer's bias at the start.")
           .number("gyro_walk_rad_s", &Options::gyro_walk, zero_or_more,
-                  "Standard deviation of the bias' change after 1 s; grows with the root of time.")
-          .number("accelerometer_walk_m_s2", &Options::accelerometer_walk, zero_or_more, "The same.")
-          .number("gravity_m_s2", &Options::gravity, zero_or_more, "Of the place.");
+                  "Standard deviation of the change of the gyroscope's bias after 1 s. It grows with the square root "
+                  "of time.")
+          .number("accelerometer_walk_m_s2", &Options::accelerometer_walk, zero_or_more,
+                  "Standard deviation of the change of the accelerometer's bias after 1 s. It grows with the square "
+                  "root of time.")
+          .number("gravity_m_s2", &Options::gravity, zero_or_more,
+                  "Gravitational acceleration at the simulated place.");
   return table;
 }
 

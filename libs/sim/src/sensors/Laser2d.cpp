@@ -81,14 +81,17 @@ const base::OptionTable<Laser2dOptions>& Laser2dOptions::table() {
                        {"hokuyo_utm30", Laser2dModel::hokuyo_utm30},
                        {"hokuyo_urg04", Laser2dModel::hokuyo_urg04},
                        {"ideal", Laser2dModel::ideal}},
-                      "Whose figures count for keys that are not given; the defaults listed are the first one's.")
-              .integer("beams", &Options::beams, {2, 100000}, "Beams of a scan.")
-              .number("aperture_deg", &Options::aperture, {1, 360}, "From the first beam to the last.")
-              .flag("counter_clockwise", &Options::counter_clockwise, "Sweeps from right to left.")
-              .number("sweep_s", &Options::sweep, zero_or_more, "From the first beam, at the stamp, to the last."))
-          .flag("no_echo_is_max", &Options::no_echo_is_max, "Range of a beam without echo: max_range_m, else 0.")
-          .flag("intensity", &Options::intensity, "Intensities of the echoes, 0 to 255.")
-          .flag("truth_ranges", &Options::truth_ranges, "The truth has the true range of each beam.");
+                      "Laser model that gives the values of keys that are not given. The listed defaults are those of "
+                      "the first model.")
+              .integer("beams", &Options::beams, {2, 100000}, "Number of beams in a scan.")
+              .number("aperture_deg", &Options::aperture, {1, 360}, "Angle from the first beam of a scan to the last.")
+              .flag("counter_clockwise", &Options::counter_clockwise, "The laser scans from right to left.")
+              .number("sweep_s", &Options::sweep, zero_or_more,
+                      "Time from the first beam of a scan, which is measured at the stamp, to the last."))
+          .flag("no_echo_is_max", &Options::no_echo_is_max,
+                "A beam without an echo reports max_range_m as its range instead of 0.")
+          .flag("intensity", &Options::intensity, "Scans contain the intensities of the echoes, from 0 to 255.")
+          .flag("truth_ranges", &Options::truth_ranges, "The ground truth contains the true range of each beam.");
   return table;
 }
 

@@ -28,11 +28,12 @@ const base::OptionTable<Laser3dOptions>& Laser3dOptions::table() {
   using Options = Laser3dOptions;
   static const auto table = withOptics(
       base::OptionTable<Options>()
-          .integer("rings", &Options::rings, {1, 256}, "Beams of a column.")
-          .number("lowest_deg", &Options::lowest, {-89, 89}, "Elevation of the lowest ring, up is positive.")
-          .number("highest_deg", &Options::highest, {-89, 89}, "Elevation of the highest ring.")
-          .integer("columns", &Options::columns, {4, 10000}, "Of a turn.")
-          .flag("takes_time", &Options::takes_time, "A turn takes 1 / rate_hz; else all of it is measured at once."));
+          .integer("rings", &Options::rings, {1, 256}, "Number of rings, which is the number of beams in each column.")
+          .number("lowest_deg", &Options::lowest, {-89, 89}, "Elevation of the lowest ring, positive upwards.")
+          .number("highest_deg", &Options::highest, {-89, 89}, "Elevation of the highest ring, positive upwards.")
+          .integer("columns", &Options::columns, {4, 10000}, "Number of columns in a turn.")
+          .flag("takes_time", &Options::takes_time,
+                "A turn takes 1 / rate_hz. Otherwise the whole turn is measured at one time."));
   return table;
 }
 

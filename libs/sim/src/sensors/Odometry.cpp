@@ -18,19 +18,24 @@ const base::OptionTable<OdometryOptions>& OdometryOptions::table() {
   const Range positive = Range::positive(), zero_or_more = Range::notNegative();
   static const auto table =
       base::OptionTable<Options>()
-          .number("wheel_base_m", &Options::wheel_base, positive, "Between the two wheels.")
+          .number("wheel_base_m", &Options::wheel_base, positive, "Distance between the two wheels.")
           .number("radius_bias", &Options::radius_bias, {0, 0.5},
-                  "Standard deviation of the relative error of each wheel's radius, drawn once.")
-          .number("base_bias", &Options::base_bias, {0, 0.2}, "The same of the wheel base.")
+                  "Standard deviation of the relative error of each wheel's radius, which is drawn once.")
+          .number("base_bias", &Options::base_bias, {0, 0.2},
+                  "Standard deviation of the relative error of the wheel base, which is drawn once.")
           .number("slip_per_root_m", &Options::slip_per_root_m, zero_or_more,
-                  "Standard deviation of the way after 1 m [m]; grows with its root.")
+                  "Standard deviation of the distance error after 1 m of travel [m]. It grows with the square root of "
+                  "the distance.")
           .number("turn_slip_per_root_m_deg", &Options::turn_slip_per_root_m, zero_or_more,
-                  "Standard deviation of the heading after 1 m; grows with its root.")
+                  "Standard deviation of the heading error after 1 m of travel. It grows with the square root of the "
+                  "distance.")
           .number("turn_slip_per_root_turn", &Options::turn_slip_per_root_turn, zero_or_more,
-                  "Standard deviation of the heading after 1 rad of turning [rad]; grows with its root.")
+                  "Standard deviation of the heading error after 1 rad of turning [rad]. It grows with the square root "
+                  "of the angle.")
           .number("ticks_per_m", &Options::ticks_per_metre, zero_or_more,
-                  "Ticks of each wheel's encoder in a metre, to which it rounds; 0: no encoders.")
-          .flag("velocities", &Options::velocities, "Each reading tells the mean velocity since the one before.");
+                  "Resolution of each wheel's encoder in ticks per metre, to which it rounds. 0 means no encoders.")
+          .flag("velocities", &Options::velocities,
+                "Each reading reports the mean velocity since the previous reading.");
   return table;
 }
 

@@ -32,19 +32,23 @@ const base::OptionTable<RangeBearingOptions>& RangeBearingOptions::table() {
   const Range zero_or_more = Range::notNegative();
   static const auto table =
       base::OptionTable<Options>()
-          .flag("points", &Options::points, "Measures the world's point landmarks.")
-          .flag("markers", &Options::markers, "Measures the middles of its markers, from in front.")
-          .flag("known_ids", &Options::known_ids, "Tells which landmark it is; else the id is -1.")
-          .flag("planar", &Options::planar, "Pitch is 0 and the range horizontal.")
-          .number("min_range_m", &Options::min_range, zero_or_more, "Nearer ones are not measured.")
-          .number("max_range_m", &Options::max_range, Range::positive(), "Nor farther ones.")
-          .number("fov_yaw_deg", &Options::fov_yaw, {1, 360}, "Whole field of view to the sides.")
-          .number("fov_pitch_deg", &Options::fov_pitch, {1, 180}, "Whole field of view up and down.")
-          .number("sigma_range_m", &Options::sigma_range, zero_or_more, "Standard deviation of ranges.")
-          .number("sigma_deg", &Options::sigma_angle, zero_or_more, "Standard deviation of yaw and pitch.")
-          .number("missed", &Options::missed, {0, 1}, "Part of what is seen that is not reported.")
-          .number("false_alarms", &Options::false_alarms, {0, 100}, "Mean number of measurements of nothing.")
-          .flag("occlusion", &Options::occlusion, "What stands in front of a landmark hides it.");
+          .flag("points", &Options::points, "The sensor measures the point landmarks of the world.")
+          .flag("markers", &Options::markers,
+                "The sensor measures the centres of the square markers of the world, if it is in front of them.")
+          .flag("known_ids", &Options::known_ids,
+                "Each measurement reports the id of its landmark. Otherwise the reported id is -1.")
+          .flag("planar", &Options::planar, "Measurements have pitch 0, and their range is the horizontal one.")
+          .number("min_range_m", &Options::min_range, zero_or_more, "Shortest range at which a landmark is measured.")
+          .number("max_range_m", &Options::max_range, Range::positive(),
+                  "Longest range at which a landmark is measured.")
+          .number("fov_yaw_deg", &Options::fov_yaw, {1, 360}, "Full horizontal field of view.")
+          .number("fov_pitch_deg", &Options::fov_pitch, {1, 180}, "Full vertical field of view.")
+          .number("sigma_range_m", &Options::sigma_range, zero_or_more, "Standard deviation of the reported range.")
+          .number("sigma_deg", &Options::sigma_angle, zero_or_more, "Standard deviation of the reported yaw and pitch.")
+          .number("missed", &Options::missed, {0, 1}, "Fraction of the visible landmarks that are not reported.")
+          .number("false_alarms", &Options::false_alarms, {0, 100},
+                  "Mean number of false measurements in an observation.")
+          .flag("occlusion", &Options::occlusion, "Things that stand in front of a landmark hide it.");
   return table;
 }
 

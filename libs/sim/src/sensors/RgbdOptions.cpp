@@ -89,40 +89,55 @@ const base::OptionTable<RgbdOptions>& RgbdOptions::table() {
                    {"xtion", RgbdModel::xtion},
                    {"stereo", RgbdModel::stereo},
                    {"ideal", RgbdModel::ideal}},
-                  "The kind of sensor; keys that are -1 are as it has them.")
-          .integer("width_px", &RgbdOptions::width, {16, 4096}, "Columns of both pictures.")
-          .integer("height_px", &RgbdOptions::height, {16, 4096}, "Rows of both pictures.")
-          .number("focal_px", &RgbdOptions::focal, as_model_or_more, "Focal length of the depth camera.")
-          .number("colour_focal_px", &RgbdOptions::colour_focal, as_model_or_more, "Focal length of the colour camera.")
+                  "Sensor model. Keys with the value -1 take the value of the model.")
+          .integer("width_px", &RgbdOptions::width, {16, 4096},
+                   "Number of columns of the depth image and of the colour image.")
+          .integer("height_px", &RgbdOptions::height, {16, 4096},
+                   "Number of rows of the depth image and of the colour image.")
+          .number("focal_px", &RgbdOptions::focal, as_model_or_more,
+                  "Focal length of the depth camera, or -1 for that of the model.")
+          .number("colour_focal_px", &RgbdOptions::colour_focal, as_model_or_more,
+                  "Focal length of the colour camera, or -1 for that of the model.")
           .number("colour_right_m", &RgbdOptions::colour_right, {kNoOffset, 1},
-                  "How far right of the depth camera the colour camera stands; -1000: as the model has it.")
-          .flag("registered", &RgbdOptions::registered, "Hand depth out as the colour camera would see it.")
-          .flag("colour", &RgbdOptions::colour, "Add a colour picture.")
+                  "Offset of the colour camera to the right of the depth camera, or -1000 for that of the model.")
+          .flag("registered", &RgbdOptions::registered, "Depth images are registered to the view of the colour camera.")
+          .flag("colour", &RgbdOptions::colour, "The sensor also provides a colour image.")
           .number("colour_delay_s", &RgbdOptions::colour_delay, {-1, 1},
-                  "How much later than the depths, whose stamp counts, the picture is taken.")
-          .number("baseline_m", &RgbdOptions::baseline, as_model_or_more, "From the camera to its second eye.")
+                  "Delay of the colour image after the depth image, whose stamp is that of the observation.")
+          .number("baseline_m", &RgbdOptions::baseline, as_model_or_more,
+                  "Distance from the camera to its second eye, a projector or a second camera, or -1 for that of the "
+                  "model.")
           .number("disparity_step_px", &RgbdOptions::disparity_step, as_model_or_more,
-                  "Disparities are multiples of it; 0: not rounded.")
+                  "Resolution of the disparities, which are rounded to multiples of it. 0 means that they are not "
+                  "rounded, -1 takes the value of the model.")
           .number("disparity_sigma_px", &RgbdOptions::disparity_sigma, as_model_or_more,
-                  "Standard deviation of disparities on bright surfaces.")
+                  "Standard deviation of the disparity on bright surfaces, or -1 for that of the model.")
           .integer("disparity_reach_px", &RgbdOptions::disparity_reach, {-1, 100},
-                   "How far apart errors of disparities still resemble one another.")
+                   "Distance in the image up to which errors of the disparity are correlated, or -1 for that of the "
+                   "model.")
           .number("match_share", &RgbdOptions::match_share, {kAsModel, 1},
-                  "Part of the matching window that has to be of one depth, or there is a hole.")
+                  "Fraction of the matching window that must have one depth, or else the depth image has a hole there. "
+                  "-1 takes the value of the model.")
           .number("signal_floor", &RgbdOptions::signal_floor, as_model_or_more,
-                  "Brightness of the pattern (1: white wall at 1 m) or mean square slope of the picture below which "
-                  "there is no depth.")
-          .number("min_range_m", &RgbdOptions::min_range, as_model_or_more, "Nearest depth that is reported.")
-          .number("max_range_m", &RgbdOptions::max_range, as_model_or_more, "Farthest depth that is reported.")
-          .number("range_unit_m", &RgbdOptions::unit, {kAsModel, 0.1}, "Unit of the range image.")
-          .number("gain", &RgbdOptions::gain, Range::positive(), "Times the light: 1 shows a white wall bright.")
-          .number("exposure_s", &RgbdOptions::exposure, {0, 1}, "How long the picture takes light.")
+                  "Brightness of the projected pattern (1 on a white wall at 1 m), or with stereo mean square slope of "
+                  "the image, below which there is no depth. -1 takes the value of the model.")
+          .number("min_range_m", &RgbdOptions::min_range, as_model_or_more,
+                  "Smallest depth that is reported, or -1 for that of the model.")
+          .number("max_range_m", &RgbdOptions::max_range, as_model_or_more,
+                  "Largest depth that is reported, or -1 for that of the model.")
+          .number("range_unit_m", &RgbdOptions::unit, {kAsModel, 0.1},
+                  "Unit of the depths in the range image, or -1 for that of the model.")
+          .number("gain", &RgbdOptions::gain, Range::positive(),
+                  "Factor on the light in the colour image. With 1 a white wall is bright.")
+          .number("exposure_s", &RgbdOptions::exposure, {0, 1}, "Exposure time of the colour image.")
           .number("colour_noise", &RgbdOptions::colour_noise, {kAsModel, 1},
-                  "Noise at full white, as part of full white.")
-          .number("vignetting", &RgbdOptions::vignetting, {0, 1}, "Part of the light that the corners lose.")
-          .flag("labels", &RgbdOptions::labels, "Truth: a picture of surface numbers for each frame.")
+                  "Standard deviation of the noise at full white as a fraction of full white, or -1 for that of the "
+                  "model.")
+          .number("vignetting", &RgbdOptions::vignetting, {0, 1},
+                  "Fraction of the light that is lost in the corners of the colour image.")
+          .flag("labels", &RgbdOptions::labels, "The ground truth contains an image of surface numbers for each frame.")
           .flag("true_depth", &RgbdOptions::true_depth,
-                "Truth: a picture of exact depth (5000 a metre) for each frame.");
+                "The ground truth contains an image of the exact depth for each frame, with 5000 units per metre.");
   return table;
 }
 

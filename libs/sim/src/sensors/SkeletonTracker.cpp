@@ -60,19 +60,23 @@ const base::OptionTable<SkeletonTrackerOptions>& SkeletonTrackerOptions::table()
       base::OptionTable<O>()
           .choice("software", &O::software,
                   {{"openni", SkeletonSoftware::openni}, {"ms_sdk", SkeletonSoftware::ms_sdk}},
-                  "Whose errors of pointing it has, of those the thesis measured.")
+                  "Skeleton software whose pointing errors, as the thesis measured them, are simulated.")
           .integer("table_target", &O::table_target, {0, 7},
-                   "Target of the thesis's Tables 12 and 13 whose errors of pointing it has; 0: those of all targets.")
-          .number("width_deg", &O::width, {1, 170}, "Angle of its view from left to right.")
-          .number("height_deg", &O::height, {1, 170}, "The same from top to bottom.")
-          .number("nearest_m", &O::nearest, Range::notNegative(), "A person's torso must be farther away than this.")
-          .number("farthest_m", &O::farthest, Range::positive(), "And nearer than this.")
+                   "Target of the thesis's Tables 12 and 13 whose pointing errors are simulated. 0 takes those of all "
+                   "targets.")
+          .number("width_deg", &O::width, {1, 170}, "Horizontal field of view.")
+          .number("height_deg", &O::height, {1, 170}, "Vertical field of view.")
+          .number("nearest_m", &O::nearest, Range::notNegative(),
+                  "Shortest distance at which the torso of a tracked person can be.")
+          .number("farthest_m", &O::farthest, Range::positive(),
+                  "Longest distance at which the torso of a tracked person can be.")
           .number("bias_sigma_m", &O::bias_sigma, Range::notNegative(),
-                  "Standard deviation of a joint's error that stays the same for a person, on each axis.")
+                  "Standard deviation on each axis of the joint error that stays constant for a person.")
           .number("noise_sigma_m", &O::noise_sigma, Range::notNegative(),
-                  "Standard deviation of a joint's error in each frame, on each axis.")
+                  "Standard deviation on each axis of the joint error that is drawn anew in each frame.")
           .number("frame_share", &O::frame_share, {0, 1},
-                  "Part of the variance of pointing that is new in each frame; the rest stays for an act.");
+                  "Fraction of the variance of the pointing error that is drawn anew in each frame. The rest stays "
+                  "constant during a pointing gesture.");
   return table;
 }
 
