@@ -73,7 +73,7 @@ inline std::string markdownRow(const AblationRun& run, const std::string& title)
 
 inline void writeRuns(const std::string& path, const std::vector<AblationRun>& runs) {
   std::ofstream csv(path);
-  csv << "log,variant,ate_m,largest_m,drift_m,span,span_unit,way_m,verdict,processor_s,failure\n";
+  csv << "log,variant,ate_m,largest_m,drift_m,span,span_unit,travel_m,verdict,processor_s,failure\n";
   for (const auto& run : runs) {
     csv << run.log << "," << run.variant << "," << run.ate << "," << run.largest << "," << run.drift << ","
         << run.span.value << "," << (run.span.unit == eval::DeltaUnit::seconds ? "s" : "m") << "," << run.way << ","

@@ -20,29 +20,29 @@
 
 namespace omnimapper::bench {
 
-/// A sign landmark as it was before any was merged: which true signs its sightings are of, and where they meet seen
+/// A sign landmark as it was before any was merged: which true signs its measurements are of, and where they meet seen
 /// from where the camera truly was.
 struct WatchedSign {
-  std::map<std::optional<std::size_t>, int> sightings;
+  std::map<std::optional<std::size_t>, int> measurements;
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rays;  ///< in the world: from [m], direction
 
   int count() const {
     int all = 0;
-    for (const auto& [sign, some] : sightings) all += some;
+    for (const auto& [sign, some] : measurements) all += some;
     return all;
   }
-  /// That most sightings are of.
+  /// That most measurements are of.
   std::optional<std::size_t> sign() const {
     std::optional<std::size_t> most;
     int best = -1;
-    for (const auto& [sign, some] : sightings) {
+    for (const auto& [sign, some] : measurements) {
       if (some <= best) continue;
       best = some;
       most = sign;
     }
     return most;
   }
-  int wrong() const { return sightings.empty() ? 0 : count() - sightings.at(sign()); }
+  int wrong() const { return measurements.empty() ? 0 : count() - measurements.at(sign()); }
   /// [m] Where the sines of the angles to all rays are least: a mere intersection of rays that are nearly parallel
   /// would come out too near.
   Eigen::Vector3d place() const {
@@ -148,7 +148,7 @@ struct SignWatch {
     const auto stamp = stampOf(view, record.variables[0]);
     if (!stamp) return;
     auto& sign = signs[*record.tags.landmark];
-    ++sign.sightings[truth->signOf(*stamp, direction)];
+    ++sign.measurements[truth->signOf(*stamp, direction)];
     const auto base = eval::interpolatedPose(truth->trajectory, *stamp, base::durationFromSeconds(1));
     if (!base) return;
     sign.rays.emplace_back(*base * camera, base->rotation * direction);

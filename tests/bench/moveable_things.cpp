@@ -68,7 +68,7 @@ struct Drive {
     together.choose(simulation.world(), seed);
     for (const auto& observation : observations) moveTogether(*observation);
   }
-  /// Sightings after the move are of where it went, with the noise they had.
+  /// Measurements after the move are of where it went, with the noise they had.
   void moveTogether(mrpt::obs::CObservation& observation) const {
     auto* seen = dynamic_cast<CObservationBearingRange*>(&observation);
     if (!seen || secondsAt(seen->timestamp) < together.time) return;
@@ -103,7 +103,7 @@ struct Drive {
   }
   /// Moved ones that key frames of `view` saw at least twice in each of two places.
   std::set<int> movedAndSeenInBoth(const mapper::View& view) const {
-    std::map<int, std::map<bool, int>> sightings;
+    std::map<int, std::map<bool, int>> measurements;
     std::map<int, const sim::PointLandmark*> points;
     for (const auto& point : simulation.world().point_landmarks) points[point.id] = &point;
     for (const auto& frame : view.map.key_frames) {
@@ -113,13 +113,13 @@ struct Drive {
         for (const auto& one : seen->sensedData) {
           const auto& point = *points.at(one.landmarkID);
           const bool at_first = (placeOf(point, secondsAt(frame.stamp)) - placeOf(point, 0)).norm() < 0.01;
-          ++sightings[one.landmarkID][at_first];
+          ++measurements[one.landmarkID][at_first];
         }
       }
     }
     std::set<int> both;
     for (const int number : moved())
-      if (sightings[number][true] > 1 && sightings[number][false] > 1) both.insert(number);
+      if (measurements[number][true] > 1 && measurements[number][false] > 1) both.insert(number);
     return both;
   }
   /// Root mean square over key frames, seen from the first of them [m].

@@ -109,20 +109,20 @@ Figures printRow(const Setup& setup, const bench::SimulatedPlace& place) {
 constexpr double kLeft = 50, kColumn = 340, kSide = 270, kHeight = 190;
 const std::string kLaser = "#2471a3", kCamera = "#c0392b", kBoth = "#7d3c98";
 
-void drawMatched(draw::Svg& svg, double left, const Figures& figures) {
+void drawMatched(draw::Svg& svg, double left, const Figures& metrics) {
   double most = 1;
-  for (const auto* curve : {&figures.lines, &figures.planes})
+  for (const auto* curve : {&metrics.lines, &metrics.planes})
     for (const auto& point : *curve) most = std::max(most, point.y());
-  const draw::Axes axes({left, 50}, {kSide, kHeight}, {0, 0}, {static_cast<double>(figures.key_frames), most});
+  const draw::Axes axes({left, 50}, {kSide, kHeight}, {0, 0}, {static_cast<double>(metrics.key_frames), most});
   axes.draw(svg, "key frame", "per key frame");
-  svg.text({left + kSide / 2, 30}, figures.name, draw::Svg::Anchor::middle, 14);
+  svg.text({left + kSide / 2, 30}, metrics.name, draw::Svg::Anchor::middle, 14);
   const auto drawCurve = [&](const std::vector<Eigen::Vector2d>& curve, const std::string& colour) {
     std::vector<Eigen::Vector2d> pixels;
     for (const auto& point : curve) pixels.push_back(axes.pixel(point));
     svg.polyline(pixels, colour, 1.5);
   };
-  drawCurve(figures.lines, kLaser);
-  drawCurve(figures.planes, kCamera);
+  drawCurve(metrics.lines, kLaser);
+  drawCurve(metrics.planes, kCamera);
 }
 
 void drawLandmarks(draw::Svg& svg, double left, const Counts& counts) {
@@ -144,9 +144,9 @@ void drawMetrics(const std::string& path, const std::vector<Figures>& all) {
   std::ofstream out(path);
   draw::Svg svg(out, kLeft + kColumn * static_cast<double>(all.size()), 560);
   double left = kLeft;
-  for (const Figures& figures : all) {
-    drawMatched(svg, left, figures);
-    drawLandmarks(svg, left, figures.landmarks);
+  for (const Figures& metrics : all) {
+    drawMatched(svg, left, metrics);
+    drawLandmarks(svg, left, metrics.landmarks);
     left += kColumn;
   }
   svg.text({kLeft, 545},
@@ -173,7 +173,7 @@ int main(int argc, char** argv) {
   std::printf(
       "| place | scan matching alone | laser lines | camera planes | both | landmarks: laser, camera, both |\n"
       "|---|---|---|---|---|---|\n");
-  std::vector<Figures> figures;
-  for (const auto& folder : folders) figures.push_back(printRow(setup, {folder}));
-  if (!svg.empty()) drawMetrics(svg, figures);
+  std::vector<Figures> metrics;
+  for (const auto& folder : folders) metrics.push_back(printRow(setup, {folder}));
+  if (!svg.empty()) drawMetrics(svg, metrics);
 }

@@ -51,8 +51,8 @@ struct Mapped {
   std::vector<std::pair<double, double>> by_time;  // [s] [m] of the final trajectory, the first pose on the true one
   std::vector<std::pair<double, double>> online;   // the same of the newest pose when it was new
   int proposed = 0, accepted = 0, wrongly_accepted = 0, wrongly_refused = 0, wrong_merges = 0;
-  Eigen::Vector2d pan_tilt = Eigen::Vector2d::Zero();  // [rad] found offsets
-  int sightings = 0, wrong_sightings = 0, spare = 0;   // landmarks more than true signs that are in the map
+  Eigen::Vector2d pan_tilt = Eigen::Vector2d::Zero();       // [rad] found offsets
+  int measurements = 0, wrong_measurements = 0, spare = 0;  // landmarks more than true signs that are in the map
 };
 
 struct Trial {
@@ -98,7 +98,7 @@ std::vector<std::string> settingsOf(const Request& request, Way way, const SignT
     for (const char* setting :
          {"association=nearest", "association_confidence=0.999999999", "association_inflation=100"})
       settings.push_back(std::string("sign_landmarks.") + setting);
-    // By wheels alone a sighting of the first round is metres from where it is expected on the second: bearings that
+    // By wheels alone a measurement of the first round is metres from where it is expected on the second: bearings that
     // are so far off do not find out of it (27.8 m with seed 6 of signs_200). So a new landmark is made there, and that
     // both are one acts unasked. With a laser there are hypotheses of others, which must not.
     settings.emplace_back(request.with_laser ? "sign_landmarks.recent_m=1e6" : "hypotheses.test=none");
@@ -158,8 +158,8 @@ void count(const SignWatch& watch, Mapped& mapped) {
   for (const auto& pair : watch.merges) mapped.wrong_merges += !pair.is_right;
   std::map<std::size_t, std::set<base::LandmarkId>> of_sign;
   for (const auto& [id, sign] : watch.signs) {
-    mapped.sightings += sign.count();
-    mapped.wrong_sightings += sign.wrong();
+    mapped.measurements += sign.count();
+    mapped.wrong_measurements += sign.wrong();
     const auto kept = watch.kept.find(id);
     if (sign.sign() && *sign.sign() < watch.truth->signs && kept != watch.kept.end())
       of_sign[*sign.sign()].insert(kept->second);
@@ -174,7 +174,7 @@ void list(const SignWatch& watch, const SignTruth& truth) {
     const auto& sign = watch.signs.at(id);
     const auto place = sign.place();
     return std::to_string(id.index) + " \"" + (title == watch.titles.end() ? "" : title->second) + "\" (" +
-           watch.nameOf(id) + ", " + std::to_string(sign.count()) + " sightings, " + std::to_string(sign.wrong()) +
+           watch.nameOf(id) + ", " + std::to_string(sign.count()) + " measurements, " + std::to_string(sign.wrong()) +
            " wrong, at " + base::fixed(place.x(), 1) + " " + base::fixed(place.y(), 1) + ")";
   };
   const auto print = [&](const char* kind, const SignWatch::Pair& pair) {
@@ -224,8 +224,8 @@ Mapped mapOneWay(const Request& request, Way way, const SignTruth& truth, const 
   mapped.pan_tilt = watch.pan_tilt.value_or(mapped.pan_tilt);
   count(watch, mapped);
   if (request.list) {
-    std::fprintf(stderr, "== %s, %s: %.3f m, %zu poses, %d sightings\n", folder.c_str(), kNames[way], mapped.error,
-                 estimate.size(), mapped.sightings);
+    std::fprintf(stderr, "== %s, %s: %.3f m, %zu poses, %d measurements\n", folder.c_str(), kNames[way], mapped.error,
+                 estimate.size(), mapped.measurements);
     list(watch, truth);
   }
   return mapped;
@@ -257,7 +257,8 @@ void printHeading(const Request& request, const SignTruth& truth) {
       truth.of_posters, truth.elsewhere);
   std::printf(
       "| seed | with signs [m] | true associations [m] | without signs [m] | with / true | with / without | closures: "
-      "proposed, accepted | wrong ones accepted | right ones not taken | wrong merges | sightings, of another sign | "
+      "proposed, accepted | wrong ones accepted | right ones not taken | wrong merges | measurements, of another sign "
+      "| "
       "true "
       "ones | landmarks too many | pan, tilt off by [deg] |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
@@ -268,7 +269,7 @@ void print(const Trial& trial) {
   std::printf("| %d | %.3f | %.3f | %.3f | %.2f | %.2f | %d, %d | %d | %d | %d | %d, %d | %d | %d | %.2f, %.2f |\n",
               trial.seed, with.error, trial.ways[kTrue].error, trial.ways[kWithout].error, trial.toTrue(),
               trial.toNone(), with.proposed, with.accepted, with.wrongly_accepted, with.wrongly_refused,
-              with.wrong_merges, with.sightings, with.wrong_sightings, trial.ways[kTrue].sightings, with.spare,
+              with.wrong_merges, with.measurements, with.wrong_measurements, trial.ways[kTrue].measurements, with.spare,
               with.pan_tilt[0] / kDegree, with.pan_tilt[1] / kDegree);
   std::fflush(stdout);
 }

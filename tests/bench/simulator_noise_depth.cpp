@@ -36,14 +36,14 @@ void plotAll(const std::string& folder, const std::vector<Source>& sources) {
     std::string file, title, x, y;
     Curve DepthStatistics::*curve;
   };
-  const std::vector<Figure> figures{
+  const std::vector<Figure> metrics{
       {"noise", "Residual of local planes, flattest quarter", "distance [m]", "mm", &DepthStatistics::noise},
       {"step", "Steps between depths that occur", "distance [m]", "mm", &DepthStatistics::step},
       {"gap_shadow", "Hole where the disparity rises to the right (shadow)", "jump [pixel]", "pixels",
        &DepthStatistics::shadow_gap},
       {"gap_lit", "Hole where the disparity falls to the right", "jump [pixel]", "pixels", &DepthStatistics::lit_gap},
       {"angle", "Missing on flat patches", "incidence [deg]", "%", &DepthStatistics::missing_at_angle}};
-  for (const Figure& figure : figures) {
+  for (const Figure& figure : metrics) {
     std::vector<bench::PlottedCurve> curves;
     for (const Source& source : sources) {
       const Curve& curve = source.statistics.*figure.curve;

@@ -43,7 +43,7 @@ class HokuyoTest : public ::testing::Test {
   struct Laser {
     std::vector<CObservation2DRangeScan::Ptr> received;
     std::vector<std::size_t> numbers;  // of those in the log
-    SensorMetrics figures;
+    SensorMetrics metrics;
   };
 
   // A laser at each address; all of them measure the same scans.
@@ -90,7 +90,7 @@ class HokuyoTest : public ::testing::Test {
       laser.numbers.push_back(numberOf(*scan));
       if (laser.numbers.back() == scans.size() - 1) ++finished;
     }
-    for (std::size_t i = 0; i < lasers.size(); ++i) lasers[i].figures = source->sensors().at(i);
+    for (std::size_t i = 0; i < lasers.size(); ++i) lasers[i].metrics = source->sensors().at(i);
     source->close();
     run->stop();
     run->wait();
@@ -151,7 +151,7 @@ TEST_F(HokuyoTest, everyScanComesToTheMillimetreWithTheTimeItWasDue) {
     EXPECT_GT(late.front(), -0.002);
     EXPECT_LT(late[30], 0.1);
     EXPECT_NEAR(its.received[0]->aperture, scans[0]->aperture, 1e-4);
-    EXPECT_EQ(its.figures.left_out, 0u);
+    EXPECT_EQ(its.metrics.left_out, 0u);
   }
 }
 
@@ -161,7 +161,7 @@ TEST_F(HokuyoTest, whatIsDamagedOnItsWayIsLeftOutAndCounted) {
   receive();
   for (std::size_t laser = 0; laser < 2; ++laser) {
     EXPECT_EQ(lasers[laser].numbers, allOf(50, {15, 25})) << run->addresses()[laser] << "\n" << news;
-    EXPECT_EQ(lasers[laser].figures.left_out, 3u) << "garbage, the half and the wrong checksum; " << news;
+    EXPECT_EQ(lasers[laser].metrics.left_out, 3u) << "garbage, the half and the wrong checksum; " << news;
   }
   EXPECT_NE(news.find("damaged message"), std::string::npos) << news;
   EXPECT_EQ(news.find("is lost"), std::string::npos) << news;
@@ -185,7 +185,7 @@ TEST_F(HokuyoTest, aLaserThatFellSilentIsBack) {
   expectGap(lasers[0].numbers, 12, 94);
   EXPECT_NE(news.find("is lost: "), std::string::npos) << news;
   EXPECT_NE(news.find("is back"), std::string::npos) << news;
-  EXPECT_GE(lasers[0].figures.reopened, 1u);
+  EXPECT_GE(lasers[0].metrics.reopened, 1u);
 }
 
 TEST_F(HokuyoTest, aLaserThatHungUpIsBack) {

@@ -123,10 +123,10 @@ inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0
   addFactor({poseId(0), poseId(1)}, std::make_shared<graph::BetweenSe2>(geometry::Se2{1, 0.25, 0.5}), "odometry");
   addFactor({poseId(1), poseId(2)}, std::make_shared<graph::BetweenSe2>(geometry::Se2{0, 1.1, 2.0}), "odometry");
   run.decisions = {
-      {at(1), "laser", "beacon sighting", {0, 1}, base::KeyFrameId{0, 0}, true, "", {{"overlap", 0.9}}},
+      {at(1), "laser", "beacon measurement", {0, 1}, base::KeyFrameId{0, 0}, true, "", {{"overlap", 0.9}}},
       {at(2),
        "laser",
-       "beacon sighting",
+       "beacon measurement",
        {0, 2},
        base::KeyFrameId{0, 1},
        false,

@@ -233,7 +233,7 @@ TEST(SummaryOutput, holdsTheFiguresOfTheRun) {
   EXPECT_EQ(summary["key_frames"], 3);
   EXPECT_EQ(summary["trajectory_poses"], 4);
   EXPECT_EQ(summary["last_stamp"], "1000000002.0000000");
-  EXPECT_NEAR(summary["way_m"], std::hypot(1, 0.25) + std::hypot(0.5, 1), 1e-9);
+  EXPECT_NEAR(summary["travel_m"], std::hypot(1, 0.25) + std::hypot(0.5, 1), 1e-9);
   EXPECT_NEAR(summary["trajectory_extent_m"]["max"][1], 1.25, 1e-9);
   EXPECT_EQ(summary["closures"]["accepted"], 1);
   EXPECT_EQ(summary["closures"]["refused"], 0) << "that of the same key frames counts once";

@@ -105,7 +105,7 @@ TEST(GeoJsonOutput, propertiesAreNumbersWhereTheyAreNumbers) {
   const json wall = featureOf(plan, "0:0")["properties"];
   EXPECT_EQ(wall["label"], "wall");
   EXPECT_EQ(wall["state"], "present");
-  EXPECT_EQ(wall["sightings"], 10);
+  EXPECT_EQ(wall["measurements"], 10);
   EXPECT_EQ(wall["area_m2"], 8);
   EXPECT_EQ(wall["seen_by_laser"], 9);
   EXPECT_EQ(wall["bottom_m"], 0);

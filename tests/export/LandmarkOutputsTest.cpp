@@ -220,7 +220,7 @@ TEST_F(LandmarkReport, theBarsCountTheSensors) {
 
 TEST_F(LandmarkReport, theMapHasALayerForEachLabelAndFloorsAreHiddenAtFirst) {
   const std::string map = between("<svg id=\"map\"", "</svg>");
-  EXPECT_NE(map.find("wall 0:0: 10 sightings\narea_m2 8.000"), std::string::npos);
+  EXPECT_NE(map.find("wall 0:0: 10 measurements\narea_m2 8.000"), std::string::npos);
   EXPECT_NE(map.find("table 0:2"), std::string::npos);
   EXPECT_NE(map.find("chair 0:4 (moved)"), std::string::npos);
   const std::size_t floor = map.find("floor 0:3"), group = map.rfind("<g class=\"landmarks ", floor);

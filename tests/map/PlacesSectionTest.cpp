@@ -28,7 +28,7 @@ Places somePlaces() {
   sign.extent.top = 2;
   sign.normal = Eigen::Vector3d(0, 0.6, 0.8);
   sign.seen_from = Eigen::Vector3d(1, 0, 0);
-  sign.sightings = 41;
+  sign.measurements = 41;
   sign.seen_by = {{"", 1}, {"camera", 40}};
   sign.first_seen = base::stampFromUnix(1.1e9);
   sign.last_seen = base::stampFromUnix(1.2e9 + 1e-7);
@@ -69,7 +69,7 @@ TEST(PlacesSection, KeepsEveryField) {
   EXPECT_EQ(a.extent.top, b.extent.top);
   EXPECT_EQ(a.normal, b.normal);
   EXPECT_EQ(a.seen_from, b.seen_from);
-  EXPECT_EQ(a.sightings, b.sightings);
+  EXPECT_EQ(a.measurements, b.measurements);
   EXPECT_EQ(a.seen_by, b.seen_by);
   EXPECT_EQ(a.first_seen, b.first_seen);
   EXPECT_EQ(a.last_seen, b.last_seen);

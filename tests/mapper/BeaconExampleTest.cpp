@@ -1,8 +1,8 @@
 // The example of doc/add_a_landmark_type.md: its factor, its variable, its plugin at work.
+#include <BeaconFactor.h>
 #include <BeaconPayload.h>
 #include <BeaconPlugin.h>
 #include <BeaconVariable.h>
-#include <SightingFactor.h>
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <omnimapper/base/Error.h>
@@ -44,7 +44,7 @@ Se3 anyPose(Dice& dice, double reach) {
 }
 
 // What a sensor would measure without noise.
-Vector3d exactSighting(const Se3& map_from_sensor, const Vector3d& beacon) {
+Vector3d exactMeasurement(const Se3& map_from_sensor, const Vector3d& beacon) {
   double range, yaw, pitch;
   geometry::toMrpt(map_from_sensor).sphericalCoordinates({beacon.x(), beacon.y(), beacon.z()}, range, yaw, pitch);
   return {range, yaw, pitch};
@@ -61,38 +61,38 @@ TEST(BeaconVariable, MovesOnThePlaneOfItsHeight) {
   EXPECT_EQ(back, delta);
 }
 
-TEST(SightingFactor, ResidualAsWorkedByHand) {
+TEST(BeaconFactor, ResidualAsWorkedByHand) {
   // The base looks along the map's y, the sensor, half a metre ahead and a metre up, to the right of that: along x.
   const Se3 map_from_base{geometry::expSo3({0, 0, kPi / 2}), {1, 2, 0}};
   const Se3 base_from_sensor{geometry::expSo3({0, 0, -kPi / 2}), {0.5, 0, 1}};
   // So the sensor is at (1, 2.5, 1) in the map and the beacon at (3, 4, 5) in the sensor: 45 deg up.
   const Vector3d beacon(4, 6.5, 6), measured(7, 0.9, -0.8);
   const Eigen::VectorXd pose = graph::toValue(map_from_base);
-  const SightingFactor told(measured, base_from_sensor, false);
+  const BeaconFactor told(measured, base_from_sensor, false);
   const Eigen::VectorXd r = graph::Evaluation{told, kTold, {pose, beacon}}.residual();
   EXPECT_LT((r - Vector3d(std::sqrt(50.0) - 7, std::atan2(4, 3) - 0.9, 0.8 - kPi / 4)).norm(), 1e-12) << r.transpose();
 
   // Turned by another quarter to the left, the sensor has it at (4, -3, 5).
-  const SightingFactor estimated(measured, base_from_sensor, true);
+  const BeaconFactor estimated(measured, base_from_sensor, true);
   const Eigen::VectorXd correction = graph::toValue(Se3{geometry::expSo3({0, 0, kPi / 2}), Vector3d::Zero()});
   const Eigen::VectorXd turned = graph::Evaluation{estimated, kEstimated, {pose, correction, beacon}}.residual();
   EXPECT_LT((turned - Vector3d(r[0], std::atan2(-3, 4) - 0.9, r[2])).norm(), 1e-12) << turned.transpose();
 }
 
-TEST(SightingFactor, YawBehindTheSensorIsWrapped) {
-  const SightingFactor factor({1, 3.1, 0}, Se3(), false);
+TEST(BeaconFactor, YawBehindTheSensorIsWrapped) {
+  const BeaconFactor factor({1, 3.1, 0}, Se3(), false);
   const Vector3d beacon(-std::cos(0.05), -std::sin(0.05), 0);  // yaw -pi + 0.05
   const Eigen::VectorXd r = graph::Evaluation{factor, kTold, {graph::toValue(Se3()), beacon}}.residual();
   EXPECT_NEAR(r[1], kPi + 0.05 - 3.1, 1e-12);
 }
 
-TEST(SightingFactor, JacobiansMatchDifferences) {
+TEST(BeaconFactor, JacobiansMatchDifferences) {
   Dice dice(1);
   for (int i = 0; i < 20; ++i) {
     const Vector3d beacon(dice.uniform(-9, 9), dice.uniform(-9, 9), dice.uniform(-9, 9));
     const Se3 map_from_base = anyPose(dice, 9), base_from_sensor = anyPose(dice, 1), correction = anyPose(dice, 0.5);
-    const auto measured = exactSighting(map_from_base * base_from_sensor * correction, beacon);
-    const SightingFactor told(measured, base_from_sensor, false), estimated(measured, base_from_sensor, true);
+    const auto measured = exactMeasurement(map_from_base * base_from_sensor * correction, beacon);
+    const BeaconFactor told(measured, base_from_sensor, false), estimated(measured, base_from_sensor, true);
     const Eigen::VectorXd pose = graph::toValue(map_from_base), sensor = graph::toValue(correction);
     graph::expectJacobiansMatchDifferences({estimated, kEstimated, {pose, sensor, beacon}});
     // Away from the measurement too, but not where the yaw jumps.
@@ -100,7 +100,7 @@ TEST(SightingFactor, JacobiansMatchDifferences) {
   }
 }
 
-TEST(SightingFactor, FindsBeaconAndSensorFromExactSightings) {
+TEST(BeaconFactor, FindsBeaconAndSensorFromExactMeasurements) {
   Dice dice(2);
   const Vector3d truth(3, -2, 1.4);
   const Se3 base_from_reported{geometry::expSo3({0, 0.1, 0.3}), {0.2, 0, 0.5}};
@@ -111,9 +111,9 @@ TEST(SightingFactor, FindsBeaconAndSensorFromExactSightings) {
   for (int i = 0; i < 10; ++i) {
     const Se3 map_from_base = anyPose(dice, 4);
     const auto pose = graph.addVariable(graph::se3(), graph::toValue(map_from_base), true);
-    const auto measured = exactSighting(map_from_base * base_from_reported * reported_from_sensor, truth);
+    const auto measured = exactMeasurement(map_from_base * base_from_reported * reported_from_sensor, truth);
     graph.addFactor({{pose, correction, beacon},
-                     std::make_shared<SightingFactor>(measured, base_from_reported, true),
+                     std::make_shared<BeaconFactor>(measured, base_from_reported, true),
                      graph::SquareRootInformation::identity(3)});
   }
   graph::solve(graph);
@@ -121,7 +121,7 @@ TEST(SightingFactor, FindsBeaconAndSensorFromExactSightings) {
   EXPECT_LT(minus(graph::se3FromValue(graph.value(correction).data()), reported_from_sensor).norm(), 1e-6);
 }
 
-TEST(SightingFactor, IsReadBackAsItWasWritten) {
+TEST(BeaconFactor, IsReadBackAsItWasWritten) {
   const Vector3d beacon(3, -2, 1.4);
   const Eigen::VectorXd pose = graph::toValue(Se3{geometry::expSo3({0, 0, 0.3}), {1, 2, 0}});
   const Eigen::VectorXd correction = graph::toValue(Se3{geometry::expSo3({0.1, 0, 0}), {0, 0, 0.1}});
@@ -129,18 +129,18 @@ TEST(SightingFactor, IsReadBackAsItWasWritten) {
   mapper::Kinds kinds;
   BeaconPluginFactory().registerKinds(kinds);
   for (const bool estimated : {false, true}) {
-    const SightingFactor written({4, 0.1, -0.2}, base_from_sensor, estimated);
+    const BeaconFactor written({4, 0.1, -0.2}, base_from_sensor, estimated);
     std::stringstream bytes;
     written.write(bytes);
     const std::string text = bytes.str();
-    const auto read = kinds.factors.readFactor("beacon_sighting", bytes);
+    const auto read = kinds.factors.readFactor("beacon_measurement", bytes);
     const auto at =
         estimated ? std::vector<Eigen::VectorXd>{pose, correction, beacon} : std::vector<Eigen::VectorXd>{pose, beacon};
     const auto& variables = estimated ? kEstimated : kTold;
     EXPECT_EQ((graph::Evaluation{*read, variables, at}.residual()),
               (graph::Evaluation{written, variables, at}.residual()));
     std::istringstream cut(text.substr(0, text.size() - 1));
-    EXPECT_THROW(kinds.factors.readFactor("beacon_sighting", cut), base::Error);
+    EXPECT_THROW(kinds.factors.readFactor("beacon_measurement", cut), base::Error);
   }
 }
 

@@ -29,7 +29,7 @@ TEST(BeaconPlugin, OneDriveMapsEveryBeaconOnceWhereItIs) {
     EXPECT_TRUE(numbers.insert(payloadOf(landmark).number).second) << "a beacon stands twice in the map";
     EXPECT_EQ(landmark.kind, "beacon");
     EXPECT_EQ(landmark.owner, "beacons");
-    EXPECT_EQ(landmark.evidence, view.factorsOf(id).size()) << "every sighting is evidence";
+    EXPECT_EQ(landmark.evidence, view.factorsOf(id).size()) << "every measurement is evidence";
     EXPECT_LE(payloadOf(landmark).nearest, payloadOf(landmark).farthest);
   }
 }
@@ -44,24 +44,24 @@ TEST(BeaconPlugin, ASpatialMapTakesTheSameFactors) {
   EXPECT_LT(testing::trajectoryError(engine->view(), log), 0.1);
 }
 
-TEST(BeaconPlugin, EverySightingHasADecisionAndTrueOnesPassTheGate) {
+TEST(BeaconPlugin, EveryMeasurementHasADecisionAndTrueOnesPassTheGate) {
   const SimulatedLog log(drive());
   const auto engine = testing::makeEngine(kBeaconIni);
   testing::run(*engine, log.observations());
-  std::size_t sightings = 0, refused = 0;
+  std::size_t measurements = 0, refused = 0;
   for (const auto& frame : engine->view().map.key_frames) {
     for (const auto& observation : frame.observations) {
       const auto* seen = dynamic_cast<const CObservationBearingRange*>(observation.get());
-      sightings += seen ? seen->sensedData.size() : 0;
+      measurements += seen ? seen->sensedData.size() : 0;
     }
   }
   for (const auto& decision : engine->view().decisions) {
     refused += !decision.accepted;
     EXPECT_FALSE(decision.reason.empty());
   }
-  EXPECT_GT(sightings, 100U);
-  EXPECT_EQ(engine->view().decisions.size(), sightings);
-  EXPECT_LE(refused, sightings / 100);
+  EXPECT_GT(measurements, 100U);
+  EXPECT_EQ(engine->view().decisions.size(), measurements);
+  EXPECT_LE(refused, measurements / 100);
 }
 
 TEST(BeaconPlugin, AWrongNumberIsGatedOutAndSaysSo) {
@@ -71,11 +71,11 @@ TEST(BeaconPlugin, AWrongNumberIsGatedOutAndSaysSo) {
   std::set<int> seen;
   int swapped = 0;
   for (const auto& observation : observations) {
-    auto* sightings = dynamic_cast<CObservationBearingRange*>(observation.get());
-    if (!sightings) continue;
-    for (auto& sighting : sightings->sensedData) {
-      if (++swapped % 10 == 0 && seen.size() > 2) sighting.landmarkID = *seen.begin();
-      seen.insert(sighting.landmarkID);
+    auto* measurements = dynamic_cast<CObservationBearingRange*>(observation.get());
+    if (!measurements) continue;
+    for (auto& measurement : measurements->sensedData) {
+      if (++swapped % 10 == 0 && seen.size() > 2) measurement.landmarkID = *seen.begin();
+      seen.insert(measurement.landmarkID);
     }
   }
   const auto engine = testing::makeEngine(kBeaconIni);
@@ -93,13 +93,13 @@ TEST(BeaconPlugin, WhatCannotBeUsedIsRefusedWithItsReason) {
   options.laps = 0.05;
   const auto observations = SimulatedLog(options).observations();
   for (const auto& observation : observations) {
-    auto* sightings = dynamic_cast<CObservationBearingRange*>(observation.get());
-    if (!sightings || sightings->sensedData.empty()) continue;
-    auto sighting = sightings->sensedData.front();
-    sightings->sensedData.assign(4, sighting);  // the second has the number of the first
-    sightings->sensedData[2].landmarkID = -1;
-    sightings->sensedData[3].landmarkID = 99;
-    sightings->sensedData[3].range = 0.1F;  // the beacons hang higher than that
+    auto* measurements = dynamic_cast<CObservationBearingRange*>(observation.get());
+    if (!measurements || measurements->sensedData.empty()) continue;
+    auto measurement = measurements->sensedData.front();
+    measurements->sensedData.assign(4, measurement);  // the second has the number of the first
+    measurements->sensedData[2].landmarkID = -1;
+    measurements->sensedData[3].landmarkID = 99;
+    measurements->sensedData[3].range = 0.1F;  // the beacons hang higher than that
   }
   const auto engine = testing::makeEngine(kBeaconIni);
   testing::run(*engine, observations);

@@ -53,7 +53,7 @@ class Random : public MeasurementPlugin {
  private:
   bool chance(double share) { return dice_.uniform(0, 1) < share; }
 
-  static graph::FactorRecord sighting(const map::KeyFrame& frame, base::VariableId landmark, double way) {
+  static graph::FactorRecord measurementOf(const map::KeyFrame& frame, base::VariableId landmark, double way) {
     return betweenPoses(Motion::planar, frame.pose, landmark,
                         {CPose3D(way, 0, 0, 0, 0, 0), 0.01 * Eigen::Matrix<double, 6, 6>::Identity()}, "random");
   }
@@ -78,13 +78,13 @@ class Random : public MeasurementPlugin {
     if (chance(0.3)) {
       const auto variable = batch.addVariable(poseVariable(Motion::planar), Eigen::Vector3d(dice.uniform(0, 50), 0, 0));
       const auto landmark = batch.addLandmark("thing", {variable});
-      auto seen = sighting(frame, variable, dice.uniform(1, 3));
+      auto seen = measurementOf(frame, variable, dice.uniform(1, 3));
       seen.tags.landmark = landmark;
       batch.addFactor(std::move(seen));
     }
     if (!landmarks.empty() && chance(0.7)) {
       const auto id = pick(landmarks);
-      auto seen = sighting(frame, state.map.landmark(id).variables.front(), dice.uniform(1, 3));
+      auto seen = measurementOf(frame, state.map.landmark(id).variables.front(), dice.uniform(1, 3));
       seen.tags.landmark = id;
       batch.addFactor(std::move(seen));
       batch.addEvidence(id);

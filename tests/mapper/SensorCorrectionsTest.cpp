@@ -90,8 +90,8 @@ TEST(SensorCorrections, OneForEachKeyFrameStaysWithinItsPrior) {
   std::size_t seeing = 0;
   for (const auto& frame : engine->view().map.key_frames) {
     seeing += std::any_of(frame.observations.begin(), frame.observations.end(), [](const auto& observation) {
-      const auto* sightings = dynamic_cast<const CObservationBearingRange*>(observation.get());
-      return sightings && !sightings->sensedData.empty();
+      const auto* measurements = dynamic_cast<const CObservationBearingRange*>(observation.get());
+      return measurements && !measurements->sensedData.empty();
     });
   }
   EXPECT_EQ(found.size(), seeing);

@@ -86,7 +86,7 @@ TEST_F(AssociationOfPoints, WhatIsFarFromAllIsNew) {
   EXPECT_EQ(found.matches[0].kind, Kind::unknown);
   EXPECT_GT(found.matches[0].chi2, found.matches[0].limit);
   Decision decision;
-  found.matches[0].tell(decision);
+  found.matches[0].describe(decision);
   EXPECT_FALSE(decision.accepted);
   EXPECT_EQ(decision.reason, "gated out: too far from the nearest");
 }
@@ -135,7 +135,7 @@ TEST_F(AssociationOfPoints, ASearchOutOfNodesGivesTheBestSoFarAndSaysSo) {
   EXPECT_LE(found.nodes, 70);
   for (int m = 0; m < 10; ++m) EXPECT_EQ(matchOf(found, static_cast<std::size_t>(m)), m);
   Decision decision;
-  found.tell(3, decision);
+  found.describe(3, decision);
   EXPECT_EQ(decision.reason, "matched; the search was cut short");
 }
 
@@ -155,9 +155,9 @@ TEST_F(AssociationOfPoints, WhereNothingIsKnownOfHowSureTheMapIsNothingIsMatched
                     std::make_shared<graph::PointFactor2>(Eigen::Vector2d(0, 2)),
                     SquareRootInformation::fromSigmas(Eigen::Vector2d(0.1, 0.1))});
   const Association found = associateAll({{0, 2}});
-  EXPECT_EQ(found.matches[0].kind, Kind::untold);
+  EXPECT_EQ(found.matches[0].kind, Kind::undetermined);
   Decision decision;
-  found.tell(0, decision);
+  found.describe(0, decision);
   EXPECT_FALSE(decision.accepted);
 }
 

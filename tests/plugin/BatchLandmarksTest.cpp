@@ -15,7 +15,7 @@ namespace {
 
 using map::Landmark;
 
-graph::FactorRecord sighting(base::VariableId pose, base::VariableId thing, base::LandmarkId landmark) {
+graph::FactorRecord measurement(base::VariableId pose, base::VariableId thing, base::LandmarkId landmark) {
   graph::FactorRecord record{{pose, thing},
                              std::make_shared<graph::BetweenSe2>(geometry::Se2{1, 0, 0}),
                              graph::SquareRootInformation::identity(3),
@@ -37,7 +37,7 @@ class BatchLandmarks : public ::testing::Test {
     for (int i = 0; i < 2; ++i) {
       const auto variable = batch.addVariable(graph::se2(), Eigen::Vector3d(1, i, 0));
       const auto landmark = batch.addLandmark("thing", {variable});
-      batch.addFactor(sighting(pose_, variable, landmark));
+      batch.addFactor(measurement(pose_, variable, landmark));
     }
     const auto applied = apply(batch, {"finder", at(1)}, graph_, map_);
     a_ = applied.landmarks.at(0);
@@ -130,7 +130,7 @@ TEST_F(BatchLandmarks, OneTakesInSeveralAndOneThatGoesTakesInNone) {
       "cannot take in");
   const auto third = applied([&](Batch& batch) {
                        const auto variable = batch.addVariable(graph::se2(), Eigen::Vector3d::Zero());
-                       batch.addFactor(sighting(pose_, variable, batch.addLandmark("thing", {variable})));
+                       batch.addFactor(measurement(pose_, variable, batch.addLandmark("thing", {variable})));
                      }).landmarks.front();
   applied([&](Batch& batch) {
     batch.mergeLandmarks(b_, a_);
@@ -144,7 +144,7 @@ TEST_F(BatchLandmarks, OneTakesInSeveralAndOneThatGoesTakesInNone) {
 
 TEST_F(BatchLandmarks, AFactorBetweenTwoThatAreMergedGoes) {
   const auto both =
-      applied([&](Batch& batch) { batch.addFactor(sighting(variableOf(a_), variableOf(b_), a_)); }).factors.front();
+      applied([&](Batch& batch) { batch.addFactor(measurement(variableOf(a_), variableOf(b_), a_)); }).factors.front();
   applied([&](Batch& batch) { batch.mergeLandmarks(b_, a_); });
   EXPECT_FALSE(graph_.contains(both));
   testing::expectNothingDangles(state());
@@ -153,7 +153,7 @@ TEST_F(BatchLandmarks, AFactorBetweenTwoThatAreMergedGoes) {
 TEST_F(BatchLandmarks, AVariableGoesOnlyWithTheFactorsThatBindIt) {
   const auto extra = applied([&](Batch& batch) {
     const auto variable = batch.addVariable(graph::se2(), Eigen::Vector3d::Zero());
-    batch.addFactor(sighting(pose_, variable, a_));
+    batch.addFactor(measurement(pose_, variable, a_));
   });
   expectRefused([&](Batch& batch) { batch.removeVariable(extra.variables[0]); }, "still bound");
   applied([&](Batch& batch) {
@@ -185,7 +185,7 @@ TEST_F(BatchLandmarks, WhatDoesNotFitIsRefusedWithItsReason) {
 
 TEST_F(BatchLandmarks, ABatchOfAnOldStateSaysWhyItIsUnfit) {
   Batch batch;
-  batch.addFactor(sighting(pose_, variableOf(b_), b_));
+  batch.addFactor(measurement(pose_, variableOf(b_), b_));
   EXPECT_EQ(whyUnfit(batch, graph_, map_), "");
   applied([&](Batch& other) { other.mergeLandmarks(b_, a_); });
   EXPECT_NE(whyUnfit(batch, graph_, map_), "");

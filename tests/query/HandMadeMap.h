@@ -21,7 +21,7 @@ inline map::Place signAt(double x, double y, const std::string& caption, const s
   sign.position = {x, y, 1.5};
   sign.extent.points = {{x, y}};
   sign.extent.bottom = sign.extent.top = 1.5;
-  sign.sightings = 7;
+  sign.measurements = 7;
   sign.seen_by = {{"camera", 7}};
   sign.last_seen = base::stampFromUnix(1'700'000'000);
   return sign;

@@ -104,18 +104,18 @@ TEST(ObservationGate, MotionsAndTheirCovariancesAreFinite) {
   EXPECT_EQ(reasonOf<Pose>({}, [&](Pose& p) { p.pose.cov(3, 3) = -1; }), none);
 }
 
-TEST(ObservationGate, SightingsAreFinite) {
-  using Sighting = CObservationBearingRange;
-  Sighting good;
+TEST(ObservationGate, MeasurementsAreFinite) {
+  using Ranges = CObservationBearingRange;
+  Ranges good;
   good.sensedData.resize(1);
   good.sensedData[0].range = 3;
   good.sensedData[0].yaw = 0.1;
   good.sensedData[0].pitch = 0;
-  EXPECT_EQ(reasonOf<Sighting>(good, [](Sighting& s) { s.sensedData[0].yaw = static_cast<float>(kNan); }),
+  EXPECT_EQ(reasonOf<Ranges>(good, [](Ranges& s) { s.sensedData[0].yaw = static_cast<float>(kNan); }),
             "a bearing or range of theirs is not finite");
   good.validCovariances = true;
   good.sensedData[0].covariance.setIdentity();
-  EXPECT_NE(reasonOf<Sighting>(good, [](Sighting& s) { s.sensedData[0].covariance(1, 1) = -1; }), "");
+  EXPECT_NE(reasonOf<Ranges>(good, [](Ranges& s) { s.sensedData[0].covariance(1, 1) = -1; }), "");
 }
 
 TEST(ObservationGate, ImagesHaveAFiniteCalibration) {

@@ -16,7 +16,7 @@ const OptionTable<BeaconOptions>& BeaconOptions::table() {
             .number("sigma_yaw_deg", &Options::sigma_yaw, Range::positive(), "Standard deviation of a yaw.")
             .number("sigma_pitch_deg", &Options::sigma_pitch, Range::positive(), "Standard deviation of a pitch.")
             .number("confidence", &Options::confidence, Range{0.5, 1},
-                    "A true sighting passes the gate with this probability; 1 for no gate.");
+                    "A true measurement passes the gate with this probability; 1 for no gate.");
     return declareIn(own);  // the keys of SensorPoseTrust
   }();
   return table;

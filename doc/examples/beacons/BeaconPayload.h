@@ -20,7 +20,7 @@ struct BeaconPayload : omnimapper::map::LandmarkPayload {
   static void addTo(omnimapper::map::PayloadRegistry& registry);
 
   const std::int32_t number;       ///< the sensor's landmarkID
-  const double nearest, farthest;  ///< [m] of its sightings
+  const double nearest, farthest;  ///< [m] of its measurements
 };
 
 }  // namespace beacons

@@ -31,7 +31,7 @@ struct BeaconPlugin::Viewpoint {
   geometry::Se3 mapFromSensor() const { return map_from_base * base_from_reported * reported_from_sensor; }
 };
 
-struct BeaconPlugin::Sighting {
+struct BeaconPlugin::BeaconMeasurement {
   std::int32_t number;
   Eigen::Vector3d measured;  // range, yaw, pitch
 };
@@ -51,16 +51,17 @@ struct Linearised {
     const auto base = graph::toValue(map_from_base), correction = graph::toValue(reported_from_sensor);
     const double* const values[] = {base.data(), correction.data(), beacon.data()};
     double* const jacobians[] = {by_base.data(), by_correction.data(), by_beacon.data()};
-    SightingFactor(measured, base_from_reported, true).evaluate(values, residual.data(), jacobians);
+    BeaconFactor(measured, base_from_reported, true).evaluate(values, residual.data(), jacobians);
   }
 };
 
 // Why a measurement cannot be used; empty if it can.
-std::string whyUseless(const CObservationBearingRange::TMeasurement& sighting, const std::set<std::int32_t>& seen) {
-  if (sighting.landmarkID < 0) return "it tells no number";
-  if (seen.count(sighting.landmarkID) > 0) return "its number stands twice in the observation";
-  const bool finite = std::isfinite(sighting.range) && std::isfinite(sighting.yaw) && std::isfinite(sighting.pitch);
-  return finite && sighting.range > 0 ? "" : "no finite range and bearing";
+std::string whyUseless(const CObservationBearingRange::TMeasurement& measurement, const std::set<std::int32_t>& seen) {
+  if (measurement.landmarkID < 0) return "it tells no number";
+  if (seen.count(measurement.landmarkID) > 0) return "its number stands twice in the observation";
+  const bool finite =
+      std::isfinite(measurement.range) && std::isfinite(measurement.yaw) && std::isfinite(measurement.pitch);
+  return finite && measurement.range > 0 ? "" : "no finite range and bearing";
 }
 
 }  // namespace
@@ -76,32 +77,32 @@ bool BeaconPlugin::wants(const mrpt::obs::CObservation& observation) const {
          (options_.label.empty() || observation.sensorLabel == options_.label);
 }
 
-// Every sighting leaves a decision with its reason: users ask why a landmark was not taken.
+// Every measurement leaves a decision with its reason: users ask why a landmark was not taken.
 mapper::Batch BeaconPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                     const mapper::View& view) {
   const auto& observation = dynamic_cast<const CObservationBearingRange&>(observed.observation);
   mapper::Batch batch;
   std::optional<Viewpoint> from;
   std::set<std::int32_t> seen;
-  for (const auto& measurement : observation.sensedData) {
+  for (const auto& sensed : observation.sensedData) {
     mapper::Decision decision;
     decision.stamp = frame.stamp;
     decision.plugin = section_;
-    decision.kind = "beacon sighting";
+    decision.kind = "beacon measurement";
     decision.from = frame.id;
-    decision.numbers = {{"beacon", measurement.landmarkID}, {"range [m]", measurement.range}};
-    decision.reason = whyUseless(measurement, seen);
+    decision.numbers = {{"beacon", sensed.landmarkID}, {"range [m]", sensed.range}};
+    decision.reason = whyUseless(sensed, seen);
     if (!decision.reason.empty()) {
       batch.log(decision);
       continue;
     }
-    seen.insert(measurement.landmarkID);
+    seen.insert(sensed.landmarkID);
     if (!from) from.emplace(viewpoint(frame, observation, view, batch));
-    const Sighting sighting{measurement.landmarkID, {measurement.range, measurement.yaw, measurement.pitch}};
-    if (known_.count(sighting.number) > 0) {
-      addToKnown(sighting, *from, view, decision, batch);
+    const BeaconMeasurement measurement{sensed.landmarkID, {sensed.range, sensed.yaw, sensed.pitch}};
+    if (known_.count(measurement.number) > 0) {
+      addToKnown(measurement, *from, view, decision, batch);
     } else {
-      addNew(sighting, *from, decision, batch);
+      addNew(measurement, *from, decision, batch);
     }
   }
   return batch;
@@ -117,46 +118,46 @@ BeaconPlugin::Viewpoint BeaconPlugin::viewpoint(const map::KeyFrame& frame, cons
 
 // A variable, the factor that binds it, and the landmark that stands for it. Their ids are provisional: good within
 // this batch, replaced by the engine, and told to applied().
-void BeaconPlugin::addNew(const Sighting& sighting, const Viewpoint& from, mapper::Decision decision,
+void BeaconPlugin::addNew(const BeaconMeasurement& measurement, const Viewpoint& from, mapper::Decision decision,
                           mapper::Batch& batch) {
-  const auto position = firstPosition(sighting, from);
+  const auto position = firstPosition(measurement, from);
   decision.accepted = position.has_value();
   decision.reason = position ? "new" : "the range does not reach to the height of the beacons";
   batch.log(decision);
   if (!position) return;
   const auto variable = batch.addVariable(beaconVariable(), *position);
-  const double range = sighting.measured[0];
+  const double range = measurement.measured[0];
   const auto landmark =
-      batch.addLandmark("beacon", {variable}, std::make_shared<BeaconPayload>(sighting.number, range, range));
-  batch.addFactor(record(sighting, from, variable, landmark));
-  known_[sighting.number] = {landmark, from.frame.id, covarianceSeenFrom(sighting, from, *position)};
+      batch.addLandmark("beacon", {variable}, std::make_shared<BeaconPayload>(measurement.number, range, range));
+  batch.addFactor(record(measurement, from, variable, landmark));
+  known_[measurement.number] = {landmark, from.frame.id, covarianceSeenFrom(measurement, from, *position)};
 }
 
-void BeaconPlugin::addToKnown(const Sighting& sighting, const Viewpoint& from, const mapper::View& view,
+void BeaconPlugin::addToKnown(const BeaconMeasurement& measurement, const Viewpoint& from, const mapper::View& view,
                               mapper::Decision decision, mapper::Batch& batch) {
-  Known& known = known_.at(sighting.number);
+  Known& known = known_.at(measurement.number);
   const map::Landmark& landmark = view.map.landmark(known.landmark);
   const auto variable = landmark.variables.front();
-  auto sighting_record = record(sighting, from, variable, landmark.id);
+  auto measurement_record = record(measurement, from, variable, landmark.id);
   if (!view.areJoined(from.frame.id.session, landmark.id.session)) {
     // The first thing that ties this session to the map: if it were wrong, everything would be.
     decision.reason = "waits for the consistency test";
-    batch.addHypothesis(std::move(sighting_record), decision);
+    batch.addHypothesis(std::move(measurement_record), decision);
     return;
   }
   const Eigen::Vector3d position = view.graph.value(variable);
-  decision.accepted = passesGate(sighting, from, known, position, view, decision);
+  decision.accepted = passesGate(measurement, from, known, position, view, decision);
   batch.log(decision);
   if (!decision.accepted) return;
-  batch.addFactor(std::move(sighting_record));
+  batch.addFactor(std::move(measurement_record));
   const auto& payload = dynamic_cast<const BeaconPayload&>(*landmark.payload);
-  const double range = sighting.measured[0];
+  const double range = measurement.measured[0];
   const bool tells_more = range < payload.nearest || range > payload.farthest;
   batch.addEvidence(landmark.id,
-                    tells_more ? std::make_shared<BeaconPayload>(sighting.number, std::min(range, payload.nearest),
+                    tells_more ? std::make_shared<BeaconPayload>(measurement.number, std::min(range, payload.nearest),
                                                                  std::max(range, payload.farthest))
                                : nullptr);
-  known = {landmark.id, from.frame.id, covarianceSeenFrom(sighting, from, position)};
+  known = {landmark.id, from.frame.id, covarianceSeenFrom(measurement, from, position)};
 }
 
 void BeaconPlugin::applied(const mapper::AppliedBatch& ids) {
@@ -175,8 +176,9 @@ void BeaconPlugin::restore(const map::MapSection* /*saved*/, const mapper::View&
 }
 
 // Range and yaw, at the height that is known: the way over the floor is what the range leaves beside the height.
-std::optional<Eigen::Vector3d> BeaconPlugin::firstPosition(const Sighting& sighting, const Viewpoint& from) const {
-  const double range = sighting.measured[0], yaw = sighting.measured[1], pitch = sighting.measured[2];
+std::optional<Eigen::Vector3d> BeaconPlugin::firstPosition(const BeaconMeasurement& measurement,
+                                                           const Viewpoint& from) const {
+  const double range = measurement.measured[0], yaw = measurement.measured[1], pitch = measurement.measured[2];
   const geometry::Se3 map_from_sensor = from.mapFromSensor();
   const Eigen::Vector3d ray(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), -std::sin(pitch));
   const Eigen::Vector2d over_floor = (map_from_sensor.rotation * ray).head<2>();
@@ -188,26 +190,27 @@ std::optional<Eigen::Vector3d> BeaconPlugin::firstPosition(const Sighting& sight
   return position;
 }
 
-// How well one sighting alone tells the beacon from where it was seen: (H^T R^-1 H)^-1, R with the sensor's own place.
-Eigen::Matrix2d BeaconPlugin::covarianceSeenFrom(const Sighting& sighting, const Viewpoint& from,
+// How well one measurement alone tells the beacon from where it was seen: (H^T R^-1 H)^-1, R with the sensor's own
+// place.
+Eigen::Matrix2d BeaconPlugin::covarianceSeenFrom(const BeaconMeasurement& measurement, const Viewpoint& from,
                                                  const Eigen::Vector3d& beacon) const {
-  const Linearised at(sighting.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
+  const Linearised at(measurement.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
                       beacon);
   Eigen::Matrix3d noise = at.by_correction * corrections_.priorCovariance() * at.by_correction.transpose();
   noise.diagonal() += sigmas_.cwiseAbs2();
   return (at.by_beacon.transpose() * noise.llt().solve(at.by_beacon)).inverse();
 }
 
-// Chi-square of the residual with its own covariance: the measurement, the beacon as the last sighting told it, and the
-// motion of the base since then. What the graph knows better than that makes the gate only wider than it could be.
-bool BeaconPlugin::passesGate(const Sighting& sighting, const Viewpoint& from, const Known& known,
+// Chi-square of the residual with its own covariance: the measurement, the beacon as the last measurement told it, and
+// the motion of the base since then. What the graph knows better than that makes the gate only wider than it could be.
+bool BeaconPlugin::passesGate(const BeaconMeasurement& measurement, const Viewpoint& from, const Known& known,
                               const Eigen::Vector3d& beacon, const mapper::View& view,
                               mapper::Decision& decision) const {
   decision.reason = "known";
   if (options_.confidence >= 1 || !known.seen_from) return true;
   const auto motion = view.covarianceBetween(*known.seen_from, from.frame.id);
   if (!motion) return true;  // nobody can tell how far it may be off
-  const Linearised at(sighting.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
+  const Linearised at(measurement.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
                       beacon);
   Eigen::Matrix3d covariance = at.by_base * *motion * at.by_base.transpose() +
                                at.by_beacon * known.covariance * at.by_beacon.transpose() +
@@ -222,18 +225,18 @@ bool BeaconPlugin::passesGate(const Sighting& sighting, const Viewpoint& from, c
   return false;
 }
 
-graph::FactorRecord BeaconPlugin::record(const Sighting& sighting, const Viewpoint& from, base::VariableId beacon,
-                                         base::LandmarkId landmark) const {
+graph::FactorRecord BeaconPlugin::record(const BeaconMeasurement& measurement, const Viewpoint& from,
+                                         base::VariableId beacon, base::LandmarkId landmark) const {
   std::vector<base::VariableId> variables{from.frame.pose};
   if (from.correction) variables.push_back(*from.correction);
   variables.push_back(beacon);
   graph::FactorRecord record{
       variables,
-      std::make_shared<SightingFactor>(sighting.measured, from.base_from_reported, from.correction.has_value()),
+      std::make_shared<BeaconFactor>(measurement.measured, from.base_from_reported, from.correction.has_value()),
       graph::SquareRootInformation::fromSigmas(sigmas_)};
   record.tags.owner = section_;
   record.tags.landmark = landmark;
-  record.tags.note = "beacon sighting";
+  record.tags.note = "beacon measurement";
   return record;
 }
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "BeaconFactor.h"
 #include "BeaconOptions.h"
-#include "SightingFactor.h"
 
 namespace beacons {
 
@@ -20,8 +20,8 @@ namespace beacons {
 // changes the map or the graph itself, and one thread calls it.
 
 /// Beacons that tell their number, from ranges and bearings (CObservationBearingRange). A beacon is born from its first
-/// sighting; later ones are associated by number and gated. In a session that is not joined to the map yet, a sighting
-/// of a beacon of an earlier one is a hypothesis.
+/// measurement; later ones are associated by number and gated. In a session that is not joined to the map yet, a
+/// measurement of a beacon of an earlier one is a hypothesis.
 class BeaconPlugin : public omnimapper::mapper::MeasurementPlugin {
  public:
   BeaconPlugin(const BeaconOptions& options, const omnimapper::mapper::PluginContext& context);
@@ -32,7 +32,7 @@ class BeaconPlugin : public omnimapper::mapper::MeasurementPlugin {
                                     const omnimapper::mapper::View& view) override;
   void applied(const omnimapper::mapper::AppliedBatch& ids) override;
   void restore(const omnimapper::map::MapSection* saved, const omnimapper::mapper::View& view) override;
-  // Not needed here: spliced(), since a sighting binds one key frame, and what happens between two is nothing to it;
+  // Not needed here: spliced(), since a measurement binds one key frame, and what happens between two is nothing to it;
   // prepare(), since there is no heavy work; save(), since the payloads of the landmarks say all that restore() needs.
 
  private:
@@ -43,21 +43,22 @@ class BeaconPlugin : public omnimapper::mapper::MeasurementPlugin {
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();   // of the beacon as it was seen from there
   };
   struct Viewpoint;
-  struct Sighting;
+  struct BeaconMeasurement;
 
   Viewpoint viewpoint(const omnimapper::map::KeyFrame& frame, const mrpt::obs::CObservationBearingRange& observation,
                       const omnimapper::mapper::View& view, omnimapper::mapper::Batch& batch);
-  std::optional<Eigen::Vector3d> firstPosition(const Sighting& sighting, const Viewpoint& from) const;
-  Eigen::Matrix2d covarianceSeenFrom(const Sighting& sighting, const Viewpoint& from,
+  std::optional<Eigen::Vector3d> firstPosition(const BeaconMeasurement& measurement, const Viewpoint& from) const;
+  Eigen::Matrix2d covarianceSeenFrom(const BeaconMeasurement& measurement, const Viewpoint& from,
                                      const Eigen::Vector3d& beacon) const;
-  bool passesGate(const Sighting& sighting, const Viewpoint& from, const Known& known, const Eigen::Vector3d& beacon,
-                  const omnimapper::mapper::View& view, omnimapper::mapper::Decision& decision) const;
-  omnimapper::graph::FactorRecord record(const Sighting& sighting, const Viewpoint& from,
+  bool passesGate(const BeaconMeasurement& measurement, const Viewpoint& from, const Known& known,
+                  const Eigen::Vector3d& beacon, const omnimapper::mapper::View& view,
+                  omnimapper::mapper::Decision& decision) const;
+  omnimapper::graph::FactorRecord record(const BeaconMeasurement& measurement, const Viewpoint& from,
                                          omnimapper::base::VariableId beacon,
                                          omnimapper::base::LandmarkId landmark) const;
-  void addNew(const Sighting& sighting, const Viewpoint& from, omnimapper::mapper::Decision decision,
+  void addNew(const BeaconMeasurement& measurement, const Viewpoint& from, omnimapper::mapper::Decision decision,
               omnimapper::mapper::Batch& batch);
-  void addToKnown(const Sighting& sighting, const Viewpoint& from, const omnimapper::mapper::View& view,
+  void addToKnown(const BeaconMeasurement& measurement, const Viewpoint& from, const omnimapper::mapper::View& view,
                   omnimapper::mapper::Decision decision, omnimapper::mapper::Batch& batch);
 
   BeaconOptions options_;

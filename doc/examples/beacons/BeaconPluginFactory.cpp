@@ -13,7 +13,7 @@ namespace beacons {
 // Without this a map with beacons could be written, but not read again.
 void BeaconPluginFactory::registerKinds(mapper::Kinds& kinds) const {
   kinds.factors.add(beaconVariable());
-  SightingFactor::addTo(kinds.factors);
+  BeaconFactor::addTo(kinds.factors);
   BeaconPayload::addTo(kinds.payloads);
 }
 

@@ -30,7 +30,7 @@ void TerminalProgress::reportState(const std::string& how) {
   if (isDue()) out_ << "\r\033[K" << how << std::flush;
 }
 
-void TerminalProgress::tell(const std::string& sentence) {
+void TerminalProgress::reportEvent(const std::string& sentence) {
   if (!quiet_) out_ << (shown_ ? "\r\033[K" : "") << sentence << "\n" << std::flush;
 }
 

@@ -17,6 +17,7 @@ inline const std::map<std::string, std::string>& renamedKeys() {
       {"jump_share", "relative_jump"},
       {"lost_way_m", "lost_travel_m"},
       {"max_surprise", "max_outlier_share"},
+      {"min_sightings", "min_measurements"},
       {"min_way_m", "min_travel_m"},
   };
   return keys;

@@ -29,19 +29,19 @@ std::vector<Measurement> measurementsOf(const std::vector<Track>& tracks, const 
                                         bool held_back) {
   std::vector<Measurement> all;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
-    const auto& sightings = tracks[t].sightings;
+    const auto& of_track = tracks[t].measurements;
     const auto used =
-        std::count_if(sightings.begin(), sightings.end(), [](const Sighting& s) { return !isHeldBack(s.view); });
+        std::count_if(of_track.begin(), of_track.end(), [](const CornerMeasurement& s) { return !isHeldBack(s.view); });
     if (used < 2) continue;
-    for (const auto& sighting : sightings) {
-      if (isHeldBack(sighting.view) != held_back) continue;
-      const auto& view = views[sighting.view];
+    for (const auto& measurement : of_track) {
+      if (isHeldBack(measurement.view) != held_back) continue;
+      const auto& view = views[measurement.view];
       all.push_back({t,
-                     sighting.view,
-                     sighting.pixel,
-                     std::hypot(sighting.sigma, kOfTurning * view.turn_rate),
+                     measurement.view,
+                     measurement.pixel,
+                     std::hypot(measurement.sigma, kOfTurning * view.turn_rate),
                      {},
-                     sighting.pixel.y() / view.height - 0.5,
+                     measurement.pixel.y() / view.height - 0.5,
                      0,
                      view.velocity});
     }

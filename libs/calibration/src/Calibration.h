@@ -20,7 +20,7 @@ struct Figure {
 /// What became of some numbers that belong together.
 struct Finding {
   Group group;
-  std::vector<Figure> figures;
+  std::vector<Figure> metrics;
   bool is_determined = false;  ///< by the log; else the log's values hold
   std::string why;             ///< it is not; a sentence with the remedy
 };

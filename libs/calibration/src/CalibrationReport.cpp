@@ -136,7 +136,7 @@ std::string reportText(const Calibration& calibration, const CalibrationLog& log
       << "standard deviation\n";
   for (const auto& finding : calibration.findings) {
     out << nameOf(finding.group, calibration.log.is_registered) << "\n";
-    for (const auto& figure : finding.figures) {
+    for (const auto& figure : finding.metrics) {
       const int decimals = decimalsOf(figure.key);
       out << "  " << std::setw(18) << figure.key << std::setw(12) << fixed(figure.log, decimals);
       if (finding.is_determined || figure.sigma > 0)
@@ -171,7 +171,7 @@ std::string summaryJson(const Calibration& calibration, const CalibrationLog& lo
     one["name"] = nameOf(finding.group, calibration.log.is_registered);
     one["is_determined"] = finding.is_determined;
     if (!finding.is_determined) one["why"] = finding.why;
-    for (const auto& figure : finding.figures)
+    for (const auto& figure : finding.metrics)
       one["figures"].push_back(
           {{"key", figure.key}, {"log", figure.log}, {"estimate", figure.estimate}, {"sigma", figure.sigma}});
     json["parameters"].push_back(one);

@@ -115,20 +115,20 @@ std::optional<Aligned> align(const Patch& reference, const CalibrationView& view
 // The view in the middle of the track is the reference: the others look from either side of it.
 void alignTrack(Track& track, const std::vector<CalibrationView>& views, const DepthCamera& camera) {
   constexpr double kLeastLikeness = 0.85, kSigma = 0.35;  // [-] [px] of an aligned corner
-  const Sighting reference = track.sightings[track.sightings.size() / 2];
+  const CornerMeasurement reference = track.measurements[track.measurements.size() / 2];
   const auto patch = patchAt(views[reference.view], reference.pixel, Eigen::Matrix2d::Identity());
-  std::vector<Sighting> kept;
-  for (const auto& sighting : track.sightings) {
+  std::vector<CornerMeasurement> kept;
+  for (const auto& measurement : track.measurements) {
     if (!patch) break;
-    if (sighting.view == reference.view) {
-      kept.push_back({sighting.view, sighting.pixel, kSigma});
+    if (measurement.view == reference.view) {
+      kept.push_back({measurement.view, measurement.pixel, kSigma});
       continue;
     }
-    const auto warp = warpOf(views[reference.view], reference.pixel, views[sighting.view], camera);
-    const auto aligned = warp ? align(*patch, views[sighting.view], sighting.pixel, *warp) : std::nullopt;
-    if (aligned && aligned->likeness > kLeastLikeness) kept.push_back({sighting.view, aligned->pixel, kSigma});
+    const auto warp = warpOf(views[reference.view], reference.pixel, views[measurement.view], camera);
+    const auto aligned = warp ? align(*patch, views[measurement.view], measurement.pixel, *warp) : std::nullopt;
+    if (aligned && aligned->likeness > kLeastLikeness) kept.push_back({measurement.view, aligned->pixel, kSigma});
   }
-  track.sightings = std::move(kept);
+  track.measurements = std::move(kept);
 }
 
 }  // namespace
@@ -136,9 +136,9 @@ void alignTrack(Track& track, const std::vector<CalibrationView>& views, const D
 void alignCorners(std::vector<Track>& tracks, const std::vector<CalibrationView>& views, const DepthCamera& camera,
                   std::size_t fewest) {
   for (auto& track : tracks) alignTrack(track, views, camera);
-  tracks.erase(
-      std::remove_if(tracks.begin(), tracks.end(), [&](const Track& track) { return track.sightings.size() < fewest; }),
-      tracks.end());
+  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
+                              [&](const Track& track) { return track.measurements.size() < fewest; }),
+               tracks.end());
 }
 
 }  // namespace omnimapper::calibration

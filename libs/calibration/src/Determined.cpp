@@ -205,7 +205,7 @@ std::vector<Finding> findingsOf(const DepthCamera& log, const Adjusted& adjusted
     const auto indices = source ? indicesOf(group, *source) : std::vector<std::size_t>();
     for (std::size_t i = 0; i < before.size(); ++i) {
       const double unit = group == Group::turn ? kDegree : 1;
-      finding.figures.push_back({keysOf(group)[i], before[i], after[i],
+      finding.metrics.push_back({keysOf(group)[i], before[i], after[i],
                                  i < indices.size() ? source->parameters[indices[i]].sigma / unit : 0});
     }
     findings.push_back(std::move(finding));

@@ -208,20 +208,20 @@ std::vector<Track> findTracks(const std::vector<CalibrationView>& views, const D
   for (std::size_t v = 0; v < views.size(); ++v) {
     for (std::size_t i = 0; i < corners[v].pixels.size(); ++i) {
       const auto group = groups.find(first[v] + i);
-      auto& sightings = tracks[group].sightings;
-      is_twice[group] = is_twice[group] || (!sightings.empty() && sightings.back().view == v);
-      sightings.push_back({v, corners[v].pixels[i], corners[v].sigmas[i]});
+      auto& measurements = tracks[group].measurements;
+      is_twice[group] = is_twice[group] || (!measurements.empty() && measurements.back().view == v);
+      measurements.push_back({v, corners[v].pixels[i], corners[v].sigmas[i]});
     }
   }
   std::vector<Track> all;
   for (auto& [group, track] : tracks) {
-    if (track.sightings.size() < fewest || is_twice[group]) continue;
+    if (track.measurements.size() < fewest || is_twice[group]) continue;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     int count = 0;
-    for (const auto& sighting : track.sightings) {
-      const auto point = pointAt(views[sighting.view], camera, sighting.pixel);
+    for (const auto& measurement : track.measurements) {
+      const auto point = pointAt(views[measurement.view], camera, measurement.pixel);
       if (!point) continue;
-      sum += views[sighting.view].world_from_picture * *point;
+      sum += views[measurement.view].world_from_picture * *point;
       ++count;
     }
     if (count < 2) continue;
@@ -229,7 +229,7 @@ std::vector<Track> findTracks(const std::vector<CalibrationView>& views, const D
     all.push_back(std::move(track));
   }
   std::stable_sort(all.begin(), all.end(),
-                   [](const Track& a, const Track& b) { return a.sightings.size() > b.sightings.size(); });
+                   [](const Track& a, const Track& b) { return a.measurements.size() > b.measurements.size(); });
   if (all.size() > most) all.resize(most);
   return all;
 }

@@ -11,7 +11,7 @@
 namespace omnimapper::calibration {
 
 /// Where a view shows a point.
-struct Sighting {
+struct CornerMeasurement {
   std::size_t view;
   Eigen::Vector2d pixel;  ///< of the picture, as the lens shows it
   double sigma;           ///< [px]
@@ -20,7 +20,7 @@ struct Sighting {
 /// One point of the place, in the views that show it.
 struct Track {
   Eigen::Vector3d point;  ///< in the world [m]; the start
-  std::vector<Sighting> sightings;
+  std::vector<CornerMeasurement> measurements;
 };
 
 /// Corners (ORB) that look alike in views which by their poses see the same, linked to tracks of at least `fewest`

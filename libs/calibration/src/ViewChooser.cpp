@@ -85,9 +85,9 @@ void ViewChooser::follow(const CObservation3DRangeScan::ConstPtr& scan) {
     const auto& depth_from_picture = camera_->depth_from_picture;
     const auto motion = inverse(depth_from_picture) * tracked.last_from_camera * depth_from_picture;
     const double seconds = std::max(1e-3, base::secondsBetween(tracked.last, scan->timestamp));
-    const double way = tracked.last_from_camera.translation.norm();
+    const double travel = tracked.last_from_camera.translation.norm();
     const double angle = geometry::logSo3(tracked.last_from_camera.rotation).norm();
-    travel_ += way;
+    travel_ += travel;
     turn_ += angle;
     view.turn_rate = angle / seconds;
     view.velocity = geometry::minus(motion, geometry::Se3()) / seconds;

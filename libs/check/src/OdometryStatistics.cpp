@@ -57,16 +57,16 @@ void OdometryStatistics::add(const mrpt::obs::CObservation& observation) {
 }
 
 void OdometryStatistics::addStep(const mrpt::poses::CPose2D& step, double seconds, base::Stamp stamp) {
-  const double way = step.norm();
-  if (way > kJump + kFastestRobot * std::abs(seconds)) {
+  const double travel = step.norm();
+  if (travel > kJump + kFastestRobot * std::abs(seconds)) {
     ++facts_.jumps;
-    if (way > facts_.largest_jump) {
-      facts_.largest_jump = way;
+    if (travel > facts_.largest_jump) {
+      facts_.largest_jump = travel;
       facts_.largest_at = stamp;
     }
     return;
   }
-  facts_.way += way;
+  facts_.travel += travel;
   facts_.turn += std::abs(step.phi());
 }
 

@@ -65,7 +65,7 @@ std::string noiseText(const MotionFacts& motion) {
 std::string odometryLines(const LogFacts& facts) {
   std::string text;
   for (const auto& [label, odometry] : facts.odometry) {
-    text += quoted(label) + ": " + fixed(odometry.way, 1) + " m and " + fixed(degrees(odometry.turn) / 360, 1) +
+    text += quoted(label) + ": " + fixed(odometry.travel, 1) + " m and " + fixed(degrees(odometry.turn) / 360, 1) +
             " turns by odometry\n";
   }
   for (const auto& motion : facts.motions) {

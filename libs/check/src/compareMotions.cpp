@@ -18,7 +18,7 @@ using mrpt::poses::CPose2D;
 using Mounting = MotionFacts::Mounting;
 
 constexpr double kMoved = 0.1, kTurned = 0.1;  // [m] [rad] what a match tells from rest for sure
-constexpr double kStillWay = 1e-4, kStillTurn = 1e-4;
+constexpr double kStillTravel = 1e-4, kStillTurn = 1e-4;
 constexpr std::size_t kFewestMotions = 8;
 constexpr double kMatchSigma = 0.01;        // [m] of a match at best
 constexpr double kMatchAngleSigma = 0.003;  // [rad]
@@ -106,12 +106,12 @@ void measureNoise(const std::vector<MatchedMotion>& motions, const CPose2D& moun
   for (const auto& motion : motions) {
     const CPose2D base = mounting + motion.by_scans + (CPose2D() - mounting);
     const CPose2D error = base - *motion.by_odometry;
-    const double way = base.norm(), turn = std::abs(base.phi());
+    const double travel = base.norm(), turn = std::abs(base.phi());
     const double position = std::max(0.0, error.norm() * error.norm() - 2 * kMatchSigma * kMatchSigma);
     const double yaw = std::max(0.0, error.phi() * error.phi() - kMatchAngleSigma * kMatchAngleSigma);
-    if (way > kMoved) positions.push_back(position / way);
+    if (travel > kMoved) positions.push_back(position / travel);
     if (turn > kTurned) turns.push_back(yaw / turn);
-    if (way > kMoved && turn < kTurned / 2) headings.push_back(yaw / way);
+    if (travel > kMoved && turn < kTurned / 2) headings.push_back(yaw / travel);
   }
   facts.position_noise_per_root_m = noiseOf(positions, kChi2Of2);
   facts.yaw_noise_per_root_turn = noiseOf(turns, kChi2Of1);
@@ -123,7 +123,7 @@ bool hasMoved(const CPose2D& motion) {
 }
 
 bool isStill(const CPose2D& motion) {
-  return motion.norm() < kStillWay && std::abs(motion.phi()) < kStillTurn;
+  return motion.norm() < kStillTravel && std::abs(motion.phi()) < kStillTurn;
 }
 
 void countDirections(const MatchedMotion& motion, MotionFacts& facts) {

@@ -85,7 +85,7 @@ void LiveSource::openAll(const std::function<bool()>& stop) {
     if (thread.hasFailedToOpen())
       throw base::Error(base::ExitCode::unreadable_input, section.file + ": sensor [" + section.name + "] (" +
                                                               section.driver +
-                                                              ") cannot be opened: " + thread.figures().problem);
+                                                              ") cannot be opened: " + thread.metrics().problem);
   }
 }
 
@@ -130,7 +130,7 @@ std::vector<std::string> LiveSource::takeNews() {
 
 std::vector<SensorMetrics> LiveSource::sensors() const {
   std::vector<SensorMetrics> all;
-  for (const auto& thread : parts_->threads) all.push_back(thread.figures());
+  for (const auto& thread : parts_->threads) all.push_back(thread.metrics());
   return all;
 }
 

@@ -37,7 +37,7 @@ std::string inSeconds(double seconds) {
 struct SensorThread::Shared {
   Shared(SensorSection its, const LiveOptions& all, std::shared_ptr<Arrivals> where)
       : section(std::move(its)), options(all), arrivals(std::move(where)), clock(section.options, all.max_clock_off) {
-    figures.name = section.name;
+    metrics.name = section.name;
   }
 
   const SensorSection section;
@@ -48,7 +48,7 @@ struct SensorThread::Shared {
   std::mutex mutex;
   std::condition_variable changed;
   bool stopping = false, was_open = false, failed_to_open = false, ended = false;
-  SensorMetrics figures;
+  SensorMetrics metrics;
   Clock::time_point last_arrival = Clock::now();
   std::uint64_t left_out_before = 0;  // by drivers of this sensor before the present one
   std::uint64_t tells_left_out_at = 1;
@@ -81,7 +81,7 @@ struct SensorThread::Shared {
     const std::lock_guard lock(mutex);
     if (!was_open) {
       for (const auto& key : driver.unreadKeys()) tell(unreadKey(key));
-      figures.state = State::working;
+      metrics.state = State::working;
       last_arrival = Clock::now();
     }
     was_open = true;
@@ -90,48 +90,48 @@ struct SensorThread::Shared {
   void arrivedNow(std::size_t count) {
     const std::lock_guard lock(mutex);
     const auto now = Clock::now();
-    const bool was_working = figures.state == State::working && figures.observations > 0;
-    if (figures.state == State::lost || figures.state == State::silent) {
+    const bool was_working = metrics.state == State::working && metrics.observations > 0;
+    if (metrics.state == State::lost || metrics.state == State::silent) {
       tell("is back after " + inSeconds(std::chrono::duration<double>(now - last_arrival).count()));
-      ++figures.reopened;
+      ++metrics.reopened;
     }
-    figures.state = State::working;
-    figures.observations += count;
+    metrics.state = State::working;
+    metrics.observations += count;
     constexpr std::size_t kGaps = 10;
     if (was_working) gaps.push_back(std::chrono::duration<double>(now - last_arrival).count());
     if (gaps.size() > kGaps) gaps.pop_front();
     last_arrival = now;
     arrived.insert(arrived.end(), count, now);
     while (now - arrived.front() > kRateWindow) arrived.pop_front();
-    if (clock.jumps() > figures.clock_jumps) {
+    if (clock.jumps() > metrics.clock_jumps) {
       char text[160];
       std::snprintf(text, sizeof text, "has a clock that is %.3f s from the host's; its stamps are moved by that",
                     clock.offset());
       tell(text);
     }
-    figures.clock_jumps = clock.jumps();
-    figures.clock_offset = clock.offset();
+    metrics.clock_jumps = clock.jumps();
+    metrics.clock_offset = clock.offset();
   }
   // Told once, and each time that there are twice as many.
   void leftOut(const SensorDriver& driver) {
     const std::lock_guard lock(mutex);
-    figures.left_out = left_out_before + driver.leftOut();
-    if (figures.left_out < tells_left_out_at) return;
+    metrics.left_out = left_out_before + driver.leftOut();
+    if (metrics.left_out < tells_left_out_at) return;
     tell("sent invalid data, which was discarded: " + driver.leftOutByReason());
-    tells_left_out_at = 2 * figures.left_out;
+    tells_left_out_at = 2 * metrics.left_out;
   }
   // What a driver threw. The first failure of a sensor that was never open ends the thread.
   void failed(const std::string& reason) {
     const std::lock_guard lock(mutex);
     if (!was_open) {
       failed_to_open = true;
-      figures.problem = reason;
-    } else if (figures.state != State::lost) {
+      metrics.problem = reason;
+    } else if (metrics.state != State::lost) {
       tell("is lost: " + reason + "; it is opened again as soon as it answers");
-      figures.problem = reason;
-      figures.losses += figures.state != State::silent;
+      metrics.problem = reason;
+      metrics.losses += metrics.state != State::silent;
     }
-    figures.state = State::lost;
+    metrics.state = State::lost;
     changed.notify_all();
   }
 };
@@ -161,13 +161,13 @@ void SensorThread::run(const std::shared_ptr<Shared>& shared) {
     {
       const std::lock_guard lock(shared->mutex);
       if (shared->failed_to_open) break;
-      shared->left_out_before = shared->figures.left_out;
+      shared->left_out_before = shared->metrics.left_out;
     }
     shared->sleep(kBetweenAttempts);
   }
   const std::lock_guard lock(shared->mutex);
-  if (shared->figures.state == State::working || shared->figures.state == State::opening)
-    shared->figures.state = State::stopped;
+  if (shared->metrics.state == State::working || shared->metrics.state == State::opening)
+    shared->metrics.state = State::stopped;
   shared->ended = true;
   shared->changed.notify_all();
 }
@@ -248,22 +248,22 @@ std::vector<std::string> SensorThread::takeNews() {
   const std::lock_guard lock(shared_->mutex);
   const double silence = secondsSince(shared_->last_arrival);
   const double patience = std::max(shared_->options.silent_after, 2 * shared_->longestGap());
-  if (shared_->figures.state == State::working && silence > patience && !shared_->ended) {
-    shared_->figures.state = State::silent;
-    ++shared_->figures.losses;
+  if (shared_->metrics.state == State::working && silence > patience && !shared_->ended) {
+    shared_->metrics.state = State::silent;
+    ++shared_->metrics.losses;
     shared_->tell("is silent: it has sent nothing for " + inSeconds(silence));
   }
   return std::exchange(shared_->news, {});
 }
 
-SensorMetrics SensorThread::figures() const {
+SensorMetrics SensorThread::metrics() const {
   const std::lock_guard lock(shared_->mutex);
-  SensorMetrics figures = shared_->figures;
+  SensorMetrics metrics = shared_->metrics;
   const auto since = Clock::now() - kRateWindow;
   const auto newest =
       std::count_if(shared_->arrived.begin(), shared_->arrived.end(), [&](const auto& when) { return when > since; });
-  figures.rate = static_cast<double>(newest) / std::chrono::duration<double>(kRateWindow).count();
-  return figures;
+  metrics.rate = static_cast<double>(newest) / std::chrono::duration<double>(kRateWindow).count();
+  return metrics;
 }
 
 }  // namespace omnimapper::live

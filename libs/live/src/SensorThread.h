@@ -34,7 +34,7 @@ class SensorThread {
 
   /// Sentences since the last call. Silence is noticed here.
   std::vector<std::string> takeNews();
-  SensorMetrics figures() const;
+  SensorMetrics metrics() const;
 
  private:
   struct Shared;

@@ -34,7 +34,7 @@ Recorded record(const LiveOptions& options, const base::Config& config, const st
   while (!stop() && source.recorder()->failure().empty() && (seconds == 0 || elapsed() < seconds)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     source.discardWaiting();
-    for (const auto& sentence : source.takeNews()) progress.tell(sentence);
+    for (const auto& sentence : source.takeNews()) progress.reportEvent(sentence);
     source.takeDropped();
     progress.reportState(source.sensorsText() +
                          formatted("; %.0f s, %.1f MB", elapsed(),

@@ -102,7 +102,7 @@ void write(ByteWriter& out, const Place& place) {
   });
   write<3>(out, place.position);
   write(out, place.extent);
-  out.uint(place.sightings, 4);
+  out.uint(place.measurements, 4);
   writeList(out, place.seen_by, [&](const auto& sensor) {
     out.block(sensor.first);
     out.uint(sensor.second, 8);
@@ -129,7 +129,7 @@ Place readPlace(ByteReader& in) {
   });
   place.position = read<3>(in);
   place.extent = readExtent(in);
-  place.sightings = static_cast<std::uint32_t>(in.uint(4));
+  place.measurements = static_cast<std::uint32_t>(in.uint(4));
   readList(in, [&] {
     const std::string label(in.block());
     place.seen_by[label] = in.uint(8);

@@ -10,7 +10,7 @@ std::vector<SessionMetrics> sessionMetrics(const Map& map) {
       all.push_back({frame.id.session, 0, 0, 0});
       first = &frame;
     } else {
-      all.back().way += (frame.map_from_base.translation() - before->map_from_base.translation()).norm();
+      all.back().travel += (frame.map_from_base.translation() - before->map_from_base.translation()).norm();
     }
     const base::Stamp last = frame.dependents.empty() ? frame.stamp : frame.dependents.back().stamp;
     all.back().seconds = base::secondsBetween(first->stamp, last);

@@ -56,7 +56,7 @@ class Engine {
   /// For the summary: observations that the source did not hand out because nothing can be made of them.
   void setLeftOut(std::size_t observations) { state_.counts.left_out = observations; }
   /// For the summary: how a live run is.
-  void setLive(LiveMetrics figures) { state_.live = std::move(figures); }
+  void setLive(LiveMetrics metrics) { state_.live = std::move(metrics); }
   /// Measures time spent outside the engine, such as reading the log.
   StageTimes::Timer measure(Stage stage) { return state_.times.measure(stage); }
 

@@ -13,13 +13,13 @@ bool WheelOdometry::isOurs(const mrpt::obs::CObservation& observation) {
 }
 
 Eigen::Matrix<double, 6, 6> WheelOdometry::covarianceOf(const mrpt::poses::CPose3D& motion, double seconds) const {
-  const double way = motion.translation().norm();
+  const double travel = motion.translation().norm();
   const double turn = std::abs(motion.yaw());
   const auto squared = [](double value) { return value * value; };
   const double position =
-      squared(options_.position_noise_per_root_m) * way + squared(options_.position_noise_per_root_s) * seconds;
-  const double yaw = squared(options_.yaw_noise_per_root_turn) * turn + squared(options_.yaw_noise_per_root_m) * way +
-                     squared(options_.yaw_noise_per_root_s) * seconds;
+      squared(options_.position_noise_per_root_m) * travel + squared(options_.position_noise_per_root_s) * seconds;
+  const double yaw = squared(options_.yaw_noise_per_root_turn) * turn +
+                     squared(options_.yaw_noise_per_root_m) * travel + squared(options_.yaw_noise_per_root_s) * seconds;
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   covariance.diagonal() << position, position, position, yaw, yaw, yaw;
   return covariance;
@@ -110,10 +110,10 @@ void WheelOdometry::tell(base::Stamp begin, base::Stamp end, const mrpt::poses::
 
 bool WheelOdometry::isImpossible(const mrpt::poses::CPose3D& motion, double seconds) {
   constexpr double kFastest = 100, kSlack = 10;  // [m/s] [m] for stamps that are not exact
-  const double way = motion.norm();
-  if (way <= kSlack + kFastest * seconds) return false;
+  const double travel = motion.norm();
+  if (travel <= kSlack + kFastest * seconds) return false;
   ++impossible_;
-  farthest_ = std::max(farthest_, way);
+  farthest_ = std::max(farthest_, travel);
   return true;
 }
 

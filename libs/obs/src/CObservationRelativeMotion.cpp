@@ -101,18 +101,18 @@ std::string CObservationRelativeMotion::exportTxtDataRow() const {
 }
 
 void CObservationRelativeMotion::getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const {
-  const double way = begin_from_end.norm();
-  const double size = std::max(0.02, 0.3 * way);  // [m] axis of a corner
+  const double travel = begin_from_end.norm();
+  const double size = std::max(0.02, 0.3 * travel);  // [m] axis of a corner
   scene.insert(mrpt::opengl::stock_objects::CornerXYZ(static_cast<float>(size)));
   auto end_corner = mrpt::opengl::stock_objects::CornerXYZ(static_cast<float>(size));
   end_corner->setPose(begin_from_end);
   scene.insert(end_corner);
 
-  if (way > 1e-3) {
+  if (travel > 1e-3) {
     auto arrow = mrpt::opengl::CArrow::Create();
     arrow->setArrowEnds(mrpt::math::CVectorFixedDouble<3>(), begin_from_end.m_coords);
-    arrow->setSmallRadius(static_cast<float>(0.02 * way));
-    arrow->setLargeRadius(static_cast<float>(0.05 * way));
+    arrow->setSmallRadius(static_cast<float>(0.02 * travel));
+    arrow->setLargeRadius(static_cast<float>(0.05 * travel));
     arrow->setColor_u8(0xff, 0xa0, 0x00);
     scene.insert(arrow);
   }

@@ -166,7 +166,7 @@ Association associate(std::size_t measurements, const std::vector<Pairing>& pair
   if (!joint) {
     for (const Candidate& candidate : candidates) {
       Match& match = association.matches[pairings[candidate.pairing].measurement];
-      match.kind = Match::Kind::untold;
+      match.kind = Match::Kind::undetermined;
       match.pairing = candidate.pairing;
     }
     return association;
@@ -204,7 +204,7 @@ Association associate(std::size_t measurements, const std::vector<Pairing>& pair
   return association;
 }
 
-void Match::tell(Decision& decision) const {
+void Match::describe(Decision& decision) const {
   decision.accepted = kind == Kind::matched;
   if (pairing) {
     decision.numbers.emplace_back("chi-square", chi2);
@@ -218,7 +218,7 @@ void Match::tell(Decision& decision) const {
     case Kind::ambiguous:
       decision.reason = "fits two landmarks alike";
       break;
-    case Kind::untold:
+    case Kind::undetermined:
       decision.reason = "the covariance is not known: left out";
       break;
     case Kind::unknown:
@@ -229,8 +229,8 @@ void Match::tell(Decision& decision) const {
   }
 }
 
-void Association::tell(std::size_t measurement, Decision& decision) const {
-  matches[measurement].tell(decision);
+void Association::describe(std::size_t measurement, Decision& decision) const {
+  matches[measurement].describe(decision);
   if (complete) return;
   decision.reason += "; the search was cut short";
   decision.numbers.emplace_back("interpretations", nodes);

@@ -243,7 +243,7 @@ AppliedBatch apply(const Batch& batch, const BatchOrigin& origin, graph::Graph& 
   for (const auto id : batch.removedFactors()) graph.removeFactor(id);
   for (const auto& evidence : batch.evidence()) {
     map::Landmark& landmark = *map.landmarks.edit(finalId(evidence.landmark, applied.landmarks));
-    if (evidence.is_sighting) {
+    if (evidence.is_measurement) {
       ++landmark.evidence;
       const base::Stamp seen = evidence.seen.value_or(origin.stamp);
       landmark.first_seen = std::min(landmark.first_seen, seen);

@@ -32,7 +32,7 @@ const base::OptionTable<DynamicLandmarksOptions>& DynamicLandmarksOptions::table
           .number("max_weight", &Options::max_weight, Range{0, 1},
                   "Weight below which a landmark is examined for having moved; one that has not keeps 0.9 or more "
                   "in 99 of 100 cases.")
-          .integer("min_sightings", &Options::min_sightings, Range{1, 1e6},
+          .integer("min_measurements", &Options::min_measurements, Range{1, 1e6},
                    "Smallest number of measurements at a place for a landmark to have been there; fewer are taken "
                    "as errors.")
           .number("min_move_m", &Options::min_move, Range::notNegative(), "Smallest displacement that counts as moved.")
@@ -57,13 +57,13 @@ class Look {
     Weighing weighing = weighLandmarks(heldLoosely(landmarks), landmarks);
     std::vector<WeighedLandmark> suspects;
     for (const auto& landmark : weighing.landmarks) {
-      keepAsTheyWere(landmark.sightings, weighing.graph);
+      keepAsTheyWere(landmark.measurements, weighing.graph);
       const bool has_place =
           middleOf(view_.map.landmark(landmark.id), valuesOf(landmark), view_.map.key_frames).has_value();
       if (landmark.weight < options_.max_weight && has_place) suspects.push_back(landmark);
     }
     if (!suspects.empty()) {
-      for (const auto& landmark : suspects) setWeights(landmark.sightings, 0, weighing.graph);
+      for (const auto& landmark : suspects) setWeights(landmark.measurements, 0, weighing.graph);
       auto places = clusterMeasurements(view_.map, weighing.graph, suspects, options_);
       if (!places) return cannotTell("a part of the map is determined by nothing");
       for (std::size_t i = 0; i < suspects.size(); ++i) judge(suspects[i], std::move((*places)[i]), weighing.graph);
@@ -72,7 +72,7 @@ class Look {
       for (const auto& [landmark, seen] : moved_) addRecord(landmark, seen, frames, weighing.graph);
     }
     for (const auto& landmark : landmarks) {
-      for (const auto id : landmark.sightings) {
+      for (const auto id : landmark.measurements) {
         const double weight = weighing.graph.factor(id).weight;
         if (weight != view_.graph.factor(id).weight) batch_.setWeight(id, weight);
       }
@@ -142,9 +142,9 @@ class Look {
     for (const auto id : factors) graph.setWeight(id, weight);
   }
 
-  // A sighting that was left without weight while the map grew may fit the map as it is now.
-  void keepAsTheyWere(const std::vector<base::FactorId>& sightings, graph::Graph& graph) const {
-    for (const auto id : sightings) {
+  // A measurement that was left without weight while the map grew may fit the map as it is now.
+  void keepAsTheyWere(const std::vector<base::FactorId>& measurements, graph::Graph& graph) const {
+    for (const auto id : measurements) {
       const double before = view_.graph.factor(id).weight;
       const Eigen::VectorXd residual = graph.whitenedResidual(id);
       const double limit = graph::chiSquareQuantile(options_.confidence, static_cast<int>(residual.size()));
@@ -154,37 +154,37 @@ class Look {
 
   void judge(const WeighedLandmark& landmark, std::vector<SeenPlace> places, graph::Graph& graph) {
     const auto enough = [&](const SeenPlace& place) {
-      return place.sightings.size() >= static_cast<std::size_t>(options_.min_sightings);
+      return place.measurements.size() >= static_cast<std::size_t>(options_.min_measurements);
     };
     places.erase(std::remove_if(places.begin(), places.end(), [&](const auto& place) { return !enough(place); }),
                  places.end());
     const bool moved = places.size() > 1;
-    const bool stands = places.size() == 1 && isDetermined(landmark, places.front().sightings, view_.graph);
+    const bool stands = places.size() == 1 && isDetermined(landmark, places.front().measurements, view_.graph);
     mapper::Decision decision = newDecision();
     decision.numbers = {{"landmark", landmark.id.index},
                         {"weight", landmark.weight},
                         {"chi-square", landmark.chi2},
                         {"degrees of freedom", landmark.degrees_of_freedom},
-                        {"sightings", static_cast<double>(landmark.sightings.size())},
+                        {"measurements", static_cast<double>(landmark.measurements.size())},
                         {"places", static_cast<double>(places.size())}};
     decision.accepted = moved;
     decision.reason = moved    ? "moved: it was seen in more than one place"
                       : stands ? "stands where it stood; what does not fit is left out"
-                               : "given up: its sightings do not fit, and those of no place tell where it is";
+                               : "given up: its measurements do not fit, and those of no place tell where it is";
     batch_.log(std::move(decision));
     if (stands) {
-      setWeights(places.front().sightings, 1, graph);
+      setWeights(places.front().measurements, 1, graph);
     } else {
       retire(landmark);
     }
     if (moved) moved_.emplace_back(landmark, std::move(places));
   }
 
-  // Nothing bears on it any more, and it on nothing: what is no sighting goes, and sightings stay without weight.
+  // Nothing bears on it any more, and it on nothing: what is no measurement goes, and measurements stay without weight.
   void retire(const WeighedLandmark& landmark) {
     for (const auto id : view_.factorsOf(landmark.id)) {
-      const bool is_sighting = std::binary_search(landmark.sightings.begin(), landmark.sightings.end(), id);
-      if (!is_sighting && removed_.insert(id).second) batch_.removeFactor(id);
+      const bool is_measurement = std::binary_search(landmark.measurements.begin(), landmark.measurements.end(), id);
+      if (!is_measurement && removed_.insert(id).second) batch_.removeFactor(id);
     }
     batch_.retireLandmark(landmark.id);
   }
@@ -196,15 +196,15 @@ class Look {
     payload->landmark = landmark.id;
     payload->label = gone.payload->shape(valuesOf(landmark), view_.map.key_frames).label;
     for (const SeenPlace& place : places) {
-      const auto* first = frames.of(graph.factor(place.sightings.front()));
-      const auto* last = frames.of(graph.factor(place.sightings.back()));
+      const auto* first = frames.of(graph.factor(place.measurements.front()));
+      const auto* last = frames.of(graph.factor(place.measurements.back()));
       std::set<base::KeyFrameId> seen_from;
-      for (const auto id : place.sightings) seen_from.insert(frames.of(graph.factor(id))->id);
+      for (const auto id : place.measurements) seen_from.insert(frames.of(graph.factor(id))->id);
       const auto middle =
-          middleOf(gone, valuesSeenBy(place.sightings, landmark, graph), view_.map.key_frames, seen_from);
+          middleOf(gone, valuesSeenBy(place.measurements, landmark, graph), view_.map.key_frames, seen_from);
       const auto map_from_base = geometry::fromMrpt(mapper::poseOf(graph, last->pose));
       payload->places.push_back({last->id, inverse(map_from_base) * *middle, first->stamp, last->stamp,
-                                 static_cast<std::uint32_t>(place.sightings.size())});
+                                 static_cast<std::uint32_t>(place.measurements.size())});
     }
     // Retired as well: it tells where the thing was.
     batch_.retireLandmark(batch_.addLandmark("moved thing", {}, std::move(payload)));

@@ -13,19 +13,19 @@ struct DynamicLandmarksOptions {
   std::vector<std::string> landmarks;  ///< INI sections; none: of every section
   int every_solves = 0;                ///< also after so many solves; 0: at the end alone
   double max_weight = 0.8;             ///< a landmark of less is looked at
-  int min_sightings = 2;               ///< of a place
+  int min_measurements = 2;            ///< of a place
   double min_move = 0.15;              ///< [m]
   double visit_gap = 5;                ///< [s]
-  double confidence = 0.999;           ///< sightings of one place are taken for that with this probability
+  double confidence = 0.999;           ///< measurements of one place are taken for that with this probability
 
   static const base::OptionTable<DynamicLandmarksOptions>& table();
 };
 
 /// Finds out landmarks that were moved (thesis 4.6): expectation maximisation over one weight per landmark, on a copy
-/// of the graph; then sightings of those with little weight are told apart into the places where they were seen. Moved
-/// ones are retired, no longer bear on the map, and stay in it as a landmark of kind "moved thing" that lists their
-/// places. Those with little weight that were nowhere seen often enough are retired without. The first key frame throws
-/// Error(unknown_key) if `landmarks` names what is neither a plugin's section nor the owner of a landmark.
+/// of the graph; then measurements of those with little weight are told apart into the places where they were seen.
+/// Moved ones are retired, no longer bear on the map, and stay in it as a landmark of kind "moved thing" that lists
+/// their places. Those with little weight that were nowhere seen often enough are retired without. The first key frame
+/// throws Error(unknown_key) if `landmarks` names what is neither a plugin's section nor the owner of a landmark.
 class DynamicLandmarksPlugin : public mapper::MeasurementPlugin {
  public:
   DynamicLandmarksPlugin(const DynamicLandmarksOptions& options, const mapper::PluginContext& context);

@@ -16,7 +16,7 @@ namespace {
 
 const graph::SolveOptions kVisitSolve{graph::SolveOptions::Method::levenberg_marquardt, 30, 1e-6, {}};
 
-// A landmark, what is known of it by itself, and sightings of it, with all else held.
+// A landmark, what is known of it by itself, and measurements of it, with all else held.
 class Visit {
  public:
   Visit(const WeighedLandmark& landmark, const graph::Graph& graph) : landmark_(&landmark), whole_(&graph) {
@@ -28,25 +28,25 @@ class Visit {
   }
 
   /// Takes it if it fits.
-  bool add(base::FactorId sighting, double limit) {
-    const auto id = held_.addFactor(bound(whole_->factor(sighting)));
-    if (!sightings_.empty() && held_.whitenedResidual(id).squaredNorm() > limit) {
+  bool add(base::FactorId measurement, double limit) {
+    const auto id = held_.addFactor(bound(whole_->factor(measurement)));
+    if (!measurements_.empty() && held_.whitenedResidual(id).squaredNorm() > limit) {
       held_.removeFactor(id);
       return false;
     }
-    sightings_.push_back(sighting);
+    measurements_.push_back(measurement);
     // Estimated anew each time it has become twice as many.
-    if ((sightings_.size() & (sightings_.size() - 1)) == 0) graph::solve(held_, kVisitSolve);
+    if ((measurements_.size() & (measurements_.size() - 1)) == 0) graph::solve(held_, kVisitSolve);
     return true;
   }
 
-  void addAll(const std::vector<base::FactorId>& sightings) {
-    for (const auto id : sightings) held_.addFactor(bound(whole_->factor(id)));
-    sightings_.insert(sightings_.end(), sightings.begin(), sightings.end());
+  void addAll(const std::vector<base::FactorId>& measurements) {
+    for (const auto id : measurements) held_.addFactor(bound(whole_->factor(id)));
+    measurements_.insert(measurements_.end(), measurements.begin(), measurements.end());
     graph::solve(held_, kVisitSolve);
   }
 
-  const std::vector<base::FactorId>& sightings() const { return sightings_; }
+  const std::vector<base::FactorId>& measurements() const { return measurements_; }
   std::vector<Eigen::VectorXd> values() const {
     std::vector<Eigen::VectorXd> values;
     for (const auto id : landmark_->variables) values.push_back(held_.value(own_.at(id)));
@@ -67,26 +67,27 @@ class Visit {
   const graph::Graph* whole_;
   graph::Graph held_;
   std::map<base::VariableId, base::VariableId> own_;
-  std::vector<base::FactorId> sightings_;
+  std::vector<base::FactorId> measurements_;
 };
 
 std::vector<Visit> visitsOf(const WeighedLandmark& landmark, const MeasurementFrames& frames, const map::Map& map,
                             const graph::Graph& graph, const DynamicLandmarksOptions& options) {
   constexpr double kInflation = 9;  // of the gate: within a visit only a jump is told
   std::map<std::pair<std::size_t, base::FactorId>, const map::KeyFrame*> in_order;
-  for (const auto id : landmark.sightings) {
+  for (const auto id : landmark.measurements) {
     if (const auto* frame = frames.of(graph.factor(id))) in_order[{map.key_frames.position(frame->id), id}] = frame;
   }
   std::vector<Visit> visits;
   const map::KeyFrame* last = nullptr;
   for (const auto& [place, frame] : in_order) {
-    const auto sighting = place.second;
-    const double limit = kInflation * graph::chiSquareQuantile(options.confidence, graph.factor(sighting).noise.size());
+    const auto measurement = place.second;
+    const double limit =
+        kInflation * graph::chiSquareQuantile(options.confidence, graph.factor(measurement).noise.size());
     const bool goes_on = last && last->id.session == frame->id.session &&
                          base::secondsBetween(last->stamp, frame->stamp) <= options.visit_gap;
-    if (!goes_on || !visits.back().add(sighting, limit)) {
+    if (!goes_on || !visits.back().add(measurement, limit)) {
       visits.emplace_back(landmark, graph);
-      visits.back().add(sighting, limit);
+      visits.back().add(measurement, limit);
     }
     last = frame;
   }
@@ -120,7 +121,7 @@ VisitVariables splitIntoVisits(const WeighedLandmark& landmark, const std::vecto
       record.weight = 1;
       graph.addFactor(std::move(record));
     };
-    for (const auto id : visit.sightings()) copy(id);
+    for (const auto id : visit.measurements()) copy(id);
     for (const auto id : of_itself) copy(id);
   }
   return all;
@@ -182,8 +183,8 @@ std::vector<SeenPlace> placesOfVisits(const map::Landmark& landmark, const std::
       members.emplace_back();
     }
     members[best_place].push_back(i);
-    auto& sightings = places[best_place].sightings;
-    sightings.insert(sightings.end(), visits[i].sightings().begin(), visits[i].sightings().end());
+    auto& measurements = places[best_place].measurements;
+    measurements.insert(measurements.end(), visits[i].measurements().begin(), visits[i].measurements().end());
   }
   return places;
 }
@@ -194,8 +195,8 @@ MeasurementFrames::MeasurementFrames(const map::KeyFrames& key_frames) {
   for (const auto& frame : key_frames) of_poses_[frame.pose] = &frame;
 }
 
-const map::KeyFrame* MeasurementFrames::of(const graph::FactorRecord& sighting) const {
-  for (const auto id : sighting.variables) {
+const map::KeyFrame* MeasurementFrames::of(const graph::FactorRecord& measurement) const {
+  for (const auto id : measurement.variables) {
     const auto found = of_poses_.find(id);
     if (found != of_poses_.end()) return found->second;
   }
@@ -225,18 +226,18 @@ std::optional<std::vector<std::vector<SeenPlace>>> clusterMeasurements(const map
   return places;
 }
 
-std::vector<Eigen::VectorXd> valuesSeenBy(const std::vector<base::FactorId>& sightings, const WeighedLandmark& landmark,
-                                          const graph::Graph& graph) {
+std::vector<Eigen::VectorXd> valuesSeenBy(const std::vector<base::FactorId>& measurements,
+                                          const WeighedLandmark& landmark, const graph::Graph& graph) {
   Visit visit(landmark, graph);
-  visit.addAll(sightings);
+  visit.addAll(measurements);
   return visit.values();
 }
 
-bool isDetermined(const WeighedLandmark& landmark, const std::vector<base::FactorId>& sightings,
+bool isDetermined(const WeighedLandmark& landmark, const std::vector<base::FactorId>& measurements,
                   const graph::Graph& graph) {
   constexpr double kLeast = 1e-9;  // of the information in the best known direction
   auto factors = factorsOfItself(landmark, graph);
-  factors.insert(factors.end(), sightings.begin(), sightings.end());
+  factors.insert(factors.end(), measurements.begin(), measurements.end());
   std::map<base::VariableId, Eigen::Index> offsets;
   Eigen::Index size = 0;
   for (const auto id : landmark.variables) {

@@ -11,37 +11,37 @@
 
 namespace omnimapper::plugins {
 
-/// The key frames that sightings were made at.
+/// The key frames that measurements were made at.
 class MeasurementFrames {
  public:
   explicit MeasurementFrames(const map::KeyFrames& key_frames);
   /// None if it binds no pose.
-  const map::KeyFrame* of(const graph::FactorRecord& sighting) const;
+  const map::KeyFrame* of(const graph::FactorRecord& measurement) const;
 
  private:
   std::map<base::VariableId, const map::KeyFrame*> of_poses_;
 };
 
-/// Sightings of one landmark that show it where it was at one time, in the order they were made.
+/// Measurements of one landmark that show it where it was at one time, in the order they were made.
 struct SeenPlace {
-  std::vector<base::FactorId> sightings;
+  std::vector<base::FactorId> measurements;
 };
 
-/// Tells the sightings of landmarks apart into the places where they were. Sightings in a row that agree are a visit;
-/// in a copy of `graph` each visit is a landmark of its own, with all that is known of the trajectory, and visits are
-/// of one place where they differ by no more than their covariance allows, or by less than what counts as a move. What
-/// is known of a landmark by itself holds in each visit; relations to others in none. None if a direction of some other
-/// variable is determined by nothing.
+/// Tells the measurements of landmarks apart into the places where they were. Measurements in a row that agree are a
+/// visit; in a copy of `graph` each visit is a landmark of its own, with all that is known of the trajectory, and
+/// visits are of one place where they differ by no more than their covariance allows, or by less than what counts as a
+/// move. What is known of a landmark by itself holds in each visit; relations to others in none. None if a direction of
+/// some other variable is determined by nothing.
 std::optional<std::vector<std::vector<SeenPlace>>> clusterMeasurements(const map::Map& map, const graph::Graph& graph,
                                                                        const std::vector<WeighedLandmark>& landmarks,
                                                                        const DynamicLandmarksOptions& options);
 
-/// Where those sightings alone show a landmark, with the poses held as they are in `graph`.
-std::vector<Eigen::VectorXd> valuesSeenBy(const std::vector<base::FactorId>& sightings, const WeighedLandmark& landmark,
-                                          const graph::Graph& graph);
+/// Where those measurements alone show a landmark, with the poses held as they are in `graph`.
+std::vector<Eigen::VectorXd> valuesSeenBy(const std::vector<base::FactorId>& measurements,
+                                          const WeighedLandmark& landmark, const graph::Graph& graph);
 
-/// Whether those sightings, with what is known of the landmark by itself, leave none of its directions open.
-bool isDetermined(const WeighedLandmark& landmark, const std::vector<base::FactorId>& sightings,
+/// Whether those measurements, with what is known of the landmark by itself, leave none of its directions open.
+bool isDetermined(const WeighedLandmark& landmark, const std::vector<base::FactorId>& measurements,
                   const graph::Graph& graph);
 
 /// The middle of a landmark that has these values [m], by the parts of its surface that were seen from these key

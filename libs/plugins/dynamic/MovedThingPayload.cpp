@@ -32,7 +32,7 @@ map::LandmarkShape MovedThingPayload::shape(const std::vector<Eigen::VectorXd>&,
     const std::string number = "place_" + std::to_string(shape.points.size());
     shape.properties.emplace_back(number + "_first_seen", base::formatUnix(place.first_seen));
     shape.properties.emplace_back(number + "_last_seen", base::formatUnix(place.last_seen));
-    shape.properties.emplace_back(number + "_sightings", std::to_string(place.sightings));
+    shape.properties.emplace_back(number + "_measurements", std::to_string(place.measurements));
   }
   return shape;
 }
@@ -53,7 +53,7 @@ void MovedThingPayload::write(std::ostream& out) const {
     graph::writeVector(out, place.point_in_base);
     writeStamp(out, place.first_seen);
     writeStamp(out, place.last_seen);
-    graph::writeUint(out, place.sightings, 4);
+    graph::writeUint(out, place.measurements, 4);
   }
 }
 
@@ -73,7 +73,7 @@ void MovedThingPayload::addTo(map::PayloadRegistry& registry) {
       place.point_in_base = graph::readVector<3>(in);
       place.first_seen = readStamp(in);
       place.last_seen = readStamp(in);
-      place.sightings = static_cast<std::uint32_t>(graph::readUint(in, 4));
+      place.measurements = static_cast<std::uint32_t>(graph::readUint(in, 4));
       payload->places.push_back(place);
     }
     return payload;

@@ -15,7 +15,7 @@ struct ObservedPlace {
   base::KeyFrameId seen_from;     ///< the last of those it was seen from
   Eigen::Vector3d point_in_base;  ///< [m] its middle, in the base of that one
   base::Stamp first_seen, last_seen;
-  std::uint32_t sightings = 0;
+  std::uint32_t measurements = 0;
 };
 
 /// A thing that was moved: the places it was seen at (thesis 4.6.2.3), where it may be looked for.

@@ -75,21 +75,21 @@ class WeightEm {
 
   void setWeight(WeighedLandmark& landmark, double weight) {
     landmark.weight = weight;
-    for (const auto id : landmark.sightings) result_.graph.setWeight(id, weight);
+    for (const auto id : landmark.measurements) result_.graph.setWeight(id, weight);
   }
 
-  // What the sightings of each would cost if they counted, the landmark where they want it. One without weight has been
-  // left where it was.
+  // What the measurements of each would cost if they counted, the landmark where they want it. One without weight has
+  // been left where it was.
   void measure() {
     for (auto& landmark : result_.landmarks) {
-      for (const auto id : landmark.sightings) result_.graph.setWeight(id, 1);
+      for (const auto id : landmark.measurements) result_.graph.setWeight(id, 1);
       for (const auto id : landmark.variables) graph::solveOne(result_.graph, id);
       landmark.chi2 = 0;
-      for (const auto id : landmark.sightings) {
+      for (const auto id : landmark.measurements) {
         const double s = result_.graph.whitenedResidual(id).squaredNorm();
         landmark.chi2 += result_.graph.factor(id).loss.evaluate(s).rho;
       }
-      for (const auto id : landmark.sightings) result_.graph.setWeight(id, landmark.weight);
+      for (const auto id : landmark.measurements) result_.graph.setWeight(id, landmark.weight);
     }
   }
 
@@ -125,7 +125,7 @@ std::vector<WeighedLandmark> landmarksToWeigh(const mapper::State& state, const 
     for (const auto factor : state.factorsOf(id)) {
       const graph::FactorRecord& record = state.graph.factor(factor);
       if (record.tags.hypothesis || record.variables.size() <= landmark.variables.size()) continue;
-      weighed.sightings.push_back(factor);
+      weighed.measurements.push_back(factor);
       weighed.degrees_of_freedom += record.noise.size();
     }
     for (const auto factor : factorsOfItself(weighed, state.graph))

@@ -11,15 +11,15 @@ namespace omnimapper::plugins {
 struct WeighedLandmark {
   base::LandmarkId id;
   std::vector<base::VariableId> variables;
-  std::vector<base::FactorId> sightings;  ///< factors that bind it to something else, in the order of ids
-  int degrees_of_freedom = 0;             ///< rows beyond those that only tell where it is
-  double chi2 = 0;                        ///< of the sightings, as their losses count them
+  std::vector<base::FactorId> measurements;  ///< factors that bind it to something else, in the order of ids
+  int degrees_of_freedom = 0;                ///< rows beyond those that only tell where it is
+  double chi2 = 0;                           ///< of the measurements, as their losses count them
   double weight = 1;
 };
 
 /// Weights of landmarks and the map that follows from them.
 struct Weighing {
-  graph::Graph graph;  ///< each sighting has the weight of its landmark
+  graph::Graph graph;  ///< each measurement has the weight of its landmark
   std::vector<WeighedLandmark> landmarks;
   double cost = 0;  ///< chi-square of the whole, where a landmark without weight counts as one for each of two places
   int rounds = 0;

@@ -32,8 +32,9 @@ std::optional<GlobalMatcher::Found> GlobalMatcher::find(const mapper::State& sta
   const TPose2D place_from_base = map_from_base - around.front().map_from_base;
   std::vector<LoopSearch::KeyScan> key_scans, sought;
   for (const auto& place : around) key_scans.push_back(place.key_scan);
-  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sought),
-               [&](const LoopSearch::KeyScan& key_scan) { return newest_.back().way - key_scan.way <= kSoughtTravel; });
+  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sought), [&](const LoopSearch::KeyScan& key_scan) {
+    return newest_.back().travel - key_scan.travel <= kSoughtTravel;
+  });
   const auto local = matching::voxelDownsample(localMap(key_scans, key_scans.front().frame, state), kSpacing / 2),
              query = matching::voxelDownsample(localMap(sought, newest_.back().frame, state), kSpacing);
   const auto match = matcher_.match(*matcher_.prepare(local), query, place_from_base);
@@ -55,10 +56,11 @@ std::vector<matching::LocalScan> GlobalMatcher::beams(const mapper::State& state
   const LoopSearch::KeyScan* last = nullptr;
   TPose2D last_pose;
   for (auto key_scan = newest_.rbegin(); key_scan != newest_.rend() && all.size() < kMost; ++key_scan) {
-    if (newest_.back().way - key_scan->way > kSoughtTravel) break;
+    if (newest_.back().travel - key_scan->travel > kSoughtTravel) break;
     const auto& frame = state.map.keyFrame(key_scan->frame);
     const TPose2D pose = planar(frame.map_from_base - map_from_newest);
-    if (last && last->way - key_scan->way < kSpacing && distanceBetween(pose, last_pose).radians < kTurn) continue;
+    if (last && last->travel - key_scan->travel < kSpacing && distanceBetween(pose, last_pose).radians < kTurn)
+      continue;
     last = &*key_scan;
     last_pose = pose;
     auto seen = beamsInBase(frame, label_);
@@ -97,12 +99,12 @@ bool GlobalMatcher::fitsAllTheWay(const Found& found, const mapper::State& state
   constexpr double kLeast = -0.8;  // mean logarithm of the beams' likelihoods of a scan that fits
   const TPose2D map_from_newest = found.place.map_from_base + found.match.reference_from_scan;
   const auto& base_from_map = state.map.keyFrame(newest_.back().frame).map_from_base;
-  const double travel = newest_.back().way - newest_.front().way;
+  const double travel = newest_.back().travel - newest_.front().travel;
   constexpr double kNothing = -10;
   double worst = 0;
   const LoopSearch::KeyScan* last = nullptr;
   for (auto key_scan = newest_.rbegin(); key_scan != newest_.rend(); ++key_scan) {
-    if (last && last->way - key_scan->way < kSpacing) continue;
+    if (last && last->travel - key_scan->travel < kSpacing) continue;
     last = &*key_scan;
     const auto& frame = state.map.keyFrame(key_scan->frame);
     const auto seen = beamsInBase(frame, label_);

@@ -14,14 +14,14 @@ namespace omnimapper::plugins {
 GlobalRelocalization::GlobalRelocalization(const LoopClosureOptions& options, const mapper::PluginContext& context,
                                            std::shared_ptr<const matching::ScanMatcher> matcher,
                                            std::shared_ptr<const ScanDatabase> places, const std::string& label,
-                                           std::vector<LoopSearch::KeyScan> newest, double way)
+                                           std::vector<LoopSearch::KeyScan> newest, double travel)
     : options_(options),
       context_(context),
       matcher_(std::move(matcher)),
       places_(std::move(places)),
       label_(label),
       newest_(std::move(newest)),
-      way_(way) {}
+      travel_(travel) {}
 
 mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const {
   constexpr double kAgree = 1, kAgreeTurn = 0.25;  // [m] [rad] of an answer and where the session lies
@@ -67,13 +67,13 @@ bool GlobalRelocalization::isLost(const mapper::State& state, mapper::Decision& 
   constexpr double kSigmas = 3;
   const auto& frame = state.map.keyFrame(newest_.back().frame);
   const auto near = places_->nearest(planar(frame.map_from_base), 1);
-  decision.numbers.emplace_back("distance travelled in the session [m]", way_);
+  decision.numbers.emplace_back("distance travelled in the session [m]", travel_);
   const auto covariance = state.covarianceBetween(near.front().key_scan.frame, frame.id);
   if (!covariance) return true;
   const double uncertainty =
       kSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));  // [m] of either axis
   decision.numbers.emplace_back("may be off by [m]", uncertainty);
-  return uncertainty > options_.max_window || way_ > options_.lost_travel;
+  return uncertainty > options_.max_window || travel_ > options_.lost_travel;
 }
 
 }  // namespace omnimapper::plugins

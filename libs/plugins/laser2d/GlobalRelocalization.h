@@ -16,7 +16,7 @@ class GlobalRelocalization {
   /// `newest`: of the session, the newest last, clouds of `label`. `way`: [m] that the session has driven.
   GlobalRelocalization(const LoopClosureOptions& options, const mapper::PluginContext& context,
                        std::shared_ptr<const matching::ScanMatcher> matcher, std::shared_ptr<const ScanDatabase> places,
-                       const std::string& label, std::vector<LoopSearch::KeyScan> newest, double way);
+                       const std::string& label, std::vector<LoopSearch::KeyScan> newest, double travel);
 
   /// A hypothesis, or a place for the session; a decision with the numbers if anything was sought.
   mapper::Batch operator()(const mapper::State& state) const;
@@ -30,7 +30,7 @@ class GlobalRelocalization {
   std::shared_ptr<const ScanDatabase> places_;
   std::string label_;
   std::vector<LoopSearch::KeyScan> newest_;
-  double way_;  // [m]
+  double travel_;  // [m]
 };
 
 }  // namespace omnimapper::plugins

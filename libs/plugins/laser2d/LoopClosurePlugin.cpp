@@ -62,14 +62,14 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   closures_.noteSolves(view.solves.size());
   seekGlobally(observed.observation.sensorLabel, history, index, view);
   seekSlip(history, view);
-  const double way = history[index].key_scan.way;
-  const auto [last, is_first] = searched_.emplace(observed.observation.sensorLabel, way);
+  const double travel = history[index].key_scan.travel;
+  const auto [last, is_first] = searched_.emplace(observed.observation.sensorLabel, travel);
   // In a map that is held every one is sought: where the base is counts now, and costs the same always.
-  const bool is_soon = !is_first && std::abs(way - last->second) < options_.spacing;
+  const bool is_soon = !is_first && std::abs(travel - last->second) < options_.spacing;
   if (is_soon && !context_.map_is_held) return {};
   auto places = loopPlaces(frame, history, index, view);
   if (!places.empty()) {
-    last->second = way;
+    last->second = travel;
     searches_.emplace_back(options_, context_, matcher_,
                            keyScans(history, index, options_.context + options_.max_window, 0), std::move(places));
   }
@@ -82,17 +82,17 @@ std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& 
                                       [](const auto& wanted, const Seen& seen) {
                                         return wanted < std::tuple(seen.key_scan.frame.session, seen.stamp);
                                       });
-  double way = 0;
+  double travel = 0;
   if (after != history.begin()) {
     const auto& before = *std::prev(after);
     const auto& map_from_before = state.map.keyFrame(before.key_scan.frame).map_from_base;
     // How far the base was carried between sessions nobody knows: all of an earlier one counts as left long ago.
     const bool same_session = before.key_scan.frame.session == frame.id.session;
-    way = before.key_scan.way +
-          (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_travel);
+    travel = before.key_scan.travel +
+             (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_travel);
   }
   closures_.add(frame);
-  const auto place = history.insert(after, {{frame.id, scan, way}, frame.stamp});
+  const auto place = history.insert(after, {{frame.id, scan, travel}, frame.stamp});
   return static_cast<std::size_t>(place - history.begin());
 }
 
@@ -108,7 +108,7 @@ void LoopClosurePlugin::seekSlip(const History& history, const mapper::View& vie
   auto seen = history.begin();
   for (const auto& frame : view.map.key_frames) {
     const bool has_scan = seen != history.end() && seen->key_scan.frame == frame.id;
-    const double travel = trajectory.empty() ? 0 : trajectory.back().way;
+    const double travel = trajectory.empty() ? 0 : trajectory.back().travel;
     trajectory.push_back(has_scan ? seen++->key_scan : LoopSearch::KeyScan{frame.id, kNothingSeen, travel});
   }
   slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(trajectory));
@@ -121,7 +121,7 @@ double LoopClosurePlugin::travelSince(std::optional<base::Stamp> stamp, const Hi
   while (i > 0 && history[i - 1].key_scan.frame.session == newest.frame.session &&
          (!stamp || history[i].stamp > *stamp))
     --i;
-  return newest.way - history[i].key_scan.way;
+  return newest.travel - history[i].key_scan.travel;
 }
 
 // Ever more rarely where nothing is found, for on new ground there is nothing to find, and more rarely in a large map,
@@ -133,7 +133,7 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   constexpr double kShareOfAll = 0.01;                           // of all travel
   constexpr double kGrown = 1.2;                                 // a map that is prepared for searches serves till then
   if (context_.map_is_held || !state.map.sessions.back().joined) return;
-  const double travel = history[index].key_scan.way;
+  const double travel = history[index].key_scan.travel;
   const auto tied = closures_.newestTied(state.graph);
   if (travelSince(tied, history, index) < options_.lost_travel) return;
   const auto answered = std::max(tied, closures_.newestWithNote(state.graph, kGlobalClosure));
@@ -146,7 +146,7 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   const bool on_new_ground = std::abs(travel - last.on_new_ground) >= rarely;
   if (on_new_ground) last.on_new_ground = travel;
   std::vector<LoopSearch::KeyScan> earlier;
-  for (std::size_t i = 0; i < index && travel - history[i].key_scan.way >= options_.min_travel; ++i)
+  for (std::size_t i = 0; i < index && travel - history[i].key_scan.travel >= options_.min_travel; ++i)
     earlier.push_back(history[i].key_scan);
   if (earlier.empty()) return;
   const bool has_grown = static_cast<double>(earlier.size()) > kGrown * static_cast<double>(last.size);
@@ -167,24 +167,24 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
 void LoopClosurePlugin::seekInMap(const std::string& label, const History& history, std::size_t index,
                                   const mapper::State& state) {
   constexpr double kSpacing = 3,
-                   kShareOfWay = 0.1;  // [m] [1] of the way without an answer, from one search to the next
-  constexpr double kMoved = 1;         // [m]
+                   kShareOfTravel = 0.1;  // [m] [1] of the way without an answer, from one search to the next
+  constexpr double kMoved = 1;            // [m]
   if (!places_) return;
   const auto& session = state.map.sessions.back();
   const auto& key_scan = history[index].key_scan;
   if (session.joined || key_scan.frame.session != session.number) return;
   const auto first = std::find_if(history.begin(), history.end(),
                                   [&](const Seen& seen) { return seen.key_scan.frame.session == session.number; });
-  const double way = key_scan.way - first->key_scan.way;
+  const double travel = key_scan.travel - first->key_scan.travel;
   const auto begun_at = mapper::poseOf(state.graph, session.anchor).translation();
-  const auto [entry, is_first] = sought_in_map_.try_emplace(label, Sought{way, way, begun_at});
+  const auto [entry, is_first] = sought_in_map_.try_emplace(label, Sought{travel, travel, begun_at});
   Sought& last = entry->second;
-  if ((begun_at - last.begun_at).norm() > kMoved) last.answered = last.way;
+  if ((begun_at - last.begun_at).norm() > kMoved) last.answered = last.travel;
   last.begun_at = begun_at;
-  if (!is_first && way - last.way < std::max(kSpacing, kShareOfWay * (way - last.answered))) return;
-  last.way = way;
+  if (!is_first && travel - last.travel < std::max(kSpacing, kShareOfTravel * (travel - last.answered))) return;
+  last.travel = travel;
   map_searches_.emplace_back(options_, context_, matcher_, places_, label,
-                             keyScans(history, index, options_.join_travel + kSpacing, 0), way);
+                             keyScans(history, index, options_.join_travel + kSpacing, 0), travel);
 }
 
 void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view) {
@@ -258,8 +258,8 @@ std::vector<LoopSearch::KeyScan> LoopClosurePlugin::keyScans(const History& hist
   const auto& middle = history[centre].key_scan;
   const auto belongs = [&](std::size_t i) {
     const auto& key_scan = history[i].key_scan;
-    return key_scan.frame.session == middle.frame.session && key_scan.way >= middle.way - before &&
-           key_scan.way <= middle.way + after;
+    return key_scan.frame.session == middle.frame.session && key_scan.travel >= middle.travel - before &&
+           key_scan.travel <= middle.travel + after;
   };
   std::size_t first = centre, end = centre + 1;
   while (first > 0 && belongs(first - 1)) --first;
@@ -280,7 +280,7 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
                                                              std::size_t index, const mapper::State& state) const {
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t i = 0; i < index; ++i) {
-    if (history[index].key_scan.way - history[i].key_scan.way < options_.min_travel) break;
+    if (history[index].key_scan.travel - history[i].key_scan.travel < options_.min_travel) break;
     if (context_.map_is_held && history[i].key_scan.frame.session == frame.id.session) break;
     const auto& place = state.map.keyFrame(history[i].key_scan.frame).map_from_base;
     const double distance = (place.translation() - frame.map_from_base.translation()).norm();
@@ -294,7 +294,7 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
     const std::size_t i = candidate.second;
     // Neighbours along the path would only repeat it.
     const bool repeats = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
-      return std::abs(history[other].key_scan.way - history[i].key_scan.way) < options_.min_travel;
+      return std::abs(history[other].key_scan.travel - history[i].key_scan.travel) < options_.min_travel;
     });
     if (repeats) continue;
     chosen.push_back(i);

@@ -51,7 +51,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   };
   /// The last search in all of the saved map.
   struct Sought {
-    double way, answered;           // [m] of the session, then and when an answer last moved it
+    double travel, answered;        // [m] of the session, then and when an answer last moved it
     mrpt::math::TPoint3D begun_at;  // where the session began, as it was then
   };
   /// The last global searches of a session for its own loops, and what they look in.

@@ -91,26 +91,28 @@ LoopSearch::SearchUncertainty LoopSearch::uncertaintyAt(const Place& place, cons
           kReachSigmas * std::sqrt((*covariance)(5, 5))};
 }
 
-double LoopSearch::queryWay(const SearchUncertainty& uncertainty) const {
+double LoopSearch::queryTravel(const SearchUncertainty& uncertainty) const {
   return options_.context + uncertainty.position;
 }
 
 // What is sought is no part of where it is sought: it would fit itself wherever the estimate has it.
 matching::ScanWithNormals LoopSearch::localMapOf(const Place& place, const SearchUncertainty& uncertainty,
                                                  const mapper::State& state) const {
-  const double reach = 2 * options_.context + uncertainty.position, end = newest_.back().way - queryWay(uncertainty);
+  const double reach = 2 * options_.context + uncertainty.position,
+               end = newest_.back().travel - queryTravel(uncertainty);
   std::vector<KeyScan> key_scans;
   std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(key_scans), [&](const KeyScan& key_scan) {
-    const bool is_sought = key_scan.frame.session == newest_.back().frame.session && key_scan.way >= end;
-    return !is_sought && std::abs(key_scan.way - place.centre.way) <= reach;
+    const bool is_sought = key_scan.frame.session == newest_.back().frame.session && key_scan.travel >= end;
+    return !is_sought && std::abs(key_scan.travel - place.centre.travel) <= reach;
   });
   return localMap(key_scans, place.centre.frame, state);
 }
 
 matching::ScanWithNormals LoopSearch::query(const SearchUncertainty& uncertainty, const mapper::State& state) const {
   std::vector<KeyScan> key_scans;
-  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(key_scans),
-               [&](const KeyScan& key_scan) { return newest_.back().way - key_scan.way <= queryWay(uncertainty); });
+  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(key_scans), [&](const KeyScan& key_scan) {
+    return newest_.back().travel - key_scan.travel <= queryTravel(uncertainty);
+  });
   return localMap(key_scans, newest_.back().frame, state);
 }
 

@@ -21,7 +21,7 @@ class LoopSearch {
   struct KeyScan {
     base::KeyFrameId frame;
     std::shared_ptr<const matching::ScanWithNormals> scan;
-    double way;  // [m] driven until there
+    double travel;  // [m] driven until there
   };
   /// A place to try: the key frame it is about, and those before and after it that its local map is made of.
   struct Place {
@@ -52,7 +52,7 @@ class LoopSearch {
   matching::ScanWithNormals localMapOf(const Place& place, const SearchUncertainty& uncertainty,
                                        const mapper::State& state) const;
   matching::ScanWithNormals query(const SearchUncertainty& uncertainty, const mapper::State& state) const;
-  double queryWay(const SearchUncertainty& uncertainty) const;  // [m] back from the newest key frame
+  double queryTravel(const SearchUncertainty& uncertainty) const;  // [m] back from the newest key frame
   /// What was found at a place.
   struct Attempt {
     const Place* place;

@@ -235,22 +235,22 @@ std::vector<std::optional<std::size_t>> revisiting(const std::vector<Stop>& stop
 
 // An error of the way is seen only where a later visit of a place spans it. `begins` holds for each stop the first of
 // the stops that it is known to have come back to.
-Evidence spannedWay(const std::vector<Stop>& stops, const std::vector<std::optional<std::size_t>>& begins) {
+Evidence spannedTravel(const std::vector<Stop>& stops, const std::vector<std::optional<std::size_t>>& begins) {
   constexpr double kEnough = 25;  // percent
-  double way = 0, spanned = 0;
+  double travel = 0, spanned = 0;
   std::size_t begin = stops.size();
   for (std::size_t i = stops.size(); i-- > 1;) {
     begin = std::min(begin, begins[i].value_or(begin));
     const double step = drivenTo(stops, i);
-    way += step;
+    travel += step;
     if (begin < i) spanned += step;
   }
-  Evidence evidence{"way_between_visits_percent", way > 0 ? 100 * spanned / way : 0, Evidence::Says::good, ""};
+  Evidence evidence{"travel_between_visits_percent", travel > 0 ? 100 * spanned / travel : 0, Evidence::Says::good, ""};
   if (evidence.value < kEnough) {
     evidence.says = Evidence::Says::too_little;
     evidence.reason =
         format("only %.0f m of the %.0f m driven lie between two visits of a place, and nothing confirms the rest",
-               spanned, way);
+               spanned, travel);
   }
   return evidence;
 }
@@ -304,7 +304,7 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
     untied_m.reason = format("for %.0f m, until %s, the robot drives where it has been before and sees something else",
                              longest, afterStart(state.map, state.map.key_frames[longest_until]).c_str());
   }
-  Evidence spanned = spannedWay(stops, known);
+  Evidence spanned = spannedTravel(stops, known);
   if (revisited == 0) spanned.reason.clear();  // it is said already
   return {again_m, untied_m, spanned};
 }

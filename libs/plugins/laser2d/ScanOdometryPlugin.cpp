@@ -410,20 +410,20 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker:
                                                     const matching::MatchGuess& guess) const {
   const auto& match = tracked.match;
   const TPose2D& motion = match.reference_from_scan;
-  const double way = std::hypot(motion.x, motion.y), turn = std::abs(mrpt::math::wrapToPi(motion.phi));
+  const double travel = std::hypot(motion.x, motion.y), turn = std::abs(mrpt::math::wrapToPi(motion.phi));
   const double share =
       std::min(1.0, 2 / static_cast<double>(options_.tracker.local_scans) *
-                            (way / options_.tracker.local_distance + turn / options_.tracker.local_angle) +
+                            (travel / options_.tracker.local_distance + turn / options_.tracker.local_angle) +
                         0.001);
   const double sigma = std::max(options_.point_sigma, match.point_sigma);
   Eigen::Matrix3d covariance =
       ((share * mrpt::square(sigma) * match.unit_covariance).inverse() + guess.information / mrpt::square(noise_))
           .inverse();
-  const double position = mrpt::square(options_.position_noise_per_root_m) * way;
+  const double position = mrpt::square(options_.position_noise_per_root_m) * travel;
   covariance += tracked.search_covariance;
   covariance.diagonal() += Eigen::Vector3d(
       position, position,
-      mrpt::square(options_.yaw_noise_per_root_m) * way + mrpt::square(options_.yaw_noise_per_root_turn) * turn);
+      mrpt::square(options_.yaw_noise_per_root_m) * travel + mrpt::square(options_.yaw_noise_per_root_turn) * turn);
   return planarMotion(motion, covariance);
 }
 

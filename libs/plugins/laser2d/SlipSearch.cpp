@@ -217,7 +217,7 @@ std::vector<SlipSearch::Span> SlipSearch::spans(const std::vector<Closure>& agre
 matching::ScanWithNormals SlipSearch::seenBefore(const Span& span, const mapper::State& state) const {
   std::vector<LoopSearch::KeyScan> key_scans;
   for (std::size_t i = span.before + 1; i-- > 0;) {
-    if (trajectory_[span.before].way - trajectory_[i].way > 2 * options_.context) break;
+    if (trajectory_[span.before].travel - trajectory_[i].travel > 2 * options_.context) break;
     key_scans.push_back(trajectory_[i]);
   }
   return localMap(key_scans, trajectory_[span.before].frame, state);
@@ -226,7 +226,7 @@ matching::ScanWithNormals SlipSearch::seenBefore(const Span& span, const mapper:
 matching::ScanWithNormals SlipSearch::seenAfter(const Span& span, const mapper::State& state) const {
   std::vector<LoopSearch::KeyScan> key_scans;
   for (std::size_t i = span.before + 1; i < trajectory_.size(); ++i) {
-    if (trajectory_[i].way - trajectory_[span.before + 1].way > options_.context) break;
+    if (trajectory_[i].travel - trajectory_[span.before + 1].travel > options_.context) break;
     key_scans.push_back(trajectory_[i]);
   }
   return localMap(key_scans, trajectory_[span.before + 1].frame, state);

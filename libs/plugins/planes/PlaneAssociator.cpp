@@ -36,35 +36,35 @@ namespace {
 
 constexpr double kSigmas = 4;  // of what the base may be off, to look at a landmark at all
 
-PlaneLandmarkIndex::Heights toldBy(const PlaneMeasurement& sighting) {
-  return sighting.is_line ? PlaneLandmarkIndex::Heights::unknown : PlaneLandmarkIndex::Heights::known;
+PlaneLandmarkIndex::Heights toldBy(const PlaneMeasurement& measurement) {
+  return measurement.is_line ? PlaneLandmarkIndex::Heights::unknown : PlaneLandmarkIndex::Heights::known;
 }
 
 }  // namespace
 
 mapper::Batch PlaneAssociator::take(const std::vector<PlaneMeasurement>& all) {
-  std::vector<PlaneMeasurement> sightings;
-  for (const auto& sighting : all) {
-    if (sighting.why_useless.empty()) {
-      sightings.push_back(sighting);
+  std::vector<PlaneMeasurement> measurements;
+  for (const auto& measurement : all) {
+    if (measurement.why_useless.empty()) {
+      measurements.push_back(measurement);
     } else {
-      logUseless(sighting);
+      logUseless(measurement);
     }
   }
-  const auto pairings = pairingsOf(sightings);
-  const auto found = mapper::associate(sightings.size(), pairings, view_, options_, mapper::Repeats::yes);
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
+  const auto pairings = pairingsOf(measurements);
+  const auto found = mapper::associate(measurements.size(), pairings, view_, options_, mapper::Repeats::yes);
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
     const auto& match = found.matches[i];
-    mapper::Decision decision = decisionOf(sightings[i]);
-    found.tell(i, decision);
+    mapper::Decision decision = decisionOf(measurements[i]);
+    found.describe(i, decision);
     if (match.pairing) decision.numbers.emplace_back("landmark", pairings[*match.pairing].landmark.index);
     const bool spans_two = spansTwo(match, pairings);
     if (spans_two) decision.reason = "matched: reaches over two landmarks of one plane";
     if (match.kind == mapper::Match::Kind::matched || spans_two) {
       decision.accepted = true;
-      addToKnown(sightings[i], pairings[*match.pairing], std::move(decision));
+      addToKnown(measurements[i], pairings[*match.pairing], std::move(decision));
     } else if (match.kind == mapper::Match::Kind::unknown) {
-      addNew(sightings[i], std::move(decision));
+      addNew(measurements[i], std::move(decision));
     } else {
       batch_.log(std::move(decision));
     }
@@ -72,23 +72,23 @@ mapper::Batch PlaneAssociator::take(const std::vector<PlaneMeasurement>& all) {
   return std::move(batch_);
 }
 
-std::vector<mapper::Pairing> PlaneAssociator::pairingsOf(const std::vector<PlaneMeasurement>& sightings) {
+std::vector<mapper::Pairing> PlaneAssociator::pairingsOf(const std::vector<PlaneMeasurement>& measurements) {
   std::vector<mapper::Pairing> pairings;
   // Where nothing is learnt any more, what may be noise must not hold a pose as if it were exact.
   const auto isOf = [&](const PlaneLandmarkIndex::Surface& surface) {
     if (others_seek_ && !view_.areJoined(frame_.id.session, surface.id.session)) return false;
     return !view_.map_is_held || !dynamic_cast<const PlanePayload&>(*surface.payload).is_candidate;
   };
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    const auto points = inMap(sightings[i].outline_in_base);
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    const auto points = inMap(measurements[i].outline_in_base);
     double range = 0;
-    for (const auto& corner : sightings[i].outline_in_base) range = std::max(range, corner.norm());
+    for (const auto& corner : measurements[i].outline_in_base) range = std::max(range, corner.norm());
     for (const auto& [id, surface] : known_.all()) {
       if (!isOf(surface)) continue;
-      const auto miss = missIfAlike(surface, sightings[i], points);
+      const auto miss = missIfAlike(surface, measurements[i], points);
       // Farther ones where the base may have slid so far since it saw them.
       if (!miss || (*miss > 0 && *miss > kSigmas * sigmaSince(surface.last_seen_from, range))) continue;
-      pairings.push_back({i, surface.id, record(sightings[i], surface.variable, surface.id)});
+      pairings.push_back({i, surface.id, record(measurements[i], surface.variable, surface.id)});
     }
   }
   return pairings;
@@ -101,18 +101,18 @@ bool PlaneAssociator::spansTwo(const mapper::Match& match, const std::vector<map
 }
 
 std::optional<double> PlaneAssociator::missIfAlike(const PlaneLandmarkIndex::Surface& surface,
-                                                   const PlaneMeasurement& sighting,
+                                                   const PlaneMeasurement& measurement,
                                                    const std::vector<Eigen::Vector3d>& points) const {
   constexpr double kAlong = 0.8, kFarthest = 0.5;  // cosine of the turn, [m]
-  const Eigen::Vector3d normal = map_from_base_.rotation * sighting.plane_in_base.normal;
+  const Eigen::Vector3d normal = map_from_base_.rotation * measurement.plane_in_base.normal;
   if (surface.plane.normal.dot(normal) < kAlong) return std::nullopt;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const auto& point : points) middle += point / static_cast<double>(points.size());
   const double off = std::abs(signedDistance(surface.plane, middle)) - kFarthest;
   if (off > kSigmas * pose_sigma_) return std::nullopt;
-  const double max_gap = maxGap(surface, sighting, points), farthest = max_gap + kSigmas * pose_sigma_;
+  const double max_gap = maxGap(surface, measurement, points), farthest = max_gap + kSigmas * pose_sigma_;
   if (gapAtLeast(surface, points, middle) > farthest) return std::nullopt;
-  const double gap = gapBetween(surface, points, toldBy(sighting)) - max_gap;
+  const double gap = gapBetween(surface, points, toldBy(measurement)) - max_gap;
   if (gap > kSigmas * pose_sigma_) return std::nullopt;
   return std::max(off, gap);
 }
@@ -132,27 +132,27 @@ std::vector<Eigen::Vector3d> PlaneAssociator::inMap(const std::vector<Eigen::Vec
   return points;
 }
 
-graph::FactorRecord PlaneAssociator::record(const PlaneMeasurement& sighting, base::VariableId plane,
+graph::FactorRecord PlaneAssociator::record(const PlaneMeasurement& measurement, base::VariableId plane,
                                             base::LandmarkId landmark) const {
-  graph::FactorRecord record{{frame_.pose, plane}, sighting.factor, sighting.noise};
+  graph::FactorRecord record{{frame_.pose, plane}, measurement.factor, measurement.noise};
   record.loss = graph::Loss::huber(options_.loss_scale);
   record.tags.owner = context_.section;
   record.tags.landmark = landmark;
-  record.tags.note = sighting.is_line ? "line of a laser" : "plane";
+  record.tags.note = measurement.is_line ? "line of a laser" : "plane";
   return record;
 }
 
-mapper::Decision PlaneAssociator::decisionOf(const PlaneMeasurement& sighting) const {
+mapper::Decision PlaneAssociator::decisionOf(const PlaneMeasurement& measurement) const {
   mapper::Decision decision;
   decision.stamp = frame_.stamp;
   decision.plugin = context_.section;
-  decision.kind = sighting.is_line ? "line of a wall" : "plane";
+  decision.kind = measurement.is_line ? "line of a wall" : "plane";
   decision.from = frame_.id;
-  decision.numbers = {{sighting.is_line ? "length [m]" : "area [m^2]", sighting.size}};
+  decision.numbers = {{measurement.is_line ? "length [m]" : "area [m^2]", measurement.size}};
   return decision;
 }
 
-void PlaneAssociator::addToKnown(const PlaneMeasurement& sighting, const mapper::Pairing& pairing,
+void PlaneAssociator::addToKnown(const PlaneMeasurement& measurement, const mapper::Pairing& pairing,
                                  mapper::Decision decision) {
   const base::LandmarkId id = pairing.landmark;
   if (landmarks::addInterSessionHypothesis(view_, frame_.id, pairing, decision, batch_)) return;
@@ -162,20 +162,20 @@ void PlaneAssociator::addToKnown(const PlaneMeasurement& sighting, const mapper:
   auto& payload = payloads_[id];
   if (!payload) payload = std::dynamic_pointer_cast<const PlanePayload>(view_.map.landmark(id).payload);
   const PlaneLandmarkIndex::Surface& surface = known_.all().at(id);
-  const auto points = inMap(sighting.outline_in_base);
-  if (tellsLean(sighting, points, surface, *payload)) {
+  const auto points = inMap(measurement.outline_in_base);
+  if (tellsLean(measurement, points, surface, *payload)) {
     const auto upright = uprightFactor(view_.graph, surface.variable);
     if (upright && leaning_.insert(*upright).second) batch_.removeFactor(*upright);
   }
-  payload = payload->with(frame_.id, sighting, newsOf(sighting, points, surface, *payload));
+  payload = payload->with(frame_.id, measurement, newsOf(measurement, points, surface, *payload));
   batch_.addEvidence(id, payload);
 }
 
-bool PlaneAssociator::tellsLean(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points,
+bool PlaneAssociator::tellsLean(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
                                 const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) {
   constexpr double kSecondHeight = 0.4;  // [m]
   if (payload.wasSeenAsPlane()) return false;
-  if (!sighting.is_line) return true;
+  if (!measurement.is_line) return true;
   const auto [low, high] = heightsOf(points);
   const double before = surface.highest - surface.lowest;
   const double now = std::max(high, surface.highest) - std::min(low, surface.lowest);
@@ -215,71 +215,71 @@ bool showsMore(const surfaces::FlatPart& part, const geometry::Plane3& plane, co
 
 }  // namespace
 
-News PlaneAssociator::newsOf(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points,
+News PlaneAssociator::newsOf(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
                              const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) const {
   News news{reachesOver(surface, points), false};
-  if (payload.boundary != PlanePayload::Boundary::seen || sighting.is_line) return news;
+  if (payload.boundary != PlanePayload::Boundary::seen || measurement.is_line) return news;
   const auto partInMap = [&](const std::vector<Eigen::Vector3d>& outline,
                              const std::vector<std::vector<Eigen::Vector3d>>& holes) {
     surfaces::FlatPart part{inMap(outline), {}};
     for (const auto& hole : holes) part.holes.push_back(inMap(hole));
     return part;
   };
-  const auto whole = partInMap(sighting.outline_in_base, sighting.holes_in_base);
+  const auto whole = partInMap(measurement.outline_in_base, measurement.holes_in_base);
   news.of_extent = news.of_extent || showsMore(whole, surface.plane, surface.seen);
-  news.of_well_seen = sighting.is_all_well_seen && showsMore(whole, surface.plane, surface.well_seen);
-  for (const auto& part : sighting.well_seen_in_base) {
+  news.of_well_seen = measurement.is_all_well_seen && showsMore(whole, surface.plane, surface.well_seen);
+  for (const auto& part : measurement.well_seen_in_base) {
     news.of_well_seen =
         news.of_well_seen || showsMore(partInMap(part.outline, part.holes), surface.plane, surface.well_seen);
   }
   return news;
 }
 
-double PlaneAssociator::maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting,
+double PlaneAssociator::maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& measurement,
                                const std::vector<Eigen::Vector3d>& points) const {
   // What reaches so high and goes on behind a bookcase or a door is one wall.
   constexpr double kOverFurniture = 1.5;  // [m]
-  if (sighting.is_line || surface.heights == PlaneLandmarkIndex::Heights::unknown) return options_.max_gap;
+  if (measurement.is_line || surface.heights == PlaneLandmarkIndex::Heights::unknown) return options_.max_gap;
   const double high = known_.emptyPayload().groundIn(view_.map.key_frames) + kOverFurniture;
   const bool is_wall = surface.highest > high && heightsOf(points).second > high;
   return is_wall ? options_.max_gap : options_.max_plane_gap;
 }
 
-void PlaneAssociator::logUseless(const PlaneMeasurement& sighting) {
-  mapper::Decision decision = decisionOf(sighting);
-  decision.reason = sighting.why_useless;
+void PlaneAssociator::logUseless(const PlaneMeasurement& measurement) {
+  mapper::Decision decision = decisionOf(measurement);
+  decision.reason = measurement.why_useless;
   batch_.log(std::move(decision));
 }
 
-void PlaneAssociator::addNew(const PlaneMeasurement& sighting, mapper::Decision decision) {
+void PlaneAssociator::addNew(const PlaneMeasurement& measurement, mapper::Decision decision) {
   if (view_.map_is_held) {
     decision.reason = "not in the map: " + decision.reason;
     return batch_.log(std::move(decision));
   }
-  const Plane3 plane = map_from_base_ * sighting.plane_in_base;
-  const auto points = inMap(sighting.outline_in_base);
-  if (Fresh* same = alikeInThisMoment(sighting, points)) {
+  const Plane3 plane = map_from_base_ * measurement.plane_in_base;
+  const auto points = inMap(measurement.outline_in_base);
+  if (Fresh* same = alikeInThisMoment(measurement, points)) {
     decision.accepted = true;
     decision.reason = "of a new landmark seen twice at once";
     batch_.log(std::move(decision));
-    batch_.addFactor(record(sighting, same->surface.variable, same->surface.id));
-    same->payload = same->payload->with(frame_.id, sighting, {true, true});
+    batch_.addFactor(record(measurement, same->surface.variable, same->surface.id));
+    same->payload = same->payload->with(frame_.id, measurement, {true, true});
     batch_.addEvidence(same->surface.id, same->payload);
     const landmarks::PlaneAxes axes(same->surface.plane);
     for (const auto& point : points) same->surface.hull.push_back(axes.onto(point));
     same->surface.hull = geometry::convexHull(std::move(same->surface.hull));
     return;
   }
-  const bool large = sighting.size >= (sighting.is_line ? options_.min_length : options_.min_area);
+  const bool large = measurement.size >= (measurement.is_line ? options_.min_length : options_.min_area);
   decision.accepted = large;
   decision.reason = (large ? "new: " : "too small for a new one: ") + decision.reason;
   batch_.log(std::move(decision));
   if (!large) return;
   const auto variable = batch_.addVariable(form_.variable(), form_.value(plane, points));
-  const auto payload = known_.emptyPayload().with(frame_.id, sighting, {true, true});
+  const auto payload = known_.emptyPayload().with(frame_.id, measurement, {true, true});
   const auto landmark = batch_.addLandmark("plane", {variable}, payload);
-  batch_.addFactor(record(sighting, variable, landmark));
-  if (sighting.is_line && form_.mayTilt()) {
+  batch_.addFactor(record(measurement, variable, landmark));
+  if (measurement.is_line && form_.mayTilt()) {
     graph::FactorRecord upright{
         {variable},
         std::make_shared<landmarks::UprightFactor>(),
@@ -295,22 +295,22 @@ void PlaneAssociator::addNew(const PlaneMeasurement& sighting, mapper::Decision 
   fresh.surface.plane = plane;
   fresh.surface.hull = hullOn(landmarks::PlaneAxes(plane), points);
   std::tie(fresh.surface.lowest, fresh.surface.highest) = heightsOf(points);
-  fresh.surface.heights = toldBy(sighting);
+  fresh.surface.heights = toldBy(measurement);
   fresh.payload = payload;
   fresh_.push_back(std::move(fresh));
 }
 
-PlaneAssociator::Fresh* PlaneAssociator::alikeInThisMoment(const PlaneMeasurement& sighting,
+PlaneAssociator::Fresh* PlaneAssociator::alikeInThisMoment(const PlaneMeasurement& measurement,
                                                            const std::vector<Eigen::Vector3d>& points) {
   constexpr double kTurn = 0.05, kOff = 0.05;  // [rad], [m]
-  const Eigen::Vector3d normal = map_from_base_.rotation * sighting.plane_in_base.normal;
+  const Eigen::Vector3d normal = map_from_base_.rotation * measurement.plane_in_base.normal;
   for (Fresh& fresh : fresh_) {
     const Plane3& plane = fresh.surface.plane;
     const bool off = std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
       return std::abs(signedDistance(plane, point)) > kOff;
     });
     if (!off && plane.normal.cross(normal).norm() < kTurn && plane.normal.dot(normal) > 0 &&
-        gapBetween(fresh.surface, points, toldBy(sighting)) <= maxGap(fresh.surface, sighting, points))
+        gapBetween(fresh.surface, points, toldBy(measurement)) <= maxGap(fresh.surface, measurement, points))
       return &fresh;
   }
   return nullptr;

@@ -18,7 +18,7 @@
 
 namespace omnimapper::plugins {
 
-/// The work of PlaneLandmarksPlugin on one observation: which landmark each sighting is of, and what becomes of it.
+/// The work of PlaneLandmarksPlugin on one observation: which landmark each measurement is of, and what becomes of it.
 class PlaneAssociator {
  public:
   PlaneAssociator(const PlaneLandmarksOptions& options, const mapper::PluginContext& context,
@@ -27,7 +27,7 @@ class PlaneAssociator {
 
   Eigen::Vector3d upInBase() const { return map_from_base_.rotation.conjugate() * Eigen::Vector3d::UnitZ(); }
   /// To be called once.
-  mapper::Batch take(const std::vector<PlaneMeasurement>& sightings);
+  mapper::Batch take(const std::vector<PlaneMeasurement>& measurements);
 
  private:
   struct Fresh {
@@ -35,33 +35,34 @@ class PlaneAssociator {
     std::shared_ptr<const PlanePayload> payload;
   };
 
-  std::vector<mapper::Pairing> pairingsOf(const std::vector<PlaneMeasurement>& sightings);
+  std::vector<mapper::Pairing> pairingsOf(const std::vector<PlaneMeasurement>& measurements);
   // Of two landmarks on one plane, say on both sides of a door: each is as right, and now they touch.
   bool spansTwo(const mapper::Match& match, const std::vector<mapper::Pairing>& pairings) const;
   // Distance of a measurement outside the association gate of a surface [m], off its plane or along it; <= 0 within the
   // gate. None if the normals disagree, however wrong the pose of the base may be.
-  std::optional<double> missIfAlike(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting,
+  std::optional<double> missIfAlike(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& measurement,
                                     const std::vector<Eigen::Vector3d>& points) const;
   // How far what is at that range from the base may have slid since then [m, sigma].
   double sigmaSince(base::KeyFrameId frame, double range);
   std::vector<Eigen::Vector3d> inMap(const std::vector<Eigen::Vector3d>& in_base) const;
-  graph::FactorRecord record(const PlaneMeasurement& sighting, base::VariableId plane, base::LandmarkId landmark) const;
-  mapper::Decision decisionOf(const PlaneMeasurement& sighting) const;
-  void addToKnown(const PlaneMeasurement& sighting, const mapper::Pairing& pairing, mapper::Decision decision);
+  graph::FactorRecord record(const PlaneMeasurement& measurement, base::VariableId plane,
+                             base::LandmarkId landmark) const;
+  mapper::Decision decisionOf(const PlaneMeasurement& measurement) const;
+  void addToKnown(const PlaneMeasurement& measurement, const mapper::Pairing& pairing, mapper::Decision decision);
   // Whether it is the first that shows how the landmark leans: a plane, or a line of a second height (thesis 4.2.3).
-  static bool tellsLean(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points,
+  static bool tellsLean(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
                         const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload);
   // Whether a corner lies outside by more than edges are seen alike.
   static bool reachesOver(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points);
-  News newsOf(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points,
+  News newsOf(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
               const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) const;
-  // [m] between a surface and a sighting of it.
-  double maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& sighting,
+  // [m] between a surface and a measurement of it.
+  double maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& measurement,
                 const std::vector<Eigen::Vector3d>& points) const;
-  void logUseless(const PlaneMeasurement& sighting);
-  void addNew(const PlaneMeasurement& sighting, mapper::Decision decision);
+  void logUseless(const PlaneMeasurement& measurement);
+  void addNew(const PlaneMeasurement& measurement, mapper::Decision decision);
   // Two stretches of one wall, with a door between them.
-  Fresh* alikeInThisMoment(const PlaneMeasurement& sighting, const std::vector<Eigen::Vector3d>& points);
+  Fresh* alikeInThisMoment(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points);
 
   const PlaneLandmarksOptions& options_;
   const mapper::PluginContext& context_;

@@ -59,7 +59,7 @@ double usualRoughness(const std::vector<DrawnLandmark>& all) {
 // How often a surface must have been seen as a plane to be drawn; `rough`: how rough it is, to what is usual. Planes
 // through the spines of books, the legs of chairs and heaps of things lie rougher than walls do, most of them upright
 // or leaning, and the longer a log, the more chance views agree. Not at all where nothing makes up for how rough it is.
-std::optional<std::size_t> sightingsToDraw(const geometry::Plane3& plane, double rough, std::size_t key_frames) {
+std::optional<std::size_t> measurementsToDraw(const geometry::Plane3& plane, double rough, std::size_t key_frames) {
   constexpr double kLevel = 0.95, kUpright = 0.2;                   // of the normal's height
   constexpr double kSmooth = 1.2, kRough = 1.5, kRoughLevel = 2.5;  // to what is usual
   constexpr std::size_t kLevelOnes = 2, kSmoothOnes = 3, kFewest = 2, kMost = 7, kKeyFramesForOne = 200;
@@ -84,14 +84,14 @@ PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& kn
     PlanePayload& payload = *all[i].payload;
     results[all[i].id] = all[i].payload;
     if (all[i].surface.parts.empty()) {
-      payload.is_candidate = payload.sightings() < kFewestLines;
+      payload.is_candidate = payload.measurements() < kFewestLines;
       continue;
     }
     const double rough = usual > 0 ? payload.roughness.mean() / usual : 1;
-    const auto needed = sightingsToDraw(level.all()[i].plane, rough, view.map.key_frames.size());
+    const auto needed = measurementsToDraw(level.all()[i].plane, rough, view.map.key_frames.size());
     // That a laser saw it often tells that something is there, not how far it reaches: it counts as one view.
     constexpr std::size_t kOften = 8;
-    const std::size_t planes = payload.planeMeasurements(), lines = payload.sightings() - planes;
+    const std::size_t planes = payload.planeMeasurements(), lines = payload.measurements() - planes;
     payload.is_candidate = !payload.isAccepted() && (!needed || planes + (lines >= kOften ? 1 : 0) < *needed);
     payload.judgement = judgements[i];
   }

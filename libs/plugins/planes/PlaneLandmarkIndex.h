@@ -13,7 +13,7 @@
 
 namespace omnimapper::plugins {
 
-/// The plane landmarks of a map with their extents as they are now, to find those that a sighting may be of. What it
+/// The plane landmarks of a map with their extents as they are now, to find those that a measurement may be of. What it
 /// keeps follows from the map, and is worked out anew where key frames have moved.
 class PlaneLandmarkIndex {
  public:

@@ -35,9 +35,9 @@ bool isCovariance(const Eigen::MatrixXd& matrix) {
 
 constexpr const char* kNoCovariance = "its covariance is singular or not finite";
 
-PlaneMeasurement useless(PlaneMeasurement sighting, std::string why) {
-  sighting.why_useless = std::move(why);
-  return sighting;
+PlaneMeasurement useless(PlaneMeasurement measurement, std::string why) {
+  measurement.why_useless = std::move(why);
+  return measurement;
 }
 
 // Outlines follow pixels: most of their corners tell nothing of a wall.
@@ -76,20 +76,21 @@ Disc wellSeenOn(const landmarks::PlaneAxes& axes, const Plane3& plane, const Eig
 }
 
 // Leaves `well_seen_in_base` empty where that is all of it.
-void addWellSeen(const landmarks::PlaneAxes& axes, const Disc& disc, PlaneMeasurement& sighting) {
+void addWellSeen(const landmarks::PlaneAxes& axes, const Disc& disc, PlaneMeasurement& measurement) {
   const auto dropped = [&](const std::vector<Eigen::Vector3d>& walk) {
     std::vector<Eigen::Vector2d> points;
     for (const auto& corner : walk) points.push_back(axes.onto(corner));
     return points;
   };
-  const geometry::HoledPolygon2 whole{dropped(sighting.outline_in_base), [&] {
+  const geometry::HoledPolygon2 whole{dropped(measurement.outline_in_base), [&] {
                                         std::vector<std::vector<Eigen::Vector2d>> holes;
-                                        for (const auto& hole : sighting.holes_in_base) holes.push_back(dropped(hole));
+                                        for (const auto& hole : measurement.holes_in_base)
+                                          holes.push_back(dropped(hole));
                                         return holes;
                                       }()};
-  sighting.is_all_well_seen = std::all_of(whole.outline.begin(), whole.outline.end(),
-                                          [&](const auto& corner) { return disc.contains(corner); });
-  if (sighting.is_all_well_seen || !(disc.radius > 0)) return;
+  measurement.is_all_well_seen = std::all_of(whole.outline.begin(), whole.outline.end(),
+                                             [&](const auto& corner) { return disc.contains(corner); });
+  if (measurement.is_all_well_seen || !(disc.radius > 0)) return;
   const geometry::Areas2 areas = geometry::intersectionOf(whole, disc.asPolygon());
   const auto inSpace = [&](const std::vector<Eigen::Vector2d>& walk) {
     std::vector<Eigen::Vector3d> corners;
@@ -98,7 +99,7 @@ void addWellSeen(const landmarks::PlaneAxes& axes, const Disc& disc, PlaneMeasur
   };
   // Areas do not tell which hole is in which outline; where there are several, each has all of them.
   for (const auto& outline : areas.outlines) {
-    surfaces::FlatPart& part = sighting.well_seen_in_base.emplace_back();
+    surfaces::FlatPart& part = measurement.well_seen_in_base.emplace_back();
     part.outline = inSpace(outline);
     for (const auto& hole : areas.holes) part.holes.push_back(inSpace(hole));
   }
@@ -107,52 +108,52 @@ void addWellSeen(const landmarks::PlaneAxes& axes, const Disc& disc, PlaneMeasur
 PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_sensor,
                          const PlaneLandmarksOptions& options) {
   const Plane3& in_sensor = seen.plane_in_sensor;
-  PlaneMeasurement sighting;
+  PlaneMeasurement measurement;
   const bool usable = in_sensor.normal.allFinite() && std::abs(in_sensor.normal.norm() - 1) < 1e-3 &&
                       std::isfinite(in_sensor.distance) && seen.centroid.allFinite() &&
                       allFinite(seen.outline.vertices);
-  if (!usable) return useless(sighting, "not finite");
+  if (!usable) return useless(measurement, "not finite");
   const Eigen::Matrix3d covariance =
       withRoughness(in_sensor, seen.covariance, seen.centroid, options.plane_angle_sigma, options.plane_sigma);
-  if (!isCovariance(covariance)) return useless(sighting, kNoCovariance);
+  if (!isCovariance(covariance)) return useless(measurement, kNoCovariance);
   const Plane3 in_base = base_from_sensor * Plane3{in_sensor.normal.normalized(), in_sensor.distance};
   const Eigen::Matrix3d in_base_covariance = geometry::transportCovariance(base_from_sensor, in_sensor, covariance);
   std::vector<Eigen::Vector3d> corners;
   for (const auto& vertex : seen.outline.vertices) corners.push_back(base_from_sensor * vertex);
   const landmarks::PlaneAxes axes(in_base);
   const auto hull = hullOn(axes, corners);
-  if (hull.size() < 3) return useless(sighting, "its outline has no area");
-  sighting.plane_in_base = in_base;
+  if (hull.size() < 3) return useless(measurement, "its outline has no area");
+  measurement.plane_in_base = in_base;
   if (options.boundary == PlaneLandmarksOptions::Boundary::seen) {
-    sighting.outline_in_base = withoutNeedlessCorners(corners, axes);
+    measurement.outline_in_base = withoutNeedlessCorners(corners, axes);
     for (const auto& hole : seen.holes) {
       if (!allFinite(hole.vertices)) continue;
       std::vector<Eigen::Vector3d> walk;
       for (const auto& vertex : hole.vertices) walk.push_back(base_from_sensor * vertex);
-      sighting.holes_in_base.push_back(withoutNeedlessCorners(walk, axes));
+      measurement.holes_in_base.push_back(withoutNeedlessCorners(walk, axes));
     }
-    addWellSeen(axes, wellSeenOn(axes, in_base, base_from_sensor.translation, options), sighting);
+    addWellSeen(axes, wellSeenOn(axes, in_base, base_from_sensor.translation, options), measurement);
   } else {
-    for (const auto& corner : hull) sighting.outline_in_base.push_back(axes.inSpace(corner));
+    for (const auto& corner : hull) measurement.outline_in_base.push_back(axes.inSpace(corner));
   }
-  sighting.size = geometry::area(hull);
-  sighting.roughness = std::isfinite(seen.roughness) ? seen.roughness : 0;
-  sighting.factor = std::make_shared<landmarks::PlaneFactor>(in_base);
-  sighting.noise = graph::SquareRootInformation::fromCovariance(in_base_covariance);
-  return sighting;
+  measurement.size = geometry::area(hull);
+  measurement.roughness = std::isfinite(seen.roughness) ? seen.roughness : 0;
+  measurement.factor = std::make_shared<landmarks::PlaneFactor>(in_base);
+  measurement.noise = graph::SquareRootInformation::fromCovariance(in_base_covariance);
+  return measurement;
 }
 
 // The line x cos a + y sin a = d of the scan, with its middle as far as s along e = (-sin a, cos a): errors of a and d
 // turn e by -da against the normal, and move the middle by dd - s da (doc/derivations/line_on_plane.md).
 PlaneMeasurement ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor, const Eigen::Vector3d& up_in_base,
                         const landmarks::PlaneParametrization& form, const PlaneLandmarksOptions& options) {
-  PlaneMeasurement sighting;
-  sighting.is_line = true;
-  sighting.size = geometry::length(seen.segment_in_sensor);
+  PlaneMeasurement measurement;
+  measurement.is_line = true;
+  measurement.size = geometry::length(seen.segment_in_sensor);
   const Eigen::Vector2d along = geometry::direction(seen.segment_in_sensor);
   const Eigen::Vector2d middle = geometry::middle(seen.segment_in_sensor);
-  if (!along.allFinite() || !middle.allFinite()) return useless(sighting, "not finite");
-  if (!(sighting.size > 0)) return useless(sighting, "its ends are one point");
+  if (!along.allFinite() || !middle.allFinite()) return useless(measurement, "not finite");
+  if (!(measurement.size > 0)) return useless(measurement, "its ends are one point");
   const Eigen::Vector2d by_angle(-std::sin(seen.angle), std::cos(seen.angle));
   const double s = middle.dot(by_angle);
   Eigen::Matrix2d by_line;
@@ -160,13 +161,14 @@ PlaneMeasurement ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor,
   Eigen::Matrix2d covariance = by_line * seen.covariance * by_line.transpose();
   covariance(0, 0) += options.line_angle_sigma * options.line_angle_sigma;
   covariance(1, 1) += options.line_sigma * options.line_sigma;
-  if (!isCovariance(covariance)) return useless(sighting, kNoCovariance);
+  if (!isCovariance(covariance)) return useless(measurement, kNoCovariance);
   const auto inBase = [&](const Eigen::Vector2d& point) -> Eigen::Vector3d {
     return base_from_sensor * Eigen::Vector3d(point.x(), point.y(), 0);
   };
   Eigen::Vector3d direction = base_from_sensor.rotation * Eigen::Vector3d(along.x(), along.y(), 0);
   Eigen::Vector3d normal = up_in_base.cross(direction);
-  if (normal.norm() < 0.5) return useless(sighting, "the scan does not lie level: no upright plane is known from it");
+  if (normal.norm() < 0.5)
+    return useless(measurement, "the scan does not lie level: no upright plane is known from it");
   normal.normalize();
   const Eigen::Vector3d from_wall = base_from_sensor.translation - inBase(middle);
   if (normal.dot(from_wall) < 0) {
@@ -175,11 +177,11 @@ PlaneMeasurement ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor,
   }
   const Eigen::Vector3d by_angle_in_base = base_from_sensor.rotation * Eigen::Vector3d(by_angle.x(), by_angle.y(), 0);
   if (direction.dot(by_angle_in_base) < 0) covariance(0, 1) = covariance(1, 0) = -covariance(0, 1);
-  sighting.plane_in_base = Plane3::through(inBase(middle), normal);
-  sighting.outline_in_base = {inBase(seen.segment_in_sensor.from), inBase(seen.segment_in_sensor.to)};
-  sighting.factor = form.ofLine(direction, inBase(middle));
-  sighting.noise = graph::SquareRootInformation::fromCovariance(covariance);
-  return sighting;
+  measurement.plane_in_base = Plane3::through(inBase(middle), normal);
+  measurement.outline_in_base = {inBase(seen.segment_in_sensor.from), inBase(seen.segment_in_sensor.to)};
+  measurement.factor = form.ofLine(direction, inBase(middle));
+  measurement.noise = graph::SquareRootInformation::fromCovariance(covariance);
+  return measurement;
 }
 
 }  // namespace
@@ -197,10 +199,10 @@ std::vector<PlaneMeasurement> planeMeasurements(const mrpt::obs::CObservation& o
                                                 const Eigen::Vector3d& up_in_base,
                                                 const landmarks::PlaneParametrization& form,
                                                 const PlaneLandmarksOptions& options) {
-  std::vector<PlaneMeasurement> sightings;
-  const auto take = [&](PlaneMeasurement sighting, const std::string& label) {
-    sighting.sensor_label = label;
-    sightings.push_back(std::move(sighting));
+  std::vector<PlaneMeasurement> measurements;
+  const auto take = [&](PlaneMeasurement measurement, const std::string& label) {
+    measurement.sensor_label = label;
+    measurements.push_back(std::move(measurement));
   };
   if (const auto* planes = dynamic_cast<const obs::CObservationPlanes*>(&observation)) {
     const Se3 base_from_sensor = geometry::fromMrpt(planes->sensorPose);
@@ -210,7 +212,7 @@ std::vector<PlaneMeasurement> planeMeasurements(const mrpt::obs::CObservation& o
     for (const auto& line : lines->lines)
       take(ofLine(line, base_from_sensor, up_in_base, form, options), lines->source_label);
   }
-  return sightings;
+  return measurements;
 }
 
 }  // namespace omnimapper::plugins

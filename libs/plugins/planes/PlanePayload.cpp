@@ -78,7 +78,7 @@ bool PlanePayload::wasSeenAsPlane() const {
   return std::any_of(seen_by.begin(), seen_by.end(), [](const auto& sensor) { return sensor.second.planes > 0; });
 }
 
-std::uint32_t PlanePayload::sightings() const {
+std::uint32_t PlanePayload::measurements() const {
   std::uint32_t sum = 0;
   for (const auto& [label, seen] : seen_by) sum += seen.planes + seen.lines;
   return sum;
@@ -94,21 +94,21 @@ double PlanePayload::groundIn(const map::KeyFrames& key_frames) const {
   return ground == Ground::map || key_frames.empty() ? 0 : key_frames.front().map_from_base.z();
 }
 
-std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, const PlaneMeasurement& sighting,
+std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, const PlaneMeasurement& measurement,
                                                        const News& news) const {
   auto more = std::make_shared<PlanePayload>(*this);
-  const bool is_whole = sighting.is_all_well_seen;
+  const bool is_whole = measurement.is_all_well_seen;
   if (news.of_extent || (is_whole && news.of_well_seen))
-    more->patches.push_back({frame, sighting.outline_in_base, sighting.holes_in_base, is_whole});
+    more->patches.push_back({frame, measurement.outline_in_base, measurement.holes_in_base, is_whole});
   if (!is_whole && news.of_well_seen)
-    for (const auto& part : sighting.well_seen_in_base)
+    for (const auto& part : measurement.well_seen_in_base)
       more->patches.push_back({frame, part.outline, part.holes, true});
-  if (sighting.roughness > 0) {
-    more->roughness.sum += sighting.roughness;
+  if (measurement.roughness > 0) {
+    more->roughness.sum += measurement.roughness;
     ++more->roughness.count;
   }
-  SeenBy& seen = more->seen_by[sighting.sensor_label];
-  ++(sighting.is_line ? seen.lines : seen.planes);
+  SeenBy& seen = more->seen_by[measurement.sensor_label];
+  ++(measurement.is_line ? seen.lines : seen.planes);
   more->forgetSearchUncertainty();
   more->last_seen_from = frame;
   return more;

@@ -22,7 +22,7 @@
 namespace omnimapper::plugins {
 
 /// A part of a surface as one observation showed it. Copies share the outline, for a payload is copied at each
-/// sighting.
+/// measurement.
 class SurfacePatch {
  public:
   SurfacePatch(base::KeyFrameId frame_id, std::vector<Eigen::Vector3d> outline_in_base,
@@ -48,16 +48,16 @@ struct SeenBy {
   std::uint32_t lines = 0;   ///< as lines of a laser
 };
 
-/// What a sighting tells of a surface's extent that is not known yet.
+/// What a measurement tells of a surface's extent that is not known yet.
 struct News {
   bool of_extent = false;     ///< by all of it
   bool of_well_seen = false;  ///< by what it shows from near
 };
 
-/// By how many times more than the sensor's noise the points of sightings scattered about their planes.
+/// By how many times more than the sensor's noise the points of measurements scattered about their planes.
 struct Roughness {
   double sum = 0;
-  std::uint32_t count = 0;  ///< of the sightings that told
+  std::uint32_t count = 0;  ///< of the measurements that told
   double mean() const { return count == 0 ? 0 : sum / count; }
 };
 
@@ -110,13 +110,13 @@ struct PlanePayload : map::LandmarkPayload {
 
   bool wasSeenAsPlane() const;
   /// How often it was seen, by all sensors, as plane or line.
-  std::uint32_t sightings() const;
+  std::uint32_t measurements() const;
   /// z of where people walk, in the map [m].
   double groundIn(const map::KeyFrames& key_frames) const;
   /// How often it was seen as a plane.
   std::uint32_t planeMeasurements() const;
-  /// With one more sighting; its outline only where that is news.
-  std::shared_ptr<const PlanePayload> with(base::KeyFrameId frame, const struct PlaneMeasurement& sighting,
+  /// With one more measurement; its outline only where that is news.
+  std::shared_ptr<const PlanePayload> with(base::KeyFrameId frame, const struct PlaneMeasurement& measurement,
                                            const News& news) const;
   /// With all that is known of another.
   std::shared_ptr<const PlanePayload> with(const PlanePayload& other) const;

@@ -85,7 +85,7 @@ class PointLandmarksPlugin::Moment {
     for (std::size_t i = 0; i < measurements.size(); ++i) {
       const auto& match = found.matches[i];
       mapper::Decision decision = decisionOf(*measurements[i]);
-      found.tell(i, decision);
+      found.describe(i, decision);
       if (!match.pairing) {
         addNew(*measurements[i], std::move(decision));
         continue;
@@ -114,7 +114,7 @@ class PointLandmarksPlugin::Moment {
     for (std::size_t i = 0; i < measurements.size(); ++i) {
       const auto& match = found.matches[i];
       mapper::Decision decision = decisionOf(*measurements[i]);
-      found.tell(i, decision);
+      found.describe(i, decision);
       if (match.pairing) decision.numbers.emplace_back("landmark", pairings[*match.pairing].landmark.index);
       if (match.kind == mapper::Match::Kind::matched) {
         addToKnown(*measurements[i], pairings[*match.pairing], std::move(decision));
@@ -154,7 +154,7 @@ class PointLandmarksPlugin::Moment {
     record.loss = graph::Loss::huber(options_.loss_scale);
     record.tags.owner = context_.section;
     record.tags.landmark = landmark;
-    record.tags.note = "point sighting";
+    record.tags.note = "point measurement";
     return record;
   }
 
@@ -162,7 +162,7 @@ class PointLandmarksPlugin::Moment {
     mapper::Decision decision;
     decision.stamp = frame_.stamp;
     decision.plugin = context_.section;
-    decision.kind = "point sighting";
+    decision.kind = "point measurement";
     decision.from = frame_.id;
     if (measured.number >= 0) decision.numbers.emplace_back("number", measured.number);
     decision.numbers.emplace_back("range [m]", measured.range);

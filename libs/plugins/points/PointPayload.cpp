@@ -13,17 +13,17 @@ std::string PointPayload::label() const {
 }
 
 std::shared_ptr<const PointPayload> PointPayload::with(const std::string& sensor_label,
-                                                       double height_of_sighting) const {
+                                                       double height_of_measurement) const {
   auto more = std::make_shared<PointPayload>(*this);
   ++more->seen_by[sensor_label];
-  more->height += (height_of_sighting - height) / more->sightings();
+  more->height += (height_of_measurement - height) / more->measurements();
   return more;
 }
 
 std::shared_ptr<const PointPayload> PointPayload::with(const PointPayload& other) const {
   auto both = std::make_shared<PointPayload>(*this);
-  for (const auto& [label, sightings] : other.seen_by) both->seen_by[label] += sightings;
-  both->height += (other.height - height) * other.sightings() / both->sightings();
+  for (const auto& [label, measurements] : other.seen_by) both->seen_by[label] += measurements;
+  both->height += (other.height - height) * other.measurements() / both->measurements();
   return both;
 }
 
@@ -31,9 +31,9 @@ bool PointPayload::fits(const std::vector<std::string_view>& kinds) const {
   return kinds.size() == 1 && (kinds[0] == graph::point2()->kind() || kinds[0] == graph::point3()->kind());
 }
 
-std::uint32_t PointPayload::sightings() const {
+std::uint32_t PointPayload::measurements() const {
   std::uint32_t sum = 0;
-  for (const auto& [label, sightings] : seen_by) sum += sightings;
+  for (const auto& [label, measurements] : seen_by) sum += measurements;
   return sum;
 }
 
@@ -44,8 +44,8 @@ map::LandmarkShape PointPayload::shape(const std::vector<Eigen::VectorXd>& value
   shape.label = label();
   shape.points.emplace_back(value[0], value[1], value.size() > 2 ? value[2] : height);
   if (number >= 0) shape.properties.emplace_back("number", std::to_string(number));
-  for (const auto& [label, sightings] : seen_by)
-    shape.properties.emplace_back(map::seenByKey(label), std::to_string(sightings));
+  for (const auto& [label, measurements] : seen_by)
+    shape.properties.emplace_back(map::seenByKey(label), std::to_string(measurements));
   return shape;
 }
 
@@ -54,9 +54,9 @@ void PointPayload::write(std::ostream& out) const {
   graph::writeUint(out, static_cast<std::uint32_t>(number), 4);
   graph::writeDouble(out, height);
   graph::writeUint(out, seen_by.size(), 4);
-  for (const auto& [label, sightings] : seen_by) {
+  for (const auto& [label, measurements] : seen_by) {
     graph::writeText(out, label);
-    graph::writeUint(out, sightings, 4);
+    graph::writeUint(out, measurements, 4);
   }
 }
 

@@ -23,10 +23,10 @@ struct PointPayload : map::LandmarkPayload {
   /// "marker 7", "point".
   std::string label() const;
   /// A copy with one more measurement, at this height above the base [m].
-  std::shared_ptr<const PointPayload> with(const std::string& sensor_label, double height_of_sighting) const;
+  std::shared_ptr<const PointPayload> with(const std::string& sensor_label, double height_of_measurement) const;
   /// A copy with the measurements of another landmark added.
   std::shared_ptr<const PointPayload> with(const PointPayload& other) const;
-  std::uint32_t sightings() const;
+  std::uint32_t measurements() const;
 };
 
 }  // namespace omnimapper::plugins

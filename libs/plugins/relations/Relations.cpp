@@ -67,7 +67,7 @@ class Finder {
       : state_(state), options_(options), known_(known), told_(known) {
     for (const auto& [id, landmark] : state.map.landmarks) {
       if (landmark.state != map::Landmark::State::active || landmark.variables.size() != 1) continue;
-      if (landmark.evidence < static_cast<std::uint32_t>(options.min_sightings)) continue;
+      if (landmark.evidence < static_cast<std::uint32_t>(options.min_measurements)) continue;
       const auto variable = landmark.variables.front();
       map::LandmarkShape shape;
       if (landmark.payload) shape = landmark.payload->shape({state.graph.value(variable)}, state.map.key_frames);

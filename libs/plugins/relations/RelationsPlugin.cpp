@@ -32,7 +32,7 @@ const base::OptionTable<RelationsOptions>& RelationsOptions::table() {
           .number("min_likelihood_ratio", &Options::min_likelihood_ratio, Range::positive(),
                   "Ratio by which the estimate must be likelier if a relation holds than if its two landmarks are "
                   "unrelated, for the relation to be proposed.")
-          .integer("min_sightings", &Options::min_sightings, Range{1, 1e9},
+          .integer("min_measurements", &Options::min_measurements, Range{1, 1e9},
                    "Smallest number of measurements that each of the two landmarks of a relation must have.");
   return table;
 }

@@ -16,7 +16,7 @@ struct RelationsOptions {
   double max_distance = 1;                                        ///< [m] what is farther off is not even asked
   double max_angle = 15 * base::option_text::kRadiansPerDegree;   ///< [rad]
   double min_likelihood_ratio = 2;
-  int min_sightings = 3;  ///< of each landmark
+  int min_measurements = 3;  ///< of each landmark
 
   static const base::OptionTable<RelationsOptions>& table();
 };

@@ -279,9 +279,9 @@ mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base
                                                 const geometry::Se3& base_from_camera,
                                                 const std::optional<matching::PredictedMotion>& prediction) const {
   const geometry::Se3& moved = tracked.last_from_camera;
-  const double way = moved.translation.norm(), turn = geometry::logSo3(moved.rotation).norm();
+  const double travel = moved.translation.norm(), turn = geometry::logSo3(moved.rotation).norm();
   const auto variance = [&](double at_rest, double per_root_m, double per_root_turn) {
-    return at_rest * at_rest + per_root_m * per_root_m * way + per_root_turn * per_root_turn * turn;
+    return at_rest * at_rest + per_root_m * per_root_m * travel + per_root_turn * per_root_turn * turn;
   };
   geometry::Matrix6d of_camera = geometry::Matrix6d::Zero();
   of_camera.diagonal().head<3>().setConstant(

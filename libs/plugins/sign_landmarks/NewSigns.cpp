@@ -21,7 +21,7 @@ void addSign(const std::vector<SignView>& views, const Triangulation& place, map
   auto payload = std::make_shared<SignPayload>();
   bool has_range = false;
   for (const auto i : place.views) {
-    const auto& seen = views[i].sighting;
+    const auto& seen = views[i].measurement;
     payload = payload->with(seen.text, views[i].label);
     if (payload->isBetter(seen.area_px)) payload->best_look = seen.look(views[i].frame);
     has_range = has_range || seen.range;
@@ -39,7 +39,7 @@ void addSign(const std::vector<SignView>& views, const Triangulation& place, map
   }
   if (has_range) return;
   const auto& last = views[place.views.back()];
-  batch.addFactor(ofLandmark(last.sighting.legibilityRecord(last.pose, variable), landmark, section));
+  batch.addFactor(ofLandmark(last.measurement.legibilityRecord(last.pose, variable), landmark, section));
 }
 
 namespace {
@@ -75,7 +75,7 @@ void addUnplacedSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets,
         views.pop_back();
         continue;
       }
-      const SignText text = views.back().sighting.text;
+      const SignText text = views.back().measurement.text;
       if (!isAmong(there, text, place->point)) {
         there.push_back({text, place->point});
         addSign(views, *place, offsets, options, section, batch);

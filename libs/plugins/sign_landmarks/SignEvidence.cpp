@@ -91,7 +91,7 @@ std::vector<mapper::Evidence> signEvidence(const mapper::View& view, const std::
                 base::counted(visits.size(), "time").c_str(), is_enough ? ", and" : ", but only", spanned, travel.all(),
                 is_enough ? "" : ", and nothing confirms the rest");
   return {{"sign_numbers_elsewhere", static_cast<double>(elsewhere), Says::good, ""},
-          {"way_between_visits_percent", percent, is_enough ? Says::good : Says::too_little, text}};
+          {"travel_between_visits_percent", percent, is_enough ? Says::good : Says::too_little, text}};
 }
 
 }  // namespace omnimapper::plugins

@@ -91,32 +91,32 @@ class SignLandmarksPlugin::Work {
 
   mapper::Batch take(const CObservationDoorSigns& observation) {
     label_ = observation.source_label;
-    const auto sightings = signMeasurements(observation, optionsHere());
-    if (sightings.empty()) return {};
+    const auto measurements = signMeasurements(observation, optionsHere());
+    if (measurements.empty()) return {};
     findOffsets();
-    if (placeSession(sightings)) return std::move(batch_);
+    if (placeSession(measurements)) return std::move(batch_);
     std::vector<mapper::Pairing> pairings;
-    for (std::size_t i = 0; i < sightings.size() && areOffsetsInGraph(); ++i) {
+    for (std::size_t i = 0; i < measurements.size() && areOffsetsInGraph(); ++i) {
       for (const auto& [id, known] : tracks_.known()) {
         if (!mayBeMet(id, known)) continue;
         // A number is not brought to a sign of which words alone are known by its place: that may be a poster beside
         // it.
-        if (agreementOf(sightings[i].text, signOf(view_, id).text()) < Agreement::partly) continue;
-        pairings.push_back({i, id, record(sightings[i], known.variable, id)});
+        if (agreementOf(measurements[i].text, signOf(view_, id).text()) < Agreement::partly) continue;
+        pairings.push_back({i, id, record(measurements[i], known.variable, id)});
       }
     }
-    const auto found = mapper::associate(sightings.size(), pairings, view_, options_, mapper::Repeats::no);
-    for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const auto found = mapper::associate(measurements.size(), pairings, view_, options_, mapper::Repeats::no);
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
       const auto& match = found.matches[i];
       mapper::Decision decision = decisionOf();
-      found.tell(i, decision);
+      found.describe(i, decision);
       if (match.kind == mapper::Match::Kind::matched) {
-        addToKnown(sightings[i], pairings[*match.pairing], std::move(decision));
-      } else if (isOneOfSeveral(sightings, i)) {
+        addToKnown(measurements[i], pairings[*match.pairing], std::move(decision));
+      } else if (isOneOfSeveral(measurements, i)) {
         decision.reason = "another sign of the image says the same";
         batch_.log(std::move(decision));
       } else if (match.kind == mapper::Match::Kind::unknown && !view_.map_is_held) {
-        wait(sightings[i], std::move(decision));
+        wait(measurements[i], std::move(decision));
       } else {
         batch_.log(std::move(decision));
       }
@@ -154,12 +154,12 @@ class SignLandmarksPlugin::Work {
   }
 
   // Whether it was known well enough: what was seen is then looked at from the new place, the next time.
-  bool placeSession(const std::vector<SignMeasurement>& sightings) {
+  bool placeSession(const std::vector<SignMeasurement>& measurements) {
     if (!mapper::whyFixed({frame_.id, {}}, view_.graph, view_.map).empty()) {
       session_ = SessionBySigns();  // something ties it to the map; should that be taken back, it is sought anew
       return false;
     }
-    const auto placement = session_.take(sightings, frame_, tracks_, view_, known_offsets_, options_.recent_travel);
+    const auto placement = session_.take(measurements, frame_, tracks_, view_, known_offsets_, options_.recent_travel);
     if (!placement) return false;
     batch_.placeSession(placement->place);
     batch_.log(placementDecision(context_.section, frame_, placement->is_sure, placement->reason));
@@ -168,8 +168,9 @@ class SignLandmarksPlugin::Work {
 
   bool areOffsetsInGraph() const { return !offset_variable_ || !mapper::Batch::isProvisional(*offset_variable_); }
 
-  graph::FactorRecord record(const SignMeasurement& sighting, base::VariableId point, base::LandmarkId landmark) const {
-    return ofLandmark(sighting.directionRecord(frame_.pose, point, offset_variable_, options_), landmark,
+  graph::FactorRecord record(const SignMeasurement& measurement, base::VariableId point,
+                             base::LandmarkId landmark) const {
+    return ofLandmark(measurement.directionRecord(frame_.pose, point, offset_variable_, options_), landmark,
                       context_.section);
   }
 
@@ -177,34 +178,34 @@ class SignLandmarksPlugin::Work {
     mapper::Decision decision;
     decision.stamp = frame_.stamp;
     decision.plugin = context_.section;
-    decision.kind = "sign sighting";
+    decision.kind = "sign measurement";
     decision.from = frame_.id;
     return decision;
   }
 
-  static bool isOneOfSeveral(const std::vector<SignMeasurement>& sightings, std::size_t which) {
-    for (std::size_t i = 0; i < sightings.size(); ++i)
-      if (i != which && agreementOf(sightings[i].text, sightings[which].text) == Agreement::agrees) return true;
+  static bool isOneOfSeveral(const std::vector<SignMeasurement>& measurements, std::size_t which) {
+    for (std::size_t i = 0; i < measurements.size(); ++i)
+      if (i != which && agreementOf(measurements[i].text, measurements[which].text) == Agreement::agrees) return true;
     return false;
   }
 
-  void addToKnown(const SignMeasurement& sighting, const mapper::Pairing& pairing, mapper::Decision decision) {
+  void addToKnown(const SignMeasurement& measurement, const mapper::Pairing& pairing, mapper::Decision decision) {
     tracks_.seen(pairing.landmark);
     if (landmarks::addInterSessionHypothesis(view_, frame_.id, pairing, decision, batch_)) return;
     batch_.log(std::move(decision));
     batch_.addFactor(pairing.record);
-    if (auto range = sighting.rangeRecord(frame_.pose, pairing.record.variables[1]))
+    if (auto range = measurement.rangeRecord(frame_.pose, pairing.record.variables[1]))
       batch_.addFactor(ofLandmark(std::move(*range), pairing.landmark, context_.section));
-    auto payload = signOf(view_, pairing.landmark).with(sighting.text, label_);
-    if (payload->isBetter(sighting.area_px) && !view_.map_is_held) payload->best_look = sighting.look(frame_.id);
+    auto payload = signOf(view_, pairing.landmark).with(measurement.text, label_);
+    if (payload->isBetter(measurement.area_px) && !view_.map_is_held) payload->best_look = measurement.look(frame_.id);
     batch_.addEvidence(pairing.landmark, std::move(payload));
   }
 
   // A sign that is not in the map: it is added once enough directions meet.
-  void wait(const SignMeasurement& sighting, mapper::Decision decision) {
+  void wait(const SignMeasurement& measurement, mapper::Decision decision) {
     constexpr std::size_t kMinViews = 3;  // of two directions nothing would show that one is wrong
     const auto& views = tracks_.waitingWith(
-        {frame_.id, frame_.stamp, frame_.pose, label_, sighting, tracks_.travelled()}, options_.recent_travel);
+        {frame_.id, frame_.stamp, frame_.pose, label_, measurement, tracks_.travelled()}, options_.recent_travel);
     const auto place = triangulate(views, view_.graph, known_offsets_, options_.max_sigma, kMinViews);
     decision.numbers.emplace_back("directions", static_cast<double>(views.size()));
     if (!place) {

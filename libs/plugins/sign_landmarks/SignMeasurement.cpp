@@ -79,7 +79,7 @@ graph::FactorRecord SignMeasurement::directionRecord(base::VariableId pose, base
   } else {
     factor = std::make_shared<SignBearingFactor>(seen);
   }
-  auto record = recordOf(variables, std::move(factor), Eigen::Vector2d(sigma_left, sigma_down), "sign sighting");
+  auto record = recordOf(variables, std::move(factor), Eigen::Vector2d(sigma_left, sigma_down), "sign measurement");
   record.loss = graph::Loss::cauchy(options.loss_scale);
   return record;
 }
@@ -110,7 +110,7 @@ std::vector<SignMeasurement> signMeasurements(const obs::CObservationDoorSigns& 
   const Vector3d left = base_from_camera.rotation * -Vector3d::UnitX();
   const double length = left.head<2>().norm();
   const Vector3d tilt_axis = length > 0.5 ? Vector3d(left.x() / length, left.y() / length, 0) : Vector3d::UnitY();
-  std::vector<SignMeasurement> sightings;
+  std::vector<SignMeasurement> measurements;
   for (const auto& sign : observation.signs) {
     SignText text = textOf(sign, options.min_confidence);
     const Vector3d direction = base_from_camera.rotation * sign.ray;
@@ -121,12 +121,12 @@ std::vector<SignMeasurement> signMeasurements(const obs::CObservationDoorSigns& 
                            relative < kMostRelative;
     const double pixel_sigma = sign.is_cut ? std::hypot(options.pixel_sigma, kSigmaOfCut) : options.pixel_sigma;
     // A pan turns what is near the vertical less.
-    sightings.push_back({std::move(text), SeenDirection(base_from_camera.translation, direction.normalized()),
-                         tilt_axis, std::hypot(pixel_sigma, level * options.pan_sigma),
-                         std::hypot(pixel_sigma, options.tilt_sigma), has_range ? sign.range : std::nullopt,
-                         sign.range_sigma, areaOf(sign), reduced(sign.patch)});
+    measurements.push_back({std::move(text), SeenDirection(base_from_camera.translation, direction.normalized()),
+                            tilt_axis, std::hypot(pixel_sigma, level * options.pan_sigma),
+                            std::hypot(pixel_sigma, options.tilt_sigma), has_range ? sign.range : std::nullopt,
+                            sign.range_sigma, areaOf(sign), reduced(sign.patch)});
   }
-  return sightings;
+  return measurements;
 }
 
 }  // namespace omnimapper::plugins

@@ -97,9 +97,9 @@ std::string SignPayload::title() const {
   return title;
 }
 
-std::uint32_t SignPayload::sightings() const {
+std::uint32_t SignPayload::measurements() const {
   std::uint32_t sum = 0;
-  for (const auto& [label, sightings] : seen_by) sum += sightings;
+  for (const auto& [label, measurements] : seen_by) sum += measurements;
   return sum;
 }
 
@@ -116,7 +116,7 @@ std::shared_ptr<SignPayload> SignPayload::with(const SignPayload& other) const {
   both->is_repeated = is_repeated || other.is_repeated;
   add(both->numbers, other.numbers);
   add(both->words, other.words);
-  for (const auto& [label, sightings] : other.seen_by) both->seen_by[label] += sightings;
+  for (const auto& [label, measurements] : other.seen_by) both->seen_by[label] += measurements;
   if (other.best_look && isBetter(other.best_look->area_px)) both->best_look = other.best_look;
   return both;
 }
@@ -157,8 +157,8 @@ map::LandmarkShape SignPayload::shape(const std::vector<Eigen::VectorXd>& values
   for (const auto& word : read.words) lines += (lines.empty() ? "" : ", ") + word;
   if (!lines.empty()) shape.properties.emplace_back("words", lines);
   if (is_repeated) shape.properties.emplace_back("repeated_elsewhere", "yes");
-  for (const auto& [label, sightings] : seen_by)
-    shape.properties.emplace_back(map::seenByKey(label), std::to_string(sightings));
+  for (const auto& [label, measurements] : seen_by)
+    shape.properties.emplace_back(map::seenByKey(label), std::to_string(measurements));
   return shape;
 }
 
@@ -168,9 +168,9 @@ void SignPayload::write(std::ostream& out) const {
   plugins::write(out, words);
   graph::writeUint(out, is_repeated, 1);
   graph::writeUint(out, seen_by.size(), 4);
-  for (const auto& [label, sightings] : seen_by) {
+  for (const auto& [label, measurements] : seen_by) {
     graph::writeText(out, label);
-    graph::writeUint(out, sightings, 4);
+    graph::writeUint(out, measurements, 4);
   }
   graph::writeUint(out, best_look.has_value(), 1);
   if (best_look) plugins::write(out, *best_look);

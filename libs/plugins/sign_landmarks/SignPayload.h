@@ -41,7 +41,7 @@ struct SignPayload : map::LandmarkPayload {
   SignText text() const;
   /// The number, such as "213", or the words if there is no number.
   std::string title() const;
-  std::uint32_t sightings() const;
+  std::uint32_t measurements() const;
 
   std::shared_ptr<SignPayload> with(const SignText& text, const std::string& sensor_label) const;
   /// A copy with the measurements of another sign added.

@@ -23,9 +23,9 @@ Se3 levelPose(const Vector3d& x_y_yaw) {
 }
 
 // [sigma] of the direction; `place`: x, y, yaw of the session in the map.
-Vector2d missOf(const SeenKnownSign& sighting, const Vector3d& place) {
-  const Vector3d in_base = geometry::inverse(levelPose(place) * sighting.session_from_base) * sighting.in_map;
-  return sighting.seen.angleTo(in_base - sighting.seen.camera(), nullptr) / sighting.sigma;
+Vector2d missOf(const SeenKnownSign& measurement, const Vector3d& place) {
+  const Vector3d in_base = geometry::inverse(levelPose(place) * measurement.session_from_base) * measurement.in_map;
+  return measurement.seen.angleTo(in_base - measurement.seen.camera(), nullptr) / measurement.sigma;
 }
 
 double yawOf(const Se3& pose) {
@@ -34,20 +34,20 @@ double yawOf(const Se3& pose) {
 }
 
 // x, y, yaw of the session if the sign is seen from `distance` [m] straight before it.
-Vector3d placeBefore(const SeenKnownSign& sighting, double distance) {
-  const Se3 base = baseBefore(sighting, distance);
-  const Vector3d& in_session = sighting.session_from_base.translation;
-  const double yaw = yawOf(base) - yawOf(sighting.session_from_base);
+Vector3d placeBefore(const SeenKnownSign& measurement, double distance) {
+  const Se3 base = baseBefore(measurement, distance);
+  const Vector3d& in_session = measurement.session_from_base.translation;
+  const double yaw = yawOf(base) - yawOf(measurement.session_from_base);
   const Vector3d shift = base.translation - Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * in_session;
   return {shift.x(), shift.y(), yaw};
 }
 
 // Before each sign, as it was seen last, at several distances and from several sides: a side is known roughly, and two
 // signs seen on a short way fit more than one place.
-std::vector<Vector3d> startsOf(const std::vector<SeenKnownSign>& sightings) {
+std::vector<Vector3d> startsOf(const std::vector<SeenKnownSign>& measurements) {
   std::vector<Vector3d> starts;
   std::set<base::LandmarkId> done;
-  for (auto seen = sightings.rbegin(); seen != sightings.rend(); ++seen) {
+  for (auto seen = measurements.rbegin(); seen != measurements.rend(); ++seen) {
     if (!done.insert(seen->sign).second) continue;
     for (const double turn : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
       SeenKnownSign turned = *seen;
@@ -64,7 +64,7 @@ struct Descent {
 };
 
 // Gauss-Newton with a Cauchy loss, so that one sign that was moved does not count for much.
-Descent descended(const std::vector<SeenKnownSign>& sightings, const Vector3d& start) {
+Descent descended(const std::vector<SeenKnownSign>& measurements, const Vector3d& start) {
   constexpr int kRounds = 30;
   constexpr double kStep = 1e-6, kDamping = 1e-3;
   constexpr double kLongestStep = 2, kLargestTurn = 0.3;  // [m] [rad]
@@ -73,11 +73,11 @@ Descent descended(const std::vector<SeenKnownSign>& sightings, const Vector3d& s
     const Vector3d place = descent.places.back();
     Matrix3d information = kDamping * Matrix3d::Identity();
     Vector3d gradient = Vector3d::Zero();
-    for (const auto& sighting : sightings) {
-      const Vector2d miss = missOf(sighting, place);
+    for (const auto& measurement : measurements) {
+      const Vector2d miss = missOf(measurement, place);
       Eigen::Matrix<double, 2, 3> jacobian;
       for (int i = 0; i < 3; ++i)
-        jacobian.col(i) = (missOf(sighting, place + kStep * Vector3d::Unit(i)) - miss) / kStep;
+        jacobian.col(i) = (missOf(measurement, place + kStep * Vector3d::Unit(i)) - miss) / kStep;
       const double weight = 1 / (1 + miss.squaredNorm() / (kFits * kFits));
       information += weight * jacobian.transpose() * jacobian;
       gradient += weight * jacobian.transpose() * miss;
@@ -93,7 +93,7 @@ Descent descended(const std::vector<SeenKnownSign>& sightings, const Vector3d& s
 
 struct Candidate {
   Vector3d place;
-  Vector3d base;  // of the newest sighting, in the map
+  Vector3d base;  // of the newest measurement, in the map
   std::size_t fitting = 0;
   double chi2 = 0;  // of those that fit
   std::set<base::LandmarkId> signs = {};
@@ -114,28 +114,28 @@ struct Candidate {
   }
 };
 
-Candidate candidateAt(const std::vector<SeenKnownSign>& sightings, const Vector3d& place) {
-  Candidate candidate{place, levelPose(place) * sightings.back().session_from_base.translation};
-  for (const auto& sighting : sightings) {
-    const double miss = missOf(sighting, place).norm();
+Candidate candidateAt(const std::vector<SeenKnownSign>& measurements, const Vector3d& place) {
+  Candidate candidate{place, levelPose(place) * measurements.back().session_from_base.translation};
+  for (const auto& measurement : measurements) {
+    const double miss = missOf(measurement, place).norm();
     if (!(miss <= kFits)) continue;
     ++candidate.fitting;
     candidate.chi2 += miss * miss;
-    candidate.signs.insert(sighting.sign);
-    candidate.bases.extend(sighting.session_from_base.translation);
-    candidate.is_numbered = candidate.is_numbered || sighting.is_numbered;
+    candidate.signs.insert(measurement.sign);
+    candidate.bases.extend(measurement.session_from_base.translation);
+    candidate.is_numbered = candidate.is_numbered || measurement.is_numbered;
   }
   return candidate;
 }
 
 }  // namespace
 
-Se3 baseBefore(const SeenKnownSign& sighting, double distance) {
-  const Vector3d& seen = sighting.seen.direction();
-  const double yaw = std::atan2(-sighting.normal.y(), -sighting.normal.x()) - std::atan2(seen.y(), seen.x());
+Se3 baseBefore(const SeenKnownSign& measurement, double distance) {
+  const Vector3d& seen = measurement.seen.direction();
+  const double yaw = std::atan2(-measurement.normal.y(), -measurement.normal.x()) - std::atan2(seen.y(), seen.x());
   const Eigen::AngleAxisd turn(yaw, Vector3d::UnitZ());
-  Vector3d base = sighting.in_map + distance * sighting.normal - turn * sighting.seen.camera();
-  base.z() = sighting.session_from_base.translation.z();
+  Vector3d base = measurement.in_map + distance * measurement.normal - turn * measurement.seen.camera();
+  base.z() = measurement.session_from_base.translation.z();
   return {Eigen::Quaterniond(turn), base};
 }
 
@@ -146,25 +146,25 @@ std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& measuremen
   // The session turns about the newest base: about an origin far away no step of a turn would be small.
   const Vector3d& newest = measurements.back().session_from_base.translation;
   const Vector3d pivot(newest.x(), newest.y(), 0);
-  auto sightings = measurements;
-  for (auto& sighting : sightings) sighting.session_from_base.translation -= pivot;
+  auto centred = measurements;
+  for (auto& measurement : centred) measurement.session_from_base.translation -= pivot;
   std::vector<Descent> descents;
-  for (const auto& start : startsOf(sightings)) descents.push_back(descended(sightings, start));
+  for (const auto& start : startsOf(centred)) descents.push_back(descended(centred, start));
   std::optional<Candidate> best;
   const Descent* to_best = nullptr;
   for (const auto& descent : descents) {
-    const Candidate candidate = candidateAt(sightings, descent.places.back());
+    const Candidate candidate = candidateAt(centred, descent.places.back());
     if (best && !candidate.isBetterThan(*best)) continue;
     best = candidate;
     to_best = &descent;
   }
   if (best->fitting < kFewest || best->signs.size() < kSigns || !best->is_numbered ||
-      best->bases.diagonal().norm() < kLeastBase || 3 * best->fitting < 2 * sightings.size())
+      best->bases.diagonal().norm() < kLeastBase || 3 * best->fitting < 2 * centred.size())
     return std::nullopt;
   // Two signs seen on a short way fit a whole arc of places nearly alike, which no covariance at one of them shows.
   for (const auto& descent : descents)
     for (const auto& place : descent.places)
-      if (const Candidate other = candidateAt(sightings, place); other.isRivalOf(*best)) return std::nullopt;
+      if (const Candidate other = candidateAt(centred, place); other.isRivalOf(*best)) return std::nullopt;
   const Matrix3d covariance = to_best->information.inverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
   const double position_sigma = std::sqrt(std::max(0.0, axes.eigenvalues()[1]));

@@ -23,7 +23,7 @@ struct SeenKnownSign {
 };
 
 /// map_from_base of a level base that sees the sign from `distance` [m] straight in front of it.
-geometry::Se3 baseBefore(const SeenKnownSign& sighting, double distance);
+geometry::Se3 baseBefore(const SeenKnownSign& measurement, double distance);
 
 /// The pose of a session in the map.
 struct SessionFit {
@@ -37,6 +37,6 @@ struct SessionFit {
 /// if at least four measurements of at least two signs fit, one of them numbered; at least two thirds of all
 /// measurements fit; the base moved at least 0.5 m between them; the position's sigma is at most 0.35 m; and no other
 /// place fits nearly as many. Derivation: doc/derivations/bearing.md.
-std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& sightings);
+std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& measurements);
 
 }  // namespace omnimapper::plugins

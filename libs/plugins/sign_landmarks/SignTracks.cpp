@@ -56,7 +56,7 @@ void SignTracks::add(base::LandmarkId id) {
 std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double recent_travel) {
   const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
     return waiting.views.back().label == view.label &&
-           agreementOf(waiting.views.back().sighting.text, view.sighting.text) == Agreement::agrees;
+           agreementOf(waiting.views.back().measurement.text, view.measurement.text) == Agreement::agrees;
   });
   Waiting waiting{{}, travelled_};
   if (found != waiting_.end()) {
@@ -91,7 +91,7 @@ std::vector<std::vector<SignView>> SignTracks::unplacedViews(double recent_trave
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& views) {
       return views.size() < kMostTogether && views.back().label == view.label &&
              std::abs(views.back().travelled - view.travelled) <= recent_travel &&
-             agreementOf(views.back().sighting.text, view.sighting.text) == Agreement::agrees;
+             agreementOf(views.back().measurement.text, view.measurement.text) == Agreement::agrees;
     });
     if (group == groups.end()) {
       groups.push_back({view});

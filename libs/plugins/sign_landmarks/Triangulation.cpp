@@ -31,20 +31,20 @@ struct Ray {
 
 std::vector<Ray> raysOf(const std::vector<SignView>& views, const graph::Graph& graph, const KnownOffsets& offsets) {
   std::vector<Ray> rays;
-  for (const auto& [frame, stamp, pose, label, sighting, travelled] : views) {
+  for (const auto& [frame, stamp, pose, label, measurement, travelled] : views) {
     const geometry::Se3 map_from_base = geometry::fromMrpt(mapper::poseOf(graph, pose));
     const Vector3d direction =
-        map_from_base.rotation * turnedBy(offsets.pan_tilt, sighting.tilt_axis, sighting.seen.direction());
-    const double sigma = std::max(sighting.sigma_left, sighting.sigma_down);
-    Ray ray{map_from_base * sighting.seen.camera(),
+        map_from_base.rotation * turnedBy(offsets.pan_tilt, measurement.tilt_axis, measurement.seen.direction());
+    const double sigma = std::max(measurement.sigma_left, measurement.sigma_down);
+    Ray ray{map_from_base * measurement.seen.camera(),
             direction,
             {},
             sigma,
             std::hypot(sigma, offsets.sigma),
-            sighting.range,
-            sighting.range_sigma};
+            measurement.range,
+            measurement.range_sigma};
     ray.by_pan_tilt.col(0) = (map_from_base.rotation * Vector3d::UnitZ()).cross(direction);
-    ray.by_pan_tilt.col(1) = (map_from_base.rotation * sighting.tilt_axis).cross(direction);
+    ray.by_pan_tilt.col(1) = (map_from_base.rotation * measurement.tilt_axis).cross(direction);
     rays.push_back(ray);
   }
   return rays;

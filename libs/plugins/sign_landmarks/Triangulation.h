@@ -17,7 +17,7 @@ struct SignView {
   base::Stamp stamp;
   base::VariableId pose;
   std::string label;  ///< of the camera
-  SignMeasurement sighting;
+  SignMeasurement measurement;
   double travelled = 0;  ///< [m] distance travelled when it was seen
 };
 

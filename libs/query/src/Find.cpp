@@ -42,7 +42,8 @@ bool endsWith(const std::string& text, const std::string& end) {
 
 // The names of measures end in their unit; what says yes or no, or when something was, names nothing either.
 bool isMeasure(const std::pair<std::string, std::string>& property) {
-  static const std::array<std::string, 8> ends{"_m", "_m2", "_m3", "_deg", "_s", "_kg", "_seen", "_sightings"};
+  static const std::array<std::string, 9> ends{"_m",  "_m2",   "_m3",           "_deg",      "_s",
+                                               "_kg", "_seen", "_measurements", "_sightings"};
   return property.second == "yes" || property.second == "no" ||
          std::any_of(ends.begin(), ends.end(), [&](const auto& end) { return endsWith(property.first, end); });
 }

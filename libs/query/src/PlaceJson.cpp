@@ -61,7 +61,7 @@ Json jsonOf(const map::Place& place) {
           {"normal", jsonOf(place.normal)},
           {"seen_from", jsonOf(place.seen_from)},
           {"properties", std::move(properties)},
-          {"sightings", place.sightings},
+          {"measurements", place.measurements},
           {"seen_by", std::move(seen_by)},
           {"first_seen", timeJson(place.first_seen)},
           {"last_seen", timeJson(place.last_seen)}};

@@ -43,7 +43,7 @@ std::string sureText(const map::Place& place) {
 }
 
 std::string seenText(const map::Place& place) {
-  std::string text = std::to_string(place.sightings) + " x";
+  std::string text = std::to_string(place.measurements) + " x";
   for (const auto& [label, count] : place.seen_by)
     text += (text.back() == 'x' ? " " : ", ") + shownName(label.empty() ? "no label" : label) +
             (place.seen_by.size() > 1 ? " " + std::to_string(count) : "");

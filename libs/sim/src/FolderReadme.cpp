@@ -67,7 +67,7 @@ std::string folderReadme(const Simulation& simulation, const std::string& name, 
   std::ostringstream out;
   out << kTitleBegin << name << kTitleEnd << "\n\n"
       << (result.code == base::ExitCode::interrupted ? "Interrupted after " : "") << base::fixed(result.duration, 1)
-      << " s, " << base::fixed(result.way, 1) << " m of way, seed " << simulation.options().seed
+      << " s, " << base::fixed(result.travel, 1) << " m of way, seed " << simulation.options().seed
       << "; time 0 is Unix time " << base::fixed(simulation.options().start, 1) << ".\n\n"
       << "| file | what it is |\n|---|---|\n";
   for (const auto& file : result.files) out << "| `" << file << "` | " << meaningOf(file, name) << " |\n";

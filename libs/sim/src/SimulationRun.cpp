@@ -116,12 +116,12 @@ std::string trajectoryOf(const Simulation& simulation, const std::set<base::Stam
   return text;
 }
 
-double wayOf(const Track& track, double until) {
-  double way = 0;
+double travelOf(const Track& track, double until) {
+  double travel = 0;
   const auto& places = track.places();
   for (std::size_t i = 1; i < places.size() && places[i].time <= until; ++i)
-    way += (places[i].map_from_body->translation - places[i - 1].map_from_body->translation).norm();
-  return way;
+    travel += (places[i].map_from_body->translation - places[i - 1].map_from_body->translation).norm();
+  return travel;
 }
 
 // Of measurements that did not come into the log.
@@ -219,7 +219,7 @@ SimulationResult simulateInto(const std::string& folder, const Simulation& simul
   SignTruth signs(simulation);
   writeLog(simulation, request, folder, progress, stop, truth, surfaces, signs, stamps, result);
   truth.close();
-  result.way = wayOf(simulation.mapFromBase(), result.duration);
+  result.travel = travelOf(simulation.mapFromBase(), result.duration);
   result.files = {request.name + ".rawlog", "truth.tum", "landmarks.json", "surfaces.json", "world.ply", "plan.svg",
                   request.name + ".ini"};
   if (simulation.options().images == SimulationOptions::Images::external)
@@ -275,7 +275,7 @@ SimulationResult runSimulation(const Simulation& simulation, const SimulationReq
 
 std::string toText(const SimulationResult& result, const std::string& folder) {
   std::ostringstream out;
-  out << "simulated: " << base::fixed(result.duration, 1) << " s, " << base::fixed(result.way, 1) << " m of way"
+  out << "simulated: " << base::fixed(result.duration, 1) << " s, " << base::fixed(result.travel, 1) << " m of way"
       << (result.code == base::ExitCode::interrupted ? " (interrupted)" : "") << "\n";
   for (const auto& sensor : result.sensors) {
     out << "  " << sensor.label << ": " << sensor.measured << " measurements";

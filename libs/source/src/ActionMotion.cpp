@@ -20,13 +20,13 @@ namespace {
 // Covariance of x y yaw in the axes of the start, to first order.
 Eigen::Matrix3d thrunCovariance(const CPose2D& increment,
                                 const CActionRobotMovement2D::TMotionModelOptions::TOptions_ThrunModel& model) {
-  const double way = increment.norm();
-  const double first_turn = way > 0 ? std::atan2(increment.y(), increment.x()) : 0.0;
+  const double travel = increment.norm();
+  const double first_turn = travel > 0 ? std::atan2(increment.y(), increment.x()) : 0.0;
   const double second_turn = geometry::wrapToPi(increment.phi() - first_turn);
   const Eigen::Vector3d deviations(
-      model.alfa1_rot_rot * std::abs(first_turn) + model.alfa2_rot_trans * way,
-      model.alfa3_trans_trans * way + model.alfa4_trans_rot * (std::abs(first_turn) + std::abs(second_turn)),
-      model.alfa1_rot_rot * std::abs(second_turn) + model.alfa2_rot_trans * way);
+      model.alfa1_rot_rot * std::abs(first_turn) + model.alfa2_rot_trans * travel,
+      model.alfa3_trans_trans * travel + model.alfa4_trans_rot * (std::abs(first_turn) + std::abs(second_turn)),
+      model.alfa1_rot_rot * std::abs(second_turn) + model.alfa2_rot_trans * travel);
   Eigen::Matrix3d jacobian;                             // of x y yaw by first turn, way, second turn
   jacobian << -increment.y(), std::cos(first_turn), 0,  //
       increment.x(), std::sin(first_turn), 0,           //

@@ -78,11 +78,11 @@ Reason whyNot(const CObservation3DRangeScan& scan) {
   return std::nullopt;
 }
 
-Reason whyNot(const CObservationBearingRange& sighting) {
-  for (const auto& one : sighting.sensedData) {
+Reason whyNot(const CObservationBearingRange& measurement) {
+  for (const auto& one : measurement.sensedData) {
     if (!std::isfinite(one.range) || !std::isfinite(one.yaw) || !std::isfinite(one.pitch))
       return "a bearing or range of theirs is not finite";
-    if (sighting.validCovariances && !isCovariance(one.covariance.asEigen())) return kNoCovariance;
+    if (measurement.validCovariances && !isCovariance(one.covariance.asEigen())) return kNoCovariance;
   }
   return std::nullopt;
 }

@@ -71,7 +71,7 @@ Json toJson(const Surface& surface) {
   }
   json["parts"] = std::move(parts);
   if (surface.is_moved) json["moved"] = true;
-  if (surface.sightings > 0) json["sightings"] = surface.sightings;
+  if (surface.measurements > 0) json["measurements"] = surface.measurements;
   if (surface.is_candidate) json["candidate"] = true;
   if (surface.seen) json["seen"] = toJson(*surface.seen);
   return json;
@@ -171,7 +171,8 @@ Surface surfaceFrom(const Json& json) {
     refuseOffPlane(surface.plane, flat);
   }
   surface.is_moved = json.value("moved", false);
-  surface.sightings = json.value("sightings", 0);
+  // Files that were written before this key had its name say "sightings".
+  surface.measurements = json.value("measurements", json.value("sightings", 0));
   surface.is_candidate = json.value("candidate", false);
   if (json.contains("seen")) surface.seen = gridFrom(json.at("seen"));
   return surface;

@@ -28,8 +28,8 @@ double fromUpright(const Vector3d& axis, const Vector3d& normal) {
 
 // Large surfaces that were seen often count for more, but no single one decides.
 double weightOf(const FlatArea& area) {
-  constexpr double kMost = 4, kHalf = 3;  // [m^2], sightings
-  return std::min(kMost, area.area) * area.sightings / (area.sightings + kHalf);
+  constexpr double kMost = 4, kHalf = 3;  // [m^2], measurements
+  return std::min(kMost, area.area) * area.measurements / (area.measurements + kHalf);
 }
 
 // Mean of how aslant a surface was seen, in the direction in which it was: 1 at 45 deg, 0 where it was seen head-on or
@@ -62,7 +62,7 @@ constexpr double kSlantSigma = 2 * kDegree;  // [rad] that a surface seen at 45 
 double sigmaOf(const FlatArea& area, double slant) {
   constexpr double kBuilt = 0.4 * kDegree, kPose = 2 * kDegree, kNoise = 0.02;  // [rad], [m]
   const double of_view = std::hypot(kPose, kNoise / std::sqrt(area.area));
-  return std::sqrt(kBuilt * kBuilt + of_view * of_view / area.sightings + kSlantSigma * kSlantSigma * slant * slant);
+  return std::sqrt(kBuilt * kBuilt + of_view * of_view / area.measurements + kSlantSigma * kSlantSigma * slant * slant);
 }
 
 /// What speaks for an axis, as logarithms of likelihood.
@@ -298,7 +298,7 @@ Refined refined(const std::vector<Weighed>& surfaces, Vector3d axis) {
 bool isUsable(const FlatArea& area) {
   constexpr double kLeast = 0.1, kMost = 1e6;  // [m^2]
   return area.normal.allFinite() && area.middle.allFinite() && std::abs(area.normal.norm() - 1) < 1e-3 &&
-         area.area >= kLeast && area.area < kMost && area.sightings > 0;
+         area.area >= kLeast && area.area < kMost && area.measurements > 0;
 }
 
 bool isUsable(const Viewpoint& viewpoint) {

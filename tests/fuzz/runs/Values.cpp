@@ -140,14 +140,14 @@ void collect(CObservation3DRangeScan& scan, Collector& values) {
   }
 }
 
-void collect(CObservationBearingRange& sighting, Collector& values) {
-  values.numbers(sighting.minSensorDistance, sighting.maxSensorDistance, sighting.fieldOfView_yaw,
-                 sighting.fieldOfView_pitch, sighting.sensor_std_range, sighting.sensor_std_yaw,
-                 sighting.sensor_std_pitch, sighting.validCovariances);
-  values.pose(sighting.sensorLocationOnRobot);
-  for (auto& one : sighting.sensedData) {
+void collect(CObservationBearingRange& measurement, Collector& values) {
+  values.numbers(measurement.minSensorDistance, measurement.maxSensorDistance, measurement.fieldOfView_yaw,
+                 measurement.fieldOfView_pitch, measurement.sensor_std_range, measurement.sensor_std_yaw,
+                 measurement.sensor_std_pitch, measurement.validCovariances);
+  values.pose(measurement.sensorLocationOnRobot);
+  for (auto& one : measurement.sensedData) {
     values.numbers(one.range, one.yaw, one.pitch, one.landmarkID);
-    if (sighting.validCovariances) values.matrix(one.covariance);
+    if (measurement.validCovariances) values.matrix(one.covariance);
   }
 }
 

@@ -140,11 +140,11 @@ TEST(DynamicLandmarksPlugin, WhereAllMovedTheTrajectoryIsThatOfTheOdometry) {
   for (const auto& observation : observations) {
     auto* seen = dynamic_cast<mrpt::obs::CObservationBearingRange*>(observation.get());
     if (!seen || seen->timestamp < middle) continue;
-    for (auto& sighting : seen->sensedData) sighting.landmarkID = (sighting.landmarkID + 5) % 14;
+    for (auto& measurement : seen->sensedData) measurement.landmarkID = (measurement.landmarkID + 5) % 14;
   }
   const auto engine = testing::makeEngine(kIni, kWithMoveables), odometry = testing::makeEngine(kIni);
   testing::run(*engine, observations);
-  testing::run(*odometry, changed(log, [](Sightings& sightings) { sightings.clear(); }));
+  testing::run(*odometry, changed(log, [](Measurements& measurements) { measurements.clear(); }));
   EXPECT_GE(movedThings(engine->view()).size(), 13U);
   EXPECT_LT(testing::trajectoryError(engine->view(), log), 1.1 * testing::trajectoryError(odometry->view(), log));
 }
@@ -152,9 +152,9 @@ TEST(DynamicLandmarksPlugin, WhereAllMovedTheTrajectoryIsThatOfTheOdometry) {
 TEST(DynamicLandmarksPlugin, AFewWrongNumbersMoveNothing) {
   const SimulatedLog log(twoLaps());
   int seen = 0;
-  const auto observations = changed(log, [&](Sightings& sightings) {
-    for (auto& sighting : sightings)
-      if (++seen % 97 == 0) sighting.range += 2;
+  const auto observations = changed(log, [&](Measurements& measurements) {
+    for (auto& measurement : measurements)
+      if (++seen % 97 == 0) measurement.range += 2;
   });
   const auto engine = testing::makeEngine(kIni, kWithMoveables);
   testing::run(*engine, observations);
@@ -180,7 +180,7 @@ TEST(MovedThingPayload, ComesBackFromBytes) {
   EXPECT_EQ(back.places[1].seen_from, written.places[1].seen_from);
   EXPECT_EQ(back.places[1].point_in_base, written.places[1].point_in_base);
   EXPECT_EQ(back.places[1].last_seen, written.places[1].last_seen);
-  EXPECT_EQ(back.places[1].sightings, 5U);
+  EXPECT_EQ(back.places[1].measurements, 5U);
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST_P(MoveableSurfaces, RelationsOfAMovedOneGoWithIt) {
   EXPECT_TRUE(room.recordOf(panel));
   EXPECT_TRUE(room.recordOf(screen));
   EXPECT_TRUE(room.run.view().factorsOf(walls[1]).size() == 2 * MoveableRoom::kRound + 1 + (GetParam() == Kind::plane))
-      << "its sightings, what holds it upright and its relation to what stands";
+      << "its measurements, what holds it upright and its relation to what stands";
   EXPECT_LT(room.error(), 0.05);
   expectWhole(room);
 }
@@ -153,7 +153,7 @@ TEST(MoveableThings, WhatIsDeterminedNowhereIsGivenUp) {
   // Once at each of three places.
   const auto point = room.addPoint({{2, {2, 1}}, {12, {1, 2}}, {30, {-1, 1}}});
   DynamicLandmarksOptions options;
-  options.min_sightings = MoveableRoom::kRound + 1;
+  options.min_measurements = MoveableRoom::kRound + 1;
   const auto panel = room.addSurface(Kind::plane, kPanel, shifted(kPanel, {-0.5, 0}));
   room.look(options);
   for (const auto id : {point, panel}) {

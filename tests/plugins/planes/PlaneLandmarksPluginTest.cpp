@@ -62,7 +62,7 @@ TEST_F(PlaneLandmarks, GrowAsMoreOfThemIsSeen) {
   EXPECT_EQ(active()[0].evidence, 2U);
 }
 
-TEST_F(PlaneLandmarks, ALandmarkMetTwiceInAMomentKeepsBothSightings) {
+TEST_F(PlaneLandmarks, ALandmarkMetTwiceInAFrameKeepsBothMeasurements) {
   driveTo({});
   see(linesOf({line({3, -2}, {3, 2})}));
   see(planesOf({wallPlane(3, -1, -0.2), wallPlane(3, 0.2, 2.5)}));

@@ -7,7 +7,7 @@
 #include "SurfaceRun.h"
 #include "planes/PlaneMeasurement.h"
 
-namespace omnimapper::plugins::plane_sighting_test {
+namespace omnimapper::plugins::plane_measurement_test {
 namespace {
 
 using namespace surface_run;
@@ -33,16 +33,16 @@ class LineOfASensor : public ::testing::TestWithParam<Mounting> {
     obs::CObservationLaserLines observation;
     observation.sensorPose = geometry::toMrpt(base_from_sensor);
     observation.lines = {measured(0.3 + angle_error, 2 + distance_error)};
-    const auto sightings =
+    const auto measurements =
         planeMeasurements(observation, Vector3d::UnitZ(),
                           landmarks::PlaneParametrization::of(landmarks::PlaneParametrization::Kind::plane), smooth());
-    EXPECT_TRUE(sightings.at(0).why_useless.empty()) << sightings[0].why_useless;
+    EXPECT_TRUE(measurements.at(0).why_useless.empty()) << measurements[0].why_useless;
     const Vector3d out(std::cos(0.3), std::sin(0.3), 0);
     const Plane3 wall = base_from_sensor * Plane3::through(2 * out, -out);
-    const graph::Evaluation evaluation{*sightings[0].factor,
+    const graph::Evaluation evaluation{*measurements[0].factor,
                                        {graph::se3(), landmarks::planeVariable()},
                                        {graph::toValue(Se3{}), landmarks::toValue(wall)}};
-    return (sightings[0].noise.matrix() * evaluation.residual()).squaredNorm();
+    return (measurements[0].noise.matrix() * evaluation.residual()).squaredNorm();
   }
 
   const Eigen::Matrix2d covariance_ = (Eigen::Matrix2d() << 1e-4, 1.5e-4, 1.5e-4, 4e-4).finished();
@@ -81,4 +81,4 @@ INSTANTIATE_TEST_SUITE_P(Mountings, LineOfASensor,
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace
-}  // namespace omnimapper::plugins::plane_sighting_test
+}  // namespace omnimapper::plugins::plane_measurement_test

@@ -136,7 +136,7 @@ TEST_F(PlaneMerging, AtTheEndSurfacesAreJudgedAndWhatWasSeenOnceIsACandidate) {
   EXPECT_FALSE(shapeOf(active()[0]).reason.empty());
   EXPECT_FALSE(shapeOf(active()[0]).is_candidate);
   EXPECT_TRUE(shapeOf(active()[1]).is_candidate);
-  EXPECT_EQ(active()[0].evidence, 2U) << "to judge is no sighting";
+  EXPECT_EQ(active()[0].evidence, 2U) << "to judge is no measurement";
 }
 
 // A second end, as of a run that goes on in a saved map.

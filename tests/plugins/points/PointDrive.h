@@ -30,11 +30,11 @@ inline testing::SimulatedLogOptions pointDrive() {
   return options;
 }
 
-using Sightings = std::vector<mrpt::obs::CObservationBearingRange::TMeasurement>;
+using Measurements = std::vector<mrpt::obs::CObservationBearingRange::TMeasurement>;
 
 /// The observations of a log, after `change` was made to what each of the sensor sees.
 inline std::vector<mrpt::obs::CObservation::Ptr> changed(const testing::SimulatedLog& log,
-                                                         const std::function<void(Sightings&)>& change) {
+                                                         const std::function<void(Measurements&)>& change) {
   const auto observations = log.observations();
   for (const auto& observation : observations) {
     if (auto* seen = dynamic_cast<mrpt::obs::CObservationBearingRange*>(observation.get())) change(seen->sensedData);
@@ -42,8 +42,8 @@ inline std::vector<mrpt::obs::CObservation::Ptr> changed(const testing::Simulate
   return observations;
 }
 
-inline void forgetNumbers(Sightings& sightings) {
-  for (auto& sighting : sightings) sighting.landmarkID = -1;
+inline void forgetNumbers(Measurements& measurements) {
+  for (auto& measurement : measurements) measurement.landmarkID = -1;
 }
 
 inline const PointPayload& payloadOf(const map::Landmark& landmark) {

@@ -74,7 +74,7 @@ TEST(PointLandmarksPlugin, PointsWithoutNumbersAreToldApart) {
   EXPECT_EQ((*view.map.landmarks.begin()).second.kind, "point");
 }
 
-TEST(PointLandmarksPlugin, EverySightingHasADecisionAndTrueOnesPassTheGate) {
+TEST(PointLandmarksPlugin, EveryMeasurementHasADecisionAndTrueOnesPassTheGate) {
   const SimulatedLog log(pointDrive());
   const auto engine = testing::makeEngine(kPointsIni);
   testing::run(*engine, log.observations());
@@ -82,9 +82,9 @@ TEST(PointLandmarksPlugin, EverySightingHasADecisionAndTrueOnesPassTheGate) {
   const auto refused = std::count_if(view.decisions.begin(), view.decisions.end(),
                                      [](const auto& decision) { return !decision.accepted; });
   EXPECT_EQ(view.decisions.size(), [&] {
-    std::size_t sightings = 0;
-    for (const auto& [id, factor] : view.graph.factors()) sightings += factor.tags.landmark.has_value();
-    return sightings;
+    std::size_t measurements = 0;
+    for (const auto& [id, factor] : view.graph.factors()) measurements += factor.tags.landmark.has_value();
+    return measurements;
   }());
   EXPECT_GT(view.decisions.size(), 100U);
   EXPECT_LE(refused, static_cast<std::ptrdiff_t>(view.decisions.size() / 100));
@@ -95,10 +95,10 @@ TEST(PointLandmarksPlugin, AWrongNumberIsKeptWithoutWeight) {
   const SimulatedLog log(options);
   std::set<int> seen;
   int swapped = 0;
-  const auto observations = changed(log, [&](Sightings& sightings) {
-    for (auto& sighting : sightings) {
-      const int told = sighting.landmarkID;
-      if (++swapped % 10 == 0 && seen.size() > 2) sighting.landmarkID = *seen.begin();
+  const auto observations = changed(log, [&](Measurements& measurements) {
+    for (auto& measurement : measurements) {
+      const int told = measurement.landmarkID;
+      if (++swapped % 10 == 0 && seen.size() > 2) measurement.landmarkID = *seen.begin();
       seen.insert(told);
     }
   });
@@ -116,15 +116,15 @@ TEST(PointLandmarksPlugin, WhatCannotBeUsedIsRefusedWithItsReason) {
   auto options = pointDrive();
   options.laps = 0.05;
   const SimulatedLog log(options);
-  const auto observations = changed(log, [](Sightings& sightings) {
-    if (sightings.empty()) return;
-    const auto sighting = sightings.front();
-    sightings.assign(6, sighting);  // the second has the number of the first
-    for (int i = 2; i < 6; ++i) sightings[static_cast<std::size_t>(i)].landmarkID = 97 + i;
-    sightings[2].range = 0;
-    sightings[3].yaw = std::nanf("");
-    sightings[4].pitch = static_cast<float>(kPi / 2);
-    sightings[5].range = -1;
+  const auto observations = changed(log, [](Measurements& measurements) {
+    if (measurements.empty()) return;
+    const auto measurement = measurements.front();
+    measurements.assign(6, measurement);  // the second has the number of the first
+    for (int i = 2; i < 6; ++i) measurements[static_cast<std::size_t>(i)].landmarkID = 97 + i;
+    measurements[2].range = 0;
+    measurements[3].yaw = std::nanf("");
+    measurements[4].pitch = static_cast<float>(kPi / 2);
+    measurements[5].range = -1;
   });
   for (const std::string motion : {"planar", "spatial"}) {
     const auto engine = testing::makeEngine(kPointsIni, {"mapper.motion=" + motion});
@@ -142,15 +142,15 @@ TEST(PointLandmarksPlugin, ANewPointMayBeAnywhereAroundTheSensor) {
   auto options = pointDrive();
   options.laps = 0.02;
   options.beacons.base_from_head = {};
-  const auto observations = changed(SimulatedLog(options), [](Sightings& sightings) {
-    sightings.clear();
+  const auto observations = changed(SimulatedLog(options), [](Measurements& measurements) {
+    measurements.clear();
     for (int i = 0; i < 4; ++i) {
-      mrpt::obs::CObservationBearingRange::TMeasurement sighting;
-      sighting.range = 2;
-      sighting.yaw = static_cast<float>(i * kPi / 2);
-      sighting.pitch = -0.5F;
-      sighting.landmarkID = i;
-      sightings.push_back(sighting);
+      mrpt::obs::CObservationBearingRange::TMeasurement measurement;
+      measurement.range = 2;
+      measurement.yaw = static_cast<float>(i * kPi / 2);
+      measurement.pitch = -0.5F;
+      measurement.landmarkID = i;
+      measurements.push_back(measurement);
     }
   });
   const auto engine = testing::makeEngine(kPointsIni, {"mapper.motion=spatial", "trigger.distance_m=100"});
@@ -186,9 +186,9 @@ TEST(PointLandmarksPlugin, SigmasAreTheObservationsUnlessToldOtherwise) {
     auto* seen = dynamic_cast<mrpt::obs::CObservationBearingRange*>(observation.get());
     if (!seen) continue;
     seen->validCovariances = true;
-    for (auto& sighting : seen->sensedData) {
-      sighting.covariance.setZero();
-      for (int i = 0; i < 3; ++i) sighting.covariance(i, i) = 1e-4 * (i + 1);
+    for (auto& measurement : seen->sensedData) {
+      measurement.covariance.setZero();
+      for (int i = 0; i < 3; ++i) measurement.covariance(i, i) = 1e-4 * (i + 1);
     }
   }
   const auto own = testing::makeEngine(kPointsIni, {"mapper.motion=spatial"});

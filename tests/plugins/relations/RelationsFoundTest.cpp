@@ -107,7 +107,7 @@ TEST(RelationsFound, OfWallsAreATree) {
   EXPECT_EQ(found.size(), 3U);
   EXPECT_TRUE(place.relations(acting(found)).empty());
   RelationsOptions shy;
-  shy.min_sightings = 6;
+  shy.min_measurements = 6;
   EXPECT_TRUE(place.relations({}, shy).empty());
 }
 

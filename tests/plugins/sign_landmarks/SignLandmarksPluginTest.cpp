@@ -89,7 +89,7 @@ struct Mapped {
     for (const auto& [id, landmark] : view.map.landmarks) {
       if (landmark.state != map::Landmark::State::active) continue;
       const auto& payload = dynamic_cast<const SignPayload&>(*landmark.payload);
-      EXPECT_EQ(landmark.evidence, payload.sightings());
+      EXPECT_EQ(landmark.evidence, payload.measurements());
       const Eigen::VectorXd& at = view.graph.value(landmark.variables.front());
       mrpt::math::TPoint3D there;
       truth_from_map.composePoint({at[0], at[1], at[2]}, there);
@@ -327,7 +327,7 @@ TEST(SignLandmarksPlugin, ATextThatChangesBendsNothing) {
   EXPECT_EQ(mapped.signs.at("777").size(), 1U);
 }
 
-TEST(SignLandmarksPlugin, ASightingOfAnUnknownOneWaitsAndSaysSo) {
+TEST(SignLandmarksPlugin, AMeasurementOfAnUnknownOneWaitsAndSaysSo) {
   const SimulatedLog log(drive(1));
   auto observations = signsOf(log);
   int left = 2;  // of three directions that are needed
@@ -344,7 +344,7 @@ TEST(SignLandmarksPlugin, ASightingOfAnUnknownOneWaitsAndSaysSo) {
   EXPECT_TRUE(mapped.signs.empty());
   const auto view = mapped.engine->view();
   EXPECT_TRUE(std::all_of(view.decisions.begin(), view.decisions.end(), [](const mapper::Decision& decision) {
-    return decision.kind != "sign sighting" || decision.reason.find("waits for a direction") != std::string::npos;
+    return decision.kind != "sign measurement" || decision.reason.find("waits for a direction") != std::string::npos;
   }));
 }
 

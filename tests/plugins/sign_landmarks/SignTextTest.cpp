@@ -66,12 +66,12 @@ TEST(SignPayload, whatWasReadMostIsWhatIsWritten) {
   sign = sign->with({"213", {"OFF"}, 0.8}, "camera");
   EXPECT_EQ(sign->title(), "213");
   EXPECT_EQ(sign->text().words, std::vector<std::string>{"OFFICE"});
-  EXPECT_EQ(sign->sightings(), 3U);
+  EXPECT_EQ(sign->measurements(), 3U);
   auto other = std::make_shared<SignPayload>();
   other = other->with({"218", {}, 1}, "second")->with({"218", {}, 1}, "second");
   const auto both = sign->with(*other);
   EXPECT_EQ(both->title(), "218");
-  EXPECT_EQ(both->sightings(), 5U);
+  EXPECT_EQ(both->measurements(), 5U);
   EXPECT_FALSE(both->is_repeated);
   EXPECT_TRUE(both->repeated()->is_repeated);
   const auto shape = sign->shape({Eigen::Vector3d(1, 2, 1.5)}, {});

@@ -8,7 +8,7 @@
 #include "sign_landmarks/SignMeasurement.h"
 #include "sign_landmarks/Triangulation.h"
 
-namespace omnimapper::plugins::sign_sighting_test {
+namespace omnimapper::plugins::sign_measurement_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -27,12 +27,13 @@ class Views {
     const auto pose = graph.addVariable(graph::se3(), graph::toValue(Se3{Eigen::Quaterniond::Identity(), base}));
     const Vector3d camera(0, 0, 1);
     const Vector3d direction = geometry::expSo3({0, 0, error}) * (sign - base - camera).normalized();
-    SignMeasurement sighting{{}, SeenDirection(camera, direction), Vector3d::UnitY(), kDegree, kDegree, {}, 0, 0, {}};
+    SignMeasurement measurement{{}, SeenDirection(camera, direction), Vector3d::UnitY(), kDegree, kDegree, {}, 0, 0,
+                                {}};
     if (range > 0) {
-      sighting.range = range;
-      sighting.range_sigma = range_sigma;
+      measurement.range = range;
+      measurement.range_sigma = range_sigma;
     }
-    views.push_back({{}, {}, pose, "camera", sighting, 0});
+    views.push_back({{}, {}, pose, "camera", measurement, 0});
   }
 
   std::optional<Triangulation> meeting(double max_sigma = 0.3) const {
@@ -110,12 +111,12 @@ TEST(SignMeasurements, KeepRangesThatSaySomething) {
     sign.range = range;
     sign.range_sigma = sigma;
     observation.signs = {sign};
-    const auto sightings = signMeasurements(observation, {});
-    ASSERT_EQ(sightings.size(), 1U);
-    EXPECT_EQ(sightings[0].range.has_value(), is_kept) << range << " +- " << sigma;
-    EXPECT_EQ(sightings[0].rangeRecord(base::VariableId{1}, base::VariableId{2}).has_value(), is_kept);
+    const auto measurements = signMeasurements(observation, {});
+    ASSERT_EQ(measurements.size(), 1U);
+    EXPECT_EQ(measurements[0].range.has_value(), is_kept) << range << " +- " << sigma;
+    EXPECT_EQ(measurements[0].rangeRecord(base::VariableId{1}, base::VariableId{2}).has_value(), is_kept);
   }
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins::sign_sighting_test
+}  // namespace omnimapper::plugins::sign_measurement_test

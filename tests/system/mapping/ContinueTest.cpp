@@ -77,7 +77,7 @@ TEST_F(Continue, EveryOutputHasBothSessions) {
   const auto summary = loadSummary(file("both"));
   ASSERT_EQ(summary["sessions"].size(), 2U);
   EXPECT_TRUE(summary["sessions"][1]["joined"]);
-  EXPECT_NEAR(summary["way_m"], 2 * log_->lapLength(), 0.02 * log_->lapLength());
+  EXPECT_NEAR(summary["travel_m"], 2 * log_->lapLength(), 0.02 * log_->lapLength());
   EXPECT_NEAR(summary["log_s"], omnimapper::base::secondsBetween(log_->begin(), log_->end()), 2);
   EXPECT_EQ(summary["warnings"].size(), 0U);
   const std::string report = readFile(file("both/report.html"));

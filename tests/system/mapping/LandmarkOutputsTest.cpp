@@ -45,7 +45,7 @@ TEST_F(LandmarkOutputs, TheFloorPlanHasTheWallsWhereTheyAre) {
     const std::string label = properties.value("label", ""), type = feature["geometry"]["type"];
     tops += furniture.count(label) > 0 && type == "Polygon";
     floors += label == "floor" && type == "Polygon";
-    if (label != "wall" || properties["sightings"] < 10) continue;
+    if (label != "wall" || properties["measurements"] < 10) continue;
     const auto ends = endsOf(feature["geometry"]);
     const auto along = [&](int axis) { return ends[1][axis].get<double>() - ends[0][axis].get<double>(); };
     if (std::hypot(along(0), along(1)) < 1.2) continue;  // may be furniture, of which the truth lists no planes

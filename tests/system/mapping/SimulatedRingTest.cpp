@@ -209,7 +209,7 @@ TEST_P(SimulatedRing, TheSummaryAgreesWithTheMap) {
   EXPECT_EQ(summary["key_frames"], loaded.map.key_frames.size());
   EXPECT_EQ(summary["graph"]["factors"], loaded.graph.factors().size());
   EXPECT_EQ(summary["closures"]["accepted"], loopClosures(loaded).size());
-  EXPECT_NEAR(summary["way_m"], 2 * ring().log.lapLength(), 0.02 * ring().log.lapLength());
+  EXPECT_NEAR(summary["travel_m"], 2 * ring().log.lapLength(), 0.02 * ring().log.lapLength());
   EXPECT_EQ(summary["warnings"].size(), 0U);
 }
 

@@ -40,11 +40,12 @@ class WallsAndPlanes : public ::testing::Test {
     return scratch_ / name;
   }
   /// Those of a label that were seen so often.
-  std::vector<json> featuresOf(const std::string& label, int sightings) const {
+  std::vector<json> featuresOf(const std::string& label, int measurements) const {
     std::vector<json> found;
     for (const auto& feature : plan_) {
       const auto& properties = feature["properties"];
-      if (properties.value("label", "") == label && properties["sightings"] >= sightings) found.push_back(feature);
+      if (properties.value("label", "") == label && properties["measurements"] >= measurements)
+        found.push_back(feature);
     }
     return found;
   }

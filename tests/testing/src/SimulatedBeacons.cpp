@@ -21,8 +21,8 @@ CPose3D SimulatedBeacons::baseFromReported(double seconds) const {
   return base_from_head + CPose3D(0, 0, 0, pan, tilt, 0);
 }
 
-mrpt::obs::CObservation::Ptr SimulatedBeacons::sightings(const FloorPlan& plan, const CPose3D& map_from_base,
-                                                         base::Stamp stamp, double seconds, Dice& dice) const {
+mrpt::obs::CObservation::Ptr SimulatedBeacons::measurements(const FloorPlan& plan, const CPose3D& map_from_base,
+                                                            base::Stamp stamp, double seconds, Dice& dice) const {
   auto observation = mrpt::obs::CObservationBearingRange::Create();
   observation->sensorLabel = "beacons";
   observation->timestamp = stamp;
@@ -39,12 +39,12 @@ mrpt::obs::CObservation::Ptr SimulatedBeacons::sightings(const FloorPlan& plan, 
     double range, yaw, pitch;
     map_from_sensor.sphericalCoordinates({positions[i].x(), positions[i].y(), positions[i].z()}, range, yaw, pitch);
     if (range > max_range || plan.distanceToWall(eye, way.normalized()) < way.norm()) continue;
-    mrpt::obs::CObservationBearingRange::TMeasurement sighting;
-    sighting.landmarkID = static_cast<std::int32_t>(i);
-    sighting.range = static_cast<float>(range + noise[0]);
-    sighting.yaw = static_cast<float>(yaw + noise[1]);
-    sighting.pitch = static_cast<float>(pitch + noise[2]);
-    observation->sensedData.push_back(sighting);
+    mrpt::obs::CObservationBearingRange::TMeasurement measurement;
+    measurement.landmarkID = static_cast<std::int32_t>(i);
+    measurement.range = static_cast<float>(range + noise[0]);
+    measurement.yaw = static_cast<float>(yaw + noise[1]);
+    measurement.pitch = static_cast<float>(pitch + noise[2]);
+    observation->sensedData.push_back(measurement);
   }
   return observation;
 }

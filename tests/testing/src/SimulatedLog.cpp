@@ -224,7 +224,7 @@ std::vector<CObservation::Ptr> SimulatedLog::observations() const {
     const auto& beacons = options_.beacons;
     for (const auto stamp : stampsOf(*this, beacons.rate, beacons.phase)) {
       const double seconds = base::secondsBetween(begin_, stamp);
-      all.push_back(beacons.sightings(plan_, CPose3D(truthAt(stamp)), stamp, seconds, dice));
+      all.push_back(beacons.measurements(plan_, CPose3D(truthAt(stamp)), stamp, seconds, dice));
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });

@@ -153,7 +153,7 @@ map::Place placeOf(const ShapedLandmark& shaped, const mapper::State& state, con
   place.position = positionOf(shaped.shape);
   place.extent = extentOf(shaped.shape, place.position);
   if (shaped.shape.normal) place.normal = shaped.shape.normal->normalized();
-  place.sightings = landmark.evidence;
+  place.measurements = landmark.evidence;
   place.first_seen = landmark.first_seen;
   place.last_seen = landmark.last_seen;
   if (allHaveVariables(landmark, state.graph)) {

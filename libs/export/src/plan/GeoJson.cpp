@@ -124,7 +124,7 @@ Json propertiesOf(const ShapedLandmark& shaped) {
     properties["photograph"] = photograph;
   properties["kind"] = landmark.kind;
   properties["state"] = shaped.moved ? "moved" : "present";
-  properties["sightings"] = landmark.evidence;
+  properties["measurements"] = landmark.evidence;
   if (base::isValid(landmark.first_seen)) properties["first_seen"] = isoTime(landmark.first_seen);
   if (base::isValid(landmark.last_seen)) properties["last_seen"] = isoTime(landmark.last_seen);
   if (const Eigen::AlignedBox3d box = boxOf(shaped.shape); !box.isEmpty()) {

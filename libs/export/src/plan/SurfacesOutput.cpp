@@ -24,7 +24,7 @@ surfaces::Surface surfaceOf(const ShapedLandmark& shaped, int id) {
   surface.is = surfaces::surfaceClassNamed(shape.label).value_or(surfaces::SurfaceClass::surface);
   surface.reason = shape.reason;
   surface.is_candidate = shape.is_candidate;
-  surface.sightings = static_cast<int>(shaped.landmark->evidence);
+  surface.measurements = static_cast<int>(shaped.landmark->evidence);
   surface.plane = planeOf(shape.surfaces.front(), shape);
   for (std::size_t i = 0; i < shape.surfaces.size(); ++i) {
     const auto walks = withHoles(i, shape);

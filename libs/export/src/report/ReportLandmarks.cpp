@@ -34,7 +34,7 @@ std::string photographOf(const map::LandmarkShape& shape) {
   return address.empty() ? "" : "<img class=\"photograph\" alt=\"\" src=\"" + address + "\"/>";
 }
 
-// What its plugin tells beside size and sightings, which have columns of their own.
+// What its plugin tells beside size and measurements, which have columns of their own.
 std::string otherProperties(const map::LandmarkShape& shape) {
   std::string text;
   for (const auto& [name, value] : shape.properties) {
@@ -83,7 +83,7 @@ std::string drawLandmarkTable(const std::vector<ShapedLandmark>& landmarks, base
          "<th>what</th><th>kind</th><th class=\"num\">x [m]</th><th class=\"num\">y [m]</th>"
          "<th class=\"num\">z [m]</th>"
          "<th class=\"num\">area [m&#178;]</th><th class=\"num\">length [m]</th>"
-         "<th class=\"num\">sightings</th><th>seen by</th><th class=\"num\">first [s]</th><th class=\"num\">last "
+         "<th class=\"num\">measurements</th><th>seen by</th><th class=\"num\">first [s]</th><th class=\"num\">last "
          "[s]</th>"
          "<th></th><th>photograph</th><th>more</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div></section>\n";

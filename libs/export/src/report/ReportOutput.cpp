@@ -47,7 +47,7 @@ void ReportOutput::finish(const mapper::View& view) {
   const LevelFrame level(view.map);
   auto trajectory = level(trajectoryOf(view));
   // What was located nowhere is not drawn into the map.
-  if (view.map_is_held && figuresOf(view, trajectory).located == 0) trajectory.clear();
+  if (view.map_is_held && metricsOf(view, trajectory).located == 0) trajectory.clear();
   const auto closures = level(closuresOf(view.map, view.decisions));
   const auto in_map = shapesOf(view), landmarks = level(in_map);
   ScanGridOptions grid_options;

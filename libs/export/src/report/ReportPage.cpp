@@ -34,13 +34,13 @@ std::string large(double value) {
   return value < 1000 || value > 1e15 ? base::brief(value, 4) : grouped(static_cast<std::size_t>(std::llround(value)));
 }
 
-std::string drawMetrics(const ReportInput& input, const RunMetrics& figures) {
+std::string drawMetrics(const ReportInput& input, const RunMetrics& metrics) {
   const mapper::View& view = input.view;
   std::string html = figure(grouped(view.map.key_frames.size()), "key frames") +
-                     figure(base::fixed(figures.way, figures.way < 100 ? 1 : 0) + " m", "distance travelled") +
-                     figure(duration(figures.log_seconds), "recorded");
+                     figure(base::fixed(metrics.travel, metrics.travel < 100 ? 1 : 0) + " m", "distance travelled") +
+                     figure(duration(metrics.log_seconds), "recorded");
   if (view.map_is_held) {
-    html += figure(grouped(figures.located) + " of " + grouped(figures.localized), "new key frames located");
+    html += figure(grouped(metrics.located) + " of " + grouped(metrics.localized), "new key frames located");
   }
   if (input.picture) {
     html += figure(base::fixed(input.picture->maxX() - input.picture->min_x, 0) + " &#215; " +
@@ -48,12 +48,12 @@ std::string drawMetrics(const ReportInput& input, const RunMetrics& figures) {
                    "mapped");
   }
   if (!input.landmarks.empty()) html += figure(grouped(input.landmarks.size()), "landmarks");
-  html += figure(grouped(figures.closures), "loop closures") +
-          figure(grouped(figures.refused_closures), "closures refused") +
+  html += figure(grouped(metrics.closures), "loop closures") +
+          figure(grouped(metrics.refused_closures), "closures refused") +
           figure(grouped(view.graph.factors().size()), "factors") + figure(large(view.graph.chi2()), "chi-square") +
-          figure(duration(figures.wall_seconds), "computed");
-  if (figures.wall_seconds > 0 && figures.run_seconds > 0) {
-    const double speed = figures.run_seconds / figures.wall_seconds;
+          figure(duration(metrics.wall_seconds), "computed");
+  if (metrics.wall_seconds > 0 && metrics.run_seconds > 0) {
+    const double speed = metrics.run_seconds / metrics.wall_seconds;
     html += figure(base::fixed(speed, speed < 10 ? 1 : 0) + " &#215;", "of real time");
   }
   return "<div class=\"figures\">" + html + "</div>\n";
@@ -96,12 +96,12 @@ std::string drawReport(const ReportInput& input) {
   html +=
       "</style>\n</head>\n<body>\n<main>\n<header><h1>" + title + "</h1><p>Mapping report of OmniMapper</p></header>\n";
   html +=
-      drawVerdict(view.verdict) + drawWarnings(view.warnings) + drawMetrics(input, figuresOf(view, input.trajectory));
+      drawVerdict(view.verdict) + drawWarnings(view.warnings) + drawMetrics(input, metricsOf(view, input.trajectory));
   if (input.picture)
     html +=
         drawReportMap(*input.picture, input.drawn_landmarks, input.trajectory, input.closures, kMostRefusedClosures);
   html += drawLandmarkTable(input.landmarks, startOf(view.map)) +
-          charts("Sightings", drawSensorBars(input.landmarks) + drawFeatureCurves(view));
+          charts("Measurements", drawSensorBars(input.landmarks) + drawFeatureCurves(view));
   html += charts("Error", drawErrorCurves(view)) + charts("Time", drawTimeCurves(view));
   html += drawSessionTable(view.map) + drawReasonTable(view.decisions) +
           drawDecisionTable(view.map, view.decisions, input.max_rows);

@@ -68,14 +68,14 @@ std::string countTable(const std::string& title, const Counts& counts) {
 std::string drawSessionTable(const map::Map& map) {
   if (map.sessions.size() < 2) return {};
   std::string rows;
-  for (const auto& figures : map::sessionMetrics(map)) {
+  for (const auto& metrics : map::sessionMetrics(map)) {
     const auto session = std::find_if(map.sessions.begin(), map.sessions.end(),
-                                      [&](const auto& other) { return other.number == figures.number; });
+                                      [&](const auto& other) { return other.number == metrics.number; });
     if (session == map.sessions.end()) continue;
     const bool first = session == map.sessions.begin();
-    rows += "<tr>" + numberCell(std::to_string(figures.number)) + cell(draw::escapeMarkup(session->title)) +
-            numberCell(grouped(figures.key_frames)) + numberCell(base::fixed(figures.way, 1)) +
-            numberCell(base::fixed(figures.seconds, 1)) +
+    rows += "<tr>" + numberCell(std::to_string(metrics.number)) + cell(draw::escapeMarkup(session->title)) +
+            numberCell(grouped(metrics.key_frames)) + numberCell(base::fixed(metrics.travel, 1)) +
+            numberCell(base::fixed(metrics.seconds, 1)) +
             cell(first ? "" : draw::escapeMarkup(mapper::joinedText(*session))) + "</tr>\n";
   }
   return "<section class=\"card\"><h2>Sessions</h2><div class=\"scroll\"><table class=\"sortable\"><thead><tr>"
@@ -130,7 +130,7 @@ std::string drawDecisionTable(const map::Map& map, const mapper::DecisionLog& de
 }
 
 std::string drawCountTables(const mapper::View& view) {
-  const GraphMetrics graph = figuresOf(view.graph);
+  const GraphMetrics graph = metricsOf(view.graph);
   return "<div class=\"columns\">" + countTable("Observations", namedCounts(view.counts)) +
          countTable("Variables by kind", graph.variables_by_kind) +
          countTable("Factors by kind", graph.factors_by_kind) +

@@ -6,33 +6,33 @@
 
 namespace omnimapper::exports {
 
-RunMetrics figuresOf(const mapper::View& view, const std::vector<map::StampedPose>& trajectory) {
-  RunMetrics figures;
-  figures.trajectory_poses = trajectory.size();
+RunMetrics metricsOf(const mapper::View& view, const std::vector<map::StampedPose>& trajectory) {
+  RunMetrics metrics;
+  metrics.trajectory_poses = trajectory.size();
   for (const auto& session : map::sessionMetrics(view.map)) {
     if (view.map_is_held && session.number != view.map.sessions.back().number) continue;
-    figures.log_seconds += session.seconds;
-    figures.run_seconds = session.seconds;
-    figures.way += session.way;
+    metrics.log_seconds += session.seconds;
+    metrics.run_seconds = session.seconds;
+    metrics.travel += session.travel;
   }
   const auto& frames = view.map.key_frames;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto p = frames[i].map_from_base.translation();
     const bool first = i == 0;
-    figures.min_x = first ? p.x : std::min(figures.min_x, p.x);
-    figures.max_x = first ? p.x : std::max(figures.max_x, p.x);
-    figures.min_y = first ? p.y : std::min(figures.min_y, p.y);
-    figures.max_y = first ? p.y : std::max(figures.max_y, p.y);
-    figures.min_z = first ? p.z : std::min(figures.min_z, p.z);
-    figures.max_z = first ? p.z : std::max(figures.max_z, p.z);
+    metrics.min_x = first ? p.x : std::min(metrics.min_x, p.x);
+    metrics.max_x = first ? p.x : std::max(metrics.max_x, p.x);
+    metrics.min_y = first ? p.y : std::min(metrics.min_y, p.y);
+    metrics.max_y = first ? p.y : std::max(metrics.max_y, p.y);
+    metrics.min_z = first ? p.z : std::min(metrics.min_z, p.z);
+    metrics.max_z = first ? p.z : std::max(metrics.max_z, p.z);
   }
   const auto closures = mapper::countClosures(view.decisions);
-  figures.closures = closures.accepted;
-  figures.refused_closures = closures.refused;
-  figures.localized = view.localization.size();
-  for (const auto& estimate : view.localization) figures.located += estimate.located();
-  for (const auto& [stage, total] : view.times.totals()) figures.wall_seconds += total.seconds;
-  return figures;
+  metrics.closures = closures.accepted;
+  metrics.refused_closures = closures.refused;
+  metrics.localized = view.localization.size();
+  for (const auto& estimate : view.localization) metrics.located += estimate.located();
+  for (const auto& [stage, total] : view.times.totals()) metrics.wall_seconds += total.seconds;
+  return metrics;
 }
 
 std::vector<map::StampedPose> trajectoryOf(const mapper::View& view) {
@@ -55,14 +55,14 @@ std::vector<ReasonCount> countReasons(const mapper::DecisionLog& decisions) {
   return result;
 }
 
-GraphMetrics figuresOf(const graph::Graph& graph) {
-  GraphMetrics figures;
-  for (const auto& [id, record] : graph.variables()) ++figures.variables_by_kind[std::string(record.kind->kind())];
+GraphMetrics metricsOf(const graph::Graph& graph) {
+  GraphMetrics metrics;
+  for (const auto& [id, record] : graph.variables()) ++metrics.variables_by_kind[std::string(record.kind->kind())];
   for (const auto& [id, record] : graph.factors()) {
-    ++figures.factors_by_kind[std::string(record.factor->kind())];
-    ++figures.factors_by_owner[record.tags.owner];
+    ++metrics.factors_by_kind[std::string(record.factor->kind())];
+    ++metrics.factors_by_owner[record.tags.owner];
   }
-  return figures;
+  return metrics;
 }
 
 std::vector<std::pair<std::string, std::size_t>> namedCounts(const mapper::RunCounts& counts) {

@@ -20,12 +20,12 @@ using Json = nlohmann::ordered_json;
 constexpr double kDegrees = 180 / 3.14159265358979323846;  // in a radian
 
 Json graphOf(const mapper::View& view) {
-  const GraphMetrics figures = figuresOf(view.graph);
+  const GraphMetrics metrics = metricsOf(view.graph);
   return {{"variables", view.graph.variables().size()},
-          {"variables_by_kind", figures.variables_by_kind},
+          {"variables_by_kind", metrics.variables_by_kind},
           {"factors", view.graph.factors().size()},
-          {"factors_by_kind", figures.factors_by_kind},
-          {"factors_by_owner", figures.factors_by_owner},
+          {"factors_by_kind", metrics.factors_by_kind},
+          {"factors_by_owner", metrics.factors_by_owner},
           {"chi2", view.graph.chi2()},
           {"final_cost", view.graph.cost()}};
 }
@@ -89,11 +89,11 @@ Json sessionsOf(const map::Map& map) {
   for (const map::Session& session : map.sessions) {
     Json entry = {{"number", session.number}, {"title", session.title}, {"joined", session.joined}};
     if (session.joined_at) entry["joined_at"] = toString(*session.joined_at);
-    for (const auto& figures : all) {
-      if (figures.number != session.number) continue;
-      entry["key_frames"] = figures.key_frames;
-      entry["way_m"] = figures.way;
-      entry["log_s"] = figures.seconds;
+    for (const auto& metrics : all) {
+      if (metrics.number != session.number) continue;
+      entry["key_frames"] = metrics.key_frames;
+      entry["travel_m"] = metrics.travel;
+      entry["log_s"] = metrics.seconds;
     }
     list.push_back(std::move(entry));
   }
@@ -142,24 +142,24 @@ Json liveOf(const mapper::LiveMetrics& live) {
 
 Json summaryOf(const mapper::View& view, const std::string& title) {
   const auto trajectory = trajectoryOf(view);
-  const RunMetrics figures = figuresOf(view, trajectory);
+  const RunMetrics metrics = metricsOf(view, trajectory);
   Json counts = Json::object();
   for (const auto& [name, count] : namedCounts(view.counts)) counts[name] = count;
   Json summary = {
-      {"title", title}, {"key_frames", view.map.key_frames.size()}, {"trajectory_poses", figures.trajectory_poses}};
+      {"title", title}, {"key_frames", view.map.key_frames.size()}, {"trajectory_poses", metrics.trajectory_poses}};
   if (!trajectory.empty()) {
     summary["first_stamp"] = base::formatUnix(trajectory.front().stamp);
     summary["last_stamp"] = base::formatUnix(trajectory.back().stamp);
   }
-  summary["log_s"] = figures.log_seconds;
-  summary["way_m"] = figures.way;
-  summary["trajectory_extent_m"] = {{"min", {figures.min_x, figures.min_y, figures.min_z}},
-                                    {"max", {figures.max_x, figures.max_y, figures.max_z}}};
+  summary["log_s"] = metrics.log_seconds;
+  summary["travel_m"] = metrics.travel;
+  summary["trajectory_extent_m"] = {{"min", {metrics.min_x, metrics.min_y, metrics.min_z}},
+                                    {"max", {metrics.max_x, metrics.max_y, metrics.max_z}}};
   summary["sessions"] = sessionsOf(view.map);
-  if (view.map_is_held) summary["localization"] = {{"key_frames", figures.localized}, {"located", figures.located}};
+  if (view.map_is_held) summary["localization"] = {{"key_frames", metrics.localized}, {"located", metrics.located}};
   summary["landmarks"] = mapper::countLandmarks(view);
   if (view.map.level) summary["level"] = levelOf(*view.map.level);
-  summary["closures"] = {{"accepted", figures.closures}, {"refused", figures.refused_closures}};
+  summary["closures"] = {{"accepted", metrics.closures}, {"refused", metrics.refused_closures}};
   if (!view.map.sessions.empty()) summary["closures"]["session"] = view.map.sessions.back().number;
   if (!view.map_is_held) summary["verdict"] = verdictOf(view.verdict);
   summary["counts"] = counts;

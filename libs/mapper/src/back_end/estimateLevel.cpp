@@ -110,7 +110,7 @@ std::vector<surfaces::Viewpoint> viewpointsOf(const map::Map& map) {
 
 // What was seen once only may be noise.
 std::vector<surfaces::FlatArea> areasOf(const State& state) {
-  constexpr std::uint32_t kFewest = 2;  // sightings
+  constexpr std::uint32_t kFewest = 2;  // measurements
   std::vector<surfaces::FlatArea> areas;
   for (const auto& [id, landmark] : state.map.landmarks) {
     if (landmark.state != map::Landmark::State::active || landmark.evidence < kFewest) continue;

@@ -65,7 +65,7 @@ bool LiveFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& prog
     feedAll(engine, samples, progress, stop);
   } catch (...) {  // the map of what came before is finished, and nobody takes what sensors would send meanwhile
     sensors_->close();
-    engine.setLive(figures());
+    engine.setLive(metrics());
     throw;
   }
   warnOfSensors(engine);
@@ -124,19 +124,19 @@ void LiveFeed::attend(Engine& engine, base::Progress& progress) {
   const auto now = Clock::now();
   if (now - attended_ < kBetween) return;
   attended_ = now;
-  for (const auto& sentence : sensors_->takeNews()) progress.tell(sentence);
-  if (const auto problem = checkpoints_->offer(engine.view()); !problem.empty()) progress.tell(problem);
+  for (const auto& sentence : sensors_->takeNews()) progress.reportEvent(sentence);
+  if (const auto problem = checkpoints_->offer(engine.view()); !problem.empty()) progress.reportEvent(problem);
   if (trace_->journal && now - flushed_ >= kBetweenFlushes) {
     flushed_ = now;
     if (!trace_->journal->flush() && !has_told_journal_) {
       has_told_journal_ = true;
       const std::string problem = "the journal of the recording cannot be written any more: a replay ends there";
-      progress.tell(problem);
+      progress.reportEvent(problem);
       engine.warn(problem);
     }
   }
   if (now >= next_judgement_ && !has_ended_) judge(engine);
-  engine.setLive(figures());
+  engine.setLive(metrics());
   progress.reportState(stateText(engine.view()));
 }
 
@@ -178,28 +178,28 @@ void LiveFeed::warnOfSensors(Engine& engine) const {
   if (recorder && !recorder->failure().empty()) engine.warn(recorder->failure());
 }
 
-LiveMetrics LiveFeed::figures() const {
-  LiveMetrics figures;
+LiveMetrics LiveFeed::metrics() const {
+  LiveMetrics metrics;
   for (const auto& sensor : sensors_->sensors())
-    figures.sensors.push_back({sensor.name, toString(sensor.state), sensor.observations, sensor.clock_offset,
+    metrics.sensors.push_back({sensor.name, toString(sensor.state), sensor.observations, sensor.clock_offset,
                                sensor.clock_jumps, sensor.reopened, sensor.left_out});
   const auto counts = sensors_->counts();
-  figures.arrived = counts.arrived - filtered_out_;
-  figures.given = counts.given - filtered_out_;
-  figures.dropped = counts.dropped;
-  figures.not_kept = counts.not_kept;
-  figures.unusable = counts.unusable;
-  figures.latency_median = trace_->latencies.quantile(0.5);
-  figures.latency_99 = trace_->latencies.quantile(0.99);
+  metrics.arrived = counts.arrived - filtered_out_;
+  metrics.given = counts.given - filtered_out_;
+  metrics.dropped = counts.dropped;
+  metrics.not_kept = counts.not_kept;
+  metrics.unusable = counts.unusable;
+  metrics.latency_median = trace_->latencies.quantile(0.5);
+  metrics.latency_99 = trace_->latencies.quantile(0.99);
   if (const auto* recorder = sensors_->recorder()) {
-    for (const auto& file : recorder->files()) figures.recording.push_back(std::string(kRecording) + "/" + file);
+    for (const auto& file : recorder->files()) metrics.recording.push_back(std::string(kRecording) + "/" + file);
     const auto recorded = recorder->statistics();
-    figures.recorded = recorded.observations;
-    figures.recorded_bytes = recorded.bytes;
-    figures.bytes_on_disk = recorded.bytes_on_disk;
-    figures.recorder_seconds = recorded.seconds;
+    metrics.recorded = recorded.observations;
+    metrics.recorded_bytes = recorded.bytes;
+    metrics.bytes_on_disk = recorded.bytes_on_disk;
+    metrics.recorder_seconds = recorded.seconds;
   }
-  return figures;
+  return metrics;
 }
 
 std::string LiveFeed::stateText(const View& view) const {

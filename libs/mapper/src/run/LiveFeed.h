@@ -42,7 +42,7 @@ class LiveFeed : public Feed {
   void attend(Engine& engine, base::Progress& progress);
   void judge(Engine& engine);
   void warnOfSensors(Engine& engine) const;
-  LiveMetrics figures() const;
+  LiveMetrics metrics() const;
   std::string stateText(const View& view) const;
 
   live::LiveOptions options_;

@@ -120,11 +120,11 @@ RunResult resultOf(const View& view) {
   for (const auto& estimate : view.localization) result.located += estimate.located();
   for (const auto& decision : view.decisions)
     result.awaits_confirmation |= decision.kind == kRelocalisation && decision.accepted;
-  const auto figures = map::sessionMetrics(view.map);
-  if (!figures.empty() && figures.back().number == result.sessions.back().number) {
-    result.new_key_frames = figures.back().key_frames;
-    result.way = figures.back().way;
-    result.log_seconds = figures.back().seconds;
+  const auto metrics = map::sessionMetrics(view.map);
+  if (!metrics.empty() && metrics.back().number == result.sessions.back().number) {
+    result.new_key_frames = metrics.back().key_frames;
+    result.travel = metrics.back().travel;
+    result.log_seconds = metrics.back().seconds;
   }
   return result;
 }

@@ -92,7 +92,7 @@ std::string toText(const RunResult& result) {
                 "travelled         %.1f m in %.1f s%s\n"
                 "wall time         %.2f s (%.0f times the log's own pace)\n",
                 result.key_frames - of_map, held.c_str(), factors.c_str(), closureLine(result, scope).c_str(),
-                result.way, result.log_seconds, scope, result.wall_seconds,
+                result.travel, result.log_seconds, scope, result.wall_seconds,
                 result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
   const std::string verdict =
       result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";

@@ -232,25 +232,25 @@ class Planner {
 
   void goAlong(DrivenMotion& motion, const std::vector<Stop>& stops) const {
     std::map<std::pair<std::size_t, std::size_t>, Polyline> known;  // ways from stop to stop
-    Polyline way{motion.end().translation()};
+    Polyline travel{motion.end().translation()};
     std::optional<std::size_t> from;
     // What is still to be driven takes at least its length at full speed; rounded corners are up to 30 % shorter.
     const auto isDone = [&] {
       double length = 0;
-      for (std::size_t i = 1; i < way.size(); ++i) length += (way[i] - way[i - 1]).norm();
+      for (std::size_t i = 1; i < travel.size(); ++i) length += (travel[i] - travel[i - 1]).norm();
       return options_.duration > 0 && motion.duration() + 0.7 * length / options_.max_speed >= options_.duration;
     };
     const auto flush = [&] {
-      motion.follow(way, plan_);
-      way.assign(1, motion.end().translation());
+      motion.follow(travel, plan_);
+      travel.assign(1, motion.end().translation());
     };
     for (int round = 0; options_.duration > 0 ? !isDone() : round < options_.repeat; ++round) {
       const double before = motion.duration();
-      const std::size_t corners = way.size();
+      const std::size_t corners = travel.size();
       for (std::size_t i = 0; i < stops.size() && !isDone(); ++i) {
         Polyline leg =
-            from && known.count({*from, i}) ? known[{*from, i}] : *plan_.findPath(way.back(), stops[i].in_map);
-        way.insert(way.end(), leg.begin() + 1, leg.end());
+            from && known.count({*from, i}) ? known[{*from, i}] : *plan_.findPath(travel.back(), stops[i].in_map);
+        travel.insert(travel.end(), leg.begin() + 1, leg.end());
         if (from) known[{*from, i}] = std::move(leg);
         from = i;
         if (!isStop(stops[i])) continue;
@@ -260,7 +260,7 @@ class Planner {
         motion.wait(options_.pause);
         refuseTooLong(motion);
       }
-      const bool moved = motion.duration() > before || way.size() > corners;
+      const bool moved = motion.duration() > before || travel.size() > corners;
       if (options_.duration > 0 && (!moved || stops.size() < 2)) {
         flush();
         motion.wait(options_.duration - motion.duration());

@@ -74,13 +74,13 @@ std::optional<Blend> roundedCorner(const Eigen::Vector2d& before, const Eigen::V
 template <class Knot>
 void addLine(std::vector<Knot>& knots, const Eigen::Vector2d& to, double yaw) {
   const Eigen::Vector2d from = knots.back().position;
-  const double length = (to - from).norm(), way = knots.back().way;
+  const double length = (to - from).norm(), travel = knots.back().travel;
   if (length == 0) return;
   // A way from rest to rest needs a knot between them at which it moves.
   const int count = std::max(2, static_cast<int>(std::ceil(length / kLineKnotSpacing)));
   for (int i = 1; i <= count; ++i) {
     const double share = static_cast<double>(i) / count;
-    knots.push_back({from + share * (to - from), yaw, 0, way + share * length, 0, 0});
+    knots.push_back({from + share * (to - from), yaw, 0, travel + share * length, 0, 0});
   }
 }
 
@@ -98,7 +98,7 @@ void addBlend(std::vector<Knot>& knots, const Blend& blend) {
     const Eigen::Vector2d first = blend.first(to), second = blend.second(to);
     const double curvature = (first.x() * second.y() - first.y() * second.x()) / std::pow(first.norm(), 3);
     const double yaw = knots.back().yaw + geometry::wrapToPi(yawOf(first) - knots.back().yaw);
-    knots.push_back({blend.at(to), yaw, curvature, knots.back().way + length, 0, 0});
+    knots.push_back({blend.at(to), yaw, curvature, knots.back().travel + length, 0, 0});
   }
 }
 
@@ -127,26 +127,26 @@ void DrivenMotion::turnTo(double yaw) {
 }
 
 void DrivenMotion::follow(const Polyline& corners, const RobotSpace& plan) {
-  Polyline way;
+  Polyline travel;
   for (const Eigen::Vector2d& corner : corners) {
-    if (way.empty() || (corner - way.back()).norm() > 1e-6) way.push_back(corner);
+    if (travel.empty() || (corner - travel.back()).norm() > 1e-6) travel.push_back(corner);
   }
-  if (way.size() < 2) return;
+  if (travel.size() < 2) return;
   const auto startLeg = [&](std::size_t i) {
-    turnTo(yawOf(way[i + 1] - way[i]));
-    return std::vector<Knot>{{way[i], yawOf(way[i + 1] - way[i]), 0, 0, 0, 0}};
+    turnTo(yawOf(travel[i + 1] - travel[i]));
+    return std::vector<Knot>{{travel[i], yawOf(travel[i + 1] - travel[i]), 0, 0, 0, 0}};
   };
   std::vector<Knot> knots = startLeg(0);
-  for (std::size_t i = 1; i < way.size(); ++i) {
+  for (std::size_t i = 1; i < travel.size(); ++i) {
     const double yaw = knots.back().yaw;
-    if (i + 1 == way.size()) {
-      addLine(knots, way[i], yaw);
+    if (i + 1 == travel.size()) {
+      addLine(knots, travel[i], yaw);
       drive(std::move(knots));
-    } else if (const auto blend = roundedCorner(way[i - 1], way[i], way[i + 1], plan)) {
+    } else if (const auto blend = roundedCorner(travel[i - 1], travel[i], travel[i + 1], plan)) {
       addLine(knots, blend->begin(), yaw);
       addBlend(knots, *blend);
     } else {
-      addLine(knots, way[i], yaw);
+      addLine(knots, travel[i], yaw);
       drive(std::move(knots));
       knots = startLeg(i);
     }
@@ -161,8 +161,8 @@ void DrivenMotion::drive(std::vector<Knot> knots) {
     double steepest = 0;  // change of curvature along the way [1/m^2]
     for (const std::size_t j : {i, i + 1}) {
       if (j == 0 || j >= count) continue;
-      const double way = std::max(knots[j].way - knots[j - 1].way, 1e-9);
-      steepest = std::max(steepest, std::abs(knots[j].curvature - knots[j - 1].curvature) / way);
+      const double travel = std::max(knots[j].travel - knots[j - 1].travel, 1e-9);
+      steepest = std::max(steepest, std::abs(knots[j].curvature - knots[j - 1].curvature) / travel);
     }
     const double bend = std::abs(knots[i].curvature);
     // Turn acceleration = speed^2 * steepness + acceleration * curvature: half of it for each.
@@ -175,16 +175,16 @@ void DrivenMotion::drive(std::vector<Knot> knots) {
     knots[i].speed = i == 0 || i + 1 == count ? 0 : speed;
   }
   const auto bound = [&](Knot& knot, const Knot& neighbour, double available) {
-    knot.speed = std::min(
-        knot.speed, std::sqrt(neighbour.speed * neighbour.speed + 2 * available * std::abs(knot.way - neighbour.way)));
+    knot.speed = std::min(knot.speed, std::sqrt(neighbour.speed * neighbour.speed +
+                                                2 * available * std::abs(knot.travel - neighbour.travel)));
   };
   for (std::size_t i = 1; i < count; ++i) bound(knots[i], knots[i - 1], std::min(acceleration[i], acceleration[i - 1]));
   for (std::size_t i = count - 1; i-- > 0;)
     bound(knots[i], knots[i + 1], std::min(acceleration[i], acceleration[i + 1]));
   knots.front().time = duration_;
   for (std::size_t i = 1; i < count; ++i) {
-    const double way = knots[i].way - knots[i - 1].way, speeds = knots[i].speed + knots[i - 1].speed;
-    knots[i].time = knots[i - 1].time + (way > 0 ? 2 * way / speeds : 0);
+    const double travel = knots[i].travel - knots[i - 1].travel, speeds = knots[i].speed + knots[i - 1].speed;
+    knots[i].time = knots[i - 1].time + (travel > 0 ? 2 * travel / speeds : 0);
   }
   end_ = {knots.back().position.x(), knots.back().position.y(), geometry::wrapToPi(knots.back().yaw)};
   const double begin = duration_;
@@ -207,12 +207,12 @@ geometry::Se2 DrivenMotion::poseIn(const Leg& leg, double time) const {
   const auto after = std::upper_bound(leg.knots.begin() + 1, leg.knots.end() - 1, time,
                                       [](double t, const Knot& knot) { return t < knot.time; });
   const Knot &from = *(after - 1), &to = *after;
-  const double span = to.time - from.time, length = to.way - from.way;
+  const double span = to.time - from.time, length = to.travel - from.travel;
   if (span <= 0) return {to.position.x(), to.position.y(), geometry::wrapToPi(to.yaw)};
   const double elapsed = std::clamp(time - from.time, 0.0, span);
-  const double way = from.speed * elapsed + 0.5 * (to.speed - from.speed) / span * elapsed * elapsed;
+  const double travel = from.speed * elapsed + 0.5 * (to.speed - from.speed) / span * elapsed * elapsed;
   // Cubic between the knots, with their directions and curvatures.
-  const double s = way / length, s2 = s * s, s3 = s2 * s;
+  const double s = travel / length, s2 = s * s, s3 = s2 * s;
   const double h0 = 2 * s3 - 3 * s2 + 1, h1 = s3 - 2 * s2 + s, h2 = 3 * s2 - 2 * s3, h3 = s3 - s2;
   const Eigen::Vector2d from_heading(std::cos(from.yaw), std::sin(from.yaw)),
       to_heading(std::cos(to.yaw), std::sin(to.yaw));

@@ -37,8 +37,8 @@ class DrivenMotion {
   /// A place on a path. Between two of them acceleration along the path is constant.
   struct Knot {
     Eigen::Vector2d position;
-    double yaw, curvature;    // [rad], not wrapped; [1/m], to the left
-    double way, speed, time;  // [m], [m/s], [s]
+    double yaw, curvature;       // [rad], not wrapped; [1/m], to the left
+    double travel, speed, time;  // [m], [m/s], [s]
   };
   struct Turn {
     double begin, duration, from, angle;

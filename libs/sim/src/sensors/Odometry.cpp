@@ -46,16 +46,17 @@ Odometry::Odometry(const OdometryOptions& options, const SensorOptions& mount, c
   bias_.right = 1 + bias.gaussian(options.radius_bias);
   bias_.base = 1 + bias.gaussian(options.base_bias);
   const double base = options.wheel_base;
-  const auto ticked = [&](double way) {
-    return options.ticks_per_metre > 0 ? std::round(way * options.ticks_per_metre) / options.ticks_per_metre : way;
+  const auto ticked = [&](double travel) {
+    return options.ticks_per_metre > 0 ? std::round(travel * options.ticks_per_metre) / options.ticks_per_metre
+                                       : travel;
   };
   Reading reading;
   for (int k = 0; k < count(); ++k) {
     const geometry::Se2 truth = trueIncrement(k);
-    const double way = truth.translation().norm(), turn = std::abs(truth.yaw);
+    const double travel = truth.translation().norm(), turn = std::abs(truth.yaw);
     Random slip = randomOf(k, kSlipStream);
-    const double along = truth.x + slip.gaussian(options.slip_per_root_m * std::sqrt(way));
-    const double turned = truth.yaw + slip.gaussian(std::hypot(options.turn_slip_per_root_m * std::sqrt(way),
+    const double along = truth.x + slip.gaussian(options.slip_per_root_m * std::sqrt(travel));
+    const double turned = truth.yaw + slip.gaussian(std::hypot(options.turn_slip_per_root_m * std::sqrt(travel),
                                                                options.turn_slip_per_root_turn * std::sqrt(turn)));
     // What the wheels did, and what a reader makes of it who takes radius and base for right.
     const double left = bias_.left * (along - 0.5 * base * turned), right = bias_.right * (along + 0.5 * base * turned);

@@ -143,7 +143,7 @@ const base::OptionTable<RgbdOptions>& RgbdOptions::table() {
 
 RgbdSettings settle(const RgbdOptions& options, const std::string& place) {
   const Preset model = preset(options.model);
-  const Figures figures(place);
+  const Figures metrics(place);
   const double scale = options.width / 640.0;
   RgbdSettings settings;
   settings.exact = options.model == RgbdModel::ideal;
@@ -153,23 +153,23 @@ RgbdSettings settle(const RgbdOptions& options, const std::string& place) {
                                                         "colour_focal_px, colour_right_m: with model = stereo the "
                                                         "left eye makes the picture too; leave them out");
   }
-  const double focal = figures.positive("focal_px", options.focal, scale * model.focal);
+  const double focal = metrics.positive("focal_px", options.focal, scale * model.focal);
   const double colour_focal =
       settings.from_texture ? focal
-                            : figures.positive("colour_focal_px", options.colour_focal, scale * model.colour_focal);
+                            : metrics.positive("colour_focal_px", options.colour_focal, scale * model.colour_focal);
   settings.depth_camera = Pinhole::centred(options.width, options.height, focal);
   settings.colour_camera = Pinhole::centred(options.width, options.height, colour_focal);
-  settings.colour_right = figures.offset("colour_right_m", options.colour_right, model.colour_right);
-  settings.unit = figures.positive("range_unit_m", options.unit, model.unit);
+  settings.colour_right = metrics.offset("colour_right_m", options.colour_right, model.colour_right);
+  settings.unit = metrics.positive("range_unit_m", options.unit, model.unit);
   DisparitySettings& disparity = settings.disparity = model.disparity;
-  disparity.baseline = figures.positive("baseline_m", options.baseline, disparity.baseline);
-  disparity.step = figures.chosen("disparity_step_px", options.disparity_step, disparity.step);
-  disparity.sigma = figures.chosen("disparity_sigma_px", options.disparity_sigma, disparity.sigma);
+  disparity.baseline = metrics.positive("baseline_m", options.baseline, disparity.baseline);
+  disparity.step = metrics.chosen("disparity_step_px", options.disparity_step, disparity.step);
+  disparity.sigma = metrics.chosen("disparity_sigma_px", options.disparity_sigma, disparity.sigma);
   if (options.disparity_reach >= 0) disparity.reach = options.disparity_reach;
-  disparity.need = figures.chosen("match_share", options.match_share, disparity.need);
-  disparity.signal_floor = figures.chosen("signal_floor", options.signal_floor, disparity.signal_floor);
-  disparity.min_range = figures.chosen("min_range_m", options.min_range, disparity.min_range);
-  disparity.max_range = figures.chosen("max_range_m", options.max_range, disparity.max_range);
+  disparity.need = metrics.chosen("match_share", options.match_share, disparity.need);
+  disparity.signal_floor = metrics.chosen("signal_floor", options.signal_floor, disparity.signal_floor);
+  disparity.min_range = metrics.chosen("min_range_m", options.min_range, disparity.min_range);
+  disparity.max_range = metrics.chosen("max_range_m", options.max_range, disparity.max_range);
   requireBelow(place, "min_range_m", disparity.min_range, "max_range_m", disparity.max_range);
   if (disparity.max_range / settings.unit > 65535) {
     refuseValue(place, "max_range_m", disparity.max_range,
@@ -177,7 +177,7 @@ RgbdSettings settle(const RgbdOptions& options, const std::string& place) {
                     "; make the unit larger");
   }
   settings.photograph = {options.gain, options.exposure,
-                         figures.chosen("colour_noise", options.colour_noise, model.colour_noise), options.vignetting};
+                         metrics.chosen("colour_noise", options.colour_noise, model.colour_noise), options.vignetting};
   settings.coincide = settings.colour_right == 0 && focal == colour_focal;
   return settings;
 }

@@ -12,8 +12,8 @@ namespace {
 constexpr double kLift = 0.07;         // of a foot in the middle of its swing [m]
 constexpr double kHeadingReach = 0.3;  // a heading is that of the way from so far behind to so far ahead [m]
 
-double headingOf(const Eigen::Vector2d& way) {
-  return std::atan2(way.y(), way.x());
+double headingOf(const Eigen::Vector2d& travel) {
+  return std::atan2(travel.y(), travel.x());
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ Walk::Walk(const std::vector<PersonSpec::Waypoint>& waypoints, double half_hips,
   for (Run& run : runs_) run.steps = std::max(1, static_cast<int>(std::lround(run.length() / step)));
 }
 
-double Walk::Run::wayAt(double time) const {
+double Walk::Run::travelAt(double time) const {
   if (time <= begin()) return 0;
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
     if (time > waypoints[i + 1].time) continue;
@@ -42,34 +42,34 @@ double Walk::Run::wayAt(double time) const {
   return length();
 }
 
-Eigen::Vector2d Walk::Run::placeAt(double way) const {
-  const std::size_t after =
-      std::clamp<std::size_t>(std::upper_bound(along.begin(), along.end(), way) - along.begin(), 1, along.size() - 1);
-  const double share = std::clamp((way - along[after - 1]) / (along[after] - along[after - 1]), 0.0, 1.0);
+Eigen::Vector2d Walk::Run::placeAt(double travel) const {
+  const std::size_t after = std::clamp<std::size_t>(
+      std::upper_bound(along.begin(), along.end(), travel) - along.begin(), 1, along.size() - 1);
+  const double share = std::clamp((travel - along[after - 1]) / (along[after] - along[after - 1]), 0.0, 1.0);
   return waypoints[after - 1].in_map + share * (waypoints[after].in_map - waypoints[after - 1].in_map);
 }
 
-double Walk::Run::headingAt(double way) const {
-  const Eigen::Vector2d stretch = placeAt(way + kHeadingReach) - placeAt(way - kHeadingReach);
+double Walk::Run::headingAt(double travel) const {
+  const Eigen::Vector2d stretch = placeAt(travel + kHeadingReach) - placeAt(travel - kHeadingReach);
   if (stretch.norm() > 1e-3) return headingOf(stretch);
-  return headingOf(placeAt(way + 1e-3) - placeAt(way - 1e-3));
+  return headingOf(placeAt(travel + 1e-3) - placeAt(travel - 1e-3));
 }
 
-Stance::Foot Walk::printOf(const Run& run, double way, bool right) const {
-  const double yaw = run.headingAt(way), side = right ? -half_hips_ : half_hips_;
-  return {run.placeAt(way) + side * Eigen::Vector2d(-std::sin(yaw), std::cos(yaw)), yaw, 0};
+Stance::Foot Walk::printOf(const Run& run, double travel, bool right) const {
+  const double yaw = run.headingAt(travel), side = right ? -half_hips_ : half_hips_;
+  return {run.placeAt(travel) + side * Eigen::Vector2d(-std::sin(yaw), std::cos(yaw)), yaw, 0};
 }
 
 // Swing j = 0 ... steps takes a foot, left and right in turn, to the end of step j + 1 while the body goes from half a
 // step before the end of step j to half a step beyond it; so the body is in the middle between the feet when they
 // change. The first swing begins and the last one ends beside the other foot.
-Stance::Foot Walk::footAt(const Run& run, double way, bool right) const {
+Stance::Foot Walk::footAt(const Run& run, double travel, bool right) const {
   const double step = run.length() / run.steps;
   int before = -1;  // the last swing of this foot that has begun
-  for (int j = right ? 1 : 0; j <= run.steps && way > std::max(0.0, (j - 0.5) * step); j += 2) before = j;
+  for (int j = right ? 1 : 0; j <= run.steps && travel > std::max(0.0, (j - 0.5) * step); j += 2) before = j;
   if (before < 0) return printOf(run, 0, right);
   const double begin = std::max(0.0, (before - 0.5) * step), end = std::min(run.length(), (before + 0.5) * step);
-  const double share = std::clamp((way - begin) / (end - begin), 0.0, 1.0);
+  const double share = std::clamp((travel - begin) / (end - begin), 0.0, 1.0);
   const Stance::Foot from = printOf(run, std::max(0, before - 1) * step, right),
                      to = printOf(run, std::min(before + 1, run.steps) * step, right);
   const double eased = share * share * (3 - 2 * share);
@@ -86,13 +86,13 @@ Stance Walk::at(double time) const {
   if (!runs_.empty()) stance.heading = runs_.front().first_heading;
   for (const Run& run : runs_) {
     if (time < run.begin()) break;
-    const double way = run.wayAt(time);
-    stance.heading = run.headingAt(way);
+    const double travel = run.travelAt(time);
+    stance.heading = run.headingAt(travel);
     stance.walks = time < run.end();
     if (!stance.walks) continue;
-    stance.body = run.placeAt(way);
-    stance.left = footAt(run, way, false);
-    stance.right = footAt(run, way, true);
+    stance.body = run.placeAt(travel);
+    stance.left = footAt(run, travel, false);
+    stance.right = footAt(run, travel, true);
   }
   return stance;
 }

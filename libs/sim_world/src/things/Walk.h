@@ -40,12 +40,12 @@ class Walk {
     double begin() const { return waypoints.front().time; }
     double end() const { return waypoints.back().time; }
     double length() const { return along.back(); }
-    double wayAt(double time) const;
-    Eigen::Vector2d placeAt(double way) const;
-    double headingAt(double way) const;
+    double travelAt(double time) const;
+    Eigen::Vector2d placeAt(double travel) const;
+    double headingAt(double travel) const;
   };
-  Stance::Foot printOf(const Run& run, double way, bool right) const;
-  Stance::Foot footAt(const Run& run, double way, bool right) const;
+  Stance::Foot printOf(const Run& run, double travel, bool right) const;
+  Stance::Foot footAt(const Run& run, double travel, bool right) const;
 
   std::vector<Run> runs_;
   std::vector<PersonSpec::Waypoint> waypoints_;

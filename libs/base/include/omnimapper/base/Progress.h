@@ -15,7 +15,7 @@ class Progress {
   /// How work goes that has no end of its own, in a few words.
   virtual void reportState(const std::string& /*how*/) {}
   /// A sentence on something that has just happened.
-  virtual void tell(const std::string& /*sentence*/) {}
+  virtual void reportEvent(const std::string& /*sentence*/) {}
 };
 
 /// One line on a terminal, redrawn at most ten times a second, and only for work longer than two seconds. Sentences
@@ -28,7 +28,7 @@ class TerminalProgress : public Progress {
   ~TerminalProgress() override;
   void report(double fraction, const std::string& what) override;
   void reportState(const std::string& how) override;
-  void tell(const std::string& sentence) override;
+  void reportEvent(const std::string& sentence) override;
 
  private:
   bool isDue();

@@ -63,7 +63,7 @@ struct OdometryFacts {
   std::size_t jumps = 0;    ///< steps that no robot makes: more than 0.5 m and 5 m/s
   double largest_jump = 0;  ///< [m]
   base::Stamp largest_at;
-  double way = 0, turn = 0;  ///< [m] [rad] summed, jumps left out
+  double travel = 0, turn = 0;  ///< [m] [rad] summed, jumps left out
 };
 
 /// Two odometries held against one another, over spans of a second or more in which one of them moves.

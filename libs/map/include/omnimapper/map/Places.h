@@ -34,8 +34,8 @@ struct Place {
   Extent extent;
   std::optional<Eigen::Vector3d> normal;     ///< unit, to the free side
   std::optional<Eigen::Vector3d> seen_from;  ///< unit, from it towards the viewpoints; none if seen from all around
-  std::uint32_t sightings = 0;
-  std::map<std::string, std::uint64_t> seen_by;  ///< sightings by sensor label, as far as they are known
+  std::uint32_t measurements = 0;
+  std::map<std::string, std::uint64_t> seen_by;  ///< measurements by sensor label, as far as they are known
   base::Stamp first_seen, last_seen;
   /// Standard deviation of its position in the least certain direction [m]; none if it is unknown.
   std::optional<double> sigma;

@@ -12,7 +12,7 @@ namespace omnimapper::map {
 struct SessionMetrics {
   std::uint16_t number = 0;
   std::size_t key_frames = 0;
-  double way = 0;      ///< [m] distance travelled, from key frame to key frame
+  double travel = 0;   ///< [m] distance travelled, from key frame to key frame
   double seconds = 0;  ///< from its first observation to its last
 };
 

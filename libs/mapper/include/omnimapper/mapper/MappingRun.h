@@ -38,7 +38,7 @@ struct RunResult {
   std::optional<LiveMetrics> live;               ///< only of a live run on sensors
   double log_seconds = 0;                        ///< from first to last stamp
   double wall_seconds = 0;                       ///< of the whole run
-  double way = 0;                                ///< [m] distance travelled in this run
+  double travel = 0;                             ///< [m] distance travelled in this run
 };
 
 /// What a user requests of one run.

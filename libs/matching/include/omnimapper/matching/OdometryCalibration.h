@@ -23,9 +23,9 @@ class OdometryCalibration {
   /// Of the heading [rad]: after 1 m of way [rad/m], after 1 rad of turn.
   Eigen::Vector2d turnErrors() const;
   /// Of the way, as a share.
-  double wayError() const;
+  double travelError() const;
 
-  double way_information_ = 0, way_sum_ = 0;  // least squares, weighted by the variance of each motion
+  double travel_information_ = 0, travel_sum_ = 0;  // least squares, weighted by the variance of each motion
   Eigen::Matrix2d turn_information_ = Eigen::Matrix2d::Zero();
   Eigen::Vector2d turn_sum_ = Eigen::Vector2d::Zero();
 };

@@ -42,9 +42,9 @@ struct AssociationOptions {
 struct Match {
   enum class Kind {
     matched,
-    unknown,    ///< fits no landmark that is still free: it may be a new one
-    ambiguous,  ///< fits several landmarks about equally well
-    untold      ///< the covariance of the map is not available, so it could not be gated
+    unknown,      ///< fits no landmark that is still free: it may be a new one
+    ambiguous,    ///< fits several landmarks about equally well
+    undetermined  ///< the covariance of the map is not available, so it could not be gated
   };
   Kind kind = Kind::unknown;
   std::optional<std::size_t> pairing;  ///< the matched one; if ambiguous the likeliest; else the nearest
@@ -54,7 +54,7 @@ struct Match {
   double likelihood_ratio = 0;  ///< to the best interpretation with the rival, where there is one
 
   /// Writes the result into `decision`: a reason such as "matched" or "none is near", and the numbers behind it.
-  void tell(Decision& decision) const;
+  void describe(Decision& decision) const;
 };
 
 /// One interpretation of measurements that were made together.
@@ -65,8 +65,8 @@ struct Association {
   int nodes = 0;               ///< number of nodes that the search visited
   bool complete = true;        ///< the search did not run out of nodes
 
-  /// As Match::tell(); also notes if the search was cut short.
-  void tell(std::size_t measurement, Decision& decision) const;
+  /// As Match::describe(); also notes if the search was cut short.
+  void describe(std::size_t measurement, Decision& decision) const;
 };
 
 /// Whether several measurements that were made together may match the same landmark.

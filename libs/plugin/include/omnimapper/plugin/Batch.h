@@ -68,7 +68,7 @@ class Batch {
     base::LandmarkId landmark;
     std::shared_ptr<const map::LandmarkPayload> payload;
     std::optional<base::Stamp> seen;
-    bool is_sighting = true;
+    bool is_measurement = true;
   };
   struct Merge {
     base::LandmarkId from, into;

@@ -28,7 +28,7 @@ struct SimulationResult {
   base::ExitCode code = base::ExitCode::ok;  ///< or interrupted: what was measured until then is written
   std::vector<Count> sensors;
   double duration = 0;  ///< simulated [s]
-  double way = 0;       ///< of the robot [m]
+  double travel = 0;    ///< of the robot [m]
   /// How often pictures show the world's signs legibly; none without signs or pictures.
   std::optional<SignCounter> signs;
   std::vector<std::string> files;  ///< in the folder

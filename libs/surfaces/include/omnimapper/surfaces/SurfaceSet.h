@@ -37,7 +37,7 @@ struct Surface {
   /// Of the truth: what a beam or a pixel of the log hit from within 4 m at under 75 deg. None: nobody looked.
   std::optional<CellGrid> seen;
   bool is_moved = false;      ///< of the truth: it is elsewhere at some time of the log
-  int sightings = 0;          ///< of a map: how often it was seen
+  int measurements = 0;       ///< of a map: how often it was seen
   bool is_candidate = false;  ///< of a map: seen too little to be drawn
 };
 

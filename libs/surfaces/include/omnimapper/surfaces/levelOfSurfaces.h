@@ -12,7 +12,7 @@ struct FlatArea {
   Eigen::Vector3d normal;  ///< unit, to the side that it was seen from
   Eigen::Vector3d middle;  ///< [m]
   double area = 0;         ///< [m^2]
-  int sightings = 1;       ///< how often it was seen
+  int measurements = 1;    ///< how often it was seen
 };
 
 /// From where a camera looked, in the same frame.

@@ -28,8 +28,8 @@ struct SimulatedBeacons {
   static std::vector<Eigen::Vector3d> inRing();
   /// base_from_sensor as the observation tells it, so long after the start of the log.
   mrpt::poses::CPose3D baseFromReported(double seconds) const;
-  mrpt::obs::CObservation::Ptr sightings(const FloorPlan& plan, const mrpt::poses::CPose3D& map_from_base,
-                                         base::Stamp stamp, double seconds, Dice& dice) const;
+  mrpt::obs::CObservation::Ptr measurements(const FloorPlan& plan, const mrpt::poses::CPose3D& map_from_base,
+                                            base::Stamp stamp, double seconds, Dice& dice) const;
 };
 
 }  // namespace omnimapper::testing

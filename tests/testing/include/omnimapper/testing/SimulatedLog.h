@@ -77,7 +77,7 @@ struct SimulatedLogOptions {
 };
 
 /// The simulated twin of the real logs: a robot drives round a floor plan without stopping and records its odometry
-/// ("odometry"), lasers, and where switched on GPS ("gps"), motion capture ("tracker") and sightings of beacons
+/// ("odometry"), lasers, and where switched on GPS ("gps"), motion capture ("tracker") and measurements of beacons
 /// ("beacons"). The same options give the same bits; each sensor has random numbers of its own. The map's frame is the
 /// base at the start.
 class SimulatedLog {

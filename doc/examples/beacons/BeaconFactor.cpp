@@ -1,4 +1,4 @@
-#include "SightingFactor.h"
+#include "BeaconFactor.h"
 
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/graph/ByteIo.h>
@@ -14,12 +14,12 @@ using omnimapper::geometry::skew;
 using omnimapper::geometry::wrapToPi;
 namespace graph = omnimapper::graph;
 
-const std::vector<std::string_view>& SightingFactor::variableKinds() const {
+const std::vector<std::string_view>& BeaconFactor::variableKinds() const {
   static const std::vector<std::string_view> told = {"se3", "beacon"}, estimated = {"se3", "se3", "beacon"};
   return estimated_ ? estimated : told;
 }
 
-void SightingFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
+void BeaconFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const Se3 map_from_base = graph::se3FromValue(values[0]);
   const Se3 base_from_sensor = estimated_ ? base_from_reported_ * graph::se3FromValue(values[1]) : base_from_reported_;
   const int last = estimated_ ? 2 : 1;
@@ -57,20 +57,20 @@ void SightingFactor::evaluate(const double* const* values, double* residual, dou
   }
 }
 
-void SightingFactor::write(std::ostream& out) const {
+void BeaconFactor::write(std::ostream& out) const {
   for (const double number : measured_) graph::writeDouble(out, number);
   for (const double number : graph::toValue(base_from_reported_)) graph::writeDouble(out, number);
   graph::writeUint(out, estimated_, 1);
 }
 
-void SightingFactor::addTo(graph::FactorRegistry& registry) {
-  registry.add("beacon_sighting", [](std::istream& in) {
+void BeaconFactor::addTo(graph::FactorRegistry& registry) {
+  registry.add("beacon_measurement", [](std::istream& in) {
     Eigen::Vector3d measured;
     Eigen::Matrix<double, 7, 1> pose;
     for (double& number : measured) number = graph::readDouble(in);
     for (double& number : pose) number = graph::readDouble(in);
     const bool estimated = graph::readUint(in, 1) != 0;
-    return std::make_shared<SightingFactor>(measured, graph::se3FromValue(pose.data()), estimated);
+    return std::make_shared<BeaconFactor>(measured, graph::se3FromValue(pose.data()), estimated);
   });
 }
 

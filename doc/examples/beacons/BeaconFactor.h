@@ -23,14 +23,14 @@ namespace beacons {
 ///   base_from_sensor's R^T (-t + [p_b]x w)  with map_from_base,
 ///   -t + [p]x w                             with reported_from_sensor,
 ///   map_from_sensor's R^T, columns x and y  with the beacon, whose tangent is the plane of its height.
-class SightingFactor : public omnimapper::graph::Factor {
+class BeaconFactor : public omnimapper::graph::Factor {
  public:
   /// `estimated`: whether reported_from_sensor is a variable; else it is the identity.
-  SightingFactor(const Eigen::Vector3d& range_yaw_pitch, const omnimapper::geometry::Se3& base_from_reported,
-                 bool estimated)
+  BeaconFactor(const Eigen::Vector3d& range_yaw_pitch, const omnimapper::geometry::Se3& base_from_reported,
+               bool estimated)
       : measured_(range_yaw_pitch), base_from_reported_(base_from_reported), estimated_(estimated) {}
 
-  std::string_view kind() const override { return "beacon_sighting"; }
+  std::string_view kind() const override { return "beacon_measurement"; }
   int residualSize() const override { return 3; }
   const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
