@@ -38,7 +38,7 @@ TEST(ConvexPolygon2, DistanceOfPolygonsSegmentsAndPoints) {
   EXPECT_DOUBLE_EQ(distance(rectangle(0, 0, 4, 4), {{1, 1}, {2, 2}}), 0);
 }
 
-// Whether all of the other polygon is beyond one edge.
+// Whether the whole other polygon is beyond one edge of this one.
 bool hasEdgeBetween(const Points& polygon, const Points& other) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d from = polygon[i], edge = polygon[(i + 1) % polygon.size()] - from;

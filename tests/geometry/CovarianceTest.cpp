@@ -84,7 +84,7 @@ TEST(Covariance, BetweenMatchesSamplesOfTheJoint) {
 }
 
 TEST(Covariance, YawNoiseBecomesSidewaysNoiseAtADistance) {
-  // 0.1 rad of yaw before 2 m of way: 0.2 m to the side.
+  // 0.1 rad of yaw before 2 m of travel are 0.2 m to the side.
   const Eigen::Matrix3d yaw_only = Eigen::Vector3d(0, 0, 0.01).asDiagonal();
   const Eigen::Matrix3d far = composeCovariance(yaw_only, Se2{2, 0, 0}, Eigen::Matrix3d::Zero());
   Eigen::Matrix3d expected;

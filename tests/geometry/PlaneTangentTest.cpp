@@ -12,7 +12,7 @@ Eigen::Vector3d drawn(std::mt19937_64& engine) {
 }
 
 TEST(PlaneTangent, BasisAsWorkedByHand) {
-  // z is least along x and y alike: the first one counts.
+  // UnitZ has the same smallest component along x and y, so the first one is taken.
   const auto up = tangentBasis(Eigen::Vector3d::UnitZ());
   EXPECT_EQ(up.col(0), Eigen::Vector3d::UnitX());
   EXPECT_EQ(up.col(1), Eigen::Vector3d::UnitY());

@@ -14,7 +14,7 @@ Points rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
-// The outlines alone.
+// Only the outlines of the union.
 std::vector<Points> unionOf(const std::vector<Points>& polygons) {
   std::vector<HoledPolygon2> all;
   for (const auto& polygon : polygons) all.push_back({polygon, {}});
@@ -75,7 +75,7 @@ TEST(PolygonBooleans, LeavesOutWhatHasNoArea) {
 }
 
 TEST(PolygonBooleans, TakesOfOneThatCrossesItselfAllItGoesAround) {
-  const Points bow = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};  // its two halves go around different ways
+  const Points bow = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};  // its two halves have opposite senses of rotation
   const auto halves = unionOf({bow});
   ASSERT_EQ(halves.size(), 2U);
   EXPECT_NEAR(area(halves[0]), 0.25, 1e-12);

@@ -54,7 +54,7 @@ TEST(Rotation3, RightJacobiansAreTheDerivativesOfExponentialAndLogarithm) {
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(i);
       exp_derivative.col(i) = logSo3(expSo3(w - step).conjugate() * expSo3(w + step)) / (2 * h);
-      // Beyond half a turn the logarithm takes the short way round: its derivative is tested on this side.
+      // Beyond half a turn the logarithm is the shorter rotation, so its derivative is tested below that.
       if (size < 3)
         log_derivative.col(i) = (logSo3(expSo3(w) * expSo3(step)) - logSo3(expSo3(w) * expSo3(-step))) / (2 * h);
     }

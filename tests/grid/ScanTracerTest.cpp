@@ -140,13 +140,13 @@ TEST(ScanTracer, oneScanVotesOnceForACellHoweverManyBeamsMeetIt) {
 TEST(ScanTracer, aScannerUpsideDownOrTheOtherWayRoundSeesTheMirrorImage) {
   // A wall on the left only.
   const auto scan = scanOf({8, 7, 6, 5, 4}, 1);
-  auto other_way = scan;
-  other_way.rightToLeft = false;
+  auto left_to_right = scan;
+  left_to_right.rightToLeft = false;
   const CPose3D upside_down(0.5, 0.5, 0, 0, 0, M_PI);
   const auto upright = votesOf(scan, kMiddleOfCell), turned = votesOf(scan, upside_down);
   EXPECT_NE(upright, turned);
-  EXPECT_EQ(votesOf(other_way, kMiddleOfCell), turned);
-  EXPECT_EQ(votesOf(other_way, upside_down), upright);
+  EXPECT_EQ(votesOf(left_to_right, kMiddleOfCell), turned);
+  EXPECT_EQ(votesOf(left_to_right, upside_down), upright);
   EXPECT_EQ(votesOf(scan, CPose3D(0.5, 0.5, 0, M_PI, 0, 0)).count({-3, -2}), 1u) << "looking back, its left is below";
 }
 
@@ -156,7 +156,7 @@ TEST(ScanTracer, aWallInFrontIsNoRowOfDots) {
   int wall = 0;
   for (const auto& [place, vote] : votesOf(scan, {}, 0.05)) wall += vote > 0;
   EXPECT_GE(wall, 7);
-  // Twice as far apart there may be a gap; the beams say nothing of it.
+  // Between ends that are twice as far apart there may be a gap, which the beams do not measure.
   int dots = 0;
   for (const auto& [place, vote] : votesOf(scanOf({9.9f, 9.9f}, static_cast<float>(2 * M_PI / 180)), {}, 0.05)) {
     dots += vote > 0;
@@ -164,14 +164,14 @@ TEST(ScanTracer, aWallInFrontIsNoRowOfDots) {
   EXPECT_EQ(dots, 2);
 }
 
-TEST(ScanTracer, betweenAThingAndTheWallBehindItThereIsNoWall) {
+TEST(ScanTracer, betweenAnObjectAndTheWallBehindItThereIsNoWall) {
   for (const auto& [place, vote] : votesOf(scanOf({2, 2, 4, 4}, 0.06f), {}, 0.05)) {
     const double range = std::hypot(place.first + 0.5, place.second + 0.5) * 0.05;
     EXPECT_TRUE(vote < 0 || std::abs(range - 2) < 0.06 || std::abs(range - 4) < 0.06) << range;
   }
 }
 
-/// Beams of a wall along y = -0.77 m, from (0, 0): what a robot in a corridor sees at ever smaller angles.
+/// The scan of a wall along y = -0.77 m, from (0, 0), as a robot in a corridor sees it at ever smaller angles.
 CObservation2DRangeScan corridorScan() {
   std::vector<float> ranges;
   for (int i = 0; i < 181; ++i) {

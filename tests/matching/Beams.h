@@ -8,7 +8,7 @@
 
 namespace omnimapper::matching {
 
-/// What a laser with a beam for each degree of its aperture [deg] sees of a floor plan from a pose; beams longer than
+/// The scan of a floor plan from a pose by a laser with a beam for each degree of its aperture [deg]; beams longer than
 /// max_range are misses.
 inline grid::BeamScan beamsFrom(const testing::FloorPlan& plan, const mrpt::math::TPose2D& pose, double aperture = 180,
                                 double max_range = 8, double sigma = 0, std::uint64_t seed = 1) {

@@ -1,4 +1,4 @@
-// Registration of clouds: motions that are known, directions that are open, what is refused.
+// Registration of clouds: known motions, open directions, refused input.
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/matching/CloudMatcher.h>
@@ -54,7 +54,7 @@ CloudMatcherOptions by(CloudMethod method) {
   return options;
 }
 
-// The source is the same cloud, moved: each method must find it back to the float's last digits.
+// The source is the same cloud, moved: each method must recover the motion to the precision of floats.
 TEST(CloudMatcher, EachMethodFindsTheMotionOfTheSameCloud) {
   const Se3 target_from_source = motion(0.02, -0.01, 0.015, 1.5);
   const MatchCloud target(corner(3, 1)), source(moved(corner(3, 1), inverse(target_from_source)));
@@ -70,7 +70,7 @@ TEST(CloudMatcher, EachMethodFindsTheMotionOfTheSameCloud) {
   }
 }
 
-// Other points of the same walls: there is no point that is the same.
+// The clouds have different points of the same walls.
 TEST(CloudMatcher, WallsAreFoundThoughNoPointIsSeenTwice) {
   const Se3 target_from_source = motion(0.03, 0.01, -0.02, 2);
   const MatchCloud target(corner(3, 1, 0.001)), source(moved(corner(3, 2, 0.001), inverse(target_from_source)));
@@ -84,7 +84,7 @@ TEST(CloudMatcher, WallsAreFoundThoughNoPointIsSeenTwice) {
   EXPECT_LT(off(CloudMethod::point_to_point), 0.01) << "the nearest points hold it back";
 }
 
-// By planes; GICP's nearest points seem to tell what slides along a wall, too.
+// With point_to_plane, because GICP's nearest points seem to constrain motions along a wall, too.
 TEST(CloudMatcher, OneWallLeavesThreeDirectionsOpenAndTwoLeaveOneAndThereItIsAsGuessed) {
   const Se3 target_from_source = motion(0.01, 0.01, 0.01, 0.5);
   const auto matched = [&](int walls) {
@@ -97,7 +97,7 @@ TEST(CloudMatcher, OneWallLeavesThreeDirectionsOpenAndTwoLeaveOneAndThereItIsAsG
   };
   const auto one = matched(1);
   EXPECT_EQ(one.open_directions, 3);
-  EXPECT_LT(std::abs(one.target_from_source.translation.y()), 0.001) << "along the wall nobody knows";
+  EXPECT_LT(std::abs(one.target_from_source.translation.y()), 0.001) << "the motion along the wall is not known";
   EXPECT_LT(std::abs(one.target_from_source.translation.z()), 0.001);
   EXPECT_EQ(matched(2).open_directions, 1);
   EXPECT_EQ(matched(3).open_directions, 0);
@@ -176,10 +176,10 @@ TEST(MatchCloud, FindsTheNearestAsASearchThroughAllDoes) {
   }
 }
 
-// What a camera sees in a room without any step in depth or brightness: surfaces and pictures alone.
-TEST(CloudSource, VoxelsOfARoomTellItsMotion) {
+// The room has no discontinuities in depth or brightness, only surfaces and a smooth picture.
+TEST(CloudSource, VoxelsOfARoomDetermineTheMotion) {
   RenderedRoom room;
-  // Into a corner of the ceiling, where three surfaces meet.
+  // The camera looks into a corner of the ceiling, where three surfaces meet.
   const Se3 from{Eigen::AngleAxisd(52 * kDegree, Eigen::Vector3d::UnitY()) *
                      Eigen::AngleAxisd(27 * kDegree, Eigen::Vector3d::UnitX()),
                  Eigen::Vector3d::Zero()};

@@ -14,7 +14,7 @@ using Points = std::vector<Eigen::Vector2f>;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-// What a laser that looks all around sees.
+// The points of a laser scan, by default all around.
 Points seen(const FloorPlan& plan, const TPose2D& pose, double aperture = 360, double max_range = 12) {
   Points points;
   for (double beam = -aperture / 2; beam < aperture / 2; beam += 1) {
@@ -42,7 +42,7 @@ grid::LikelihoodPyramid mapSeenFrom(const FloorPlan& plan, const std::vector<TPo
   return grid::LikelihoodPyramid(map);
 }
 
-// The best pose by trying all of the lattice.
+// The best pose of the lattice, by trying all of them.
 SearchResult bruteForce(const grid::LikelihoodPyramid& map, const Points& scan, const SearchWindow& window) {
   const double step = yawStep(scan, map.cell());
   const int nx = static_cast<int>(window.half_x / map.cell() + 1e-9),
@@ -72,7 +72,7 @@ TEST(CorrelativeSearch, FindsWhatTryingEveryPoseFinds) {
     testing::Dice dice(seed);
     Points world, scan;
     for (int i = 0; i < 40; ++i) world.emplace_back(dice.uniform(-3, 3), dice.uniform(-2, 2));
-    // Half of the scan comes from the world, half from nowhere.
+    // Half of the scan comes from the world, the other half is random.
     for (int i = 0; i < 12; ++i) scan.push_back(world[i]);
     for (int i = 0; i < 12; ++i) scan.emplace_back(dice.uniform(-4, 4), dice.uniform(-4, 4));
     const grid::LikelihoodPyramid map(world);
@@ -185,7 +185,7 @@ TEST(CorrelativeSearch, OfSeveralMapsTheOneThatFitsAnswers) {
   EXPECT_EQ(together[0].score, alone[0].score);
   SearchOptions better;
   better.min_score = together[0].score + 0.01;
-  EXPECT_TRUE(search({{&here, wide}, {&there, wide}}, scan, better).empty()) << "a score that is known need not be met";
+  EXPECT_TRUE(search({{&here, wide}, {&there, wide}}, scan, better).empty()) << "no pose reaches the smallest score";
 }
 
 TEST(CorrelativeSearch, AWindowOfNoSizeIsItsCentre) {

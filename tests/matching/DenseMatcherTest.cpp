@@ -13,7 +13,7 @@ using geometry::Vector6d;
 const Se3 kStart = posed(0.1, 0.05, -0.4, 0.1, 0.5, 0.02);
 const Se3 kMotion = posed(0.03, -0.02, 0.04, 0.02, -0.04, 0.03);  // 5 cm, 3 deg
 
-/// How far off a match is [m] [rad].
+/// The error of a match [m] [rad].
 struct Off {
   double position, angle;
 };
@@ -64,7 +64,8 @@ TEST(DenseMatcher, AChangeOfExposureIsNoMotion) {
   EXPECT_LT(offOf(match, kMotion).angle, 0.0015);
 }
 
-// A bare wall leaves two shifts and a turn open, and these stay where they were guessed. A pattern on it tells them.
+// A bare wall leaves two shifts and a turn open, which stay as they were guessed. A pattern on the wall determines
+// them.
 TEST(DenseMatcher, ABareWallLeavesThreeDirectionsOpen) {
   RenderedRoom wall;
   wall.only_far_wall = true;
@@ -92,8 +93,8 @@ TEST(DenseMatcher, WhatIsGuessedHoldsWhereNothingElseDoes) {
   EXPECT_NEAR(match.reference_from_image.translation.z(), 0, 1e-3);
 }
 
-// 2 rad/s and 0.3 m/s, as a hand moves: rows that are taken one after another bend the image.
-TEST(DenseMatcher, AShutterThatRollsBendsNothingIfTheMotionIsTold) {
+// 2 rad/s and 0.3 m/s, as a hand moves: rows that are taken one after another distort the image.
+TEST(DenseMatcher, ARollingShutterIsCorrectedIfTheMotionIsGiven) {
   const RenderedRoom room;
   CameraMotion motion;
   motion.velocity << 0.3, 0, 0.1, 0.3, 2, 0.5;
@@ -112,23 +113,23 @@ TEST(DenseMatcher, AShutterThatRollsBendsNothingIfTheMotionIsTold) {
       room.render(rowsOf(end, 0, motion.depth_readout), rowsOf(end, motion.picture_delay, motion.picture_readout));
   const DenseMatcher matcher;
   const auto reference = matcher.prepare(room.pyramid(first));
-  const auto told = matcher.match(*reference, room.pyramid(second), {}, motion);
-  EXPECT_LT(offOf(told, kMotion).position, 0.004);
-  EXPECT_LT(offOf(told, kMotion).angle, 0.002);
-  const auto untold = matcher.match(*reference, room.pyramid(second));
-  EXPECT_GT(offOf(untold, kMotion).angle, 3 * offOf(told, kMotion).angle);
+  const auto with_motion = matcher.match(*reference, room.pyramid(second), {}, motion);
+  EXPECT_LT(offOf(with_motion, kMotion).position, 0.004);
+  EXPECT_LT(offOf(with_motion, kMotion).angle, 0.002);
+  const auto without_motion = matcher.match(*reference, room.pyramid(second));
+  EXPECT_GT(offOf(without_motion, kMotion).angle, 3 * offOf(with_motion, kMotion).angle);
   CameraMotion delay_unknown = motion;
   delay_unknown.picture_delay = 0;
   delay_unknown.delay_sigma = 0.02;
   const auto found = matcher.match(*reference, room.pyramid(second), {}, delay_unknown);
   EXPECT_NEAR(found.delay, 0.01, 0.0015);
   EXPECT_LT(found.delay_sigma, 0.002);
-  // As a reference, the bent image does as well.
+  // The distorted image can also be the reference.
   const auto back = matcher.match(*matcher.prepare(room.pyramid(second), motion), room.pyramid(first));
   EXPECT_LT(offOf(back, inverse(kMotion)).angle, 0.002);
 }
 
-// The squared error in standard deviations: 6 on average if the covariance holds.
+// The squared error in standard deviations: 6 on average if the covariance is right.
 TEST(DenseMatcher, ItsCovarianceIsOfTheErrorsSize) {
   RenderedRoom room;
   room.depth_noise = perception::DepthNoise().sigma;
@@ -170,7 +171,7 @@ TEST(DenseMatcher, NothingIsFoundInNothing) {
   EXPECT_LT(matcher.match(*reference, room.pyramid(spoiled)).reference_from_image.translation.norm(), 1e-3);
 }
 
-// A camera that changes its resolution, and images that are hardly any.
+// A camera that changes its resolution, and images of only a few pixels.
 TEST(DenseMatcher, TakesImagesOfAnySize) {
   const RenderedRoom room;
   RenderedRoom smaller = room;
@@ -202,7 +203,7 @@ TEST(DenseMatcher, RefusesOptionsThatMeanNothing) {
   EXPECT_THROW(DenseMatcher{options}, base::Error);
 }
 
-TEST(RgbdPyramid, KeepsAPlaneAndTheNearerSideOfAJump) {
+TEST(RgbdPyramid, KeepsAPlaneAndTheNearerSideOfADepthDiscontinuity) {
   std::vector<float> depth(80 * 60);
   const perception::Pinhole camera{60, 60, 39.5, 29.5};
   for (int y = 0; y < 60; ++y)

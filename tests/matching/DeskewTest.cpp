@@ -48,7 +48,7 @@ TEST(Deskew, ASweepTakenOnTheMoveMatchesOnceItIsStraightened) {
   std::vector<float> fractions;
   for (int i = -90; i <= 90; ++i) {
     const float fraction = static_cast<float>(i + 90) / 180;
-    // Where the sensor was: the origin of its frame, straightened, and its heading.
+    // Pose of the sensor at this beam: the deskewed origin of its frame, and its heading.
     const auto at = deskew({{0, 0}}, {fraction}, motion)[0];
     const TPose2D sensor = begin + TPose2D(at.x(), at.y(), fraction * motion.phi);
     const double angle = i * kPi / 180;

@@ -44,15 +44,15 @@ TEST(FeatureMatcher, ItsCovarianceIsOfTheErrorsSize) {
   room.grey_noise = 2;
   const Se3 motion = posed(0.1, 0.05, 0.05, 0.02, 0.1, 0.03);
   double sum = 0;
-  constexpr int kTrials = 10;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const auto found = matched(room, Se3{}, room, motion, static_cast<std::uint64_t>(trial + 1));
+  constexpr int kRuns = 10;
+  for (int run = 0; run < kRuns; ++run) {
+    const auto found = matched(room, Se3{}, room, motion, static_cast<std::uint64_t>(run + 1));
     ASSERT_TRUE(found.succeeded);
     const Vector6d off = minus(found.reference_from_image, motion);
     sum += off.dot(found.covariance.inverse() * off) / 6;
   }
-  EXPECT_GT(sum / kTrials, 0.1);
-  EXPECT_LT(sum / kTrials, 4);
+  EXPECT_GT(sum / kRuns, 0.1);
+  EXPECT_LT(sum / kRuns, 4);
 }
 
 TEST(FeatureMatcher, WhatIsNotTheSamePlaceIsNotBelieved) {

@@ -33,7 +33,7 @@ TEST(Gyroscope, TurnsTheBaseAboutTheAxisOfTheBase) {
   Gyroscope gyroscope{{}};
   for (int i = 0; i <= 100; ++i) {
     auto imu = reading(0.01 * i, {0, 0.5, 0});
-    // Rolled by 90 deg, so that its y is the base's z.
+    // The sensor is rolled by 90 deg, so that its y is the base's z.
     imu.sensorPose = mrpt::poses::CPose3D(0.3, 0, 1, 0, 0, geometry::kPi / 2);
     EXPECT_TRUE(gyroscope.add(imu));
   }
@@ -79,14 +79,14 @@ TEST(Gyroscope, ATurnThatCannotBeTrueTeachesNothingAndABiasThatDriftsIsFollowed)
     gyroscope.learn(at(i), at(i + 1), Eigen::Quaterniond::Identity(), 0.005);
     if (i != 300) continue;
     const Eigen::Vector3d before = gyroscope.bias();
-    // A view of before was found again, and with it 3 deg of drift.
+    // An earlier view was found again, which corrected a drift of 3 deg.
     gyroscope.learn(at(i + 0.1), at(i + 1), geometry::expSo3(Eigen::Vector3d(0.05, 0, 0)), 0.005);
     EXPECT_EQ(gyroscope.bias(), before);
   }
   EXPECT_LT((gyroscope.bias() - drifting(599)).norm(), 0.01) << gyroscope.bias().transpose();
 }
 
-TEST(Gyroscope, WhereReadingsAreMissingItTellsNothing) {
+TEST(Gyroscope, WhereReadingsAreMissingThereIsNoTurn) {
   Gyroscope gyroscope{{}};
   for (const double seconds : {0.0, 0.05, 0.1, 0.3, 0.35}) gyroscope.add(reading(seconds, {0, 0, 1}));
   EXPECT_TRUE(gyroscope.between(at(0), at(0.1)));

@@ -11,7 +11,7 @@ namespace {
 using mrpt::math::TPose2D;
 using testing::FloorPlan;
 
-// Mean of the squared errors over the claimed covariance, 3 if that is right.
+// Mean of the squared errors over the reported covariance; 3 if that is right.
 double meanSquaredError(double sigma) {
   const PointToLineMatcher matcher(ScanMatcherOptions{});
   const auto plan = FloorPlan::ring();

@@ -26,7 +26,7 @@ void expectNear(const TPose2D& found, const TPose2D& truth, double position, dou
   EXPECT_LT(std::abs(found.phi - truth.phi), angle) << found << " is not " << truth;
 }
 
-// The beams of a scan, with a share of them ending at people and panes of glass instead: anywhere.
+// The points of a scan, of whose beams a share `clutter` ends at people and panes of glass instead, anywhere.
 std::vector<Eigen::Vector2f> beams(const FloorPlan& plan, const TPose2D& pose, double clutter, std::uint64_t seed) {
   testing::Dice dice(seed);
   std::vector<Eigen::Vector2f> points;
@@ -68,7 +68,7 @@ TEST(PointToLineMatcher, ARoundRoomLeavesTheHeadingOpen) {
   const auto found =
       match(scanFrom(room, {0, 0, 0}, 0.002, 1), scanFrom(room, {0.1, 0, 0.2}, 0.002, 2), {0.05, 0.02, 0.15});
   EXPECT_TRUE(found.degenerate);
-  // About the middle of the room, which lies behind the sensor by as much as it moved, nothing tells the heading.
+  // The room leaves open a rotation about its middle, which lies behind the sensor by as much as the sensor moved.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(found.unit_covariance);
   EXPECT_GT(std::abs(eigen.eigenvectors()(2, 2)), 0.9);
 }
@@ -95,7 +95,7 @@ TEST(PointToLineMatcher, FewPointsAreMatchedOrSaidToBeOpen) {
   }
 }
 
-TEST(PointToLineMatcher, APoseThatIsNoNumberFindsNoPartners) {
+TEST(PointToLineMatcher, APoseThatIsNoNumberFindsNoCorrespondences) {
   const auto room = scanFrom(FloorPlan::box(), {0, 0, 0});
   EXPECT_EQ(match(room, room, {NAN, 0, 0}).overlap, 0);
   EXPECT_EQ(match(room, room, {1e30, 0, 0}).overlap, 0);
@@ -121,7 +121,7 @@ TEST(PointToLineMatcher, AlignsPointMapsThroughTheInterfaceOfMrpt) {
   EXPECT_LT(covariance(2, 2), 1e-3);
 }
 
-TEST(PointToLineMatcher, TheOpenDirectionOfACorridorIsToldInTheFrameOfTheFirstMap) {
+TEST(PointToLineMatcher, TheOpenDirectionOfACorridorIsInTheFrameOfTheFirstMap) {
   FloorPlan corridor;
   corridor.addPolygon({{-60, -1.5}, {60, -1.5}, {60, 1.5}, {-60, 1.5}});
   const auto near = [&](const TPose2D& pose, std::uint64_t seed) {

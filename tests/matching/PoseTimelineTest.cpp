@@ -108,7 +108,7 @@ TEST(PoseTimeline, EveryPartHasACovarianceWithoutNegativeDirections) {
   }
 }
 
-TEST(PoseTimeline, NothingIsToldAcrossAGapOrBeyondTheEnds) {
+TEST(PoseTimeline, ThereIsNoMotionAcrossAGapOrBeyondTheEnds) {
   PoseTimeline timeline;
   EXPECT_FALSE(timeline.end());
   EXPECT_FALSE(timeline.between(at(0), at(0)));

@@ -26,7 +26,7 @@ Relocalizer mapOf(const FloorPlan& plan, const std::vector<TPose2D>& poses, doub
   return Relocalizer(std::move(map), std::make_shared<PointToLineMatcher>(ScanMatcherOptions()));
 }
 
-std::vector<TPose2D> wayAroundTheRing() {
+std::vector<TPose2D> posesAroundTheRing() {
   std::vector<TPose2D> poses;
   for (double x = -8; x < 8.5; x += 1) {
     poses.emplace_back(x, 0, 0);
@@ -46,7 +46,7 @@ void expectNear(const TPose2D& pose, const TPose2D& truth) {
 
 TEST(Relocalizer, FindsScansInTheRing) {
   const auto plan = FloorPlan::ring();
-  const auto relocalizer = mapOf(plan, wayAroundTheRing());
+  const auto relocalizer = mapOf(plan, posesAroundTheRing());
   for (const TPose2D truth : {TPose2D(-5.2, 0.3, 0.4), TPose2D(8.6, 5.1, -2), TPose2D(2.2, 8.7, 3.1),
                               TPose2D(-8.1, 3.3, 80 * kDegree), TPose2D(0.4, -0.2, 170 * kDegree)}) {
     const auto location = relocalizer.locate(beamsFrom(plan, truth, 180, 8, 0.01, 99));
@@ -57,7 +57,7 @@ TEST(Relocalizer, FindsScansInTheRing) {
   }
 }
 
-TEST(Relocalizer, ASymmetricRoomIsAmbiguousAndBothPosesAreTold) {
+TEST(Relocalizer, ASymmetricRoomIsAmbiguousAndBothPosesAreReturned) {
   FloorPlan room;
   room.addPolygon({{-3, -2}, {3, -2}, {3, 2}, {-3, 2}});
   const auto relocalizer = mapOf(room, {{0, 0, 0}, {1, 0.5, 0}, {-1, -0.5, 0}});
@@ -70,8 +70,8 @@ TEST(Relocalizer, ASymmetricRoomIsAmbiguousAndBothPosesAreTold) {
   expectNear(location.candidates[first_is_truth ? 1 : 0].map_from_sensor, twin);
 }
 
-// Two equal rooms side by side; the lobby before one of them has a bend.
-TEST(Relocalizer, OfTwoEqualRoomsTheWayThereTellsWhich) {
+// Two equal rooms; the lobbies before them differ in shape.
+TEST(Relocalizer, AScanOfTheLobbyDistinguishesTwoEqualRooms) {
   FloorPlan plan;
   for (const double x : {0.0, 20.0}) {
     plan.addPolygon({{x, 0}, {x + 5, 0}, {x + 5, 4}, {x, 4}, {x, 2.6}, {x + 0.6, 2.2}, {x, 1.8}});
@@ -99,9 +99,9 @@ TEST(Relocalizer, AWindowLeavesOneOfTwoAlikePlaces) {
   expectNear(location.candidates[0].map_from_sensor, truth);
 }
 
-// Two corridors of the same width and length, the ends of one closed and of the other open: their walls alike, the
-// free space is not.
-TEST(Relocalizer, BeamsThatMeetNothingTellAnOpenCorridorFromAClosedOne) {
+// Two corridors of the same width and length, one closed at its end and one open: their walls are alike, their free
+// space is not.
+TEST(Relocalizer, BeamsWithoutEchoDistinguishAnOpenCorridorFromAClosedOne) {
   FloorPlan plan;
   plan.addPolygon({{0, 0}, {6, 0}, {6, 2}, {0, 2}});
   plan.walls.push_back({{0, 20}, {6, 20}});
@@ -121,7 +121,7 @@ TEST(Relocalizer, BeamsThatMeetNothingTellAnOpenCorridorFromAClosedOne) {
 }
 
 TEST(Relocalizer, AScanOfAnotherBuildingIsNowhere) {
-  const auto relocalizer = mapOf(FloorPlan::ring(), wayAroundTheRing());
+  const auto relocalizer = mapOf(FloorPlan::ring(), posesAroundTheRing());
   FloorPlan hall;
   hall.addPolygon({{-7, -5}, {1, -6}, {6, -1}, {5, 5}, {0, 3}, {-4, 6}});
   EXPECT_EQ(relocalizer.locate(beamsFrom(hall, {0, 0, 0}, 360, 12)).answer, Answer::none);
@@ -138,13 +138,13 @@ TEST(Relocalizer, WithoutPointsThereIsNoAnswer) {
 }
 
 TEST(Relocalizer, APointOrTwoAreNoPlace) {
-  const auto relocalizer = mapOf(FloorPlan::ring(), wayAroundTheRing());
+  const auto relocalizer = mapOf(FloorPlan::ring(), posesAroundTheRing());
   EXPECT_NE(relocalizer.locate({{{1, 0}, {1, 1}}, {}}).answer, Answer::found);
 }
 
 TEST(Relocalizer, PointsThatAreNotFiniteAreLeftOut) {
   const auto plan = FloorPlan::ring();
-  const auto relocalizer = mapOf(plan, wayAroundTheRing());
+  const auto relocalizer = mapOf(plan, posesAroundTheRing());
   const TPose2D truth(8.6, 5.1, -2);
   auto scan = beamsFrom(plan, truth, 180, 8, 0.01, 99);
   scan.hits.emplace_back(NAN, 1);

@@ -17,7 +17,8 @@ inline geometry::Se3 posed(double x, double y, double z, double turn_x, double t
   return geometry::plus(geometry::Se3{}, delta);
 }
 
-/// A camera in an empty room of 4 x 3 x 2.5 m whose walls have a smooth pattern: depths and brightness without a step.
+/// A camera in an empty room of 4 x 3 x 2.5 m whose walls have a smooth pattern: depths and brightness without
+/// discontinuities.
 struct RenderedRoom {
   double half[3] = {2, 1.25, 1.5};  ///< [m] from the middle to the walls
   int width = 320, height = 240;
@@ -33,7 +34,7 @@ struct RenderedRoom {
     std::vector<std::uint8_t> grey;
   };
 
-  /// What is seen; the camera's pose for each row, of depths and of the picture.
+  /// Renders the room, with a pose of the camera for each row of the depths and of the picture.
   Image render(const std::function<geometry::Se3(int row)>& of_depth,
                const std::function<geometry::Se3(int row)>& of_grey, std::uint64_t seed = 1) const {
     testing::Dice dice(seed);
@@ -63,7 +64,7 @@ struct RenderedRoom {
   }
 
  private:
-  // In plain numbers: tests are not optimized.
+  // Computes with plain numbers, because tests are not optimized.
   struct Pose {
     explicit Pose(const geometry::Se3& pose) {
       const Eigen::Matrix3d r = pose.rotation.toRotationMatrix();

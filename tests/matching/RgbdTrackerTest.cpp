@@ -12,7 +12,7 @@ base::Stamp at(double seconds) {
   return base::stampFromUnix(1.6e9) + base::durationFromSeconds(seconds);
 }
 
-/// To and fro, back at the start after 2 pi seconds.
+/// A camera that moves to and fro, back at the start after 2 pi seconds.
 Se3 swing(double seconds) {
   geometry::Vector6d delta;
   delta << 0.2 * std::sin(seconds), 0.05 * std::sin(2 * seconds), 0.1 * (1 - std::cos(seconds)),
@@ -20,7 +20,7 @@ Se3 swing(double seconds) {
   return geometry::plus(Se3{}, delta);
 }
 
-/// Without shutters that roll: the room is rendered at once.
+/// Options without a rolling shutter, because all rows of the room are rendered at once.
 RgbdTrackerOptions atOnce() {
   RgbdTrackerOptions options;
   options.depth_readout = options.picture_readout = options.picture_delay = options.picture_delay_sigma = 0;
@@ -63,33 +63,33 @@ TEST(RgbdTracker, FollowsTheCameraAndTakesOldKeyFramesOnTheWayBack) {
   }
   EXPECT_LT(farthest, 0.015);
   EXPECT_GT(halfway, 3U);
-  EXPECT_LT(run.keyFrames(), 4 * halfway) << "the same views need no more of them";
+  EXPECT_LT(run.keyFrames(), 4 * halfway) << "the same views need no more key frames";
 }
 
-TEST(RgbdTracker, ALensThatIsCoveredIsToldAndTheViewFoundAgain) {
+TEST(RgbdTracker, ACoveredLensIsReportedAndTheViewFoundAgain) {
   Camera run;
   for (int i = 0; i < 5; ++i) run.add(0.1 * i, swing(0.1 * i));
   run.add(0.5, swing(0.5));
   for (int i = 6; i < 10; ++i) EXPECT_EQ(run.add(0.1 * i, swing(0.5), true).how, How::lost) << i;
   const auto after = run.add(1.0, swing(0.3));
   EXPECT_EQ(after.how, How::found);
-  EXPECT_EQ(after.last, at(0.5)) << "the motion is told across the gap";
+  EXPECT_EQ(after.last, at(0.5)) << "the motion is that across the gap";
   const Se3 truth = inverse(swing(0.5)) * swing(0.3);
   EXPECT_LT(minus(after.last_from_camera, truth).head<3>().norm(), 0.01);
   EXPECT_EQ(run.add(1.1, swing(0.4)).how, How::tracked);
 }
 
-/// Turned about the vertical, and moved a little with it.
+/// A pose that is turned about the vertical, and moved a little with it.
 Se3 turned(double angle) {
   return posed(0.1 * angle, 0, 0, 0, angle, 0);
 }
 
-TEST(RgbdTracker, CornersTellAMotionThatNobodyExpects) {
+TEST(RgbdTracker, CornersDetermineAMotionThatIsNotExpected) {
   for (const bool use_features : {true, false}) {
     auto options = atOnce();
     options.use_features = use_features;
     Camera run(options, 1);
-    // To the right as fast as it can, then 25 deg to the left within one image.
+    // The camera turns to the right as fast as it can, then 25 deg to the left within one image.
     const double angles[] = {0, 0.15, 0.3, 0.45, 0};
     RgbdTracker::Tracked last;
     for (int i = 0; i < 5; ++i) last = run.add(0.15 * i, turned(angles[i]));
@@ -113,7 +113,7 @@ TEST(RgbdTracker, ALostCameraIsFoundByCornersFarFromAllKeyFrames) {
   EXPECT_LT(minus(after.map_from_camera, inverse(turned(0)) * turned(0.45)).norm(), 0.02);
 }
 
-TEST(RgbdTracker, AfterALongLossItBeginsAnewAndTellsNoMotion) {
+TEST(RgbdTracker, AfterALongLossItBeginsAnewWithoutAMotion) {
   Camera run;
   run.add(0, swing(0));
   for (int i = 1; i <= 19; ++i) EXPECT_EQ(run.add(0.1 * i, swing(0), true).how, How::lost);
@@ -122,7 +122,7 @@ TEST(RgbdTracker, AfterALongLossItBeginsAnewAndTellsNoMotion) {
   const Se3 elsewhere = geometry::plus(Se3{}, away);
   EXPECT_EQ(run.add(2.5, elsewhere).how, How::begun);
   EXPECT_EQ(run.add(2.6, elsewhere).how, How::tracked);
-  EXPECT_EQ(run.keyFrames(), 1U) << "where the old ones lie from here is not known";
+  EXPECT_EQ(run.keyFrames(), 1U) << "the poses of the old ones relative to this image are not known";
 }
 
 TEST(RgbdTracker, TheSameImagesGiveTheSameBits) {

@@ -11,7 +11,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// To the right of the sensor, ahead of it, to its left.
+/// Points to the right of the sensor, ahead of it and to its left.
 mrpt::obs::CObservationPointCloud threePoints(const mrpt::poses::CPose3D& base_from_sensor) {
   mrpt::obs::CObservationPointCloud cloud;
   auto points = mrpt::maps::CSimplePointsMap::Create();
@@ -52,7 +52,7 @@ TEST(ScanInBase, ASweepMovesItsEndsHalfItsMotionEitherWayAndItsMiddleNotAtAll) {
   const mrpt::math::TPose2D motion(0.4, 0, 0);
   expectPoints(scanInBase(cloud, {kPi, true, motion}), {{-0.2F, -1}, {2, 0}, {0.2F, 1}});
   expectPoints(scanInBase(cloud, {kPi, false, motion}), {{0.2F, -1}, {2, 0}, {-0.2F, 1}});
-  // Half the aperture to either side of a full turn: a quarter of the motion.
+  // With an aperture of a full turn, these points are half the aperture from its ends: a quarter of the motion.
   expectPoints(scanInBase(cloud, {2 * kPi, true, motion}), {{-0.1F, -1}, {2, 0}, {0.1F, 1}});
 }
 

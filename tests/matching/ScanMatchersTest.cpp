@@ -70,7 +70,7 @@ TEST_P(ScanMatchers, FindsAKnownMotionFromAGridOfStarts) {
   }
 }
 
-TEST_P(ScanMatchers, ErrorsOfNoisyMatchesAreWithinTheCovarianceItClaims) {
+TEST_P(ScanMatchers, ErrorsOfNoisyMatchesAgreeWithTheCovarianceItReports) {
   const double sigma = 0.01;
   const auto plan = FloorPlan::ring();
   double squares = 0;
@@ -83,7 +83,7 @@ TEST_P(ScanMatchers, ErrorsOfNoisyMatchesAreWithinTheCovarianceItClaims) {
       const auto difference = found.reference_from_scan - motion;
       const Eigen::Vector3d error(difference.x, difference.y, difference.phi);
       EXPECT_LT(error.head<2>().norm(), 0.05);
-      // A point of the scan and its wall in the reference are both noisy; 5 cm is what LoopClosurePlugin claims.
+      // A point of the scan and its wall in the reference are both noisy; 5 cm is what LoopClosurePlugin assumes.
       squares += error.dot((found.unit_covariance * 0.05 * 0.05).inverse() * error);
       ++count;
     }

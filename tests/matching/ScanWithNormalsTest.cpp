@@ -19,7 +19,7 @@ std::vector<Vector2f> wall(int count, double sigma) {
   return points;
 }
 
-// As of a scan whose beams all go the same way.
+// As in a scan whose beams all have the same direction.
 TEST(ScanWithNormals, PointsThatAreAllOneStayFinite) {
   for (const Vector2f& point : {Vector2f(0, 0), Vector2f(2, 0), Vector2f(2, 1)}) {
     const auto scan = fitLines(std::vector<Vector2f>(60, point));

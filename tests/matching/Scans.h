@@ -8,7 +8,7 @@
 
 namespace omnimapper::matching {
 
-/// What a laser of 181 beams over half a turn sees of a floor plan from a pose, lines fitted. Beams that meet no wall
+/// The scan of a floor plan from a pose by a laser of 181 beams over half a turn, lines fitted. Beams that meet no wall
 /// within max_range are left out.
 inline ScanWithNormals scanFrom(const testing::FloorPlan& plan, const mrpt::math::TPose2D& pose, double sigma = 0,
                                 std::uint64_t seed = 1, double max_range = 12) {

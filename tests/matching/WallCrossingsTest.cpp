@@ -45,7 +45,7 @@ TEST(WallCrossings, BeamsThroughTheWallAreCounted) {
 
 TEST(WallCrossings, WhereManyScansPassThereIsNoWall) {
   auto scans = wallSeenFiveTimes();
-  // With the third there are 3 of 8 that pass.
+  // With the third of these, 3 of 8 scans pass through the wall.
   for (int i = 0; i < 3; ++i) scans.push_back({{0, 0, 0}, {{{4, 0}}, {}}});
   EXPECT_EQ(crossedWalls(scans).scans.back().crossed, 0u);
   scans.pop_back();

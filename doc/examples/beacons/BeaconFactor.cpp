@@ -15,8 +15,8 @@ using omnimapper::geometry::wrapToPi;
 namespace graph = omnimapper::graph;
 
 const std::vector<std::string_view>& BeaconFactor::variableKinds() const {
-  static const std::vector<std::string_view> told = {"se3", "beacon"}, estimated = {"se3", "se3", "beacon"};
-  return estimated_ ? estimated : told;
+  static const std::vector<std::string_view> reported = {"se3", "beacon"}, estimated = {"se3", "se3", "beacon"};
+  return estimated_ ? estimated : reported;
 }
 
 void BeaconFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
@@ -38,7 +38,7 @@ void BeaconFactor::evaluate(const double* const* values, double* residual, doubl
   by_p.row(1) = Eigen::Vector3d(-p.y(), p.x(), 0) / (rho * rho);
   by_p.row(2) = Eigen::Vector3d(p.x() * p.z() / rho, p.y() * p.z() / rho, -rho) / (range * range);
   const Eigen::Matrix3d sensor_from_base = base_from_sensor.rotation.conjugate().toRotationMatrix();
-  // A null pointer means that nobody wants this one: the variable is held.
+  // A null pointer means that this Jacobian is not needed, because the variable is fixed.
   using ByPose = Eigen::Map<Eigen::Matrix<double, 3, 6, Eigen::RowMajor>>;
   if (jacobians[0]) {
     ByPose by_base(jacobians[0]);

@@ -8,18 +8,18 @@
 
 namespace beacons {
 
-// Step 2: what a measurement says of the variables, as a residual with its derivatives. The graph whitens it, wraps a
-// loss around it and lifts the pose of a planar map into space; nothing of that is seen here.
+// Step 2: the measurement, as a residual of the variables with its derivatives. The graph whitens the residual, applies
+// the loss, and lifts the pose of a planar map into space; the factor does none of that.
 
-/// A beacon seen from a pose: range [m], yaw and pitch [rad] in the sensor, in MRPT's sense (pitch positive below).
-/// Variables: map_from_base (se3), then reported_from_sensor (se3) if the sensor's place is estimated, then the beacon.
-/// Residual: predicted - measured, the angles in (-pi, pi].
+/// A beacon seen from a pose: range [m], yaw and pitch [rad] in the sensor, with MRPT's signs (pitch positive
+/// downwards). Variables: map_from_base (se3), then reported_from_sensor (se3) if the pose of the sensor is estimated,
+/// then the beacon. Residual: predicted - measured, the angles in (-pi, pi].
 ///
 /// With p_b = inverse(map_from_base) * beacon and p = inverse(base_from_reported * reported_from_sensor) * p_b
 ///   range = |p|,  yaw = atan2(p.y, p.x),  pitch = atan2(-p.z, rho),  rho = sqrt(p.x^2 + p.y^2),
 /// whose derivative by p is, one row each,
 ///   p^T / range,  (-p.y, p.x, 0) / rho^2,  (p.x p.z / rho, p.y p.z / rho, -rho) / range^2.
-/// A pose perturbed on the right, (p + R t, R Exp(w)), moves a point q seen from it by -t + [q]x w. So p changes by
+/// A pose perturbed on the right, (p + R t, R Exp(w)), moves a point q in its frame by -t + [q]x w. So p changes by
 ///   base_from_sensor's R^T (-t + [p_b]x w)  with map_from_base,
 ///   -t + [p]x w                             with reported_from_sensor,
 ///   map_from_sensor's R^T, columns x and y  with the beacon, whose tangent is the plane of its height.
@@ -35,7 +35,7 @@ class BeaconFactor : public omnimapper::graph::Factor {
   const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
-  /// Teaches a registry to read what write() wrote.
+  /// Registers the reader of what write() wrote.
   static void addTo(omnimapper::graph::FactorRegistry& registry);
 
  private:

@@ -7,7 +7,7 @@ namespace beacons {
 
 namespace graph = omnimapper::graph;
 
-// A version comes first: the day there is more to say, files of today are still read.
+// The version comes first, so that a later version of the library can still read today's files.
 constexpr std::uint64_t kVersion = 1;
 
 void BeaconPayload::write(std::ostream& out) const {

@@ -6,21 +6,21 @@
 
 namespace beacons {
 
-// Step 3: what is known of a landmark beside what is optimised. It goes into the map file with the landmark, and comes
-// back when the map is continued. Immutable: who learns more hands the map a new one.
+// Step 3: what is known of a landmark beside its variables. It is stored in the map file with the landmark, and read
+// again when the map is continued. It is immutable: a plugin that learns more gives the map a new one.
 
-/// Which beacon it is, and from how near and how far it was seen.
+/// The number of a beacon, and the range of distances from which it was seen.
 struct BeaconPayload : omnimapper::map::LandmarkPayload {
   BeaconPayload(std::int32_t number, double nearest, double farthest)
       : number(number), nearest(nearest), farthest(farthest) {}
 
   std::string_view kind() const override { return "beacon"; }
   void write(std::ostream& out) const override;
-  /// Teaches a registry to read what write() wrote.
+  /// Registers the reader of what write() wrote.
   static void addTo(omnimapper::map::PayloadRegistry& registry);
 
   const std::int32_t number;       ///< the sensor's landmarkID
-  const double nearest, farthest;  ///< [m] of its measurements
+  const double nearest, farthest;  ///< [m] smallest and largest measured range
 };
 
 }  // namespace beacons

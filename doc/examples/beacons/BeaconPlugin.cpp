@@ -22,7 +22,7 @@ namespace map = omnimapper::map;
 namespace mapper = omnimapper::mapper;
 using mrpt::obs::CObservationBearingRange;
 
-// Where the sensor was when it saw what it saw, by the estimate of the moment.
+// The pose of the sensor at an observation, as it is currently estimated.
 struct BeaconPlugin::Viewpoint {
   const map::KeyFrame& frame;
   geometry::Se3 map_from_base, base_from_reported, reported_from_sensor;
@@ -38,7 +38,7 @@ struct BeaconPlugin::BeaconMeasurement {
 
 namespace {
 
-// A factor at an estimate, for gates: the residual, and what each variable changes of it.
+// A factor linearised at an estimate, for gates: the residual and its derivative by each variable.
 struct Linearised {
   using ByPose = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
   Eigen::Vector3d residual;
@@ -57,8 +57,8 @@ struct Linearised {
 
 // Why a measurement cannot be used; empty if it can.
 std::string whyUseless(const CObservationBearingRange::TMeasurement& measurement, const std::set<std::int32_t>& seen) {
-  if (measurement.landmarkID < 0) return "it tells no number";
-  if (seen.count(measurement.landmarkID) > 0) return "its number stands twice in the observation";
+  if (measurement.landmarkID < 0) return "it reports no number";
+  if (seen.count(measurement.landmarkID) > 0) return "its number occurs twice in the observation";
   const bool finite =
       std::isfinite(measurement.range) && std::isfinite(measurement.yaw) && std::isfinite(measurement.pitch);
   return finite && measurement.range > 0 ? "" : "no finite range and bearing";
@@ -77,7 +77,7 @@ bool BeaconPlugin::wants(const mrpt::obs::CObservation& observation) const {
          (options_.label.empty() || observation.sensorLabel == options_.label);
 }
 
-// Every measurement leaves a decision with its reason: users ask why a landmark was not taken.
+// Every measurement is logged as a decision with its reason, so that users see why a landmark was not used.
 mapper::Batch BeaconPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                     const mapper::View& view) {
   const auto& observation = dynamic_cast<const CObservationBearingRange&>(observed.observation);
@@ -116,8 +116,8 @@ BeaconPlugin::Viewpoint BeaconPlugin::viewpoint(const map::KeyFrame& frame, cons
           mapper::SensorCorrections::estimate(correction, view.graph), correction};
 }
 
-// A variable, the factor that binds it, and the landmark that stands for it. Their ids are provisional: good within
-// this batch, replaced by the engine, and told to applied().
+// Adds a variable, the factor that binds it, and the landmark. Their ids are provisional: they are valid in this batch,
+// and the engine replaces them by final ids, which it passes to applied().
 void BeaconPlugin::addNew(const BeaconMeasurement& measurement, const Viewpoint& from, mapper::Decision decision,
                           mapper::Batch& batch) {
   const auto position = firstPosition(measurement, from);
@@ -140,7 +140,8 @@ void BeaconPlugin::addToKnown(const BeaconMeasurement& measurement, const Viewpo
   const auto variable = landmark.variables.front();
   auto measurement_record = record(measurement, from, variable, landmark.id);
   if (!view.areJoined(from.frame.id.session, landmark.id.session)) {
-    // The first thing that ties this session to the map: if it were wrong, everything would be.
+    // It would be the first factor that ties this session to the map: if it were wrong, the whole session would be
+    // displaced.
     decision.reason = "waits for the consistency test";
     batch.addHypothesis(std::move(measurement_record), decision);
     return;
@@ -152,11 +153,11 @@ void BeaconPlugin::addToKnown(const BeaconMeasurement& measurement, const Viewpo
   batch.addFactor(std::move(measurement_record));
   const auto& payload = dynamic_cast<const BeaconPayload&>(*landmark.payload);
   const double range = measurement.measured[0];
-  const bool tells_more = range < payload.nearest || range > payload.farthest;
+  const bool widens_range = range < payload.nearest || range > payload.farthest;
   batch.addEvidence(landmark.id,
-                    tells_more ? std::make_shared<BeaconPayload>(measurement.number, std::min(range, payload.nearest),
-                                                                 std::max(range, payload.farthest))
-                               : nullptr);
+                    widens_range ? std::make_shared<BeaconPayload>(measurement.number, std::min(range, payload.nearest),
+                                                                   std::max(range, payload.farthest))
+                                 : nullptr);
   known = {landmark.id, from.frame.id, covarianceSeenFrom(measurement, from, position)};
 }
 
@@ -167,7 +168,7 @@ void BeaconPlugin::applied(const mapper::AppliedBatch& ids) {
   }
 }
 
-// A map that is continued: its landmarks are in the view, and their payloads say which they are.
+// The landmarks of a continued map are in the view, and their payloads have the numbers.
 void BeaconPlugin::restore(const map::MapSection* /*saved*/, const mapper::View& view) {
   for (const auto id : view.candidates(section_)) {
     const auto* payload = dynamic_cast<const BeaconPayload*>(view.map.landmark(id).payload.get());
@@ -175,7 +176,7 @@ void BeaconPlugin::restore(const map::MapSection* /*saved*/, const mapper::View&
   }
 }
 
-// Range and yaw, at the height that is known: the way over the floor is what the range leaves beside the height.
+// The position by range and yaw, at the known height. The distance over the floor follows from range and height.
 std::optional<Eigen::Vector3d> BeaconPlugin::firstPosition(const BeaconMeasurement& measurement,
                                                            const Viewpoint& from) const {
   const double range = measurement.measured[0], yaw = measurement.measured[1], pitch = measurement.measured[2];
@@ -184,14 +185,14 @@ std::optional<Eigen::Vector3d> BeaconPlugin::firstPosition(const BeaconMeasureme
   const Eigen::Vector2d over_floor = (map_from_sensor.rotation * ray).head<2>();
   const double up = options_.height - map_from_sensor.translation.z();
   if (range <= std::abs(up) || over_floor.norm() < 1e-6) return std::nullopt;
-  const double way = std::sqrt(range * range - up * up);
+  const double distance = std::sqrt(range * range - up * up);
   Eigen::Vector3d position;
-  position << map_from_sensor.translation.head<2>() + way * over_floor.normalized(), options_.height;
+  position << map_from_sensor.translation.head<2>() + distance * over_floor.normalized(), options_.height;
   return position;
 }
 
-// How well one measurement alone tells the beacon from where it was seen: (H^T R^-1 H)^-1, R with the sensor's own
-// place.
+// Covariance of the beacon by one measurement alone, with the pose of the base taken as exact: (H^T R^-1 H)^-1, where R
+// includes the uncertainty of the sensor's pose.
 Eigen::Matrix2d BeaconPlugin::covarianceSeenFrom(const BeaconMeasurement& measurement, const Viewpoint& from,
                                                  const Eigen::Vector3d& beacon) const {
   const Linearised at(measurement.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
@@ -201,15 +202,16 @@ Eigen::Matrix2d BeaconPlugin::covarianceSeenFrom(const BeaconMeasurement& measur
   return (at.by_beacon.transpose() * noise.llt().solve(at.by_beacon)).inverse();
 }
 
-// Chi-square of the residual with its own covariance: the measurement, the beacon as the last measurement told it, and
-// the motion of the base since then. What the graph knows better than that makes the gate only wider than it could be.
+// Tests the chi-square of the residual, with the covariances of the measurement, of the beacon by its last measurement,
+// and of the motion of the base since then. The graph may know the beacon better; then the gate is wider than
+// necessary.
 bool BeaconPlugin::passesGate(const BeaconMeasurement& measurement, const Viewpoint& from, const Known& known,
                               const Eigen::Vector3d& beacon, const mapper::View& view,
                               mapper::Decision& decision) const {
   decision.reason = "known";
   if (options_.confidence >= 1 || !known.seen_from) return true;
   const auto motion = view.covarianceBetween(*known.seen_from, from.frame.id);
-  if (!motion) return true;  // nobody can tell how far it may be off
+  if (!motion) return true;  // the uncertainty of the motion is unknown
   const Linearised at(measurement.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
                       beacon);
   Eigen::Matrix3d covariance = at.by_base * *motion * at.by_base.transpose() +

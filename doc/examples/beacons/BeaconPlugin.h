@@ -16,12 +16,12 @@
 
 namespace beacons {
 
-// Step 5: the plugin. It is told of observations and of what became of its batches, and answers with batches; it never
-// changes the map or the graph itself, and one thread calls it.
+// Step 5: the plugin. It gets observations and returns batches of edits; applied() gets the ids of what a batch added.
+// The plugin never changes the map or the graph itself, and one thread calls it.
 
-/// Beacons that tell their number, from ranges and bearings (CObservationBearingRange). A beacon is born from its first
-/// measurement; later ones are associated by number and gated. In a session that is not joined to the map yet, a
-/// measurement of a beacon of an earlier one is a hypothesis.
+/// Beacons with numbers, from ranges and bearings (CObservationBearingRange). A beacon is added with its first
+/// measurement; later measurements are associated by number and gated. In a session that is not joined to the map yet,
+/// a measurement of a beacon of an earlier session is a hypothesis.
 class BeaconPlugin : public omnimapper::mapper::MeasurementPlugin {
  public:
   BeaconPlugin(const BeaconOptions& options, const omnimapper::mapper::PluginContext& context);
@@ -32,15 +32,16 @@ class BeaconPlugin : public omnimapper::mapper::MeasurementPlugin {
                                     const omnimapper::mapper::View& view) override;
   void applied(const omnimapper::mapper::AppliedBatch& ids) override;
   void restore(const omnimapper::map::MapSection* saved, const omnimapper::mapper::View& view) override;
-  // Not needed here: spliced(), since a measurement binds one key frame, and what happens between two is nothing to it;
-  // prepare(), since there is no heavy work; save(), since the payloads of the landmarks say all that restore() needs.
+  // Not needed here: spliced(), because a measurement binds only one key frame; prepare(), because there is no heavy
+  // work; save(), because the payloads of the landmarks have all that restore() needs.
 
  private:
-  /// What it knows of a beacon beside what map and graph know.
+  /// What the plugin keeps of a beacon, beside map and graph.
   struct Known {
     omnimapper::base::LandmarkId landmark;                  // provisional between measure() and applied()
-    std::optional<omnimapper::base::KeyFrameId> seen_from;  // last; none if that was in an earlier session
-    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();   // of the beacon as it was seen from there
+    std::optional<omnimapper::base::KeyFrameId> seen_from;  // the last one; none if it was in an earlier session
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the beacon by its measurement from there, with the pose
+                                                           // of the base taken as exact
   };
   struct Viewpoint;
   struct BeaconMeasurement;
@@ -74,7 +75,7 @@ class BeaconPluginFactory : public omnimapper::mapper::MeasurementPluginFactory 
   DEFINE_MRPT_OBJECT(BeaconPluginFactory, beacons)
  public:
   std::string name() const override { return "BeaconPlugin"; }
-  std::string summary() const override { return "Beacons that tell their number, from ranges and bearings."; }
+  std::string summary() const override { return "Beacons with numbers, from ranges and bearings."; }
   const std::vector<omnimapper::base::OptionSpec>& options() const override { return BeaconOptions::table().specs(); }
   void registerKinds(omnimapper::mapper::Kinds& kinds) const override;
   std::unique_ptr<omnimapper::mapper::MeasurementPlugin> make(

@@ -22,7 +22,7 @@ void blend(Rgb& pixel, const Pen& pen, double inked) {
   pixel = {mix(pixel.r, pen.colour.r), mix(pixel.g, pen.colour.g), mix(pixel.b, pen.colour.b)};
 }
 
-/// How far each touched pixel is covered by ink: the most that any segment covers it.
+/// Coverage of each touched pixel by ink: the largest one by any segment.
 class Coverage {
  public:
   Coverage(const Image& image, double width) : image_(image), radius_(0.5 * width) {}
@@ -31,7 +31,7 @@ class Coverage {
     const double reach = radius_ + 1;
     const int first_row = clampRow(std::min(a.y, b.y) - reach), last_row = clampRow(std::max(a.y, b.y) + reach);
     for (int y = first_row; y <= last_row; ++y) {
-      // Of a row only the stretch that the segment's band crosses is looked at.
+      // Only the stretch of a row that the segment's band crosses is visited.
       const double low = y - reach, high = y + 1 + reach;
       double left = std::min(a.x, b.x), right = std::max(a.x, b.x);
       if (std::abs(b.y - a.y) > 1e-9) {
@@ -73,14 +73,14 @@ void drawPath(Image& image, const std::vector<PixelPoint>& path, const Pen& pen)
   coverage.blend(image, pen);
 }
 
-void fillAreas(Image& image, const std::vector<std::vector<PixelPoint>>& walks, const Pen& pen) {
+void fillAreas(Image& image, const std::vector<std::vector<PixelPoint>>& contours, const Pen& pen) {
   std::vector<double> crossings;
   for (int y = 0; y < image.height; ++y) {
     const double middle = y + 0.5;
     crossings.clear();
-    for (const auto& walk : walks) {
-      for (std::size_t i = 0; i < walk.size(); ++i) {
-        const PixelPoint &a = walk[i], &b = walk[(i + 1) % walk.size()];
+    for (const auto& contour : contours) {
+      for (std::size_t i = 0; i < contour.size(); ++i) {
+        const PixelPoint &a = contour[i], &b = contour[(i + 1) % contour.size()];
         if ((a.y <= middle) != (b.y <= middle)) crossings.push_back(a.x + (middle - a.y) * (b.x - a.x) / (b.y - a.y));
       }
     }

@@ -10,14 +10,14 @@ namespace omnimapper::draw {
 
 namespace {
 
-/// What a PNG header says of the pixels, and how hard zlib tries.
+/// The pixel format in a PNG header, and the compression level of zlib.
 struct Layout {
   int width, height;
   std::uint8_t bits, colour_type;
   int compression;
 };
 
-// Fast rather than small: pictures of maps are flat areas, and those of sensors are many.
+// Compression levels, fast rather than small: pictures of maps are flat areas, and those of sensors are many.
 constexpr int kOfMaps = 3, kOfSensors = Z_BEST_SPEED;
 constexpr std::uint8_t kGrey = 0, kTrueColour = 2, kPalette = 3;
 
@@ -106,7 +106,7 @@ std::string encodePng(const PaletteImage& image) {
 std::string encodePng(const Grey16Image& image) {
   const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
   if (image.width < 1 || image.height < 1 || image.pixels.size() != width * height)
-    throw base::Error(base::ExitCode::internal, "a picture of 16 bits has pixels that do not fill it");
+    throw base::Error(base::ExitCode::internal, "a picture of 16 bits needs width x height pixels, at least one");
   return encode({image.width, image.height, 16, kGrey, kOfSensors}, {}, filteredUp(image));
 }
 

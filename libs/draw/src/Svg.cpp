@@ -119,7 +119,7 @@ void Axes::draw(Svg& svg, const std::string& x_name, const std::string& y_name) 
 }
 
 std::vector<double> roundValues(double low, double high, int count) {
-  // Between numbers that differ by their rounding alone there are no round ones; nor up to infinity.
+  // There are no round values between numbers that differ only by rounding, nor up to infinity.
   if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)))) return {low};
   const double rough = (high - low) / std::max(1, count), power = std::pow(10, std::floor(std::log10(rough)));
   const double mantissa = rough / power;

@@ -10,7 +10,7 @@ namespace {
 Matrix6d tangentFromMrptParameters(const mrpt::poses::CPose3D& mean) {
   const double sp = std::sin(mean.pitch()), cp = std::cos(mean.pitch());
   const double sr = std::sin(mean.roll()), cr = std::cos(mean.roll());
-  Eigen::Matrix3d rates;  // turn in the moved frame per unit of yaw, pitch, roll
+  Eigen::Matrix3d rates;  // rotation in the moved frame per unit of yaw, pitch, roll
   rates << -sp, 0, 1, cp * sr, cr, 0, cp * cr, -sr, 0;
   Matrix6d jacobian = Matrix6d::Zero();
   jacobian.topLeftCorner<3, 3>() = fromMrpt(mean).rotation.toRotationMatrix().transpose();
@@ -64,7 +64,8 @@ Matrix6d covarianceFromMrpt(const mrpt::poses::CPose3D& mean, const Matrix6d& mr
 Matrix6d covarianceToMrpt(const mrpt::poses::CPose3D& mean, const Matrix6d& cov) {
   if (std::abs(std::cos(mean.pitch())) < 1e-6)
     throw base::Error(base::ExitCode::internal,
-                      "covarianceToMrpt: pitch is 90 deg, where yaw and roll are one: keep this covariance as a Se3's");
+                      "covarianceToMrpt: pitch is 90 deg, where yaw and roll cannot be separated: keep this covariance "
+                      "in Se3's tangent");
   const Matrix6d jacobian = tangentFromMrptParameters(mean).inverse();
   return jacobian * cov * jacobian.transpose();
 }

@@ -28,7 +28,7 @@ Eigen::Vector3d minus(const Plane3& to, const Plane3& from) {
   if (sine > 0) {
     across *= std::atan2(sine, cosine) / sine;
   } else if (cosine < 0) {
-    across = {kPi, 0};  // opposite: any way round is as short
+    across = {kPi, 0};  // opposite normals: all rotations are as short
   }
   return {across.x(), across.y(), to.distance - from.distance};
 }

@@ -21,7 +21,7 @@ bool contains(const Polygon3& polygon, const Eigen::Vector3d& point) {
   if (!(vector.norm() > 0)) return false;
   const Eigen::Vector3d normal = vector.normalized();
   const Eigen::Vector3d foot = point - normal * normal.dot(point - polygon.vertices[0]);
-  // Seen along the axis that the plane is steepest to, nothing of the polygon is squeezed to a line.
+  // Along the axis nearest to the normal, the projection of the polygon is not squeezed to a line.
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;

@@ -17,7 +17,7 @@ using ClipperLib::Path;
 using ClipperLib::Paths;
 using Points = std::vector<Eigen::Vector2d>;
 
-constexpr double kUnit = 1e-6;       // [m] Clipper reckons in whole numbers, exactly
+constexpr double kUnit = 1e-6;       // [m] Clipper computes in whole numbers, exactly
 constexpr double kFarthest = 1e6;    // [m]
 constexpr double kStraight = 0.005;  // [m]
 
@@ -27,7 +27,7 @@ bool isSomewhere(const Points& points) {
   });
 }
 
-// Empty for one that is nowhere.
+// Empty if a point is not finite or too far away.
 Path pathOf(const Points& points) {
   Path path;
   if (!isSomewhere(points)) return path;
@@ -35,7 +35,7 @@ Path pathOf(const Points& points) {
   return path;
 }
 
-// Without corners in the middle of an edge, which Clipper leaves where polygons met.
+// The points of a path without corners in the middle of an edge, which Clipper leaves where polygons met.
 Points pointsOf(const Path& path) {
   Points points, corners;
   for (const auto& corner : path)
@@ -47,16 +47,16 @@ Points pointsOf(const Path& path) {
 // Outlines counter-clockwise, holes clockwise.
 Paths combined(ClipperLib::ClipType how, const Paths& subject, const Paths& clip) {
   ClipperLib::Clipper clipper(ClipperLib::ioStrictlySimple);
-  // False of what has no area; a clipper without any would fail.
+  // AddPaths() is false if nothing has an area; Execute() would fail then.
   if (!clipper.AddPaths(subject, ClipperLib::ptSubject, true)) return {};
   clipper.AddPaths(clip, ClipperLib::ptClip, true);
   Paths result;
   if (!clipper.Execute(how, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero))
-    throw base::Error(base::ExitCode::internal, "polygons cannot be united");
+    throw base::Error(base::ExitCode::internal, "polygons cannot be combined");
   return result;
 }
 
-// What the polygon goes around, whichever way.
+// All that the polygon goes around, in either sense of rotation.
 Paths areasOf(const Points& points) {
   if (!isSomewhere(points)) return {};
   Points corners;
@@ -64,7 +64,7 @@ Paths areasOf(const Points& points) {
   return combined(ClipperLib::ctUnion, {pathOf(corners)}, {});
 }
 
-// In pairs, and pairs of those: most edges are gone before many polygons meet.
+// Unites pairs, then pairs of these, because most edges are gone before many polygons meet.
 Paths unionOfParts(std::vector<Paths> parts) {
   while (parts.size() > 1) {
     std::vector<Paths> pairs;
@@ -81,7 +81,7 @@ Paths unionOfParts(std::vector<Paths> parts) {
   return parts.empty() ? Paths() : std::move(parts.front());
 }
 
-// Less the holes.
+// The area within the outline, less the holes.
 Paths areasOf(const HoledPolygon2& polygon) {
   Paths holes;
   for (const auto& hole : polygon.holes) {
@@ -97,7 +97,7 @@ Areas2 asAreas(const Paths& paths, double least) {
   for (const auto& path : paths) largest = std::max(largest, kUnit * kUnit * ClipperLib::Area(path));
   Areas2 areas;
   for (const auto& path : paths) {
-    const double area = kUnit * kUnit * ClipperLib::Area(path);  // negative of holes
+    const double area = kUnit * kUnit * ClipperLib::Area(path);  // negative for holes
     if (std::abs(area) < std::min(least, largest)) continue;
     (area > 0 ? areas.outlines : areas.holes).push_back(pointsOf(path));
   }

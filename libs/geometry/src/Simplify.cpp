@@ -19,7 +19,8 @@ double squaredDistanceFromStretch(const Eigen::Vector2d& point, const Eigen::Vec
   return (offset - share * along).squaredNorm();
 }
 
-// Splits each stretch at its farthest point while that is too far; the end of a stretch may be the first point again.
+// Splits each stretch at its farthest point while that is farther than the tolerance. The end of a stretch may be
+// points.size(), which is the first point again.
 std::vector<bool> keepFarthest(const Points& points, std::vector<Stretch> stretches, double tolerance) {
   std::vector<bool> kept(points.size(), false);
   for (const auto& [from, to] : stretches) kept[from] = kept[to % points.size()] = true;

@@ -14,7 +14,7 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr std::uint16_t kMostCounts = 60000;  // counts stay below it
+constexpr std::uint16_t kMostCounts = 60000;  // largest value of a count
 
 class Mover {
  public:
@@ -87,13 +87,13 @@ void HitMissGrid::add(const Placed& placed) {
   for (const auto& point : placed.scan->misses) pass(inCells(point));
 }
 
-// Likelihood of a beam, places in cells.
+// Likelihood of a beam; its ends are in cells.
 double HitMissGrid::beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bool hit) const {
-  const Eigen::Vector2d way = to - from;
-  const double length = way.norm(), checked = length - model_.tolerance / model_.cell;
+  const Eigen::Vector2d delta = to - from;
+  const double length = delta.norm(), checked = length - model_.tolerance / model_.cell;
   double open = 1;
   if (checked > 0) {
-    walkInside(from, from + way * (checked / length), width_, height_, [&](int x, int y) {
+    walkInside(from, from + delta * (checked / length), width_, height_, [&](int x, int y) {
       const Cell* cell = at(x, y);
       if (cell && cell->hits > 0) open *= (cell->passes + 0.5) / (cell->passes + cell->hits + 0.5);
       return open > 0.01;

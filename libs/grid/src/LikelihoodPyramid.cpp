@@ -33,14 +33,15 @@ struct Bell {
   }
 };
 
-// The larger of each two values. (By value: the compiler need not fear that a byte written is a bound of the loop.)
+// The larger of each two values. (`count` is passed by value, so the compiler knows that writing a byte does not change
+// it.)
 void raise(const std::uint8_t* from, unsigned count, std::uint8_t* to) {
   for (unsigned i = 0; i < count; ++i) to[i] = std::max(to[i], from[i]);
 }
 void largerOf(const std::uint8_t* first, const std::uint8_t* second, unsigned count, std::uint8_t* to) {
   for (unsigned i = 0; i < count; ++i) to[i] = std::max(first[i], second[i]);
 }
-// Of every second value, and of it and its neighbour.
+// The same for every second value of `first` and both values of `second` from there.
 void largerOfEverySecond(const std::uint8_t* first, const std::uint8_t* second, unsigned count, std::uint8_t* to) {
   for (unsigned i = 0; i < count; ++i) {
     to[i] = std::max(first[2 * i], std::max(second[2 * i], second[2 * i + 1]));
@@ -88,7 +89,7 @@ void LikelihoodPyramid::drawPoints(const std::vector<Eigen::Vector2f>& points, d
     const int x = static_cast<int>((point.x() - origin_.x()) / cell_),
               y = static_cast<int>((point.y() - origin_.y()) / cell_);
     std::uint8_t* const middle = &grid.values[static_cast<std::size_t>(y) * width_ + x];
-    if (*middle == 255) continue;  // drawn before
+    if (*middle == 255) continue;  // was drawn before
     const std::uint8_t* value = bell.values.data();
     for (int dy = -bell.reach; dy <= bell.reach; ++dy) {
       std::uint8_t* const row = middle + static_cast<std::ptrdiff_t>(dy) * width_;
@@ -105,7 +106,7 @@ void LikelihoodPyramid::pool(int level) {
   coarse.shift = std::max(0, level - 2);
   // In cells of the finer grid: how far the second of the joined squares lies from the first, and the new stride.
   const int step = 1 << (level - 1 - fine.shift), stride = 1 << (coarse.shift - fine.shift);
-  const int reach = step + stride - 1;  // of the last square joined
+  const int reach = step + stride - 1;  // offset of the last square joined
   // The first value must begin a whole square before the map.
   coarse.padding = 1 << level;
   coarse.width = static_cast<unsigned>(((width_ + coarse.padding - 1) >> coarse.shift) + 1);

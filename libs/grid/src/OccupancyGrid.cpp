@@ -8,12 +8,13 @@ namespace omnimapper::grid {
 namespace {
 
 constexpr int kCells = OccupancyGrid::kTileSide * OccupancyGrid::kTileSide;
-/// As often a vote of any size surely fits into the 16 bits of a cell.
+/// Number of votes of any size that surely fit into the 16 bits of a cell.
 constexpr int kMostChanges = std::numeric_limits<std::int16_t>::max() / -std::numeric_limits<std::int8_t>::min();
 
 }  // namespace
 
-// Half as many bytes are half the work; few cells ever need more than 16 bits.
+// Sums are kept in 16 bits, because half the bytes are half the work and few cells ever need more. They move to 32 bits
+// before they can overflow.
 void OccupancyGrid::Tile::countChange() {
   if (++changes_ < kMostChanges) return;
   changes_ = 1;

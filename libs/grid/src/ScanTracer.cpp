@@ -10,9 +10,9 @@ namespace omnimapper::grid {
 
 namespace {
 
-/// Neighbouring ends are of one surface if the line between them is seen at more than this angle, ...
+/// Neighbouring beams end on one surface if the line between their ends is seen at more than this angle.
 constexpr double kGrazing = 3 * geometry::kPi / 180;
-/// ... and surely so if it is seen at more than this one and is no longer than this [m].
+/// They surely do if the line is seen at more than this angle and is no longer than this [m].
 constexpr double kFacing = 20 * geometry::kPi / 180, kSureGap = 0.3;
 
 /// Square of the sine of the angle at which the line from a to b is seen from the origin, at its further end.
@@ -47,7 +47,7 @@ void ScanTracer::place(const mrpt::obs::CObservation2DRangeScan& scan, const mrp
     min_x = std::min(min_x, beam.x), max_x = std::max(max_x, beam.x);
     min_y = std::min(min_y, beam.y), max_y = std::max(max_y, beam.y);
   }
-  // A cell more at each side, for what rounding does to lines.
+  // One more cell at each side, because lines are rounded.
   const auto cell = [](double at) { return static_cast<std::int64_t>(std::floor(at)); };
   votes_.moveTo({cell(min_x) - 1, cell(min_y) - 1, cell(max_x) + 1, cell(max_y) + 1});
   const auto left = static_cast<double>(votes_.minX());

@@ -12,24 +12,25 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kTopLevel = 6;  // of a block of poses: 64 steps a side
+constexpr int kTopLevel = 6;  // largest level of a block of poses: 64 steps a side
 constexpr double kMostSteps = 1 << 30;
 
 // Poses of one area: 2^level steps a side in x, y and yaw, counted from the window's corner.
 struct Block {
   int x, y, yaw;
-  int bound;  // of 255 * points
-  int next;   // block with the same bound, in the queue
+  int bound;  // upper bound of its poses' scores, in [0, 255 * points]
+  int next;   // next block with the same bound in the queue
   int area : 24;
   int level : 8;
 };
 
-// Highest bound first; among equals the last one in, which goes deep before it goes wide.
+// Priority queue of blocks, the highest bound first. Among equals the last one added comes first, so that the search
+// goes deep before it goes wide.
 class Queue {
  public:
   explicit Queue(int highest) : heads_(highest + 1, -1), current_(highest) {}
 
-  // A bound is at most that of the last block taken.
+  // The bound must be at most that of the last block popped.
   void push(const Block& block) {
     int slot = free_;
     if (slot >= 0) {
@@ -60,7 +61,7 @@ class Queue {
   int current_, free_ = -1;
 };
 
-// A point of the scan turned into the map, for the first block of a row of blocks: the cell where its sweep begins,
+// A point of the scan rotated into the map, for the first block of a row of blocks: the cell where its sweep begins,
 // and the level whose squares cover it.
 struct Sweep {
   int x, y, level;
@@ -69,7 +70,7 @@ struct Sweep {
 // The blocks of one level that share their headings.
 struct Row {
   std::vector<Sweep> sweeps;
-  int unbounded = -1;  // points that sweep over more than any square; -1: not made yet
+  int unbounded = -1;  // number of points whose sweep no square covers; -1: not made yet
 };
 
 // Steps of a lattice along one axis, counted from the window's centre.
@@ -89,7 +90,7 @@ void requireWindow(const SearchWindow& window) {
   }
 }
 
-// Within `half` of 0 and within [low, high].
+// The steps within `half` of 0 and within [low, high].
 Steps stepsWithin(double half, double low, double high, double step) {
   const double most = std::floor(half / step + 1e-9), first = std::max(-most, std::floor(low / step)),
                last = std::min(most, std::ceil(high / step));
@@ -97,7 +98,7 @@ Steps stepsWithin(double half, double low, double high, double step) {
   return {static_cast<int>(first), static_cast<int>(last - first) + 1};
 }
 
-// One map and its window as a lattice.
+// The lattice of poses of one map and its window.
 class Lattice {
  public:
   Lattice(const SearchArea& area, const std::vector<Eigen::Vector2f>& points)
@@ -105,7 +106,7 @@ class Lattice {
     const SearchWindow& window = area.window;
     requireWindow(window);
     if (map_.empty() || points.empty()) return;
-    // From further away than the longest range the scan cannot touch the map.
+    // A scan farther away from the map than its longest range cannot touch it.
     double reach = 0;
     for (const auto& point : points) reach = std::max(reach, static_cast<double>(point.norm()));
     const Eigen::Vector2d low = map_.origin().array() - reach,
@@ -144,7 +145,7 @@ class Lattice {
     return sum;
   }
 
-  // Whether every pose of the block is as near to `other` as the options forbid.
+  // Whether no pose of the block is distinct from `other`.
   bool liesWithin(const Block& block, const TPose2D& other, const SearchOptions& options) const {
     const double last = (1 << block.level) - 1, half = 0.5 * last;
     const TPose2D middle = poseBetween(block.x + half, block.y + half, block.yaw + half);
@@ -198,10 +199,11 @@ class Lattice {
   double yaw_step_;  // [rad]
   Steps x_{0, 0}, y_{0, 0}, yaw_{0, 0};
   int top_ = 0;                         // level of the blocks that the search begins with
-  std::vector<std::vector<Row>> rows_;  // by level and place; made when first asked for
+  std::vector<std::vector<Row>> rows_;  // by level and block of yaw; made when first needed
 };
 
-// The finite points, far apart ones first: a sum over part of them then says much about the whole.
+// The finite points in an order in which neighbours are far from each other, so that a sum over the first of them says
+// much about the whole.
 std::vector<Eigen::Vector2f> shuffled(const std::vector<Eigen::Vector2f>& points) {
   std::vector<Eigen::Vector2f> finite, result;
   for (const auto& point : points) {

@@ -24,7 +24,7 @@ double LineEquations::wallDistance() const {
 Correspondences::Correspondences(const PointIndex& reference, const ScanWithNormals& scan)
     : reference_(reference), scan_(scan), likely_(scan.size(), PointIndex::kNone) {
   const std::size_t room = (scan.size() + kLane - 1) / kLane * kLane;
-  for (Values* values : {&px_, &py_, &qx_, &qy_, &nx_, &ny_, &on_line_, &alone_}) values->resize(room);
+  for (Values* values : {&px_, &py_, &qx_, &qy_, &nx_, &ny_, &on_line_, &on_point_}) values->resize(room);
 }
 
 void Correspondences::find(const TPose2D& pose, double max_distance) {
@@ -47,11 +47,11 @@ void Correspondences::find(const TPose2D& pose, double max_distance) {
     const float ny = ny_[count_] = reference_.normalYs()[nearest];
     const bool has_line = nx != 0 || ny != 0;
     on_line_[count_] = has_line ? 1 : 0;
-    alone_[count_] = has_line ? 0 : 1;
+    on_point_[count_] = has_line ? 0 : 1;
     ++count_;
   }
   for (std::size_t i = count_; i % kLane != 0; ++i) {
-    for (Values* values : {&px_, &py_, &qx_, &qy_, &nx_, &ny_, &on_line_, &alone_}) (*values)[i] = 0;
+    for (Values* values : {&px_, &py_, &qx_, &qy_, &nx_, &ny_, &on_line_, &on_point_}) (*values)[i] = 0;
   }
 }
 
@@ -70,12 +70,13 @@ double Correspondences::quantile(const TPose2D& pose, double share) const {
   return *place;
 }
 
-// Sums in the reference's frame about the scan's origin, then turned into the scan's.
-LineEquations Correspondences::equations(const TPose2D& pose, double loss_scale, double alone, double along) const {
+// Sums are taken in the reference's frame about the scan's origin, then rotated into the scan's frame.
+LineEquations Correspondences::equations(const TPose2D& pose, double loss_scale, double point_weight,
+                                         double along) const {
   const double c = std::cos(pose.phi), s = std::sin(pose.phi);
   const auto cf = static_cast<float>(c), sf = static_cast<float>(s);
   const auto tx = static_cast<float>(pose.x), ty = static_cast<float>(pose.y);
-  const auto scale = static_cast<float>(1 / (loss_scale * loss_scale)), held = static_cast<float>(alone),
+  const auto scale = static_cast<float>(1 / (loss_scale * loss_scale)), held = static_cast<float>(point_weight),
              pulled = static_cast<float>(along);
   Lane xx = Lane::Zero(), xy = xx, yy = xx, xt = xx, yt = xx, tt = xx, gx = xx, gy = xx, gt = xx, squares = xx,
        weights = xx, radii = xx;
@@ -86,7 +87,7 @@ LineEquations Correspondences::equations(const TPose2D& pose, double loss_scale,
     const Lane across = nx * dx + ny * dy, lever = x * ny - y * nx;
     const Lane distance = dx * dx + dy * dy, square = across * across;
     const Lane weight = load(on_line_) / (1 + square * scale);
-    const Lane point = (held * load(alone_) + pulled * load(on_line_)) / (1 + distance * scale);
+    const Lane point = (held * load(on_point_) + pulled * load(on_line_)) / (1 + distance * scale);
     const Lane wx = weight * nx, wy = weight * ny, wt = weight * lever, wa = weight * across;
     xx += wx * nx + point;
     xy += wx * ny;
@@ -114,12 +115,12 @@ LineEquations Correspondences::equations(const TPose2D& pose, double loss_scale,
   return sums;
 }
 
-// Yaw counts by the lever it moves the points with, so that all three are metres.
+// Yaw is scaled by the lever at which it moves the points, so that all three are in metres.
 ObservableSubspace::ObservableSubspace(const LineEquations& equations, double noise_share) {
   const double total = equations.information.topLeftCorner<2, 2>().trace();
   if (!(total > 0)) {
     basis_.setIdentity();
-    fixed_.setZero();
+    information_.setZero();
     return;
   }
   const double lever = std::max(0.5, std::sqrt(equations.squared_radius / total));
@@ -130,33 +131,33 @@ ObservableSubspace::ObservableSubspace(const LineEquations& equations, double no
   basis_ = scale.asDiagonal() * eigen.eigenvectors();
   for (int i = 0; i < 3; ++i) {
     const double value = eigen.eigenvalues()[i];
-    const bool fixed = value > noise_share * total && value > 1e-6;
-    fixed_[i] = fixed ? value : 0;
-    count_ += fixed;
+    const bool is_observable = value > noise_share * total && value > 1e-6;
+    information_[i] = is_observable ? value : 0;
+    count_ += is_observable;
   }
 }
 
 Eigen::Vector3d ObservableSubspace::step(const LineEquations& equations, const Eigen::Matrix3d& guess_information,
                                          const Eigen::Vector3d& from_guess) const {
   constexpr double kNothing = 1e-9;
-  const Eigen::Array3d counts = (fixed_.array() > 0).cast<double>();
-  const Eigen::Matrix3d fixing = basis_ * counts.matrix().asDiagonal();
+  const Eigen::Array3d counts = (information_.array() > 0).cast<double>();
+  const Eigen::Matrix3d observable_basis = basis_ * counts.matrix().asDiagonal();
   const Eigen::Vector3d slope =
-      fixing.transpose() * equations.gradient + basis_.transpose() * (guess_information * from_guess);
-  Eigen::Matrix3d information =
-      fixing.transpose() * equations.information * fixing + basis_.transpose() * guess_information * basis_;
+      observable_basis.transpose() * equations.gradient + basis_.transpose() * (guess_information * from_guess);
+  Eigen::Matrix3d information = observable_basis.transpose() * equations.information * observable_basis +
+                                basis_.transpose() * guess_information * basis_;
   information.diagonal().array() += kNothing;
   return -basis_ * information.ldlt().solve(slope);
 }
 
-Eigen::Vector3d ObservableSubspace::fixedPart(const Eigen::Vector3d& motion) const {
-  const Eigen::Array3d counts = (fixed_.array() > 0).cast<double>();
+Eigen::Vector3d ObservableSubspace::observablePart(const Eigen::Vector3d& motion) const {
+  const Eigen::Array3d counts = (information_.array() > 0).cast<double>();
   return basis_ * (counts * (basis_.inverse() * motion).array()).matrix();
 }
 
 Eigen::Matrix3d ObservableSubspace::covariance() const {
   Eigen::Vector3d variance;
-  for (int i = 0; i < 3; ++i) variance[i] = fixed_[i] > 0 ? 1 / fixed_[i] : ScanMatch::kOpen;
+  for (int i = 0; i < 3; ++i) variance[i] = information_[i] > 0 ? 1 / information_[i] : ScanMatch::kOpen;
   return basis_ * variance.asDiagonal() * basis_.transpose();
 }
 

@@ -10,32 +10,32 @@
 
 namespace omnimapper::matching {
 
-/// Point-to-line normal equations of the points of a scan that have a partner in a reference, at one pose.
+/// Point-to-line normal equations at one pose, of the points of a scan that have a correspondence in a reference.
 struct LineEquations {
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of x y yaw in the scan's frame, unit variance a point
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of x y yaw in the scan's frame, for unit variance
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  double squared_distance = 0, weight = 0;  ///< of the points on lines
-  double squared_radius = 0;                ///< [m2] of all points from the scan's origin, weighted
+  double squared_distance = 0, weight = 0;  ///< sums over the points on lines
+  double squared_radius = 0;  ///< [m2] weighted sum of the squared distances of all points from the scan's origin
 
-  /// [m] Root mean square across the lines.
+  /// [m] Root mean square distance across the lines.
   double wallDistance() const;
 };
 
 /// The points of a scan, each with its nearest point of a reference.
 class Correspondences {
  public:
-  /// Both must outlive it.
+  /// Both arguments must outlive this object.
   Correspondences(const PointIndex& reference, const ScanWithNormals& scan);
 
-  /// Finds the partners within `max_distance` [m] anew.
+  /// Finds the correspondences within `max_distance` [m] anew.
   void find(const mrpt::math::TPose2D& reference_from_scan, double max_distance);
-  /// Points with a partner.
+  /// Number of points with a correspondence.
   std::size_t count() const { return count_; }
-  /// [m] `share` of the distances across the lines are less than that.
+  /// [m] The distance across the lines that is larger than a share `share` of them.
   double quantile(const mrpt::math::TPose2D& reference_from_scan, double share) const;
-  /// `loss_scale` [m] of the Cauchy weight; `alone`: weight of partners without a line, by their whole distance;
-  /// `along`: weight by which that counts of the others too.
-  LineEquations equations(const mrpt::math::TPose2D& reference_from_scan, double loss_scale, double alone,
+  /// `loss_scale` [m] of the Cauchy weight. `point_weight`: weight of the whole distance of correspondences without a
+  /// line; `along`: weight of the whole distance of the others, in addition to that across their lines.
+  LineEquations equations(const mrpt::math::TPose2D& reference_from_scan, double loss_scale, double point_weight,
                           double along) const;
 
  private:
@@ -43,33 +43,34 @@ class Correspondences {
   const ScanWithNormals& scan_;
   std::vector<int> likely_;  // of each point, from the last search
   using Values = std::vector<float>;
-  // Of each point with a partner, filled up to a whole number of lanes: the point in the scan, its partner, the
-  // partner's normal, and 1 or 0: on a line, alone.
-  Values px_, py_, qx_, qy_, nx_, ny_, on_line_, alone_;
+  // For each point with a correspondence, padded to a whole number of lanes: the point of the scan, the point of the
+  // reference, its normal, and two flags (1 or 0) for a reference with and without a line.
+  Values px_, py_, qx_, qy_, nx_, ny_, on_line_, on_point_;
   mutable Values scratch_;
   std::size_t count_ = 0;
 };
 
-/// Which directions the partners fix, as a change of basis in which x y yaw count alike.
+/// The directions that the correspondences constrain, in a basis in which x, y and yaw have the same scale.
 class ObservableSubspace {
  public:
-  /// What gets less than `noise_share` of all information counts as open.
+  /// Directions that get less than `noise_share` of all information count as open.
   explicit ObservableSubspace(const LineEquations& equations, double noise_share = kNoiseShare);
-  /// Normals are good to some 6 degrees: a direction that gets less than its square of all information gets noise.
+  /// Normals are accurate to some 6 degrees, so a direction that gets less than the square of that (in radians) of all
+  /// information is constrained by noise alone.
   static constexpr double kNoiseShare = 0.01;
   bool all() const { return count_ == 3; }
   /// The part of a small motion that is not along open directions.
-  Eigen::Vector3d fixedPart(const Eigen::Vector3d& motion) const;
-  /// The Gauss-Newton step of these equations, and of a guess that knows so much and is that far away. Along directions
-  /// that are not fixed the guess alone counts; zero where it knows nothing either.
+  Eigen::Vector3d observablePart(const Eigen::Vector3d& motion) const;
+  /// The Gauss-Newton step of these equations and of a guess with `guess_information`, which lies `from_guess` away.
+  /// Along open directions only the guess counts; the step is zero there if it has no information either.
   Eigen::Vector3d step(const LineEquations& equations, const Eigen::Matrix3d& guess_information,
                        const Eigen::Vector3d& from_guess) const;
   /// Open directions have variance ScanMatch::kOpen.
   Eigen::Matrix3d covariance() const;
 
  private:
-  Eigen::Matrix3d basis_;  // columns: directions, scaled
-  Eigen::Vector3d fixed_;  // the information along them; 0 where open
+  Eigen::Matrix3d basis_;        // columns: directions, scaled
+  Eigen::Vector3d information_;  // the information along them; 0 where open
   int count_ = 0;
 };
 

@@ -19,7 +19,7 @@ std::optional<Vector3d> forceInBase(const mrpt::obs::CObservationIMU& imu) {
   if (!imu.has(IMU_X_ACC) || !imu.has(IMU_Y_ACC) || !imu.has(IMU_Z_ACC)) return std::nullopt;
   constexpr double kLargest = 1e4;  // more than any sensor shows, in any unit
   const Vector3d force(imu.get(IMU_X_ACC), imu.get(IMU_Y_ACC), imu.get(IMU_Z_ACC));
-  if (!(force.cwiseAbs().maxCoeff() < kLargest)) return std::nullopt;  // not a number, either
+  if (!(force.cwiseAbs().maxCoeff() < kLargest)) return std::nullopt;  // rejects NaN, too
   return geometry::fromMrpt(imu.sensorPose).rotation * force;
 }
 
@@ -46,9 +46,9 @@ Matrix3d crossMatrix(const Vector3d& v) {
   return matrix;
 }
 
-// [m/s^2] of one unit of theirs; none where they are not those of gravity.
+// The unit [m/s^2] of accelerations with this magnitude; none where they are not those of gravity.
 std::optional<double> unitOf(double magnitude) {
-  constexpr double kOff = 0.06;  // biases and altitudes are less
+  constexpr double kOff = 0.06;  // relative difference; biases and altitudes cause less
   for (const double unit : {1.0, kStandardGravity})
     if (std::abs(magnitude * unit / kStandardGravity - 1) < kOff) return unit;
   return std::nullopt;
@@ -139,7 +139,7 @@ bool SteadySpans::add(const mrpt::obs::CObservationIMU& imu) {
 void SteadySpans::close() {
   constexpr std::size_t kFewest = 4;  // readings
   constexpr double kFastest = 0.35;   // [rad/s] on average
-  constexpr double kTurned = 0.17;    // [rad] from half to half, where nothing tells the rate
+  constexpr double kTurned = 0.17;    // [rad] from half to half, where no rate is measured
   const Sum sum = *sum_;
   sum_.reset();
   if (sum.readings < kFewest || sum.of_first_half == 0 || sum.of_first_half == sum.readings) return;
@@ -156,38 +156,37 @@ Gravity gravityOf(const std::vector<RotatedSpan>& spans) {
   constexpr std::size_t kFewest = 4;
   Gravity gravity;
   if (spans.size() < kFewest) {
-    gravity.reason =
-        "accelerations tell of only " + std::to_string(spans.size()) + " half seconds without much turning";
+    gravity.reason = "accelerations cover only " + std::to_string(spans.size()) + " half seconds without much turning";
     return gravity;
   }
   std::vector<double> magnitudes;
   for (const auto& one : spans) magnitudes.push_back(one.span.force.norm());
-  const double told = median(magnitudes);
-  const auto unit = unitOf(told);
+  const double magnitude = median(magnitudes);
+  const auto unit = unitOf(magnitude);
   if (!unit) {
     gravity.reason = text(
         "accelerations are %.3g in the median, neither 9.81 m/s^2 nor 1 g: gravity was taken out "
         "of them, or they are in another unit",
-        told, 0);
+        magnitude, 0);
     return gravity;
   }
-  gravity.magnitude = *unit * told;
+  gravity.magnitude = *unit * magnitude;
   const Solution solution = solve(spans, *unit);
   const Vector3d sum = solution.value.head<3>();
-  constexpr double kLeast = 0.5;  // of gravity: else the rotations do not fit the accelerations
+  constexpr double kLeast = 0.5;  // share of gravity; with less the rotations do not fit the accelerations
   if (!(sum.norm() > kLeast * kStandardGravity)) {
-    gravity.reason = text("accelerations of %.2f m/s^2 do not point one way in the map in %zu half seconds",
+    gravity.reason = text("accelerations of %.2f m/s^2 have no common direction in the map in %zu half seconds",
                           gravity.magnitude, spans.size());
     return gravity;
   }
-  constexpr double kDrift = 0.1 * 3.14159265358979323846 / 180;  // [rad] what the map's rotations share
+  constexpr double kDrift = 0.1 * 3.14159265358979323846 / 180;  // [rad] error that all rotations of the map share
   gravity.up = sum.normalized();
   const Matrix3d turn = crossMatrix(*gravity.up) / sum.norm();
   const Matrix3d across = Matrix3d::Identity() - *gravity.up * gravity.up->transpose();
   gravity.covariance = turn * solution.covariance.topLeftCorner<3, 3>() * turn.transpose() + kDrift * kDrift * across;
   gravity.reason =
       text("gravity of %.2f m/s^2 in %zu half seconds without much turning", gravity.magnitude, spans.size());
-  if (*unit != 1) gravity.reason += ", accelerations taken for g";
+  if (*unit != 1) gravity.reason += ", accelerations assumed to be in g";
   return gravity;
 }
 

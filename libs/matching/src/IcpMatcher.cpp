@@ -14,7 +14,8 @@ namespace omnimapper::matching {
 
 namespace {
 
-constexpr double kRefinedWithin = 0.3;  // [m] of a point from its wall
+// [m] Largest distance of a point from its wall when the result of ICP is refined.
+constexpr double kRefinedWithin = 0.3;
 
 mrpt::maps::CSimplePointsMap pointsMap(const ScanWithNormals& scan) {
   mrpt::maps::CSimplePointsMap map;
@@ -23,7 +24,7 @@ mrpt::maps::CSimplePointsMap pointsMap(const ScanWithNormals& scan) {
   return map;
 }
 
-// MRPT's maps build their search tree when first asked, so that matches against one must take turns.
+// MRPT's maps build their search tree when it is first needed, so matches against the same one must take turns.
 struct IcpReference : PointIndex {
   explicit IcpReference(ScanWithNormals scan) : PointIndex(scan), map(pointsMap(scan)) {}
   mrpt::maps::CSimplePointsMap map;
@@ -60,7 +61,8 @@ ScanMatch IcpMatcher::match(const MatchReference& reference, const ScanWithNorma
   const auto found = icp.Align(&icp_reference.map, &scan_map, mrpt::poses::CPose2D(guess.reference_from_scan));
   const auto pose = found->getMeanVal().asTPose();
   if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.phi)) return nothing;
-  // Sampling draws it along the walls: their lines say where it is.
+  // ICP shifts the scan along the walls, depending on where these were sampled; matching with their lines corrects
+  // that.
   auto refining = options_;
   refining.max_distance = std::min(options_.max_distance, kRefinedWithin);
   auto match = PointToLineMatcher(refining).match(reference, scan, pose);

@@ -11,24 +11,24 @@ namespace omnimapper::matching {
 namespace {
 
 constexpr double kDegree = base::option_text::kRadiansPerDegree;
-// What wheels err by at random, and the matches that they are held against.
+// Standard deviations of the random errors of wheels, and of the matches that they are compared with.
 constexpr double kTravelNoise = 0.05, kMatchNoise = 0.01;  // [m / sqrt(m)] [m]
 constexpr double kTurnPerTravel = 2 * kDegree, kTurnNoise = 0.06,
                  kHeadingNoise = 0.003;  // [rad / sqrt(m), sqrt(rad)] [rad]
-// What they err by systematically before anything is known of them: standard deviations.
+// Standard deviations of the systematic errors of wheels before anything was learned.
 constexpr double kTravelError = 0.03, kTurnErrorPerTravel = 1 * kDegree, kTurnError = 0.05;
-constexpr double kMemory = 25;  // [m] of way, a radian of turn counts as a metre
+constexpr double kMemory = 25;  // [m] of distance travelled; a radian of turn counts as a metre
 constexpr double kFar = 4;      // standard deviations
 
 }  // namespace
 
-void OdometryCalibration::learn(const mrpt::math::TPose2D& told, const mrpt::math::TPose2D& was) {
-  const double travel = std::abs(told.x), turn = std::abs(told.phi);
+void OdometryCalibration::learn(const mrpt::math::TPose2D& measured, const mrpt::math::TPose2D& actual) {
+  const double travel = std::abs(measured.x), turn = std::abs(measured.phi);
   const double travel_variance = mrpt::square(kTravelNoise) * travel + mrpt::square(kMatchNoise);
   const double turn_variance =
       mrpt::square(kTurnPerTravel) * travel + mrpt::square(kTurnNoise) * turn + mrpt::square(kHeadingNoise);
-  const Eigen::Vector2d turn_row(told.x, told.phi);
-  const double off = was.x - told.x, turned_off = mrpt::math::wrapToPi(was.phi - told.phi);
+  const Eigen::Vector2d turn_row(measured.x, measured.phi);
+  const double off = actual.x - measured.x, turned_off = mrpt::math::wrapToPi(actual.phi - measured.phi);
   const auto isFar = [](double residual, double variance) {
     return mrpt::square(residual) > mrpt::square(kFar) * variance;
   };
@@ -37,8 +37,8 @@ void OdometryCalibration::learn(const mrpt::math::TPose2D& told, const mrpt::mat
   if (isFar(turned_off, turn_variance + mrpt::square(kTurnErrorPerTravel * travel) + mrpt::square(kTurnError * turn)))
     return;
   const double kept = std::exp(-(travel + turn) / kMemory);
-  travel_information_ = kept * travel_information_ + mrpt::square(told.x) / travel_variance;
-  travel_sum_ = kept * travel_sum_ + told.x * off / travel_variance;
+  travel_information_ = kept * travel_information_ + mrpt::square(measured.x) / travel_variance;
+  travel_sum_ = kept * travel_sum_ + measured.x * off / travel_variance;
   turn_information_ = kept * turn_information_ + turn_row * turn_row.transpose() / turn_variance;
   turn_sum_ = kept * turn_sum_ + turn_row * turned_off / turn_variance;
 }
@@ -53,9 +53,10 @@ Eigen::Vector2d OdometryCalibration::turnErrors() const {
   return information.inverse() * turn_sum_;
 }
 
-mrpt::math::TPose2D OdometryCalibration::applied(const mrpt::math::TPose2D& told) const {
+mrpt::math::TPose2D OdometryCalibration::applied(const mrpt::math::TPose2D& measured) const {
   const double travel = 1 + travelError();
-  return {travel * told.x, travel * told.y, told.phi + turnErrors().dot(Eigen::Vector2d(told.x, told.phi))};
+  return {travel * measured.x, travel * measured.y,
+          measured.phi + turnErrors().dot(Eigen::Vector2d(measured.x, measured.phi))};
 }
 
 }  // namespace omnimapper::matching

@@ -7,7 +7,7 @@ namespace omnimapper::matching {
 
 namespace {
 constexpr float kSide = 0.25F;        // [m] of a cell
-constexpr float kCellsPerPoint = 16;  // a larger extent gets larger cells
+constexpr float kCellsPerPoint = 16;  // at most; a larger extent gets larger cells
 }  // namespace
 
 PointIndex::PointIndex(const ScanWithNormals& scan) {
@@ -64,7 +64,7 @@ int PointIndex::nearest(float x, float y, float max_distance, int likely) const 
     }
   };
   if (likely != kNone) visit(likely, likely + 1);
-  // All cells that the circle of the best so far touches; what lies outside of the grid is looked for at its border.
+  // Visit all cells that the circle of the smallest distance so far touches, clamped to the border of the grid.
   const float cx = (x - min_x_) * inverse_side_, cy = (y - min_y_) * inverse_side_;
   const float reach = std::sqrt(best) * inverse_side_;
   const auto cell = [](float value, float last) { return static_cast<int>(std::min(std::max(0.0F, value), last)); };

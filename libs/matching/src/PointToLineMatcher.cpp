@@ -15,49 +15,53 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kJudgedWithin = 0.3;  // [m] of a partner for the overlap
-constexpr double kJudgedLoss = 0.1;    // [m]
-// The loss has the scale of so many times what most points are away from their lines.
+constexpr double kJudgedWithin = 0.3;  // [m] largest distance of a correspondence that counts for the overlap
+constexpr double kJudgedLoss = 0.1;    // [m] scale of the loss for the covariance
+// The scale of the loss is kSpreads times this quantile of the points' distances from their lines.
 constexpr double kQuantile = 0.5, kSpreads = 4.5;
 constexpr double kSmallestLoss = 0.07;  // [m]
-// A point of the reference without a line holds a point of the scan from all sides, but by less than a line: it is
-// clutter, or an edge that the next beam passes. It says little of which directions the walls fix.
-constexpr double kPointsHold = 0.6, kPointsFix = 0.03;
-constexpr double kWideNoiseShare = 0.003;  // what is open is hard to tell from far away
+// A point of the reference without a line holds a point of the scan in all directions, but with less weight than a
+// line, because it may be clutter, or an edge that the next beam passes. It counts even less for which directions are
+// constrained.
+constexpr double kPointWeight = 0.6, kPointObservabilityWeight = 0.03;
+// Noise share of the wide search: far from the solution, open directions are hard to recognise.
+constexpr double kWideNoiseShare = 0.003;
 constexpr double kReachOfLoss = 3;
-constexpr double kShrink = 0.5;   // of the reach, from one search of partners to the next
+constexpr double kShrink = 0.5;   // factor on the search radius, from one search of correspondences to the next
 constexpr double kPull = 0.3;     // weight of the distances along the lines
-constexpr double kNear = 0.01;    // [m] a step that ends the wide search
-constexpr double kStill = 0.001;  // [m] a step that ends the match
-constexpr double kLever = 5;      // [m] that turns count by
+constexpr double kNear = 0.01;    // [m] a shorter step ends the wide search
+constexpr double kStill = 0.001;  // [m] a shorter step ends the match
+constexpr double kLever = 5;      // [m] lever by which rotations count
 
-// From where it was guessed, in the scan's frame.
+// The motion from the guess to the pose, in the scan's frame.
 Eigen::Vector3d motion(const TPose2D& guess, const TPose2D& pose) {
   const TPose2D moved = pose - guess;
   return {moved.x, moved.y, mrpt::math::wrapToPi(moved.phi)};
 }
 
-// Gauss-Newton with the partners as they are, twice, because the weights change. Tells the larger step [m].
-double refine(const Correspondences& partners, const MatchGuess& guess, double loss_scale, bool wide, TPose2D& pose) {
-  const ObservableSubspace directions(partners.equations(pose, loss_scale, kPointsFix, 0),
+// Two Gauss-Newton steps with the same correspondences, because the weights change. Returns the larger step [m].
+double refine(const Correspondences& correspondences, const MatchGuess& guess, double loss_scale, bool wide,
+              TPose2D& pose) {
+  const ObservableSubspace directions(correspondences.equations(pose, loss_scale, kPointObservabilityWeight, 0),
                                       wide ? kWideNoiseShare : ObservableSubspace::kNoiseShare);
   double largest = 0;
   for (int k = 0; k < 2; ++k) {
-    const Eigen::Vector3d step = directions.step(partners.equations(pose, loss_scale, kPointsHold, wide ? kPull : 0),
-                                                 guess.information, motion(guess.reference_from_scan, pose));
+    const Eigen::Vector3d step =
+        directions.step(correspondences.equations(pose, loss_scale, kPointWeight, wide ? kPull : 0), guess.information,
+                        motion(guess.reference_from_scan, pose));
     pose = pose + TPose2D(step.x(), step.y(), step.z());
     largest = std::max({largest, step.head<2>().norm(), kLever * std::abs(step.z())});
   }
   return largest;
 }
 
-ScanMatch toMatch(const Correspondences& partners, const ScanWithNormals& scan, const TPose2D& pose) {
+ScanMatch toMatch(const Correspondences& correspondences, const ScanWithNormals& scan, const TPose2D& pose) {
   ScanMatch match;
   match.reference_from_scan = pose;
-  if (partners.count() == 0) return match;
-  const auto equations = partners.equations(pose, kJudgedLoss, kPointsFix, 0);
+  if (correspondences.count() == 0) return match;
+  const auto equations = correspondences.equations(pose, kJudgedLoss, kPointObservabilityWeight, 0);
   const ObservableSubspace directions(equations);
-  match.overlap = static_cast<double>(partners.count()) / static_cast<double>(scan.size());
+  match.overlap = static_cast<double>(correspondences.count()) / static_cast<double>(scan.size());
   match.wall_distance = equations.wallDistance();
   match.point_sigma = match.wall_distance * std::sqrt(static_cast<double>(scan.smoothing));
   match.unit_covariance = directions.covariance();
@@ -81,40 +85,41 @@ std::shared_ptr<const MatchReference> PointToLineMatcher::prepare(ScanWithNormal
   return std::make_shared<const PointIndex>(std::move(reference));
 }
 
-// Wide at first: partners from far, and what they are away along the walls counts too, which leads in from where lines
-// alone would lead astray. Then only what lies on the same wall as well as most points do.
+// The search is wide at first: correspondences may be far from each other, and their distance along the walls counts
+// too, because lines alone would mislead from a distant pose. Then only points count that lie on the same wall as well
+// as most points do.
 ScanMatch PointToLineMatcher::match(const MatchReference& reference, const ScanWithNormals& scan,
                                     const MatchGuess& guess) const {
-  Correspondences partners(dynamic_cast<const PointIndex&>(reference), scan);
+  Correspondences correspondences(dynamic_cast<const PointIndex&>(reference), scan);
   TPose2D pose = guess.reference_from_scan;
   double reach = options_.max_distance, loss_scale = options_.max_distance;
   bool wide = true, settled = false;
   for (int i = 0; i < options_.max_iterations; ++i) {
-    partners.find(pose, reach);
-    if (partners.count() == 0) return toMatch(partners, scan, guess.reference_from_scan);
-    const double spread = kSpreads * partners.quantile(pose, kQuantile);
+    correspondences.find(pose, reach);
+    if (correspondences.count() == 0) return toMatch(correspondences, scan, guess.reference_from_scan);
+    const double spread = kSpreads * correspondences.quantile(pose, kQuantile);
     loss_scale = std::clamp(spread, kSmallestLoss, std::max(kSmallestLoss, loss_scale));
-    const double moved = refine(partners, guess, loss_scale, wide, pose);
+    const double moved = refine(correspondences, guess, loss_scale, wide, pose);
     if (!wide && moved < kStill && reach < 1.01 * std::max(options_.min_distance, kReachOfLoss * loss_scale)) {
       if (settled) break;
       settled = true;
-      const ObservableSubspace directions(partners.equations(pose, loss_scale, kPointsFix, 0));
+      const ObservableSubspace directions(correspondences.equations(pose, loss_scale, kPointObservabilityWeight, 0));
       if (directions.all()) break;
-      // What the wide search moved along a direction that has turned out to be open is taken back.
-      const Eigen::Vector3d told = directions.fixedPart(motion(guess.reference_from_scan, pose));
-      pose = guess.reference_from_scan + TPose2D(told.x(), told.y(), told.z());
+      // Take back what the wide search moved along directions that have turned out to be open.
+      const Eigen::Vector3d observable = directions.observablePart(motion(guess.reference_from_scan, pose));
+      pose = guess.reference_from_scan + TPose2D(observable.x(), observable.y(), observable.z());
     }
     wide = wide && moved > kNear;
     if (!wide) reach = std::max(options_.min_distance, std::min(kShrink * reach, kReachOfLoss * loss_scale));
   }
-  partners.find(pose, kJudgedWithin);
-  return toMatch(partners, scan, pose);
+  correspondences.find(pose, kJudgedWithin);
+  return toMatch(correspondences, scan, pose);
 }
 
 ScanMatch PointToLineMatcher::judge(const MatchReference& reference, const ScanWithNormals& scan, const TPose2D& pose) {
-  Correspondences partners(dynamic_cast<const PointIndex&>(reference), scan);
-  partners.find(pose, kJudgedWithin);
-  return toMatch(partners, scan, pose);
+  Correspondences correspondences(dynamic_cast<const PointIndex&>(reference), scan);
+  correspondences.find(pose, kJudgedWithin);
+  return toMatch(correspondences, scan, pose);
 }
 
 mrpt::poses::CPosePDF::Ptr PointToLineMatcher::AlignPDF(const mrpt::maps::CMetricMap* m1,

@@ -10,15 +10,16 @@ namespace {
 
 using geometry::Se3;
 
-// The pose after the share `f` of an even motion.
+// The pose after the share `f` of a uniform motion.
 Se3 share(const Se3& motion, double f) {
   if (f <= 0) return Se3();
   if (f >= 1) return motion;
   return plus(Se3(), f * minus(motion, Se3()));
 }
 
-// The part of a span's motion between two shares of its time. What makes the covariances of parts add up to the span's:
-// each is a share of the span's own covariance, seen from the end of the part instead of the end of the span.
+// The part of a span's motion between two shares of its time. Its covariance is the same share of the span's
+// covariance, seen from the end of the part instead of the end of the span, so that the covariances of parts add up to
+// that of the span.
 RelativeMotion part(const RelativeMotion& motion, double from, double to) {
   if (from <= 0 && to >= 1) return motion;
   const Se3 whole = geometry::fromMrpt(motion.begin_from_end);

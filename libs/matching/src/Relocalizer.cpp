@@ -11,11 +11,11 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double kTurn = 6.28318530717958647692;
-constexpr double kMetresPerRadian = 2;              // how far away a scan of the map counts that looks another way
+constexpr double kMetresPerRadian = 2;              // distance that a difference in heading counts for in around()
 constexpr double kAstray = 0.3, kAstrayTurn = 0.1;  // [m] [rad] by which the matcher may err along a corridor
-constexpr double kHopeless = 0.3;                   // mean logarithms of likelihoods by which a candidate is out
+constexpr double kHopeless = 0.3;  // difference of mean log-likelihoods to the best from which a candidate is hopeless
 constexpr std::size_t kSectors = 30;
-constexpr double kSpread = 0.05;  // of mean logarithms of likelihoods over a cell of the grid that they are read from
+constexpr double kSpread = 0.05;  // how much mean log-likelihoods vary within a cell of the grid
 
 double turn(const TPose2D& a, const TPose2D& b) {
   return std::abs(std::remainder(a.phi - b.phi, kTurn));
@@ -34,9 +34,9 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
-// By how much `best` is better than `other`, in the mean, less `doubt` standard errors of that mean. Beams beside each
-// other see the same things, so the error is that of the means of kSectors sectors.
-double leadOf(const std::vector<double>& best, const std::vector<double>& other, double doubt) {
+// By how much `best` is better than `other`, in the mean, less `lead_sigmas` standard errors of that mean. Neighbouring
+// beams see the same objects, so the standard error is that of the means of kSectors sectors.
+double leadOf(const std::vector<double>& best, const std::vector<double>& other, double lead_sigmas) {
   const std::size_t size = (best.size() + kSectors - 1) / kSectors;
   double sum = 0, squares = 0;
   std::vector<double> sectors;
@@ -49,7 +49,7 @@ double leadOf(const std::vector<double>& best, const std::vector<double>& other,
   }
   const double lead = sum / static_cast<double>(best.size()), count = static_cast<double>(sectors.size());
   for (const double sector : sectors) squares += (sector - lead) * (sector - lead);
-  return lead - doubt * std::sqrt(squares / std::max(1.0, count * (count - 1)));
+  return lead - lead_sigmas * std::sqrt(squares / std::max(1.0, count * (count - 1)));
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ std::vector<LocationCandidate> Relocalizer::candidates(const Query& query, const
   return result;
 }
 
-// What the map's scans nearest to a pose saw.
+// The lines of those scans of the map that are nearest to a pose.
 ScanWithNormals Relocalizer::around(const TPose2D& pose) const {
   std::vector<std::pair<double, std::size_t>> nearest;
   for (std::size_t i = 0; i < map_.size(); ++i) {
@@ -145,7 +145,8 @@ ScanWithNormals Relocalizer::around(const TPose2D& pose) const {
   return result;
 }
 
-// Where the beams speak against what the matcher finds, the candidate stays where it is.
+// Refines a place by the matcher. The candidate stays where it is if its beams are less likely at the pose that the
+// matcher finds.
 LocationCandidate Relocalizer::refined(const SearchResult& place, const Query& query) const {
   const TPose2D& pose = place.map_from_scan;
   LocationCandidate candidate;
@@ -189,7 +190,7 @@ void Relocalizer::settle(LocationCandidate& candidate, const Query& query) const
   candidate.beams = std::move(logarithms);
 }
 
-// Of candidates that are the same, the better one, best first.
+// Sorts candidates, the best first, and keeps the best one of those that are the same.
 void Relocalizer::sortAndMerge(std::vector<LocationCandidate>& candidates) const {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.log_likelihood > b.log_likelihood; });
@@ -220,7 +221,7 @@ Location Relocalizer::judged(std::vector<LocationCandidate> candidates, const Qu
   double sum = nowhere, here = 0;
   for (auto& candidate : location.candidates) {
     const double lead = candidate.beams.empty() ? first.log_likelihood - candidate.log_likelihood
-                                                : leadOf(first.beams, candidate.beams, options_.doubt);
+                                                : leadOf(first.beams, candidate.beams, options_.lead_sigmas);
     sum += candidate.probability = std::exp(-beams * std::max(0.0, lead));
     if (isNear(candidate, first, options_.place_distance, options_.place_angle)) here += candidate.probability;
   }

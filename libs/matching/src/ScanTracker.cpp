@@ -14,17 +14,17 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-// On which logs they were chosen, and what was tried instead of some of them: doc/results/robustness.md.
-constexpr double kSame = 0.1, kSameTurn = 0.035;    // [m] [rad] within which two matches are one
-constexpr double kBasin = 0.25, kBasinTurn = 0.14;  // [m] [rad] from which a prediction leads to a match for sure
-constexpr double kIndependent = 30;                 // beams beside each other see the same: so many count
-constexpr double kIndependentInPoor = 3;            // where the local map is no model of what is seen
-constexpr double kUnpredicted = 0.001;              // [1 / (m2 rad)] density of what nobody predicted
-constexpr double kSomeOverlap = 0.2;                // share of the points that a match needs to stand for anything
+// doc/results/robustness.md has the logs on which these were chosen, and what was tried instead of some of them.
+constexpr double kSame = 0.1, kSameTurn = 0.035;    // [m] [rad] within which two matches are the same
+constexpr double kBasin = 0.25, kBasinTurn = 0.14;  // [m] [rad] within which a prediction surely leads to a match
+constexpr double kIndependent = 30;       // number of beams that count as independent, because neighbours see the same
+constexpr double kIndependentInPoor = 3;  // the same where the local map does not explain the scan
+constexpr double kUnpredicted = 0.001;    // [1 / (m2 rad)] density of a motion that no source predicts
+constexpr double kSomeOverlap = 0.2;      // share of corresponding points below which a match is ignored
 
-constexpr double kSurely = 0.8;  // share of the points with partners from which on a single match is not doubted
-constexpr double kPoor = -0.8;   // mean logarithm of a beam's likelihood below which a better place is searched
-// The same of beams that all end where the map knows nothing.
+constexpr double kSurely = 0.8;  // share of corresponding points from which a single match is accepted as it is
+constexpr double kPoor = -0.8;   // mean log-likelihood of the beams below which a better pose is searched
+// Mean log-likelihood of beams that all end where the map is unknown.
 const double kNothing = std::log(grid::BeamModel().unknown);
 
 double turnOf(const TPose2D& motion) {
@@ -35,7 +35,7 @@ bool isBeyond(const TPose2D& motion, double distance, double angle) {
   return std::hypot(motion.x, motion.y) > distance || turnOf(motion) > angle;
 }
 
-// Of the mixture of all predictions and of what none of them foresees.
+// Logarithm of the density of a motion, in the mixture of all predictions and of motions that no source predicts.
 double logPrior(const TPose2D& motion, const std::vector<MotionPrediction>& predictions) {
   double density = 0;
   bool is_possible = false;
@@ -57,13 +57,13 @@ bool isAmong(const std::vector<ScanTracker::Tracked>& found, const TPose2D& moti
   });
 }
 
-// Whether a match needs no look at the beams.
+// Whether a match is accepted without a comparison of its beams.
 bool isSure(const ScanTracker::Tracked& one, const std::vector<MotionPrediction>& predictions) {
   return one.match.overlap >= kSurely &&
          logPrior(one.match.reference_from_scan, predictions) > std::log(2 * kUnpredicted);
 }
 
-// As its laser saw it.
+// The beams of a scan, from its laser.
 grid::BeamScan beamsOf(const ScanWithNormals& scan, const Eigen::Vector2f& sensor) {
   grid::BeamScan beams;
   beams.hits.reserve(scan.size());
@@ -92,11 +92,11 @@ const base::OptionTable<ScanTrackerOptions>& ScanTrackerOptions::table() {
   return table;
 }
 
-/// What a scan may be matched as.
+/// The poses and matches among which one is chosen for a scan.
 struct ScanTracker::Candidates {
   struct Weight {
-    double fit;    // mean logarithm of a beam's likelihood
-    double prior;  // logarithm of the density that the predictions give
+    double fit;    // mean log-likelihood of the beams
+    double prior;  // logarithm of the density by the predictions
   };
 
   const ScanWithNormals& scan;
@@ -105,15 +105,15 @@ struct ScanTracker::Candidates {
   const std::vector<MotionPrediction>& predictions;
   TPose2D local_from_last;
   std::vector<Tracked> found;
-  std::vector<Weight> weights;  // of each
+  std::vector<Weight> weights;  // of each candidate
 
   double bestFit() const {
     return std::max_element(weights.begin(), weights.end(),
                             [](const Weight& a, const Weight& b) { return a.fit < b.fit; })
         ->fit;
   }
-  /// Logarithm of the probability of each, beside the others'. Where none fits, how much better one fits than another
-  /// says little: people, glass, grass. What nobody predicted must fit by itself.
+  /// Unnormalised logarithm of the probability of each candidate. Where none fits (people, glass, grass), a difference
+  /// in fit says little. A motion that no source predicted must fit by its beams alone.
   std::vector<double> logarithms() const {
     const double beams = bestFit() < kNothing ? kIndependentInPoor : kIndependent;
     std::vector<double> all;
@@ -160,7 +160,7 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(const ScanWithNormals& sc
   return tracked;
 }
 
-// Matches that differ, each by the first prediction that led to it, and predictions that led nowhere.
+// The distinct matches, each with the first prediction that led to it, and the predictions that led to no match.
 std::vector<ScanTracker::Tracked> ScanTracker::matchesOf(const ScanWithNormals& scan,
                                                          const std::vector<MotionPrediction>& predictions,
                                                          const TPose2D& local_from_last) const {
@@ -180,7 +180,7 @@ std::vector<ScanTracker::Tracked> ScanTracker::matchesOf(const ScanWithNormals& 
   return found;
 }
 
-// All headings, and as far as the best prediction may be off: a search that is seldom needed.
+// Searches all headings, as far around as the best prediction may be off. This is seldom needed.
 void ScanTracker::search(Candidates& candidates) {
   constexpr double kSigmas = 3, kLeast = 0.5;  // [1] [m]
   constexpr double kMost = 2, kMostBlind = 3;  // [m]
@@ -210,7 +210,7 @@ void ScanTracker::search(Candidates& candidates) {
   }
 }
 
-// Each stands for itself where no match is near it.
+// Adds the predictions that no candidate is near to, as candidates themselves.
 void ScanTracker::addPredictions(Candidates& candidates) {
   for (std::size_t i = 0; i < candidates.predictions.size(); ++i) {
     Tracked none;
@@ -233,7 +233,7 @@ ScanTracker::Tracked ScanTracker::mostProbable(const Candidates& candidates) {
   const auto logarithms = candidates.logarithms();
   const auto best =
       static_cast<std::size_t>(std::max_element(logarithms.begin(), logarithms.end()) - logarithms.begin());
-  if (!std::isfinite(logarithms[best])) return {};  // none is believed
+  if (!std::isfinite(logarithms[best])) return {};  // no candidate is plausible
   const auto relative = [&](std::size_t i) { return std::exp(logarithms[i] - logarithms[best]); };
   double sum = 0;
   for (std::size_t i = 0; i < candidates.found.size(); ++i) sum += relative(i);

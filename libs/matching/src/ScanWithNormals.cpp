@@ -11,18 +11,18 @@ namespace omnimapper::matching {
 
 namespace {
 
-// [m] between neighbours on one wall, and from a point to the end of its window; noise widens both.
+// [m] Largest distance between neighbours on one wall, and from a point to the end of its window; noise increases both.
 constexpr float kLargestGap = 0.6F, kLongestReach = 2.0F;
 constexpr float kGapOfNoise = 4.5F, kReachOfNoise = 10.0F;
-// Neighbours on each side.
+// Sizes of windows: number of neighbours on each side.
 constexpr std::array<int, 6> kHalfWindows{2, 4, 8, 16, 32, 64};
 constexpr int kFewest = 4;
-// What a line must be: known to 8 degrees, both by how its points lie and by the noise of the sensor, without which
-// a few noisy points behind one another pass for a wall along the beam; and thinner than a corner.
+// A line must be known to 8 degrees, both by the scatter of its points and by the noise of the sensor, without which a
+// few noisy points behind one another would pass for a wall along the beam; and it must be thinner than a corner.
 constexpr double kAngleVariance = 0.14 * 0.14;
 constexpr double kThinness = 0.15;  // squared width over squared length
 
-// Sums over the points before each one, so that those of a window are two differences.
+// Cumulative sums over the points, so that the sums of a window are differences of two of them.
 class Sums {
  public:
   explicit Sums(const std::vector<Eigen::Vector2f>& points) : sums_(points.size() + 1) {
@@ -49,11 +49,11 @@ class Sums {
   std::vector<Five> sums_;
 };
 
-// [m] Standard deviation along the beams, from the quarter of the second differences that are least: walls are straight
-// enough not to count, and corners, edges and clutter may be most of all points.
+// [m] Standard deviation of the noise along the beams, from the lower quartile of the second differences: walls are
+// straight enough not to contribute, while corners, edges and clutter may be most of all points.
 float rangeNoise(const std::vector<Eigen::Vector2f>& points) {
   if (points.size() < 3) return 0;
-  constexpr float kQuarter = 0.780F;  // of noise of standard deviation 1: 0.3186 sqrt(1 + 4 + 1)
+  constexpr float kQuarter = 0.780F;  // lower quartile for noise of standard deviation 1: 0.3186 sqrt(1 + 4 + 1)
   std::vector<float> squares(points.size() - 2);
   for (std::size_t i = 0; i < squares.size(); ++i) {
     squares[i] = (points[i] - 2 * points[i + 1] + points[i + 2]).squaredNorm();
@@ -105,7 +105,8 @@ struct WindowLine {
   }
 };
 
-// Those with a neighbour: a beam that ends alone (a person, glass, a thin leg) must not cut the wall behind it in two.
+// Indices of the points that have a neighbour: a beam that ends by itself (a person, glass, a thin leg) must not cut
+// the wall behind it in two.
 std::vector<int> inCompany(const std::vector<Eigen::Vector2f>& points, float gap) {
   const int count = static_cast<int>(points.size());
   std::vector<int> kept;
@@ -135,7 +136,7 @@ std::optional<WindowLine> lineAround(const std::vector<Eigen::Vector2f>& points,
     if (count < kFewest) continue;
     const WindowLine line(sums.between(first, last + 1), count);
     const double allowed = kAngleVariance * line.along;
-    // Points that are all one have no direction.
+    // Points that coincide have no direction.
     const bool fits = line.root > 0 && line.across <= kThinness * line.along && line.across <= (count - 2) * allowed &&
                       static_cast<double>(noise) * noise <= allowed;
     if (fits) return line;

@@ -15,15 +15,15 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-// The walls of a map: where enough scans saw points of a line, and which way these look.
+// The walls of a map: the cells in which enough scans saw points of a line, with the directions of these lines.
 class Walls {
  public:
   Walls(const std::vector<MapScan>& scans, const WallCrossingOptions& options);
 
   struct Wall {
-    Eigen::Vector2d normals = Eigen::Vector2d::Zero();  // their sum, angles doubled
+    Eigen::Vector2d normals = Eigen::Vector2d::Zero();  // sum of unit normals, angles doubled
     std::size_t last_seen = kNobody, last_passed = kNobody;
-    int seen = 0, passed = 0;  // by so many scans
+    int seen = 0, passed = 0;  // number of scans
   };
   bool isSolid(const Wall& wall) const {
     return wall.seen >= options_.min_scans && wall.passed <= options_.max_passed * (wall.seen + wall.passed);
@@ -32,12 +32,12 @@ class Walls {
     return static_cast<std::size_t>(
         std::count_if(walls_.begin(), walls_.end(), [this](const Wall& wall) { return isSolid(wall); }));
   }
-  /// Calls use(wall) for the walls that a beam passes through before it ends, until it returns false.
+  /// Calls use(wall) for the walls that a beam passes through before it ends, until `use` returns false.
   template <class Use>
   void forEachCrossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Use& use) {
     const double length = (to - from).norm();
     const Eigen::Vector2d direction = (to - from) / length, end = from + direction * (length - options_.min_distance);
-    // A direction and its opposite are one: their angles are doubled.
+    // Angles are doubled, so that a direction and its opposite are the same.
     const Eigen::Vector2d doubled(direction.x() * direction.x() - direction.y() * direction.y(),
                                   2 * direction.x() * direction.y());
     const double least = std::cos(2 * options_.max_incidence);
@@ -58,7 +58,7 @@ class Walls {
   WallCrossingOptions options_;
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   int width_ = 0, height_ = 0;
-  std::vector<std::uint32_t> index_;  // of the cell's wall, from 1; 0: none
+  std::vector<std::uint32_t> index_;  // number of the cell's wall, from 1; 0: none
   std::vector<Wall> walls_;
 };
 

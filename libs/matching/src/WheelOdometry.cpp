@@ -46,7 +46,8 @@ WheelOdometry::Taken WheelOdometry::addMotion(const obs::CObservationRelativeMot
   return Taken::taken;
 }
 
-// One stamp gone wrong must not make all that follow it too old: a leap counts once the next reading confirms it.
+// A single wrong stamp must not make all later readings too old, so a leap in time counts only once the next reading
+// confirms it.
 bool WheelOdometry::isUnconfirmedLeap(base::Stamp stamp) {
   constexpr double kLeapSeconds = 60;
   const auto leaps = [&](base::Stamp from) { return base::secondsBetween(from, stamp) > kLeapSeconds; };
@@ -67,15 +68,15 @@ WheelOdometry::Taken WheelOdometry::addPose(const mrpt::obs::CObservationOdometr
     const auto& [last, odom_from_last] = *readings_.rbegin();
     if (odometry.timestamp <= last) return addLatePose(odometry.timestamp, odom_from_base);
     if (isUnconfirmedLeap(odometry.timestamp)) return Taken::unusable;
-    tell(last, odometry.timestamp, odom_from_base - odom_from_last);
+    insertMotion(last, odometry.timestamp, odom_from_base - odom_from_last);
     news_ = Span{last, odometry.timestamp};
   }
   readings_.emplace(odometry.timestamp, odom_from_base);
   return Taken::taken;
 }
 
-// A reading that arrived after a later one takes its place between its neighbours, if it lies on their way. If not, the
-// robot's clock was set back rather than the reading delayed, and it says nothing of that time.
+// Inserts a reading that arrived after a later one between its neighbours, if its pose lies on the path between theirs.
+// If it does not, the robot's clock was set back rather than the reading delayed, and the reading is unusable.
 WheelOdometry::Taken WheelOdometry::addLatePose(base::Stamp stamp, const mrpt::poses::CPose3D& odom_from_base) {
   constexpr double kLongestDetour = 0.2;  // [m]
   constexpr double kLargestTurn = 0.5;    // [rad] there and back
@@ -84,7 +85,7 @@ WheelOdometry::Taken WheelOdometry::addLatePose(base::Stamp stamp, const mrpt::p
   const mrpt::poses::CPose3D to_after = after->second - odom_from_base;
   if (after == readings_.begin()) {
     if (forgotten_) return Taken::unusable;
-    tell(stamp, after->first, to_after);
+    insertMotion(stamp, after->first, to_after);
     news_ = Span{stamp, after->first};
   } else {
     const auto before = std::prev(after);
@@ -94,22 +95,23 @@ WheelOdometry::Taken WheelOdometry::addLatePose(base::Stamp stamp, const mrpt::p
         std::abs(from_before.yaw()) + std::abs(to_after.yaw()) - std::abs((after->second - before->second).yaw());
     if (detour > kLongestDetour || turn > kLargestTurn) return Taken::unusable;
     if (!timeline_.remove(before->first, after->first)) return Taken::unusable;
-    tell(before->first, stamp, from_before);
-    tell(stamp, after->first, to_after);
+    insertMotion(before->first, stamp, from_before);
+    insertMotion(stamp, after->first, to_after);
     news_ = Span{before->first, after->first};
   }
   readings_.emplace(stamp, odom_from_base);
   return Taken::taken;
 }
 
-// Who counts on from another place than before has not gone there: nothing is told of that time.
-void WheelOdometry::tell(base::Stamp begin, base::Stamp end, const mrpt::poses::CPose3D& motion) {
+// Adds the motion between two readings. An odometry that continues from another pose than before has not moved there,
+// so such a span is left without a motion.
+void WheelOdometry::insertMotion(base::Stamp begin, base::Stamp end, const mrpt::poses::CPose3D& motion) {
   const double seconds = base::secondsBetween(begin, end);
   if (!isImpossible(motion, seconds)) timeline_.insert(begin, end, {motion, covarianceOf(motion, seconds)});
 }
 
 bool WheelOdometry::isImpossible(const mrpt::poses::CPose3D& motion, double seconds) {
-  constexpr double kFastest = 100, kSlack = 10;  // [m/s] [m] for stamps that are not exact
+  constexpr double kFastest = 100, kSlack = 10;  // [m/s], and [m] for stamps that are not exact
   const double travel = motion.norm();
   if (travel <= kSlack + kFastest * seconds) return false;
   ++impossible_;
@@ -120,11 +122,11 @@ bool WheelOdometry::isImpossible(const mrpt::poses::CPose3D& motion, double seco
 std::vector<std::string> WheelOdometry::warnings() const {
   if (impossible_ == 0) return {};
   return {std::to_string(impossible_) + " times the odometry leaps, by up to " + base::brief(farthest_) +
-          " m, farther than anything that drives: what it tells there is left out. Cut the log there ([source] " +
-          "start_s, end_s), or have another sensor tell the motion"};
+          " m, farther than any vehicle drives in the time: these motions are left out. Cut the log there ([source] " +
+          "start_s, end_s), or measure the motion with another sensor"};
 }
 
-// The reading before `stamp` stays: a late one may follow it.
+// Keeps the last reading before `stamp`, because a late one may follow it.
 void WheelOdometry::forgetBefore(base::Stamp stamp) {
   timeline_.forgetBefore(stamp);
   while (readings_.size() > 1 && std::next(readings_.begin())->first <= stamp) {

@@ -8,7 +8,8 @@ namespace omnimapper::matching {
 
 namespace {
 
-// sin(a) / a and (1 - cos(a)) / a: along and across an arc of that angle, by its length.
+// The chord of an arc of an angle a, along and across its beginning, for an arc of unit length: sin(a) / a and (1 -
+// cos(a)) / a.
 struct Arc {
   double along, across;
   explicit Arc(double angle)
@@ -24,7 +25,7 @@ std::vector<Eigen::Vector2f> deskew(const std::vector<Eigen::Vector2f>& points, 
     throw base::Error(base::ExitCode::internal, "deskew: " + std::to_string(points.size()) + " points, but " +
                                                     std::to_string(fractions.size()) + " fractions of the sweep");
   }
-  // The velocity, in the frame that moves: constant over the sweep.
+  // The velocity in the moving frame, which is constant over the sweep.
   const double turn = begin_from_end.phi;
   const Arc whole(turn);
   const double squared = whole.along * whole.along + whole.across * whole.across;

@@ -22,7 +22,8 @@ Network::Network(const std::string& path, Backend backend, const std::string& li
     : path_(path), backend_(backend), library_(library) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored) || std::filesystem::file_size(path, ignored) == 0)
-    throw base::Error(base::ExitCode::unreadable_input, path + ": no network is there; scripts/models fetches them");
+    throw base::Error(base::ExitCode::unreadable_input,
+                      path + ": the network is missing or empty; scripts/models fetches networks");
   idle_.push_back(take());
 }
 

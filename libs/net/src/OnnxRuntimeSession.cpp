@@ -10,7 +10,7 @@
 #include "Session.h"
 
 // ONNX Runtime's C interface is a table of functions that only grows (onnxruntime_c_api.h: "New functions must be added
-// only at the end"); Debian 12 has no header of it, so the places of those that are used stand here.
+// only at the end"). Debian 12 has no header for it, so the indices of the functions that are used are listed here.
 
 namespace omnimapper::net {
 
@@ -106,7 +106,7 @@ bool isCutOff(const std::string& library) {
                                                  "\x7f"
                                                  "ELF",
                                                  4) != 0)
-    return false;  // the loader says what it is
+    return false;  // the loader reports what it is
   std::uint64_t offset = 0;
   std::uint16_t size = 0, count = 0;
   std::memcpy(&offset, header + kOffset, sizeof offset);
@@ -122,13 +122,13 @@ Table loadTable(const std::string& library) {
     throw base::Error(base::ExitCode::plugin_library, library + ": ONNX Runtime cannot be loaded (" + why +
                                                           "); scripts/models --onnxruntime fetches it");
   };
-  // The system's loader would end the program over a file that is shorter than it says.
+  // The system's loader would crash the program on a file that is shorter than its header says.
   if (isCutOff(library)) refuse("it is cut off");
   void* handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) refuse(dlerror());
   const auto base = reinterpret_cast<const ApiBase* (*)()>(dlsym(handle, "OrtGetApiBase"));
   if (base == nullptr) refuse("it has no OrtGetApiBase");
-  if (base() == nullptr) refuse("it gives no functions");
+  if (base() == nullptr) refuse("it provides no functions");
   const Table table = base()->table(kVersion);
   if (table == nullptr) refuse(std::string("version 1.11 or later is needed, and this is ") + base()->version());
   return table;

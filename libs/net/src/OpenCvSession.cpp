@@ -13,7 +13,7 @@ namespace {
 class OpenCvSession : public Session {
  public:
   explicit OpenCvSession(const std::string& path) : path_(path) {
-    // OpenCV would write what it does not like to the terminal, and into the exception as well.
+    // OpenCV would print errors to the terminal, although the exceptions contain them.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     cv::setNumThreads(1);
     try {
@@ -21,7 +21,7 @@ class OpenCvSession : public Session {
       net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
       outputs_ = net_.getUnconnectedOutLayersNames();
     } catch (const cv::Exception& error) {
-      refuse("OpenCV cannot read it (" + asOneLine(error.err) + "); scripts/models makes networks that it can");
+      refuse("OpenCV cannot read it (" + asOneLine(error.err) + "); scripts/models converts networks for OpenCV");
     }
     if (outputs_.size() != 1) refuse("it has " + std::to_string(outputs_.size()) + " outputs, and should have one");
   }
@@ -37,7 +37,7 @@ class OpenCvSession : public Session {
       result.values.assign(begin, begin + output.total());
       return result;
     } catch (const cv::Exception& error) {
-      refuse("OpenCV cannot compute it for such a picture: " + asOneLine(error.err));
+      refuse("OpenCV cannot compute it for this input: " + asOneLine(error.err));
     }
   }
 

@@ -11,7 +11,7 @@ class Session {
   virtual Tensor run(const Tensor& input) = 0;
 };
 
-/// What a library says of a network, which may have been made by anybody: in one line, printable.
+/// A library's message about a network, in one line and printable, because anybody may have made the network.
 std::string asOneLine(std::string text);
 
 std::unique_ptr<Session> openWithOpenCv(const std::string& path);

@@ -40,7 +40,7 @@ perception::EdgeOptions CloudSourceOptions::easilyFound() {
 
 namespace {
 
-// How far off the point of a pixel may be.
+// Covariance of the point of a pixel.
 class PointNoise {
  public:
   PointNoise(const perception::Pinhole& camera, const CloudSourceOptions& options)
@@ -70,11 +70,12 @@ perception::EdgeOptions edgeOptions(const CloudSourceOptions& options) {
   return edges;
 }
 
-// Edge pixels, with the spread of those of their edge around them: long along it.
+// Points of edge pixels. Their covariances include the spread of the pixels of the same edge around them, which is long
+// along the edge.
 CloudPoints edgesOf(const DepthImage& depth, const perception::ColourImage* colour, const CloudSourceOptions& options) {
   const perception::EdgeDetector detector(edgeOptions(options));
   if (options.source == CloudSource::rgb_edges && colour == nullptr)
-    throw base::Error(base::ExitCode::unreadable_input, "edges of the picture are wanted, and there is no picture");
+    throw base::Error(base::ExitCode::unreadable_input, "edges of the picture are requested, but there is no picture");
   const auto edges =
       options.source == CloudSource::rgb_edges ? detector.detect(depth, *colour) : detector.detect(depth);
   const unsigned kind = kindOf(options.source);
@@ -89,7 +90,7 @@ CloudPoints edgesOf(const DepthImage& depth, const perception::ColourImage* colo
     pixels.push_back(static_cast<std::int32_t>(i));
   }
   constexpr int kReach = 4;        // [px] of the window
-  constexpr float kApart = 0.05F;  // in parts of the depth: another edge
+  constexpr float kApart = 0.05F;  // relative difference in depth beyond which a pixel is of another edge
   const PointNoise noise(depth.camera(), options);
   cloud.covariances.reserve(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -115,7 +116,8 @@ CloudPoints edgesOf(const DepthImage& depth, const perception::ColourImage* colo
   return cloud;
 }
 
-// Along a surface the next point is `spacing` away; across it there is the noise.
+// Covariance of a point on a surface: the next point may be `spacing` away along the surface; across it there is only
+// the noise.
 Eigen::Matrix3f onSurface(const Eigen::Vector3f& normal, float spacing, const Eigen::Matrix3f& noise) {
   if (!normal.allFinite()) return noise + spacing * spacing * Eigen::Matrix3f::Identity();
   return noise + spacing * spacing * (Eigen::Matrix3f::Identity() - normal * normal.transpose());
@@ -199,7 +201,7 @@ CloudPoints voxelsOf(const DepthImage& depth, const CloudSourceOptions& options)
   for (const auto& sum : voxels.sums()) {
     const Eigen::Vector3f point = sum.points / sum.count;
     const float length = sum.normals.norm();
-    // Normals that point everywhere are of no surface.
+    // If its normals do not agree, a cube has no normal.
     const Eigen::Vector3f normal = length > 0.8F * sum.with_normal && sum.with_normal > 0
                                        ? Eigen::Vector3f(sum.normals / length)
                                        : Eigen::Vector3f::Constant(std::nanf(""));

@@ -27,7 +27,7 @@ CloudTracker::CloudTracker(const CloudTrackerOptions& options, std::unique_ptr<c
     : options_(options), matcher_(std::move(matcher)) {}
 
 CloudTracker::Tracked CloudTracker::begin(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud) {
-  constexpr std::size_t kFewest = 50;  // points: what shows fewer is no view to begin with
+  constexpr std::size_t kFewest = 50;  // points; tracking does not begin with an image that has fewer
   Tracked tracked;
   tracked.last = stamp;
   velocity_.setZero();
@@ -52,7 +52,7 @@ CloudMatch CloudTracker::matchFrom(const MatchCloud& target, const MatchCloud& c
     if (moving.fits) return moving;
   }
   auto still = matcher_->match(target, cloud, target_from_last);
-  // What it leaves open would stay as if the camera had not moved, which is not what was predicted.
+  // In open directions the camera would stay where it was, which is not what was predicted.
   if (predicted && still.open_directions > 0) still.fits = false;
   return still;
 }
@@ -78,9 +78,9 @@ CloudTracker::Tracked CloudTracker::track(base::Stamp stamp, std::shared_ptr<con
     last_->key_from_camera = {};
     tracked.match = matchFrom(*key_, *cloud, {}, predicted);
   }
-  const bool is_told = prediction && !prediction->only_turn;
-  const bool is_blind = tracked.match.open_directions > 0 && !is_told;
-  if (!tracked.match.fits || (is_blind && base::secondsBetween(last_->told, stamp) > options_.longest_loss)) {
+  const bool is_measured = prediction && !prediction->only_turn;
+  const bool is_blind = tracked.match.open_directions > 0 && !is_measured;
+  if (!tracked.match.fits || (is_blind && base::secondsBetween(last_->constrained, stamp) > options_.longest_loss)) {
     if (seconds > options_.longest_loss) return begin(stamp, std::move(cloud));
     velocity_.setZero();
     tracked.how = Tracked::How::lost;
@@ -90,7 +90,7 @@ CloudTracker::Tracked CloudTracker::track(base::Stamp stamp, std::shared_ptr<con
   const Se3 key_from_camera = tracked.match.target_from_source;
   tracked.last_from_camera = inverse(last_->key_from_camera) * key_from_camera;
   if (seconds > 0) velocity_ = minus(tracked.last_from_camera, Se3{}) / seconds;
-  last_ = Image{cloud, key_from_camera, stamp, is_blind ? last_->told : stamp};
+  last_ = Image{cloud, key_from_camera, stamp, is_blind ? last_->constrained : stamp};
   if (isFarFromKey(tracked.match, key_from_camera)) {
     key_ = std::move(cloud);
     last_->key_from_camera = {};

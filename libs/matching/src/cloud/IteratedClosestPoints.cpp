@@ -58,11 +58,11 @@ IteratedClosestPoints::IteratedClosestPoints(const CloudMatcherOptions& options)
 
 namespace {
 
-// A point of the source and the target's nearest, in the source's frame.
+// A point of the source and the nearest one of the target, in the source's frame.
 struct Pair {
   Eigen::Vector3f point;        // of the target
   Eigen::Vector3f off;          // from the source's point to it
-  Eigen::Matrix3f information;  // of that
+  Eigen::Matrix3f information;  // inverse covariance of `off`
   float square;                 // off' information off
 };
 
@@ -71,11 +71,11 @@ class CloudSearch {
   CloudSearch(const CloudMatcherOptions& options, const MatchCloud& target, const MatchCloud& source, const Se3& guess)
       : options_(options), target_(target), source_(source), target_from_source_(guess) {}
 
-  // Pairs every so manieth point of the source with what is nearest within `max_distance` [m].
+  // Pairs every `stride`-th point of the source with the nearest one of the target within `max_distance` [m].
   void associate(std::size_t stride, double max_distance);
-  // One step of Gauss-Newton. Gives its length [m] [rad].
+  // Makes one Gauss-Newton step and returns its length [m] [rad].
   double step();
-  // The normal equations of the pairs: information(), and the gradient.
+  // Computes the normal equations of the pairs: information(), and the gradient, which is returned.
   Vector6d gradient();
   double scale() const { return std::sqrt(scale_square_); }
   double overlap() const { return asked_ == 0 ? 0 : static_cast<double>(near_) / static_cast<double>(asked_); }
@@ -83,7 +83,7 @@ class CloudSearch {
   double medianDistance() const;
   const Se3& targetFromSource() const { return target_from_source_; }
   const Matrix6d& information() const { return information_; }
-  // What normals seem to tell that are off by `noise` [rad]: sideways, where they tell nothing.
+  // The information that normals with an error of `noise` [rad] seem to give sideways, where they give none.
   Matrix6d informationOfNoise(double noise) const;
 
  private:
@@ -133,7 +133,7 @@ void CloudSearch::associate(std::size_t stride, double max_distance) {
   findScale();
 }
 
-// By the median, which a half of wrong pairs leaves alone.
+// Estimates the scale by the median, which does not change if up to half of the pairs are wrong.
 void CloudSearch::findScale() {
   if (pairs_.empty()) return;
   std::vector<float> squares;
@@ -142,12 +142,14 @@ void CloudSearch::findScale() {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
   const double median_of_chi_square = dimensions() == 1 ? 0.455 : 2.366;
-  // [m] in the first two methods, in standard deviations in the third: below that nothing is measured better.
+  // Smallest scale, because nothing is measured more precisely: [m] in the first two methods, in standard deviations in
+  // the third.
   const double least = options_.method == CloudMethod::gicp ? 1e-2 : 1e-4;
   scale_square_ = std::max(least * least, *middle / median_of_chi_square);
 }
 
-// The matrix that takes a turn about the source's origin to what it moves the point of the target by.
+// Matrix that maps a small rotation about the source's origin to the displacement of the target's point in the source's
+// frame.
 Eigen::Matrix3f turnOf(const Pair& pair) {
   Eigen::Matrix3f turn;
   turn << 0, -pair.point.z(), pair.point.y(), pair.point.z(), 0, -pair.point.x(), -pair.point.y(), pair.point.x(), 0;
@@ -192,7 +194,7 @@ Vector6d CloudSearch::gradient() {
 
 double CloudSearch::step() {
   const Vector6d downhill = -gradient();
-  // What the pairs leave open stays as it is.
+  // Directions that the pairs leave open stay as they are.
   const Matrix6d held = information_ + 1e-9 * information_.trace() * Matrix6d::Identity();
   const Vector6d step = held.ldlt().solve(downhill);
   if (!step.allFinite()) return 0;
@@ -219,18 +221,19 @@ void requireWhatIsNeeded(CloudMethod method, const MatchCloud& target, const Mat
                       "registration by GICP needs the covariances of both clouds' points");
 }
 
-constexpr std::size_t kFewestPoints = 6;  // points: fewer fix no motion
+constexpr std::size_t kFewestPoints = 6;  // fewer do not determine a motion
 
-// Odd: an even one meets rows of an image, which are as wide as powers of two have factors, at the same few columns.
+// The stride is odd: the widths of images have factors of two, so an even stride would meet the same few columns in
+// every row.
 std::size_t strideOf(const MatchCloud& source, double points) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(source.size()) / points))) | 1U;
 }
 
-// From the pairs where the search ended.
+// Fills in the result, from the pairs at the end of the search.
 void conclude(const CloudSearch& search, const CloudMatcherOptions& options, const Se3& guess, CloudMatch& match) {
   match.target_from_source = search.targetFromSource();
   match.residual = search.medianDistance();
-  // A direction is open that all pairs together fix by less than this.
+  // A direction is open if all pairs together give it less information than this.
   constexpr double kWeakest = 1e4;  // [1/m2], [1/rad2]
   const bool by_surfaces = options.method != CloudMethod::point_to_point;
   const Matrix6d noise = by_surfaces ? search.informationOfNoise(options.normal_noise) : Matrix6d(Matrix6d::Zero());
@@ -241,7 +244,7 @@ void conclude(const CloudSearch& search, const CloudMatcherOptions& options, con
   match.covariance = axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
   match.fits = true;
   if (match.open_directions > 0) {
-    // There the pairs told nothing: it is as it was guessed.
+    // Along open directions the pairs give no information, so the guess is kept.
     Vector6d moved = axes.eigenvectors().transpose() * minus(match.target_from_source, guess);
     for (int i = 0; i < 6; ++i) moved(i) = axes.eigenvalues()(i) < kWeakest ? 0 : moved(i);
     match.target_from_source = plus(guess, axes.eigenvectors() * moved);
@@ -261,7 +264,7 @@ CloudMatch IteratedClosestPoints::match(const MatchCloud& target, const MatchClo
   double distance = std::max(options_.coarse_distance, options_.max_distance);
   for (std::size_t stride = std::max(finest, strideOf(source, options_.coarse_points));;) {
     const bool is_last = stride == finest && distance <= options_.max_distance;
-    // What a coarse level finds is found better by the next.
+    // A coarse level may end earlier, because the next one improves its result.
     const double enough = is_last ? options_.tolerance : 10 * options_.tolerance;
     for (int i = 0; i < options_.max_iterations; ++i) {
       search.associate(stride, distance);

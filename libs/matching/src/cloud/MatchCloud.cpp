@@ -11,7 +11,7 @@ namespace omnimapper::matching {
 
 namespace {
 
-// The nearest one nearer than a distance, which keeps the search short from its beginning.
+// A result set of nanoflann: the nearest point within a distance, which keeps the search short from its beginning.
 class NearestWithin {
  public:
   using DistanceType = float;
@@ -35,7 +35,7 @@ class NearestWithin {
 }  // namespace
 
 struct MatchCloud::Tree {
-  // As nanoflann asks for points.
+  // The interface through which nanoflann reads points.
   struct Rows {
     const std::vector<Eigen::Vector3f>& points;
     std::size_t kdtree_get_point_count() const { return points.size(); }

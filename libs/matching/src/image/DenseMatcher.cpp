@@ -19,20 +19,21 @@ using geometry::Matrix6d;
 using geometry::Se3;
 using geometry::Vector6d;
 
-constexpr float kFreedom = 5;  // of Student's t
-// A point is hidden, or not there any more, that is nearer or farther by so much of its depth.
+constexpr float kFreedom = 5;  // degrees of freedom of Student's t
+// A point that is nearer or farther by more than this share of its depth is hidden, or not there any more.
 constexpr float kRelativeOutlier = 0.08F;
-// Of neighbours of one surface, in parts of the inverse depth: between them the image is interpolated.
+// Largest relative difference of inverse depths between neighbours on one surface, between which the image is
+// interpolated.
 constexpr float kGap = 0.05F;
 
-/// What one kind of residuals says: sums of J^T w J and J^T w r, of residuals in their standard deviations.
+/// Sums of J^T w J and J^T w r over one kind of residuals, in their standard deviations.
 struct DenseSums {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   double weighted_squares = 0, count = 0;
 };
 
-/// The same in lanes, the upper triangle by rows.
+/// The same in lanes, the upper triangle row by row.
 struct LaneSums {
   std::array<Lanes, 21> information;
   std::array<Lanes, 6> gradient;
@@ -68,16 +69,17 @@ struct LaneSums {
   }
 };
 
-/// Brightness in the image as that in the reference times gain plus offset: weighted sums for both.
+/// Brightness in the image is that in the reference times gain plus offset.
 struct Exposure {
   float gain = 1, offset = 0;
 };
 
+/// Weighted sums from which gain and offset are estimated.
 struct ExposureSums {
   Lanes weight = Lanes::Zero(), reference = Lanes::Zero(), image = Lanes::Zero(), squares = Lanes::Zero(),
         image_squares = Lanes::Zero(), products = Lanes::Zero();
 
-  // Of the brightness in both; 0 where there is no contrast.
+  // Correlation of the brightness in both; 0 where there is no contrast.
   double correlation() const {
     const double n = weight.cast<double>().sum();
     if (n <= 0) return 0;
@@ -85,7 +87,7 @@ struct ExposureSums {
     const double of_reference = squares.cast<double>().sum() / n - r * r;
     const double of_image = image_squares.cast<double>().sum() / n - i * i;
     const double product = products.cast<double>().sum() / n - r * i;
-    constexpr double kLeast = 0.25;  // above what rounding leaves
+    constexpr double kLeast = 0.25;  // more than rounding leaves
     return of_reference > kLeast && of_image > kLeast ? product / std::sqrt(of_reference * of_image) : 0;
   }
 
@@ -95,7 +97,7 @@ struct ExposureSums {
     const double r = reference.cast<double>().sum() / n, i = image.cast<double>().sum() / n;
     const double variance = squares.cast<double>().sum() / n - r * r,
                  product = products.cast<double>().sum() / n - r * i;
-    constexpr double kLeastVariance = 25, kMostGain = 1.5;  // a bare wall tells no gain
+    constexpr double kLeastVariance = 25, kMostGain = 1.5;  // a bare wall does not determine the gain
     const double gain = variance > kLeastVariance ? std::clamp(product / variance, 1 / kMostGain, kMostGain) : 1;
     return {static_cast<float>(gain), static_cast<float>(i - gain * r)};
   }
@@ -105,15 +107,15 @@ struct Scales {
   float depth, grey;  // [1/m], of 255
 };
 
-/// One look at a level: how the reference's points, seen from a pose, differ from the image.
+/// Comparison on one level: how the reference's points, projected from a pose, differ from the image.
 struct Evaluation {
   DenseSums depth, grey;
   Exposure exposure;
-  double shown = 0, outliers = 0, measured = 0;  // points that the image shows, that are not there, that have a depth
+  double shown = 0, outliers = 0, measured = 0;  // points that the image shows, that are outliers, that have a depth
   double correlation = 0;                        // of brightness
 };
 
-// Between four pixels; 0 where they are not of one surface, or one is not known.
+// Interpolated between four pixels; 0 where they are not of one surface, or one is not known.
 float inverseDepthAt(const RgbdLevel& level, float u, float v) {
   const int x = static_cast<int>(u), y = static_cast<int>(v);
   const float right = u - static_cast<float>(x), down = v - static_cast<float>(y);
@@ -133,7 +135,7 @@ float greyAt(const RgbdLevel& level, float u, float v) {
   return (1 - down) * ((1 - right) * g[0] + right * g[1]) + down * ((1 - right) * g[width] + right * g[width + 1]);
 }
 
-/// Points of the reference in the image's frame, when the rows are taken that show them, and their pixels there.
+/// Points of the reference in the image's frame, at the time of the rows that show them, and their pixels there.
 struct Projection {
   Projection(const Lanes& in_x, const Lanes& in_y, const Lanes& in_z, const RgbdLevel& level, const Shutter& shutter)
       : x(in_x), y(in_y), z(in_z) {
@@ -166,7 +168,7 @@ Lanes where(const Eigen::Array<bool, kLanes, 1>& condition) {
   return condition.select(Lanes::Ones(), Lanes::Zero());
 }
 
-/// A look at a level of an image.
+/// One level of an image, with all that the reference's points are compared by.
 struct ImageView {
   const RgbdLevel& level;
   Se3 image_from_reference;
@@ -206,7 +208,7 @@ Evaluation evaluate(const DenseReferenceLevel& reference, const ImageView& view)
     outliers += is_outlier;
     const Lanes is_fair = (1 - is_outlier) * is_shown;
     if (view.use_depth) {
-      // n . q of the turned normal, as n . (p + R^T t); negative: the normal is towards the camera.
+      // n . q of the rotated normal, as n . (p + R^T t); negative, because the normal is towards the camera.
       const Lanes across = p.nx * (p.x + back.x()) + p.ny * (p.y + back.y()) + p.nz * (p.z + back.z());
       constexpr float kGrazing = 0.1F;  // cosine of the angle between ray and normal
       const Lanes range = (seen.x.square() + seen.y.square() + seen.z.square()).sqrt();
@@ -248,7 +250,7 @@ Evaluation evaluate(const DenseReferenceLevel& reference, const ImageView& view)
           exposure_sums.correlation()};
 }
 
-// Takes out of what depths tell what the planes leave open.
+// Removes from the depths' information the directions that the planes leave open.
 void withoutOpen(const DenseReferenceLevel& reference, Evaluation& evaluation) {
   if (reference.open.cols() == 0) return;
   const Matrix6d kept = Matrix6d::Identity() - reference.open * reference.open.transpose();
@@ -256,7 +258,7 @@ void withoutOpen(const DenseReferenceLevel& reference, Evaluation& evaluation) {
   evaluation.depth.gradient = kept * evaluation.depth.gradient;
 }
 
-// What the residuals say of their own scale, with the one they were weighed by.
+// Scale of the residuals, estimated from sums that were weighted with the scale `before`.
 float scaleOf(const DenseSums& sums, float before, float least) {
   if (sums.count < 20) return before;
   return std::max(least, before * static_cast<float>(std::sqrt(sums.weighted_squares / sums.count)));
@@ -298,12 +300,12 @@ namespace {
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
 
-/// Pose and delay of the picture as they are found, step by step.
+/// Pose and delay of the picture, which are improved step by step.
 class PoseSearch {
  public:
   Se3 image_from_reference;
   double delay;                             ///< [s]
-  Matrix7d information = Matrix7d::Zero();  ///< of the residuals and of what was known of the delay
+  Matrix7d information = Matrix7d::Zero();  ///< of the residuals and of the prior of the delay
 
   PoseSearch(const DenseGuess& guess, const CameraMotion& motion)
       : image_from_reference(inverse(guess.reference_from_image)),
@@ -311,10 +313,10 @@ class PoseSearch {
         guess_(guess),
         motion_(motion) {}
 
-  /// Length of the step: [m] and [rad], the greater.
+  /// Makes one step and returns its length: [m] and [rad], the greater.
   double step(const DenseSums& depth, const DenseSums& grey) {
     const Matrix6d ad = adjoint(image_from_reference);
-    // What moves the picture's pose moves what it shows of all points, as a motion of the camera would.
+    // A change of the delay displaces all points in the picture as a motion of the camera would.
     const Vector6d by_delay = -adjoint(inverse(image_from_reference)) * motion_.velocity;
     information.setZero();
     information.topLeftCorner<6, 6>() = depth.information + grey.information;
@@ -326,7 +328,8 @@ class PoseSearch {
     addDelay(gradient);
     Matrix7d known = information;
     if (!guess_.information.isZero(0)) {
-      // In the reference's frame, where the step is taken. Residuals beside each other err alike: so many count as one.
+      // In the reference's frame, where the step is taken. Neighbouring residuals have similar errors, so kDependence
+      // of them count as one.
       constexpr double kDependence = 25;
       const Vector6d off = minus(inverse(image_from_reference), guess_.reference_from_image);
       known.topLeftCorner<6, 6>() += kDependence * ad.transpose() * guess_.information * ad;
@@ -390,16 +393,16 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
   match.outlier_share = last.measured > 0 ? last.outliers / last.measured : 0;
   match.depth_sigma = scales.depth / std::sqrt(options_.noise.pixelVariance());
   match.grey_sigma = use_grey ? scales.grey : 0;
-  // What is left of the pose when the delay is found from the same residuals.
+  // The information of the pose after the delay is estimated from the same residuals.
   const Vector6d with_delay = search.information.block<6, 1>(0, 6);
-  // Brightness that does not follow the reference's says nothing.
+  // Brightness that does not correlate with that of the reference gives no information.
   constexpr double kLeastAlike = 0.7, kUnlike = 0.5;
   const Matrix6d information =
       use_grey && last.correlation < kUnlike
           ? last.depth.information
           : search.information.topLeftCorner<6, 6>() - with_delay * with_delay.transpose() / search.information(6, 6);
-  // A direction is open that all residuals together fix by less than this; they are not as independent as they are
-  // many.
+  // A direction is open if all residuals together give it less information than this. The limit is high, because
+  // residuals are many but not independent.
   constexpr double kWeakest = 1e5;  // [1/m2], [1/rad2]
   const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(information);
   match.open_directions = static_cast<int>((axes.eigenvalues().array() < kWeakest).count());
@@ -417,7 +420,7 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
     match.delay_sigma =
         std::min(motion.delay_sigma, 1 / std::sqrt(std::max(1e-12, search.information(6, 6) - by_pose)));
   }
-  // A lens that is covered has neither depths nor anything of the reference's pattern.
+  // A covered lens shows neither depths nor the pattern of the reference.
   constexpr double kLeastMeasured = 0.3;
   const bool is_alike = (options_.use_depth && last.measured >= kLeastMeasured * last.shown) ||
                         (use_grey && last.correlation >= kLeastAlike);

@@ -31,7 +31,7 @@ Candidate candidateAt(const RgbdLevel& level, int x, int y) {
   return candidate;
 }
 
-// On a regular grid, and besides where the picture changes most: as many of each.
+// Chooses half of the points on a regular grid and the others where the picture changes most.
 std::vector<Candidate> choose(const RgbdLevel& level, std::size_t most) {
   std::vector<Candidate> all;
   for (int y = 1; y + 1 < level.height; ++y)
@@ -62,16 +62,16 @@ std::vector<Candidate> choose(const RgbdLevel& level, std::size_t most) {
 /// The plane that the surface around a pixel lies on.
 struct SurfacePlane {
   Eigen::Vector3d normal;  // unit, towards the camera
-  double sigma;            // [rad] of it, by how far the pixels around are off the plane
+  double sigma;            // [rad] of the normal, by the residuals of the pixels around
 };
 
-// Inverse depth is linear in an image of a plane, 1/z = (n/d) . (x/z, y/z, 1): a plane through some pixels of this
-// level. Normals of the finest level are six times as rough, and rough ones seem to tell motions along a bare wall.
+// Fits a plane through pixels of this level: inverse depth is linear in an image of a plane, 1/z = (n/d) . (x/z, y/z,
+// 1). Normals of the finest level are six times as noisy, and noisy ones seem to determine motions along a bare wall.
 // None where less than half of the pixels are of one surface.
 std::optional<SurfacePlane> planeAround(const RgbdLevel& level, int x, int y) {
   constexpr int kCoarse = 120;  // [px] columns below which 5 x 5 pixels are too large a part of the view
   const int radius = level.width < kCoarse ? 1 : 2, pixels = (2 * radius + 1) * (2 * radius + 1);
-  constexpr float kOneSurface = 0.05F;  // in parts of the inverse depth
+  constexpr float kOneSurface = 0.05F;  // largest relative difference on one surface
   const float middle = level.inverse_depth[level.at(x, y)];
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   Eigen::Vector3d products = Eigen::Vector3d::Zero();
@@ -100,14 +100,14 @@ std::optional<SurfacePlane> planeAround(const RgbdLevel& level, int x, int y) {
   return SurfacePlane{-Eigen::Vector3d(a, b, c) / length, rough / length};
 }
 
-/// What is known of a point's place and of the plane it lies on.
+/// A point, and the plane it lies on.
 struct PlanePoint {
   Eigen::Vector3d point, normal;
   double sigma;  // [rad] of the normal
 };
 
-// Along a direction into which no normals point that are more than noise, nothing is told; and where all normals are
-// one, nor is a turn about it.
+// Motions that the normals leave open: along directions in which no normals have a component above their noise and, if
+// all normals are the same, a rotation about the normal.
 Eigen::Matrix<double, 6, Eigen::Dynamic> openMotions(const std::vector<PlanePoint>& points) {
   Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -120,18 +120,18 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> openMotions(const std::vector<PlanePoin
   std::vector<geometry::Vector6d> open;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = axes.eigenvectors().col(i);
-    // Neighbours of one image share their errors: normals are twice as rough as what is left of the planes tells.
+    // Neighbouring pixels share their errors, so normals are twice as noisy as the residuals of the planes suggest.
     constexpr double kSigmas = 4 * 2, kLeast = 0.1;  // [rad]
     constexpr double kFew = 0.003;                   // share of the points
-    const auto telling = std::count_if(points.begin(), points.end(), [&](const PlanePoint& one) {
+    const auto informative = std::count_if(points.begin(), points.end(), [&](const PlanePoint& one) {
       return std::abs(one.normal.dot(axis)) > std::max(kLeast, kSigmas * one.sigma);
     });
-    if (static_cast<double>(telling) > kFew * count) continue;
+    if (static_cast<double>(informative) > kFew * count) continue;
     open.push_back(geometry::Vector6d::Zero());
     open.back().head<3>() = axis;
   }
-  // Where all normals are one: the two others are the least.
-  constexpr double kOne = 0.9;  // of their mean square
+  // All normals are the same if they have nearly no component along the two other axes.
+  constexpr double kOne = 0.9;  // share of their mean square
   if (open.size() >= 2 && axes.eigenvalues()[2] > kOne) {
     const Eigen::Vector3d normal = axes.eigenvectors().col(2);
     open.push_back(geometry::Vector6d::Zero());
@@ -144,13 +144,13 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> openMotions(const std::vector<PlanePoin
   return columns;
 }
 
-/// What the picture shows of a point, and how that changes with the point's place.
+/// The brightness of a point in the picture, and its gradient by the point's position.
 struct Shown {
   float grey;
   Eigen::Vector3f by_place;  // [1/m]
 };
 
-// None outside the picture. `point` in the frame of the depths.
+// None outside the picture. `point` is in the camera's frame at the middle of the depths.
 std::optional<Shown> changeOf(const RgbdLevel& level, const Shutter& shutter, const Eigen::Vector3d& point) {
   const Eigen::Vector3d p = shutter.seen(point, level);
   const auto& camera = level.camera;
@@ -207,7 +207,7 @@ std::shared_ptr<const DenseReference> DenseMatcher::prepare(const RgbdPyramid& i
       const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
       const float x = z * (static_cast<float>(c.x) - static_cast<float>(camera.cx)) / fx;
       const float y = z * (static_cast<float>(c.y) - static_cast<float>(camera.cy)) / fy;
-      // Where the camera would have seen it when it took the middle row.
+      // Position of the point at the time when the middle row was taken.
       const double after = depth_shutter.after(c.y, level.height);
       const Eigen::Vector3d point = depth_shutter.back(Eigen::Vector3d(x, y, z), after);
       eight.x[lane] = static_cast<float>(point.x());
@@ -225,7 +225,7 @@ std::shared_ptr<const DenseReference> DenseMatcher::prepare(const RgbdPyramid& i
       const auto change = changeOf(level, picture_shutter, point);
       if (!change) continue;
       eight.grey[lane] = change->grey;
-      // Where the picture is plain its gradients are noise, and noise must not tell a motion.
+      // Where the picture is plain its gradients are noise, and noise must not determine a motion.
       constexpr float kLeastGradient = 2;  // [1/px] of 255
       const Eigen::Vector3f& by_place = change->by_place;
       const float per_pixel = by_place.norm() * z / fx;

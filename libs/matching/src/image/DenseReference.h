@@ -7,7 +7,7 @@
 
 namespace omnimapper::matching {
 
-/// So many points side by side.
+/// Number of points that are processed side by side.
 constexpr int kLanes = 8;
 using Lanes = Eigen::Array<float, kLanes, 1>;
 
@@ -17,16 +17,16 @@ constexpr float kNoGrey = -1;
 struct DensePoints {
   Lanes x, y, z;
   Lanes nx, ny, nz;  ///< unit normal towards the camera; 0 where none is known
-  Lanes gx, gy, gz;  ///< change of brightness with the point's place [1/m]; 0 where it is not to be used
+  Lanes gx, gy, gz;  ///< gradient of brightness by the point's position [1/m]; 0 where it is not used
   Lanes grey;        ///< 0 to 255, or kNoGrey
-  Lanes is_point;    ///< 1, or 0 for the filling of the last eight
+  Lanes is_point;    ///< 1, or 0 for the padding of the last eight
 };
 
 struct DenseReferenceLevel {
   std::vector<DensePoints> points;
   std::size_t count = 0;  ///< of points
-  /// Orthonormal columns: motions that the planes the points lie on leave open, as a bare wall leaves three. The noise
-  /// of the normals would seem to tell them.
+  /// Orthonormal columns: motions that the planes of the points leave open, three for a bare wall. The noise of the
+  /// normals would seem to constrain them.
   Eigen::Matrix<double, 6, Eigen::Dynamic> open;
 };
 

@@ -121,7 +121,7 @@ Se3 motionOf(const std::array<CornerPair, 3>& three) {
   return {Eigen::Quaterniond(Eigen::Matrix3d(found.topLeftCorner<3, 3>())).normalized(), found.topRightCorner<3, 1>()};
 }
 
-// Whether the three are as far from each other in both images, and far enough apart to tell a turn.
+// Whether the three points have the same distances in both images, large enough to determine a rotation.
 bool areAlike(const std::array<CornerPair, 3>& three) {
   constexpr double kApart = 0.1, kStretch = 0.1;  // [m] [-]
   for (std::size_t i = 0; i < 3; ++i) {
@@ -140,7 +140,7 @@ std::vector<CornerPair> inliersOf(const std::vector<CornerPair>& pairs, const Co
   return inliers;
 }
 
-// From many threes of pairs the motion that most agree on.
+// RANSAC: of the motions of many random sets of three pairs, the one that most pairs agree with.
 std::optional<Se3> agreedMotion(const std::vector<CornerPair>& pairs, const CornerErrors& errors) {
   constexpr int kDraws = 1500, kMotions = 300;
   base::SplitMix random(pairs.size());
@@ -158,7 +158,7 @@ std::optional<Se3> agreedMotion(const std::vector<CornerPair>& pairs, const Corn
     if (agree <= most) continue;
     most = agree;
     best = motion;
-    // So many agree that a further draw of three of them is not needed.
+    // If more than half of the pairs agree, further draws are not needed.
     if (2 * most > pairs.size() && motions > kMotions / 10) break;
   }
   return best;

@@ -9,9 +9,10 @@ namespace omnimapper::matching {
 
 namespace {
 
-// None where nothing was measured, or at a jump: what is seen there changes with the view.
+// Mean inverse depth around a pixel; 0 where nothing was measured, and at a depth discontinuity, which looks different
+// from another view.
 double inverseDepthAround(const RgbdLevel& level, int x, int y) {
-  constexpr float kOneSurface = 0.05F;  // in parts of the inverse depth
+  constexpr float kOneSurface = 0.05F;  // largest relative difference on one surface
   if (x < 1 || y < 1 || x + 1 >= level.width || y + 1 >= level.height) return 0;
   float least = 1e9F, most = 0, sum = 0;
   int count = 0;
@@ -30,7 +31,7 @@ double inverseDepthAround(const RgbdLevel& level, int x, int y) {
   return static_cast<double>(sum) / count;
 }
 
-// The strongest of each part of the image, so that one bright poster does not take them all.
+// Chooses the strongest corners of each part of the image, so that one bright poster does not take them all.
 std::vector<cv::KeyPoint> spread(std::vector<cv::KeyPoint> all, int width, int height, int most) {
   constexpr int kColumns = 16, kRows = 12;
   const auto before = [](const cv::KeyPoint& a, const cv::KeyPoint& b) {

@@ -16,7 +16,7 @@ class FeatureSet {
   struct Corner {
     Eigen::Vector3d seen;   // column, row [px], inverse depth [1/m]
     Eigen::Vector3d point;  // optical frame [m]
-    double scale;           // by which its place is less exact than a corner's of the finest level
+    double scale;           // factor on its error, relative to a corner of the finest level
   };
   using Descriptor = std::array<std::uint64_t, 4>;
 

@@ -13,9 +13,9 @@ using perception::ColourImage;
 using perception::DepthImage;
 
 constexpr int kSmallest = 20;  // [px] columns and rows of the coarsest level
-// Of two inverse depths of one surface, in parts of the greater: what neighbours at half a metre on a wall seen at 80
-// deg differ by.
-constexpr float kJump = 0.05F;
+// Largest relative difference of two inverse depths of one surface: that of neighbouring pixels at half a metre on a
+// wall seen at 80 deg.
+constexpr float kDiscontinuity = 0.05F;
 
 std::vector<float> inverseDepths(const DepthImage& image, const RgbdPyramidOptions& options) {
   const auto size = static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
@@ -55,11 +55,11 @@ std::vector<float> greys(const ColourImage& picture) {
   return grey;
 }
 
-// The mean of what is on the surface nearest to the camera; nothing of fewer than three pixels, whose middle is not
-// that of the four.
+// The mean inverse depth of the surface nearest to the camera; 0 for fewer than three pixels, whose centre is not that
+// of the four.
 float nearestMean(float a, float b, float c, float d) {
   const float nearest = std::max(std::max(a, b), std::max(c, d));
-  const float least = nearest * (1 - kJump);
+  const float least = nearest * (1 - kDiscontinuity);
   float sum = 0;
   int count = 0;
   for (const float one : {a, b, c, d}) {
@@ -100,7 +100,7 @@ RgbdPyramid::RgbdPyramid(const DepthImage& depth, const ColourImage* colour, con
   if (colour != nullptr && (colour->width != depth.width() || colour->height != depth.height())) {
     throw base::Error(base::ExitCode::unreadable_input,
                       "a picture of " + std::to_string(colour->width) + " x " + std::to_string(colour->height) +
-                          " pixels is not of the view of a depth image of " + std::to_string(depth.width()) + " x " +
+                          " pixels does not match a depth image of " + std::to_string(depth.width()) + " x " +
                           std::to_string(depth.height()));
   }
   RgbdLevel finest;

@@ -14,9 +14,9 @@ using geometry::Se3;
 using geometry::Vector6d;
 using How = RgbdTracker::Tracked::How;
 
-// What neither hand nor robot does: [m] [rad] off what wheels or a gyroscope tell, beyond what they may err by; and
-// where nothing tells the motion, [m] [rad] and besides [m/s] [rad/s].
-constexpr double kToldSlack = 0.1, kToldSlackTurn = 0.15;
+// Largest motions of a hand or a robot: [m] [rad] off the motion that wheels or a gyroscope measured, beyond its
+// uncertainty; and where no motion is measured, [m] [rad] plus [m/s] [rad/s].
+constexpr double kMeasuredSlack = 0.1, kMeasuredSlackTurn = 0.15;
 constexpr double kSlack = 0.3, kSlackTurn = 0.3, kFastest = 1.5, kFastestTurn = 4;
 
 double angleOf(const Se3& pose) {
@@ -96,9 +96,9 @@ DenseMatch RgbdTracker::match(std::size_t key, const Image& image, const Se3& ma
 
 RgbdTracker::Tracked RgbdTracker::begin(base::Stamp stamp, const Image& image, const Se3& map_from_camera) {
   velocity_.setZero();
-  keys_.clear();  // where they lie from here is not known
+  keys_.clear();  // their poses relative to this image are not known
   makeKeyFrame(stamp, image, map_from_camera, options_.picture_delay);
-  last_ = told_ = stamp;
+  last_ = constrained_ = stamp;
   map_from_last_ = map_from_camera;
   is_lost_ = false;
   Tracked tracked;
@@ -118,13 +118,13 @@ void RgbdTracker::makeKeyFrame(base::Stamp stamp, const Image& image, const Se3&
   current_ = keys_.size() - 1;
 }
 
-// With the key frame of the image before, from where the camera should be. Where that does not fit, or many depths are
-// not what they should be, from where it was, too, and with the key frame that is nearest to either; what differs
-// least is taken. What fits but leaves a direction open goes on there as expected. The motion that is found tells the
-// shutters' motion better than that of before did: the match is made once more with the mean of both.
+// Matches with the key frame of the last image, from the expected pose. If that does not fit, or has many outliers in
+// depth, the last pose and the key frames nearest to either pose are tried, too; the match with the fewest outliers is
+// taken. A match that fits but leaves directions open keeps the expected motion there. The motion that is found
+// corrects the rolling shutter better than the last one did, so the match is repeated with the mean of both.
 std::optional<RgbdTracker::Found> RgbdTracker::follow(const Image& image, const Expected& expected,
                                                       double seconds) const {
-  constexpr double kFarthest = 3, kDoubtful = 0.1;
+  constexpr double kFarthest = 3, kUnreliable = 0.1;
   const Matrix6d nothing = Matrix6d::Zero();
   const Se3& unmoved = expected.is_measured ? map_from_last_ : expected.about;
   std::vector<std::pair<std::size_t, Se3>> tries{{current_, expected.map_from_camera}, {current_, unmoved}};
@@ -139,8 +139,8 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const Image& image, const 
     const auto first = match(key, image, pose, known, motion());
     const Se3 map_from_camera = keys_[key].map_from_camera * first.reference_from_image;
     if (!first.fits || !expected.allows(map_from_camera)) continue;
-    // Other key frames that seem to tell all of it are wrong more often than not: a bare wall looks like any other.
-    if (i == 0 && first.open_directions > 0 && first.outlier_share < kDoubtful) blind = Found{key, first};
+    // Other key frames that seem to determine the whole motion are usually wrong: one bare wall looks like another.
+    if (i == 0 && first.open_directions > 0 && first.outlier_share < kUnreliable) blind = Found{key, first};
     if (!first.succeeded) continue;
     CameraMotion moved = motion();
     moved.velocity = 0.5 * (velocity_ + minus(inverse(map_from_last_) * map_from_camera, Se3{}) / seconds);
@@ -149,10 +149,10 @@ std::optional<RgbdTracker::Found> RgbdTracker::follow(const Image& image, const 
         second.succeeded && expected.allows(keys_[key].map_from_camera * second.reference_from_image);
     const Found found{key, is_better ? second : first};
     if (!best || found.match.outlier_share < best->match.outlier_share) best = found;
-    if (best->match.outlier_share < kDoubtful) break;
+    if (best->match.outlier_share < kUnreliable) break;
   }
-  // What wheels tell is a better beginning than corners.
-  if (options_.use_features && !expected.is_measured && (!best || best->match.outlier_share >= kDoubtful)) {
+  // A motion measured by wheels is a better initial pose than corners give.
+  if (options_.use_features && !expected.is_measured && (!best || best->match.outlier_share >= kUnreliable)) {
     std::vector<std::size_t> keys;
     for (const auto& [key, pose] : tries)
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
@@ -167,7 +167,7 @@ const std::shared_ptr<const FeatureSet>& RgbdTracker::featuresOf(const Image& im
   return image.features;
 }
 
-// From where the corners say it is.
+// Matches from the poses that corners give.
 std::optional<RgbdTracker::Found> RgbdTracker::followByFeatures(const std::vector<std::size_t>& keys,
                                                                 const Image& image, const Expected& expected,
                                                                 double seconds) const {
@@ -185,14 +185,14 @@ std::optional<RgbdTracker::Found> RgbdTracker::followByFeatures(const std::vecto
   return best;
 }
 
-// By the key frames that most of its corners were seen in; else with every key frame, as if the camera were there
-// again. The one that fits best.
+// Finds a lost camera: by the key frames that share most corners with the image, else by every key frame, as if the
+// camera were there again. The best match is taken.
 std::optional<RgbdTracker::Found> RgbdTracker::seek(const Image& image, const Expected& expected) const {
   CameraMotion unknown = motion();
   unknown.velocity.setZero();
   std::optional<Found> best;
   if (!image.pyramid.medianDepth()) return best;
-  constexpr double kSurely = 0.5, kOutlierShare = 0.1;  // it could be anywhere: only what fits well is believed
+  constexpr double kSurely = 0.5, kOutlierShare = 0.1;  // the camera may be anywhere, so only good matches are accepted
   const Matrix6d known = expected.is_measured ? expected.information : Matrix6d::Zero();
   const auto tryFrom = [&](std::size_t key, const Se3& map_from_camera, double least_overlap) {
     const auto found = match(key, image, map_from_camera, known, unknown);
@@ -200,7 +200,7 @@ std::optional<RgbdTracker::Found> RgbdTracker::seek(const Image& image, const Ex
     if (!expected.allows(keys_[key].map_from_camera * found.reference_from_image)) return;
     if (!best || found.outlier_share < best->match.outlier_share) best = Found{key, found};
   };
-  constexpr double kSeenBefore = 0.2;  // corners tell that it is the same place
+  constexpr double kSeenBefore = 0.2;  // smallest overlap; corners show that it is the same place
   if (!expected.is_measured)
     for (const auto& [key, pose] : posesByFeatures(image)) tryFrom(key, pose, kSeenBefore);
   if (best) return best;
@@ -212,10 +212,10 @@ std::optional<RgbdTracker::Found> RgbdTracker::seek(const Image& image, const Ex
   return best;
 }
 
-// Of the few key frames that share most corners with the image.
+// The poses by the few key frames that share most corners with the image.
 std::vector<std::pair<std::size_t, Se3>> RgbdTracker::posesByFeatures(const Image& image) const {
   constexpr std::size_t kMost = 3;
-  std::vector<std::pair<std::size_t, std::pair<std::size_t, Se3>>> all;  // by the number of corners
+  std::vector<std::pair<std::size_t, std::pair<std::size_t, Se3>>> all;  // with the number of corners
   for (std::size_t k = 0; options_.use_features && k < keys_.size(); ++k) {
     const auto corners = feature_matcher_.match(*keys_[k].features, *featuresOf(image));
     if (corners.succeeded)
@@ -234,7 +234,7 @@ RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const Image& image, Fo
   const bool is_far = farness(keys_[current_], map_from_camera) > 1 || found.match.overlap < options_.key_overlap;
   Tracked tracked;
   if (is_far && image.pyramid.medianDepth()) {
-    // Whether a frame of before sees it better: much nearer than where a new one is due.
+    // Use an earlier key frame if its view is much nearer than where a new one is due.
     constexpr double kMuchNearer = 0.8;
     const auto other = nearest(map_from_camera, kMuchNearer, current_);
     std::optional<DenseMatch> again;
@@ -256,7 +256,7 @@ RgbdTracker::Tracked RgbdTracker::take(base::Stamp stamp, const Image& image, Fo
   tracked.last_from_camera = inverse(map_from_last_) * map_from_camera;
   tracked.last = *last_;
   velocity_ = how == How::found ? Vector6d::Zero().eval() : (minus(tracked.last_from_camera, Se3{}) / seconds).eval();
-  if (found.match.open_directions == 0 || expected.is_measured) told_ = stamp;
+  if (found.match.open_directions == 0 || expected.is_measured) constrained_ = stamp;
   map_from_last_ = map_from_camera;
   last_ = stamp;
   is_lost_ = false;
@@ -271,7 +271,7 @@ bool RgbdTracker::Expected::allows(const Se3& found) const {
 
 RgbdTracker::Expected RgbdTracker::expectedOfLate(double seconds) const {
   Expected expected;
-  // A hand soon does something else: what images tell little of would go on and on.
+  // A hand soon changes its motion. Without fading, a motion that images hardly constrain would go on and on.
   constexpr double kGoesOn = 0.4;  // [s]
   expected.map_from_camera =
       map_from_last_ * geometry::plus(Se3{}, kGoesOn * (1 - std::exp(-seconds / kGoesOn)) * velocity_);
@@ -292,7 +292,7 @@ RgbdTracker::Expected RgbdTracker::expectedAfter(double seconds,
   const Se3 map_from_camera = map_from_last_ * prediction->last_from_camera;
   const Matrix6d& covariance = prediction->covariance;
   expected.about = map_from_camera;
-  expected.most_turn = kToldSlackTurn + kSigmas * std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+  expected.most_turn = kMeasuredSlackTurn + kSigmas * std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
   expected.is_turn_measured = true;
   if (prediction->only_turn) {
     expected.map_from_camera.rotation = map_from_camera.rotation;
@@ -301,7 +301,7 @@ RgbdTracker::Expected RgbdTracker::expectedAfter(double seconds,
   }
   expected.map_from_camera = map_from_camera;
   expected.information = covariance.inverse();
-  expected.most = kToldSlack + kSigmas * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+  expected.most = kMeasuredSlack + kSigmas * std::sqrt(covariance.topLeftCorner<3, 3>().trace());
   expected.is_measured = true;
   return expected;
 }
@@ -320,15 +320,15 @@ RgbdTracker::Tracked RgbdTracker::track(base::Stamp stamp, const RgbdPyramid& py
   const Image image{pyramid};
   if (!last_ && can_begin) return begin(stamp, image, Se3{});
   if (!last_) return lostAt(stamp);
-  // Of stamps that nearly coincide the noise would be a speed.
+  // With stamps that nearly coincide, noise would become a velocity.
   constexpr double kShortest = 0.01;  // [s]
   const double seconds = std::max(kShortest, base::secondsBetween(*last_, stamp));
   const Expected expected = expectedAfter(seconds, prediction);
   if (!is_lost_) {
     const auto found = follow(image, expected, seconds);
-    const bool is_told = found && (found->match.open_directions == 0 || expected.is_measured ||
-                                   base::secondsBetween(*told_, stamp) <= options_.longest_loss);
-    if (is_told) return take(stamp, image, *found, expected, How::tracked, seconds);
+    const bool is_constrained = found && (found->match.open_directions == 0 || expected.is_measured ||
+                                          base::secondsBetween(*constrained_, stamp) <= options_.longest_loss);
+    if (is_constrained) return take(stamp, image, *found, expected, How::tracked, seconds);
   }
   if (const auto found = seek(image, expected)) return take(stamp, image, *found, expected, How::found, seconds);
   is_lost_ = true;

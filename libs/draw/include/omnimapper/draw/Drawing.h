@@ -11,17 +11,18 @@ struct PixelPoint {
   double x = 0, y = 0;
 };
 
-/// How ink lies on a picture.
+/// Colour, width and opacity of ink on a picture.
 struct Pen {
   Rgb colour;
   double width = 1;    ///< [pixels]
   double opacity = 1;  ///< 0 to 1
 };
 
-/// Draws with smooth edges; what lies outside is cut off. A path is inked once where it crosses itself.
+/// Draws a path with smooth edges; what lies outside the picture is cut off. A path is inked once where it crosses
+/// itself.
 void drawPath(Image& image, const std::vector<PixelPoint>& path, const Pen& pen);
-/// The pixels whose middle lies in an odd number of closed walks; the pen's width is of no matter.
-void fillAreas(Image& image, const std::vector<std::vector<PixelPoint>>& walks, const Pen& pen);
+/// Fills the pixels whose middle lies in an odd number of closed contours; the pen's width is not used.
+void fillAreas(Image& image, const std::vector<std::vector<PixelPoint>>& contours, const Pen& pen);
 void drawLine(Image& image, PixelPoint from, PixelPoint to, const Pen& pen);
 /// A disc of the pen's width around `centre`.
 void drawDot(Image& image, PixelPoint centre, const Pen& pen);

@@ -22,14 +22,14 @@ struct Image {
   std::vector<Rgb> pixels;
 };
 
-/// Pixels as numbers into a palette of at most 256 colours, row by row from the top.
+/// Pixels as indices into a palette of at most 256 colours, row by row from the top.
 struct PaletteImage {
   int width = 0, height = 0;
   std::vector<Rgb> palette;
   std::vector<std::uint8_t> pixels;
 };
 
-/// Grey pixels of 16 bits, such as depths or numbers of things, row by row from the top.
+/// Grey pixels of 16 bits, such as depths or object numbers, row by row from the top.
 struct Grey16Image {
   int width = 0, height = 0;
   std::vector<std::uint16_t> pixels;

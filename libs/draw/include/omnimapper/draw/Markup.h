@@ -5,12 +5,12 @@
 
 namespace omnimapper::draw {
 
-/// Text as it may stand between the tags of HTML and SVG and in attributes; bytes that are no UTF-8 become question
-/// marks, control characters go.
+/// Escapes text for use between the tags of HTML and SVG and in attributes. Bytes that are not UTF-8 become question
+/// marks, control characters are removed.
 std::string escapeMarkup(std::string_view text);
 
 std::string encodeBase64(std::string_view bytes);
-/// The bytes of a PNG file as an address that stands for them, for pages and data that are one file.
+/// The bytes of a PNG file as a data URL, for pages and data in a single file.
 std::string pngAddress(std::string_view bytes);
 
 }  // namespace omnimapper::draw

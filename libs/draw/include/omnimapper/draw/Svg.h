@@ -7,7 +7,8 @@
 
 namespace omnimapper::draw {
 
-/// A drawing in pixels, x to the right and y down, written as it is made; the element is closed at the end.
+/// An SVG drawing in pixels, x to the right and y down. It is written while it is drawn; the destructor closes the
+/// element.
 class Svg {
  public:
   Svg(std::ostream& out, double width, double height);
@@ -36,12 +37,12 @@ class Axes {
   /// `corner` and `size` in pixels; values from `low` (left, bottom) to `high` (right, top).
   Axes(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Eigen::Vector2d& low,
        const Eigen::Vector2d& high);
-  /// The same with one scale for both axes, the values in the middle.
+  /// The same with one scale for both axes and the values in the middle.
   static Axes withEqualScale(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Eigen::Vector2d& low,
                              const Eigen::Vector2d& high);
 
   Eigen::Vector2d pixel(const Eigen::Vector2d& value) const;
-  /// Grid, numbers at round values, names of the axes.
+  /// Draws a grid, numbers at round values, and the names of the axes.
   void draw(Svg& svg, const std::string& x_name, const std::string& y_name) const;
   const Eigen::Vector2d& low() const { return low_; }
   const Eigen::Vector2d& high() const { return high_; }
@@ -50,8 +51,8 @@ class Axes {
   Eigen::Vector2d corner_, size_, low_, high_;
 };
 
-/// Round values (1, 2 or 5 times a power of ten apart) in [low, high], about `count` of them, for the marks of an axis.
-/// Of a range without extent, that value.
+/// Round values (1, 2 or 5 times a power of ten apart) in [low, high], about `count` of them, for the ticks of an axis.
+/// For a range without extent, only that value.
 std::vector<double> roundValues(double low, double high, int count);
 
 }  // namespace omnimapper::draw

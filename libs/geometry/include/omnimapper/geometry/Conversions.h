@@ -10,7 +10,8 @@
 
 namespace omnimapper::geometry {
 
-/// The one place where poses and uncertainties change their convention: MRPT's, g2o's and ours (doc/architecture.md).
+/// All conversions of poses and covariances between the conventions of MRPT, g2o and this project
+/// (doc/architecture.md).
 
 Se3 fromMrpt(const mrpt::poses::CPose3D& pose);
 mrpt::poses::CPose3D toMrpt(const Se3& pose);
@@ -18,17 +19,18 @@ Se2 fromMrpt(const mrpt::math::TPose2D& pose);
 Se2 fromMrpt(const mrpt::poses::CPose2D& pose);
 mrpt::math::TPose2D toMrpt(const Se2& pose);
 
-/// MRPT's covariance of a CPose3DPDFGaussian: of x y z yaw pitch roll, each added to the parameter itself, so that
-/// x y z are axes of the reference frame. Ours: Se3's tangent at the mean.
+/// MRPT's covariance of a CPose3DPDFGaussian is that of the parameters x y z yaw pitch roll, with x y z along axes of
+/// the reference frame. Ours is in Se3's tangent at the mean.
 Matrix6d covarianceFromMrpt(const mrpt::poses::CPose3D& mean, const Matrix6d& mrpt_cov);
 /// Throws Error(internal) within 1e-6 of a pitch of +-90 deg, where MRPT's parameters have no derivative.
 Matrix6d covarianceToMrpt(const mrpt::poses::CPose3D& mean, const Matrix6d& cov);
 
-/// MRPT's covariance of a CPosePDFGaussian: of x y yaw, x y axes of the reference frame. Ours: Se2's tangent.
+/// MRPT's covariance of a CPosePDFGaussian is that of x y yaw, with x y along axes of the reference frame. Ours is in
+/// Se2's tangent.
 Eigen::Matrix3d covarianceFromMrpt(const mrpt::poses::CPose2D& mean, const Eigen::Matrix3d& mrpt_cov);
 Eigen::Matrix3d covarianceToMrpt(const mrpt::poses::CPose2D& mean, const Eigen::Matrix3d& cov);
 
-/// Both parts of MRPT's Gaussian in ours.
+/// MRPT's Gaussian in our convention.
 struct GaussianSe3 {
   Se3 mean;
   Matrix6d cov = Matrix6d::Zero();
@@ -44,9 +46,9 @@ struct GaussianSe2 {
 GaussianSe2 fromMrpt(const mrpt::poses::CPosePDFGaussian& pdf);
 mrpt::poses::CPosePDFGaussian toMrpt(const GaussianSe2& gaussian);
 
-/// g2o's information of EDGE_SE3:QUAT is of (x y z, vector part of the unit quaternion), and the vector part is half
-/// the rotation vector to first order: our rotation block is a quarter of g2o's, the mixed blocks are a half.
-/// EDGE_SE2 is of x y yaw as ours: no conversion.
+/// g2o's information of EDGE_SE3:QUAT is that of (x y z, vector part of the unit quaternion), and the vector part is
+/// half the rotation vector to first order: our rotation block is a quarter of g2o's, the mixed blocks are a half.
+/// EDGE_SE2 is of x y yaw like ours and needs no conversion.
 Matrix6d informationFromG2o(const Matrix6d& g2o_information);
 Matrix6d informationToG2o(const Matrix6d& information);
 

@@ -5,14 +5,14 @@
 
 namespace omnimapper::geometry {
 
-/// The corners of the smallest convex polygon around points of the plane [m], counter-clockwise; points on its edges
-/// are none. Two corners if all points are on a line, one if they are one point, none if there are none.
+/// The corners of the convex hull of points in the plane [m], counter-clockwise, without points on its edges. Two
+/// corners if all points are on a line, one if they coincide, none if there are no points.
 std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points);
 
-/// [m^2]; 0 for fewer than three corners. Counter-clockwise polygons have a positive area.
+/// Area [m^2], positive for counter-clockwise polygons; 0 for fewer than three corners.
 double area(const std::vector<Eigen::Vector2d>& polygon);
 
-/// The least distance between two convex polygons (or segments, or points) [m]; 0 where they meet. Neither is empty.
+/// Smallest distance between two convex polygons (or segments, or points) [m]; 0 where they meet. Neither may be empty.
 double distance(const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b);
 
 }  // namespace omnimapper::geometry

@@ -4,9 +4,9 @@
 
 namespace omnimapper::geometry {
 
-/// Covariances of poses, in the tangent of Se2 (3x3) and Se3 (6x6), carried along to first order.
+/// Propagation of covariances of poses, in the tangent of Se2 (3x3) and Se3 (6x6), to first order.
 
-/// Covariance of a_from_b * b_from_c from those of its independent parts. The first one's value does not enter.
+/// Covariance of a_from_b * b_from_c from those of its independent parts. The value of a_from_b is not needed.
 Eigen::Matrix3d composeCovariance(const Eigen::Matrix3d& cov_a_from_b, const Se2& b_from_c,
                                   const Eigen::Matrix3d& cov_b_from_c);
 Matrix6d composeCovariance(const Matrix6d& cov_a_from_b, const Se3& b_from_c, const Matrix6d& cov_b_from_c);

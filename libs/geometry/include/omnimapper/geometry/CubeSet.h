@@ -6,13 +6,13 @@
 
 namespace omnimapper::geometry {
 
-/// The cubes of one side that hold a point, to keep one point of each.
+/// The cubes of a grid that contain a point, to keep one point of each.
 class CubeSet {
  public:
   /// `side` [m]; 0: every point has a cube of its own.
   explicit CubeSet(double side) : side_(side) {}
 
-  /// Whether the cube of the point [m], within 2^20 sides of the origin, held none before.
+  /// Adds a point [m] within 2^20 sides of the origin. True if its cube contained none before.
   bool insert(double x, double y, double z) {
     if (!(side_ > 0)) return true;
     return cubes_.insert(cell(x) << 42 | cell(y) << 21 | cell(z)).second;

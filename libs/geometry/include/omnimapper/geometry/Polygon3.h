@@ -5,19 +5,20 @@
 
 namespace omnimapper::geometry {
 
-/// A closed walk over points of a plane in space [m]; the last one joins the first. May be concave.
+/// A closed polygon in a plane in space [m]; the last vertex is joined to the first. May be concave.
 struct Polygon3 {
   std::vector<Eigen::Vector3d> vertices;
 };
 
-/// Normal to the polygon, as long as its area [m^2]. Seen against it, the vertices go counter-clockwise.
+/// Normal of the polygon, with the polygon's area [m^2] as its length. Seen against it, the vertices go
+/// counter-clockwise.
 Eigen::Vector3d areaVector(const Polygon3& polygon);
 
-/// [m^2]; that of a walk with fewer than three vertices is 0.
+/// Area [m^2]; 0 for fewer than three vertices.
 double area(const Polygon3& polygon);
 
-/// Whether the foot of `point` on the polygon's plane lies inside. Even-odd rule, so a walk that crosses itself has
-/// insides and outsides too; false for a polygon without area. A point on an edge may count as either.
+/// Whether the projection of `point` onto the polygon's plane lies inside, by the even-odd rule, also for a polygon
+/// that crosses itself; false for a polygon without area. A point on an edge may count as either.
 bool contains(const Polygon3& polygon, const Eigen::Vector3d& point);
 
 }  // namespace omnimapper::geometry

@@ -10,7 +10,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// A motion of space: a_from_b takes points of frame b to frame a.
 /// Tangent: right perturbation, order x y z [m] in the moved frame, then rotation vector [rad]; translation and
-/// rotation apart (not the SE(3) exponential), which to first order is the same thing.
+/// rotation change separately (not by the SE(3) exponential), which to first order is the same.
 struct Se3 {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< unit
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();         ///< [m]

@@ -5,7 +5,7 @@
 
 namespace omnimapper::geometry {
 
-/// A straight stretch of the plane between two points [m].
+/// A line segment in the plane [m].
 struct Segment2 {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
@@ -15,10 +15,10 @@ inline double length(const Segment2& segment) {
   return (segment.to - segment.from).norm();
 }
 
-/// Unit, from `from` to `to`; zero where both are the same point.
+/// Unit vector from `from` to `to`; zero where both are the same point.
 inline Eigen::Vector2d direction(const Segment2& segment) {
-  const double way = length(segment);
-  return way > 0 ? Eigen::Vector2d((segment.to - segment.from) / way) : Eigen::Vector2d::Zero();
+  const double norm = length(segment);
+  return norm > 0 ? Eigen::Vector2d((segment.to - segment.from) / norm) : Eigen::Vector2d::Zero();
 }
 
 inline Eigen::Vector2d middle(const Segment2& segment) {
@@ -27,10 +27,10 @@ inline Eigen::Vector2d middle(const Segment2& segment) {
 
 /// The point of the segment, ends included, that is nearest to `point`.
 inline Eigen::Vector2d nearestPoint(const Segment2& segment, const Eigen::Vector2d& point) {
-  const Eigen::Vector2d way = segment.to - segment.from;
-  const double squared = way.squaredNorm();
+  const Eigen::Vector2d along = segment.to - segment.from;
+  const double squared = along.squaredNorm();
   if (!(squared > 0)) return segment.from;
-  return segment.from + std::clamp((point - segment.from).dot(way) / squared, 0.0, 1.0) * way;
+  return segment.from + std::clamp((point - segment.from).dot(along) / squared, 0.0, 1.0) * along;
 }
 
 /// Distance of a point from the segment, ends included [m].

@@ -7,15 +7,15 @@
 
 namespace omnimapper::grid {
 
-/// Calls visit(x, y) for the cells on the way from one place to another, both in cells, in order, until it returns
+/// Calls visit(x, y) for the cells on the line from one point to another, both in cells, in order, until it returns
 /// false (Amanatides and Woo 1987). The last cell is left out.
 template <class Visit>
 void walk(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visit& visit) {
   int x = static_cast<int>(std::floor(from.x())), y = static_cast<int>(std::floor(from.y()));
   const int last_x = static_cast<int>(std::floor(to.x())), last_y = static_cast<int>(std::floor(to.y()));
-  const Eigen::Vector2d way = to - from;
-  const int step_x = way.x() > 0 ? 1 : -1, step_y = way.y() > 0 ? 1 : -1;
-  const double per_x = std::abs(1 / way.x()), per_y = std::abs(1 / way.y());
+  const Eigen::Vector2d delta = to - from;
+  const int step_x = delta.x() > 0 ? 1 : -1, step_y = delta.y() > 0 ? 1 : -1;
+  const double per_x = std::abs(1 / delta.x()), per_y = std::abs(1 / delta.y());
   double next_x = (step_x > 0 ? x + 1 - from.x() : from.x() - x) * per_x,
          next_y = (step_y > 0 ? y + 1 - from.y() : from.y() - y) * per_y;
   for (int steps = std::abs(last_x - x) + std::abs(last_y - y); steps > 0; --steps) {
@@ -30,24 +30,25 @@ void walk(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visit& v
   }
 }
 
-/// Of a walk that part which lies in a grid of so many cells, however far its ends are: walk() counts in int. Calls
-/// nothing where it passes by or an end is not finite.
+/// Walks only the part of the line that lies in a grid of width x height cells, however far away its ends are: walk()
+/// counts in int. Visits nothing if the line misses the grid or an end is not finite.
 template <class Visit>
 void walkInside(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int width, int height, const Visit& visit) {
-  const Eigen::Vector2d way = to - from, size(width, height);
-  if (!way.allFinite()) return;
-  double begin = 0, end = 1;  // parts of the way (Liang and Barsky 1984)
+  const Eigen::Vector2d delta = to - from, size(width, height);
+  if (!delta.allFinite()) return;
+  double begin = 0, end = 1;  // shares of the line (Liang and Barsky 1984)
   for (int i = 0; i < 2; ++i) {
-    if (way[i] == 0) {
+    if (delta[i] == 0) {
       if (from[i] < 0 || from[i] > size[i]) return;
       continue;
     }
-    const double at_low = -from[i] / way[i], at_high = (size[i] - from[i]) / way[i];
+    const double at_low = -from[i] / delta[i], at_high = (size[i] - from[i]) / delta[i];
     begin = std::max(begin, std::min(at_low, at_high));
     end = std::min(end, std::max(at_low, at_high));
   }
   if (begin >= end) return;
-  walk(begin > 0 ? Eigen::Vector2d(from + begin * way) : from, end < 1 ? Eigen::Vector2d(from + end * way) : to, visit);
+  walk(begin > 0 ? Eigen::Vector2d(from + begin * delta) : from, end < 1 ? Eigen::Vector2d(from + end * delta) : to,
+       visit);
 }
 
 }  // namespace omnimapper::grid

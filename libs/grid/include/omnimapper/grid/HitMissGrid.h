@@ -13,16 +13,16 @@ namespace omnimapper::grid {
 
 struct BeamModel {
   double cell = 0.05;                ///< [m]
-  double tolerance = 0.3;            ///< [m] before a beam's end where the map's walls do not count as crossed
+  double tolerance = 0.3;            ///< [m] before a beam's end in which walls do not count as crossed
   double near_wall = 0.06;           ///< [m] standard deviation of a beam's end from its wall
-  double clutter = 0.02;             ///< probability that a beam ends where the map says that nothing is
-  double unknown = 0.3;              ///< likelihood of an end where the map knows nothing
-  double anything = 0.01;            ///< least likelihood of a beam
+  double clutter = 0.02;             ///< likelihood of a beam's end where the map has free space
+  double unknown = 0.3;              ///< likelihood of a beam's end where the map is unknown
+  double anything = 0.01;            ///< smallest likelihood of a beam
   std::size_t max_cells = 64000000;  ///< a larger map is refused; 5 bytes each
 };
 
-/// Counts, for each cell of a map, the beams that ended in it and those that passed: walls and free space. Judges what
-/// a scan would be worth at a pose, its free space included. Never changes, so threads may share it.
+/// Counts, for each cell of a map, the beams that ended in it and those that passed: walls and free space. Gives the
+/// likelihood of a scan at a pose, free space included. Immutable, so threads may share it.
 class HitMissGrid {
  public:
   struct Placed {
@@ -33,10 +33,10 @@ class HitMissGrid {
   /// Points must be finite. Throws Error(out_of_range) for scans spread over more than max_cells.
   HitMissGrid(const std::vector<Placed>& scans, const BeamModel& model = {});
 
-  /// Logarithm of each beam's likelihood, in [anything, 1]: of a beam that ends, that no wall stood in its way and one
-  /// at its end; of one that does not, the first alone. First the hits, then the misses.
+  /// Logarithm of each beam's likelihood, in [anything, 1], first the hits, then the misses. For a hit it is the
+  /// likelihood that no wall is on its path and one is at its end; for a miss, only that no wall is on its path.
   std::vector<double> logLikelihoods(const BeamScan& scan, const mrpt::math::TPose2D& map_from_sensor) const;
-  /// Their mean; 0 without beams.
+  /// Mean of logLikelihoods(); 0 without beams.
   double logLikelihood(const BeamScan& scan, const mrpt::math::TPose2D& map_from_sensor) const;
 
  private:

@@ -11,13 +11,13 @@ namespace omnimapper::grid {
 
 struct LikelihoodOptions {
   double cell = 0.05;                ///< [m] side of a cell
-  double sigma = 0.08;               ///< [m] of the bell around each point of the map
-  int levels = 10;                   ///< of bounds, at most kLevels; 1: at() and score() alone
+  double sigma = 0.08;               ///< [m] standard deviation of the bell around each point of the map
+  int levels = 10;                   ///< number of levels, at most kLevels; with 1 only at() and score() can be used
   std::size_t max_cells = 64000000;  ///< a larger map is refused; about 4 bytes each with all levels
 };
 
-/// How likely a point of a scan is at a place of a map: 255 in the cell of a map's point, falling off around it like a
-/// Gaussian bell; and upper bounds of it over squares of 2^level cells. Never changes, so threads may share it.
+/// The likelihood of a point of a scan at a place of a map: 255 in the cell of a map's point, falling off around it
+/// like a Gaussian bell; and upper bounds of it over squares of 2^level cells. Immutable, so threads may share it.
 class LikelihoodPyramid {
  public:
   static constexpr int kLevels = 10;
@@ -35,16 +35,16 @@ class LikelihoodPyramid {
   /// Lower left corner of cell (0, 0) [m].
   const Eigen::Vector2d& origin() const { return origin_; }
 
-  /// Of the cell (x, y), which may lie anywhere; 0 outside of the map.
+  /// Value of the cell (x, y), which may lie anywhere; 0 outside of the map.
   std::uint8_t at(int x, int y) const { return bound(0, x, y); }
 
-  /// Of the cell that holds a place of the map [m].
+  /// Value of the cell that contains a place of the map [m].
   std::uint8_t at(const Eigen::Vector2d& place) const {
     const double x = (place.x() - origin_.x()) / cell_, y = (place.y() - origin_.y()) / cell_;
     return x >= 0 && y >= 0 && x < width_ && y < height_ ? at(static_cast<int>(x), static_cast<int>(y)) : 0;
   }
 
-  /// At least the largest at() over the cells [x, x + 2^level) by [y, y + 2^level); level < the options' levels.
+  /// Upper bound of at() over the cells [x, x + 2^level) by [y, y + 2^level); level < the options' levels.
   std::uint8_t bound(int level, int x, int y) const {
     const Level& grid = levels_[level];
     const unsigned column = static_cast<unsigned>((x + grid.padding) >> grid.shift),
@@ -56,8 +56,8 @@ class LikelihoodPyramid {
   double score(const std::vector<Eigen::Vector2f>& points, const mrpt::math::TPose2D& map_from_scan) const;
 
  private:
-  // Values for every 2^shift-th cell, the first one at -padding. Each covers 2^level + 2^shift - 1 cells, which is
-  // what a square that begins anywhere in its stride can reach.
+  // Values for every 2^shift-th cell, the first one at -padding. Each covers 2^level + 2^shift - 1 cells: all that a
+  // square can reach which begins anywhere in its stride.
   struct Level {
     int shift = 0, padding = 0;
     unsigned width = 0, height = 0;

@@ -10,8 +10,8 @@
 
 namespace omnimapper::grid {
 
-/// Log-odds of occupancy, cell by cell, as sums of the votes of scans. Votes are whole numbers: what was added is taken
-/// out again without a trace, in any order. Cells are kept in tiles, where somebody voted.
+/// Log-odds of occupancy, cell by cell, as sums of the votes of scans. Votes are whole numbers, so that votes can be
+/// removed again exactly, in any order. Cells are kept in tiles, only where there are votes.
 class OccupancyGrid {
  public:
   static constexpr int kTileSide = VoteWindow::kTileSide;
@@ -29,7 +29,7 @@ class OccupancyGrid {
 
     std::array<std::int16_t, kTileSide * kTileSide> low_{};  // row by row; the sums, less what is in high_
     std::vector<std::int32_t> high_;                         // empty until sums outgrow 16 bits
-    int changes_ = 0;                                        // of low_ since then
+    int changes_ = 0;                                        // number of changes of low_ since then
   };
   struct TileIndex {
     std::int64_t x = 0, y = 0;
@@ -42,14 +42,14 @@ class OccupancyGrid {
   };
   using Tiles = std::unordered_map<TileIndex, std::unique_ptr<Tile>, TileHash>;
 
-  /// Both empty the window.
+  /// Adds the votes. This function and takeOut() empty the window.
   void add(VoteWindow& votes);
   /// Undoes one add() of the same votes.
   void takeOut(VoteWindow& votes);
   void clear() { tiles_.clear(); }
 
   const Tiles& tiles() const { return tiles_; }
-  /// The cells that are not 0; empty (max below min) if there is none.
+  /// Box around the cells that are not 0; empty (max below min) if there is none.
   CellBox bounds() const;
 
  private:

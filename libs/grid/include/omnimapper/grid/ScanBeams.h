@@ -9,10 +9,10 @@
 
 namespace omnimapper::grid {
 
-/// Where the beams of a scan end, in the map [m].
+/// The ends of the beams of a scan, in the map [m].
 class BeamEnds {
  public:
-  /// What pose is given: that of the base, or the sensor's own.
+  /// Whether the given pose is that of the base or of the sensor.
   enum class Pose { of_base, of_sensor };
 
   BeamEnds(const mrpt::obs::CObservation2DRangeScan& scan, const mrpt::poses::CPose3D& pose, Pose which)
@@ -25,7 +25,7 @@ class BeamEnds {
     const double sign = scan.rightToLeft ? 1 : -1;
     const double first = size() > 1 ? -0.5 * sign * scan.aperture : 0;
     const double step = size() > 1 ? sign * scan.aperture / static_cast<double>(size() - 1) : 0;
-    // Each beam is the one before, turned: cosines and sines of all would cost more than the rest of a grid.
+    // Each direction is the one before, rotated: cosines and sines of all would take longer than the rest of a grid.
     double c = std::cos(first), s = std::sin(first);
     const double turn_c = std::cos(step), turn_s = std::sin(step);
     for (auto& direction : directions_) {
@@ -43,7 +43,7 @@ class BeamEnds {
   bool valid(std::size_t beam) const {
     return std::isfinite(ranges_[beam]) && ranges_[beam] > 0 && scan_.getScanRangeValidity(beam);
   }
-  /// Whether something was there: many sensors tell their own limit when nothing came back.
+  /// Whether the beam has an echo: many sensors report their largest range if there is none.
   bool hits(std::size_t beam) const { return valid(beam) && range(beam) < scan_.maxRange; }
   /// End of the beam, cut at `max_range` [m].
   mrpt::math::TPoint3D at(std::size_t beam, double max_range) const {

@@ -8,22 +8,23 @@
 
 namespace omnimapper::grid {
 
-/// Log-odds of a vote in steps of 0.122: one hit outweighs two beams that pass, so that thin walls stay; what must be
-/// between two hits weighs as much as one that passes.
+/// Log-odds of a vote in steps of 0.122. One hit outweighs two beams that pass, so that thin walls stay; a surface
+/// between two hits weighs as much as one beam that passes.
 constexpr int kHitVote = 9, kSurfaceVote = 4, kPassVote = -4;
 /// A cell is occupied above a probability of 0.6 and free below 0.4, so one vote decides a cell.
 constexpr int kOccupiedAbove = 3, kFreeBelow = -3;
 
-/// Finds what a scan says of the cells of the map's z = 0 plane.
+/// Computes the votes of a scan for the cells of the map's z = 0 plane.
 ///
-/// A beam passes the cells on its way from the sensor and hits the one where it ends; one that ends at the limit of the
-/// sensor or of the option only passes, an invalid one says nothing. A scan votes once for a cell however many beams
-/// meet it, and a hit is stronger. No beam clears a cell on the line between the ends of two neighbours that meet the
-/// same surface: beams that graze a wall would clear it between their hits. Where the two face it and are near each
-/// other, the cells between them are of the wall too, so that it is no row of dots.
+/// A beam passes the cells between the sensor and its end, and hits the one where it ends. A beam that ends at the
+/// range limit of the sensor or of the option only passes; an invalid one does not vote. A scan votes once for a cell,
+/// however many beams meet it, and a hit takes precedence. No beam clears a cell on the line between the ends of two
+/// neighbours that meet the same surface, because beams that graze a wall would clear it between their hits. Where the
+/// two face the surface and their ends are near each other, the cells between them belong to the wall, too, so that it
+/// is not a row of dots.
 class ScanTracer {
  public:
-  /// Beams are entered up to `max_range` [m].
+  /// Beams are cut at `max_range` [m].
   explicit ScanTracer(double max_range) : max_range_(max_range) {}
 
   /// Votes for cells with sides of `resolution` [m]. They must be taken out of the window before the next call.

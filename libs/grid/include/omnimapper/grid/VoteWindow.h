@@ -7,26 +7,26 @@
 
 namespace omnimapper::grid {
 
-/// Cells that a rectangle reaches, by index: cell (i, j) spans i to i + 1 and j to j + 1 times the side of a cell.
+/// A rectangle of cells, by index: cell (i, j) spans i to i + 1 and j to j + 1 times the side of a cell.
 struct CellBox {
   std::int64_t min_x = 0, min_y = 0, max_x = -1, max_y = -1;  ///< inclusive
 };
 
-/// What one scan says of the cells of a rectangle: a vote of log-odds for each, 0 where it says nothing. The rectangle
-/// is of whole tiles, so that it can be added to a grid tile by tile.
+/// The votes of one scan for the cells of a rectangle: log-odds for each, 0 where there is no vote. The rectangle
+/// consists of whole tiles, so that it can be added to a grid tile by tile.
 class VoteWindow {
  public:
   static constexpr int kTileSide = 64;  ///< [cells]
 
-  /// Moves the window to cells of at least that box. It must be empty: new, or every vote taken.
+  /// Moves the window so that it contains that box. It must be empty: new, or every vote taken.
   void moveTo(const CellBox& box);
   /// Index of the cell in the window's lower left corner.
   std::int64_t minX() const { return tile_x_ * kTileSide; }
   std::int64_t minY() const { return tile_y_ * kTileSide; }
 
-  /// A vote for the cells on a line between two places in the window [cells, from the window's corner], in place of
-  /// what was voted for them: of the cells that the line meets, in each column the one that it is in halfway (in each
-  /// row, if the line is steep), and the ends.
+  /// Sets the vote of the cells on a line between two places in the window [cells, from the window's corner]; it
+  /// replaces earlier votes. These are the cells of both ends and, in each column, the cell in which the line crosses
+  /// the middle of the column (in each row, if the line is steep).
   void voteLine(double x0, double y0, double x1, double y1, int vote);
   void voteCell(double x, double y, int vote) {
     const auto column = static_cast<std::ptrdiff_t>(x), row = static_cast<std::ptrdiff_t>(y);

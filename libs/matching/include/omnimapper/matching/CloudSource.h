@@ -9,34 +9,34 @@
 
 namespace omnimapper::matching {
 
-/// Which points of a depth image and its picture stand for it (thesis 5.4.2).
+/// Which points of a depth image and its picture are registered (thesis 5.4.2).
 enum class CloudSource {
-  occluding_edges,       ///< pixels before a jump in depth
+  occluding_edges,       ///< pixels on the near side of a depth discontinuity
   rgb_edges,             ///< edges of the picture
-  high_curvature_edges,  ///< where a surface turns
+  high_curvature_edges,  ///< curvature edges, where surfaces meet at an angle
   voxels,                ///< the mean point of each cube of a grid
   all_points,            ///< every pixel
 };
 
 struct CloudSourceOptions {
   CloudSource source = CloudSource::rgb_edges;
-  double voxel = 0.02;                            ///< [m] side of the cubes
-  double max_depth = 5;                           ///< [m] what is farther is too noisy
-  double pixel_noise = 1;                         ///< [px] across the rays
-  perception::DepthNoise noise;                   ///< along them
-  double slide = 0.03;                            ///< [m] by which points on surfaces may lie elsewhere on them
-  double edge_slide = 3;                          ///< the same along edges, in spreads of the pixels around
-  perception::EdgeOptions edges = easilyFound();  ///< which kinds are sought is said by `source`
+  double voxel = 0.02;           ///< [m] side of the cubes
+  double max_depth = 5;          ///< [m] points with a larger depth are too noisy
+  double pixel_noise = 1;        ///< [px] standard deviation across the rays
+  perception::DepthNoise noise;  ///< noise along the rays
+  double slide = 0.03;           ///< [m] standard deviation of a point along its surface
+  double edge_slide = 3;         ///< the same along edges, as a factor on the spread of the edge pixels around
+  perception::EdgeOptions edges = easilyFound();  ///< `source` selects which kinds of edges are detected
 
-  /// Edges that are found again in most images rather than those that are surely some.
+  /// Options for edges that are detected again in most images, at the price of some that are no edges.
   static perception::EdgeOptions easilyFound();
 
   static const base::OptionTable<CloudSourceOptions>& table();
 };
 
-/// The points of a depth image that `options` name, in its optical frame, with covariances; with normals, where a
-/// surface has one, if they are points of surfaces. `colour`: the picture of the same view, or null. Throws
-/// Error(unreadable_input) for edges of a picture where there is none.
+/// Extracts the points of a depth image that `options` select, in its optical frame, with covariances. Points of
+/// surfaces also get normals, NaN where there is none. `colour`: the picture of the same view, or null. Throws
+/// Error(unreadable_input) if edges of a picture are requested and there is none.
 CloudPoints cloudOf(const perception::DepthImage& depth, const perception::ColourImage* colour,
                     const CloudSourceOptions& options);
 

@@ -11,34 +11,35 @@
 namespace omnimapper::matching {
 
 struct CloudTrackerOptions {
-  double key_angle = 10 * base::option_text::kRadiansPerDegree;  ///< [rad] of the camera from its key frame
-  double key_distance = 0.15;                                    ///< [m] of it
-  double key_overlap = 0.7;  ///< least share of an image's points that have one of the key frame's near
-  double longest_loss = 2;   ///< [s] after which a lost camera begins anew
+  double key_angle = 10 * base::option_text::kRadiansPerDegree;  ///< [rad] largest rotation from the key frame
+  double key_distance = 0.15;                                    ///< [m] largest distance from the key frame
+  double key_overlap = 0.7;  ///< smallest share of an image's points that have a point of the key frame nearby
+  double longest_loss = 2;   ///< [s] tracking begins anew if the camera is lost for longer
 
   static const base::OptionTable<CloudTrackerOptions>& table();
 };
 
-/// Follows a camera by clouds of its images (thesis 5.3.3.1): each is registered with that of a key frame, so that
-/// drift grows with the way and not with the frame rate, and where this fails with the last image's. Where the points
-/// leave directions open, it goes on there as it did, at most for `longest_loss`, and match.open_directions tells.
+/// Tracks a camera by the clouds of its images (thesis 5.3.3.1). Each cloud is registered with that of a key frame, so
+/// that drift grows with the distance travelled and not with the frame rate; if this fails, with that of the last
+/// image. In directions that the points leave open (match.open_directions > 0) the predicted motion is kept, without
+/// wheel odometry for at most `longest_loss`.
 class CloudTracker {
  public:
   CloudTracker(const CloudTrackerOptions& options, std::unique_ptr<const CloudMatcher> matcher);
 
   struct Tracked {
     enum class How {
-      begun,    ///< the first image, or the first after a long loss: nothing is known of the motion to it
+      begun,    ///< the first image, or the first after a long loss: the motion to it is unknown
       tracked,  ///< registered
-      lost,     ///< neither key frame nor last image fits: the motion is not told
+      lost,     ///< neither key frame nor last image fits: the motion is unknown
     };
     How how = How::begun;
     geometry::Se3 last_from_camera;  ///< motion since the image that was tracked before
-    base::Stamp last;                ///< of that image
+    base::Stamp last;                ///< stamp of that image
     CloudMatch match;                ///< with the key frame, or the last image
   };
-  /// Images by rising stamps. Without a prediction, and in what it does not tell, the camera goes on as it did. Where
-  /// the image leaves a direction open the prediction is taken.
+  /// Tracks the next image; stamps must rise. Without a prediction, and for what it does not cover, the last velocity
+  /// is extrapolated. Directions that the image leaves open are taken from the prediction.
   Tracked track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud,
                 const std::optional<PredictedMotion>& prediction = {});
 
@@ -48,11 +49,11 @@ class CloudTracker {
     std::shared_ptr<const MatchCloud> cloud;
     geometry::Se3 key_from_camera;
     base::Stamp stamp;
-    base::Stamp told;  ///< of the last image that left no direction open
+    base::Stamp constrained;  ///< stamp of the last image that left no direction open
   };
   Tracked begin(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud);
   std::optional<geometry::Se3> motionTo(double seconds, const std::optional<PredictedMotion>& prediction) const;
-  /// From where it is predicted, and if that does not fit, from where it was.
+  /// Matches from the predicted pose and, if that does not fit, from the last pose.
   CloudMatch matchFrom(const MatchCloud& target, const MatchCloud& cloud, const geometry::Se3& target_from_last,
                        const std::optional<geometry::Se3>& predicted) const;
   bool isFarFromKey(const CloudMatch& match, const geometry::Se3& key_from_camera) const;
@@ -60,7 +61,7 @@ class CloudTracker {
   CloudTrackerOptions options_;
   std::unique_ptr<const CloudMatcher> matcher_;
   std::shared_ptr<const MatchCloud> key_;
-  std::optional<Image> last_;                                 // that was tracked
+  std::optional<Image> last_;                                 // last tracked image
   geometry::Vector6d velocity_ = geometry::Vector6d::Zero();  // [m/s] [rad/s] in the camera's frame
 };
 

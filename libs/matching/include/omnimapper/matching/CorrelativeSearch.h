@@ -20,12 +20,13 @@ struct SearchWindow {
 };
 
 struct SearchOptions {
-  double min_score = 0.3;          ///< poses below it are not looked for; the higher, the faster
-  double min_share_of_best = 0.8;  ///< nor are those below this share of the best one's score
+  double min_score = 0.3;          ///< poses with a lower score are not searched; a higher value is faster
+  double min_share_of_best = 0.8;  ///< poses with a lower share of the best score are not searched either
   int max_results = 3;
-  /// Blocks of poses that are divided before the search ends with what it has found; so many take about 10 us each.
+  /// Number of divided blocks of poses after which the search ends with the results so far; a block takes about 10 us.
   std::size_t max_blocks = std::numeric_limits<std::size_t>::max();
-  /// A result lies further than the distance [m], or is turned by more than the angle [rad], from each better one.
+  /// Results are distinct: each is farther than min_distance [m] from every better one, or rotated by more than
+  /// min_angle [rad] from it.
   double min_distance = 0.5;
   double min_angle = 0.35;
 };
@@ -42,21 +43,22 @@ struct SearchArea {
   SearchWindow window;
 };
 
-/// Where a scan fits best, by rising rank: the best pose of all areas, then the best of those distinct from it, and so
-/// on. Exact over a lattice that contains each window's centre: steps of a cell in x and y, and of the turn that moves
-/// the scan's points by a cell (root mean square range). Poses in different areas are always distinct. A branch and
-/// bound, best first, over x, y and yaw together (Olson 2009; Hess et al. 2016), where each point of the scan has a
-/// bound as wide as its own sweep. Points that are not finite are left out. Throws Error(out_of_range) if a window is
-/// negative or not finite.
+/// Searches the poses where a scan fits best: first the best pose of all areas, then the best of those that are
+/// distinct from it, and so on. Poses in different areas are always distinct. The result is exact over a lattice that
+/// contains each window's centre, with steps of a cell in x and y and, in yaw, of the rotation that moves the scan's
+/// points by a cell (at their root mean square range). A best-first branch and bound over x, y and yaw together (Olson
+/// 2009; Hess et al. 2016), where the bound of each point covers just the cells that this point sweeps. Points that are
+/// not finite are left out. Throws Error(out_of_range) if a window is negative or not finite.
 std::vector<SearchResult> search(const std::vector<SearchArea>& areas, const std::vector<Eigen::Vector2f>& scan_points,
                                  const SearchOptions& options = {});
 std::vector<SearchResult> search(const grid::LikelihoodPyramid& map, const std::vector<Eigen::Vector2f>& scan_points,
                                  const SearchWindow& window, const SearchOptions& options = {});
 
-/// Yaw between neighbours in the lattice [rad], for these points and this cell [m].
+/// Yaw step of the lattice [rad], for these points and this cell [m].
 double yawStep(const std::vector<Eigen::Vector2f>& scan_points, double cell);
 
-/// Every point that is at least `spacing` [m] from the one kept before it: near walls no longer outweigh far ones.
+/// Keeps each point that is at least `spacing` [m] from the one kept before it, so that near walls do not outweigh far
+/// ones.
 std::vector<Eigen::Vector2f> thinned(const std::vector<Eigen::Vector2f>& points, double spacing);
 
 }  // namespace omnimapper::matching

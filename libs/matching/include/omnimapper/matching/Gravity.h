@@ -15,15 +15,16 @@ namespace omnimapper::matching {
 /// The mean specific force over half a second in which the base hardly turned.
 struct SteadySpan {
   base::Stamp stamp;      ///< its middle
-  Eigen::Vector3d force;  ///< in the base's frame, in the unit that the sensor tells; at rest it points up
-  double scatter = 0;     ///< root mean square of the readings about it, in that unit
+  Eigen::Vector3d force;  ///< in the base's frame, in the unit of the sensor; at rest it points up
+  double scatter = 0;     ///< root mean square deviation of the readings from it, in that unit
 };
 
 /// Collects the spans of one inertial sensor (CObservationIMU with X_ACC, Y_ACC, Z_ACC in the sensor's frame) in which
-/// gravity can be told from turning. Readings that are not finite, or come out of order, are left out.
+/// turning does not disturb the measurement of gravity. Readings that are not finite, or come out of order, are left
+/// out.
 class SteadySpans {
  public:
-  /// True if it tells a finite acceleration.
+  /// True if the reading has a finite acceleration.
   bool add(const mrpt::obs::CObservationIMU& imu);
   const std::vector<SteadySpan>& all() const { return spans_; }
 
@@ -40,24 +41,24 @@ class SteadySpans {
   std::vector<SteadySpan> spans_;
 };
 
-/// A span at the rotation that the base had then.
+/// A span with the rotation of the base at that time.
 struct RotatedSpan {
   Eigen::Quaterniond map_from_base;
   SteadySpan span;
 };
 
-/// Which way is up by gravity.
+/// The direction of up, measured by gravity.
 struct Gravity {
-  std::optional<Eigen::Vector3d> up;  ///< unit, in the map; none where the accelerations do not tell
-  /// Of the rotation vector in the map that takes the true up to `up` [rad^2].
+  std::optional<Eigen::Vector3d> up;  ///< unit, in the map; none where the accelerations do not determine it
+  /// Covariance of the rotation vector in the map that takes the true up to `up` [rad^2].
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double magnitude = 0;  ///< [m/s^2] median
-  std::string reason;    ///< half a sentence, in both cases
+  std::string reason;    ///< half a sentence, also if there is a result
 };
 
-/// Least squares with Cauchy's loss for gravity in the map and the sensor's constant bias, which only a base that turns
-/// tells apart: the bias has a standard deviation of 0.1 m/s^2 beforehand, 0.6 deg. Accelerations in g are taken for
-/// such. None where there are fewer than four spans, or where the accelerations are not those of gravity.
+/// Estimates gravity in the map and the sensor's constant bias by least squares with Cauchy's loss. Only a base that
+/// turns separates the two, so the bias has a prior of 0.1 m/s^2 standard deviation, 0.6 deg. Accelerations in g are
+/// recognised. `up` is none if there are fewer than four spans, or if the accelerations are not those of gravity.
 Gravity gravityOf(const std::vector<RotatedSpan>& spans);
 
 }  // namespace omnimapper::matching

@@ -6,7 +6,7 @@
 namespace omnimapper::matching {
 
 /// MRPT's iterative closest point (mrpt::slam::CICP; Besl and McKay 1992), then PointToLineMatcher from where it ended.
-/// What a guess knows is where it begins, whatever its information.
+/// The guess is only where the search begins, whatever its information.
 class IcpMatcher : public ScanMatcher {
  public:
   explicit IcpMatcher(const ScanMatcherOptions& options) : options_(options) {}

@@ -10,20 +10,19 @@ namespace omnimapper::matching {
 
 /// Points of one view, in its sensor's frame.
 struct CloudPoints {
-  std::vector<Eigen::Vector3f> points;  ///< [m]
-  std::vector<Eigen::Vector3f>
-      normals;  ///< unit, of the surfaces they lie on; NaN where there is none; empty: not known
-  /// [m2] How far from a point the same thing may lie when it is seen again: noise, and along surfaces and lines the
-  /// distance to the next point. Empty: not known.
+  std::vector<Eigen::Vector3f> points;   ///< [m]
+  std::vector<Eigen::Vector3f> normals;  ///< unit surface normals; NaN where there is none; empty if not known
+  /// [m2] Covariance of the position at which a point may be measured again: noise and, along surfaces and lines, the
+  /// distance to the next point. Empty if not known.
   std::vector<Eigen::Matrix3f> covariances;
 };
 
-/// Points with a KD-tree over them, which is made when it is first asked. Immutable; functions may be called from
+/// Points with a KD-tree over them, which is built when it is first needed. Immutable; functions may be called from
 /// several threads.
 class MatchCloud {
  public:
-  /// Throws Error(out_of_range) for points or covariances that are not finite, and for normals or covariances that are
-  /// not as many as the points.
+  /// Throws Error(out_of_range) for points or covariances that are not finite, and if there are normals or covariances,
+  /// but not one for each point.
   explicit MatchCloud(CloudPoints cloud);
   ~MatchCloud();
   MatchCloud(const MatchCloud&) = delete;

@@ -6,23 +6,23 @@
 
 namespace omnimapper::matching {
 
-/// What wheel odometry errs by in the same way again and again, learned from motion that is known better: it measures
-/// the way too long or too short, turns with the way it drives (wheels of different size), and turns too far or too
-/// little (Borenstein and Feng, "Measurement and correction of systematic odometry errors in mobile robots", 1996).
-/// What was learned fades after some ten metres, as loads and floors change; in the first metres little is
-/// corrected.
+/// Systematic errors of wheel odometry, learned from motion that is known better: it measures the distance travelled
+/// too long or too short, the heading turns with the distance travelled (wheels of different size), and turns are
+/// measured too large or too small (Borenstein and Feng, "Measurement and correction of systematic odometry errors in
+/// mobile robots", 1996). What was learned fades after some ten metres, as loads and floors change; in the first metres
+/// little is corrected.
 class OdometryCalibration {
  public:
-  /// A motion as the odometry told it, and as it was. Motions that are far from one another, by slip or by a wrong
-  /// match, teach nothing.
-  void learn(const mrpt::math::TPose2D& told, const mrpt::math::TPose2D& was);
-  /// The motion without what was learned.
-  mrpt::math::TPose2D applied(const mrpt::math::TPose2D& told) const;
+  /// Learns from a motion as the odometry measured it and as it actually was. Pairs that differ too much, by slip or by
+  /// a wrong match, are ignored.
+  void learn(const mrpt::math::TPose2D& measured, const mrpt::math::TPose2D& actual);
+  /// The measured motion, corrected by what was learned.
+  mrpt::math::TPose2D applied(const mrpt::math::TPose2D& measured) const;
 
  private:
-  /// Of the heading [rad]: after 1 m of way [rad/m], after 1 rad of turn.
+  /// Errors of the heading: for each metre travelled [rad/m], and as a share of a turn.
   Eigen::Vector2d turnErrors() const;
-  /// Of the way, as a share.
+  /// Error of the distance travelled, as a share of it.
   double travelError() const;
 
   double travel_information_ = 0, travel_sum_ = 0;  // least squares, weighted by the variance of each motion

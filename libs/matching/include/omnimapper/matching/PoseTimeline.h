@@ -8,19 +8,19 @@
 
 namespace omnimapper::matching {
 
-/// The motion of the base as one continuous source told it: spans of time that follow one another.
-/// Any span inside can be asked for, and spans add up: the motion and covariance of a..c are those of a..b and b..c
+/// The motion of the base as one continuous source measured it, in spans of time that follow one another. Any span of
+/// time inside can be requested, and spans add up: the motion and covariance of a..c are those of a..b and b..c
 /// composed, wherever b lies (thesis 5.2.3.1: nothing is counted twice, nothing is lost).
 class PoseTimeline {
  public:
   /// Adds the span from `begin` to `end`. False, and nothing changes, if it is empty or reversed, overlaps another one,
-  /// or its motion is not finite. A gap is allowed: nothing across it can be asked for.
+  /// or its motion is not finite. There may be gaps; between() has no motion across them.
   bool insert(base::Stamp begin, base::Stamp end, const RelativeMotion& motion);
-  /// Takes the span from `begin` to `end` away. False, and nothing changes, if that is not a span as it was added.
+  /// Removes the span from `begin` to `end`. False, and nothing changes, if no span with these ends was added.
   bool remove(base::Stamp begin, base::Stamp end);
 
-  /// Motion from `begin` to `end`, begin <= end; none if a part of the span was never told.
-  /// Inside a span the motion is taken as even in time.
+  /// Motion from `begin` to `end`, begin <= end; none if no motion was added for a part of it. Within a span that was
+  /// added, the motion is assumed to be uniform in time.
   std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const;
 
   std::optional<base::Stamp> end() const;

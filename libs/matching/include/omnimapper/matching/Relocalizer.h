@@ -13,81 +13,81 @@
 namespace omnimapper::matching {
 
 struct RelocalizerOptions {
-  double cell = 0.1;                ///< [m] of the grid that is searched
-  double sigma = 0.15;              ///< [m] of its bell
+  double cell = 0.1;                ///< [m] cell of the grid that is searched
+  double sigma = 0.15;              ///< [m] standard deviation of the bell around each map point
   double spacing = 0.1;             ///< [m] between the points of the scan that are searched with
-  double min_score = 0.4;           ///< of a candidate: mean likelihood of its points
-  double min_share_of_best = 0.85;  ///< of a candidate's score
+  double min_score = 0.4;           ///< smallest mean likelihood of a candidate's points
+  double min_share_of_best = 0.85;  ///< smallest share of the best candidate's score
   int max_candidates = 16;
-  std::size_t max_blocks = std::numeric_limits<std::size_t>::max();  ///< of the search, as in SearchOptions
-  /// Mean logarithm of the beams' likelihoods below which the best candidate explains the scan poorly: something
-  /// stands in the way. The search then goes on down to the second share, for twice as many.
+  std::size_t max_blocks = std::numeric_limits<std::size_t>::max();  ///< limit of the search, as in SearchOptions
+  /// If the mean log-likelihood of the best candidate's beams is below this, it explains the scan poorly, because
+  /// something blocks the view. The search is then repeated down to min_share_if_poor, for twice as many candidates.
   double poor = -0.4;
   double min_share_if_poor = 0.65;
-  int reference_scans = 16;     ///< of the map, nearest to a candidate, that it is refined against
-  double same_distance = 0.25;  ///< [m] and
-  double same_angle = 0.1;      ///< [rad] within which two refined candidates are one
-  double place_distance = 0.5;  ///< [m] and
-  double place_angle = 0.2;     ///< [rad] within which candidates do not speak against each other
+  int reference_scans = 16;     ///< number of map scans nearest to a candidate that it is refined against
+  double same_distance = 0.25;  ///< [m] and same_angle: refined candidates this near are merged
+  double same_angle = 0.1;      ///< [rad]
+  double place_distance = 0.5;  ///< [m] and place_angle: the probabilities of candidates this near add up
+  double place_angle = 0.2;     ///< [rad]
   grid::BeamModel beams;
-  int most_beams = 180;          ///< that count as independent of each other
-  double doubt = 0.25;           ///< standard errors by which a lead over another candidate counts less
-  double nowhere = -0.9;         ///< mean logarithm of the beams' likelihoods of a place that is not in the map
-  double min_confidence = 0.95;  ///< of an answer
+  int most_beams = 180;          ///< largest number of beams that count as independent
+  double lead_sigmas = 0.25;     ///< number of standard errors subtracted from a lead over another candidate
+  double nowhere = -0.9;         ///< mean log-likelihood of the beams at a place that is not in the map
+  double min_confidence = 0.95;  ///< smallest probability of an answer
 };
 
-/// A scan of the map, where its sensor stood.
+/// A scan of the map with the pose of its sensor.
 struct MapScan {
   mrpt::math::TPose2D map_from_sensor;
   grid::BeamScan scan;
 };
 
-/// What was seen from several places close to each other, in a frame of its own: one of the sensor poses, say.
+/// One of several scans taken close to each other, in a common frame, for instance that of one of the sensor poses.
 struct LocalScan {
   mrpt::math::TPose2D local_from_sensor;
   grid::BeamScan scan;
 };
 
 struct LocationCandidate {
-  mrpt::math::TPose2D map_from_sensor;  ///< of the single scan; map_from_local of several
+  mrpt::math::TPose2D map_from_sensor;  ///< for several scans: map_from_local
   double score = 0;                     ///< of the search: mean likelihood of the points, [0, 1]
-  double log_likelihood = 0;            ///< of all beams, free space included: the mean of `beams`
-  std::vector<double> beams;            ///< HitMissGrid::logLikelihoods; empty if others are much better
+  double log_likelihood = 0;            ///< mean of `beams`, free space included
+  std::vector<double> beams;            ///< HitMissGrid::logLikelihoods; empty if another candidate is much better
   double probability = 0;               ///< among the candidates and "nowhere in the map"
-  ScanMatch match;                      ///< with the map around it; its reference is the map
+  ScanMatch match;                      ///< match with the map around it, in the map's frame
 };
 
 struct Location {
   enum class Answer {
     found,      ///< the first candidate
-    ambiguous,  ///< it may be one of several, and none is likely enough
+    ambiguous,  ///< several are possible, and none is likely enough
     none        ///< the scan fits nowhere
   };
   Answer answer = Answer::none;
   std::vector<LocationCandidate> candidates;  ///< the most probable first
 };
 
-/// Finds where in a whole map a single scan was taken, or several on a short way: a correlative search for the places
-/// that its points fit, refined by the fine matcher, and judged by what each beam says of free space and walls
-/// (HitMissGrid). Probabilities are those of Bayes, all candidates and "nowhere in the map" being equally likely
-/// before; but a lead that some beams give and others take away counts for less than its mean. Never changes, so
-/// threads may share it.
+/// Finds where in a whole map a scan, or several scans on a short path, were taken. A correlative search finds the
+/// places that the points fit; these are refined by a scan matcher and compared by the likelihood of each beam, free
+/// space included (HitMissGrid). Probabilities follow from Bayes' rule, with all candidates and "nowhere in the map"
+/// equally likely a priori; but a lead on which the beams disagree counts for less than its mean. Immutable, so threads
+/// may share it.
 class Relocalizer {
  public:
   /// Throws Error(out_of_range) for a map too large for the grids (BeamModel::max_cells).
   Relocalizer(std::vector<MapScan> map, std::shared_ptr<const ScanMatcher> matcher,
               const RelocalizerOptions& options = {});
 
-  /// In the whole map, or in the window if it is given. Points that are not finite are left out.
+  /// Searches the whole map, or the window if it is given. Points that are not finite are left out.
   Location locate(const grid::BeamScan& scan, const std::optional<SearchWindow>& window = std::nullopt) const;
-  /// The same for several scans: what looks alike from one spot seldom does along a way.
+  /// The same for several scans: places that look alike from one position seldom do along a path.
   Location locateTogether(std::vector<LocalScan> scans, const std::optional<SearchWindow>& window = std::nullopt) const;
 
  private:
   struct Query {
     std::vector<LocalScan> scans;
     ScanWithNormals lines;                // in the local frame
-    std::vector<Eigen::Vector2f> sought;  // those that are searched with
+    std::vector<Eigen::Vector2f> sought;  // points that the search uses
   };
   Query queryOf(std::vector<LocalScan> scans) const;
   std::vector<double> logLikelihoods(const Query& query, const mrpt::math::TPose2D& map_from_local) const;

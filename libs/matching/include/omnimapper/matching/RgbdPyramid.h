@@ -10,7 +10,7 @@
 namespace omnimapper::matching {
 
 struct RgbdPyramidOptions {
-  int levels = 4;          ///< at most; each has half the columns and rows of the one before
+  int levels = 4;          ///< largest number of levels; each has half the columns and rows of the one before
   double min_depth = 0.2;  ///< [m]
   double max_depth = 12;   ///< [m]
 };
@@ -28,17 +28,18 @@ struct RgbdLevel {
 };
 
 /// A depth image and the picture of the same view, in coarser and coarser levels. Depths are averaged as inverse
-/// depths, in which a plane is linear, over what is one surface: across a jump the nearer one is kept.
+/// depths, in which a plane is linear, over pixels of one surface: at a depth discontinuity the nearer surface is kept.
 class RgbdPyramid {
  public:
-  /// `colour` null: without a picture. Throws Error(unreadable_input) if it is not of the depth image's size.
+  /// `colour` may be null if there is no picture. Throws Error(unreadable_input) if its size is not that of the depth
+  /// image.
   RgbdPyramid(const perception::DepthImage& depth, const perception::ColourImage* colour,
               const RgbdPyramidOptions& options = {});
 
   /// From the finest to the coarsest; the coarsest has at least 20 columns and rows, unless the image has fewer.
   const std::vector<RgbdLevel>& levels() const { return levels_; }
   const RgbdLevel& finest() const { return levels_.front(); }
-  /// Of the coarsest level [m]; none of an image that has depths in less than a tenth of it.
+  /// Median depth of the coarsest level [m]; none if a tenth of its pixels or less have a depth.
   std::optional<double> medianDepth() const;
   bool hasPicture() const { return !levels_.front().grey.empty(); }
 

@@ -8,35 +8,37 @@
 
 namespace omnimapper::matching {
 
-/// What a match found.
+/// Result of a match.
 struct ScanMatch {
   mrpt::math::TPose2D reference_from_scan;  ///< [m] [rad]
-  double overlap = 0;                       ///< share of the scan's points that have a partner, [0, 1]
-  double wall_distance = 0;                 ///< [m] root mean square of the partners' distances across the walls
-  /// Of the pose, in the scan's frame (x y yaw), were each partner good to 1 m: scale by the variance of a point [m2].
-  /// Along a direction that the walls do not fix the pose stays where it was guessed, and the variance is kOpen.
+  double overlap = 0;                       ///< share of the scan's points that have a correspondence, [0, 1]
+  double wall_distance = 0;                 ///< [m] root mean square distance of corresponding points across the walls
+  /// Covariance of the pose, in the scan's frame (x y yaw), if each point had a standard deviation of 1 m: multiply it
+  /// by the variance of a point [m2]. Along a direction that the walls do not constrain the pose stays at the guess,
+  /// and the variance is kOpen.
   Eigen::Matrix3d unit_covariance = kOpen * Eigen::Matrix3d::Identity();
-  /// [m] Standard deviation of a point that makes an honest covariance of the pose: of the distances from the walls,
-  /// and of how many neighbours share one error because their line was fitted to the same points.
+  /// [m] Standard deviation of a point that gives a realistic covariance of the pose. It includes the distances from
+  /// the walls, and how many neighbours share one error because their lines were fitted to the same points.
   double point_sigma = 0;
-  /// Whether there is such a direction: a bare corridor, a single wall, a round room, or no partners at all.
+  /// Whether there is such a direction: in a bare corridor, at a single wall, in a round room, or without any
+  /// correspondences.
   bool degenerate = true;
 
   static constexpr double kOpen = 1e6;
 };
 
-/// Where a scan is thought to be.
+/// Initial pose of a scan.
 struct MatchGuess {
   MatchGuess(const mrpt::math::TPose2D& pose = {}, const Eigen::Matrix3d& known = Eigen::Matrix3d::Zero())
       : reference_from_scan(pose), information(known) {}
 
   mrpt::math::TPose2D reference_from_scan;  ///< [m] [rad]
-  /// How much that counts beside the points: inverse covariance in the scan's frame (x y yaw), times the variance of a
-  /// point [1]. Zero: it is where the search begins, and no more.
+  /// Weight of this pose relative to the points: inverse covariance in the scan's frame (x y yaw), times the variance
+  /// of a point [1]. With zero the pose is only where the search begins.
   Eigen::Matrix3d information;
 };
 
-/// What scans are matched against: points prepared for the search of partners. Immutable.
+/// Points that scans are matched against, prepared for the search of correspondences. Immutable.
 class MatchReference {
  public:
   virtual ~MatchReference() = default;
@@ -47,8 +49,8 @@ class ScanMatcher {
  public:
   virtual ~ScanMatcher() = default;
   virtual std::shared_ptr<const MatchReference> prepare(ScanWithNormals reference) const = 0;
-  /// `reference` from prepare() of a matcher of this class. A match without partners says so by overlap = 0, and leaves
-  /// the guess as it is. The covariance is that of the points alone, without what the guess knew.
+  /// `reference` must come from prepare() of a matcher of this class. A match without correspondences has overlap = 0
+  /// and the pose of the guess. The covariance is that of the points alone, without the information of the guess.
   virtual ScanMatch match(const MatchReference& reference, const ScanWithNormals& scan,
                           const MatchGuess& guess) const = 0;
 };

@@ -12,8 +12,8 @@ enum class IcpMethod { classic, levenberg_marquardt };
 
 struct ScanMatcherOptions {
   MatcherKind matcher = MatcherKind::point_to_line;
-  double max_distance = 1.5;  ///< [m] of a pair in the first iterations
-  double min_distance = 0.1;  ///< [m] of a pair in the last iterations
+  double max_distance = 1.5;  ///< [m] largest distance of a correspondence in the first iterations
+  double min_distance = 0.1;  ///< [m] largest distance of a correspondence in the last iterations
   int max_iterations = 30;
   IcpMethod icp_method = IcpMethod::classic;
   double icp_max_angle =
@@ -23,7 +23,7 @@ struct ScanMatcherOptions {
   static const base::OptionTable<ScanMatcherOptions>& table();
 };
 
-/// The matcher that the options name.
+/// Makes the matcher that the options select.
 std::unique_ptr<ScanMatcher> makeMatcher(const ScanMatcherOptions& options);
 
 }  // namespace omnimapper::matching

@@ -18,35 +18,35 @@ class LikelihoodPyramid;
 namespace omnimapper::matching {
 
 struct ScanTrackerOptions {
-  int local_scans = 40;                                              ///< that make the local map
-  double local_distance = 0.25;                                      ///< [m] between them
-  double local_angle = 10.0 * base::option_text::kRadiansPerDegree;  ///< [rad] between them
-  double min_overlap = 0.4;                                          ///< share of the points that must find a partner
-  double max_correction = 0.5;                                       ///< [m] of a prediction by the match
-  double max_turn_correction = 20 * base::option_text::kRadiansPerDegree;  ///< [rad]
+  int local_scans = 40;                                              ///< largest number of scans in the local map
+  double local_distance = 0.25;                                      ///< [m] between two of them
+  double local_angle = 10.0 * base::option_text::kRadiansPerDegree;  ///< [rad] between two of them
+  double min_overlap = 0.4;     ///< smallest share of a scan's points that must have a correspondence
+  double max_correction = 0.5;  ///< [m] largest correction of a prediction by a match
+  double max_turn_correction = 20 * base::option_text::kRadiansPerDegree;  ///< [rad] of its heading
 
   static const base::OptionTable<ScanTrackerOptions>& table();
 };
 
-/// The motion since the last scan as some source predicts it.
+/// A prediction of the motion since the last scan.
 struct MotionPrediction {
   MatchGuess guess;
-  /// How far off it may be, one standard deviation [m] [rad]: by what its source was off of late.
+  /// Standard deviations [m] [rad], from the recent errors of the source that predicts.
   double position_sigma = 1, angle_sigma = 1;
-  /// How far off it can be at all [m] [rad]: as much as a base can accelerate meanwhile.
+  /// Largest possible errors [m] [rad]: as far as a base can accelerate in the time.
   double most_position = std::numeric_limits<double>::infinity(), most_angle = most_position;
-  /// Whether nothing tells the motion, as across a gap: the scan is searched up to 3 m around, at all headings, and
-  /// must fit by itself.
+  /// Whether the motion is unknown, as across a gap: the scan is then searched up to 3 m around, at all headings, and
+  /// must fit by its beams alone.
   bool is_blind = false;
 };
 
-/// Follows a laser from scan to scan: each is matched against a local map of some before it, so that what one scan errs
-/// the next does not carry on. Poses are of the frame that the scans are in.
+/// Tracks a laser from scan to scan: each scan is matched against a local map of some scans before it, so that the
+/// error of one scan is not passed on to the next. Poses are in the frame that the scans are given in.
 ///
-/// The most trusted prediction leads to a match. Every other prediction that would not have led there is tried too, and
-/// where one leads to none it stands for itself. Of several that is taken which is most probable by the walls and the
-/// free space of the local map and by all predictions together (Olson 2009; Thrun, Burgard and Fox 2005, 6.3); if that
-/// is no match, there is none.
+/// The most trusted prediction is matched first. Every other prediction that would not have led to the same match is
+/// tried too, and one that leads to no match becomes a candidate itself. The most probable candidate is taken, by the
+/// walls and the free space of the local map and by all predictions together (Olson 2009; Thrun, Burgard and Fox
+/// 2005, 6.3); if it is no match, there is no result.
 class ScanTracker {
  public:
   ScanTracker(const ScanTrackerOptions& options, std::shared_ptr<const ScanMatcher> matcher);
@@ -54,17 +54,16 @@ class ScanTracker {
   ScanTracker(ScanTracker&&) noexcept;
   ScanTracker& operator=(ScanTracker&&) noexcept;
 
-  /// Forgets all scans; this one is the first. `sensor`: where its laser stood, in its frame [m].
+  /// Forgets all scans and begins with this one. `sensor`: where its laser stood, in its frame [m].
   void restart(const ScanWithNormals& scan, const Eigen::Vector2f& sensor);
   struct Tracked {
-    ScanMatch match;  ///< of the motion since the last scan; covariance and all are of the scan in the local map
-    std::size_t prediction = 0;  ///< that led to it
-    /// What other matches that were found, less probable ones, add to the covariance, in the scan's frame: x y yaw [m]
-    /// [rad].
+    ScanMatch match;  ///< its pose is the motion since the last scan; all else is of the match with the local map
+    std::size_t prediction = 0;  ///< index of the prediction that led to it
+    /// What other, less probable matches add to the covariance, in the scan's frame: x y yaw [m] [rad].
     Eigen::Matrix3d search_covariance = Eigen::Matrix3d::Zero();
   };
-  /// Matches a scan and takes it for the last one. `predictions`: that most trusted first. None, and nothing changes,
-  /// if none leads to a match, or what is more probable than the match is none.
+  /// Matches a scan and makes it the last one. `predictions`: the most trusted one first. None, and nothing changes, if
+  /// no prediction leads to a match, or if the most probable candidate is no match.
   std::optional<Tracked> track(const ScanWithNormals& scan, const Eigen::Vector2f& sensor,
                                const std::vector<MotionPrediction>& predictions);
 
@@ -89,8 +88,8 @@ class ScanTracker {
   std::shared_ptr<const ScanMatcher> matcher_;
   std::deque<Local> locals_;
   std::shared_ptr<const MatchReference> reference_;       // of locals_, in the frame of the newest of them
-  std::unique_ptr<const grid::HitMissGrid> beams_;        // the same, once somebody has asked for it
-  std::unique_ptr<const grid::LikelihoodPyramid> walls_;  // and again
+  std::unique_ptr<const grid::HitMissGrid> beams_;        // the same as a grid; made when it is needed
+  std::unique_ptr<const grid::LikelihoodPyramid> walls_;  // the same as a pyramid; made when it is needed
   mrpt::math::TPose2D track_from_last_;
 };
 

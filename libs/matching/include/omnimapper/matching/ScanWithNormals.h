@@ -11,21 +11,22 @@ namespace omnimapper::matching {
 /// their neighbours, so that a noisy wall is as thin as a clean one [m].
 struct ScanWithNormals {
   std::vector<Eigen::Vector2f> points;
-  std::vector<Eigen::Vector2f> normals;  ///< one for each point: unit, sign open; zero where no line fits
-  float smoothing = 1;                   ///< points that went into a line, on average
+  std::vector<Eigen::Vector2f> normals;  ///< one for each point: unit, either sign; zero where no line fits
+  float smoothing = 1;                   ///< average number of points that a line was fitted to
 
   std::size_t size() const { return points.size(); }
   bool empty() const { return points.empty(); }
 };
 
-/// Fits the lines. `points` in the order of the beams; each point's window of neighbours grows until a line fits, for
-/// the noise that the scan itself shows: clean corners stay sharp and noisy walls become straight.
+/// Fits a line around each point. `points` are in the order of the beams. Each point's window of neighbours grows until
+/// a line fits, given the noise estimated from the scan itself, so that clean corners stay sharp and noisy walls become
+/// straight.
 ScanWithNormals fitLines(const std::vector<Eigen::Vector2f>& points);
 
 /// Appends `scan`, moved by target_from_scan, to `target`.
 void append(const ScanWithNormals& scan, const mrpt::math::TPose2D& target_from_scan, ScanWithNormals& target);
 
-/// The first point of each square cell of `side` [m]: what many scans saw over and over counts once.
+/// Keeps the first point of each square cell of `side` [m], so that places that many scans saw count once.
 ScanWithNormals voxelDownsample(const ScanWithNormals& scan, double side);
 
 }  // namespace omnimapper::matching

@@ -26,7 +26,8 @@ struct WheelOdometryOptions {
 };
 
 /// The motion of the base as wheel odometry measured it (thesis 5.3.4.1): CObservationOdometry (cumulative poses) and
-/// CObservationRelativeMotion (MRPT's actions). Variances grow evenly with way, turn and time, so that spans add up.
+/// CObservationRelativeMotion (MRPT's actions). Variances grow linearly with distance travelled, turn and time, so that
+/// spans add up.
 class WheelOdometry {
  public:
   explicit WheelOdometry(const WheelOdometryOptions& options) : options_(options) {}
@@ -39,23 +40,23 @@ class WheelOdometry {
   struct Span {
     base::Stamp begin, end;
   };
-  /// Takes an observation into the history if it is of its kind. Order of arrival need not be that of stamps.
+  /// Takes an observation into the history if it is of its kind. The order of arrival may differ from that of stamps.
   Taken add(const mrpt::obs::CObservation& observation);
   /// Motion from `begin` to `end` (begin <= end); none if the span is not covered. Spans add up as in PoseTimeline.
   std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const;
   std::optional<base::Stamp> coveredUntil() const { return timeline_.end(); }
-  /// The span of time of which the last add() taught it something; none if there is none.
+  /// The time span for which the last add() brought new information; none if it brought none.
   std::optional<Span> news() const { return news_; }
-  /// What a user should know at the end: sentences that name the remedy.
+  /// Warnings for the user at the end of a run: sentences that name the remedy.
   std::vector<std::string> warnings() const;
-  /// Spans before `stamp` will not be asked for any more.
+  /// Drops what is known before `stamp`: such spans will not be requested any more.
   void forgetBefore(base::Stamp stamp);
 
  private:
   Taken addMotion(const obs::CObservationRelativeMotion& motion);
   Taken addPose(const mrpt::obs::CObservationOdometry& odometry);
   Taken addLatePose(base::Stamp stamp, const mrpt::poses::CPose3D& odom_from_base);
-  void tell(base::Stamp begin, base::Stamp end, const mrpt::poses::CPose3D& motion);
+  void insertMotion(base::Stamp begin, base::Stamp end, const mrpt::poses::CPose3D& motion);
   bool isUnconfirmedLeap(base::Stamp stamp);
   bool isImpossible(const mrpt::poses::CPose3D& motion, double seconds);
   bool isOurs(const mrpt::obs::CObservation& observation);
@@ -64,11 +65,11 @@ class WheelOdometry {
   WheelOdometryOptions options_;
   std::optional<std::string> label_;                      // of the first that came
   std::map<base::Stamp, mrpt::poses::CPose3D> readings_;  // odom_from_base
-  std::optional<base::Stamp> leap_;                       // of a reading far ahead of all before it
+  std::optional<base::Stamp> leap_;                       // stamp of a reading far ahead of all before it
   std::optional<Span> news_;
-  bool forgotten_ = false;      // there were readings before the first
-  std::size_t impossible_ = 0;  // motions that no base can make, and that are not told
-  double farthest_ = 0;         // [m] of these
+  bool forgotten_ = false;      // there were readings before the first one of readings_
+  std::size_t impossible_ = 0;  // number of motions that no base can make; they are left out
+  double farthest_ = 0;         // [m] distance of the farthest of these
   PoseTimeline timeline_;
 };
 
@@ -77,11 +78,11 @@ base::OptionTable<Options>& WheelOdometryOptions::declareIn(base::OptionTable<Op
   const auto zero_or_more = base::Range::notNegative();
   return table.text("label", &Options::label, "Sensor label of the odometry; empty for the first that comes.")
       .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
-              "Standard deviation of the position after 1 m of way [m]; grows with its root.")
+              "Standard deviation of the position after 1 m of distance travelled [m]; grows with its root.")
       .number("yaw_noise_per_root_turn", &Options::yaw_noise_per_root_turn, zero_or_more,
               "Standard deviation of the heading after 1 rad of turning [rad]; grows with its root.")
       .number("yaw_noise_per_root_m_deg", &Options::yaw_noise_per_root_m, zero_or_more,
-              "Standard deviation of the heading after 1 m of way; grows with its root.")
+              "Standard deviation of the heading after 1 m of distance travelled; grows with its root.")
       .number("position_noise_per_root_s", &Options::position_noise_per_root_s, zero_or_more,
               "Standard deviation of the position after 1 s [m]; grows with its root.")
       .number("yaw_noise_per_root_s_deg", &Options::yaw_noise_per_root_s, zero_or_more,

@@ -7,33 +7,33 @@
 
 namespace omnimapper::net {
 
-/// Numbers of a shape, the last axis fastest. A batch of pictures is (pictures, channels, rows, columns).
+/// An array of the given shape, with the last axis fastest. A batch of pictures is (pictures, channels, rows, columns).
 struct Tensor {
   std::vector<int> shape;
   std::vector<float> values;
 };
 
-/// What computes a network.
+/// The library that computes a network.
 enum class Backend {
   opencv,       ///< OpenCV's module dnn
-  onnx_runtime  ///< Microsoft's ONNX Runtime, two to three times as fast, a library that is found when it is needed
+  onnx_runtime  ///< Microsoft's ONNX Runtime, two to three times as fast; its library is loaded when it is needed
 };
 
-/// Where scripts/models puts networks and the library of ONNX Runtime: $XDG_DATA_HOME/omnimapper/models, without that
-/// variable ~/.local/share/omnimapper/models.
+/// The folder where scripts/models puts networks and the library of ONNX Runtime: $XDG_DATA_HOME/omnimapper/models,
+/// without that variable ~/.local/share/omnimapper/models.
 std::string modelsFolder();
 
 class Session;
 
-/// A trained network with one input and one output, read from an ONNX file. It is computed in the thread that asks, and
-/// in no other, so that its bits do not depend on the number of cores; they may depend on the kind of processor.
-/// Thread-safe: of threads that ask at once each computes a copy of its own, which is read when it is first needed.
+/// A trained network with one input and one output, read from an ONNX file. It is computed only in the calling thread,
+/// so that results do not depend on the number of cores; they may depend on the kind of processor. Thread-safe: threads
+/// that call at the same time each use their own copy, which is read when it is first needed.
 class Network {
  public:
-  /// With OpenCV, its threads and its log are switched off in the whole process.
-  /// `library` is the file of ONNX Runtime, empty with another backend. Throws Error(unreadable_input) that names the
-  /// file if it is missing, empty or no network, or has several inputs or outputs, and Error(plugin_library) if the
-  /// library cannot be loaded or is older than 1.11.
+  /// Backend::opencv switches off OpenCV's threads and its log in the whole process. `library` is the file of ONNX
+  /// Runtime, empty with another backend. Throws Error(unreadable_input) that names the file if it is missing, empty or
+  /// no network, or has several inputs or outputs, and Error(plugin_library) if the library cannot be loaded or is
+  /// older than 1.11.
   Network(const std::string& path, Backend backend, const std::string& library = "");
   ~Network();
 
