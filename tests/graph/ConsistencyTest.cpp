@@ -13,8 +13,8 @@ namespace {
 using base::FactorId;
 using base::VariableId;
 
-/// A walk of `poses` steps of 1 m around a circle, from truth with the given noise of each step, and closures between
-/// any two poses of it.
+/// A path of `poses` steps of 1 m around a circle, with the given noise of each step, and closures between any two of
+/// its poses.
 class Ring {
  public:
   explicit Ring(int poses, unsigned seed = 1) : noise_(seed) {
@@ -107,11 +107,11 @@ TEST_P(ConsistencyMethodTest, WithoutFalseOnesTheResultIsTheSolutionOfAll) {
   ConsistencyOptions options;
   options.method = GetParam();
   testConsistency(again.graph(), fresh, options, counting);
-  EXPECT_LE(asked, expected.iterations);  // one solution and no more; the last iteration may end before it asks
+  EXPECT_LE(asked, expected.iterations);  // one solution and no more; the last iteration may end before it calls stop()
 }
 
-// Of 4.02 standard deviations, within the gate of 4.03: from there the loss has hardly any pull, and a closure that was
-// believed would be given up for the misfit that it is to mend.
+// An error of 4.02 standard deviations, within the gate of 4.03: there the loss leaves hardly any weight, and a closure
+// that was accepted would be taken back because of the error that it should correct.
 TEST_P(ConsistencyMethodTest, WhatIsBelievedFromAfarHoldsThoughItsLossIsRobust) {
   Graph graph;
   const VariableId begin = graph.addVariable(se2(), toValue(Se2()), true),
@@ -129,7 +129,7 @@ TEST_P(ConsistencyMethodTest, WhatIsBelievedFromAfarHoldsThoughItsLossIsRobust) 
   const std::vector<FactorId> closures{add({4.02, 0, 0}, sharp, true)};
   ConsistencyOptions options;
   options.method = GetParam();
-  options.min_likelihood_ratio = 1e-9;  // one alone is judged
+  options.min_likelihood_ratio = 1e-9;  // so low that a single closure need not wait for others
   testConsistency(graph, closures, options);
   for (const FactorId id : closures) {
     EXPECT_EQ(graph.factor(id).weight, 1);
@@ -141,7 +141,7 @@ TEST_P(ConsistencyMethodTest, WhatIsBelievedFromAfarHoldsThoughItsLossIsRobust) 
 TEST_P(ConsistencyMethodTest, AnEarlyFalseOneIsTakenBackWhenTwoThatAgreeContradictIt) {
   Ring ring(60);
   const FactorId early = ring.closure(2, 50, {0.6, -0.5, 0.1});
-  ring.graph().setWeight(early, 1);  // let in when little was known
+  ring.graph().setWeight(early, 1);  // accepted when little was known
   solve(ring.graph());
   const FactorId first = ring.closure(0, 59);
   ring.test({first}, GetParam());
@@ -166,7 +166,7 @@ TEST_P(ConsistencyMethodTest, AGroupOfFalseOnesThatAgreeIsRefusedWhereTheMapIsKn
   ring.test({ring.closure(0, 59), ring.closure(1, 58), ring.closure(15, 45), ring.closure(30, 55)}, GetParam());
   std::vector<FactorId> group;
   for (int i = 0; i < 4; ++i) {
-    // The same shift of the far end in the frame of the near one, seen from ever new pairs.
+    // The same shift of the far end in the frame of the near one, by closures of different pairs.
     const Se2 a_from_b = inverse(ring.truth()[10 + i]) * ring.truth()[10] * Se2{3, 2, 0.5} * inverse(ring.truth()[40]) *
                          ring.truth()[40 + i];
     group.push_back(
@@ -314,8 +314,9 @@ TEST_P(ConsistencyMethodTest, ManyAtOnceAreJudgedAsIfOneAfterAnother) {
   EXPECT_LT(error, 0.3);
 }
 
-// At the end of a long way the heading is off so far that one sign says, to first order, the wrong place of the next.
-TEST(ConsistencyTest, PointsAtTheEndOfALongWayBearOneAnotherOut) {
+// At the end of a long path, the heading error is so large that one sign predicts, to first order, the wrong place of
+// the next.
+TEST(ConsistencyTest, PointsAtTheEndOfALongPathConfirmOneAnother) {
   Ring ring(2400, 8);
   const auto pointSeenFrom = [&](int pose, const Eigen::Vector2d& in_map) {
     const Eigen::Vector2d in_base = inverse(ring.truth()[pose]) * in_map;
@@ -350,7 +351,7 @@ TEST(ConsistencyTest, PointsAtTheEndOfALongWayBearOneAnotherOut) {
       reasons += toString(verdict.factor) + " " + verdict.reason + " " + std::to_string(verdict.chi2) + "\n";
   }
   for (const FactorId id : closures) EXPECT_TRUE(ring.accepted(id)) << toString(id) << "\n" << reasons;
-  EXPECT_NE(reasons.find("borne out"), std::string::npos) << reasons;
+  EXPECT_NE(reasons.find("confirmed by others"), std::string::npos) << reasons;
   EXPECT_FALSE(ring.accepted(false_one));
 }
 

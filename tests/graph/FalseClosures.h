@@ -13,7 +13,7 @@
 
 namespace omnimapper::graph {
 
-// Pose graphs whose every edge but odometry is a hypothesis, false ones among them, fed to the consistency test.
+// Pose graphs for the consistency test: all edges but odometry are hypotheses, and some of these are false.
 
 using base::FactorId;
 using base::VariableId;
@@ -26,12 +26,12 @@ struct Edge {
   bool is_false = false;
 };
 
-/// A planar pose graph: odometry that is trusted, closures that are not, and where the poses should come out.
+/// A planar pose graph: trusted odometry, closures that are not trusted, and the true poses.
 struct Problem {
   int poses = 0;
   std::vector<Edge> odometry, closures;
   std::vector<Se2> truth;
-  bool has_truth = false;  // else the optimum stands for it
+  bool has_truth = false;  // else the optimum is used
 };
 
 inline std::vector<Se2> valuesOf(const Graph& graph) {
@@ -40,7 +40,7 @@ inline std::vector<Se2> valuesOf(const Graph& graph) {
   return poses;
 }
 
-/// Poses of the file in the order of their numbers; truth is the optimum of what the file holds.
+/// Poses of the file in the order of their numbers; the truth is the optimum of the file's graph.
 inline Problem fromG2o(const std::string& path) {
   G2oContent content = readG2o(path);
   Problem problem;
@@ -57,9 +57,9 @@ inline Problem fromG2o(const std::string& path) {
   return problem;
 }
 
-/// As many as `rate` of the true ones, in groups. As Vertigo makes them: any two places are taken for one, give or take
-/// 0.3 m and 10 deg; a group of k goes on along both ways for k steps. Harder than Vertigo's, the group follows the two
-/// ways truly, so that its members agree with one another.
+/// False closures in groups, `rate` times as many as the true ones. As in Vertigo, any two places are taken for the
+/// same, within 0.3 m and 10 deg, and a group of k continues along both paths for k steps. Unlike Vertigo's, the group
+/// follows the two paths exactly, so that its members agree with one another, which is harder.
 inline void addFalseClosures(Problem& problem, double rate, int group, std::mt19937& rng) {
   const std::size_t true_ones = problem.closures.size();
   const std::size_t wanted = true_ones + static_cast<std::size_t>(rate * true_ones + 0.5);

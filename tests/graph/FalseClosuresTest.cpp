@@ -9,7 +9,7 @@ namespace {
 
 using Method = ConsistencyOptions::Method;
 
-/// One in ten of the closures false, half of them alone, half in groups that agree.
+/// One in ten of the closures is false: half of these are single ones, half are in groups that agree.
 void expectNoHarm(Problem problem, Method method, double bound_m) {
   const std::size_t true_ones = problem.closures.size();
   std::mt19937 rng(7);

@@ -15,7 +15,7 @@ namespace {
 using base::ExitCode;
 using base::VariableId;
 
-/// A graph with holes, two sessions and every kind of thing in it.
+/// A graph with unused ids, two sessions, and every kind of variable and factor.
 Graph richGraph() {
   World3 world = smallWorld(1);
   Graph& graph = world.graph;
@@ -132,7 +132,7 @@ TEST(GraphArchive, EveryCutIsNoticed) {
     EXPECT_EQ(codeOf(bytes.substr(0, length)), ExitCode::damaged_input) << length;
 }
 
-// Ids that are gone take memory: all sessions together, and whatever number of entries is said to follow.
+// Unused ids take memory: in all sessions together, and whatever number of entries is stated to follow.
 TEST(GraphArchive, SessionsThatSayTheyGaveTooManyIdsAreRefused) {
   const auto graph = [](std::uint64_t sessions, std::uint64_t ids, std::uint64_t entries) {
     std::stringstream out;

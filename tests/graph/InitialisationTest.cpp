@@ -108,7 +108,7 @@ TEST(Initialisation, FixedPosesStayAndPriorsHold) {
   EXPECT_EQ(chained.graph.value(chained.ids[10]), before);
 }
 
-TEST(Initialisation, EachPartThatHangsFreeStaysAtItsFirstPose) {
+TEST(Initialisation, EachUnconstrainedPartStaysAtItsFirstPose) {
   World2 world = gridWorld(30, 5, {1e-9, 1e-9, 1e-9});
   world.graph.setFixed(world.ids[0], false);
   const Se2 far{100, 0, 2};

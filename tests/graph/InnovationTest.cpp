@@ -7,17 +7,17 @@
 namespace omnimapper::graph::innovation_test {
 namespace {
 
-FactorRecord step(base::VariableId a, base::VariableId b, double way, double sigma) {
+FactorRecord step(base::VariableId a, base::VariableId b, double distance, double sigma) {
   return {{a, b},
-          std::make_shared<BetweenSe2>(Se2{way, 0, 0}),
+          std::make_shared<BetweenSe2>(Se2{distance, 0, 0}),
           SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(sigma)),
           {},
           1,
           {}};
 }
 
-// A straight corridor of five poses, so that the problem is linear. A closure under tension acts: with a robust loss it
-// weighs less than one. Another is looked at as if the first were not there.
+// A straight corridor of five poses, so that the problem is linear. An acting closure does not fit well: with a robust
+// loss, its weight is less than one. Another closure is tested as if the first were not there.
 class Withdrawal : public ::testing::TestWithParam<Loss::Kind> {};
 INSTANTIATE_TEST_SUITE_P(Losses, Withdrawal,
                          ::testing::Values(Loss::Kind::none, Loss::Kind::huber, Loss::Kind::cauchy));
@@ -42,7 +42,7 @@ TEST_P(Withdrawal, IsTheGraphWithoutIt) {
   innovation.withdraw({1});
   const InnovationStatistics withdrawn = innovation.of(0);
 
-  // The covariance at the same values; the residual where the values go without it.
+  // The covariance is at the same values; the residual is at the values of the solution without it.
   graph.setWeight(acting, 0);
   const InnovationStatistics without = Innovation(graph, Marginals(graph), {candidate}, 1).of(0);
   EXPECT_LT((withdrawn.covariance - without.covariance).norm(), 1e-6 * without.covariance.norm());

@@ -64,7 +64,7 @@ TEST(MarginalExtrapolation, WhereTheTrajectoryOnlyWentOnAreThoseOfTheWholeGraph)
   EXPECT_TRUE(joint->isApprox(Marginals(before.graph).jointCovariance(ids), 1e-9));
 }
 
-TEST(MarginalExtrapolation, WhereOldThingsAreSeenAgainAreNotSmallerThanThoseOfTheWholeGraph) {
+TEST(MarginalExtrapolation, WhereOldLandmarksAreSeenAgainAreNotSmallerThanThoseOfTheWholeGraph) {
   Drive before;
   const Marginals marginals(before.graph);
   const VariableId next = drive(before.graph, before.poses.back());
@@ -77,8 +77,8 @@ TEST(MarginalExtrapolation, WhereOldThingsAreSeenAgainAreNotSmallerThanThoseOfTh
   EXPECT_LT((*joint)(0, 0), jointCovariance(marginals, before.graph, {before.poses.back()})->trace());
 }
 
-// Farther than what is looked at first: without landmarks the whole way counts, with them the last of it does.
-TEST(MarginalExtrapolation, AfterALongWayAreThoseOfTheWholeGraphOrALittleMore) {
+// Farther than what is used first: without landmarks, the whole path matters; with them, only its last part.
+TEST(MarginalExtrapolation, AfterALongPathAreThoseOfTheWholeGraphOrALittleMore) {
   for (const bool sees_landmarks : {false, true}) {
     Drive before;
     std::vector<VariableId> points;

@@ -7,8 +7,8 @@
 namespace omnimapper::graph::pose_graphs_test {
 namespace {
 
-/// A public benchmark graph and the chi-square of its optimum in g2o's convention. The simulated twins of these tests
-/// stand in InitialisationTest.cpp.
+/// A public benchmark graph and the chi-square of its optimum in g2o's convention. InitialisationTest.cpp has the same
+/// tests with simulated graphs.
 struct PoseGraph {
   const char* file;
   double optimum;

@@ -28,11 +28,11 @@ TEST(SolveOne, GivesWhatSolveGivesWithAllOthersFixed) {
   }
 }
 
-// A pose that is thought to have stayed, within 0.7 m, and is measured 3 m away within 1 cm; losses are Cauchy's,
-// scale 2. Staying costs 2 log(1 + 300^2 / 4) = 20.0, going (3 / 0.7)^2 / 2 = 9.2: the measurement is right, though it
-// looks like an outlier of 300 deviations. With 0.4 m going costs 28.1, and it is one, which pulls by 4 / (3 - x)
-// against x / 0.16.
-TEST(SolveOne, TellsAGuessThatIsWrongFromAMeasurementThatIs) {
+// A pose with a prior at its place, with a sigma of 0.7 m, and a measurement 3 m away with a sigma of 1 cm; the losses
+// are Cauchy's, with scale 2. Staying costs 2 log(1 + 300^2 / 4) = 20.0, moving (3 / 0.7)^2 / 2 = 9.2: the measurement
+// is right, though it looks like an outlier of 300 standard deviations. With 0.4 m, moving costs 28.1, and the
+// measurement is an outlier, which pulls by 4 / (3 - x) against x / 0.16.
+TEST(SolveOne, DistinguishesAWrongInitialValueFromAWrongMeasurement) {
   for (const auto& [sigma, expected] : {std::pair(0.7, 3.0), std::pair(0.4, 0.2311)}) {
     Graph graph;
     const auto origin = graph.addVariable(se2(), Eigen::Vector3d::Zero(), true);

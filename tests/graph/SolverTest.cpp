@@ -159,7 +159,7 @@ TEST(Solver, FixedVariablesAndThoseNothingBindsStay) {
   EXPECT_EQ(world.graph.value(alone), Eigen::Vector2d(1, 2));
 }
 
-TEST(Solver, AGraphThatHangsFreeIsRefusedByName) {
+TEST(Solver, AnUnconstrainedGraphIsRefusedByName) {
   World2 world = gridWorld(10, 6, {0.1, 0.1, 0.05});
   world.graph.setFixed(world.ids[0], false);
   EXPECT_THROW(solve(world.graph), base::Error);

@@ -49,7 +49,8 @@ std::string written(const graph::Graph& graph) {
   return out.str();
 }
 
-/// What g2o minimises for one edge, written from its sources: edge_se2_line2d.h, edge_se3_plane_calib.h, plane3d.h.
+/// The cost that g2o minimises for one edge, written from its sources: edge_se2_line2d.h, edge_se3_plane_calib.h,
+/// plane3d.h.
 using Cost = std::function<double(const VectorXd& pose, const VectorXd& hyperplane)>;
 
 Cost lineCost(const std::vector<double>& edge) {
@@ -166,7 +167,7 @@ TEST(G2oHyperplanes, AnUprightPlaneOfAPlanarMapIsALine) {
   }
 }
 
-TEST(G2oHyperplanes, ATableOfAPlanarMapTellsItsPosesNothing) {
+TEST(G2oHyperplanes, ATableDoesNotConstrainThePosesOfAPlanarMap) {
   graph::Graph graph;
   const auto pose = graph.addVariable(graph::se2(), Vector3d(1, 2, 0.7), true);
   const auto table = graph.addVariable(planeVariable(), planeValue({0, 0, 1}, -0.7));

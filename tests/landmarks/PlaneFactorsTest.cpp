@@ -97,7 +97,7 @@ TEST(PlaneFactor, JacobiansMatchDifferences) {
 TEST(LineOnPlaneFactor, ResidualAsWorkedByHand) {
   const Vector3d direction(1, 0, 0), middle(2, -1, 0.4);
   EXPECT_LT(at(LineOnPlaneFactor(direction, middle), kLookingAlongY, kWall).residual().norm(), 1e-12);
-  // Seen 5 cm nearer, and turned by 0.1 rad.
+  // Measured 5 cm nearer, and turned by 0.1 rad.
   const LineOnPlaneFactor wrong({std::cos(0.1), std::sin(0.1), 0}, {2, -0.95, 0.4});
   const Eigen::VectorXd r = at(wrong, kLookingAlongY, kWall).residual();
   EXPECT_NEAR(r[0], std::sin(0.1), 1e-12);
@@ -109,8 +109,8 @@ TEST(LineOnPlaneFactor, LeavesTheTurnAboutTheLineOpen) {
   const Vector3d on_line = kLookingAlongY * Vector3d(2, -1, 0.4);
   const Vector3d along = kLookingAlongY.rotation * Vector3d::UnitX();
   for (const double turn : {0.3, -1.0, 2.0}) {
-    const Plane3 leaning = Plane3::through(on_line, Eigen::AngleAxisd(turn, along) * kWall.normal);
-    EXPECT_LT(at(line, kLookingAlongY, leaning).residual().norm(), 1e-12);
+    const Plane3 tilted = Plane3::through(on_line, Eigen::AngleAxisd(turn, along) * kWall.normal);
+    EXPECT_LT(at(line, kLookingAlongY, tilted).residual().norm(), 1e-12);
   }
 }
 
@@ -122,12 +122,12 @@ TEST(LineOnPlaneFactor, JacobiansMatchDifferences) {
   }
 }
 
-TEST(UprightFactor, IsTheTangentOfTheLean) {
+TEST(UprightFactor, IsTheTangentOfTheTilt) {
   const UprightFactor factor;
-  for (const double lean : {0.0, 0.2, -0.4, 1.4}) {
-    const Plane3 plane{{std::cos(lean), 0, std::sin(lean)}, 3};
+  for (const double tilt : {0.0, 0.2, -0.4, 1.4}) {
+    const Plane3 plane{{std::cos(tilt), 0, std::sin(tilt)}, 3};
     const Evaluation evaluation{factor, {planeVariable()}, {toValue(plane)}};
-    EXPECT_NEAR(evaluation.residual()[0], std::tan(lean), 1e-12);
+    EXPECT_NEAR(evaluation.residual()[0], std::tan(tilt), 1e-12);
     graph::expectJacobiansMatchDifferences(evaluation);
   }
 }
@@ -138,8 +138,8 @@ TEST(UprightFactor, IsFiniteForALevelPlane) {
   EXPECT_NEAR(evaluation.residual()[0], -100, 1e-9);
 }
 
-// Two poses, one plane: the second pose and the plane are wrong by much, and found.
-TEST(PlaneFactor, ThreePlanesTellAPose) {
+// Two poses, one plane: the second pose and the plane have very wrong initial values, and are found.
+TEST(PlaneFactor, ThreePlanesDetermineAPose) {
   testing::Dice dice(4);
   const Se3 truth = anyPose(dice, 3);
   const std::vector<Plane3> planes = {{{-1, 0, 0}, 6}, {{0, -1, 0}, 5}, {{0, 0, 1}, 0}};
@@ -157,16 +157,16 @@ TEST(PlaneFactor, ThreePlanesTellAPose) {
   EXPECT_LT(minus(graph::se3FromValue(graph.value(second).data()), truth).norm(), 1e-6);
 }
 
-// A laser at two heights tells the lean of a wall; one height and the prior leave it upright.
-TEST(LineOnPlaneFactor, TwoHeightsTellTheLean) {
-  const double lean = 0.1;
-  const Plane3 wall = Plane3::through({2, 0, 0}, {-std::cos(lean), 0, std::sin(lean)});
+// A laser at two heights determines the tilt of a wall; one height and the prior leave it upright.
+TEST(LineOnPlaneFactor, TwoHeightsDetermineTheTilt) {
+  const double tilt = 0.1;
+  const Plane3 wall = Plane3::through({2, 0, 0}, {-std::cos(tilt), 0, std::sin(tilt)});
   const auto solved = [&](const std::vector<double>& heights, double upright_sigma) {
     graph::Graph graph;
     const auto pose = graph.addVariable(graph::se3(), graph::toValue(Se3{}), true);
     const auto id = graph.addVariable(planeVariable(), toValue({{-1, 0, 0}, 1.5}));
     for (const double z : heights) {
-      const double x = 2 + z * std::tan(lean);
+      const double x = 2 + z * std::tan(tilt);
       graph.addFactor({{pose, id},
                        std::make_shared<LineOnPlaneFactor>(Vector3d::UnitY(), Vector3d(x, 0.5, z)),
                        SquareRootInformation::fromSigmas(Eigen::Vector2d(0.005, 0.005))});
@@ -177,11 +177,11 @@ TEST(LineOnPlaneFactor, TwoHeightsTellTheLean) {
     graph::solve(graph);
     return planeFromValue(graph.value(id).data());
   };
-  const Plane3 told = solved({0.3, 1.5}, 1.0);
-  EXPECT_LT(geometry::minus(told, wall).norm(), 1e-3);
-  const Plane3 untold = solved({0.3}, 0.1);
-  EXPECT_NEAR(untold.normal.z(), 0, 1e-6);
-  EXPECT_NEAR(signedDistance(untold, {2 + 0.3 * std::tan(lean), 7, 0.3}), 0, 1e-6);
+  const Plane3 determined = solved({0.3, 1.5}, 1.0);
+  EXPECT_LT(geometry::minus(determined, wall).norm(), 1e-3);
+  const Plane3 undetermined = solved({0.3}, 0.1);
+  EXPECT_NEAR(undetermined.normal.z(), 0, 1e-6);
+  EXPECT_NEAR(signedDistance(undetermined, {2 + 0.3 * std::tan(tilt), 7, 0.3}), 0, 1e-6);
 }
 
 TEST(PlaneFactors, ComeBackFromAFile) {

@@ -56,7 +56,8 @@ TEST(WallVariable, MinusUndoesPlus) {
   }
 }
 
-// The wall y = 2, free below; the robot at (1, 0.5) looks at it and sees it 1.4 m ahead instead of 1.5, and turned.
+// The wall y = 2, free below; the robot at (1, 0.5) looks at it and measures it 1.4 m ahead instead of 1.5, and
+// rotated.
 TEST(WallFactor, ResidualAsWorkedByHand) {
   const Segment2 wall{{4, 2}, {0, 2}};
   const Se2 robot{1, 0.5, kPi / 2};
@@ -78,7 +79,7 @@ TEST(WallFactor, JacobiansMatchDifferences) {
   }
 }
 
-TEST(WallFactor, TwoWallsTellAPose) {
+TEST(WallFactor, TwoWallsDetermineAPose) {
   const std::vector<Segment2> walls = {{{5, 0}, {5, 4}}, {{4, 3}, {0, 3}}};
   const Se2 truth{1.5, 0.5, 0.7};
   graph::Graph graph;
@@ -125,7 +126,8 @@ TEST_P(PlaneParametrizationTest, DifferenceChangesAsItSays) {
   const PlaneParametrization& form = PlaneParametrization::of(GetParam());
   const auto& kind = *form.variable();
   const int size = kind.tangentSize();
-  // The axes of a plane's tangent jump where two coordinates of its normal are as small: not here.
+  // The axes of a plane's tangent are discontinuous where the two smallest coordinates of its normal are equal; here
+  // they are not.
   const geometry::Plane3 plane{{-0.8, 0.6, 0}, 2};
   const Eigen::Vector3d foot = -plane.distance * plane.normal, along(0.6, 0.8, 0);
   const Eigen::VectorXd a = form.value(plane, {foot - along, foot + along});
@@ -140,7 +142,7 @@ TEST_P(PlaneParametrizationTest, DifferenceChangesAsItSays) {
     const Eigen::VectorXd& start = column < size ? a : b;
     kind.plus(start.data(), step.data(), moved.data());
     const auto after = column < size ? form.difference(moved, b) : form.difference(a, moved);
-    // To first order where both are nearly one.
+    // To first order if both are nearly the same.
     EXPECT_LT(((after.change - difference.change) / h - difference.by_both.col(column)).norm(), 0.02) << column;
   }
 }

@@ -31,7 +31,7 @@ void overwrite(const std::string& path, const std::string& content) {
   std::ofstream(path, std::ios::binary) << content;
 }
 
-/// The error of reading `path`, as text; empty if it reads.
+/// The error of reading `path`, as text; empty if it can be read.
 std::string refusal(const std::string& path) {
   try {
     map::MapFile::read(path);
@@ -50,7 +50,7 @@ map::MapFile smallFile() {
   return file;
 }
 
-/// Poses whose bits come from long products: no angle or quaternion gives them back exactly.
+/// Poses from long products, which angles or quaternions would not reproduce in every bit.
 map::Map awkwardMap() {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -147,7 +147,7 @@ TEST(MapFile, manyKeyFramesAreSeveralBlocksAndSmallerThanTheirBytes) {
             299);
 }
 
-TEST(MapFile, aBlockThatClaimsWhatNoBytesHoldIsRefused) {
+TEST(MapFile, aBlockThatStatesMoreThanItsBytesHoldIsRefused) {
   auto section = map::framesToSection(awkwardMap());
   for (const std::size_t at : {4, 12, 40, 50}) {
     auto damaged = section;
@@ -259,7 +259,7 @@ TEST(FramesSection, laterVersionsAndStrangeBytesAreRefused) {
   EXPECT_THROW(map::framesFromSection(section), base::Error);
   EXPECT_THROW(map::framesFromSection({"frames", 1, "??"}), base::Error);
   EXPECT_THROW(map::framesFromSection({"graph", 1, ""}), base::Error);
-  // An observation of a class that nobody registered.
+  // An observation of a class that is not registered.
   std::string bytes = omnimapper::testing::unpackedFrames(map::framesToSection(awkwardMap()));
   bytes.replace(bytes.find("CObservationRobotPose"), 21, "CObservationRobotPast");
   section = omnimapper::testing::packedFrames(3, bytes);

@@ -51,7 +51,8 @@ TEST(Map, aKeyFrameThatIsNotThereIsAnErrorNamingIt) {
 }
 
 TEST(DenseTrajectory, spreadsADriftEvenlyInTime) {
-  // The source told 1 m straight ahead in 1 s, seen at 0.25 s and 0.5 s; the graph says 1.2 m ahead and 0.4 m left.
+  // The source measured 1 m straight ahead in 1 s, with frames at 0.25 s and 0.5 s; in the graph it is 1.2 m ahead and
+  // 0.4 m to the left.
   map::KeyFrame first = keyFrame(0, 0, {});
   first.dependents = {{at(0.25), CPose3D(0.25, 0, 0, 0, 0, 0)}, {at(0.5), CPose3D(0.5, 0, 0, 0, 0, 0)}};
   first.keyframe_from_next = CPose3D(1, 0, 0, 0, 0, 0);
@@ -107,7 +108,7 @@ TEST(DenseTrajectory, aDependentFrameAtTheEndIsTheNextKeyFrameInSpace) {
   }
 }
 
-TEST(DenseTrajectory, withoutDisagreementItIsTheToldPath) {
+TEST(DenseTrajectory, withoutDisagreementItIsTheMeasuredPath) {
   map::KeyFrame first = keyFrame(0, 0, CPose3D(1, 2, 3, 0.4, 0.1, -0.2));
   first.dependents = {{at(0.3), CPose3D(0.1, 0.2, 0, 0.3, 0, 0)}};
   first.keyframe_from_next = CPose3D(0.5, 0.1, 0.2, 0.6, 0.1, 0);

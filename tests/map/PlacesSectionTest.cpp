@@ -114,7 +114,8 @@ TEST(PlacesSection, NumbersThatAreNoneAreRefused) {
   EXPECT_NE(refusal(placesToSection(places).bytes).find("below zero"), std::string::npos);
 }
 
-// Damage in a section that is not read is not looked for; in the one that is, and in what leads to it, it is noticed.
+// Damage in a section that is not read goes unnoticed; in the section that is read, and in the bytes that lead to it,
+// it is noticed.
 TEST(PlacesSection, IsReadWithoutTheOthers) {
   testing::ScratchFolder folder;
   const std::string path = folder / "map.omnimap";

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <ostream>
 
-// The sections of a map file beside that of a single session's frames.
+// The sections of a map file other than the frames of a single session.
 namespace omnimapper::map::sections_test {
 namespace {
 
@@ -45,7 +45,7 @@ Map mapWithLandmarks() {
   sign.first_seen = base::stampFromUnix(1.1e9);
   sign.last_seen = base::stampFromUnix(1.2e9 + 1e-7);
   map.landmarks.add(0, sign);
-  map.landmarks.skip(0);  // one that is gone
+  map.landmarks.skip(0);  // an id that is not used any more
   auto merged = landmark({0, 2}, "door sign");
   merged.state = Landmark::State::merged;
   merged.merged_into = {0, 0};
@@ -112,7 +112,7 @@ TEST(LandmarksSection, CutsLaterVersionsAndOtherSectionsAreRefused) {
   EXPECT_THROW(landmarksFromSection({"sessions", 1, section.bytes}, {}), base::Error);
 }
 
-// A million ids that are gone, said of each of all sessions, would take 16 GB and half an hour.
+// A million unused ids in each of all sessions would take 16 GB and half an hour.
 TEST(LandmarksSection, SessionsThatSayTheyGaveTooManyIdsTogetherAreRefused) {
   const auto sessions = [](int count, std::uint32_t ids) {
     std::string bytes;
@@ -225,7 +225,7 @@ TEST(LevelSection, HoldsWhichWayIsUpAndRefusesWhatIsNoDirection) {
 
 TEST(Level, TurnsUpToZAndSaysSo) {
   Level level;
-  EXPECT_EQ(level.levelFromMap().coeffs(), Eigen::Quaterniond::Identity().coeffs()) << "nobody knows";
+  EXPECT_EQ(level.levelFromMap().coeffs(), Eigen::Quaterniond::Identity().coeffs()) << "up is unknown";
   EXPECT_EQ(sentenceOf(level), "which way is up is not known: ");
   level.source = Level::Source::planes;
   level.up = {0, -1, 0};

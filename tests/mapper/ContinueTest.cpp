@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Logs that are cut and continued, through a map file, with the plugins of the project.
+// Continues logs that were cut, through a map file and with the plugins of the project.
 namespace omnimapper::mapper::continue_test {
 namespace {
 
@@ -23,7 +23,7 @@ SimulatedLogOptions ring(double laps) {
   return options;
 }
 
-// The observations before that part of the log, and those after.
+// The observations of the log before that part, and those after it.
 std::pair<Observations, Observations> cut(const SimulatedLog& log, double part) {
   const auto stamp = log.begin() + base::durationFromSeconds(part * base::secondsBetween(log.begin(), log.end()));
   std::pair<Observations, Observations> halves;
@@ -101,7 +101,7 @@ TEST_F(Continue, ASessionThatMayBeAnywhereIsFoundInTheMap) {
   const double error = testing::trajectoryError(whole->view(), log);
   const auto before = map(cut(log, 0.5).first);
   start_.start = SessionOptions::Start::anywhere;
-  for (const double begin : {0.5, 0.6, 0.72, 0.85}) {  // of the log: the second lap from there on
+  for (const double begin : {0.5, 0.6, 0.72, 0.85}) {  // share of the log at which the second lap begins
     const auto both = goOn(*before, cut(log, begin).second);
     EXPECT_TRUE(both->view().map.sessions[1].joined) << begin;
     EXPECT_NEAR(testing::trajectoryError(both->view(), log), error, 0.03) << begin;
@@ -122,7 +122,7 @@ TEST_F(Continue, ASessionOfAnotherBuildingIsNotJoinedAndTheMapStaysAsItWas) {
   }
   const auto& decisions = both->view().decisions;
   EXPECT_TRUE(std::any_of(decisions.begin(), decisions.end(), [](const auto& decision) {
-    return decision.kind == "relocalisation" && !decision.accepted && !decision.reason.empty();
+    return decision.kind == "relocalization" && !decision.accepted && !decision.reason.empty();
   }));
 }
 
@@ -130,17 +130,17 @@ TEST_F(Continue, AStartThatIsWrongByFarIsSetRightInTheWholeMap) {
   const SimulatedLog log(ring(2));
   const auto [first, second] = cut(log, 0.5);
   start_.start = SessionOptions::Start::pose;
-  start_.start_x = 30, start_.start_y = 40, start_.start_yaw = 3;  // beyond what is searched around it
+  start_.start_x = 30, start_.start_y = 40, start_.start_yaw = 3;  // beyond the area that is searched around the start
   const auto both = goOn(*map(first), second);
   EXPECT_TRUE(both->view().map.sessions[1].joined);
   EXPECT_LT(testing::trajectoryError(both->view(), log), 0.1);
 }
 
-// Walls fit many places, and a single one that ties a session to the wrong place would hide it from those who seek it.
+// Walls fit many places, and a single one that ties a session to the wrong place would end the search of other plugins.
 TEST_F(Continue, ALogThatBeginsWhereNobodySaidIsFoundAndHasItsWallsOnce) {
   ini_ += "[laser_lines]\nclass = LaserLineExtractor\n[planes]\nclass = PlaneLandmarksPlugin\n";
   settings_ = {"mapper.measurement_plugins=planes,loop_closure", "perception.extractors=laser_points,laser_lines"};
-  const SimulatedLog log(ring(1.5));  // ends half a lap from where it began, and there the session should begin
+  const SimulatedLog log(ring(1.5));  // it ends half a lap from its begin, and the session should begin there
   const auto before = map(log.observations());
   const auto walls = [](const View& view) {
     int count = 0;
@@ -213,10 +213,10 @@ TEST_F(Continue, ASectionOfNobodyHereSurvivesTwoSessions) {
   EXPECT_EQ(sections[0].bytes, std::string("x\0y", 3));
 }
 
-// Neither scans nor closures: the two sessions have the earth, or the frame of the tracker, in common.
+// Without scans and closures, the two sessions share only the earth or the frame of the tracker.
 class ContinueWithReference : public Continue {
  protected:
-  // Variables that are the pose of no key frame and no anchor.
+  // Variables that are neither the pose of a key frame nor an anchor.
   static std::size_t countReferences(const View& view) {
     std::size_t count = 0;
     for (const auto& [id, record] : view.graph.variables()) {
@@ -244,7 +244,7 @@ TEST_F(ContinueWithReference, GpsGoesOnWithTheSameOriginAndFrame) {
   const auto [first, second] = cut(log, 0.6);
   const auto before = map(first);
   start_.start = SessionOptions::Start::pose;
-  start_.start_x = 30, start_.start_y = -20, start_.start_yaw = 2;  // far off: the fixes say where
+  start_.start_x = 30, start_.start_y = -20, start_.start_yaw = 2;  // far off: the GPS fixes determine the place
   const auto both = goOn(*before, second);
   EXPECT_EQ(countReferences(before->view()), 1U);
   EXPECT_EQ(countReferences(both->view()), 1U);

@@ -12,7 +12,7 @@ using graph::SquareRootInformation;
 using Kind = Match::Kind;
 using Method = AssociationOptions::Method;
 
-// Points of a map that is known well, and a pose of which only the place is known, and badly.
+// Points of a map that are known well, and a pose whose position is known only poorly.
 class AssociationOfPoints : public ::testing::Test {
  protected:
   AssociationOfPoints() {
@@ -27,7 +27,7 @@ class AssociationOfPoints : public ::testing::Test {
     graph_.addFactor({{pose_, id},
                       std::make_shared<graph::PointFactor2>(Eigen::Vector2d(x, y)),
                       SquareRootInformation::fromSigmas(Eigen::Vector2d(1e4, 1e4))});
-    // As if many had seen it: where it is is known, whatever the pose.
+    // As if the point was measured often: its position is known, whatever the pose.
     graph_.setFixed(id, true);
     points_.push_back(id);
   }
@@ -60,8 +60,9 @@ class AssociationOfPoints : public ::testing::Test {
   Repeats repeats_ = Repeats::no;
 };
 
-// The pose is wrong by 0.9 m; the points are 1, 1.5 and 2 m apart. Alone, each measurement is nearest to the wrong one.
-TEST_F(AssociationOfPoints, TogetherTellWhatEachAloneTellsWrong) {
+// The pose is wrong by 0.9 m; the points are 1, 1.5 and 2 m apart. By itself, each measurement is nearest to the wrong
+// one.
+TEST_F(AssociationOfPoints, TogetherMatchWhatEachAloneMatchesWrong) {
   for (const double x : {0.0, 1.0, 2.5, 4.5}) mapPoint(x, 2);
   const std::vector<Eigen::Vector2d> measured = {{0.9, 2}, {1.9, 2}, {3.4, 2}, {5.4, 2}};
   const Association jointly = associateAll(measured);
@@ -75,7 +76,7 @@ TEST_F(AssociationOfPoints, TogetherTellWhatEachAloneTellsWrong) {
 TEST_F(AssociationOfPoints, ChiSquareOfOneWorkedByHand) {
   mapPoint(0, 2);
   const Association found = associateAll({{0.6, 2}});
-  EXPECT_NEAR(found.matches[0].chi2, 0.36 / (0.36 + 0.0025), 1e-3);  // the yaw's share is below
+  EXPECT_NEAR(found.matches[0].chi2, 0.36 / (0.36 + 0.0025), 1e-3);  // the effect of the yaw is below
   EXPECT_NEAR(found.matches[0].limit, 13.816, 1e-3);                 // 99.9 %, two rows
   EXPECT_EQ(found.matches[0].kind, Kind::matched);
 }
@@ -91,7 +92,7 @@ TEST_F(AssociationOfPoints, WhatIsFarFromAllIsNew) {
   EXPECT_EQ(decision.reason, "gated out: too far from the nearest");
 }
 
-// Each passes its own gate, but not both: where one is right the other is a metre off.
+// Each passes its own gate, but not both together: if one is right, the other is wrong by a metre.
 TEST_F(AssociationOfPoints, WhatDoesNotFitTogetherIsNotMatchedTogether) {
   mapPoint(0, 2);
   mapPoint(5, 2);
@@ -103,7 +104,7 @@ TEST_F(AssociationOfPoints, WhatDoesNotFitTogetherIsNotMatchedTogether) {
   EXPECT_LT(found.matches[2].chi2, found.matches[2].limit);
 }
 
-TEST_F(AssociationOfPoints, BetweenTwoAlikeNobodyCanTell) {
+TEST_F(AssociationOfPoints, BetweenTwoAlikeAreAmbiguous) {
   mapPoint(-0.5, 2);
   mapPoint(0.5, 2);
   const Association found = associateAll({{0.02, 2}});
@@ -139,7 +140,7 @@ TEST_F(AssociationOfPoints, ASearchOutOfNodesGivesTheBestSoFarAndSaysSo) {
   EXPECT_EQ(decision.reason, "matched; the search was cut short");
 }
 
-// Say, what only a factor of another session that was taken out had bound.
+// For example, a landmark that only a removed factor of another session had bound.
 TEST_F(AssociationOfPoints, ALandmarkThatNothingBindsIsNoneToMatch) {
   mapPoint(0, 2);
   points_.push_back(graph_.addVariable(graph::point2(), Eigen::Vector2d(0.6, 2)));
@@ -147,7 +148,7 @@ TEST_F(AssociationOfPoints, ALandmarkThatNothingBindsIsNoneToMatch) {
   EXPECT_EQ(matchOf(found, 0), 0);
 }
 
-// The point hangs on a pose that nothing holds: how well it is known beside the first pose cannot be said.
+// The point is attached to an unconstrained pose, so its covariance relative to the first pose is undetermined.
 TEST_F(AssociationOfPoints, WhereNothingIsKnownOfHowSureTheMapIsNothingIsMatched) {
   const auto adrift = graph_.addVariable(graph::se2(), Eigen::Vector3d::Zero());
   points_.push_back(graph_.addVariable(graph::point2(), Eigen::Vector2d(0, 2)));

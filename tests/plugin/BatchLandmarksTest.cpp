@@ -9,7 +9,7 @@
 
 #include "GraphInvariants.h"
 
-// What batches do to landmarks. Two things, a and b, are seen from one pose.
+// The effect of batches on landmarks. Two landmarks, a and b, are seen from one pose.
 namespace omnimapper::mapper::batch_landmarks_test {
 namespace {
 
@@ -127,7 +127,7 @@ TEST_F(BatchLandmarks, OneTakesInSeveralAndOneThatGoesTakesInNone) {
         batch.mergeLandmarks(b_, a_);
         batch.mergeLandmarks(a_, b_);
       },
-      "cannot take in");
+      "cannot have others merged into it");
   const auto third = applied([&](Batch& batch) {
                        const auto variable = batch.addVariable(graph::se2(), Eigen::Vector3d::Zero());
                        batch.addFactor(measurement(pose_, variable, batch.addLandmark("thing", {variable})));

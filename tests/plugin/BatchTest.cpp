@@ -35,7 +35,7 @@ struct TwoPoses {
   base::FactorId link = graph.addFactor(between(a, b));
 };
 
-// Everything a graph holds, as text.
+// The whole content of a graph, as text.
 std::string content(const Graph& graph) {
   std::ostringstream text;
   for (const auto& [id, record] : graph.variables()) {

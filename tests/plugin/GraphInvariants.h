@@ -8,11 +8,11 @@
 #include <set>
 #include <string>
 
-// What must hold of map and graph after whatever was done to them.
+// Properties of map and graph that must hold after any edit.
 namespace omnimapper::testing {
 
 /// Between neighbours in time of a session, and nowhere else, each source of `sources` has at most one factor and all
-/// together at least one: no stretch is left out, none is counted twice.
+/// together at least one: no time span is left out, and none is counted twice.
 inline void expectOneChain(const mapper::View& view, const std::set<std::string>& sources) {
   const auto& frames = view.map.key_frames;
   std::map<base::VariableId, std::size_t> position;
@@ -33,7 +33,7 @@ inline void expectOneChain(const mapper::View& view, const std::set<std::string>
   }
 }
 
-/// Every id that stands anywhere is of something that is there.
+/// Every id that is used anywhere exists.
 inline void expectNothingDangles(const mapper::State& state) {
   std::map<base::VariableId, std::set<base::FactorId>> bound;
   for (const auto& [id, record] : state.graph.factors()) {

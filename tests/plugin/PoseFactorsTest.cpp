@@ -31,7 +31,7 @@ TEST(PoseFactors, APoseSurvivesTheGraphWholeInSpaceAndItsPlanarPartInThePlane) {
   expectNear(poseOf(graph, planar), CPose3D(1, -2, 0, 2.5, 0, 0), 1e-12);
 }
 
-// A motion and a prior are at their minimum where the poses are what was measured.
+// A motion and a prior have their minimum where the poses agree with the measurements.
 TEST(PoseFactors, MotionsAndPriorsHoldPosesWhereTheyWereMeasured) {
   for (const Motion motion : {Motion::planar, Motion::spatial}) {
     const bool planar = motion == Motion::planar;
@@ -63,7 +63,7 @@ TEST(PoseFactors, AResidualIsCountedInStandardDeviations) {
   EXPECT_NEAR(graph.whitenedResidual(link).norm(), 3, 1e-9);  // 0.3 m at 0.1 m
 }
 
-TEST(PoseFactors, WhatIsClaimedToBeExactIsGivenALeastVariance) {
+TEST(PoseFactors, WhatIsReportedAsExactIsGivenALeastVariance) {
   for (const Motion motion : {Motion::planar, Motion::spatial}) {
     graph::Graph graph;
     const auto a = graph.addVariable(poseVariable(motion), poseValue(motion, {}), true);

@@ -12,7 +12,7 @@ namespace {
 
 using mrpt::poses::CPose3D;
 
-// A map of two key frames 30 m and 40 m apart, and a session of two that is tied to nothing.
+// A map of two key frames 30 m and 40 m apart, and a session of two key frames that no factor ties to it.
 class PlacedSession : public ::testing::Test {
  protected:
   PlacedSession() {

@@ -9,7 +9,7 @@ using mrpt::poses::CPose3D;
 using testing::HandMadeRun;
 using Covariance = Eigen::Matrix<double, 6, 6>;
 
-// A robot that goes 1 m along x from key frame to key frame, known each time to 0.1 m and 0.01 rad.
+// A robot that moves 1 m along x from key frame to key frame, each time with sigmas of 0.1 m and 0.01 rad.
 class UncertaintyOf : public ::testing::TestWithParam<Motion> {
  protected:
   UncertaintyOf() { run_.motion = GetParam(); }
@@ -34,7 +34,7 @@ class UncertaintyOf : public ::testing::TestWithParam<Motion> {
     return covariance.value_or(Covariance::Zero());
   }
   static void expectSteps(const Covariance& covariance, int steps) {
-    double levers = 0;  // what a turn at each step swings the end by, squared
+    double levers = 0;  // variance of the end by the rotation error of each step
     for (int i = 0; i < steps; ++i) levers += i * i;
     EXPECT_NEAR(covariance(0, 0), 0.01 * steps, 1e-9);
     EXPECT_NEAR(covariance(1, 1), 0.01 * steps + 1e-4 * levers, 1e-9);
@@ -90,7 +90,7 @@ TEST_P(UncertaintyOf, WhatNothingDeterminesIsNotKnown) {
   addFrames(3);
   run_.graph.setFixed(run_.map.key_frames.front().pose, false);
   factor();
-  EXPECT_FALSE(run_.view().covarianceBetween({0, 0}, {0, 2})) << "the whole map hangs free";
+  EXPECT_FALSE(run_.view().covarianceBetween({0, 0}, {0, 2})) << "the whole map is unconstrained";
 }
 
 INSTANTIATE_TEST_SUITE_P(Motions, UncertaintyOf, ::testing::Values(Motion::planar, Motion::spatial));

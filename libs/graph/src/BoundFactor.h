@@ -7,18 +7,18 @@
 
 namespace omnimapper::graph {
 
-/// True if a slot for variables of one kind takes a variable of the other.
+/// Whether a slot for variables of one kind takes a variable of the other kind.
 bool takes(std::string_view slot_kind, std::string_view variable_kind);
 
-/// A factor with the kinds of variables bound to it: lifts planar poses where it wants poses in space, and whitens.
-/// Refers to the record, which must outlive it.
+/// A factor with the kinds of the variables that are bound to it. It lifts planar poses for slots that take poses in
+/// space, and whitens. It refers to the record, which must outlive it.
 class BoundFactor {
  public:
   BoundFactor(const Graph& graph, const FactorRecord& record);
 
   int residualSize() const { return rows_; }
   int variableCount() const { return static_cast<int>(slots_.size()); }
-  /// Of the bound variable, not of the factor's slot.
+  /// Sizes of the bound variable, not of the factor's slot.
   int tangentSize(int i) const { return slots_[i].bound_tangent; }
   int ambientSize(int i) const { return slots_[i].bound_ambient; }
   const FactorRecord& record() const { return *record_; }
@@ -34,7 +34,7 @@ class BoundFactor {
     int factor_ambient, factor_tangent;
     bool lifted;
     int jacobian_offset;  // of the factor's own Jacobian in the scratch memory
-    int value_offset;     // of the lifted value in it
+    int value_offset;     // of the lifted value in the scratch memory
   };
   void whiten(const double* raw, int raw_columns, bool lifted, double* out, int out_stride, int out_columns) const;
 

@@ -44,7 +44,7 @@ double readDouble(std::istream& in) {
 }
 
 std::string readText(std::istream& in) {
-  // In pieces, so that a damaged length ends at the end of the stream and not of the memory.
+  // The text is read in pieces, so that a damaged length reaches the end of the stream before it exhausts the memory.
   std::uint64_t left = readUint(in, 4);
   std::string text;
   while (left > 0) {

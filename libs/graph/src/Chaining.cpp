@@ -10,7 +10,7 @@ namespace {
 
 using geometry::Se3;
 
-/// Sets poses outward from those that are set. Edges between neighbours in the order of ids go first.
+/// Sets poses outward from those that are set, along edges between neighbours in the order of ids first.
 class Chain {
  public:
   explicit Chain(PoseEdges& edges) : edges_(edges), set_(edges.poses.size(), false), edges_of_(edges.poses.size()) {
@@ -25,7 +25,7 @@ class Chain {
     set_[pose] = true;
     open_.push_back({pose, nullptr});
   }
-  /// Until nothing more can be reached.
+  /// Sets poses until no more can be reached.
   void spread() {
     while (!open_.empty()) {
       const Step step = open_.front();

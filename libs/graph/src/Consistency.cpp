@@ -19,9 +19,9 @@ namespace {
 using base::FactorId;
 using Method = ConsistencyOptions::Method;
 
-/// So many of the newest that do not act are looked at again beside fresh ones.
+/// Number of the newest refused hypotheses that are tested again together with fresh ones.
 constexpr std::size_t kMostWaiting = 20;
-/// So many fresh ones are judged together; more are judged as if they had come one after another.
+/// Largest number of fresh hypotheses that are judged together; more are judged as if they had come one after another.
 constexpr std::size_t kMostAtOnce = 20;
 
 bool contains(const std::vector<FactorId>& some, FactorId id) {
@@ -36,14 +36,15 @@ class Test {
       : graph_(graph), fresh_(fresh), options_(options), solve_options_(solve_options), gate_(options) {
     for (const FactorId id : fresh_)
       if (!graph_.factor(id).tags.hypothesis)
-        throw base::Error(base::ExitCode::internal, "consistency test: factor " + toString(id) + " is no hypothesis");
+        throw base::Error(base::ExitCode::internal,
+                          "consistency test: factor " + toString(id) + " is not a hypothesis");
     for (const auto& [id, record] : graph_.factors())
       if (record.tags.hypothesis) acted_[id] = record.weight > 0;
   }
 
   std::vector<Verdict> run() {
     if (options_.method == Method::none) {
-      for (const FactorId id : fresh_) decide(id, true, misfit(id), "taken without a test");
+      for (const FactorId id : fresh_) decide(id, true, misfit(id), "accepted without a test");
       solveEased(graph_, fresh_, solve_options_);
       return verdicts();
     }
@@ -69,7 +70,7 @@ class Test {
     verdicts_[id] = {id, accepted, accepted != acted_.at(id), chi2, bound(id), rowsOf(id), reason, against};
   }
 
-  /// The fresh ones as they could have come one after another: by the newest of their variables.
+  /// The fresh hypotheses in the order in which they could have come: by the newest of their variables.
   std::vector<FactorId> inOrderOfTime() const {
     const auto newest = [this](FactorId id) {
       const std::vector<base::VariableId>& variables = graph_.factor(id).variables;
@@ -83,15 +84,15 @@ class Test {
   void judge(const std::vector<FactorId>& some) {
     const std::vector<FactorId> acting_before = acting();
     const std::vector<FactorId> contradicting = take(some);
-    bringNear(acting_before);
+    solveWithoutLosses(acting_before);
     solveEased(graph_, newOf(acting_before), solve_options_);
-    if (!contradicting.empty()) overturnBy(contradicting);
-    bearOut(some);
+    if (!contradicting.empty()) reviseBy(contradicting);
+    confirmByOthers(some);
     takeBackWhatNoLongerFits();
-    letInWhatFitsNow();
+    acceptWhatFitsNow();
   }
 
-  /// The newest that do not act and were judged before these, in the order of ids.
+  /// The newest hypotheses that do not act and were judged before these, in the order of ids.
   template <class Wanted>
   std::vector<FactorId> waiting(const std::vector<FactorId>& some, const Wanted& isWanted) const {
     std::vector<FactorId> found;
@@ -107,17 +108,17 @@ class Test {
     return waiting(some, [](FactorId) { return true; });
   }
 
-  /// Decides about some of the fresh ones; returns those that contradict the map.
+  /// Decides about some of the fresh hypotheses; returns those that contradict the map.
   std::vector<FactorId> take(const std::vector<FactorId>& some) {
     std::vector<FactorId> candidates;
     for (const FactorId id : some)
       if (bindsUnconstrained(graph_, id)) {
         initializeUnconstrained(graph_, id);
-        decide(id, true, 0, "nothing is known yet of what it measures");
+        decide(id, true, 0, "the map does not determine yet what it measures");
       } else {
         candidates.push_back(id);
       }
-    // What the map predicts within the measurement's own noise passes every gate, however well the map is known.
+    // A measurement that the map predicts within its own noise passes every gate, however certain the map is.
     if (std::all_of(candidates.begin(), candidates.end(), [this](FactorId id) { return misfit(id) <= bound(id); })) {
       for (const FactorId id : candidates) decide(id, true, misfit(id), "fits the map");
       return {};
@@ -150,11 +151,10 @@ class Test {
                                                : selectGraduated(innovation, log_volumes, gate_);
   }
 
-  /// A robust loss takes the say from what is far from the values, and the solution would stay in the valley in which
-  /// it is: what was believed just now, from so far away that its loss leaves it hardly any pull, is first solved
-  /// without it.
-  void bringNear(const std::vector<FactorId>& acting_before) {
-    constexpr double kHardlyAny = 0.02;  // of its pull: 14 standard deviations of a Cauchy loss of scale 2
+  /// Newly accepted factors may be so far from the current values that their robust loss leaves them hardly any weight,
+  /// and the solution would stay in its local minimum. They are first solved without their loss.
+  void solveWithoutLosses(const std::vector<FactorId>& acting_before) {
+    constexpr double kHardlyAny = 0.02;  // of its weight: at 14 standard deviations for a Cauchy loss of scale 2
     std::vector<std::pair<FactorId, Loss>> far;
     for (const FactorId id : acting()) {
       const FactorRecord& record = graph_.factor(id);
@@ -175,7 +175,7 @@ class Test {
     return all;
   }
 
-  /// Those that act and did not before.
+  /// The hypotheses that act and did not before.
   std::vector<FactorId> newOf(const std::vector<FactorId>& acting_before) const {
     std::vector<FactorId> all = acting();
     all.erase(std::remove_if(all.begin(), all.end(), [&](FactorId id) { return contains(acting_before, id); }),
@@ -190,49 +190,49 @@ class Test {
       case Choice::Kind::fits:
         return decide(id, true, choice.chi2, "fits the map");
       case Choice::Kind::agrees:
-        return decide(id, true, choice.chi2, "fits the map and agrees with another", with);
+        return decide(id, true, choice.chi2, "fits the map and agrees with another hypothesis", with);
       case Choice::Kind::waits:
         return decide(id, false, choice.chi2,
-                      "waits for another to bear it out: so little is known there that it could "
-                      "fit by chance");
+                      "waits for another hypothesis that confirms it: the map is so uncertain "
+                      "there that it could fit by chance");
       case Choice::Kind::contradicts:
-        return decide(id, false, choice.chi2, with ? "contradicts another" : "contradicts the map", with);
+        return decide(id, false, choice.chi2, with ? "contradicts another hypothesis" : "contradicts the map", with);
     }
   }
 
-  void overturnBy(const std::vector<FactorId>& contradicting) {
-    const auto overturned =
+  void reviseBy(const std::vector<FactorId>& contradicting) {
+    const auto revised =
         reviseHypotheses(graph_, contradicting, waiting(contradicting), gate_, options_.inflation, solve_options_);
-    if (!overturned) return;
-    const FactorId first = overturned->accepted.front();
-    const std::string others = std::to_string(overturned->accepted.size() - 1) + " others";
-    for (const FactorId id : overturned->accepted)
+    if (!revised) return;
+    const FactorId first = revised->accepted.front();
+    const std::string others = std::to_string(revised->accepted.size() - 1) + " others";
+    for (const FactorId id : revised->accepted)
       decide(id, true, misfit(id),
-             overturned->taken_back.empty() ? "fits the map together with " + others + " that agree with it"
-                                            : "agrees with " + others + " against what acted before");
-    for (const FactorId id : overturned->taken_back)
+             revised->taken_back.empty() ? "fits the map together with " + others + " that agree with it"
+                                         : "agrees with " + others + " that replace hypotheses that acted before");
+    for (const FactorId id : revised->taken_back)
       decide(id, false, misfit(id), "taken back: contradicts others that agree with one another", first);
     solve(graph_, solve_options_);
   }
 
-  /// Tries each waiting hypothesis about points: it acts if others fit once it does. Those about poses go around in
-  /// cycles, which Overturn looks at.
-  void bearOut(const std::vector<FactorId>& some) {
+  /// Tries each waiting hypothesis about points: it is accepted if others fit once it acts. Hypotheses about poses form
+  /// cycles, which reviseHypotheses() examines.
+  void confirmByOthers(const std::vector<FactorId>& some) {
     const auto isOfPoints = [&](FactorId id) { return graph_.factor(id).factor->kind() == SamePointFactor::kKind; };
     for (auto id = some.rbegin(); id != some.rend(); ++id) {
       if (graph_.factor(*id).weight > 0 || !isOfPoints(*id) || bindsUnconstrained(graph_, *id)) continue;
       const std::vector<FactorId> pool = waiting({*id}, isOfPoints);
       if (pool.empty()) continue;
       RevisionTrial trial(graph_, gate_, options_.inflation, solve_options_);
-      if (!trial.isBorneOut(*id, pool)) continue;
+      if (!trial.isConfirmed(*id, pool)) continue;
       std::swap(graph_, trial.graph());
       for (const FactorId accepted : trial.outcome().accepted)
-        decide(accepted, true, misfit(accepted), "fits the map and is borne out by others that fit once it acts");
+        decide(accepted, true, misfit(accepted), "fits the map and is confirmed by others that fit once it acts");
       return;
     }
   }
 
-  /// Worst first, and what is left is solved before the next is looked at.
+  /// Takes back the worst hypothesis first, and solves the rest before the next one.
   void takeBackWhatNoLongerFits() {
     while (true) {
       std::optional<FactorId> worst;
@@ -251,7 +251,7 @@ class Test {
     }
   }
 
-  void letInWhatFitsNow() {
+  void acceptWhatFitsNow() {
     bool changed = false;
     for (const auto& [id, acted] : acted_) {
       if (graph_.factor(id).weight > 0 || contains(later_, id) || bindsUnconstrained(graph_, id)) continue;
@@ -277,7 +277,7 @@ class Test {
   const ConsistencyOptions& options_;
   const SolveOptions& solve_options_;
   Gate gate_;
-  std::map<FactorId, bool> acted_;  // every hypothesis: did it act before
+  std::map<FactorId, bool> acted_;  // whether each hypothesis acted before
   std::map<FactorId, Verdict> verdicts_;
 };
 

@@ -7,9 +7,9 @@
 namespace omnimapper::graph {
 
 void solveEased(Graph& graph, const std::vector<base::FactorId>& fresh, const SolveOptions& options) {
-  constexpr double kFar = 1e4;     // of chi-square
-  constexpr double kGentle = 100;  // chi-square that they weigh at first
-  constexpr double kGrowth = 100;  // of the weight from solve to solve
+  constexpr double kFar = 1e4;     // smallest chi-square of a factor whose weight starts small
+  constexpr double kGentle = 100;  // chi-square of the worst factor at its first weight
+  constexpr double kGrowth = 100;  // growth of the weight from solve to solve
   constexpr double kLeast = 1e-10;
   std::vector<base::FactorId> far;
   double worst = 0;

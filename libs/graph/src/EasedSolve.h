@@ -6,9 +6,10 @@
 
 namespace omnimapper::graph {
 
-/// Solves. Points that `fresh` hypotheses which act take for one, and that are hundreds of standard deviations apart,
-/// draw on each other gently at first: at full weight the first step would tear a point from the directions that it was
-/// seen in, whose loss is robust, and the solution stay there.
+/// Solves the graph. Factors of `fresh` hypotheses that act and state that two points are the same, although they are
+/// more than a hundred standard deviations apart, start with a small weight, which grows from solve to solve. At full
+/// weight, the first step would tear a point away from its measured directions, whose loss is robust, and the solution
+/// would stay there.
 void solveEased(Graph& graph, const std::vector<base::FactorId>& fresh, const SolveOptions& options);
 
 }  // namespace omnimapper::graph

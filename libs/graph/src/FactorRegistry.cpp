@@ -13,10 +13,11 @@ namespace omnimapper::graph {
 namespace {
 
 [[noreturn]] void failUnknown(const std::string& what, const std::string& kind) {
-  throw base::Error(base::ExitCode::unregistered_class,
-                    "graph: nobody registered the kind of " + what + " \"" + kind +
-                        "\": install the feature of OmniMapper that the map was made with, or name the "
-                        "library of the plugin that brings it in [mapper] plugin_libraries");
+  throw base::Error(
+      base::ExitCode::unregistered_class,
+      "graph: the kind of " + what + " \"" + kind +
+          "\" is not registered: install the feature of OmniMapper that the map was made with, or name the "
+          "library of the plugin that brings it in [mapper] plugin_libraries");
 }
 
 geometry::Se2 readSe2(std::istream& in) {

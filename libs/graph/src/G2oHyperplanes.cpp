@@ -17,8 +17,8 @@ Eigen::VectorXd hyperplaneOf(const Graph& graph, base::VariableId id) {
   return graph.variable(id).kind->hyperplane(graph.value(id).data());
 }
 
-/// What measures a hyperplane from a pose sees of the pose's motion only what moves the hyperplane in the base:
-/// jacobian = by_error * error_by_pose. The rows of `error_by_pose` are orthonormal, so its transpose undoes it.
+/// A measurement of a hyperplane depends on the pose only through the hyperplane in the base: jacobian = by_error *
+/// error_by_pose. The rows of `error_by_pose` are orthonormal, so its transpose is its inverse.
 struct FirstOrder {
   FirstOrder(const Graph& graph, const FactorRecord& record, const Eigen::MatrixXd& error_by_pose) {
     const Linearised factor(graph, record);
@@ -27,14 +27,14 @@ struct FirstOrder {
     error = by_error.completeOrthogonalDecomposition().solve(factor.residual);
   }
   Eigen::MatrixXd information;
-  Eigen::VectorXd error;  ///< predicted less measured, in g2o's coordinates
+  Eigen::VectorXd error;  ///< predicted - measured, in g2o's coordinates
 };
 
 }  // namespace
 
 bool hasLine(const Eigen::VectorXd& hyperplane) {
-  constexpr double kMostLean = 0.1736;  // sine of 10 deg
-  return hyperplane.size() == 3 || std::abs(hyperplane[2]) < kMostLean;
+  constexpr double kMaxTilt = 0.1736;  // sine of 10 deg
+  return hyperplane.size() == 3 || std::abs(hyperplane[2]) < kMaxTilt;
 }
 
 Eigen::Vector2d lineOf(const Eigen::VectorXd& hyperplane) {
@@ -61,7 +61,7 @@ HyperplaneEdge planeEdge(const Graph& graph, const FactorRecord& record) {
   const Eigen::Vector4d plane = hyperplaneOf(graph, record.variables[1]);
   const Eigen::Vector3d normal = map_from_base.rotation.conjugate() * Eigen::Vector3d(plane.head<3>());
   const double distance = -plane[3] - plane.head<3>().dot(map_from_base.translation);
-  // g2o's error is where the measured normal lies as seen from the predicted one, in a frame whose x is that.
+  // g2o's error is the direction of the measured normal in a frame whose x axis is the predicted normal.
   const double azimuth = std::atan2(normal.y(), normal.x());
   const double elevation = std::atan2(normal.z(), normal.head<2>().norm());
   const Eigen::Matrix3d axes =

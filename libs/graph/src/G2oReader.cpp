@@ -180,19 +180,19 @@ class G2oReader {
   const geometry::Se3& offset(G2oTokens& line) const {
     const std::int64_t number = line.id();
     const auto found = offsets_.find(number);
-    if (found == offsets_.end()) line.fail("no PARAMS_SE3OFFSET " + std::to_string(number) + " stands before it");
+    if (found == offsets_.end()) line.fail("there is no PARAMS_SE3OFFSET " + std::to_string(number) + " before it");
     return found->second;
   }
 
   void addVertex(std::int64_t number, const Kind& kind, const Eigen::VectorXd& value, const G2oTokens& line) {
     Vertex& vertex = vertices_[number];
-    if (vertex.has_value) line.fail("vertex " + std::to_string(number) + " stands there twice");
+    if (vertex.has_value) line.fail("vertex " + std::to_string(number) + " is defined twice");
     if (vertex.kind && vertex.kind != kind)
-      line.fail("an edge before takes vertex " + std::to_string(number) + " for a " + std::string(vertex.kind->kind()));
+      line.fail("an earlier edge uses vertex " + std::to_string(number) + " as a " + std::string(vertex.kind->kind()));
     vertex = {kind, value, true};
   }
 
-  /// The vertices of an edge; those that nobody named yet are made without a value.
+  /// The vertices of an edge; those that were not named before are added without a value.
   std::vector<std::int64_t> readNumbers(const std::vector<Kind>& kinds, G2oTokens& line) {
     std::vector<std::int64_t> numbers;
     for (const Kind& kind : kinds) {
@@ -203,7 +203,7 @@ class G2oReader {
         line.fail("vertex " + std::to_string(numbers.back()) + " is a " + std::string(vertex.kind->kind()) +
                   ", the edge takes a " + std::string(kind->kind()));
     }
-    if (numbers.size() == 2 && numbers[0] == numbers[1]) line.fail("the edge joins a vertex with itself");
+    if (numbers.size() == 2 && numbers[0] == numbers[1]) line.fail("the edge connects a vertex with itself");
     return numbers;
   }
 
@@ -231,7 +231,7 @@ class G2oReader {
     }
   }
 
-  /// Vertices that only edges name get their values from those that are known.
+  /// Vertices that only edges name get their values from those that have values.
   void fillValues(G2oContent& content) const {
     const Graph read = content.graph;
     bool all_known = true;
@@ -246,7 +246,7 @@ class G2oReader {
   std::map<std::int64_t, Vertex> vertices_;
   std::vector<Edge> edges_;
   std::map<std::int64_t, geometry::Se3> offsets_;
-  std::map<std::int64_t, G2oTokens> fixed_;  // and the lines that say so
+  std::map<std::int64_t, G2oTokens> fixed_;  // with the lines that fix them
   std::set<std::int64_t> hyperplanes_, sensors_of_planes_;
   std::size_t left_out_ = 0;
   bool has_prior_ = false;

@@ -20,7 +20,7 @@ std::string_view G2oTokens::word() {
 
 double G2oTokens::number() {
   std::string_view text = word();
-  if (text.empty()) fail("the line ends where a number should stand");
+  if (text.empty()) fail("the line ends where a number is expected");
   if (text.front() == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

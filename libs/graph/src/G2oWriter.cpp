@@ -20,7 +20,7 @@ namespace omnimapper::graph {
 
 namespace {
 
-/// One line after another into a text; numbers in the fewest digits that keep every bit.
+/// Writes lines into a text, and numbers with the fewest digits that keep every bit.
 class Lines {
  public:
   Lines& start(const std::string& tag) {
@@ -83,7 +83,7 @@ class G2oWriter {
     return true;
   }
 
-  // Poses on the floor see of an upright plane the line where it meets the floor.
+  // For poses on the floor, an upright plane is the line where it meets the floor.
   bool addHyperplane(base::VariableId id, const VariableRecord& record) {
     const Eigen::VectorXd hyperplane = record.kind->hyperplane(record.value.data());
     if (hyperplane.size() == 0) return false;
@@ -113,7 +113,7 @@ class G2oWriter {
     return lines_.start(tag).add(number);
   }
 
-  /// False if the format cannot hold it.
+  /// Returns false if the format cannot hold the factor.
   bool addFactor(const FactorRecord& record) {
     if (record.weight == 0) return false;
     for (const auto id : record.variables)
@@ -123,7 +123,7 @@ class G2oWriter {
     return true;
   }
 
-  // Not of lifted poses, which are of another kind than the factor takes.
+  // Factors of lifted poses are left out, because their kind is not that of the factor's slot.
   bool addEdgeOfKinds(const FactorRecord& record) {
     for (std::size_t i = 0; i < record.variables.size(); ++i)
       if (graph_.variable(record.variables[i]).kind->kind() != record.factor->variableKinds()[i]) return false;
@@ -156,8 +156,8 @@ class G2oWriter {
     return true;
   }
 
-  // Whatever measures a point from a pose, as by range and bearing, is a measurement of its coordinates in the base to
-  // first order: with the same residual and the same information at the values as they are.
+  // Any measurement of a point from a pose, such as range and bearing, is to first order a measurement of its
+  // coordinates in the base, with the same residual and the same information at the current values.
   bool addLinearisedPoint(const FactorRecord& record) {
     const auto kinds = record.factor->variableKinds();
     if (kinds.size() != 2) return false;
@@ -232,7 +232,7 @@ class G2oWriter {
   const Graph& graph_;
   std::unordered_map<base::VariableId, std::int64_t> numbers_;
   std::map<std::string, int> left_out_, linearised_;
-  const Eigen::Vector3d kGrey{0.5, 0.5, 0.5};  // planes have a color there
+  const Eigen::Vector3d kGrey{0.5, 0.5, 0.5};  // g2o's planes have a color
   std::int64_t sensor_ = -1;
   bool is_planar_ = false, has_planes_ = false;
   int losses_ = 0;

@@ -11,7 +11,7 @@ namespace {
 
 using base::VariableId;
 
-/// Everything that is reached from the given variables over factors of positive weight is added to `reached`.
+/// Adds all variables to `reached` that can be reached from the given ones over factors of positive weight.
 void flood(const Graph& graph, std::vector<VariableId> open, std::unordered_set<VariableId>& reached) {
   while (!open.empty()) {
     const VariableId id = open.back();
@@ -42,7 +42,7 @@ void checkGauge(const Graph& graph) {
     if (record.weight > 0 && reached.count(record.variables[0]) == 0)
       throw base::Error(base::ExitCode::internal,
                         "graph: variable " + toString(record.variables[0]) +
-                            " and what is connected to it hang free: fix a variable there or add a prior");
+                            " and the variables connected to it are not constrained: fix one of them or add a prior");
 }
 
 }  // namespace omnimapper::graph

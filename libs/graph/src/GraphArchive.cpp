@@ -15,8 +15,8 @@ namespace {
 // sessions, (session, next index) each, number of entries, entries in the order of ids, each headed by its id.
 constexpr char kMagic[] = "omnimapper.graph";
 constexpr std::uint64_t kVersion = 1;
-// Holes of removed ids take memory: beyond this many in all sessions, and this many for each thing that is there, the
-// number is damaged.
+// Unused ids take memory. If a file has more of them than this in all sessions, plus this many for each record, it is
+// damaged.
 constexpr std::uint64_t kMaxHoles = 1'000'000, kMaxHolesPerEntry = 1000, kBytesOfId = 6;
 
 [[noreturn]] void failDamaged(const std::string& what) {
@@ -27,7 +27,7 @@ std::uint64_t bytesLeft(std::istream& in) {
   const auto here = in.tellg();
   const auto end = in.seekg(0, std::ios::end).tellg();
   in.seekg(here);
-  if (here < 0 || end < here) failDamaged("its size is not known");
+  if (here < 0 || end < here) failDamaged("its size is unknown");
   return static_cast<std::uint64_t>(end - here);
 }
 
@@ -65,7 +65,7 @@ Tags readTags(std::istream& in) {
 
 void writeEntry(std::ostream& out, const FactorRecord& record) {
   writeText(out, std::string(record.factor->kind()));
-  // As text, so that its length stands before it and a reader that takes too much or too little is found out.
+  // The factor is written as text, after its length, so that a reader that reads too much or too little is detected.
   std::ostringstream factor;
   record.factor->write(factor);
   writeText(out, factor.str());
@@ -84,7 +84,7 @@ FactorRecord readFactor(std::istream& in, const FactorRegistry& registry) {
   std::istringstream factor_bytes(readText(in));
   std::shared_ptr<const Factor> factor = registry.readFactor(kind, factor_bytes);
   if (factor_bytes.peek() != std::istringstream::traits_type::eof())
-    failDamaged("a factor of kind " + kind + " has more bytes than its reader takes");
+    failDamaged("a factor of kind " + kind + " has more bytes than its reader reads");
   std::vector<base::VariableId> variables(readUint(in, 2));
   for (base::VariableId& id : variables) id = readId<base::VariableId>(in);
   const auto size = static_cast<Eigen::Index>(readUint(in, 2));
@@ -125,7 +125,7 @@ std::map<std::uint16_t, std::uint32_t> readNextIndices(std::istream& in) {
 
 }  // namespace
 
-/// Rebuilds a graph with the ids it had: holes are skipped over, and what is added lands on its own index.
+/// Rebuilds a graph with the ids it had: unused ids are skipped, so that each record gets its own index.
 class GraphArchiveReader {
  public:
   GraphArchiveReader(std::istream& in, const FactorRegistry& registry) : in_(in), registry_(registry) {}
@@ -145,11 +145,11 @@ class GraphArchiveReader {
   void readTable(Table& table, const Add& add) {
     const std::map<std::uint16_t, std::uint32_t> end = readNextIndices(in_);
     std::uint64_t left = readUint(in_, 4), given = 0;
-    // Each entry begins with its id: there are no more of them than that many bytes hold.
+    // Each entry begins with its id, so the size of the stream limits their number.
     const std::uint64_t entries = std::min(left, bytesLeft(in_) / kBytesOfId);
     for (const auto& [session, limit] : end) given += limit;
     if (given > kMaxHoles + kMaxHolesPerEntry * entries)
-      failDamaged("its sessions say they gave " + std::to_string(given) + " ids");
+      failDamaged("its sessions report " + std::to_string(given) + " used ids, too many for its records");
     std::map<std::uint16_t, std::uint32_t> next;
     for (; left > 0; --left) {
       const IdType id = readId<IdType>(in_);
@@ -179,7 +179,7 @@ void writeGraph(const Graph& graph, std::ostream& out) {
 }
 
 Graph readGraph(std::istream& in, const FactorRegistry& registry) {
-  if (readText(in) != kMagic) failDamaged("this is no graph");
+  if (readText(in) != kMagic) failDamaged("this is not a graph");
   const std::uint64_t version = readUint(in, 4);
   if (version > kVersion)
     throw base::Error(base::ExitCode::unreadable_input, "graph: version " + std::to_string(version) +
@@ -189,7 +189,7 @@ Graph readGraph(std::istream& in, const FactorRegistry& registry) {
   try {
     return GraphArchiveReader(in, registry).read(session);
   } catch (const base::Error& error) {
-    // What a defect of ours would be on data of our own making is damage on data from a file.
+    // With data from a file, an internal error means that the data is damaged, not that the program has a defect.
     if (error.code() != base::ExitCode::internal) throw;
     failDamaged(error.what());
   }

@@ -27,7 +27,7 @@ std::vector<int> from(int first, int end) {
   return numbers;
 }
 
-/// The largest group of refused and waiting ones that agree pair by pair, each predicting the other sharply.
+/// The largest group of refused and waiting hypotheses that agree pair by pair, each predicting the other sharply.
 class Group {
  public:
   Group(const Graph& graph, const Marginals& marginals, const Gate& gate, double inflation)
@@ -64,7 +64,7 @@ class Group {
     return gate_.passes(*innovation) && gate_.margin(*innovation, volume_.logOf(graph_.factor(b))) >= 0;
   }
 
-  /// What the second says if the first is true, and what acts on the same variables is not.
+  /// The innovation of the second hypothesis if the first is true and the acting ones on the same variables are not.
   InnovationStatistics onTheirOwn(FactorId a, FactorId b) const {
     std::vector<FactorId> all = {a, b};
     for (const FactorId of : {a, b})
@@ -85,7 +85,7 @@ class Group {
   OutlierModel volume_;
 };
 
-/// The hypotheses that act, in groups of those whose variables are near one another along what is trusted.
+/// The acting hypotheses, in groups whose variables are near one another along trusted factors.
 std::vector<std::vector<FactorId>> actingGroups(const Graph& graph) {
   constexpr int kHops = 10;
   constexpr std::size_t kMostVariables = 200;
@@ -123,7 +123,8 @@ std::vector<std::vector<FactorId>> actingGroups(const Graph& graph) {
   return groups;
 }
 
-/// How much acting hypotheses hold of what another measures: the size of the covariance of both residuals.
+/// The influence of acting hypotheses on the measurement of another: the squared norm of the covariance of both
+/// residuals.
 class Influence {
  public:
   Influence(const Graph& graph, const Marginals& marginals, FactorId on, const std::vector<VariableId>& variables)
@@ -153,19 +154,19 @@ class Influence {
   std::vector<std::vector<Eigen::MatrixXd>> covariances_;  // of each variable of `on` with those of the groups
 };
 
-/// Leaves those that are largest by `key`, largest first.
-template <class Thing, class Key>
-void keepLargest(std::vector<Thing>& things, std::size_t most, const Key& key) {
+/// Keeps the `most` items with the largest `key`, the largest first.
+template <class Item, class Key>
+void keepLargest(std::vector<Item>& items, std::size_t most, const Key& key) {
   std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < things.size(); ++i) order.emplace_back(-key(things[i]), i);
+  for (std::size_t i = 0; i < items.size(); ++i) order.emplace_back(-key(items[i]), i);
   std::sort(order.begin(), order.end());
   order.resize(std::min(order.size(), most));
-  std::vector<Thing> kept;
-  for (const auto& [negative, i] : order) kept.push_back(std::move(things[i]));
-  things = std::move(kept);
+  std::vector<Item> kept;
+  for (const auto& [negative, i] : order) kept.push_back(std::move(items[i]));
+  items = std::move(kept);
 }
 
-/// The acting groups without which the refused ones would fit best, best first.
+/// The acting groups without which the refused hypotheses would fit best, the best first.
 std::vector<std::vector<FactorId>> suspects(const Graph& graph, const Marginals& marginals,
                                             const std::vector<FactorId>& refused) {
   constexpr std::size_t kMostInfluential = 8, kMost = 3;

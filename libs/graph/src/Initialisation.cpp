@@ -18,8 +18,9 @@ using Matrix = Eigen::Matrix<double, n, n>;
 template <int n>
 using Vector = Eigen::Matrix<double, n, 1>;
 
-/// One pose of each connected part without a fixed one is held, so that the systems have one solution and a good
-/// condition: the first of a prior, where that says it is, else the first, where it stands. Fixed ones are held anyway.
+/// Holds one pose of each connected part without a fixed pose, so that the systems have a unique solution and are well
+/// conditioned: the first pose with a prior, at the pose of the prior, else the first pose, at its value. Fixed poses
+/// are held as well.
 std::vector<bool> holdPoses(PoseEdges& edges) {
   std::vector<int> parent(edges.poses.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -76,7 +77,7 @@ class LinearSystem {
 
   bool empty() const { return groups_ == 0; }
   bool free(int pose) const { return group_[pose] >= 0; }
-  /// Its unknowns in a solution.
+  /// The unknowns of a pose in a solution.
   auto rows(const Eigen::MatrixXd& solution, int pose) const { return solution.middleRows<n>(n * group_[pose]); }
 
   void addToDiagonal(int pose, const Matrix<n>& block) { add(group_[pose], group_[pose], block); }
@@ -94,7 +95,7 @@ class LinearSystem {
   Eigen::MatrixXd solve(int columns) const {
     SparseCholesky cholesky(matrix_, std::vector<int>(groups_, n));
     if (!cholesky.factorize(matrix_))
-      throw base::Error(base::ExitCode::internal, "graph: a Between factor with no weight at all: give it some noise");
+      throw base::Error(base::ExitCode::internal, "graph: a Between factor has no information: give it a finite noise");
     return cholesky.solve(right_.leftCols(columns));
   }
 
@@ -170,7 +171,7 @@ void solveRotations(const std::vector<bool>& held, PoseEdges& edges) {
           nearest(Matrix<n>(system.rows(solution, static_cast<int>(i)).transpose())).rotation;
 }
 
-/// Minimises the sum of |t_b - t_a - R_a t_ab|^2, weighted by the information of the translation turned into the map.
+/// Minimises the sum of |t_b - t_a - R_a t_ab|^2, weighted by the information of the translation, rotated into the map.
 template <int n>
 void solveTranslations(const std::vector<bool>& held, PoseEdges& edges) {
   LinearSystem<n> system(edges, held);
@@ -179,15 +180,15 @@ void solveTranslations(const std::vector<bool>& held, PoseEdges& edges) {
     const geometry::Se3& map_from_a = edges.poses[edge.a].map_from_pose;
     const Matrix<n> map_from_b = rotationOf<n>(map_from_a) * rotationOf<n>(edge.a_from_b);
     const Matrix<n> weight = map_from_b * edge.information.template topLeftCorner<n, n>() * map_from_b.transpose();
-    const Vector<n> way = rotationOf<n>(map_from_a) * edge.a_from_b.translation.template head<n>();
+    const Vector<n> a_to_b = rotationOf<n>(map_from_a) * edge.a_from_b.translation.template head<n>();
     const Vector<n> a = map_from_a.translation.template head<n>();
     const Vector<n> b = edges.poses[edge.b].map_from_pose.translation.template head<n>();
     const bool a_free = system.free(edge.a), b_free = system.free(edge.b);
     if (a_free) system.addToDiagonal(edge.a, weight);
     if (b_free) system.addToDiagonal(edge.b, weight);
     if (a_free && b_free) system.addBetween(edge.a, edge.b, -weight);
-    if (a_free) system.addToRight(edge.a, weight * (b_free ? Vector<n>(-way) : Vector<n>(b - way)));
-    if (b_free) system.addToRight(edge.b, weight * (a_free ? way : Vector<n>(a + way)));
+    if (a_free) system.addToRight(edge.a, weight * (b_free ? Vector<n>(-a_to_b) : Vector<n>(b - a_to_b)));
+    if (b_free) system.addToRight(edge.b, weight * (a_free ? a_to_b : Vector<n>(a + a_to_b)));
   }
   for (const PoseEdges::Prior& prior : edges.priors) {
     if (!system.free(prior.pose)) continue;

@@ -13,7 +13,7 @@ namespace omnimapper::graph {
 
 namespace {
 
-/// Where the tangents of the variables of some factors stand in one vector.
+/// The variables of some factors, with their offsets in one stacked tangent.
 struct Places {
   std::vector<base::VariableId> variables;
   std::unordered_map<base::VariableId, int> offsets;
@@ -104,9 +104,9 @@ InnovationStatistics Innovation::given(int i, const std::vector<int>& others) co
 }
 
 void Innovation::withdraw(const std::vector<int>& acting) {
-  // Taking factors of weight w out of the information matrix adds cov J^T (1/w - J cov J^T)^-1 J cov to its inverse; a
-  // robust loss makes a weight smaller. Where they alone hold something, nothing is left: the small number stands for
-  // that.
+  // Removing factors of weight w from the information matrix adds cov J^T (1/w - J cov J^T)^-1 J cov to its inverse; a
+  // robust loss makes the weight smaller. Directions that they alone determine have no information left; a small number
+  // is used instead of zero.
   constexpr double kNothing = 1e-9;
   if (acting.empty()) return;
   const InnovationStatistics acts = of(acting);

@@ -8,8 +8,7 @@
 
 namespace omnimapper::graph {
 
-/// What one or several factors say against what the graph knows: whitened residual, and its covariance if they are
-/// true.
+/// The innovation of one or several factors: the whitened residual, and its covariance if they are true.
 struct InnovationStatistics {
   Eigen::VectorXd residual;
   Eigen::MatrixXd covariance;
@@ -19,25 +18,25 @@ struct InnovationStatistics {
   double logDensity() const;
 };
 
-/// Factors that do not act yet, all of them together: their covariance is J inflation^2 cov J^T + I, to first order.
-/// Factors that act may stand among them for withdraw().
+/// The joint innovation of factors that do not act yet, with covariance J inflation^2 cov J^T + I, to first order.
+/// Acting factors may be among them, for withdraw().
 class Innovation {
  public:
-  /// `marginals` are those of the graph; every variable of the factors must have a place in them or be fixed.
+  /// `marginals` are those of the graph; every variable of the factors must be in them or be fixed.
   Innovation(const Graph& graph, const Marginals& marginals, std::vector<base::FactorId> factors, double inflation);
 
   int size() const { return static_cast<int>(factors_.size()); }
   base::FactorId factor(int i) const { return factors_[i]; }
   int degreesOfFreedom(int i) const { return rows_[i + 1] - rows_[i]; }
   InnovationStatistics of(int i) const { return of(std::vector<int>{i}); }
-  /// Of several together.
+  /// The joint innovation of several factors.
   InnovationStatistics of(const std::vector<int>& some) const;
-  /// Of one if others are true.
+  /// The innovation of one factor if others are true.
   InnovationStatistics given(int i, int other) const { return given(i, std::vector<int>{other}); }
   InnovationStatistics given(int i, const std::vector<int>& others) const;
-  /// Takes one as true: the innovation of the others becomes that given it.
+  /// Assumes that one factor is true: the innovation of the others becomes that given it.
   void condition(int i);
-  /// Takes away some that act in the graph: the innovation of the others becomes that without them. Needs inflation 1.
+  /// Removes acting factors: the innovation of the others becomes that without them. Requires inflation 1.
   void withdraw(const std::vector<int>& acting);
 
  private:
@@ -49,7 +48,7 @@ class Innovation {
 
   std::vector<base::FactorId> factors_;
   std::vector<int> rows_ = {0};  // first row of each, and the number of rows
-  std::vector<double> weights_;  // with which each acts, its loss included
+  std::vector<double> weights_;  // weight with which each acts, including its loss
   Eigen::VectorXd residual_;
   Eigen::MatrixXd covariance_;
 };

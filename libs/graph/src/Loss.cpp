@@ -9,7 +9,8 @@ namespace omnimapper::graph {
 
 Loss::Loss(Kind kind, double scale_sigmas) : kind_(kind), scale_(kind == Kind::none ? 1 : scale_sigmas) {
   if (kind > Kind::geman_mcclure)
-    throw base::Error(base::ExitCode::internal, "loss: no kind of number " + std::to_string(static_cast<int>(kind)));
+    throw base::Error(base::ExitCode::internal,
+                      "loss: there is no kind with number " + std::to_string(static_cast<int>(kind)));
   if (!(scale_ > 0) || !std::isfinite(scale_))
     throw base::Error(base::ExitCode::internal,
                       "loss: scale " + std::to_string(scale_sigmas) + " must be a positive number of sigmas");

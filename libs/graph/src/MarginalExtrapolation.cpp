@@ -13,7 +13,7 @@ namespace {
 
 using base::VariableId;
 
-/// Variables with a place each in one stacked tangent.
+/// Variables with their offsets in one stacked tangent.
 class Stack {
  public:
   explicit Stack(const Graph& graph) : graph_(&graph) {}
@@ -36,13 +36,14 @@ class Stack {
   int size_ = 0;
 };
 
-/// What came since and bears on `ids`, the nearest first, `most` variables of it, and the older ones that they hang on.
-/// Factors that lead on to what is left out are left out too: that much less is known.
+/// The new variables that affect `ids`, the nearest first and at most `most` of them, and the older variables that they
+/// are attached to. Factors that also bind new variables beyond this limit are left out, which loses only their
+/// information.
 struct Growth {
   Stack fresh, older;
-  int asked = 0;  // rows of `fresh` that are of `ids`, the first
+  int asked = 0;  // number of rows of `fresh` that belong to `ids`; they are the first ones
   std::vector<base::FactorId> factors;
-  std::set<VariableId> rim;  // those from which left out factors lead on
+  std::set<VariableId> rim;  // the new variables that are bound by factors that were left out
 
   Growth(const Marginals& before, const Graph& grown, const std::vector<VariableId>& ids, std::size_t most)
       : fresh(grown), older(grown) {
@@ -85,13 +86,13 @@ struct Growth {
   }
 };
 
-/// How those of the new ones that are asked for follow the older ones, and what is uncertain of them beside that.
+/// The requested new variables as linear functions of the older ones, and the covariance of their own errors.
 struct Following {
   Eigen::MatrixXd by_older, own_covariance;
 };
 
 struct System {
-  Eigen::MatrixXd information, coupling;  // of the new ones; of them with the older ones
+  Eigen::MatrixXd information, coupling;  // of the new variables; between them and the older ones
 
   System(const Graph& graph, const Growth& growth)
       : information(Eigen::MatrixXd::Zero(growth.fresh.size(), growth.fresh.size())),
@@ -117,11 +118,12 @@ struct System {
   }
 };
 
-// None if a direction of what is asked for is determined by nothing.
+// None if some direction of a requested variable is undetermined.
 std::optional<Following> follow(const Graph& graph, const Growth& growth) {
   if (growth.asked == 0) return Following{Eigen::MatrixXd(0, growth.older.size()), Eigen::MatrixXd(0, 0)};
-  // Scaled to a unit diagonal, so that metres and radians are alike when what is determined by nothing is looked for.
-  // At the rim directions may be open: a trace of knowledge, too little to tell anybody else, closes them.
+  // The system is scaled to a unit diagonal, so that units do not matter when undetermined directions are looked for.
+  // Directions at the rim may be undetermined: a trace of information, too little to affect other variables, removes
+  // the singularity.
   constexpr double kNothing = 1e-12, kTrace = 1e-9, kOpen = 1e6;
   System system(graph, growth);
   for (const VariableId id : growth.rim) {
@@ -147,7 +149,7 @@ std::optional<Following> follow(const Graph& graph, const Growth& growth) {
 std::optional<Eigen::MatrixXd> jointCovariance(const Marginals& before, const Graph& grown,
                                                const std::vector<VariableId>& ids) {
   if (!std::all_of(ids.begin(), ids.end(), [&](VariableId id) { return grown.contains(id); })) return std::nullopt;
-  // What is far along the trajectory tells next to nothing, unless nothing near does.
+  // Factors far along the trajectory have hardly any effect, unless the near ones leave a direction undetermined.
   constexpr std::size_t kNear = 12;
   std::size_t most = kNear;
   Growth growth(before, grown, ids, most);
@@ -160,7 +162,7 @@ std::optional<Eigen::MatrixXd> jointCovariance(const Marginals& before, const Gr
   if (!following) return std::nullopt;
   const Eigen::MatrixXd older =
       growth.older.size() > 0 ? before.jointCovariance(growth.older.ids()) : Eigen::MatrixXd(0, 0);
-  // Each of `ids` as a linear function of the older ones, and of the new ones' own errors.
+  // Each of `ids` is a linear function of the older variables and of the errors of the new ones.
   int rows = 0;
   for (const VariableId id : ids) rows += grown.variable(id).kind->tangentSize();
   Eigen::MatrixXd by_older = Eigen::MatrixXd::Zero(rows, growth.older.size());

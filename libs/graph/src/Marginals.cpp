@@ -35,15 +35,16 @@ struct Marginals::State {
   }
   Span span(base::VariableId id) const {
     if (const auto found = find(id)) return *found;
-    throw base::Error(base::ExitCode::internal,
-                      "marginals: variable " + toString(id) + " is bound by no factor of positive weight, or not here");
+    throw base::Error(
+        base::ExitCode::internal,
+        "marginals: variable " + toString(id) + " is bound by no factor of positive weight, or is not in the graph");
   }
 };
 
 namespace {
 
-// Entries that are in both: those of the way from where their ways to the root of the elimination tree meet. So they
-// stand together at the end of both.
+// The number of entries that both vectors have. Both follow paths to the root of the elimination tree, which are the
+// same from the row where they meet, so the common entries are at the end of both.
 std::size_t common(const SparseVector& a, const SparseVector& b) {
   std::size_t alike = 0, different = std::min(a.rows.size(), b.rows.size()) + 1;
   while (alike + 1 < different) {
@@ -63,11 +64,12 @@ double dot(const SparseVector& a, const SparseVector& b) {
 
 }  // namespace
 
-/// Blocks of covariance, and the half-solved columns that they are made of: what is asked for once is asked for again
-/// at the next key frame.
+/// A cache of covariance blocks and of the half-solved columns from which they are computed, because the same blocks
+/// are requested again at the next key frame.
 class Marginals::Blocks {
  public:
-  /// Of two variables, of which `later` does not come before `earlier` in the matrix. Valid until forgetIfMany().
+  /// The block of two variables, of which `later` does not come before `earlier` in the matrix. Valid until
+  /// forgetIfMany().
   const Eigen::MatrixXd& of(const SparseCholesky& cholesky, State::Span later, State::Span earlier) {
     Eigen::MatrixXd& block =
         blocks_[(static_cast<std::uint64_t>(later.offset) << 32) | static_cast<std::uint64_t>(earlier.offset)];
@@ -92,7 +94,7 @@ class Marginals::Blocks {
   std::mutex mutex;
 
  private:
-  static constexpr std::size_t kBlock = 12;  // what a block takes beside its numbers
+  static constexpr std::size_t kBlock = 12;  // memory of a block beside its numbers, in numbers
 
   const std::vector<SparseVector>& halves(const SparseCholesky& cholesky, State::Span span) {
     auto& columns = halves_[span.offset];
@@ -125,8 +127,8 @@ Marginals::Marginals(const Graph& graph) : state_(std::make_unique<State>()), bl
   state_->cholesky = std::make_unique<SparseCholesky>(equations.information(), equations.groups());
   if (!state_->cholesky->factorize(equations.information(), SparseCholesky::Storage::columns))
     throw base::Error(base::ExitCode::internal,
-                      "marginals: the information matrix is singular: a direction of some variable is determined by "
-                      "nothing; add a prior or another factor there");
+                      "marginals: the information matrix is singular: some direction of a variable is undetermined; "
+                      "add a prior or another factor there");
 }
 
 Marginals::~Marginals() = default;
@@ -165,7 +167,7 @@ Eigen::MatrixXd Marginals::jointCovariance(const std::vector<base::VariableId>& 
 
 std::vector<Eigen::MatrixXd> Marginals::crossCovariances(base::VariableId id,
                                                          const std::vector<base::VariableId>& others) const {
-  // Solved for the columns of `id` as a whole: cheaper than a path through the factor for each of the others.
+  // The columns of `id` are solved as a whole, which is cheaper than a path through the factor for each of the others.
   const State::Span span = state_->span(id);
   Eigen::MatrixXd columns;
   if (span.offset >= 0) {

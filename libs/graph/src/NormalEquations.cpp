@@ -41,7 +41,7 @@ NormalEquations::NormalEquations(const Graph& graph) {
 }
 
 void NormalEquations::addPlaces(const Graph& graph) {
-  // By the factors: of the variables there may be many that nothing binds any more.
+  // The variables are collected from the factors, because many variables may no longer be bound by any.
   std::vector<base::VariableId> bound;
   for (const auto& [id, record] : graph.factors()) {
     if (record.weight > 0) bound.insert(bound.end(), record.variables.begin(), record.variables.end());

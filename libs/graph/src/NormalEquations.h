@@ -8,22 +8,22 @@
 
 namespace omnimapper::graph {
 
-/// The graph's cost to second order, Gauss-Newton: information * step = -gradient, in the tangents of the free
-/// variables one after another. Each factor counts by its weight times the slope of its loss. Fixed variables, and
-/// those that no factor of positive weight binds, have no place in it. Refers to the graph; built anew when factors
-/// come or go.
+/// The Gauss-Newton approximation of the graph's cost: information * step = -gradient, in the stacked tangents of the
+/// free variables. Each factor counts by its weight times the derivative of its loss. Fixed variables, and those that
+/// no factor of positive weight binds, are not among the unknowns. It refers to the graph, and must be built anew when
+/// factors are added or removed.
 class NormalEquations {
  public:
   explicit NormalEquations(const Graph& graph);
 
   /// Fills information and gradient at the given ambient values; returns the cost.
   double linearise(const Eigen::VectorXd& values);
-  /// The cost alone.
+  /// Returns only the cost.
   double cost(const Eigen::VectorXd& values) const;
-  /// values plus step, variable by variable.
+  /// Sets `moved` to values plus step, variable by variable.
   void plus(const Eigen::VectorXd& values, const Eigen::VectorXd& step, Eigen::VectorXd& moved) const;
 
-  /// The graph's values one after another: the vector that the other methods take.
+  /// The graph's values in one stacked vector, which the other methods take.
   Eigen::VectorXd values(const Graph& graph) const;
   void store(const Eigen::VectorXd& values, Graph& graph) const;
 
@@ -32,11 +32,11 @@ class NormalEquations {
   const Eigen::VectorXd& gradient() const { return gradient_; }
   /// Tangent sizes of the free variables, in order.
   const std::vector<int>& groups() const { return groups_; }
-  /// Where in `information().values` the diagonal stands.
+  /// Indices of the diagonal in `information().values`.
   const std::vector<int>& diagonal() const { return diagonal_; }
-  /// First row of a variable's tangent, or -1 if it has no place.
+  /// First row of a variable's tangent, or -1 if it is not among the unknowns.
   int offset(base::VariableId id) const;
-  /// True for a variable that takes part, fixed or not.
+  /// Whether a factor of positive weight binds the variable, fixed or not.
   bool contains(base::VariableId id) const { return place_of_.count(id) > 0; }
 
  private:
@@ -48,7 +48,7 @@ class NormalEquations {
     int group;           // of the free variables, -1 for a fixed one
   };
   struct Block {
-    int first = -1;        // of the block's first column in information_.values; -1 where there is no block
+    int first = -1;        // index of the block's first entry in information_.values; -1 if there is no block
     int stride = 0;        // from one column of it to the next
     bool swapped = false;  // the later slot of the pair is the column
   };

@@ -7,15 +7,15 @@
 
 namespace omnimapper::graph {
 
-/// Where a false hypothesis may lie: two places of the map, any two, are taken for one. A true one is told from it by
-/// being where the graph expects it.
+/// The distribution of a false hypothesis: it may take any two places of the map for the same one. A true one is
+/// distinguished from it because it agrees with the prediction of the graph.
 class OutlierModel {
  public:
   /// The map is the box around the poses of the graph, at least 1 m wide.
   explicit OutlierModel(const Graph& graph);
-  /// Logarithm of the volume that the measurement of a Between factor may lie in, or that between points that are said
-  /// to be one, in whitened units; times the prior odds of a factor that has any. None for other kinds: what could be
-  /// false about them is not known here.
+  /// Logarithm of the volume in which a false measurement of a Between factor, or the difference of two points that are
+  /// stated to be the same, may lie, in whitened units, times the prior odds if the factor has any. None for factors of
+  /// other kinds, for which there is no model.
   std::optional<double> logOf(const FactorRecord& record) const;
 
  private:

@@ -52,10 +52,11 @@ void SamePointFactor::write(std::ostream& out) const {
 }
 
 std::shared_ptr<SamePointFactor> SamePointFactor::read(std::istream& in) {
-  const bool is_old = in.peek() == std::istream::traits_type::eof();  // written before odds were known
+  const bool is_old = in.peek() == std::istream::traits_type::eof();  // written by a version without odds
   const double odds = is_old ? 1 : readDouble(in);
   if (!(odds > 0) || !std::isfinite(odds))
-    throw base::Error(base::ExitCode::damaged_input, "graph: two points are one with odds that are no positive number");
+    throw base::Error(base::ExitCode::damaged_input,
+                      "graph: the odds that two points are the same are not a positive number");
   return std::make_shared<SamePointFactor>(odds);
 }
 

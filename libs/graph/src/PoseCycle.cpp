@@ -30,7 +30,7 @@ struct Types<Se3> {
   static Se3 pose(const Graph& graph, VariableId id) { return se3FromValue(graph.value(id).data()); }
 };
 
-/// A pose relative to another, and how well that is known.
+/// A pose relative to another, with its covariance.
 template <class Pose>
 struct Known {
   using Covariance = Eigen::Matrix<double, Types<Pose>::kSize, Types<Pose>::kSize>;
@@ -48,7 +48,7 @@ Known<Pose> inverse(const Known<Pose>& a) {
   return {geometry::inverse(a.pose), geometry::inverseCovariance(a.pose, a.covariance)};
 }
 
-/// What a factor measures from the older of its poses to the newer.
+/// The measurement of a factor, from the older of its poses to the newer.
 template <class Pose>
 struct Ends {
   VariableId older, newer;

@@ -50,7 +50,7 @@ bool addPrior(const FactorRecord& record, PoseEdges& edges) {
   return true;
 }
 
-/// Where a point factor says its point is, in the map: 2 or 3 coordinates; none for another kind of factor.
+/// The position of a point in the map by one point factor: 2 or 3 coordinates; empty for other kinds of factors.
 Eigen::VectorXd seenInMap(const FactorRecord& record, const PoseEdges& edges) {
   if (const auto* factor = dynamic_cast<const PointFactor2*>(record.factor.get()))
     return geometry::project(edges.poses[edges.index.at(record.variables[0])].map_from_pose) * factor->measured();

@@ -16,11 +16,11 @@ bool RevisionTrial::succeeds(const std::vector<FactorId>& group, const std::vect
   const double before = truncatedCost(all);
   for (const FactorId id : suspects) graph_.setWeight(id, 0);
   solve(graph_, solve_options_);
-  while (letIn(group)) {
+  while (admit(group)) {
   }
   if (2 * outcome_.accepted.size() <= group.size()) return false;
-  // They may in turn make room for more.
-  while (letIn(pool)) {
+  // The hypotheses that act now may allow others of the pool to act.
+  while (admit(pool)) {
   }
   for (const FactorId id : outcome_.accepted)
     if (misfit(id) > bound(id)) return false;
@@ -47,13 +47,14 @@ bool RevisionTrial::fitsBeside(const std::vector<FactorId>& group) {
   return 2 * graph_.cost() - before <= bound(group.front()) + others;
 }
 
-bool RevisionTrial::isBorneOut(FactorId id, const std::vector<FactorId>& pool) {
+bool RevisionTrial::isConfirmed(FactorId id, const std::vector<FactorId>& pool) {
   const double before = 2 * graph_.cost();
   graph_.setWeight(id, 1);
   solveEased(graph_, {id}, solve_options_);
   outcome_.accepted = {id};
-  if (misfit(id) > bound(id) || !letIn(pool)) return false;
-  // Noise raises chi-square by a row for each row; and each of the others is so many times likelier if all are true.
+  if (misfit(id) > bound(id) || !admit(pool)) return false;
+  // Noise raises chi-square by 1 for each row, and the likelihood ratio that is required of a hypothesis allows each of
+  // the others to raise it further.
   double most = bound(id);
   for (const FactorId accepted : outcome_.accepted) {
     if (misfit(accepted) > bound(accepted)) return false;
@@ -62,7 +63,7 @@ bool RevisionTrial::isBorneOut(FactorId id, const std::vector<FactorId>& pool) {
   return 2 * graph_.cost() - before <= most;
 }
 
-/// Chi-square of what acts, and of those of `some` that do not, up to the bound of each.
+/// Chi-square of all that acts, plus that of the hypotheses in `some` that do not, each up to its bound.
 double RevisionTrial::truncatedCost(const std::vector<FactorId>& some) const {
   double cost = 2 * graph_.cost();
   for (const FactorId id : some)
@@ -70,8 +71,8 @@ double RevisionTrial::truncatedCost(const std::vector<FactorId>& some) const {
   return cost;
 }
 
-/// Lets those of the pool act that can, and solves; false if there are none.
-bool RevisionTrial::letIn(const std::vector<FactorId>& pool) {
+/// Lets all hypotheses of the pool act that can, and solves. Returns false if there are none.
+bool RevisionTrial::admit(const std::vector<FactorId>& pool) {
   std::vector<FactorId> candidates;
   for (const FactorId id : pool)
     if (graph_.factor(id).weight == 0) candidates.push_back(id);

@@ -25,7 +25,7 @@ double Gate::margin(const InnovationStatistics& innovation, std::optional<double
 
 namespace {
 
-/// Candidates are taken out of `open_` one after another and the others conditioned on them.
+/// Takes candidates out of `open_` one after another, and conditions the others on them.
 class PairwiseSelection {
  public:
   PairwiseSelection(Innovation candidates, const std::vector<std::optional<double>>& log_volumes, const Gate& gate)
@@ -93,8 +93,8 @@ class PairwiseSelection {
   std::vector<int> open_;
 };
 
-/// Weights of graduated non-convexity for truncated least squares, 0 or 1 at the end. Linear: the candidates'
-/// residuals are (I + K W)^-1 r, K their covariance without their own noise.
+/// Weights of graduated non-convexity for truncated least squares, 0 or 1 at the end. The problem is linear: the
+/// candidates' residuals are (I + K W)^-1 r, where K is their covariance without their own noise.
 std::vector<double> graduatedWeights(const Innovation& candidates, const std::vector<int>& among, const Gate& gate) {
   constexpr double kGrowth = 1.4;
   constexpr int kMaxIterations = 60;
@@ -110,7 +110,7 @@ std::vector<double> graduatedWeights(const Innovation& candidates, const std::ve
       for (int i = 0; i < candidates.degreesOfFreedom(among[k]); ++i) by_row[row++] = weights[k];
     const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(rows, rows) + spread * by_row.asDiagonal();
     const Eigen::VectorXd left = system.partialPivLu().solve(all.residual);
-    std::vector<double> misfits;  // over the bound
+    std::vector<double> misfits;  // relative to the bound
     row = 0;
     for (const int i : among) {
       const int size = candidates.degreesOfFreedom(i);

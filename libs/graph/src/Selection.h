@@ -10,17 +10,18 @@
 
 namespace omnimapper::graph {
 
-/// What a hypothesis must pass, by the options.
+/// The tests that a hypothesis must pass, by the options.
 class Gate {
  public:
   explicit Gate(const ConsistencyOptions& options);
-  /// Chi-square bound for so many rows.
+  /// Chi-square bound for a residual of `rows` rows.
   double bound(int rows) const;
   bool passes(const InnovationStatistics& innovation) const;
-  /// How many times likelier a measurement must be if true than if false, as chi-square: twice the logarithm.
+  /// The required likelihood ratio of a true to a false measurement, as a chi-square: twice its logarithm.
   double chi2OfRatio() const { return 2 * log_ratio_; }
-  /// Logarithm of how many times likelier the measurement is if true than if false, over what is asked; negative where
-  /// a false one could be there by chance. `log_volume` as OutlierModel gives it.
+  /// Logarithm of the likelihood ratio of a true to a false measurement, minus that of the required ratio; negative if
+  /// a false one could be there by chance. `log_volume` is that of OutlierModel::logOf(); the result is 0 if it is
+  /// none.
   double margin(const InnovationStatistics& innovation, std::optional<double> log_volume) const;
 
  private:
@@ -28,7 +29,7 @@ class Gate {
   mutable std::vector<double> bounds_;  // by rows, 0 where not computed yet
 };
 
-/// What is said of one candidate.
+/// The decision about one candidate.
 struct Choice {
   enum class Kind { fits, agrees, waits, contradicts };
   Kind kind = Kind::contradicts;
@@ -36,13 +37,13 @@ struct Choice {
   std::optional<int> with;  ///< the candidate it agrees with or contradicts
 };
 
-/// Of candidates that do not act yet, those that can all act. `log_volumes` is of each.
-/// Pairwise: one after another, the surest first; those that could be there by chance only in pairs of which each
-/// predicts the other sharply.
+/// Selects candidates that can all act, of those that do not act yet. `log_volumes` has one entry for each. Pairwise:
+/// they are taken one after another, the most certain first; those that could be there by chance are taken only in
+/// pairs in which each predicts the other sharply.
 std::vector<Choice> selectPairwise(Innovation candidates, const std::vector<std::optional<double>>& log_volumes,
                                    const Gate& gate);
-/// Graduated: truncated least squares over all that fit alone, by graduated non-convexity; of its inliers those that
-/// the other inliers predict sharply.
+/// Graduated: truncated least squares over all candidates that fit by themselves, by graduated non-convexity; of its
+/// inliers, those are taken that the other inliers predict sharply.
 std::vector<Choice> selectGraduated(const Innovation& candidates, const std::vector<std::optional<double>>& log_volumes,
                                     const Gate& gate);
 

@@ -19,8 +19,8 @@ void call(const char* setter, int number) {
   if (set && number >= 0) set(number);
 }
 
-/// The numbers of threads belong to the process: the first who asks for one thread keeps what was, the last who is
-/// done puts it back, whichever threads they run in.
+/// The numbers of threads belong to the process: the first object saves them, and the last one restores them, whichever
+/// threads they live in.
 struct Held {
   std::mutex mutex;
   int count = 0, blas_threads = 0, openmp_levels = 0;
@@ -32,7 +32,7 @@ Held& held() {
 
 }  // namespace
 
-// OpenMP by its levels and not by its number of threads, because CHOLMOD names a number of its own.
+// OpenMP is limited by its levels and not by its number of threads, because CHOLMOD sets its own number.
 SingleThreadedBlas::SingleThreadedBlas() {
   const std::lock_guard lock(held().mutex);
   if (held().count++ == 0) {
@@ -40,7 +40,7 @@ SingleThreadedBlas::SingleThreadedBlas() {
     held().openmp_levels = call("omp_get_max_active_levels");
     call("openblas_set_num_threads", 1);
   }
-  call("omp_set_max_active_levels", 0);  // some implementations keep it by thread
+  call("omp_set_max_active_levels", 0);  // some implementations keep it for each thread
 }
 
 SingleThreadedBlas::~SingleThreadedBlas() {

@@ -2,7 +2,8 @@
 
 namespace omnimapper::graph {
 
-/// While one lives in any thread, BLAS and OpenMP run one thread for each caller: sums in another order are other bits.
+/// While such an object exists in any thread, BLAS and OpenMP use one thread for each caller, so that sums are always
+/// in the same order and results do not differ in any bit.
 class SingleThreadedBlas {
  public:
   SingleThreadedBlas();

@@ -20,7 +20,8 @@ class Neighbourhood {
     for (const auto factor : graph.factorsOf(id)) factors_.emplace_back(graph, graph.factor(factor));
   }
 
-  // Cost at `value`; where asked, the normal equations information * step = -gradient of the reweighted problem.
+  // The cost at `value`. Unless `information` is null, adds the normal equations information * step = -gradient of the
+  // reweighted problem.
   double evaluate(const Eigen::VectorXd& value, Losses losses, Eigen::MatrixXd* information,
                   Eigen::VectorXd* gradient) const {
     double cost = 0;
@@ -49,7 +50,7 @@ class Neighbourhood {
     return cost;
   }
 
-  // Whether the loss of some factor takes most of its say.
+  // Whether the loss of some factor takes away more than half of its weight.
   bool hasOutlier(const Eigen::VectorXd& value) const {
     return std::any_of(factors_.begin(), factors_.end(), [&](const BoundFactor& factor) {
       if (!(factor.record().weight > 0)) return false;
@@ -72,7 +73,7 @@ class Neighbourhood {
   std::vector<BoundFactor> factors_;
 };
 
-// The value of least cost that is found downhill from `value`, and its cost.
+// The minimum of the cost that is found by descent from `value`, and its cost.
 std::pair<Eigen::VectorXd, double> descend(const Neighbourhood& factors, const Variable& kind, Eigen::VectorXd value,
                                            Losses losses) {
   const int size = kind.tangentSize();
@@ -109,8 +110,8 @@ void solveOne(Graph& graph, base::VariableId id) {
   const Neighbourhood factors(graph, id);
   const Variable& kind = *variable.kind;
   auto found = descend(factors, kind, variable.value, Losses::as_recorded);
-  // Robust losses have several valleys: from a bad guess a right measurement looks like an outlier. What all say
-  // together is the other place to begin.
+  // Robust losses have several local minima: from a bad initial value, a correct measurement looks like an outlier. The
+  // minimum without losses is therefore tried as a second initial value.
   if (factors.hasOutlier(found.first)) {
     const auto together = descend(factors, kind, variable.value, Losses::none);
     auto other = descend(factors, kind, together.first, Losses::as_recorded);

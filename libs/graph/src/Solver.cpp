@@ -11,7 +11,7 @@ namespace omnimapper::graph {
 
 namespace {
 
-/// Steps from the equations' values until one of the reasons to end; `values` are the best so far.
+/// Takes steps from the graph's values until one of the reasons to end applies; `values_` are the best so far.
 class Descent {
  public:
   Descent(const Graph& graph, const SolveOptions& options)
@@ -21,7 +21,7 @@ class Descent {
 
   SolveSummary run() {
     if (equations_.information().size == 0) {
-      end(true, "nothing to solve: every variable is fixed or bound by nothing");
+      end(true, "nothing to solve: every variable is fixed or bound by no factor");
     } else {
       rule_ = makeStepRule(options_.method, equations_);
       while (!ended_) iterate();
@@ -35,14 +35,16 @@ class Descent {
   void iterate() {
     if (cost_ == 0 || equations_.gradient().lpNorm<Eigen::Infinity>() < kGradientTolerance)
       return end(true, "the gradient is zero");
-    if (summary_.iterations >= options_.max_iterations) return end(false, "the iterations ran out");
-    double promised = 0;
-    if (!rule_->propose(equations_, step_, promised)) return end(false, "the normal equations have no finite solution");
+    if (summary_.iterations >= options_.max_iterations)
+      return end(false, "the largest number of iterations is reached");
+    double predicted = 0;
+    if (!rule_->propose(equations_, step_, predicted))
+      return end(false, "the normal equations have no finite solution");
     ++summary_.iterations;
     equations_.plus(values_, step_, moved_);
     const double new_cost = equations_.cost(moved_);
     const double decrease = cost_ - new_cost;
-    const double ratio = std::isfinite(new_cost) && promised > 0 ? decrease / promised : -1;
+    const double ratio = std::isfinite(new_cost) && predicted > 0 ? decrease / predicted : -1;
     rule_->judge(ratio);
     if (ratio > 0) {
       values_.swap(moved_);
@@ -50,7 +52,7 @@ class Descent {
       cost_ = equations_.linearise(values_);
       rule_->moved();
       if (decrease <= options_.function_tolerance * before) return end(true, "the cost no longer falls");
-    } else if (promised <= options_.function_tolerance * cost_) {
+    } else if (predicted <= options_.function_tolerance * cost_) {
       return end(true, "the cost can no longer fall");
     }
     if (options_.stop && options_.stop()) end(false, "stopped on request");

@@ -7,7 +7,7 @@
 
 namespace omnimapper::graph {
 
-/// What CHOLMOD keeps; freed with it.
+/// The data of CHOLMOD, freed with this object.
 struct SparseCholesky::State {
   State() {
     cholmod_start(&common);
@@ -27,7 +27,7 @@ struct SparseCholesky::State {
 
 namespace {
 
-/// CHOLMOD's view of a matrix of ours; it only reads it.
+/// CHOLMOD's view of a SymmetricMatrix, which it only reads.
 cholmod_sparse view(const SymmetricMatrix& matrix) {
   cholmod_sparse sparse{};
   sparse.nrow = sparse.ncol = static_cast<std::size_t>(matrix.size);
@@ -48,7 +48,7 @@ cholmod_sparse view(const SymmetricMatrix& matrix) {
   throw base::Error(base::ExitCode::internal, "graph: CHOLMOD cannot factor this system: too large for the memory");
 }
 
-/// One row and column for each group.
+/// The pattern of the groups: one row and column for each.
 SymmetricMatrix quotient(const SymmetricMatrix& pattern, const std::vector<int>& groups) {
   std::vector<int> group_of_row;
   for (std::size_t group = 0; group < groups.size(); ++group)
@@ -69,7 +69,7 @@ SymmetricMatrix quotient(const SymmetricMatrix& pattern, const std::vector<int>&
   return reduced;
 }
 
-/// The order of rows in which the groups' rows stand together, groups in the order given.
+/// The order of rows for an order of groups: the rows of each group are next to each other.
 std::vector<int> expand(const std::vector<int>& group_order, const std::vector<int>& groups) {
   std::vector<int> first_row(groups.size() + 1, 0);
   for (std::size_t i = 0; i < groups.size(); ++i) first_row[i + 1] = first_row[i] + groups[i];

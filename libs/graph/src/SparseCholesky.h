@@ -6,7 +6,7 @@
 
 namespace omnimapper::graph {
 
-/// A symmetric matrix, its lower triangle stored by columns. Entries of the upper triangle may stand there too and are
+/// A symmetric matrix, its lower triangle stored by columns. Entries of the upper triangle may be there too and are
 /// ignored.
 struct SymmetricMatrix {
   int size = 0;
@@ -24,11 +24,11 @@ struct SparseVector {
 /// L L^T = P A P^T of a sparse positive definite matrix A, by CHOLMOD, with P to keep L sparse.
 class SparseCholesky {
  public:
-  /// How L is stored: dense blocks are the faster to compute, single columns are what halfSolve() needs.
+  /// How L is stored: dense blocks are faster to compute, but halfSolve() needs single columns.
   enum class Storage { dense_blocks, columns };
 
   /// Orders the matrix by its pattern. `groups`, where not empty, are the sizes of runs of rows that share one pattern
-  /// (the rows of a variable): ordering those is quicker.
+  /// (the rows of a variable): ordering the groups is faster.
   SparseCholesky(const SymmetricMatrix& pattern, const std::vector<int>& groups);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;

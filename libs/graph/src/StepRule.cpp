@@ -7,7 +7,7 @@ namespace omnimapper::graph {
 
 namespace {
 
-/// Keeps directions that nothing determines at rest; far below what any measurement says.
+/// Keeps undetermined directions from moving; far below the information of any measurement.
 constexpr double kSmallestDamping = 1e-12;
 
 /// (information + damping diagonal) step = -gradient. The damping grows as long as the matrix is not positive definite.
@@ -43,13 +43,13 @@ class LevenbergMarquardt : public StepRule {
  public:
   explicit LevenbergMarquardt(const NormalEquations& equations) : system_(equations) {}
   void moved() override {}
-  bool propose(NormalEquations& equations, Eigen::VectorXd& step, double& promised) override {
+  bool propose(NormalEquations& equations, Eigen::VectorXd& step, double& predicted) override {
     if (!system_.solve(equations, damping_, step)) return false;
     const SymmetricMatrix& matrix = equations.information();
     double damped = 0;
     for (int i = 0; i < step.size(); ++i)
       damped += damping_ * matrix.values[equations.diagonal()[i]] * step[i] * step[i];
-    promised = 0.5 * (damped - equations.gradient().dot(step));
+    predicted = 0.5 * (damped - equations.gradient().dot(step));
     return true;
   }
   void judge(double ratio) override {
@@ -86,7 +86,7 @@ class Dogleg : public StepRule {
  public:
   explicit Dogleg(const NormalEquations& equations) : system_(equations) {}
   void moved() override { known_ = false; }
-  bool propose(NormalEquations& equations, Eigen::VectorXd& step, double& promised) override {
+  bool propose(NormalEquations& equations, Eigen::VectorXd& step, double& predicted) override {
     if (!known_ && !linearised(equations)) return false;
     const double newton_length = newton_.norm(), cauchy_length = cauchy_.norm();
     if (radius_ < 0) radius_ = newton_length;
@@ -101,7 +101,7 @@ class Dogleg : public StepRule {
     }
     length_ = step.norm();
     step = step.cwiseQuotient(scale_);
-    promised = -equations.gradient().dot(step) - 0.5 * step.dot(multiply(equations.information(), step));
+    predicted = -equations.gradient().dot(step) - 0.5 * step.dot(multiply(equations.information(), step));
     return true;
   }
   void judge(double ratio) override {

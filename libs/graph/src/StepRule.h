@@ -9,15 +9,15 @@
 
 namespace omnimapper::graph {
 
-/// Which step to take from the normal equations at one place, and how far the quadratic model is trusted there.
+/// Chooses the step from the normal equations at the current values, and how far the quadratic model is trusted.
 class StepRule {
  public:
   virtual ~StepRule() = default;
-  /// The equations were linearised at a new place.
+  /// Called when the equations were linearised at new values.
   virtual void moved() = 0;
-  /// Sets `step` and the decrease of the cost that the model promises for it; false if there is no step to be had.
-  virtual bool propose(NormalEquations& equations, Eigen::VectorXd& step, double& promised) = 0;
-  /// `ratio` is the cost's decrease over the promised one; trust grows or shrinks by it.
+  /// Sets `step` and the decrease of the cost that the model predicts for it. Returns false if there is no step.
+  virtual bool propose(NormalEquations& equations, Eigen::VectorXd& step, double& predicted) = 0;
+  /// `ratio` is the decrease of the cost / the predicted one; by it, the model is trusted more or less.
   virtual void judge(double ratio) = 0;
 };
 

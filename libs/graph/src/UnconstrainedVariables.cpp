@@ -8,7 +8,7 @@ namespace omnimapper::graph {
 
 namespace {
 
-bool held(const Graph& graph, base::VariableId id) {
+bool isConstrained(const Graph& graph, base::VariableId id) {
   const VariableRecord& variable = graph.variable(id);
   return variable.fixed || std::any_of(variable.factors.begin(), variable.factors.end(),
                                        [&](base::FactorId factor) { return graph.factor(factor).weight > 0; });
@@ -18,15 +18,16 @@ bool held(const Graph& graph, base::VariableId id) {
 
 bool bindsUnconstrained(const Graph& graph, base::FactorId factor) {
   const std::vector<base::VariableId>& variables = graph.factor(factor).variables;
-  return std::any_of(variables.begin(), variables.end(), [&](base::VariableId id) { return !held(graph, id); });
+  return std::any_of(variables.begin(), variables.end(),
+                     [&](base::VariableId id) { return !isConstrained(graph, id); });
 }
 
 void initializeUnconstrained(Graph& graph, base::FactorId factor) {
-  std::vector<base::VariableId> unheld;
+  std::vector<base::VariableId> unconstrained;
   for (const base::VariableId id : graph.factor(factor).variables)
-    if (!held(graph, id)) unheld.push_back(id);
+    if (!isConstrained(graph, id)) unconstrained.push_back(id);
   graph.setWeight(factor, 1);
-  for (const base::VariableId id : unheld) solveOne(graph, id);
+  for (const base::VariableId id : unconstrained) solveOne(graph, id);
 }
 
 }  // namespace omnimapper::graph

@@ -4,11 +4,12 @@
 
 namespace omnimapper::graph {
 
-/// True if a variable of the factor is free and held by nothing that acts, so that there is nothing to test it against:
-/// the place of another session's map, a landmark seen for the first time.
+/// Whether a variable of the factor is free and bound by no acting factor, so that there is nothing to test the factor
+/// against: the place of another session's map, or a landmark that is seen for the first time.
 bool bindsUnconstrained(const Graph& graph, base::FactorId factor);
 
-/// Lets such a factor act, which bends nothing, and puts the variables it alone holds where it says.
+/// Lets such a factor act, which distorts nothing, and sets the variables that it alone binds to the values that it
+/// measures.
 void initializeUnconstrained(Graph& graph, base::FactorId factor);
 
 }  // namespace omnimapper::graph

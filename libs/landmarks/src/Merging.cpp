@@ -26,7 +26,7 @@ mapper::Decision mergeDecision(const mapper::View& view, const std::string& sect
   decision.kind = "merge";
   decision.from = view.map.key_frames.back().id;
   decision.accepted = true;
-  decision.reason = "two landmarks are one" + (why.empty() ? why : ": " + why);
+  decision.reason = "two landmarks are the same" + (why.empty() ? why : ": " + why);
   decision.numbers = {{"landmark", kept.index}, {"other", gone.index}, {"chi-square", chi2}, {"limit", limit}};
   return decision;
 }

@@ -12,7 +12,7 @@ using geometry::Plane3;
 using geometry::Se3;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-/// A plane of the map as it is in the base, with how its normal and distance change.
+/// A plane of the map in the frame of the base, with the derivatives of its normal and distance.
 struct PredictedPlane {
   Plane3 in_base;
   Matrix36 normal_by_pose = Matrix36::Zero();
@@ -40,7 +40,7 @@ void PlaneFactor::evaluate(const double* const* values, double* residual, double
   const PredictedPlane predicted(values);
   Eigen::Map<Eigen::Vector3d>{residual} = geometry::minus(predicted.in_base, measured_);
   if (!jacobians) return;
-  // The turn is u theta / s, with u the part of the normal across the measured one, s = |u|, theta = atan2(s, c).
+  // The rotation is u theta / s, with u the part of the normal across the measured one, s = |u|, theta = atan2(s, c).
   const Eigen::Matrix<double, 2, 3> across = geometry::tangentBasis(measured_.normal).transpose();
   const Eigen::Vector2d u = across * predicted.in_base.normal;
   const double s = u.norm(), c = measured_.normal.dot(predicted.in_base.normal);
@@ -102,7 +102,7 @@ void LineOnPlaneFactor::addTo(graph::FactorRegistry& registry) {
 
 void UprightFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const Plane3 plane = planeFromValue(values[0]);
-  // Nearly level the tangent is beyond all bounds; its cosine is held from there on.
+  // The tangent is unbounded for a nearly level plane, so the cosine has a lower limit.
   constexpr double kLeastCosine = 0.01;
   const double sine = plane.normal.z(), square = 1 - sine * sine;
   const bool is_level = square < kLeastCosine * kLeastCosine;

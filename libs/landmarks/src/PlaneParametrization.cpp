@@ -58,8 +58,8 @@ class WallForm : public PlaneParametrization {
   Difference difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const override {
     const geometry::Segment2 from = wallFromValue(a.data()), to = wallFromValue(b.data());
     Eigen::MatrixXd by_both(2, 4);
-    // from's turn tips its normal by -along; its shift takes the middle with it. to's middle shifts along its own
-    // normal.
+    // A rotation of `from` changes its normal by -along, and a shift moves its middle. The middle of `to` shifts along
+    // its own normal.
     by_both << -1, 0, 1, 0, -direction(from).dot(middle(to) - middle(from)), -1, 0, normalOf(from).dot(normalOf(to));
     return {wallChange(from, to), by_both};
   }

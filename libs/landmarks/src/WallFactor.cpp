@@ -19,7 +19,7 @@ void WallFactor::evaluate(const double* const* values, double* residual, double*
     const Eigen::RowVector2d by_place = normal.transpose() * map_from_base.rotation();
     by_pose << 0, 0, 1, by_place, by_place.dot(Eigen::Vector2d(-middle_.y(), middle_.x()));
   }
-  // The normal turns to -along.
+  // The derivative of the normal by the wall's rotation is -along.
   if (auto by_wall = jacobian<1>(jacobians)) by_wall << -1, 0, -along.dot(from_wall), -1;
 }
 

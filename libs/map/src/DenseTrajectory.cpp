@@ -7,7 +7,7 @@ namespace omnimapper::map {
 
 namespace {
 
-/// Spreads over a stretch what the continuous source and the optimised next key frame disagree on.
+/// Spreads the disagreement of the continuous source and the optimised next key frame over the frames between.
 class Spread {
  public:
   Spread(const KeyFrame& begin, const KeyFrame& end)
@@ -18,8 +18,9 @@ class Spread {
         disagreement_(
             geometry::minus(geometry::fromMrpt(end.map_from_base), map_from_begin_ * begin_from_measured_end_)) {}
 
-  // The disagreement is a tangent at the measured end; turned into the dependent frame it is the same step and the same
-  // turn in the map, of which the frame takes its share by time. At the end the share is all of it: the next key frame.
+  // The disagreement is a tangent at the measured end. Rotated into the dependent frame, it is the same translation and
+  // rotation in the map, and the frame gets a share of it by its time. At the end the share is 1, which gives the next
+  // key frame.
   mrpt::poses::CPose3D operator()(const DependentFrame& frame) const {
     const double share = std::clamp(base::secondsBetween(begin_, frame.stamp) / seconds_, 0.0, 1.0);
     const geometry::Se3 begin_from_frame = geometry::fromMrpt(frame.keyframe_from_base);
@@ -48,12 +49,13 @@ std::vector<StampedPose> denseTrajectory(const Map& map) {
     if (frame.reference) trajectory.push_back({frame.stamp, frame.map_from_base, frame.id.session});
     if (frame.dependents.empty()) continue;
     if (i + 1 == map.key_frames.size() || map.key_frames[i + 1].id.session != frame.id.session) {
-      for (const DependentFrame& h : frame.dependents) {
-        trajectory.push_back({h.stamp, frame.map_from_base + h.keyframe_from_base, frame.id.session});
+      for (const DependentFrame& dependent : frame.dependents) {
+        trajectory.push_back({dependent.stamp, frame.map_from_base + dependent.keyframe_from_base, frame.id.session});
       }
     } else {
       const Spread spread(frame, map.key_frames[i + 1]);
-      for (const DependentFrame& h : frame.dependents) trajectory.push_back({h.stamp, spread(h), frame.id.session});
+      for (const DependentFrame& dependent : frame.dependents)
+        trajectory.push_back({dependent.stamp, spread(dependent), frame.id.session});
     }
   }
   return trajectory;

@@ -15,12 +15,12 @@ namespace omnimapper::map {
 namespace {
 
 const std::string kFramesName = "frames";
-// Version 2 says of each key frame whether the reference sensor saw something there. Version 3 has the clouds of depth
-// images, and its bytes are in compressed blocks, so that whoever reads it holds one of them at a time.
+// Version 2 also stores whether the reference sensor saw something at a key frame. Version 3 also has the clouds of
+// depth images, and its bytes are in compressed blocks, so that a reader needs only one block in memory at a time.
 constexpr std::uint32_t kFramesVersion = 3;
-constexpr std::size_t kBlock = std::size_t{1} << 20;  // bytes of whole key frames, at least
+constexpr std::size_t kBlock = std::size_t{1} << 20;  // smallest size of a block [bytes]; a block has whole key frames
 
-// The rotation matrix is what CPose3D keeps: angles or a quaternion would round, and a map saved twice would differ.
+// CPose3D keeps a rotation matrix: angles or a quaternion would be rounded, and a map that is saved twice would differ.
 void writePose(ByteWriter& out, const mrpt::poses::CPose3D& pose) {
   for (int i = 0; i < 3; ++i) out.real(pose[i]);
   for (int row = 0; row < 3; ++row) {
@@ -56,7 +56,7 @@ mrpt::obs::CObservation::ConstPtr readObservation(ByteReader& in) {
            "an observation cannot be read; load the library that has its class. MRPT says: " + base::sentenceOf(error));
   }
   auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
-  if (!observation) refuse(kFramesName, "holds something that is no observation where one should be");
+  if (!observation) refuse(kFramesName, "has an object that is no observation in the place of one");
   return observation;
 }
 
@@ -108,7 +108,7 @@ KeyFrame readFrame(ByteReader& in, std::uint32_t version) {
   return frame;
 }
 
-// The file has them as they were driven; the table takes them as they were made.
+// The file has the key frames in the order in which they were driven; they are inserted in the order of ids.
 Map mapOf(std::vector<KeyFrame> frames) {
   std::sort(frames.begin(), frames.end(), [](const KeyFrame& a, const KeyFrame& b) { return a.id < b.id; });
   Map map;
@@ -125,7 +125,7 @@ Map mapOf(std::vector<KeyFrame> frames) {
 MapSection framesToSection(const Map& map) {
   ByteWriter out, frames;
   out.uint(map.key_frames.size(), 4);
-  // Compressing takes most of the time: it is done beside, a few blocks behind, and the order stays.
+  // Compression takes most of the time, so workers do it, a few blocks behind, and the order of blocks is kept.
   constexpr int kThreads = 2;
   constexpr std::size_t kBehind = 4;
   std::deque<std::future<std::string>> waiting;
@@ -154,8 +154,8 @@ std::uint64_t uncompressedSize(const MapSection& frames) {
   try {
     in.uint(4);
     while (!in.atEnd()) {
-      const std::uint64_t claimed = in.uint(8);
-      size += std::min(claimed, kMostPerByte * in.block().size());
+      const std::uint64_t stated = in.uint(8);
+      size += std::min(stated, kMostPerByte * in.block().size());
     }
   } catch (const base::Error&) {
   }

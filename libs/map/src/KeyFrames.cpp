@@ -15,7 +15,7 @@ namespace {
 
 const KeyFrame& KeyFrames::at(base::KeyFrameId id) const {
   const KeyFrame* frame = frames_.find(id);
-  if (!frame) fail(id, "is asked for, but the map of " + std::to_string(size()) + " key frames has none such");
+  if (!frame) fail(id, "is not among the " + std::to_string(size()) + " key frames of the map");
   return *frame;
 }
 
@@ -32,13 +32,13 @@ std::size_t KeyFrames::lowerBound(std::uint16_t session, base::Stamp stamp) cons
 
 std::size_t KeyFrames::insert(KeyFrame frame) {
   const base::KeyFrameId id = frame.id;
-  // Mostly it is the newest.
+  // It usually is the newest.
   const bool last = empty() || std::tuple(back().id.session, back().stamp) < std::tuple(id.session, frame.stamp);
   const std::size_t position = last ? size() : lowerBound(id.session, frame.stamp);
-  if (id.index < frames_.nextId(id.session).index) fail(id, "is inserted, but that id was given before");
+  if (id.index < frames_.nextId(id.session).index) fail(id, "cannot be inserted: its id was used before");
   const bool taken =
       position < size() && (*this)[position].id.session == id.session && (*this)[position].stamp == frame.stamp;
-  if (taken) fail(id, "is inserted at the stamp of " + toString((*this)[position].id));
+  if (taken) fail(id, "cannot be inserted: it has the stamp of " + toString((*this)[position].id));
   while (frames_.nextId(id.session).index < id.index) frames_.skip(id.session);
   frames_.add(id.session, std::move(frame));
   order_.insert(order_.begin() + static_cast<std::ptrdiff_t>(position), id);

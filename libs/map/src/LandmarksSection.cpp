@@ -12,8 +12,8 @@ namespace {
 
 const std::string kLandmarksName = "landmarks";
 constexpr std::uint32_t kLandmarksVersion = 1;
-// Indices that were given and are gone take memory: beyond this many in all sessions, and this many for each landmark
-// that is there, the number is damaged.
+// Unused ids take memory. If a file has more of them than this in all sessions, plus this many for each landmark, it is
+// damaged.
 constexpr std::uint64_t kMaxHoles = 1'000'000, kMaxHolesPerLandmark = 1000, kBytesOfId = 6;
 
 void writePayload(ByteWriter& out, const LandmarkPayload* payload) {
@@ -65,7 +65,8 @@ Landmark readLandmark(ByteReader& in, base::LandmarkId id, const PayloadRegistry
 
 }  // namespace
 
-// First the next index of each session, so that none is given twice; then the landmarks in the order of ids.
+// The section has the next index of each session, so that no index is used twice, then the landmarks in the order of
+// ids.
 MapSection landmarksToSection(const Map& map) {
   ByteWriter out;
   const auto next = map.landmarks.nextIndices();
@@ -90,9 +91,10 @@ base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection&
   }
   std::uint64_t left = in.uint(4), given = 0;
   for (const auto& [session, index] : next) given += index;
-  // Each landmark begins with its id: there are no more of them than that many bytes hold.
+  // Each landmark begins with its id, so the size of the section limits their number.
   if (given > kMaxHoles + kMaxHolesPerLandmark * std::min(left, section.bytes.size() / kBytesOfId)) {
-    refuse(kLandmarksName, "its sessions say they gave " + std::to_string(given) + " ids: the file is damaged");
+    refuse(kLandmarksName, "its sessions report " + std::to_string(given) +
+                               " used ids, too many for its landmarks: the file is damaged");
   }
   base::IdTable<base::LandmarkId, Landmark> table;
   const auto skipTo = [&](base::LandmarkId id) {

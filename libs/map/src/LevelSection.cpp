@@ -26,7 +26,7 @@ Level levelFromSection(const MapSection& section) {
   ByteReader in(section.bytes, placeOf(kLevelName));
   Level level;
   const std::uint64_t source = in.uint(1);
-  if (source > kLastSource) refuse(kLevelName, "tells of a source that is not known: the file is damaged");
+  if (source > kLastSource) refuse(kLevelName, "has an unknown source: the file is damaged");
   level.source = static_cast<Level::Source>(source);
   for (int i = 0; i < 3; ++i) level.up[i] = in.real();
   for (int i = 0; i < 9; ++i) level.covariance(i / 3, i % 3) = in.real();
@@ -34,7 +34,7 @@ Level levelFromSection(const MapSection& section) {
   expectEnd(in, kLevelName);
   constexpr double kOff = 1e-6;
   if (!level.up.allFinite() || !level.covariance.allFinite() || std::abs(level.up.norm() - 1) > kOff)
-    refuse(kLevelName, "its up is no direction: the file is damaged");
+    refuse(kLevelName, "its up direction is not a unit vector: the file is damaged");
   return level;
 }
 

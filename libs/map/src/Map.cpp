@@ -7,8 +7,8 @@ const Landmark& Map::landmark(base::LandmarkId id) const {
   const Landmark* found = landmarks.find(id);
   while (found && found->state == Landmark::State::merged) found = landmarks.find(found->merged_into);
   if (!found) {
-    throw base::Error(base::ExitCode::internal, "landmark " + toString(id) + " is asked for, but the map of " +
-                                                    std::to_string(landmarks.size()) + " landmarks has none such");
+    throw base::Error(base::ExitCode::internal, "landmark " + toString(id) + " is not among the " +
+                                                    std::to_string(landmarks.size()) + " landmarks of the map");
   }
   return *found;
 }

@@ -37,7 +37,7 @@ std::string headerOf(const MapSection& section) {
   return out.take();
 }
 
-// crc32 by zlib takes lengths of 32 bits: longer bytes go in parts.
+// zlib's crc32() takes 32-bit lengths, so longer data is passed in parts.
 std::uint32_t checksumOf(const std::string& header, std::string_view bytes) {
   uLong crc = crc32(0, reinterpret_cast<const Bytef*>(header.data()), static_cast<uInt>(header.size()));
   while (!bytes.empty()) {
@@ -48,7 +48,7 @@ std::uint32_t checksumOf(const std::string& header, std::string_view bytes) {
   return static_cast<std::uint32_t>(crc);
 }
 
-// The bytes of a file, one part after the other, so that no more than a section is in memory twice.
+// Reads a file part by part, so that no more than one section is in memory twice.
 class FileBytes {
  public:
   explicit FileBytes(const std::string& path) : in_(base::openInput(path, "map file")), what_(path) {
@@ -71,14 +71,14 @@ class FileBytes {
   }
   std::uint64_t uint(int bytes) { return base::fromBytes(raw(static_cast<std::uint64_t>(bytes)).data(), bytes); }
   bool atEnd() const { return left_ == 0; }
-  /// Names the place in messages from here on.
+  /// Sets the place that messages name from now on.
   void setWhat(const std::string& what) { what_ = what; }
 
  private:
   void expectLeft(std::uint64_t count) const {
     if (count <= left_) return;
-    throw base::Error(base::ExitCode::unreadable_input, what_ + ": truncated: something of " + std::to_string(count) +
-                                                            " bytes begins where only " + std::to_string(left_) +
+    throw base::Error(base::ExitCode::unreadable_input, what_ + ": truncated: " + std::to_string(count) +
+                                                            " bytes are expected where only " + std::to_string(left_) +
                                                             " are left. Take another copy of the file.");
   }
   void expectRead(std::uint64_t count) {
@@ -94,7 +94,7 @@ class FileBytes {
 
 using Wanted = std::function<bool(const std::string& name)>;
 
-// A section that is not wanted has no bytes.
+// The bytes of a section that is not wanted are skipped.
 MapSection readSection(FileBytes& in, const std::string& path, std::uint32_t number, const Wanted& is_wanted) {
   in.setWhat(path + ", section number " + std::to_string(number));
   const auto checksum = static_cast<std::uint32_t>(in.uint(4));
@@ -113,12 +113,12 @@ MapSection readSection(FileBytes& in, const std::string& path, std::uint32_t num
   }
   section.bytes = in.raw(size);
   if (checksumOf(headerOf(section), section.bytes) != checksum) {
-    refuseFile(what, "its checksum does not fit: the file is damaged. Take another copy of it.");
+    refuseFile(what, "its checksum does not match: the file is damaged. Take another copy of it.");
   }
   return section;
 }
 
-// Of sections that are not wanted only the names are looked at.
+// Sections that are not wanted are skipped, but their names are checked.
 std::vector<MapSection> readSections(const std::string& path, const Wanted& is_wanted) {
   FileBytes in(path);
   std::string magic;

@@ -35,7 +35,7 @@ std::shared_ptr<const LandmarkPayload> PayloadRegistry::read(const std::string& 
   if (in.peek() != std::istringstream::traits_type::eof()) {
     throw base::Error(base::ExitCode::unreadable_input,
                       "landmark payload '" + kind +
-                          "' has more bytes than its reader takes: it was written by another "
+                          "' has more bytes than its reader reads: it was written by another "
                           "version of its plugin");
   }
   return payload;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kPlacesVersion = 1;
 
-// Which of the optional parts follow.
+// Flags for the optional parts that follow.
 constexpr std::uint64_t kMoved = 1, kNormal = 2, kSeenFrom = 4, kSigma = 8, kAlongNormal = 16, kAllFlags = 31;
 
 [[noreturn]] void refuseValue(const std::string& what) {
@@ -38,7 +38,7 @@ Eigen::Matrix<double, N, 1> read(ByteReader& in) {
 Eigen::Vector3d readDirection(ByteReader& in) {
   constexpr double kOff = 1e-6;
   const auto direction = read<3>(in);
-  if (!(std::abs(direction.norm() - 1) < kOff)) refuseValue("has a direction that is none");
+  if (!(std::abs(direction.norm() - 1) < kOff)) refuseValue("has a direction that is not a unit vector");
   return direction;
 }
 
@@ -53,16 +53,16 @@ void readList(ByteReader& in, Read read_one) {
   for (auto left = in.uint(4); left > 0; --left) read_one();
 }
 
-using Walk = std::vector<Eigen::Vector2d>;
+using PointList = std::vector<Eigen::Vector2d>;
 
-void write(ByteWriter& out, const Walk& walk) {
-  writeList(out, walk, [&](const Eigen::Vector2d& point) { write<2>(out, point); });
+void write(ByteWriter& out, const PointList& points) {
+  writeList(out, points, [&](const Eigen::Vector2d& point) { write<2>(out, point); });
 }
 
-Walk readWalk(ByteReader& in) {
-  Walk walk;
-  readList(in, [&] { walk.push_back(read<2>(in)); });
-  return walk;
+PointList readPoints(ByteReader& in) {
+  PointList points;
+  readList(in, [&] { points.push_back(read<2>(in)); });
+  return points;
 }
 
 void write(ByteWriter& out, const Extent& extent) {
@@ -71,21 +71,21 @@ void write(ByteWriter& out, const Extent& extent) {
     write<2>(out, line.first);
     write<2>(out, line.second);
   });
-  writeList(out, extent.outlines, [&](const Walk& walk) { write(out, walk); });
-  writeList(out, extent.holes, [&](const Walk& walk) { write(out, walk); });
+  writeList(out, extent.outlines, [&](const PointList& points) { write(out, points); });
+  writeList(out, extent.holes, [&](const PointList& points) { write(out, points); });
   out.real(extent.bottom);
   out.real(extent.top);
 }
 
 Extent readExtent(ByteReader& in) {
   Extent extent;
-  extent.points = readWalk(in);
+  extent.points = readPoints(in);
   readList(in, [&] {
     const auto from = read<2>(in);
     extent.lines.emplace_back(from, read<2>(in));
   });
-  readList(in, [&] { extent.outlines.push_back(readWalk(in)); });
-  readList(in, [&] { extent.holes.push_back(readWalk(in)); });
+  readList(in, [&] { extent.outlines.push_back(readPoints(in)); });
+  readList(in, [&] { extent.holes.push_back(readPoints(in)); });
   extent.bottom = readFinite(in);
   extent.top = readFinite(in);
   return extent;
@@ -137,7 +137,7 @@ Place readPlace(ByteReader& in) {
   place.first_seen = readStamp(in);
   place.last_seen = readStamp(in);
   const std::uint64_t flags = in.uint(1);
-  if (flags > kAllFlags) refuseValue("has a landmark with parts that nobody knows");
+  if (flags > kAllFlags) refuseValue("has a landmark with unknown parts");
   place.moved = (flags & kMoved) != 0;
   place.sigma_is_along_normal = (flags & kAlongNormal) != 0;
   if ((flags & kNormal) != 0) place.normal = readDirection(in);

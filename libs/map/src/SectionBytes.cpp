@@ -6,7 +6,7 @@ namespace omnimapper::map {
 
 namespace {
 
-constexpr int kLevel = 1;  // of zlib: the quickest
+constexpr int kLevel = 1;  // the fastest level of zlib
 
 }  // namespace
 

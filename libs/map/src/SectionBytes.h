@@ -8,7 +8,7 @@
 
 #include <string>
 
-// What the sections of a map file have in common.
+// Functions that the sections of a map file share.
 namespace omnimapper::map {
 
 using base::ByteReader;
@@ -36,12 +36,12 @@ inline base::Stamp readStamp(ByteReader& in) {
   return base::Stamp(base::Duration(static_cast<std::int64_t>(in.uint(8))));
 }
 
-/// No compressed byte holds more than so many: what claims more is damaged.
+/// A compressed byte holds at most this many bytes; a block that states more is damaged.
 inline constexpr std::uint64_t kMostPerByte = 1032;
 
 /// `bytes` as readCompressed() takes them: their length in 8 bytes, then a block of them compressed. Thread-safe.
 std::string compressed(const std::string& bytes);
-/// Throws Error(unreadable_input) if what stands there is none of those.
+/// Reads a block that compressed() returned. Throws Error(unreadable_input) if it is damaged.
 std::string readCompressed(ByteReader& in);
 
 inline std::string placeOf(const std::string& section) {
@@ -54,7 +54,7 @@ inline std::string placeOf(const std::string& section) {
 
 /// Throws Error(unreadable_input) if it is another section, or of a version this program does not know.
 inline void expectSection(const MapSection& section, const std::string& name, std::uint32_t newest) {
-  if (section.name != name) refuse(name, "is asked for, but \"" + section.name + "\" is given");
+  if (section.name != name) refuse(name, "is expected, but the section is \"" + section.name + "\"");
   if (section.version >= 1 && section.version <= newest) return;
   refuse(name, "is of version " + std::to_string(section.version) + ", and this program reads versions up to " +
                    std::to_string(newest) + ". Use the OmniMapper that wrote it, or a later one.");

@@ -14,14 +14,14 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// A pairing to first order, with what the map says of it.
+// A pairing, linearised at the current values, with its gate and cost.
 struct Candidate {
   std::size_t pairing;
   graph::Linearised linearised;
   double chi2 = 0, limit = 0, cost = 0;
 };
 
-// Variables that the candidates bind, each with a place in one stacked tangent.
+// The variables that the candidates bind, with their offsets in one stacked tangent.
 struct Places {
   std::map<base::VariableId, Eigen::Index> offsets;
   std::vector<base::VariableId> ids;
@@ -38,7 +38,7 @@ struct Places {
   }
 };
 
-// Blocks of what is not known of the residuals, by what is not known of the variables.
+// Blocks of the covariance of the predicted residuals, from the covariance of the variables.
 class Prediction {
  public:
   Prediction(const std::vector<Pairing>& pairings, const Places& places, Eigen::MatrixXd covariance)
@@ -76,7 +76,7 @@ bool isBound(const Pairing& pairing, const graph::Graph& graph) {
   });
 }
 
-// Judges each candidate by itself.
+// Computes the gate and cost of each candidate by itself.
 void gate(std::vector<Candidate>& candidates, const Prediction& prediction, const AssociationOptions& options) {
   for (Candidate& candidate : candidates) {
     const Eigen::VectorXd& residual = candidate.linearised.residual;
@@ -86,13 +86,13 @@ void gate(std::vector<Candidate>& candidates, const Prediction& prediction, cons
     candidate.chi2 = residual.dot(root.solve(residual));
     candidate.limit = chi2Limit(options.confidence, residual.size());
     candidate.cost = candidate.chi2 + 2 * Eigen::MatrixXd(root.matrixL()).diagonal().array().log().sum();
-    // What has no root gates nothing: out of it comes no cost that another could be compared with.
+    // A covariance that is not positive definite gives no cost to compare, so the candidate is refused.
     if (root.info() != Eigen::Success || !std::isfinite(candidate.cost))
       candidate.chi2 = candidate.cost = std::numeric_limits<double>::infinity();
   }
 }
 
-// Those that pass their gates, the best of each measurement, in the order of pairings.
+// The candidates that pass their gates, only the best of each measurement, in the order of pairings.
 std::vector<const Candidate*> passing(const std::vector<Candidate>& candidates, const std::vector<Pairing>& pairings,
                                       std::size_t measurements) {
   constexpr std::size_t kMost = 32;
@@ -139,7 +139,7 @@ JointInnovation innovationOf(const std::vector<const Candidate*>& candidates, co
   return innovation;
 }
 
-// Of each measurement the pairing that it fits best by itself, for what is said of those that are not matched.
+// The pairing that each measurement fits best by itself; it is reported for measurements that are not matched.
 std::vector<const Candidate*> nearest(const std::vector<Candidate>& candidates, const std::vector<Pairing>& pairings,
                                       std::size_t measurements) {
   std::vector<const Candidate*> best(measurements, nullptr);
@@ -216,10 +216,10 @@ void Match::describe(Decision& decision) const {
       decision.reason = "matched";
       break;
     case Kind::ambiguous:
-      decision.reason = "fits two landmarks alike";
+      decision.reason = "fits two landmarks about equally well";
       break;
     case Kind::undetermined:
-      decision.reason = "the covariance is not known: left out";
+      decision.reason = "the covariance is unknown: left out";
       break;
     case Kind::unknown:
       decision.reason = !pairing       ? "none is near"

@@ -14,7 +14,7 @@ Id finalId(Id id, const std::vector<Id>& final_ids) {
   return Batch::isProvisional(id) ? final_ids.at(id.index) : id;
 }
 
-// What the batch asks of things that are there already, or of its own additions by number.
+// Checks that the ids in the batch exist, in the graph and the map or among its own additions, and that its edits fit.
 class Check {
  public:
   Check(const Batch& batch, const graph::Graph& graph, const map::Map& map) : batch_(batch), graph_(graph), map_(map) {}
@@ -22,10 +22,10 @@ class Check {
   std::string whyUnfit() {
     for (const auto id : batch_.removedFactors()) checkRemoved(id);
     for (const auto& [id, weight] : batch_.weights()) {
-      need(graph_.contains(id), "weight of factor " + toString(id), "the graph has none of that id");
+      need(graph_.contains(id), "weight of factor " + toString(id), "the graph has no such factor");
       need(weight >= 0 && std::isfinite(weight), "weight of factor " + toString(id), "is negative or not finite");
       need(!graph_.contains(id) || !graph_.factor(id).tags.hypothesis, "weight of factor " + toString(id),
-           "is a hypothesis: the consistency test weighs it");
+           "is a hypothesis, whose weight the consistency test sets");
     }
     for (const auto& record : batch_.addedFactors()) {
       for (const auto id : record.variables) needVariable(id, "added factor");
@@ -59,7 +59,7 @@ class Check {
   void needLandmark(base::LandmarkId id, const std::string& edit) {
     if (Batch::isProvisional(id)) {
       need(id.index < batch_.addedLandmarks().size(), edit,
-           "speaks of a provisional landmark that the batch does not add");
+           "refers to a provisional landmark that the batch does not add");
     } else {
       const map::Landmark* landmark = map_.landmarks.find(id);
       need(landmark != nullptr, edit, "the map has no landmark " + toString(id));
@@ -70,13 +70,13 @@ class Check {
   }
   void checkRemoved(base::FactorId id) {
     const std::string edit = "removed factor " + toString(id);
-    need(graph_.contains(id), edit, "the graph has none of that id");
+    need(graph_.contains(id), edit, "the graph has no such factor");
     need(removed_.insert(id).second, edit, "is removed twice");
   }
-  // Every factor that binds it must go too.
+  // Every factor that binds the variable must be removed too.
   void checkRemoved(base::VariableId id) {
     const std::string edit = "removed variable " + toString(id);
-    need(graph_.contains(id), edit, "the graph has none of that id");
+    need(graph_.contains(id), edit, "the graph has no such variable");
     if (!graph_.contains(id)) return;
     for (const auto factor : graph_.factorsOf(id)) {
       need(removed_.count(factor) > 0, edit, "is still bound by factor " + toString(factor));
@@ -96,7 +96,8 @@ class Check {
     need(from != into, edit, "they are the same");
     kept_.insert(into);
     need(gone_.insert(from).second, edit, "it is merged twice in a batch");
-    need(gone_.count(into) == 0 && kept_.count(from) == 0, edit, "one that goes cannot take in another");
+    need(gone_.count(into) == 0 && kept_.count(from) == 0, edit,
+         "a landmark that is merged away cannot have others merged into it");
     need(!Batch::isProvisional(from) && !Batch::isProvisional(into), edit, "only landmarks of the map can be merged");
     needLandmark(from, edit);
     needLandmark(into, edit);
@@ -106,10 +107,12 @@ class Check {
                          return graph_.variable(x).kind->kind() == graph_.variable(y).kind->kind();
                        });
     need(alike, edit, "their variables are of different kinds");
-    for (const auto& evidence : batch_.evidence()) need(evidence.landmark != from, edit, "it gets evidence as well");
+    for (const auto& evidence : batch_.evidence())
+      need(evidence.landmark != from, edit, "the batch adds evidence to the landmark that is merged away");
     for (const auto& record : batch_.addedFactors()) {
       for (const auto id : record.variables) {
-        need(std::count(a.begin(), a.end(), id) == 0, edit, "the batch adds a factor to the one that goes");
+        need(std::count(a.begin(), a.end(), id) == 0, edit,
+             "the batch adds a factor to the landmark that is merged away");
       }
     }
   }
@@ -123,7 +126,8 @@ class Check {
   std::string problem_;
 };
 
-// A factor that binds both landmarks would bind one thing twice: it says nothing any more.
+// A factor that binds both landmarks is removed: it would bind the same variable twice, and has no information any
+// more.
 void merge(base::LandmarkId from, base::LandmarkId into, graph::Graph& graph, map::Map& map) {
   map::Landmark& gone = *map.landmarks.edit(from);
   map::Landmark& kept = *map.landmarks.edit(into);
@@ -150,7 +154,7 @@ void merge(base::LandmarkId from, base::LandmarkId into, graph::Graph& graph, ma
   kept.last_seen = std::max(kept.last_seen, gone.last_seen);
 }
 
-// What can still fail is that the graph refuses a value or a kind; then what was added is taken back.
+// The graph can still refuse a value or a kind; then everything that was added is removed again.
 void addToGraph(const Batch& batch, const BatchOrigin& origin, graph::Graph& graph, map::Map& map,
                 AppliedBatch& applied) {
   try {
@@ -170,7 +174,7 @@ void addToGraph(const Batch& batch, const BatchOrigin& origin, graph::Graph& gra
     for (const auto id : applied.factors) graph.removeFactor(id);
     for (const auto id : applied.variables) graph.removeVariable(id);
     throw base::Error(base::ExitCode::internal,
-                      "batch of [" + origin.owner + "]: " + error.what() + "; the graph is as it was");
+                      "batch of [" + origin.owner + "]: " + error.what() + "; the graph is unchanged");
   }
 }
 
@@ -224,7 +228,7 @@ AppliedBatch apply(const Batch& batch, const BatchOrigin& origin, graph::Graph& 
   const std::string problem = whyUnfit(batch, graph, map);
   if (!problem.empty()) {
     throw base::Error(base::ExitCode::internal,
-                      "batch of [" + origin.owner + "]: " + problem + "; the graph is as it was");
+                      "batch of [" + origin.owner + "]: " + problem + "; the graph is unchanged");
   }
   AppliedBatch applied;
   addToGraph(batch, origin, graph, map, applied);

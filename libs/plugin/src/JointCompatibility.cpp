@@ -20,7 +20,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 class Branch {
  public:
   explicit Branch(const JointInnovation& innovation) : innovation_(innovation) {
-    // A branch has one pairing of a measurement at most.
+    // A branch has at most one pairing for each measurement.
     std::map<std::size_t, Eigen::Index> largest;
     for (const PairingRows& pairing : innovation.pairings)
       largest[pairing.measurement] = std::max(largest[pairing.measurement], pairing.size);
@@ -33,7 +33,8 @@ class Branch {
   struct Step {
     double chi2, cost;
   };
-  /// What one more pairing would add. It stands in the factor until another is tried or it is kept.
+  /// The chi-square and cost that one more pairing would add. Its rows are in the factor until the next attempt; keep()
+  /// keeps them.
   Step attempt(std::size_t pairing) {
     const PairingRows& added = innovation_.pairings[pairing];
     const auto n = added.size;
@@ -56,7 +57,7 @@ class Branch {
     const double chi2 = residual.squaredNorm();
     return {chi2, chi2 + 2 * own.diagonal().array().log().sum()};
   }
-  /// Keeps what was attempted last.
+  /// Keeps the pairing that was attempted last.
   void keep(std::size_t pairing, const Step& step) {
     rows_ += innovation_.pairings[pairing].size;
     chi2_ += step.chi2;
@@ -89,7 +90,7 @@ class Search {
         candidates_(innovation.byMeasurement(measurements)),
         branch_(innovation),
         cheapest_with_(innovation.pairings.size(), kNever) {
-    // Those with the fewest choices first: what is sure tells most of what is not.
+    // Measurements with the fewest candidates come first, because certain matches constrain the uncertain ones most.
     order_.resize(measurements);
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     order_.erase(std::remove_if(order_.begin(), order_.end(), [this](std::size_t m) { return candidates_[m].empty(); }),
@@ -112,7 +113,7 @@ class Search {
 
  private:
   void descend(std::size_t depth, double cost) {
-    // The first way down is gone whatever it costs: it is the best so far.
+    // The first descent is always completed, whatever it costs, so that there is a result.
     if (cost >= best_cost_ + options_.margin || (nodes_ >= options_.max_nodes && best_cost_ < kNever)) return;
     if (depth == order_.size()) return finish(cost);
     const std::size_t m = order_[depth];
@@ -126,13 +127,13 @@ class Search {
       ++nodes_;
       const auto step = branch_.attempt(pairing);
       const auto rows = branch_.rows() + innovation_.pairings[pairing].size;
-      // A covariance that is none, by rounding where much is known or by what a log told, has no root.
-      const bool is_told = std::isfinite(step.cost);
-      if (is_told && branch_.chi2() + step.chi2 <= chi2Limit(options_.confidence, rows))
+      // By rounding, or by values in a log, a covariance may not be positive definite; then the cost is not finite.
+      const bool is_valid = std::isfinite(step.cost);
+      if (is_valid && branch_.chi2() + step.chi2 <= chi2Limit(options_.confidence, rows))
         children.push_back({pairing, step.cost});
     }
     std::stable_sort(children.begin(), children.end(), [](const Child& a, const Child& b) { return a.cost < b.cost; });
-    // A measurement that is of nothing known counts like the best it could be, at its gate.
+    // An unmatched measurement costs as much as its likeliest pairing at the limit of the gate.
     const PairingRows& likeliest = innovation_.pairings[candidates_[m].front()];
     const double alone = likeliest.cost - likeliest.chi2 + likeliest.limit;
     bool left_alone = false;
@@ -182,7 +183,7 @@ class Search {
   std::vector<std::vector<std::size_t>> candidates_;  // by measurement
   std::vector<std::size_t> order_;                    // of measurements
   Branch branch_;
-  std::vector<double> cheapest_with_;  // by pairing: cost of the best interpretation that has it
+  std::vector<double> cheapest_with_;  // by pairing: cost of the best interpretation with it
   double best_cost_ = kNever;
   Interpretation best_;
   int nodes_ = 0;
@@ -229,7 +230,7 @@ Interpretation matchNearest(const JointInnovation& innovation, std::size_t measu
 }
 
 double chi2Limit(double confidence, Eigen::Index rows) {
-  // Working one out takes as long as a node of the search.
+  // Computing a quantile takes as long as a node of the search, so the results are kept.
   thread_local struct {
     double confidence = 0;
     std::array<double, 256> limits{};

@@ -8,7 +8,7 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// None unless the graph has all of them: a shape of half its variables would be a guess.
+// Empty unless the graph has all variables of the landmark: a shape from some of them would be a guess.
 std::vector<Eigen::VectorXd> valuesOf(const map::Landmark& landmark, const graph::Graph& graph) {
   std::vector<Eigen::VectorXd> values;
   for (const auto id : landmark.variables) {
@@ -18,7 +18,7 @@ std::vector<Eigen::VectorXd> valuesOf(const map::Landmark& landmark, const graph
   return values;
 }
 
-// Of the plane or wall that a factor of its own binds the landmark to, on the side of `towards`.
+// The normal of the plane or wall that a factor binds together with the landmark, on the side of `towards`.
 std::optional<Eigen::Vector3d> normalOfSurface(const map::Landmark& landmark, const graph::Graph& graph,
                                                const Eigen::Vector3d& towards) {
   constexpr double kFacing = 0.3;  // smallest cosine between the surface's normal and `towards`
@@ -29,7 +29,7 @@ std::optional<Eigen::Vector3d> normalOfSurface(const map::Landmark& landmark, co
     for (const auto id : record.variables) {
       const Eigen::VectorXd plane = graph.variable(id).kind->hyperplane(graph.value(id).data());
       if (plane.size() == 0) continue;
-      Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // of a wall, whose hyperplane is a line on the floor: level
+      Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // level for a wall, whose hyperplane is a line on the floor
       normal.head(plane.size() - 1) = plane.head(plane.size() - 1);
       normal.normalize();
       const double facing = normal.dot(towards.normalized());

@@ -19,7 +19,7 @@ Matrix6d withFloor(Matrix6d covariance) {
     const double floor = i < 3 ? kPosition * kPosition : kAngle * kAngle;
     if (covariance(i, i) < floor) covariance(i, i) = floor;
   }
-  // What a sensor reports need not be a covariance: the variances alone always are.
+  // A reported matrix may not be a valid covariance, but its diagonal always is.
   if (Eigen::LLT<Matrix6d>(covariance).info() != Eigen::Success) {
     return covariance.diagonal().asDiagonal();
   }

@@ -62,7 +62,7 @@ std::string whyFixed(const SessionPlace& place, const graph::Graph& graph, const
       const auto& record = graph.factor(id);
       const bool ties = std::any_of(record.variables.begin(), record.variables.end(),
                                     [&](base::VariableId other) { return other.session != session.number; });
-      if (ties && record.weight > 0) return name + " is tied to another, which would stay behind";
+      if (ties && record.weight > 0) return name + " is tied to another session, which would stay behind";
     }
   }
   return {};

@@ -13,8 +13,8 @@ namespace {
 
 using geometry::Matrix6d;
 
-// Of one key frame from the one before, by the factors between just these two, as if each measured the motion itself.
-// None if there are none.
+// Covariance of the motion between two successive key frames, by the factors between just these two, as if each
+// measured the motion itself. None if there are no such factors.
 std::optional<Matrix6d> ofStep(const graph::Graph& graph, const map::KeyFrame& from, const map::KeyFrame& to) {
   const int size = graph.variable(to.pose).kind->tangentSize();
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
@@ -39,7 +39,7 @@ struct Uncertainty::Solved {
       try {
         made.emplace(graph);
       } catch (const base::Error&) {
-        made.reset();  // something hangs free
+        made.reset();  // some variable is unconstrained
       }
     });
     return made;
@@ -57,7 +57,7 @@ std::optional<Matrix6d> Uncertainty::between(const map::Map& map, const graph::G
   if (!solved_) return std::nullopt;
   const auto& frames = map.key_frames;
   const map::KeyFrame& begin = frames.at(from);
-  // Back along the trajectory from `to`, until a key frame that the factored graph has, or `from` itself.
+  // Goes back along the trajectory from `to`, until a key frame that the factorized graph has, or until `from`.
   std::size_t known = frames.position(to);
   const std::size_t last = known;
   while (frames[known].id != from && !solved_->graph.contains(frames[known].pose)) {

@@ -60,7 +60,7 @@ std::string sentenceOf(const Verdict& verdict) {
       break;
   }
   const std::string why = reasons(Evidence::Says::too_little);
-  return "Whether the map is right cannot be told: " + (why.empty() ? "no plugin judges maps" : why) + ".";
+  return "It is undetermined whether the map is right: " + (why.empty() ? "no plugin checks maps" : why) + ".";
 }
 
 }  // namespace omnimapper::mapper

@@ -45,19 +45,19 @@ const base::OptionTable<DynamicLandmarksOptions>& DynamicLandmarksOptions::table
 
 namespace {
 
-// The work of one look.
-class Look {
+// One search for moved landmarks.
+class MovedLandmarkSearch {
  public:
-  Look(const DynamicLandmarksOptions& options, const std::string& section, const mapper::View& view)
+  MovedLandmarkSearch(const DynamicLandmarksOptions& options, const std::string& section, const mapper::View& view)
       : options_(options), section_(section), view_(view) {}
 
   mapper::Batch run() {
     const auto landmarks = landmarksToWeigh(view_, options_.landmarks);
     if (landmarks.empty()) return {};
-    Weighing weighing = weighLandmarks(heldLoosely(landmarks), landmarks);
+    Weighing weighing = weighLandmarks(withWeakPriors(landmarks), landmarks);
     std::vector<WeighedLandmark> suspects;
     for (const auto& landmark : weighing.landmarks) {
-      keepAsTheyWere(landmark.measurements, weighing.graph);
+      restoreWeights(landmark.measurements, weighing.graph);
       const bool has_place =
           middleOf(view_.map.landmark(landmark.id), valuesOf(landmark), view_.map.key_frames).has_value();
       if (landmark.weight < options_.max_weight && has_place) suspects.push_back(landmark);
@@ -65,7 +65,7 @@ class Look {
     if (!suspects.empty()) {
       for (const auto& landmark : suspects) setWeights(landmark.measurements, 0, weighing.graph);
       auto places = clusterMeasurements(view_.map, weighing.graph, suspects, options_);
-      if (!places) return cannotTell("a part of the map is determined by nothing");
+      if (!places) return undetermined("a part of the map is unconstrained");
       for (std::size_t i = 0; i < suspects.size(); ++i) judge(suspects[i], std::move((*places)[i]), weighing.graph);
       graph::solve(weighing.graph, {graph::SolveOptions::Method::levenberg_marquardt, 50, 1e-7, {}});
       const MeasurementFrames frames(view_.map.key_frames);
@@ -77,13 +77,15 @@ class Look {
         if (weight != view_.graph.factor(id).weight) batch_.setWeight(id, weight);
       }
     }
-    if (!leavesTheMapWhole()) return cannotTell("without what seems to have moved a part of the map hangs free");
+    if (!keepsSessionsDetermined())
+      return undetermined("without the landmarks that seem to have moved, a part of the map is unconstrained");
     return std::move(batch_);
   }
 
  private:
-  // The graph, in which landmarks and whole sessions stay where they are when what measured them no longer counts.
-  graph::Graph heldLoosely(const std::vector<WeighedLandmark>& landmarks) const {
+  // A copy of the graph with weak priors, which keep landmarks and whole sessions in place if their measurements lose
+  // all weight.
+  graph::Graph withWeakPriors(const std::vector<WeighedLandmark>& landmarks) const {
     graph::Graph graph = view_.graph;
     for (const auto& landmark : landmarks)
       for (const auto id : landmark.variables) addWeakPrior(graph, id);
@@ -94,8 +96,8 @@ class Look {
     return graph;
   }
 
-  // Where each session is in the map is known after the batch if it was before.
-  bool leavesTheMapWhole() const {
+  // Whether the place of each session in the map is still determined after the batch, if it was before.
+  bool keepsSessionsDetermined() const {
     if (!batch_.changesGraph()) return true;
     map::Map map = view_.map;
     graph::Graph graph = view_.graph;
@@ -109,16 +111,16 @@ class Look {
     });
   }
 
-  // A direction that nothing determines may come out of the rounding as a variance beyond all bounds.
+  // By rounding, the variance of an undetermined direction may come out as a very large number.
   static bool isKnown(const std::optional<Eigen::MatrixXd>& covariance) {
     constexpr double kUnknown = 1e4;  // [m^2, rad^2]
     return covariance && covariance->diagonal().maxCoeff() < kUnknown;
   }
 
-  mapper::Batch cannotTell(const std::string& why) const {
+  mapper::Batch undetermined(const std::string& why) const {
     mapper::Batch nothing;
     mapper::Decision decision = newDecision();
-    decision.reason = "cannot tell what has moved: " + why;
+    decision.reason = "it is undetermined which landmarks have moved: " + why;
     nothing.log(std::move(decision));
     return nothing;
   }
@@ -142,8 +144,9 @@ class Look {
     for (const auto id : factors) graph.setWeight(id, weight);
   }
 
-  // A measurement that was left without weight while the map grew may fit the map as it is now.
-  void keepAsTheyWere(const std::vector<base::FactorId>& measurements, graph::Graph& graph) const {
+  // Sets the weights from before the search again. A measurement without weight gets weight 1 if it fits the current
+  // map.
+  void restoreWeights(const std::vector<base::FactorId>& measurements, graph::Graph& graph) const {
     for (const auto id : measurements) {
       const double before = view_.graph.factor(id).weight;
       const Eigen::VectorXd residual = graph.whitenedResidual(id);
@@ -169,8 +172,8 @@ class Look {
                         {"places", static_cast<double>(places.size())}};
     decision.accepted = moved;
     decision.reason = moved    ? "moved: it was seen in more than one place"
-                      : stands ? "stands where it stood; what does not fit is left out"
-                               : "given up: its measurements do not fit, and those of no place tell where it is";
+                      : stands ? "not moved; the measurements that do not fit are left out"
+                               : "retired: its measurements do not fit, and those at no single place determine it";
     batch_.log(std::move(decision));
     if (stands) {
       setWeights(places.front().measurements, 1, graph);
@@ -180,7 +183,7 @@ class Look {
     if (moved) moved_.emplace_back(landmark, std::move(places));
   }
 
-  // Nothing bears on it any more, and it on nothing: what is no measurement goes, and measurements stay without weight.
+  // Detaches the landmark from the map: its measurements stay with weight 0, and its other factors are removed.
   void retire(const WeighedLandmark& landmark) {
     for (const auto id : view_.factorsOf(landmark.id)) {
       const bool is_measurement = std::binary_search(landmark.measurements.begin(), landmark.measurements.end(), id);
@@ -206,7 +209,7 @@ class Look {
       payload->places.push_back({last->id, inverse(map_from_base) * *middle, first->stamp, last->stamp,
                                  static_cast<std::uint32_t>(place.measurements.size())});
     }
-    // Retired as well: it tells where the thing was.
+    // The record is retired as well, because it only lists where the landmark was.
     batch_.retireLandmark(batch_.addLandmark("moved thing", {}, std::move(payload)));
   }
 
@@ -227,14 +230,14 @@ DynamicLandmarksPlugin::DynamicLandmarksPlugin(const DynamicLandmarksOptions& op
 mapper::FollowUp DynamicLandmarksPlugin::afterCommit(const map::KeyFrame&, const mapper::View& view) {
   if (!config_text_.empty()) refuseUnknownSections(view.map);
   const auto every = static_cast<std::size_t>(options_.every_solves);
-  if (every == 0 || view.map_is_held || view.solves.size() < looked_at_solve_ + every) return {};
-  looked_at_solve_ = view.solves.size();
-  return {Look(options_, section_, view).run(), {}};
+  if (every == 0 || view.map_is_held || view.solves.size() < searched_at_solve_ + every) return {};
+  searched_at_solve_ = view.solves.size();
+  return {MovedLandmarkSearch(options_, section_, view).run(), {}};
 }
 
-// Once: what an earlier session made is in the map before the first key frame.
+// One check is enough, because the landmarks of earlier sessions are in the map before the first key frame.
 void DynamicLandmarksPlugin::refuseUnknownSections(const map::Map& map) {
-  // Nobody has asked this copy for a section: those are all of them.
+  // No section of this copy has been read, so these are the sections of all plugins.
   auto known = base::Config::fromText(config_text_, "the INI").switchedOffPlugins();
   config_text_.clear();
   for (const auto& [id, landmark] : map.landmarks)
@@ -243,14 +246,14 @@ void DynamicLandmarksPlugin::refuseUnknownSections(const map::Map& map) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string near = base::nearestName(name, known);
     throw base::Error(base::ExitCode::unknown_key,
-                      "[" + section_ + "] landmarks: '" + name + "' is no plugin's section of the INI and owns no " +
-                          "landmark of the map" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                      "[" + section_ + "] landmarks: '" + name + "' is neither a plugin's section of the INI nor the " +
+                          "owner of a landmark of the map" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
                           " (known: " + base::option_text::format(known) + ")");
   }
 }
 
 mapper::Batch DynamicLandmarksPlugin::atEnd(const mapper::View& view) {
-  return view.map_is_held ? mapper::Batch() : Look(options_, section_, view).run();
+  return view.map_is_held ? mapper::Batch() : MovedLandmarkSearch(options_, section_, view).run();
 }
 
 void DynamicLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {

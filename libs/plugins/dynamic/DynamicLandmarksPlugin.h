@@ -10,22 +10,23 @@
 namespace omnimapper::plugins {
 
 struct DynamicLandmarksOptions {
-  std::vector<std::string> landmarks;  ///< INI sections; none: of every section
-  int every_solves = 0;                ///< also after so many solves; 0: at the end alone
-  double max_weight = 0.8;             ///< a landmark of less is looked at
-  int min_measurements = 2;            ///< of a place
-  double min_move = 0.15;              ///< [m]
-  double visit_gap = 5;                ///< [s]
-  double confidence = 0.999;           ///< measurements of one place are taken for that with this probability
+  std::vector<std::string> landmarks;  ///< INI sections of their plugins; empty: all sections
+  int every_solves = 0;                ///< number of solves between two searches; 0: only at the end
+  double max_weight = 0.8;             ///< landmarks with a smaller weight are examined
+  int min_measurements = 2;            ///< at one place; fewer are errors
+  double min_move = 0.15;              ///< [m] smallest displacement that counts as moved
+  double visit_gap = 5;                ///< [s] after a longer gap, the landmark may have been moved
+  double confidence = 0.999;           ///< probability that measurements at one place are recognized as such
 
   static const base::OptionTable<DynamicLandmarksOptions>& table();
 };
 
-/// Finds out landmarks that were moved (thesis 4.6): expectation maximisation over one weight per landmark, on a copy
-/// of the graph; then measurements of those with little weight are told apart into the places where they were seen.
-/// Moved ones are retired, no longer bear on the map, and stay in it as a landmark of kind "moved thing" that lists
-/// their places. Those with little weight that were nowhere seen often enough are retired without. The first key frame
-/// throws Error(unknown_key) if `landmarks` names what is neither a plugin's section nor the owner of a landmark.
+/// Finds the landmarks that were moved (thesis 4.6): expectation maximisation over one weight per landmark, on a copy
+/// of the graph; then the measurements of each landmark with a small weight are clustered by the places where it was
+/// seen. Moved landmarks are retired and no longer affect the map; a landmark of kind "moved thing" records the places
+/// of each. A landmark with a small weight whose measurements at no place determine it is retired without a record. The
+/// first key frame throws Error(unknown_key) if `landmarks` has a name that is neither a plugin's section nor the owner
+/// of a landmark.
 class DynamicLandmarksPlugin : public mapper::MeasurementPlugin {
  public:
   DynamicLandmarksPlugin(const DynamicLandmarksOptions& options, const mapper::PluginContext& context);
@@ -41,15 +42,17 @@ class DynamicLandmarksPlugin : public mapper::MeasurementPlugin {
 
   DynamicLandmarksOptions options_;
   std::string section_;
-  std::string config_text_;  // until the names in it are checked
-  std::size_t looked_at_solve_ = 0;
+  std::string config_text_;  // empty once options_.landmarks has been checked against it
+  std::size_t searched_at_solve_ = 0;
 };
 
 class DynamicLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
   DEFINE_MRPT_OBJECT(DynamicLandmarksPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "MoveableThingsPlugin"; }
-  std::string summary() const override { return "Landmarks that were moved, found out, with the places they were at."; }
+  std::string summary() const override {
+    return "Finds landmarks that were moved, and records the places where they were.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return DynamicLandmarksOptions::table().specs(); }
   void registerKinds(mapper::Kinds& kinds) const override;
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,

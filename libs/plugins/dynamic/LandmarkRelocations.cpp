@@ -16,7 +16,7 @@ namespace {
 
 const graph::SolveOptions kVisitSolve{graph::SolveOptions::Method::levenberg_marquardt, 30, 1e-6, {}};
 
-// A landmark, what is known of it by itself, and measurements of it, with all else held.
+// A landmark with the factors that bind it alone and some of its measurements; all other variables are fixed.
 class Visit {
  public:
   Visit(const WeighedLandmark& landmark, const graph::Graph& graph) : landmark_(&landmark), whole_(&graph) {
@@ -27,7 +27,7 @@ class Visit {
     for (const auto id : factorsOfItself(landmark, graph)) held_.addFactor(bound(graph.factor(id)));
   }
 
-  /// Takes it if it fits.
+  /// Adds the measurement if it fits; returns whether it did.
   bool add(base::FactorId measurement, double limit) {
     const auto id = held_.addFactor(bound(whole_->factor(measurement)));
     if (!measurements_.empty() && held_.whitenedResidual(id).squaredNorm() > limit) {
@@ -35,7 +35,7 @@ class Visit {
       return false;
     }
     measurements_.push_back(measurement);
-    // Estimated anew each time it has become twice as many.
+    // The landmark is estimated anew each time the number of measurements has doubled.
     if ((measurements_.size() & (measurements_.size() - 1)) == 0) graph::solve(held_, kVisitSolve);
     return true;
   }
@@ -72,7 +72,7 @@ class Visit {
 
 std::vector<Visit> visitsOf(const WeighedLandmark& landmark, const MeasurementFrames& frames, const map::Map& map,
                             const graph::Graph& graph, const DynamicLandmarksOptions& options) {
-  constexpr double kInflation = 9;  // of the gate: within a visit only a jump is told
+  constexpr double kInflation = 9;  // of the gate: within a visit, only a large displacement is detected
   std::map<std::pair<std::size_t, base::FactorId>, const map::KeyFrame*> in_order;
   for (const auto id : landmark.measurements) {
     if (const auto* frame = frames.of(graph.factor(id))) in_order[{map.key_frames.position(frame->id), id}] = frame;
@@ -94,11 +94,11 @@ std::vector<Visit> visitsOf(const WeighedLandmark& landmark, const MeasurementFr
   return visits;
 }
 
-// The landmark of each visit in a graph in which each has its own.
+// The variables of the landmark for each visit, in a graph in which each visit has its own.
 using VisitVariables = std::vector<std::vector<base::VariableId>>;
 
 VisitVariables splitIntoVisits(const WeighedLandmark& landmark, const std::vector<Visit>& visits, graph::Graph& graph) {
-  // Relations too: of which visit they would be nobody knows.
+  // Relations lose their weight too, because it is unknown to which visit they belong.
   for (const auto variable : landmark.variables) {
     const auto factors = graph.factorsOf(variable);
     for (const auto id : factors) graph.setWeight(id, 0);
@@ -127,7 +127,7 @@ VisitVariables splitIntoVisits(const WeighedLandmark& landmark, const std::vecto
   return all;
 }
 
-// Of the change that takes the landmark of one visit to that of another; 0 if nothing can be told.
+// Chi-square of the change between the landmark's values of two visits; 0 if its covariance is not positive definite.
 double chi2OfMove(const std::vector<base::VariableId>& from, const std::vector<base::VariableId>& to,
                   const graph::Graph& graph, const mapper::Uncertainty& uncertainty) {
   auto ids = from;
@@ -154,7 +154,7 @@ std::vector<Eigen::VectorXd> valuesOfVisit(const std::vector<base::VariableId>& 
   return values;
 }
 
-// Each visit goes to the place that it fits best, else to a new one.
+// Assigns each visit to the place that it fits best, or to a new place if it fits none.
 std::vector<SeenPlace> placesOfVisits(const map::Landmark& landmark, const std::vector<Visit>& visits,
                                       const VisitVariables& variables, const map::Map& map, const graph::Graph& graph,
                                       const mapper::Uncertainty& uncertainty, const DynamicLandmarksOptions& options) {
@@ -163,7 +163,7 @@ std::vector<SeenPlace> placesOfVisits(const map::Landmark& landmark, const std::
   const double limit = graph::chiSquareQuantile(options.confidence, rows);
   std::vector<SeenPlace> places;
   std::vector<std::vector<std::size_t>> members;
-  // How far it moved is that of all that was seen of it: of a wall each visit may have seen another part.
+  // The displacement is computed from the whole surface, because each visit may have seen another part of a wall.
   for (std::size_t i = 0; i < visits.size(); ++i) {
     const auto here = middleOf(landmark, valuesOfVisit(variables[i], graph), map.key_frames);
     double best = limit;

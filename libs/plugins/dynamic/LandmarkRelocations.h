@@ -11,41 +11,41 @@
 
 namespace omnimapper::plugins {
 
-/// The key frames that measurements were made at.
+/// Finds the key frames at which measurements were made.
 class MeasurementFrames {
  public:
   explicit MeasurementFrames(const map::KeyFrames& key_frames);
-  /// None if it binds no pose.
+  /// Null if the measurement binds no pose of a key frame.
   const map::KeyFrame* of(const graph::FactorRecord& measurement) const;
 
  private:
   std::map<base::VariableId, const map::KeyFrame*> of_poses_;
 };
 
-/// Measurements of one landmark that show it where it was at one time, in the order they were made.
+/// The measurements of one landmark at one of its places, in the order of visits.
 struct SeenPlace {
   std::vector<base::FactorId> measurements;
 };
 
-/// Tells the measurements of landmarks apart into the places where they were. Measurements in a row that agree are a
-/// visit; in a copy of `graph` each visit is a landmark of its own, with all that is known of the trajectory, and
-/// visits are of one place where they differ by no more than their covariance allows, or by less than what counts as a
-/// move. What is known of a landmark by itself holds in each visit; relations to others in none. None if a direction of
-/// some other variable is determined by nothing.
+/// Clusters the measurements of each landmark by the places where it was. Consecutive measurements that agree are a
+/// visit. In a copy of `graph`, each visit gets its own copy of the landmark, which is estimated together with the
+/// trajectory; two visits are at one place if they differ by no more than their covariance allows, or by less than
+/// `min_move`. Factors on the landmark alone apply to each visit, relations to other landmarks to none. None if some
+/// direction of another variable is undetermined.
 std::optional<std::vector<std::vector<SeenPlace>>> clusterMeasurements(const map::Map& map, const graph::Graph& graph,
                                                                        const std::vector<WeighedLandmark>& landmarks,
                                                                        const DynamicLandmarksOptions& options);
 
-/// Where those measurements alone show a landmark, with the poses held as they are in `graph`.
+/// The values of a landmark's variables by these measurements alone, with the poses fixed at their values in `graph`.
 std::vector<Eigen::VectorXd> valuesSeenBy(const std::vector<base::FactorId>& measurements,
                                           const WeighedLandmark& landmark, const graph::Graph& graph);
 
-/// Whether those measurements, with what is known of the landmark by itself, leave none of its directions open.
+/// Whether these measurements and the factors on the landmark alone determine all directions of its variables.
 bool isDetermined(const WeighedLandmark& landmark, const std::vector<base::FactorId>& measurements,
                   const graph::Graph& graph);
 
-/// The middle of a landmark that has these values [m], by the parts of its surface that were seen from these key
-/// frames, or by all where none of those told anything new of it; none if its payload does not tell a shape.
+/// The middle of a landmark with these values [m], by the part of its surface that was seen from these key frames, or
+/// by its whole surface if its payload has no such part (LandmarkPayload::seenFrom()); none if it has no shape.
 std::optional<Eigen::Vector3d> middleOf(const map::Landmark& landmark, const std::vector<Eigen::VectorXd>& values,
                                         const map::KeyFrames& key_frames,
                                         const std::set<base::KeyFrameId>& seen_from = {});

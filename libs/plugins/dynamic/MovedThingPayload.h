@@ -10,24 +10,24 @@
 
 namespace omnimapper::plugins {
 
-/// Where a thing was seen for a while.
+/// A place where a landmark was seen for some time.
 struct ObservedPlace {
-  base::KeyFrameId seen_from;     ///< the last of those it was seen from
-  Eigen::Vector3d point_in_base;  ///< [m] its middle, in the base of that one
+  base::KeyFrameId seen_from;     ///< the last key frame from which it was seen there
+  Eigen::Vector3d point_in_base;  ///< [m] middle of the landmark, in the base of that key frame
   base::Stamp first_seen, last_seen;
   std::uint32_t measurements = 0;
 };
 
-/// A thing that was moved: the places it was seen at (thesis 4.6.2.3), where it may be looked for.
+/// The record of a landmark that was moved: the places where it was seen (thesis 4.6.2.3) and may be looked for.
 struct MovedThingPayload : map::LandmarkPayload {
-  base::LandmarkId landmark;          ///< that stood for it
-  std::string label;                  ///< what it is called
-  std::vector<ObservedPlace> places;  ///< in the order it was first seen there
+  base::LandmarkId landmark;          ///< the retired landmark
+  std::string label;                  ///< of the retired landmark: "wall", "marker 7"
+  std::vector<ObservedPlace> places;  ///< in the order in which it was first seen there
 
   std::string_view kind() const override { return "moved thing"; }
   void write(std::ostream& out) const override;
   std::vector<base::KeyFrameId> keyFrames() const override;
-  /// The places as points with the times it was last seen there.
+  /// The places as points, with the time when the landmark was last seen at each.
   map::LandmarkShape shape(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames& key_frames) const override;
   static void addTo(map::PayloadRegistry& registry);
 };

@@ -12,12 +12,12 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr double kSettled = 0.01;  // change of weights that is none
-constexpr double kRelaxation = 2;  // lambda of one round over the next
+constexpr double kSettled = 0.01;  // largest change of a weight that counts as converged
+constexpr double kRelaxation = 2;  // ratio of lambda in one round to that in the next
 constexpr int kMostRounds = 20;
-constexpr double kLargestScale = 1 << kMostRounds;  // at which a cost that is no number would not end
+constexpr double kLargestScale = 1 << kMostRounds;  // limits the number of rounds if a chi-square is not finite
 
-// Twice lambda: at a tenth of it, where 99 of 100 static landmarks lie below, the weight is 0.9.
+// Twice lambda. The weight is 0.9 at a chi-square of a tenth of it, and 99 of 100 static landmarks have a smaller one.
 double twiceLambda(const WeighedLandmark& landmark) {
   return 10 * graph::chiSquareQuantile(0.99, landmark.degrees_of_freedom);
 }
@@ -27,13 +27,13 @@ class WeightEm {
   WeightEm(const graph::Graph& graph, const std::vector<WeighedLandmark>& landmarks)
       : result_{graph, landmarks, 0, 0} {}
 
-  Weighing fromTheMapAsItStands() {
+  Weighing fromCurrentMap() {
     reweigh(1);
     settle();
     return conclude();
   }
 
-  Weighing fromAllThatCount() {
+  Weighing fromFullWeights() {
     for (auto& landmark : result_.landmarks) setWeight(landmark, 1);
     solve();
     double largest = 1;
@@ -61,7 +61,7 @@ class WeightEm {
     graph::solve(result_.graph, {graph::SolveOptions::Method::levenberg_marquardt, 20, 1e-4, {}});
   }
 
-  // The M step; gives the largest change.
+  // The M step; returns the largest change of a weight.
   double reweigh(double scale) {
     measure();
     double change = 0;
@@ -78,8 +78,8 @@ class WeightEm {
     for (const auto id : landmark.measurements) result_.graph.setWeight(id, weight);
   }
 
-  // What the measurements of each would cost if they counted, the landmark where they want it. One without weight has
-  // been left where it was.
+  // Computes the chi-square of each landmark's measurements at full weight, with the landmark at the values that fit
+  // them best. A landmark without weight is moved there first, because the solver has left it where it was.
   void measure() {
     for (auto& landmark : result_.landmarks) {
       for (const auto id : landmark.measurements) result_.graph.setWeight(id, 1);
@@ -93,8 +93,8 @@ class WeightEm {
     }
   }
 
-  // To compare maps, a landmark without weight costs what it would if it were two, one for each of two places: lambda
-  // is so large that a map may bend to keep a few.
+  // For the comparison of results, a landmark without weight costs as much as two landmarks, one at each of two places.
+  // With lambda instead, which is large, a distorted map that keeps a few more landmarks could win.
   Weighing conclude() {
     result_.cost = 2 * result_.graph.cost();
     for (const auto& landmark : result_.landmarks) {
@@ -150,14 +150,14 @@ std::vector<base::FactorId> factorsOfItself(const WeighedLandmark& landmark, con
 }
 
 Weighing weighLandmarks(const graph::Graph& graph, const std::vector<WeighedLandmark>& landmarks) {
-  Weighing as_it_stands = WeightEm(graph, landmarks).fromTheMapAsItStands();
-  const bool all_fit = std::all_of(as_it_stands.landmarks.begin(), as_it_stands.landmarks.end(),
+  Weighing from_current = WeightEm(graph, landmarks).fromCurrentMap();
+  const bool all_fit = std::all_of(from_current.landmarks.begin(), from_current.landmarks.end(),
                                    [](const auto& landmark) { return landmark.weight > 0.5; });
-  if (all_fit) return as_it_stands;
-  Weighing all_count = WeightEm(graph, landmarks).fromAllThatCount();
-  all_count.rounds += as_it_stands.rounds;
-  as_it_stands.rounds = all_count.rounds;
-  return all_count.cost < as_it_stands.cost ? std::move(all_count) : std::move(as_it_stands);
+  if (all_fit) return from_current;
+  Weighing from_full = WeightEm(graph, landmarks).fromFullWeights();
+  from_full.rounds += from_current.rounds;
+  from_current.rounds = from_full.rounds;
+  return from_full.cost < from_current.cost ? std::move(from_full) : std::move(from_current);
 }
 
 }  // namespace omnimapper::plugins

@@ -7,36 +7,38 @@
 
 namespace omnimapper::plugins {
 
-/// A landmark with the likelihood that it stands where it always stood.
+/// A landmark with the weight of its measurements: about 1 if it is static, 0 if it was moved.
 struct WeighedLandmark {
   base::LandmarkId id;
   std::vector<base::VariableId> variables;
-  std::vector<base::FactorId> measurements;  ///< factors that bind it to something else, in the order of ids
-  int degrees_of_freedom = 0;                ///< rows beyond those that only tell where it is
-  double chi2 = 0;                           ///< of the measurements, as their losses count them
+  std::vector<base::FactorId> measurements;  ///< factors that bind it and other variables, in the order of ids
+  int degrees_of_freedom = 0;                ///< rows of its factors beyond those that determine it
+  double chi2 = 0;                           ///< of the measurements, with their losses applied
   double weight = 1;
 };
 
-/// Weights of landmarks and the map that follows from them.
+/// The weights of landmarks, and the graph that was solved with them.
 struct Weighing {
   graph::Graph graph;  ///< each measurement has the weight of its landmark
   std::vector<WeighedLandmark> landmarks;
-  double cost = 0;  ///< chi-square of the whole, where a landmark without weight counts as one for each of two places
+  double cost =
+      0;  ///< chi-square of the graph; a landmark without weight costs as much as two, one at each of two places
   int rounds = 0;
 };
 
-/// The active landmarks of these sections (of all, if none is named) that were seen more often than it takes to tell
-/// where they are. Hypotheses are the consistency test's.
+/// The active landmarks of these sections (of all sections if none is named) that were measured more often than is
+/// needed to determine them. Hypotheses do not count as measurements, because the consistency test sets their weights.
 std::vector<WeighedLandmark> landmarksToWeigh(const mapper::State& state, const std::vector<std::string>& sections);
 
-/// Factors that speak of nothing but the landmark, such as a prior: they hold wherever it is.
+/// The factors that bind only the landmark's variables, such as a prior: they apply wherever the landmark is.
 std::vector<base::FactorId> factorsOfItself(const WeighedLandmark& landmark, const graph::Graph& graph);
 
-/// Expectation maximisation over one weight for each landmark (thesis 4.6.2.2): the least of
+/// Expectation maximisation over one weight for each landmark (thesis 4.6.2.2). It minimises
 ///   chi2 of all else + sum over landmarks of weight chi2 + lambda (1 - weight)^2
-/// by turns over map and weights. lambda goes with a landmark's degrees of freedom: a static one keeps at least 0.9.
-/// It starts from the map as it stands; where landmarks lose weight there, once more from the map in which all of them
-/// count, with lambda lowered by degrees (graduated non-convexity), and the likelier of both is taken.
+/// alternately over the map and the weights. lambda depends on a landmark's degrees of freedom, so that 99 of 100
+/// static landmarks keep a weight of at least 0.9. The first run starts from the current map. If landmarks lose weight
+/// in it, a second run starts from the map in which all landmarks have full weight, and lowers lambda step by step
+/// (graduated non-convexity); the result with the lower cost is returned.
 Weighing weighLandmarks(const graph::Graph& graph, const std::vector<WeighedLandmark>& landmarks);
 
 }  // namespace omnimapper::plugins

@@ -10,7 +10,7 @@ WeakPrior::WeakPrior(std::shared_ptr<const graph::Variable> variable, const Eige
 void WeakPrior::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   variable_->minus(values[0], value_.data(), residual);
   if (!jacobians || !jacobians[0]) return;
-  // Kinds tell no derivative of minus(): central differences.
+  // Variables have no derivative of minus(), so it is computed by central differences.
   constexpr double kStep = 1e-6;
   const int size = variable_->tangentSize();
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(jacobians[0], size, size);

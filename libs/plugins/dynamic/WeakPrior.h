@@ -9,8 +9,8 @@
 
 namespace omnimapper::plugins {
 
-/// A weak prior of a variable of any kind at its current value. Variable: of that kind. Residual: what takes the kept
-/// value to its value, in its tangent [rad, m]. For copies of a graph alone: no file has it.
+/// A weak prior on a variable of any kind, at a given value. Variable: of that kind. Residual: the tangent from the
+/// given value to the current one [rad, m]. It is used only in copies of a graph and never written to a file.
 class WeakPrior : public graph::Factor {
  public:
   WeakPrior(std::shared_ptr<const graph::Variable> variable, const Eigen::VectorXd& value);
@@ -27,8 +27,8 @@ class WeakPrior : public graph::Factor {
   Eigen::VectorXd value_;
 };
 
-/// Holds a variable so loosely, with a standard deviation of 100 in each direction, that nothing which is measured
-/// gives way, and so that nothing hangs free once what measured it no longer counts.
+/// Adds a weak prior at the variable's current value, with a standard deviation of 100 [rad, m] in each direction: too
+/// weak to change what is measured, and enough to constrain the variable when its measurements have no weight.
 void addWeakPrior(graph::Graph& graph, base::VariableId id);
 
 }  // namespace omnimapper::plugins

@@ -41,11 +41,11 @@ const base::OptionTable<PointLandmarksOptions>& PointLandmarksOptions::table() {
   return table;
 }
 
-// The work on one observation.
-class PointLandmarksPlugin::Moment {
+// Associates the measurements of one observation and makes the edits of graph and map.
+class PointLandmarksPlugin::Associator {
  public:
-  Moment(const PointLandmarksOptions& options, const mapper::PluginContext& context, const PointLandmarkIndex& known,
-         const map::KeyFrame& frame, const mapper::View& view)
+  Associator(const PointLandmarksOptions& options, const mapper::PluginContext& context,
+             const PointLandmarkIndex& known, const map::KeyFrame& frame, const mapper::View& view)
       : options_(options),
         context_(context),
         known_(known),
@@ -56,10 +56,10 @@ class PointLandmarksPlugin::Moment {
   mapper::Batch take(const CObservationBearingRange& observation) {
     label_ = observation.sensorLabel;
     const auto measurements = pointMeasurements(observation, context_.motion, options_);
-    std::vector<const PointMeasurement*> numbered, nameless;
+    std::vector<const PointMeasurement*> numbered, unnumbered;
     for (const auto& measured : measurements) {
       if (measured.constraint) {
-        (measured.number < 0 ? nameless : numbered).push_back(&measured);
+        (measured.number < 0 ? unnumbered : numbered).push_back(&measured);
       } else {
         mapper::Decision decision = decisionOf(measured);
         decision.reason = measured.why_useless;
@@ -67,12 +67,12 @@ class PointLandmarksPlugin::Moment {
       }
     }
     takeNumbered(numbered);
-    takeNameless(nameless);
+    takeUnnumbered(unnumbered);
     return std::move(batch_);
   }
 
  private:
-  // Each has one landmark that it may be of: nothing to be told jointly.
+  // A measurement with a number has only one candidate, so no joint association is needed.
   void takeNumbered(const std::vector<const PointMeasurement*>& measurements) {
     std::vector<mapper::Pairing> pairings;
     for (std::size_t i = 0; i < measurements.size(); ++i) {
@@ -100,7 +100,7 @@ class PointLandmarksPlugin::Moment {
     }
   }
 
-  void takeNameless(const std::vector<const PointMeasurement*>& measurements) {
+  void takeUnnumbered(const std::vector<const PointMeasurement*>& measurements) {
     if (measurements.empty()) return;
     std::vector<mapper::Pairing> pairings;
     for (std::size_t i = 0; i < measurements.size(); ++i) {
@@ -126,17 +126,17 @@ class PointLandmarksPlugin::Moment {
     }
   }
 
-  // Wide open: what is near enough is for the covariance to say.
+  // A coarse preselection; the gate decides which landmarks are near enough.
   bool mayBe(const PointConstraint& constraint, base::VariableId variable) {
     constexpr double kNear = 0.5, kSigmas = 5;  // [m]
     const Eigen::VectorXd& there = view_.graph.value(variable);
-    Eigen::Vector3d way = map_from_base_ * constraint.point_in_base;
-    for (int i = 0; i < 3; ++i) way[i] = i < there.size() ? there[i] - way[i] : 0;
+    Eigen::Vector3d gap = map_from_base_ * constraint.point_in_base;
+    for (int i = 0; i < 3; ++i) gap[i] = i < there.size() ? there[i] - gap[i] : 0;
     const double own = kNear + 2 * kSigmas * constraint.sigma;
-    return way.norm() <= own || way.norm() <= own + kSigmas * poseSigma(constraint.point_in_base.norm());
+    return gap.norm() <= own || gap.norm() <= own + kSigmas * poseSigma(constraint.point_in_base.norm());
   }
 
-  // Of a point so far from the base, by what is not known of the base [m].
+  // Standard deviation [m] of a point at this distance [m] from the base, due to the uncertainty of the base's pose.
   double poseSigma(double range) {
     if (!pose_variances_) {
       const auto pose = view_.jointCovariance({frame_.pose});
@@ -177,7 +177,7 @@ class PointLandmarksPlugin::Moment {
     batch_.addEvidence(pairing.landmark, payload.with(label_, measured.constraint->point_in_base.z()));
   }
 
-  // It says of itself which it is, and it is not where that one is: it may have moved.
+  // The number of the measurement is that of this landmark, but the position does not fit: the landmark may have moved.
   void keepWithoutWeight(const mapper::Pairing& pairing, mapper::Decision decision) {
     decision.reason = "gated out: not where its landmark is; kept without weight";
     batch_.log(std::move(decision));
@@ -213,7 +213,7 @@ class PointLandmarksPlugin::Moment {
   const mapper::View& view_;
   geometry::Se3 map_from_base_;
   std::string label_;
-  std::optional<std::pair<double, double>> pose_variances_;  // of the place [m^2], of the turn [rad^2]
+  std::optional<std::pair<double, double>> pose_variances_;  // of the position [m^2], of the rotation [rad^2]
   std::set<base::LandmarkId> met_;
   mapper::Batch batch_;
 };
@@ -231,7 +231,7 @@ bool PointLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) con
 mapper::Batch PointLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                             const mapper::View& view) {
   known_->update(view);
-  return Moment(options_, context_, *known_, frame, view)
+  return Associator(options_, context_, *known_, frame, view)
       .take(dynamic_cast<const CObservationBearingRange&>(observed.observation));
 }
 

@@ -38,7 +38,7 @@ class PointLandmarksPlugin : public mapper::MeasurementPlugin {
   void restore(const map::MapSection* saved, const mapper::View& view) override;
 
  private:
-  class Moment;
+  class Associator;
 
   PointLandmarksOptions options_;
   mapper::PluginContext context_;

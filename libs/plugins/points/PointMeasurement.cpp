@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using geometry::Se3;
 using mrpt::obs::CObservationBearingRange;
 
-// Of range, yaw and pitch.
+// Covariance of range, yaw and pitch.
 Matrix3d covarianceOfMeasurement(const CObservationBearingRange& observation,
                                  const CObservationBearingRange::TMeasurement& measured,
                                  const PointLandmarksOptions& options) {
@@ -30,12 +30,12 @@ Matrix3d covarianceOfMeasurement(const CObservationBearingRange& observation,
     covariance.diagonal() =
         Vector3d(observation.sensor_std_range, observation.sensor_std_yaw, observation.sensor_std_pitch).cwiseAbs2();
   }
-  const double told[] = {options.sigma_range, options.sigma_yaw, options.sigma_pitch};
+  const double configured[] = {options.sigma_range, options.sigma_yaw, options.sigma_pitch};
   for (int i = 0; i < 3; ++i) {
-    if (!(told[i] > 0)) continue;
+    if (!(configured[i] > 0)) continue;
     covariance.row(i).setZero();
     covariance.col(i).setZero();
-    covariance(i, i) = told[i] * told[i];
+    covariance(i, i) = configured[i] * configured[i];
   }
   return covariance;
 }
@@ -48,7 +48,7 @@ PointMeasurement uselessMeasurement(const CObservationBearingRange::TMeasurement
   return {measured.landmarkID, measured.range, std::nullopt, why};
 }
 
-// The point in the sensor, and what range, yaw and pitch change of it.
+// The point in the frame of the sensor, with its derivative by range, yaw and pitch.
 struct PointRay {
   Vector3d point;
   Matrix3d by_measured;
@@ -76,7 +76,7 @@ std::optional<PointConstraint> constraintOverFloor(const PointRay& ray, const Ma
   polar << v.transpose() / rho, -v.y() / (rho * rho), v.x() / (rho * rho);
   const Eigen::Matrix<double, 2, 3> polar_by_measured = polar * by_measured;
   const Eigen::Matrix2d rounded = polar_by_measured * covariance * polar_by_measured.transpose();
-  const Eigen::Matrix2d of_polar = (rounded + rounded.transpose()) / 2;  // rounding alone can part the two halves
+  const Eigen::Matrix2d of_polar = (rounded + rounded.transpose()) / 2;  // rounding alone can make it asymmetric
   if (!isUsableCovariance(of_polar)) return std::nullopt;
   return PointConstraint{
       base_from_sensor * ray.point, std::max(std::sqrt(of_polar(0, 0)), rho * std::sqrt(of_polar(1, 1))),
@@ -88,7 +88,7 @@ std::optional<PointConstraint> constraintInSpace(const PointRay& ray, const Matr
                                                  const Se3& base_from_sensor) {
   const double range = ray.point.norm(), rho = ray.point.head<2>().norm();
   if (rho < 1e-3 * range || !isUsableCovariance(covariance)) return std::nullopt;
-  // An angle of pitch beyond the zenith is another yaw and pitch of the same ray.
+  // A pitch beyond 90 degrees is replaced by the yaw and pitch within 90 degrees of the same ray.
   const Vector3d measured(range, std::atan2(ray.point.y(), ray.point.x()), std::atan2(-ray.point.z(), rho));
   const Vector3d sigmas = covariance.diagonal().cwiseSqrt();
   return PointConstraint{base_from_sensor * ray.point, std::max(sigmas[0], range * std::max(sigmas[1], sigmas[2])),
@@ -110,7 +110,7 @@ std::vector<PointMeasurement> pointMeasurements(const CObservationBearingRange& 
       continue;
     }
     if (measured.landmarkID >= 0 && !seen.insert(measured.landmarkID).second) {
-      all.push_back(uselessMeasurement(measured, "its number stands twice in the observation"));
+      all.push_back(uselessMeasurement(measured, "its number occurs twice in the observation"));
       continue;
     }
     const PointRay ray(range_yaw_pitch);

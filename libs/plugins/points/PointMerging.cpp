@@ -14,7 +14,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr double kFarthestApart = 0.5;  // [m] whatever the covariance allows
+constexpr double kFarthestApart = 0.5;  // [m] between landmarks that are merged, whatever the covariance allows
 
 bool seenAtOnce(base::VariableId a, base::VariableId b, const graph::Graph& graph) {
   std::set<base::VariableId> seen_from;
@@ -33,22 +33,22 @@ std::optional<landmarks::Fit> fitOfGap(base::VariableId a, base::VariableId b, c
                                           joint->topRightCorner(n, n) - joint->bottomLeftCorner(n, n));
 }
 
-struct Nameless {
+struct UnnumberedPoint {
   base::LandmarkId id;
   base::VariableId variable;
   const Eigen::VectorXd* place;  // [m] in the map
 };
 
-// In the order of x, so that those that are near stand near.
-std::vector<Nameless> namelessOf(const PointLandmarkIndex& known, const mapper::View& view) {
-  std::vector<Nameless> nameless;
+// Sorted by x, so that the search for near neighbours can stop early.
+std::vector<UnnumberedPoint> unnumberedPoints(const PointLandmarkIndex& known, const mapper::View& view) {
+  std::vector<UnnumberedPoint> unnumbered;
   for (const auto& [id, variable] : known.all()) {
     const auto& payload = dynamic_cast<const PointPayload&>(*view.map.landmark(id).payload);
-    if (payload.number < 0) nameless.push_back({id, variable, &view.graph.value(variable)});
+    if (payload.number < 0) unnumbered.push_back({id, variable, &view.graph.value(variable)});
   }
-  std::stable_sort(nameless.begin(), nameless.end(),
-                   [](const Nameless& a, const Nameless& b) { return (*a.place)[0] < (*b.place)[0]; });
-  return nameless;
+  std::stable_sort(unnumbered.begin(), unnumbered.end(),
+                   [](const UnnumberedPoint& a, const UnnumberedPoint& b) { return (*a.place)[0] < (*b.place)[0]; });
+  return unnumbered;
 }
 
 }  // namespace
@@ -56,13 +56,13 @@ std::vector<Nameless> namelessOf(const PointLandmarkIndex& known, const mapper::
 mapper::Batch mergeAlike(const PointLandmarkIndex& known, const PointLandmarksOptions& options,
                          const std::string& section, const mapper::View& view) {
   mapper::Batch batch;
-  std::vector<Nameless> left = namelessOf(known, view);
+  std::vector<UnnumberedPoint> left = unnumberedPoints(known, view);
   for (std::size_t i = 0; i < left.size(); ++i) {
-    const Nameless& a = left[i];
+    const UnnumberedPoint& a = left[i];
     const double limit = graph::chiSquareQuantile(options.confidence, static_cast<int>(a.place->size())) *
                          options.inflation * options.inflation;
     for (std::size_t k = i + 1; k < left.size() && (*left[k].place)[0] - (*a.place)[0] <= kFarthestApart; ++k) {
-      const Nameless& b = left[k];
+      const UnnumberedPoint& b = left[k];
       if ((*b.place - *a.place).norm() > kFarthestApart || !view.areJoined(a.id.session, b.id.session)) continue;
       if (seenAtOnce(a.variable, b.variable, view.graph)) continue;
       const auto fit = fitOfGap(a.variable, b.variable, view);

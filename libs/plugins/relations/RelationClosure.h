@@ -9,39 +9,40 @@
 
 namespace omnimapper::plugins {
 
-/// Landmarks in groups, by their variables.
+/// Disjoint groups of landmarks, which are identified by their variables.
 class VariableGroups {
  public:
-  /// The same for all of a group.
-  base::VariableId nameOf(base::VariableId id) const;
-  bool areOne(base::VariableId a, base::VariableId b) const { return nameOf(a) == nameOf(b); }
+  /// A member that represents the group: the same for all of its members.
+  base::VariableId representativeOf(base::VariableId id) const;
+  bool inOneGroup(base::VariableId a, base::VariableId b) const { return representativeOf(a) == representativeOf(b); }
   void join(base::VariableId a, base::VariableId b);
 
  private:
   std::map<base::VariableId, base::VariableId> parents_;
 };
 
-/// What acting relations tell of directions, lines and points, with all that follows from it: nothing is to be told
-/// twice. A line is told beside its direction, for walls in parallel may be on one line or not.
+/// The accepted relations and all that follows from them, so that no relation is stated twice. Lines are kept apart
+/// from directions, because parallel walls may lie on one line or not.
 class RelationClosure {
  public:
   explicit RelationClosure(const KnownRelations& known);
 
-  /// Whether the point is on something.
+  /// Whether a relation already places the point on a surface.
   bool isPlaced(base::VariableId point) const { return placed_.count(point) > 0; }
-  /// Whether the turn from one wall to the other is told; of planes, that they are parallel.
-  bool isTurned(base::VariableId a, base::VariableId b) const { return turned_.areOne(a, b); }
-  /// Whether it is told that two planes are at a right angle.
+  /// Whether the angle between two walls is already determined; for planes, whether they are already known to be
+  /// parallel.
+  bool isAngleKnown(base::VariableId a, base::VariableId b) const { return same_angle_.inOneGroup(a, b); }
+  /// Whether two planes are already known to be perpendicular.
   bool areSquare(base::VariableId a, base::VariableId b) const;
-  /// Whether it is told that they are on one line, or one plane.
-  bool isAligned(base::VariableId a, base::VariableId b) const { return aligned_.areOne(a, b); }
+  /// Whether two walls are already known to lie on one line, or two planes on one plane.
+  bool isAligned(base::VariableId a, base::VariableId b) const { return aligned_.inOneGroup(a, b); }
 
-  /// Takes in a relation of the kind, unless some of what it says is told: then false.
+  /// Adds a relation of this kind. Returns false, without adding it, if a part of what it states is already known.
   bool add(std::string_view kind, base::VariableId a, base::VariableId b);
 
  private:
   std::set<base::VariableId> placed_;
-  VariableGroups turned_, aligned_;
+  VariableGroups same_angle_, aligned_;
   std::vector<std::pair<base::VariableId, base::VariableId>> square_;
 };
 

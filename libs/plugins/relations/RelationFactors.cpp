@@ -28,19 +28,19 @@ struct Shift {
   }
 };
 
-/// How a normal changes with the tangent of its plane.
+/// Derivative of a plane's normal by the tangent of the plane.
 Eigen::Matrix3d normalByPlane(const geometry::Plane3& plane) {
   Eigen::Matrix3d by_plane = Eigen::Matrix3d::Zero();
   by_plane.leftCols<2>() = geometry::tangentBasis(plane.normal);
   return by_plane;
 }
 
-/// How the distance of a point changes with the tangent of the plane.
+/// Derivative of the distance of a point by the tangent of the plane.
 Eigen::RowVector3d distanceByPlane(const geometry::Plane3& plane, const Eigen::Vector3d& point) {
   return point.transpose() * normalByPlane(plane) + Eigen::RowVector3d::UnitZ();
 }
 
-/// b's normal across a's, and its derivatives by both.
+/// The components of b's normal across a's, and their derivatives by both planes.
 struct Across {
   Eigen::Vector2d value;
   Eigen::Matrix<double, 2, 3> by_a, by_b;
@@ -49,7 +49,7 @@ struct Across {
     const Eigen::Matrix<double, 3, 2> basis = geometry::tangentBasis(a.normal);
     value = basis.transpose() * b.normal;
     by_b = basis.transpose() * normalByPlane(b);
-    // The basis follows the normal: b1 is the unit axis e made square to n, b2 = n x b1.
+    // The basis depends on the normal: b1 is the unit axis e made perpendicular to n, b2 = n x b1.
     int axis = 0;
     a.normal.cwiseAbs().minCoeff(&axis);
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
@@ -66,7 +66,7 @@ struct Across {
   }
 };
 
-// Of a point, of which x and y count, and a wall.
+// The distance of a point from a wall, by the point's x and y, and its derivatives.
 struct FromWall {
   explicit FromWall(const double* const* values) {
     const geometry::Segment2 wall = landmarks::wallFromValue(values[1]);

@@ -10,7 +10,7 @@
 
 namespace omnimapper::plugins {
 
-/// Virtual measurements (thesis 4.5): what buildings are like, said of two landmarks. Derivations:
+/// Virtual measurements (thesis 4.5): factors that state a regularity of buildings about two landmarks. Derivations:
 /// doc/derivations/relations.md.
 
 /// A point lies on a wall. Variables: point2, wall. Residual: its distance [m], positive on the free side.
@@ -37,8 +37,8 @@ class PointOnPlaneFactor : public graph::SizedFactor<1, graph::Point3Kind, landm
   void write(std::ostream& out) const override;
 };
 
-/// Two walls at a multiple of the right angle. Variables: wall a, wall b. Residual: b's direction less a's less so many
-/// quarter turns [rad], in (-pi, pi].
+/// Two walls at a multiple of a right angle. Variables: wall a, wall b. Residual: b's direction - a's direction - the
+/// number of quarter turns * pi / 2 [rad], in (-pi, pi].
 class WallTurnFactor : public graph::SizedFactor<1, landmarks::WallKind, landmarks::WallKind> {
  public:
   explicit WallTurnFactor(int quarters) : quarters_(quarters & 3) {}
@@ -51,8 +51,8 @@ class WallTurnFactor : public graph::SizedFactor<1, landmarks::WallKind, landmar
   int quarters_;
 };
 
-/// Two walls on one line, with the same free side. Variables: wall a, wall b. Residual: b's direction less a's [rad],
-/// then the distance of b's middle from a [m].
+/// Two walls on one line, with the same free side. Variables: wall a, wall b. Residual: b's direction - a's direction
+/// [rad], then the distance of b's middle from a [m].
 class WallsAlignedFactor : public graph::SizedFactor<2, landmarks::WallKind, landmarks::WallKind> {
  public:
   std::string_view kind() const override { return "walls_aligned"; }
@@ -60,8 +60,8 @@ class WallsAlignedFactor : public graph::SizedFactor<2, landmarks::WallKind, lan
   void write(std::ostream& out) const override;
 };
 
-/// The second half of WallsAlignedFactor, for two walls of which the turn is told by others. Variables: wall a, wall b.
-/// Residual: the distance of b's middle from a [m].
+/// The second half of WallsAlignedFactor, for two walls whose angle is determined by other relations. Variables: wall
+/// a, wall b. Residual: the distance of b's middle from a [m].
 class WallShiftFactor : public graph::SizedFactor<1, landmarks::WallKind, landmarks::WallKind> {
  public:
   std::string_view kind() const override { return "wall_shift"; }
@@ -69,8 +69,8 @@ class WallShiftFactor : public graph::SizedFactor<1, landmarks::WallKind, landma
   void write(std::ostream& out) const override;
 };
 
-/// Two planes side by side, or face to face. Variables: plane a, plane b. Residual: the part of b's normal across a's,
-/// in the axes of geometry::tangentBasis(a) [rad to first order].
+/// Two parallel planes, with normals in the same or in opposite directions. Variables: plane a, plane b. Residual: the
+/// components of b's normal across a's, in the axes of geometry::tangentBasis(a) [rad to first order].
 class PlanesParallelFactor : public graph::SizedFactor<2, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   std::string_view kind() const override { return "planes_parallel"; }
@@ -78,7 +78,8 @@ class PlanesParallelFactor : public graph::SizedFactor<2, landmarks::PlaneKind, 
   void write(std::ostream& out) const override;
 };
 
-/// Two planes at a right angle. Variables: plane a, plane b. Residual: the product of the normals [rad to first order].
+/// Two planes at a right angle. Variables: plane a, plane b. Residual: the dot product of the normals [rad to first
+/// order].
 class PlanesSquareFactor : public graph::SizedFactor<1, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   std::string_view kind() const override { return "planes_square"; }
@@ -87,7 +88,8 @@ class PlanesSquareFactor : public graph::SizedFactor<1, landmarks::PlaneKind, la
 };
 
 /// Two surfaces on one plane, with the same free side. Variables: plane a, plane b. Residual: as PlanesParallelFactor,
-/// then b's distance less a's, as far from the origin as `near`, where both are [m].
+/// then the signed distance of the point `near` from b - that from a [m]. `near` is a point in the map near both
+/// surfaces.
 class PlanesAlignedFactor : public graph::SizedFactor<3, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   explicit PlanesAlignedFactor(const Eigen::Vector3d& near_in_map) : near_(near_in_map) {}
@@ -100,8 +102,8 @@ class PlanesAlignedFactor : public graph::SizedFactor<3, landmarks::PlaneKind, l
   Eigen::Vector3d near_;
 };
 
-/// The last row of PlanesAlignedFactor, for two planes that others tell to be parallel. Variables: plane a, plane b.
-/// Residual: b's distance less a's at `near` [m].
+/// The last row of PlanesAlignedFactor, for two planes that other relations hold parallel. Variables: plane a, plane b.
+/// Residual: the signed distance of `near` from b - that from a [m].
 class PlaneShiftFactor : public graph::SizedFactor<1, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   explicit PlaneShiftFactor(const Eigen::Vector3d& near_in_map) : near_(near_in_map) {}
@@ -114,7 +116,7 @@ class PlaneShiftFactor : public graph::SizedFactor<1, landmarks::PlaneKind, land
   Eigen::Vector3d near_;
 };
 
-/// Teaches a registry to read what they write.
+/// Registers the readers of these factors.
 void addRelationsTo(graph::FactorRegistry& registry);
 
 }  // namespace omnimapper::plugins

@@ -22,7 +22,7 @@ namespace {
 
 using geometry::kPi;
 
-/// A landmark as relations see it.
+/// The properties of a landmark that relations depend on.
 struct LandmarkView {
   base::LandmarkId id;
   base::VariableId variable;
@@ -30,7 +30,7 @@ struct LandmarkView {
   map::LandmarkShape shape;
 };
 
-/// What a relation says, and how much room there is for its residual if it does not hold.
+/// A possible relation, with the size of the range in which its residual lies if it does not hold.
 struct RelationHypothesis {
   std::string name;
   std::shared_ptr<const graph::Factor> factor;
@@ -49,7 +49,7 @@ std::vector<Eigen::Vector3d> outlineOf(const map::LandmarkShape& shape) {
   return corners;
 }
 
-// Stretch of a landmark along a level direction [m].
+// Extent of a landmark along a level direction: smallest and largest coordinate [m].
 std::optional<std::pair<double, double>> stretch(const LandmarkView& landmark, const Eigen::Vector3d& along) {
   const auto corners = outlineOf(landmark.shape);
   if (corners.empty()) return std::nullopt;
@@ -64,7 +64,7 @@ std::optional<std::pair<double, double>> stretch(const LandmarkView& landmark, c
 class Finder {
  public:
   Finder(const mapper::State& state, const RelationsOptions& options, const KnownRelations& known)
-      : state_(state), options_(options), known_(known), told_(known) {
+      : state_(state), options_(options), known_(known), closure_(known) {
     for (const auto& [id, landmark] : state.map.landmarks) {
       if (landmark.state != map::Landmark::State::active || landmark.variables.size() != 1) continue;
       if (landmark.evidence < static_cast<std::uint32_t>(options.min_measurements)) continue;
@@ -79,7 +79,7 @@ class Finder {
     for (std::size_t i = 0; i < views_.size(); ++i)
       for (std::size_t j = 0; j < views_.size(); ++j) {
         const LandmarkView &a = views_[i], &b = views_[j];
-        if (!mayBeTied(a, b)) continue;
+        if (!mayBeRelated(a, b)) continue;
         if (a.kind == "point2" && b.kind == "wall") pointOnWall(a, b, std::make_shared<PointOnWallFactor>());
         if (a.kind == "point3" && b.kind == "wall") pointOnWall(a, b, std::make_shared<Point3OnWallFactor>());
         if (a.kind == "point3" && b.kind == "plane") pointOnPlane(a, b);
@@ -89,19 +89,19 @@ class Finder {
       }
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Relation& a, const Relation& b) { return a.likelihood_ratio > b.likelihood_ratio; });
-    // Of what says the same twice the likelier stays.
+    // If several relations state the same, the likeliest is kept.
     found_.erase(std::remove_if(found_.begin(), found_.end(),
                                 [&](const Relation& relation) {
                                   const auto& ids = relation.record.variables;
-                                  return !told_.add(relation.record.factor->kind(), ids[0], ids[1]);
+                                  return !closure_.add(relation.record.factor->kind(), ids[0], ids[1]);
                                 }),
                  found_.end());
     return std::move(found_);
   }
 
  private:
-  // Where a session is that nothing has joined, nobody knows; nor does a relation tell.
-  bool mayBeTied(const LandmarkView& a, const LandmarkView& b) const {
+  // The place of a session that is not joined is unknown, and relations must not determine it.
+  bool mayBeRelated(const LandmarkView& a, const LandmarkView& b) const {
     return a.variable.session == b.variable.session || (isJoined(a) && isJoined(b));
   }
   bool isJoined(const LandmarkView& landmark) const {
@@ -119,7 +119,7 @@ class Finder {
   }
 
   void pointOnWall(const LandmarkView& point, const LandmarkView& wall, std::shared_ptr<const graph::Factor> factor) {
-    if (!options_.point_on_wall || told_.isPlaced(point.variable)) return;
+    if (!options_.point_on_wall || closure_.isPlaced(point.variable)) return;
     const geometry::Segment2 segment = landmarks::wallFromValue(state_.graph.value(wall.variable).data());
     const Eigen::Vector2d place = state_.graph.value(point.variable).head<2>(), along = direction(segment);
     if (std::abs(landmarks::normalOf(segment).dot(place - segment.from)) > options_.max_distance) return;
@@ -130,14 +130,14 @@ class Finder {
   }
 
   void pointOnPlane(const LandmarkView& point, const LandmarkView& plane) {
-    if (!options_.point_on_wall || told_.isPlaced(point.variable)) return;
+    if (!options_.point_on_wall || closure_.isPlaced(point.variable)) return;
     const geometry::Plane3 surface = landmarks::planeFromValue(state_.graph.value(plane.variable).data());
     const Eigen::Vector3d place = state_.graph.value(point.variable);
     if (std::abs(signedDistance(surface, place)) > options_.max_distance) return;
     const auto corners = outlineOf(plane.shape);
     if (corners.empty()) return;
     const landmarks::PlaneAxes axes(surface);
-    const bool upright = std::abs(surface.normal.z()) < 0.5;  // how high a wall goes nobody may have seen
+    const bool upright = std::abs(surface.normal.z()) < 0.5;  // the height of a wall may be seen only in part
     const auto dropped = [&](const Eigen::Vector3d& at) {
       const Eigen::Vector2d on_plane = axes.onto(at);
       return upright ? Eigen::Vector2d(on_plane.x(), 0) : on_plane;
@@ -150,9 +150,9 @@ class Finder {
   }
 
   void twoWalls(const LandmarkView& a, const LandmarkView& b) {
-    const bool turned = told_.isTurned(a.variable, b.variable);
-    const bool may_align = options_.aligned && !told_.isAligned(a.variable, b.variable);
-    if (turned && !may_align) return;
+    const bool angle_known = closure_.isAngleKnown(a.variable, b.variable);
+    const bool may_align = options_.aligned && !closure_.isAligned(a.variable, b.variable);
+    if (angle_known && !may_align) return;
     const geometry::Segment2 of_a = landmarks::wallFromValue(state_.graph.value(a.variable).data()),
                              of_b = landmarks::wallFromValue(state_.graph.value(b.variable).data());
     const Eigen::Vector2d along_a = direction(of_a), along_b = direction(of_b);
@@ -161,18 +161,18 @@ class Finder {
     if (std::abs(turn - quarters * kPi / 2) > options_.max_angle) return;
     const bool one_line =
         quarters == 0 && std::abs(landmarks::normalOf(of_a).dot(middle(of_b) - middle(of_a))) < options_.max_distance;
-    if (may_align && one_line && wallsAligned(a, b, turned)) return;
-    if (!turned && (quarters % 2 == 0 ? options_.parallel : options_.perpendicular))
+    if (may_align && one_line && wallsAligned(a, b, angle_known)) return;
+    if (!angle_known && (quarters % 2 == 0 ? options_.parallel : options_.perpendicular))
       weigh(a, b,
             {quarters % 2 == 0 ? "parallel" : "perpendicular", std::make_shared<WallTurnFactor>(quarters), sigmas(1, 0),
              2 * options_.max_angle});
   }
 
-  // Of what is turned already only the rest is told.
-  bool wallsAligned(const LandmarkView& a, const LandmarkView& b, bool turned) {
+  // If the angle of the walls is already known, only their shift is related.
+  bool wallsAligned(const LandmarkView& a, const LandmarkView& b, bool angle_known) {
     if (isKnown("walls_aligned", a, b) || isKnown("wall_shift", a, b)) return false;
     const double room = 2 * options_.max_distance;
-    if (turned) return weigh(a, b, {"on one line", std::make_shared<WallShiftFactor>(), sigmas(0, 1), room});
+    if (angle_known) return weigh(a, b, {"on one line", std::make_shared<WallShiftFactor>(), sigmas(0, 1), room});
     return weigh(a, b,
                  {"on one line", std::make_shared<WallsAlignedFactor>(), sigmas(1, 1), 2 * options_.max_angle * room});
   }
@@ -182,25 +182,25 @@ class Finder {
                            of_b = landmarks::planeFromValue(state_.graph.value(b.variable).data());
     const double together = of_a.normal.dot(of_b.normal), reach = std::sin(options_.max_angle);
     if (of_a.normal.cross(of_b.normal).norm() < reach) {
-      const bool turned = told_.isTurned(a.variable, b.variable);
-      if (options_.aligned && together > 0 && !told_.isAligned(a.variable, b.variable) &&
-          planesAligned(a, b, of_a, turned))
+      const bool angle_known = closure_.isAngleKnown(a.variable, b.variable);
+      if (options_.aligned && together > 0 && !closure_.isAligned(a.variable, b.variable) &&
+          planesAligned(a, b, of_a, angle_known))
         return;
-      if (options_.parallel && !turned)
+      if (options_.parallel && !angle_known)
         weigh(a, b, {"parallel", std::make_shared<PlanesParallelFactor>(), sigmas(2, 0), 4 * reach * reach});
-    } else if (std::abs(together) < reach && options_.perpendicular && !told_.areSquare(a.variable, b.variable)) {
+    } else if (std::abs(together) < reach && options_.perpendicular && !closure_.areSquare(a.variable, b.variable)) {
       weigh(a, b, {"perpendicular", std::make_shared<PlanesSquareFactor>(), sigmas(1, 0), 2 * reach});
     }
   }
 
-  bool planesAligned(const LandmarkView& a, const LandmarkView& b, const geometry::Plane3& of_a, bool turned) {
+  bool planesAligned(const LandmarkView& a, const LandmarkView& b, const geometry::Plane3& of_a, bool angle_known) {
     const auto corners = outlineOf(b.shape);
     if (corners.empty() || isKnown("planes_aligned", a, b) || isKnown("plane_shift", a, b)) return false;
     Eigen::Vector3d near = Eigen::Vector3d::Zero();
     for (const auto& corner : corners) near += corner / static_cast<double>(corners.size());
     if (std::abs(signedDistance(of_a, near)) > options_.max_distance) return false;
     const double reach = std::sin(options_.max_angle), room = 2 * options_.max_distance;
-    if (turned) return weigh(a, b, {"on one plane", std::make_shared<PlaneShiftFactor>(near), sigmas(0, 1), room});
+    if (angle_known) return weigh(a, b, {"on one plane", std::make_shared<PlaneShiftFactor>(near), sigmas(0, 1), room});
     return weigh(a, b,
                  {"on one plane", std::make_shared<PlanesAlignedFactor>(near), sigmas(2, 1), 4 * reach * reach * room});
   }
@@ -212,7 +212,8 @@ class Finder {
     return known_.count(pairOf(kind, a, b)) > 0;
   }
 
-  // Whether it is likelier than not. What was refused stays with the consistency test and is not proposed again.
+  // Adds the relation if it is likely enough, and returns whether it did. A relation that was proposed before is not
+  // proposed again: the consistency test keeps it.
   bool weigh(const LandmarkView& a, const LandmarkView& b, const RelationHypothesis& hypothesis) {
     if (isKnown(hypothesis.factor->kind(), a, b)) return false;
     Relation relation{
@@ -231,7 +232,7 @@ class Finder {
     relation.chi2 = linearised.residual.dot(root.solve(linearised.residual));
     constexpr double kConfidence = 0.999;
     if (relation.chi2 > graph::chiSquareQuantile(kConfidence, rows)) return false;
-    // Both densities in whitened units.
+    // Both densities are in whitened units.
     const double log_room = std::log(hypothesis.room) - hypothesis.sigmas.array().log().sum();
     const double log_density = -0.5 * (relation.chi2 + rows * std::log(2 * kPi)) -
                                Eigen::MatrixXd(root.matrixL()).diagonal().array().log().sum();
@@ -243,12 +244,12 @@ class Finder {
     return true;
   }
 
-  static constexpr double kBeyond = 0.2;  // [m] a point may lie beyond what was seen of its wall
+  static constexpr double kBeyond = 0.2;  // [m] by which a point may lie beyond the seen part of its wall
 
   const mapper::State& state_;
   const RelationsOptions& options_;
   const KnownRelations& known_;
-  RelationClosure told_;
+  RelationClosure closure_;
   std::vector<LandmarkView> views_;
   std::vector<Relation> found_;
 };

@@ -13,10 +13,10 @@
 
 namespace omnimapper::plugins {
 
-/// Two variables, the smaller first, with the kind of what relates them.
+/// The kind of a relation's factor, with its two variables, the smaller first.
 using RelatedPair = std::pair<std::string, std::pair<base::VariableId, base::VariableId>>;
 
-/// Relations that were found before, and whether the consistency test lets them act.
+/// Relations that were found before, and whether the consistency test has accepted them.
 using KnownRelations = std::map<RelatedPair, bool>;
 
 /// A relation that is likelier than not.
@@ -27,11 +27,12 @@ struct Relation {
   double chi2 = 0, likelihood_ratio = 0;
 };
 
-/// What may be said of the landmarks of a map, beside what is `known` (thesis 4.5.1): each possible relation of two
-/// landmarks is weighed by the likelihood of its residual if it holds, by the covariance of both, against that of any
-/// residual there is room for. A point gets one relation at most, and directions and lines a tree each: what many share
-/// is told once of each, not once of each pair (RelationClosure). Landmarks of a session that is not joined are related
-/// among themselves only. The likeliest first.
+/// Finds relations between the landmarks of a map that are likelier than not, beside the `known` ones (thesis 4.5.1).
+/// For each possible relation of two landmarks, the likelihood of its residual if it holds, by the covariance of both
+/// landmarks, is compared with that of a residual anywhere in its range. A point gets at most one relation, and the
+/// relations of directions and of lines form trees: n parallel walls get n - 1 relations, not one for each pair
+/// (RelationClosure). Landmarks of a session that is not joined are related only to each other. The likeliest relation
+/// is first.
 std::vector<Relation> findRelations(const mapper::State& state, const RelationsOptions& options,
                                     const KnownRelations& known);
 

@@ -52,7 +52,7 @@ mapper::Batch RelationsPlugin::atEnd(const mapper::View& view) {
   return view.map_is_held ? mapper::Batch() : propose(view);
 }
 
-// What it proposed stands in the graph, with landmarks merged since.
+// The relations that were proposed before are read from the graph, because their landmarks may have been merged since.
 mapper::Batch RelationsPlugin::propose(const mapper::View& view) {
   KnownRelations known;
   for (const auto& [id, record] : view.graph.factors()) {

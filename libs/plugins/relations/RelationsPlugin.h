@@ -13,7 +13,7 @@ struct RelationsOptions {
   bool point_on_wall = true, parallel = true, perpendicular = true, aligned = true;
   double distance_sigma = 0.02;  ///< [m] of a point from its surface, of walls from one line
   double angle_sigma = 1 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double max_distance = 1;                                        ///< [m] what is farther off is not even asked
+  double max_distance = 1;                                        ///< [m] beyond it, no relation is considered
   double max_angle = 15 * base::option_text::kRadiansPerDegree;   ///< [rad]
   double min_likelihood_ratio = 2;
   int min_measurements = 3;  ///< of each landmark
@@ -21,11 +21,12 @@ struct RelationsOptions {
   static const base::OptionTable<RelationsOptions>& table();
 };
 
-/// Relations between landmarks as virtual measurements (thesis 4.5): points that lie on a surface, a sign's on its wall
-/// or an object's on its table, within its outline; walls at right angles, in parallel or on one line. They are
-/// proposed by likelihood after each solve, of whatever plugins the landmarks are (a variable of one point is a point),
-/// and are hypotheses: the consistency test refuses what does not fit, and takes back what no longer does. A session
-/// that nothing has joined to the map gets none with landmarks of others.
+/// Relations between landmarks as virtual measurements (thesis 4.5): points that lie within the outline of a surface,
+/// such as a sign on its wall or an object on its table; walls that are perpendicular, parallel or on one line. They
+/// are proposed by their likelihood after each solve, for the landmarks of all plugins (a landmark with a single point
+/// as its variable counts as a point). They are hypotheses: the consistency test refuses those that do not fit, and
+/// takes back those that no longer fit. Landmarks of a session that is not joined to the map get no relations with
+/// those of other sessions.
 class RelationsPlugin : public mapper::MeasurementPlugin {
  public:
   RelationsPlugin(const RelationsOptions& options, const mapper::PluginContext& context);
@@ -49,7 +50,9 @@ class RelationsPluginFactory : public mapper::MeasurementPluginFactory {
   DEFINE_MRPT_OBJECT(RelationsPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "RelationsPlugin"; }
-  std::string summary() const override { return "What buildings are like: points on walls, right angles, one line."; }
+  std::string summary() const override {
+    return "Relations of landmarks as in buildings: points on walls, right angles, walls on one line.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return RelationsOptions::table().specs(); }
   void registerKinds(mapper::Kinds& kinds) const override;
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,

@@ -66,7 +66,7 @@ void addUnplacedSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets,
   for (const auto& [id, known] : tracks.known())
     there.push_back({signOf(view, id).text(), view.graph.value(known.variable)});
   for (auto views : tracks.unplacedViews(options.recent_travel)) {
-    // The last view is one of those that meet: where it does not, the one before it may.
+    // triangulate() requires the last view to meet the others. If it does not, the one before it is tried as the last.
     while (views.size() >= kMinViews) {
       const auto offset_variable = offsets.find(views.back().label, batch);
       const KnownOffsets known{mapper::PanTiltOffsets::estimate(offset_variable, view.graph), 0};

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// The one sign of the earlier sessions that says this; none if there is none, or several.
+// The only sign of the earlier sessions with this text; none if there is no such sign, or more than one.
 std::optional<base::LandmarkId> oneWith(const SignText& text, const SignTracks& tracks, const mapper::View& view) {
   std::optional<base::LandmarkId> found;
   const auto first = view.map.sessions.front().number;
@@ -30,21 +30,21 @@ std::optional<base::LandmarkId> oneWith(const SignText& text, const SignTracks& 
   return found;
 }
 
-// [m] 0 of a sign that is held.
+// Standard deviation of a sign's position in the least certain axis [m]; 0 for a fixed one.
 double sigmaOf(base::VariableId variable, const mapper::View& view) {
   const auto covariance = view.jointCovariance({variable});
   return covariance && covariance->allFinite() ? std::sqrt(covariance->diagonal().maxCoeff()) : 0;
 }
 
-// None of a sign that is poorly known.
+// None if the position of the sign is too uncertain, or its normal is unknown.
 std::optional<SeenKnownSign> seenKnown(const SignMeasurement& measurement, base::LandmarkId sign,
                                        const map::KeyFrame& frame, const SignTracks& tracks, const mapper::View& view,
                                        const KnownOffsets& offsets) {
-  constexpr double kPoorly = 0.5;  // [m]
+  constexpr double kUncertain = 0.5;  // [m]
   const auto variable = tracks.known().at(sign).variable;
   const auto normal = mapper::shapeOf(view.map.landmark(sign), view).normal;
   const double sign_sigma = sigmaOf(variable, view);
-  if (!normal || !(sign_sigma < kPoorly)) return std::nullopt;
+  if (!normal || !(sign_sigma < kUncertain)) return std::nullopt;
   const double own = std::max(measurement.sigma_left, measurement.sigma_down);
   const Vector3d direction = turnedBy(offsets.pan_tilt, measurement.tilt_axis, measurement.seen.direction());
   return SeenKnownSign{sign,
@@ -56,7 +56,7 @@ std::optional<SeenKnownSign> seenKnown(const SignMeasurement& measurement, base:
                        std::hypot(own, std::hypot(offsets.sigma, sign_sigma / kReadingDistance))};
 }
 
-// Before the sign, as far as signs are read from. How the base is tilted stays.
+// A place in front of the sign, at the typical reading distance. The tilt of the base is kept.
 mapper::SessionPlace guessBefore(const SeenKnownSign& seen, const map::KeyFrame& frame) {
   constexpr double kPositionSigma = 2, kAngleSigma = 0.7;  // [m] [rad]
   const auto before = baseBefore(seen, kReadingDistance);
@@ -71,7 +71,7 @@ mapper::SessionPlace guessBefore(const SeenKnownSign& seen, const map::KeyFrame&
 void SessionBySigns::learnState(const map::KeyFrame& frame, const SignTracks& tracks, const mapper::View& view,
                                 double recent_travel) {
   constexpr double kLost = 3;                                            // [m]
-  if (placed_at_ && tracks.travelled() - *placed_at_ > recent_travel) {  // nothing tied it to the map there
+  if (placed_at_ && tracks.travelled() - *placed_at_ > recent_travel) {  // no factor has tied it to the map since
     placed_at_.reset();
     is_lost_ = true;
   }
@@ -82,7 +82,7 @@ void SessionBySigns::learnState(const map::KeyFrame& frame, const SignTracks& tr
   is_lost_ = std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1))) >= kLost;
 }
 
-// What is read of a sign from one spot is one measurement, and no sign takes the room of the others.
+// Readings of a sign from one spot count as one measurement, and only the latest few of each sign are kept.
 void SessionBySigns::remember(const map::KeyFrame& frame, const SeenKnownSign& known, double travelled,
                               double recent_travel) {
   constexpr double kSpot = 0.2;  // [m]
@@ -140,9 +140,10 @@ std::optional<SessionBySigns::Placement> SessionBySigns::take(const std::vector<
   }
   if (is_guessed_ || !numbered) return std::nullopt;
   is_guessed_ = true;
-  return Placement{guessBefore(*numbered, frame), false,
-                   "a sign is read that the map has once: the session is moved before it, and waits for others that "
-                   "agree"};
+  return Placement{
+      guessBefore(*numbered, frame), false,
+      "the map has only one sign with the text that is read: the session is moved in front of it, and waits "
+      "for others that agree"};
 }
 
 }  // namespace omnimapper::plugins

@@ -22,7 +22,7 @@ struct InBase {
     base_from_map = map_from_base.rotation.conjugate().toRotationMatrix();
     position = base_from_map * (Eigen::Map<const Vector3d>(point) - map_from_base.translation);
   }
-  // Of the position, by the tangent of the base.
+  // Derivative of the position by the tangent of the base.
   Eigen::Matrix<double, 3, 6> byBase() const {
     Eigen::Matrix<double, 3, 6> by_base;
     by_base << -Eigen::Matrix3d::Identity(), geometry::skew(position);
@@ -51,12 +51,13 @@ SeenDirection::SeenDirection(const Vector3d& camera, const Vector3d& direction)
 }
 
 Vector2d SeenDirection::angleTo(const Vector3d& seen, Eigen::Matrix<double, 2, 3>* by_seen) const {
-  // The angle to the direction over the sine's share of it: 1 / ahead where both are small.
+  // The residual is `aside`, scaled to the length of the angle: by angle / sine, which is 1 / ahead if both are small.
   const Vector2d aside = across_ * seen;
   const double ahead = direction_.dot(seen), sine = aside.norm();
   const double squared = std::max(sine * sine + ahead * ahead, 1e-18), angle = std::atan2(sine, ahead);
   constexpr double kSmall = 1e-4, kNearest = 1e-9;  // [1] [m]
-  if (ahead < kNearest && sine < kNearest) {  // straight behind the camera, or in it: no direction leads to the point
+  if (ahead < kNearest &&
+      sine < kNearest) {  // straight behind the camera or at it: the direction to the point is undefined
     if (by_seen) by_seen->setZero();
     return {ahead < 0 ? angle : 0, 0};
   }
@@ -80,7 +81,7 @@ void SeenDirection::write(std::ostream& out) const {
 SeenDirection SeenDirection::read(std::istream& in) {
   const Vector3d camera = graph::readVector<3>(in), direction = graph::readVector<3>(in);
   if (!camera.allFinite() || !isUnit(direction) || !(direction.head<2>().norm() > 1e-6))
-    refuse("the direction to a sign is none");
+    refuse("the direction to a sign is vertical or not a unit vector");
   return {camera, direction};
 }
 
@@ -127,7 +128,7 @@ void PanTiltBearingFactor::addTo(graph::FactorRegistry& registry) {
   registry.add("sign_bearing_pan_tilt", [](std::istream& in) {
     const SeenDirection direction = SeenDirection::read(in);
     const Vector3d tilt_axis = graph::readVector<3>(in);
-    if (!isUnit(tilt_axis)) refuse("the tilt axis of a camera is no direction");
+    if (!isUnit(tilt_axis)) refuse("the tilt axis of a camera is not a unit vector");
     return std::make_shared<PanTiltBearingFactor>(direction, tilt_axis);
   });
 }
@@ -137,7 +138,7 @@ Vector3d turnedBy(const Vector2d& pan_tilt, const Vector3d& tilt_axis, const Vec
 }
 
 void SignRangeFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  constexpr double kNearest = 0.01;  // [m] nearer the logarithm goes on as a straight line
+  constexpr double kNearest = 0.01;  // [m] at shorter distances, the logarithm continues as a straight line
   const InBase point(values[0], values[1]);
   const Vector3d seen = point.position - camera_;
   const double range = seen.norm(), capped = std::max(range, kNearest);
@@ -158,7 +159,8 @@ void SignRangeFactor::addTo(graph::FactorRegistry& registry) {
   registry.add("sign_range", [](std::istream& in) {
     const Vector3d camera = graph::readVector<3>(in);
     const double range = graph::readDouble(in);
-    if (!camera.allFinite() || !(range > 0) || !std::isfinite(range)) refuse("the range of a sign is no length");
+    if (!camera.allFinite() || !(range > 0) || !std::isfinite(range))
+      refuse("the range of a sign is not a positive number");
     return std::make_shared<SignRangeFactor>(camera, range);
   });
 }

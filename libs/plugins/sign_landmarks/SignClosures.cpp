@@ -16,9 +16,9 @@ namespace {
 
 using graph::SamePointFactor;
 
-// [m] Nearer, what says the same is one sign, whatever the covariance allows.
+// [m] Largest distance between two estimates of one sign if the texts agree, whatever the covariance allows.
 constexpr double kOfOneSign = 1;
-// [m] Nearer, a number and words stand on one plate.
+// [m] The same if the texts agree only partly: a number and words on one plate.
 constexpr double kOfOnePlate = 0.25;
 
 std::optional<landmarks::Fit> fitOfGap(base::VariableId a, base::VariableId b, const mapper::View& view, double sigma) {
@@ -30,7 +30,7 @@ std::optional<landmarks::Fit> fitOfGap(base::VariableId a, base::VariableId b, c
   return landmarks::fitOf(view.graph.value(b) - view.graph.value(a), covariance);
 }
 
-// The hypothesis that two signs are one, if somebody has proposed it.
+// The hypothesis that two signs are the same, if it was proposed.
 std::optional<base::FactorId> hypothesisOf(base::VariableId a, base::VariableId b, const mapper::View& view) {
   for (const auto id : view.graph.factorsOf(a)) {
     const auto& record = view.graph.factor(id);
@@ -67,7 +67,7 @@ class Proposals {
       is_repeated = is_repeated || signOf(view_, other).is_repeated;
       if (id < other) continue;
       if (tracks_.isRecent(known, options_.recent_travel) && view_.areJoined(id.session, other.session)) {
-        // Seen on one stretch of the way, and they are two.
+        // Both were seen recently: if they are far from each other, they are two signs with the same text.
         const bool is_far = (view_.graph.value(own.variable) - view_.graph.value(known.variable)).norm() > kOfOneSign;
         if (is_far) repeated_.insert(other);
         is_repeated = is_repeated || is_far;
@@ -100,7 +100,7 @@ class Proposals {
     batch_.addHypothesis(std::move(record), std::move(decision));
   }
 
-  // From which it was read best.
+  // The key frame from which the sign was read best.
   std::optional<base::KeyFrameId> keyFrameOf(base::LandmarkId id) const {
     const auto& look = signOf(view_, id).best_look;
     if (!look || !view_.map.key_frames.find(look->frame)) return std::nullopt;
@@ -111,7 +111,7 @@ class Proposals {
     return std::any_of(others.begin(), others.end(), [&](auto other) { return areOne(other, id); });
   }
 
-  // By a hypothesis that acts; they are merged at the end.
+  // Whether an accepted hypothesis says that they are the same sign; such signs are merged at the end.
   bool areOne(base::LandmarkId a, base::LandmarkId b) const {
     const auto hypothesis = hypothesisOf(tracks_.known().at(a).variable, tracks_.known().at(b).variable, view_);
     return hypothesis && view_.graph.factor(*hypothesis).weight > 0;
@@ -147,7 +147,8 @@ mapper::Batch mergeSameSigns(const SignTracks& tracks, const SignLandmarksOption
       const bool is_misread = agreement == Agreement::contradicts && mayBeMisread(merged->text(), other.text());
       const auto hypothesis = hypothesisOf(a->second.variable, b->second.variable, view);
       const bool is_accepted = hypothesis && !is_misread && view.graph.factor(*hypothesis).weight > 0;
-      if (agreement == Agreement::contradicts && hypothesis) batch.removeFactor(*hypothesis);  // read otherwise since
+      if (agreement == Agreement::contradicts && hypothesis)
+        batch.removeFactor(*hypothesis);  // the texts were read differently since
       if (agreement == Agreement::contradicts && !is_misread) continue;
       const double most = agreement == Agreement::agrees ? kOfOneSign : kOfOnePlate;
       const auto gap = view.graph.value(b->second.variable) - view.graph.value(a->second.variable);

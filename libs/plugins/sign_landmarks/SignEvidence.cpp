@@ -13,7 +13,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-// The distance travelled until each key frame [m]; between sessions none.
+// The distance travelled until each key frame [m]. Gaps between sessions do not count.
 class Travel {
  public:
   explicit Travel(const map::KeyFrames& frames) : frames_(frames) {
@@ -45,7 +45,7 @@ double metresIn(Visits visits) {
   return metres;
 }
 
-// Signs that stand farther from the first of their number than one can be misplaced.
+// The number of signs that are farther from the first sign with their number than a position error could explain.
 std::size_t elsewhereAmong(const std::map<std::string, std::vector<Eigen::Vector3d>>& places) {
   constexpr double kElsewhere = 3;  // [m]
   std::size_t elsewhere = 0;
@@ -79,15 +79,16 @@ std::vector<mapper::Evidence> signEvidence(const mapper::View& view, const std::
   char text[220] = "";
   if (elsewhere >= kSome && kPerElsewhere * elsewhere > visits.size()) {
     std::snprintf(text, sizeof text,
-                  "of the numbers on signs that were read again %zu stand at another place than before and %zu at the "
-                  "same: the map is bent, or doors have one number",
+                  "of the numbers on signs that were read again, %zu are at another place than before and %zu at the "
+                  "same: the map is distorted, or several doors have the same number",
                   elsewhere, visits.size());
     return {{"sign_numbers_elsewhere", static_cast<double>(elsewhere), Says::against_it, text}};
   }
   const double spanned = metresIn(visits), percent = travel.all() > 0 ? 100 * spanned / travel.all() : 0;
   const bool is_enough = percent >= kEnough;
   std::snprintf(text, sizeof text,
-                "numbers on signs were read again at the same place %s%s %.0f m of the %.0f m driven lie between%s",
+                "numbers on signs were read again at the same place %s%s %.0f m of the %.0f m driven lie between two "
+                "readings of a sign%s",
                 base::counted(visits.size(), "time").c_str(), is_enough ? ", and" : ", but only", spanned, travel.all(),
                 is_enough ? "" : ", and nothing confirms the rest");
   return {{"sign_numbers_elsewhere", static_cast<double>(elsewhere), Says::good, ""},

@@ -67,7 +67,7 @@ mapper::Decision placementDecision(const std::string& section, const map::KeyFra
   mapper::Decision decision;
   decision.stamp = frame.stamp;
   decision.plugin = section;
-  decision.kind = mapper::kRelocalisation;
+  decision.kind = mapper::kRelocalization;
   decision.from = frame.id;
   decision.accepted = is_sure;
   decision.reason = std::move(reason);
@@ -76,7 +76,7 @@ mapper::Decision placementDecision(const std::string& section, const map::KeyFra
 
 }  // namespace
 
-// The work on one observation.
+// Associates the signs of one observation and makes the edits of graph and map.
 class SignLandmarksPlugin::Work {
  public:
   Work(const SignLandmarksOptions& options, const mapper::PluginContext& context, SignTracks& tracks,
@@ -98,9 +98,9 @@ class SignLandmarksPlugin::Work {
     std::vector<mapper::Pairing> pairings;
     for (std::size_t i = 0; i < measurements.size() && areOffsetsInGraph(); ++i) {
       for (const auto& [id, known] : tracks_.known()) {
-        if (!mayBeMet(id, known)) continue;
-        // A number is not brought to a sign of which words alone are known by its place: that may be a poster beside
-        // it.
+        if (!mayBeAssociated(id, known)) continue;
+        // A measurement of a number alone is not associated with a sign of which only words are known, however near:
+        // that sign may be a poster beside the number.
         if (agreementOf(measurements[i].text, signOf(view_, id).text()) < Agreement::partly) continue;
         pairings.push_back({i, id, record(measurements[i], known.variable, id)});
       }
@@ -113,7 +113,7 @@ class SignLandmarksPlugin::Work {
       if (match.kind == mapper::Match::Kind::matched) {
         addToKnown(measurements[i], pairings[*match.pairing], std::move(decision));
       } else if (isOneOfSeveral(measurements, i)) {
-        decision.reason = "another sign of the image says the same";
+        decision.reason = "another sign in the image has the same text";
         batch_.log(std::move(decision));
       } else if (match.kind == mapper::Match::Kind::unknown && !view_.map_is_held) {
         wait(measurements[i], std::move(decision));
@@ -125,7 +125,7 @@ class SignLandmarksPlugin::Work {
   }
 
  private:
-  // A map that is held gets no variable of the camera: what its offsets may be is noise.
+  // If the map is held, the offsets of the camera are not estimated, and their uncertainty counts as noise.
   SignLandmarksOptions optionsHere() const {
     SignLandmarksOptions options = options_;
     if (!view_.map_is_held) return options;
@@ -144,19 +144,20 @@ class SignLandmarksPlugin::Work {
       known_offsets_.sigma = std::sqrt(covariance->diagonal().maxCoeff());
   }
 
-  // A session that signs have placed meets the signs of the map until something ties it to them; one that is lost meets
-  // its own alone.
-  bool mayBeMet(base::LandmarkId id, const SignTracks::Known& known) const {
+  // A session that signs have placed is matched with the signs of the map only, until a factor ties it to the map; a
+  // lost session is matched with its own signs only.
+  bool mayBeAssociated(base::LandmarkId id, const SignTracks::Known& known) const {
     const bool is_own = id.session == frame_.id.session;
     if (session_.isPlaced()) return !is_own;
     if (view_.map_is_held) return !session_.isLost();
     return (is_own || !session_.isLost()) && tracks_.isRecent(known, options_.recent_travel);
   }
 
-  // Whether it was known well enough: what was seen is then looked at from the new place, the next time.
+  // Returns whether the session was placed reliably. Its signs are then associated from the next key frame on, from the
+  // new place.
   bool placeSession(const std::vector<SignMeasurement>& measurements) {
     if (!mapper::whyFixed({frame_.id, {}}, view_.graph, view_.map).empty()) {
-      session_ = SessionBySigns();  // something ties it to the map; should that be taken back, it is sought anew
+      session_ = SessionBySigns();  // a factor ties it to the map; if that is taken back, the search starts anew
       return false;
     }
     const auto placement = session_.take(measurements, frame_, tracks_, view_, known_offsets_, options_.recent_travel);
@@ -203,13 +204,13 @@ class SignLandmarksPlugin::Work {
 
   // A sign that is not in the map: it is added once enough directions meet.
   void wait(const SignMeasurement& measurement, mapper::Decision decision) {
-    constexpr std::size_t kMinViews = 3;  // of two directions nothing would show that one is wrong
+    constexpr std::size_t kMinViews = 3;  // with two directions, nothing would show that one of them is wrong
     const auto& views = tracks_.waitingWith(
         {frame_.id, frame_.stamp, frame_.pose, label_, measurement, tracks_.travelled()}, options_.recent_travel);
     const auto place = triangulate(views, view_.graph, known_offsets_, options_.max_sigma, kMinViews);
     decision.numbers.emplace_back("directions", static_cast<double>(views.size()));
     if (!place) {
-      decision.reason = "waits for a direction that shows where it is";
+      decision.reason = "waits for a direction that determines its position";
       return batch_.log(std::move(decision));
     }
     decision.accepted = true;

@@ -34,7 +34,7 @@ double areaOf(const obs::ObservedDoorSign& sign) {
   return std::isfinite(doubled) ? std::abs(doubled) / 2 : 0;
 }
 
-// So that maps and what waits stay small.
+// Reduces the image, so that maps and waiting measurements stay small.
 mrpt::img::CImage reduced(const mrpt::img::CImage& patch) {
   constexpr double kMostPixels = 120 * 80;
   if (patch.isEmpty()) return patch;
@@ -101,11 +101,12 @@ graph::FactorRecord SignMeasurement::legibilityRecord(base::VariableId pose, bas
 
 std::vector<SignMeasurement> signMeasurements(const obs::CObservationDoorSigns& observation,
                                               const SignLandmarksOptions& options) {
-  constexpr double kLeastLevel = 0.05;  // of the direction, over the floor
-  // [rad] how far the middle of what an image shows of a plate is from the plate's, where the edge cuts it: measured on
-  // signs_30 and signs_200 (doc/results/signs.md).
+  constexpr double kLeastLevel = 0.05;  // smallest horizontal component of a direction
+  // [rad] Standard deviation of the middle of a plate that the edge of the image cuts: measured on signs_30 and
+  // signs_200 (doc/results/signs.md).
   constexpr double kSigmaOfCut = 0.025;
-  constexpr double kLeastRelative = 1e-4, kMostRelative = 10;  // standard deviation over range; others tell nothing
+  constexpr double kLeastRelative = 1e-4,
+                   kMostRelative = 10;  // standard deviation / range; ranges outside are not used
   const geometry::Se3 base_from_camera = geometry::fromMrpt(observation.sensorPose);
   const Vector3d left = base_from_camera.rotation * -Vector3d::UnitX();
   const double length = left.head<2>().norm();
@@ -120,7 +121,7 @@ std::vector<SignMeasurement> signMeasurements(const obs::CObservationDoorSigns& 
     const bool has_range = sign.range && *sign.range > 0 && std::isfinite(*sign.range) && relative > kLeastRelative &&
                            relative < kMostRelative;
     const double pixel_sigma = sign.is_cut ? std::hypot(options.pixel_sigma, kSigmaOfCut) : options.pixel_sigma;
-    // A pan turns what is near the vertical less.
+    // A pan rotates a direction near the vertical by a smaller angle.
     measurements.push_back({std::move(text), SeenDirection(base_from_camera.translation, direction.normalized()),
                             tilt_axis, std::hypot(pixel_sigma, level * options.pan_sigma),
                             std::hypot(pixel_sigma, options.tilt_sigma), has_range ? sign.range : std::nullopt,

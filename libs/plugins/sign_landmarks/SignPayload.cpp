@@ -13,7 +13,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr std::uint64_t kVersion = 2;  // 1: without a look
+constexpr std::uint64_t kVersion = 2;  // version 1 has no SignLook
 
 using Votes = std::map<std::string, double>;
 
@@ -21,7 +21,7 @@ void add(Votes& votes, const Votes& others) {
   for (const auto& [text, weight] : others) votes[text] += weight;
 }
 
-// Of texts with as many votes the first in the alphabet.
+// The text with the most votes; of several, the first in the alphabet.
 const Votes::value_type* mostOf(const Votes& votes) {
   const auto most =
       std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -62,14 +62,15 @@ SignLook readLook(std::istream& in) {
   look.direction = graph::readVector<3>(in);
   look.area_px = graph::readDouble(in);
   if (!(std::abs(look.direction.norm() - 1) < 1e-6) || !(look.area_px >= 0) || !std::isfinite(look.area_px))
-    throw base::Error(base::ExitCode::unreadable_input, "a door sign's largest look is no view of it: damaged");
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "the largest view of a door sign has no valid direction or area: damaged");
   map::Photograph photograph;
   photograph.width = static_cast<int>(graph::readUint(in, 2));
   photograph.height = static_cast<int>(graph::readUint(in, 2));
   const std::string bytes = graph::readText(in);
   if (bytes.size() != std::size_t{3} * photograph.width * photograph.height)
     throw base::Error(base::ExitCode::unreadable_input,
-                      "a door sign's photograph has other pixels than its size: damaged");
+                      "the number of pixels of a door sign's photograph does not match its size: damaged");
   if (bytes.empty()) return look;
   photograph.rgb.assign(bytes.begin(), bytes.end());
   look.photograph = std::make_shared<const map::Photograph>(std::move(photograph));
@@ -145,7 +146,7 @@ map::LandmarkShape SignPayload::shape(const std::vector<Eigen::VectorXd>& values
   if (best_look) {
     shape.photograph = best_look->photograph;
     if (const auto* frame = key_frames.find(best_look->frame)) {
-      // Signs hang upright. The largest look is from the front more or less.
+      // Signs hang upright, and the look with the largest area is roughly from the front.
       Eigen::Vector3d back = geometry::fromMrpt(frame->map_from_base).rotation * -best_look->direction;
       back.z() = 0;
       if (back.norm() > 0.1) shape.normal = back.normalized();

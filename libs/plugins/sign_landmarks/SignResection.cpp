@@ -22,7 +22,7 @@ Se3 levelPose(const Vector3d& x_y_yaw) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(x_y_yaw[2], Vector3d::UnitZ())), {x_y_yaw[0], x_y_yaw[1], 0}};
 }
 
-// [sigma] of the direction; `place`: x, y, yaw of the session in the map.
+// Error of the direction [sigma]. `place`: x, y, yaw of the session in the map.
 Vector2d missOf(const SeenKnownSign& measurement, const Vector3d& place) {
   const Vector3d in_base = geometry::inverse(levelPose(place) * measurement.session_from_base) * measurement.in_map;
   return measurement.seen.angleTo(in_base - measurement.seen.camera(), nullptr) / measurement.sigma;
@@ -33,7 +33,7 @@ double yawOf(const Se3& pose) {
   return std::atan2(ahead.y(), ahead.x());
 }
 
-// x, y, yaw of the session if the sign is seen from `distance` [m] straight before it.
+// x, y, yaw of the session if the sign is seen from `distance` [m] straight in front of it.
 Vector3d placeBefore(const SeenKnownSign& measurement, double distance) {
   const Se3 base = baseBefore(measurement, distance);
   const Vector3d& in_session = measurement.session_from_base.translation;
@@ -42,8 +42,8 @@ Vector3d placeBefore(const SeenKnownSign& measurement, double distance) {
   return {shift.x(), shift.y(), yaw};
 }
 
-// Before each sign, as it was seen last, at several distances and from several sides: a side is known roughly, and two
-// signs seen on a short way fit more than one place.
+// Starts in front of each sign, by its last measurement, at several distances and from several sides: normals are known
+// only roughly, and two signs that are seen over a short distance travelled fit more than one place.
 std::vector<Vector3d> startsOf(const std::vector<SeenKnownSign>& measurements) {
   std::vector<Vector3d> starts;
   std::set<base::LandmarkId> done;
@@ -59,11 +59,11 @@ std::vector<Vector3d> startsOf(const std::vector<SeenKnownSign>& measurements) {
 }
 
 struct Descent {
-  std::vector<Vector3d> places;  // on the way, the last is where it ended
-  Matrix3d information;          // there
+  std::vector<Vector3d> places;  // after each iteration; the last is the result
+  Matrix3d information;          // at the result
 };
 
-// Gauss-Newton with a Cauchy loss, so that one sign that was moved does not count for much.
+// Gauss-Newton with a Cauchy loss, so that a sign that was moved has little influence.
 Descent descended(const std::vector<SeenKnownSign>& measurements, const Vector3d& start) {
   constexpr int kRounds = 30;
   constexpr double kStep = 1e-6, kDamping = 1e-3;
@@ -93,17 +93,17 @@ Descent descended(const std::vector<SeenKnownSign>& measurements, const Vector3d
 
 struct Candidate {
   Vector3d place;
-  Vector3d base;  // of the newest measurement, in the map
+  Vector3d base;  // position at the newest measurement, in the map
   std::size_t fitting = 0;
-  double chi2 = 0;  // of those that fit
+  double chi2 = 0;  // of the measurements that fit
   std::set<base::LandmarkId> signs = {};
-  bool is_numbered = false;        // one of them at least
-  Eigen::AlignedBox3d bases = {};  // from which they are seen, in the session
+  bool is_numbered = false;        // at least one of these signs has a number
+  Eigen::AlignedBox3d bases = {};  // from which these signs are seen, in the session
 
   bool isBetterThan(const Candidate& other) const {
     return fitting != other.fitting ? fitting > other.fitting : chi2 < other.chi2;
   }
-  // It is somewhere else and hardly less likely.
+  // Whether it is at another place and hardly less likely.
   bool isRivalOf(const Candidate& best) const {
     constexpr double kElsewhere = 1, kTurned = 0.3;  // [m] [rad]
     constexpr double kLikely = 11.3;                 // chi-square of three unknowns, 99 %
@@ -143,7 +143,7 @@ std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& measuremen
   constexpr std::size_t kFewest = 4, kSigns = 2;
   constexpr double kMostSigma = 0.35, kLeastBase = 0.5;  // [m]
   if (measurements.size() < kFewest) return std::nullopt;
-  // The session turns about the newest base: about an origin far away no step of a turn would be small.
+  // The session is rotated about the newest base: about a distant origin, even a small rotation would move it far.
   const Vector3d& newest = measurements.back().session_from_base.translation;
   const Vector3d pivot(newest.x(), newest.y(), 0);
   auto centred = measurements;
@@ -161,7 +161,8 @@ std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& measuremen
   if (best->fitting < kFewest || best->signs.size() < kSigns || !best->is_numbered ||
       best->bases.diagonal().norm() < kLeastBase || 3 * best->fitting < 2 * centred.size())
     return std::nullopt;
-  // Two signs seen on a short way fit a whole arc of places nearly alike, which no covariance at one of them shows.
+  // Two signs that are seen over a short distance travelled fit a whole arc of places nearly equally well, which the
+  // covariance at one of them does not show.
   for (const auto& descent : descents)
     for (const auto& place : descent.places)
       if (const Candidate other = candidateAt(centred, place); other.isRivalOf(*best)) return std::nullopt;

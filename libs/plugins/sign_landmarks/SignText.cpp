@@ -7,13 +7,13 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr double kAlike = 0.6;  // the thesis's share
+constexpr double kAlike = 0.6;  // as in the thesis
 
 std::ptrdiff_t digitsIn(const std::string& text) {
   return std::count_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// ASCII letters alone have capitals; of others the bytes stay.
+// Only ASCII letters are capitalised; other bytes are kept.
 std::string inCapitals(const std::string& text, bool keeps_blanks) {
   std::string result;
   for (const char c : text) {

@@ -35,7 +35,7 @@ void SignTracks::update(const mapper::State& state) {
 }
 
 void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_travel) {
-  if (!last_pose_ || frame.stamp > last_stamp_) {  // not of a frame that came late
+  if (!last_pose_ || frame.stamp > last_stamp_) {  // a frame that came late does not count
     if (last_pose_ && state.graph.contains(*last_pose_))
       travelled_ += mapper::poseOf(state.graph, *last_pose_).distanceTo(mapper::poseOf(state.graph, frame.pose));
     last_pose_ = frame.pose;
@@ -68,7 +68,7 @@ std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double rece
     for (const auto& each : views)
       if (is_old(each)) keepForTheEnd(each);
     views.erase(std::remove_if(views.begin(), views.end(), is_old), views.end());
-    if (views.size() >= kMostTogether) {  // a base that stands sees the same again and again
+    if (views.size() >= kMostTogether) {  // a base that stands still sees the same sign again and again
       keepForTheEnd(views.front());
       views.erase(views.begin());
     }
@@ -78,7 +78,7 @@ std::vector<SignView>& SignTracks::waitingWith(const SignView& view, double rece
   return waiting_.back().views;
 }
 
-// A bound for the memory of a log of a day.
+// The number of views is limited, so that the log of a whole day does not fill the memory.
 void SignTracks::keepForTheEnd(const SignView& view) {
   constexpr std::size_t kMost = 1000;
   unplaced_.push_back(view);

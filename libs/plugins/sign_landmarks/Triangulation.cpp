@@ -18,14 +18,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kMostSigmas = 3;  // that a ray may miss the sign by
+constexpr double kMostSigmas = 3;  // largest distance of a ray from the sign, in standard deviations
 
 struct Ray {
   Vector3d origin, direction;               // in the map
   Eigen::Matrix<double, 3, 2> by_pan_tilt;  // derivative of the direction by the offsets of the unit
-  double sigma;                             // [rad] of its own
-  double sigma_with_offsets;                // [rad] with what all rays have in common
-  std::optional<double> range;              // [m] where it was measured
+  double sigma;                             // [rad] of this ray alone
+  double sigma_with_offsets;                // [rad] including the offsets that all rays share
+  std::optional<double> range;              // [m] if it was measured
   double range_sigma;                       // [m]
 };
 
@@ -50,8 +50,8 @@ std::vector<Ray> raysOf(const std::vector<SignView>& views, const graph::Graph& 
   return rays;
 }
 
-// By how much a ray misses a point, in standard deviations of its direction, or of its range where that misses by more;
-// infinite behind its camera.
+// Distance of a ray from a point, in standard deviations of its direction or of its range, whichever is more; infinite
+// for a point behind its camera.
 double missOf(const Ray& ray, const Vector3d& point) {
   constexpr double kNearest = 0.2;  // [m]
   const double ahead = ray.direction.dot(point - ray.origin);
@@ -60,8 +60,8 @@ double missOf(const Ray& ray, const Vector3d& point) {
   return ray.range ? std::max(aside, std::abs(ahead - *ray.range) / ray.range_sigma) : aside;
 }
 
-// By least squares of the distances from the rays, weighted by what an angle is at the point of the round before, and
-// of what their ranges miss by.
+// The point with the smallest sum of squared distances from the rays and errors of their ranges. A ray is weighted by
+// its angular standard deviation, converted to a distance at the point of the previous round.
 std::optional<Vector3d> meetingOf(const std::vector<const Ray*>& rays) {
   constexpr int kRounds = 5;
   std::vector<double> weights(rays.size(), 1);
@@ -94,14 +94,15 @@ std::optional<Vector3d> meetingOf(const std::vector<const Ray*>& rays) {
   return point;
 }
 
-// A point, and by how much the offsets of the pan-tilt unit differ from what is known of them [rad].
+// A point, with the correction of the known offsets of the pan-tilt unit [rad].
 struct Meeting {
   Vector3d point;
   Eigen::Vector2d pan_tilt = Eigen::Vector2d::Zero();
   double sigma = 0;  // [m] of the point along the axis that is known worst
 };
 
-// By how much a ray misses it, in standard deviations of its own: what all rays have in common is in the offsets.
+// Distance of a ray from a meeting, in standard deviations of this ray alone: the error that all rays share is in the
+// offsets.
 double missOf(const Ray& ray, const Meeting& meeting) {
   const Vector3d seen = meeting.point - ray.origin;
   const double ahead = ray.direction.dot(seen);
@@ -110,8 +111,8 @@ double missOf(const Ray& ray, const Meeting& meeting) {
   return ray.range ? std::max(aside, std::abs(seen.norm() - *ray.range) / ray.range_sigma) : aside;
 }
 
-// The least sum of squared angles and errors of range, from a point that is near. Distances favour what is near the
-// cameras, where rays are nearly parallel.
+// Minimises the sum of squared angles and range errors, starting from a point near the minimum. The distances that
+// meetingOf() minimises favour points near the cameras, where the rays are nearly parallel.
 std::optional<Meeting> refined(const Vector3d& start, const std::vector<const Ray*>& rays, double offset_sigma) {
   constexpr int kRounds = 10;
   using Vector5 = Eigen::Matrix<double, 5, 1>;
@@ -163,7 +164,7 @@ std::vector<std::size_t> passingNear(const Vector3d& point, const std::vector<Ra
   return passing;
 }
 
-// Views that meet, the last one among them.
+// Views that meet, including the last one.
 struct Agreed {
   Meeting meeting;
   std::vector<std::size_t> views;
@@ -174,8 +175,8 @@ struct Agreed {
   }
 };
 
-// Of these views one after the other that fits worst is left out, until the rest agree: words stand on more than one
-// door, and rays to two of them pass each other somewhere.
+// Leaves out the view that fits worst, one after the other, until the rest agree: the same words may be on several
+// doors, and the rays to two of them pass near each other somewhere.
 std::optional<Agreed> agreedOf(std::vector<std::size_t> views, const std::vector<Ray>& rays, double offset_sigma,
                                std::size_t min_views) {
   while (views.size() >= min_views && views.back() + 1 == rays.size()) {

@@ -22,9 +22,9 @@ landmarks = points
 )";
 const std::vector<std::string> kWithMoveables = {"mapper.measurement_plugins=points, moveables"};
 
-// A lap in which those of `numbers` are at `shift` from where they were once half of the log is over.
-std::vector<mrpt::obs::CObservation::Ptr> movedOnTheWay(const testing::SimulatedLogOptions& options,
-                                                        const std::set<int>& numbers, const Eigen::Vector3d& shift) {
+// A drive in which the points of `numbers` are displaced by `shift` in the second half of the log.
+std::vector<mrpt::obs::CObservation::Ptr> withMovedPoints(const testing::SimulatedLogOptions& options,
+                                                          const std::set<int>& numbers, const Eigen::Vector3d& shift) {
   auto after = options;
   for (const int number : numbers) after.beacons.positions[static_cast<std::size_t>(number)] += shift;
   const SimulatedLog before_log(options), after_log(after);
@@ -65,7 +65,7 @@ TEST(DynamicLandmarksPlugin, OneThatMovedIsFoundWithBothItsPlaces) {
   const auto options = twoLaps();
   const Eigen::Vector3d shift(0.6, 0.3, 0);
   const auto engine = testing::makeEngine(kIni, kWithMoveables);
-  testing::run(*engine, movedOnTheWay(options, {3}, shift));
+  testing::run(*engine, withMovedPoints(options, {3}, shift));
   const auto view = engine->view();
   const auto things = movedThings(view);
   ASSERT_EQ(things.size(), 1U);
@@ -76,7 +76,7 @@ TEST(DynamicLandmarksPlugin, OneThatMovedIsFoundWithBothItsPlaces) {
   EXPECT_LT(things.front()->places[0].last_seen, things.front()->places[1].first_seen);
   const auto shape = things.front()->shape({}, view.map.key_frames);
   ASSERT_EQ(shape.points.size(), 2U);
-  EXPECT_TRUE(shape.lines.empty()) << "the way is no wall";
+  EXPECT_TRUE(shape.lines.empty()) << "the path between the places is no wall";
   EXPECT_EQ(shape.label, "marker 3");
   EXPECT_LT((shape.points[1] - shape.points[0] - shift).norm(), 0.15);
   EXPECT_LT(testing::trajectoryError(view, SimulatedLog(options)), 0.06);
@@ -84,9 +84,9 @@ TEST(DynamicLandmarksPlugin, OneThatMovedIsFoundWithBothItsPlaces) {
                           [](const auto& decision) { return decision.kind == "moved thing" && decision.accepted; }));
 }
 
-TEST(DynamicLandmarksPlugin, InOutputsAMovedThingIsItsWayAndStandsNowhere) {
+TEST(DynamicLandmarksPlugin, InOutputsAMovedLandmarkIsItsPlacesAndStandsNowhere) {
   const auto engine = testing::makeEngine(kIni, kWithMoveables);
-  testing::run(*engine, movedOnTheWay(twoLaps(), {3}, {0.6, 0.3, 0}));
+  testing::run(*engine, withMovedPoints(twoLaps(), {3}, {0.6, 0.3, 0}));
   const auto view = engine->view();
   const auto shapes = exports::shapesOf(view);
   const auto record = std::find_if(shapes.begin(), shapes.end(),
@@ -132,7 +132,7 @@ TEST(DynamicLandmarksPlugin, TakesTheOwnersOfAMapThatIsContinued) {
   EXPECT_NO_THROW(DynamicLandmarksPlugin(options, context).afterCommit(view.map.key_frames.back(), view));
 }
 
-// Nothing stands: what is left is odometry (thesis 4.6.3.4). Each goes to where another one was.
+// All points move, each to the place of another one; only odometry remains (thesis 4.6.3.4).
 TEST(DynamicLandmarksPlugin, WhereAllMovedTheTrajectoryIsThatOfTheOdometry) {
   const SimulatedLog log(twoLaps());
   const auto observations = log.observations();

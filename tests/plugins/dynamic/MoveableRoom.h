@@ -17,14 +17,14 @@
 
 namespace omnimapper::plugins {
 
-/// Two rounds of 20 poses in a room of 6 x 7 m, past surfaces and points with the noise of a laser and a camera. What
-/// moves does so between the rounds. The map's frame is that of the first pose, which is the truth's.
+/// Two rounds of 20 poses in a room of 6 x 7 m, past surfaces and points with the noise of a laser and a camera.
+/// Landmarks move between the rounds. The map's frame is that of the first pose, which is the truth's.
 class MoveableRoom {
  public:
   static constexpr std::uint32_t kRound = 20;
   enum class Seen { as_lines, as_planes, never };
 
-  /// Between two sessions nothing tells of the way.
+  /// `two_sessions`: each round is a session, and no odometry connects them.
   explicit MoveableRoom(unsigned seed = 1, bool two_sessions = false) : random_(seed) {
     const Eigen::Vector3d sigmas(0.01, 0.01, 0.005);
     mrpt::math::CMatrixDouble66 covariance;
@@ -48,8 +48,8 @@ class MoveableRoom {
     }
   }
 
-  /// A surface over a stretch of the floor, its free side on the left, that stands at `first` in the first round and at
-  /// `second` in the other.
+  /// A surface over a segment of the floor, with its free side on the left, which is at `first` in the first round and
+  /// at `second` in the other.
   base::LandmarkId addSurface(landmarks::PlaneParametrization::Kind form, const geometry::Segment2& first,
                               const geometry::Segment2& second, Seen in_first = Seen::as_lines,
                               Seen in_second = Seen::as_lines) {
@@ -73,13 +73,13 @@ class MoveableRoom {
         const geometry::Se3 lifted{Eigen::Quaterniond(Eigen::AngleAxisd(base_from_map.yaw, Eigen::Vector3d::UnitZ())),
                                    {base_from_map.x, base_from_map.y, 0}};
         const geometry::Plane3 plane = geometry::plus(lifted * planeOf(there), {noise(0.01), noise(0.01), noise(0.02)});
-        sight(i, id, std::make_shared<landmarks::PlaneFactor>(plane), Eigen::Vector3d(0.01, 0.01, 0.02));
+        addMeasurement(i, id, std::make_shared<landmarks::PlaneFactor>(plane), Eigen::Vector3d(0.01, 0.01, 0.02));
         ++payload->seen_by["camera"].planes;
       } else {
         const Eigen::Vector2d along = Eigen::Rotation2Dd(base_from_map.yaw + noise(0.01)) * direction(there);
         const Eigen::Vector3d at = inBase(i, middle(there) + noise(0.02) * landmarks::normalOf(there));
         const Eigen::Vector3d along_in_space(along.x(), along.y(), 0);
-        sight(i, id, its.ofLine(along_in_space, at), Eigen::Vector2d(0.01, 0.02));
+        addMeasurement(i, id, its.ofLine(along_in_space, at), Eigen::Vector2d(0.01, 0.02));
         ++payload->seen_by["laser"].lines;
       }
     }
@@ -97,7 +97,7 @@ class MoveableRoom {
     const auto id = addLandmark("point", "points", graph::point2(), places.begin()->second, payload);
     for (const auto& [pose, place] : places) {
       const Eigen::Vector2d seen = inBase(pose, place).head<2>() + Eigen::Vector2d(noise(0.03), noise(0.03));
-      sight(pose, id, std::make_shared<graph::PointFactor2>(seen), Eigen::Vector2d(0.03, 0.03));
+      addMeasurement(pose, id, std::make_shared<graph::PointFactor2>(seen), Eigen::Vector2d(0.03, 0.03));
     }
     return id;
   }
@@ -107,7 +107,7 @@ class MoveableRoom {
     return addPoint(places);
   }
 
-  /// A relation that the consistency test lets act.
+  /// A relation that the consistency test has accepted.
   void relate(base::LandmarkId a, base::LandmarkId b, std::shared_ptr<const graph::Factor> factor) {
     const Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(factor->residualSize(), 0.01);
     graph::FactorRecord record{
@@ -127,7 +127,7 @@ class MoveableRoom {
     run.uncertainty = mapper::Uncertainty(run.graph);
   }
 
-  /// Solves, lets the plugin look, and solves what it left.
+  /// Solves, runs the plugin, and solves again.
   void look(const DynamicLandmarksOptions& options = {}) {
     solve();
     mapper::PluginContext context;
@@ -152,13 +152,13 @@ class MoveableRoom {
     const auto covariance = run.uncertainty.joint(run.graph, {id});
     return covariance && covariance->diagonal().maxCoeff() < 1;
   }
-  /// Whether anything of weight binds it.
+  /// Whether a factor of positive weight binds the landmark.
   bool actsOnAnything(base::LandmarkId id) const {
     const auto factors = run.view().factorsOf(id);
     return std::any_of(factors.begin(), factors.end(),
                        [&](auto factor) { return run.graph.factor(factor).weight > 0; });
   }
-  /// Of the last pose [m].
+  /// Error of the last pose [m].
   double error() const {
     const auto& pose = run.map.key_frames.back().map_from_base;
     return std::hypot(pose.x() - truth_.back().x, pose.y() - truth_.back().y);
@@ -201,8 +201,8 @@ class MoveableRoom {
     return id;
   }
 
-  void sight(std::size_t pose, base::LandmarkId id, std::shared_ptr<const graph::Factor> factor,
-             const Eigen::VectorXd& sigmas) {
+  void addMeasurement(std::size_t pose, base::LandmarkId id, std::shared_ptr<const graph::Factor> factor,
+                      const Eigen::VectorXd& sigmas) {
     graph::FactorRecord record{
         {frame(pose).pose, variableOf(id)}, std::move(factor), graph::SquareRootInformation::fromSigmas(sigmas)};
     record.loss = graph::Loss::huber(2);

@@ -1,4 +1,5 @@
-// Moved walls, tables and points with what else speaks of them: what holds them upright, relations, planes and lines.
+// Moved walls, tables and points, with other factors on them: those that hold them upright, relations, planes and
+// lines.
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/landmarks/PlaneVariable.h>
@@ -36,7 +37,7 @@ void addPoints(MoveableRoom& room) {
 }
 
 void expectWhole(const MoveableRoom& room) {
-  EXPECT_TRUE(room.isKnown(room.run.map.key_frames.back().pose)) << "covariances are told of the map after it";
+  EXPECT_TRUE(room.isKnown(room.run.map.key_frames.back().pose)) << "covariances are of the map after it";
   for (const auto& [id, landmark] : room.run.map.landmarks) {
     if (landmark.variables.empty()) continue;
     if (landmark.state == State::active) {
@@ -53,7 +54,7 @@ class MoveableSurfaces : public ::testing::TestWithParam<Kind> {
     if (GetParam() == Kind::wall) return std::make_shared<WallTurnFactor>(0);
     return std::make_shared<PlanesParallelFactor>();
   }
-  // Of a wall to the east of the room to one in the south.
+  // Displacement of a wall in the east of the room to one in the south.
   std::shared_ptr<const graph::Factor> square() const {
     if (GetParam() == Kind::wall) return std::make_shared<WallTurnFactor>(-1);
     return std::make_shared<PlanesSquareFactor>();
@@ -106,8 +107,8 @@ TEST_P(MoveableSurfaces, RelationsOfAMovedOneGoWithIt) {
   expectWhole(room);
 }
 
-// With everything else gone a relation binds them to one another and to nothing.
-TEST_P(MoveableSurfaces, TwoThatMovedAndHoldOneAnotherHangOnNothing) {
+// When all other factors have no weight, a relation binds them only to each other.
+TEST_P(MoveableSurfaces, TwoThatMovedAndHoldOneAnotherAreUnconstrained) {
   MoveableRoom room;
   const auto panel = room.addSurface(GetParam(), kPanel, shifted(kPanel, {-0.5, 0}));
   const auto screen = room.addSurface(GetParam(), kScreen, shifted(kScreen, {0, 0.6}));
@@ -142,7 +143,7 @@ TEST(MoveableThings, SeenAsPlanesAndAfterTheMoveAsLinesOfOneHeight) {
   addWalls(room, Kind::plane, Seen::as_planes);
   const auto panel = room.addSurface(Kind::plane, kPanel, shifted(kPanel, {-0.5, 0}), Seen::as_planes, Seen::as_lines);
   ASSERT_NO_THROW(room.look());
-  EXPECT_TRUE(room.recordOf(panel)) << "its lean is not known there, but its distance is";
+  EXPECT_TRUE(room.recordOf(panel)) << "its tilt is unknown there, but its distance is known";
   expectWhole(room);
 }
 
@@ -150,7 +151,7 @@ TEST(MoveableThings, WhatIsDeterminedNowhereIsGivenUp) {
   MoveableRoom room;
   addPoints(room);
   addWalls(room, Kind::plane);
-  // Once at each of three places.
+  // It is seen once at each of three places.
   const auto point = room.addPoint({{2, {2, 1}}, {12, {1, 2}}, {30, {-1, 1}}});
   DynamicLandmarksOptions options;
   options.min_measurements = MoveableRoom::kRound + 1;
@@ -161,7 +162,7 @@ TEST(MoveableThings, WhatIsDeterminedNowhereIsGivenUp) {
     EXPECT_FALSE(room.recordOf(id));
   }
   EXPECT_TRUE(std::any_of(room.run.decisions.begin(), room.run.decisions.end(), [](const auto& decision) {
-    return decision.reason.rfind("given up", 0) == 0 && !decision.accepted;
+    return decision.reason.rfind("retired", 0) == 0 && !decision.accepted;
   }));
   EXPECT_LT(room.error(), 0.05);
   expectWhole(room);
@@ -169,17 +170,19 @@ TEST(MoveableThings, WhatIsDeterminedNowhereIsGivenUp) {
 
 TEST(MoveableThings, ASessionThatOnlyMovedOnesTieToTheMapStaysTied) {
   MoveableRoom room(1, true);
-  room.addPoint({2, 1}, {2, 2});  // three metres apart no more
+  room.addPoint({2, 1}, {2, 2});  // no longer three metres apart
   room.addPoint({-1, 1}, {-1, -2});
   ASSERT_NO_THROW(room.look());
   expectWhole(room);
-  EXPECT_EQ(room.run.decisions.back().reason,
-            "cannot tell what has moved: without what seems to have moved a part of the map hangs free");
+  EXPECT_EQ(
+      room.run.decisions.back().reason,
+      "it is undetermined which landmarks have moved: without the landmarks that seem to have moved, a part of the map "
+      "is unconstrained");
 }
 
-// Turned by its normal, what two planes are off is in the axes of each: geometry::tangentBasis jumps where another axis
-// of space becomes the least.
-TEST(Differences, ChangeWithBothValuesAsTheyAreTold) {
+// The difference of two planes is in the axes of each normal: geometry::tangentBasis is discontinuous where another
+// axis of space becomes the smallest component.
+TEST(Differences, ChangeWithBothValuesByTheirDerivatives) {
   const auto unit = [](double x, double y, double z) { return Eigen::Vector3d(x, y, z).normalized(); };
   struct Case {
     std::shared_ptr<const graph::Variable> kind;
@@ -192,7 +195,7 @@ TEST(Differences, ChangeWithBothValuesAsTheyAreTold) {
        landmarks::toValue(Segment2{{0, 0.1}, {2, 0.101}})},
       {graph::point2(), Eigen::Vector2d(1, 2), Eigen::Vector2d(3, 5)}};
   for (const auto& [kind, a, b] : cases) {
-    const auto told = landmarks::differenceOf(*kind, a, b);
+    const auto difference = landmarks::differenceOf(*kind, a, b);
     const int size = kind->tangentSize();
     constexpr double kStep = 1e-6;
     for (int column = 0; column < 2 * size; ++column) {
@@ -204,8 +207,8 @@ TEST(Differences, ChangeWithBothValuesAsTheyAreTold) {
       Eigen::VectorXd of_a(size);
       kind->minus(moved_b.data(), a.data(), change.data());
       kind->minus(moved_a.data(), a.data(), of_a.data());
-      const Eigen::VectorXd slope = (change - of_a - told.change) / kStep;
-      EXPECT_LT((slope - told.by_both.col(column)).norm(), 0.02) << kind->kind() << " " << column;
+      const Eigen::VectorXd slope = (change - of_a - difference.change) / kStep;
+      EXPECT_LT((slope - difference.by_both.col(column)).norm(), 0.02) << kind->kind() << " " << column;
     }
   }
 }

@@ -10,7 +10,7 @@
 
 #include "points/PointPayload.h"
 
-// Simulated drives past points that tell their number, mapped by PointLandmarksPlugin.
+// Simulated drives past points whose numbers are reported, mapped by PointLandmarksPlugin.
 namespace omnimapper::plugins {
 
 inline const std::string kPointsIni = R"(
@@ -32,7 +32,7 @@ inline testing::SimulatedLogOptions pointDrive() {
 
 using Measurements = std::vector<mrpt::obs::CObservationBearingRange::TMeasurement>;
 
-/// The observations of a log, after `change` was made to what each of the sensor sees.
+/// The observations of a log, after `change` was applied to each observation of the sensor.
 inline std::vector<mrpt::obs::CObservation::Ptr> changed(const testing::SimulatedLog& log,
                                                          const std::function<void(Measurements&)>& change) {
   const auto observations = log.observations();
@@ -50,8 +50,8 @@ inline const PointPayload& payloadOf(const map::Landmark& landmark) {
   return dynamic_cast<const PointPayload&>(*landmark.payload);
 }
 
-/// The largest distance [m] of a point of the map from the nearest that is there, over the floor in a planar map; the
-/// map's frame is the first key frame's.
+/// The largest distance [m] of a point of the map from the nearest true one, over the floor in a planar map; the map's
+/// frame is the first key frame's.
 inline double worstPoint(const mapper::View& view, const testing::SimulatedLog& log,
                          const std::vector<Eigen::Vector3d>& truth) {
   const mrpt::poses::CPose3D truth_from_map(log.truthAt(view.map.key_frames.front().stamp));

@@ -51,8 +51,8 @@ TEST(PointLandmarksPlugin, ASpatialMapHasPointsOfSpace) {
   EXPECT_LT(testing::trajectoryError(engine->view(), log), 0.1);
 }
 
-// A sensor that leans and turns: over the floor nothing of that is left.
-TEST(PointLandmarksPlugin, ASensorThatLeansMeasuresTheFloorAllTheSame) {
+// The sensor is tilted and turned, which must have no effect on measurements over the floor.
+TEST(PointLandmarksPlugin, ATiltedSensorMeasuresTheFloorAllTheSame) {
   auto options = pointDrive();
   options.beacons.tilt_reach = 0.4;
   options.beacons.pan_reach = 1;
@@ -62,7 +62,7 @@ TEST(PointLandmarksPlugin, ASensorThatLeansMeasuresTheFloorAllTheSame) {
   EXPECT_LT(worstPoint(engine->view(), log, options.beacons.positions), 0.1);
 }
 
-TEST(PointLandmarksPlugin, PointsWithoutNumbersAreToldApart) {
+TEST(PointLandmarksPlugin, PointsWithoutNumbersAreDistinguished) {
   const auto options = pointDrive();
   const SimulatedLog log(options);
   const auto engine = testing::makeEngine(kPointsIni);
@@ -97,9 +97,9 @@ TEST(PointLandmarksPlugin, AWrongNumberIsKeptWithoutWeight) {
   int swapped = 0;
   const auto observations = changed(log, [&](Measurements& measurements) {
     for (auto& measurement : measurements) {
-      const int told = measurement.landmarkID;
+      const int reported = measurement.landmarkID;
       if (++swapped % 10 == 0 && seen.size() > 2) measurement.landmarkID = *seen.begin();
-      seen.insert(told);
+      seen.insert(reported);
     }
   });
   const auto engine = testing::makeEngine(kPointsIni);
@@ -130,14 +130,14 @@ TEST(PointLandmarksPlugin, WhatCannotBeUsedIsRefusedWithItsReason) {
     const auto engine = testing::makeEngine(kPointsIni, {"mapper.motion=" + motion});
     testing::run(*engine, observations);
     EXPECT_EQ(refusals(engine->view()),
-              (std::set<std::string>{"its number stands twice in the observation", "no finite range and bearing",
+              (std::set<std::string>{"its number occurs twice in the observation", "no finite range and bearing",
                                      "straight above or below the sensor, or without standard deviations"}))
         << motion;
     EXPECT_LE(engine->view().map.landmarks.size(), 2U) << motion;
   }
 }
 
-// One look, at what is behind and to all sides, in MRPT's sense of angles.
+// One observation, of points behind and on all sides, with MRPT's signs of the angles.
 TEST(PointLandmarksPlugin, ANewPointMayBeAnywhereAroundTheSensor) {
   auto options = pointDrive();
   options.laps = 0.02;
@@ -165,7 +165,7 @@ TEST(PointLandmarksPlugin, ANewPointMayBeAnywhereAroundTheSensor) {
   }
 }
 
-TEST(PointLandmarksPlugin, SigmasAreTheObservationsUnlessToldOtherwise) {
+TEST(PointLandmarksPlugin, SigmasAreTheObservationsUnlessConfigured) {
   auto options = pointDrive();
   options.laps = 0.1;
   const SimulatedLog log(options);
@@ -177,10 +177,10 @@ TEST(PointLandmarksPlugin, SigmasAreTheObservationsUnlessToldOtherwise) {
   const auto engine = testing::makeEngine(kPointsIni, {"mapper.motion=spatial"});
   testing::run(*engine, log.observations());
   EXPECT_LT((sigmasOf(engine->view()) - Eigen::Vector3d(0.02, 0.005, 0.005)).norm(), 1e-6);
-  const auto told = testing::makeEngine(
+  const auto configured = testing::makeEngine(
       kPointsIni, {"mapper.motion=spatial", "points.sigma_range_m=0.1", "points.sigma_pitch_deg=1"});
-  testing::run(*told, log.observations());
-  EXPECT_LT((sigmasOf(told->view()) - Eigen::Vector3d(0.1, 0.005, kPi / 180)).norm(), 1e-6);
+  testing::run(*configured, log.observations());
+  EXPECT_LT((sigmasOf(configured->view()) - Eigen::Vector3d(0.1, 0.005, kPi / 180)).norm(), 1e-6);
   const auto observations = log.observations();
   for (const auto& observation : observations) {
     auto* seen = dynamic_cast<mrpt::obs::CObservationBearingRange*>(observation.get());
@@ -205,7 +205,7 @@ TEST(PointLandmarksPlugin, AMapIsReadBackAndItsPointsAreKnownAgain) {
   options.laps = 0.4;
   const SimulatedLog second_log(options);
   const auto second = testing::makeEngine(kPointsIni);
-  // Guessed a metre and 20 degrees wrong.
+  // The initial values are wrong by a metre and 20 degrees.
   second->sessions().continueFrom({first->view().map, first->view().graph, {}}, {{0.8, -0.6, 0, 0.35, 0, 0}, 1, 0.5});
   testing::run(*second, second_log.observations());
   const auto view = second->view();
@@ -229,7 +229,7 @@ TEST(PointPayload, ComesBackFromBytes) {
   EXPECT_EQ(back.seen_by, written->seen_by);
 }
 
-// As where a thing that was carried away has been found out.
+// As when a landmark was found to have moved.
 TEST(PointLandmarksPlugin, ANumberWhoseLandmarkIsRetiredMakesANewOne) {
   auto options = pointDrive();
   options.laps = 0.3;

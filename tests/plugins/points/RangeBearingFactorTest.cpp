@@ -57,7 +57,7 @@ TEST(RangeBearingFactor3, ResidualAsWorkedByHand) {
   EXPECT_NEAR(r[2], std::atan2(12, 5) - 1.1, 1e-12);
 }
 
-// Behind the sensor, a little to the left measured and a little to the right predicted.
+// Behind the sensor: measured a little to the left, predicted a little to the right.
 TEST(RangeBearingFactors, AnglesDoNotJumpBehindTheSensor) {
   const RangeBearingFactor2 planar({0, 0}, 2, kPi - 0.05);
   EXPECT_NEAR(at(planar, Se2{}, Vector2d(-2, -0.1)).residual()[1], 0.1, 1e-3);
@@ -81,7 +81,7 @@ TEST(RangeBearingFactors, JacobiansMatchDifferences) {
     const Vector2d point(dice.uniform(5, 9), dice.uniform(-9, 9));
     graph::expectJacobiansMatchDifferences(
         at(planar, Se2{dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-0.5, 0.5)}, point));
-    // Off the axis of the sensor, about which its yaw turns without end.
+    // Off the axis of the sensor, where its yaw is undefined.
     const Se3 base = anyPose(dice, 5), sensor = anyPose(dice, 1);
     const Vector3d ahead(dice.uniform(2, 8), dice.uniform(-5, 5), dice.uniform(-5, 5));
     const RangeBearingFactor3 spatial(sensor, {dice.uniform(1, 9), dice.uniform(-1, 1), dice.uniform(-1, 1)});
@@ -89,7 +89,7 @@ TEST(RangeBearingFactors, JacobiansMatchDifferences) {
   }
 }
 
-// Two poses and some points; the second pose and all points are wrong by much, and found.
+// Two poses and some points; the second pose and all points have very wrong initial values, and are found.
 TEST(RangeBearingFactor2, FindsPoseAndPointsAgain) {
   testing::Dice dice(2);
   const Se2 truth{2, -1, 0.8};

@@ -18,8 +18,9 @@
 namespace omnimapper::plugins {
 
 /// The simulated experiment of thesis 4.5.2.4: a box of 6 x 7 m with points on its walls and some within, seen from 40
-/// poses on a circle. Lines are measured to 0.02 m at each end, points with a variance of 0.1 m^2, as the thesis has
-/// it; what it leaves open is odometry (0.03 m and 1 deg a step) and how many points there are (24 on walls, 4 within).
+/// poses on a circle. Lines are measured to 0.02 m at each end, points with a variance of 0.1 m^2, as in the thesis,
+/// which does not give the odometry (here 0.03 m and 1 deg a step) and the number of points (here 24 on walls, 4
+/// within).
 class RelationBox {
  public:
   enum class With { no_relations, found, true_ones };
@@ -34,7 +35,7 @@ class RelationBox {
     drive();
   }
 
-  /// Where everything is, or is thought to be, in the map [m].
+  /// The true or estimated positions of everything in the map [m].
   struct Layout {
     std::vector<Eigen::Vector2d> poses, points;
     std::vector<geometry::Segment2> walls;
@@ -44,16 +45,17 @@ class RelationBox {
     for (const auto& pose : truth_) layout.poses.push_back(pose.translation());
     return layout;
   }
-  /// Before anything is optimised.
+  /// Estimates before the first solve.
   Layout initialBelief() const { return layoutOf(measured_); }
 
   struct Error {
-    double pose = 0, landmark = 0;              // mean [m]
-    double pose_nees = 0, landmark_nees = 0;    // of the last pose, 3 degrees of freedom; of the first point, 2
-    int relations = 0, refused = 0, wrong = 0;  // proposed, not let act, and acting though false
+    double pose = 0, landmark = 0;            // mean [m]
+    double pose_nees = 0, landmark_nees = 0;  // of the last pose, 3 degrees of freedom; of the first point, 2
+    // Numbers of relations that were proposed, refused, and accepted though false.
+    int relations = 0, refused = 0, wrong = 0;
     Layout found;
   };
-  /// `wrong`: so many false relations among those that are proposed; they act at once unless `tested`.
+  /// `wrong`: number of false relations among those that are proposed; all act at once unless `tested`.
   Error run(With with, int wrong, bool tested) {
     graph::Graph graph = measured_;
     graph::solve(graph);
@@ -76,7 +78,7 @@ class RelationBox {
             false);
     }
     settle(graph, hypotheses);
-    // What is known better lets more be told: until nothing new is found.
+    // A better estimate may show more relations, so this is repeated until no new one is found.
     for (int round = 0; with == With::found && round < 3; ++round) {
       hypotheses.clear();
       for (auto& relation : findRelations(stateOf(graph), options_, known(graph))) add(relation.record, false);
@@ -164,7 +166,7 @@ class RelationBox {
   graph::FactorRecord onWall(std::size_t point, std::size_t wall) const {
     return record({point_ids_[point], wall_ids_[wall]}, std::make_shared<PointOnWallFactor>(), kDistanceSigma);
   }
-  // A point within the room, said to be on the wall that is nearest; then points of other walls.
+  // A point within the room, stated to be on the nearest wall; then points of other walls.
   graph::FactorRecord falseRelation(int number) const {
     if (number >= kPointsWithin) {
       const auto point = static_cast<std::size_t>((number - kPointsWithin) * kPointsOnWall);

@@ -99,7 +99,7 @@ KnownRelations acting(const std::vector<Relation>& relations) {
   return known;
 }
 
-// A direction that four walls share is told three times, not six.
+// A direction that four walls share gives three relations, not six.
 TEST(RelationsFound, OfWallsAreATree) {
   Place place;
   for (const Segment2& side : kBox) place.addWall(side);
@@ -111,7 +111,7 @@ TEST(RelationsFound, OfWallsAreATree) {
   EXPECT_TRUE(place.relations({}, shy).empty());
 }
 
-TEST(RelationsFound, OneNewWallIsToldOnce) {
+TEST(RelationsFound, OneNewWallGetsOneRelation) {
   Place place;
   for (const Segment2& side : kBox) place.addWall(side);
   const auto known = acting(place.relations());
@@ -121,14 +121,14 @@ TEST(RelationsFound, OneNewWallIsToldOnce) {
   EXPECT_TRUE(found[0].record.variables[0] == fresh || found[0].record.variables[1] == fresh);
 }
 
-TEST(RelationsFound, OneLineIsToldThoughDirectionsAre) {
+TEST(RelationsFound, OneLineIsRelatedThoughDirectionsAre) {
   Place place;
   const auto a = place.addWall(kBox[0]), across = place.addWall(kBox[1]), b = place.addWall(kBeside);
   const RelatedPair a_across{"wall_turn", {a, across}}, across_b{"wall_turn", {across, b}};
   const auto found = place.relations({{a_across, true}, {across_b, true}});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].name, "on one line");
-  EXPECT_EQ(found[0].record.factor->kind(), "wall_shift") << "directions are told already";
+  EXPECT_EQ(found[0].record.factor->kind(), "wall_shift") << "directions are known already";
   EXPECT_EQ(found[0].record.variables, (std::vector<base::VariableId>{a, b}));
   EXPECT_TRUE(place.names({{a_across, true}, {across_b, true}, {found[0].pair, true}}).empty());
   EXPECT_TRUE(place.names({{a_across, true}, {across_b, true}, {found[0].pair, false}}).empty()) << "asked once";
@@ -160,7 +160,7 @@ TEST(RelationsFound, TieNoSessionThatIsNotJoined) {
   EXPECT_EQ(place.relations().size(), 2U);
 }
 
-// A floor tells of each wall that it is upright, and nothing of how walls stand to one another.
+// A floor determines that each wall is upright, but not the angles between walls.
 TEST(RelationsFound, OfAFloorAndTwoWallsAreThreeRightAngles) {
   Place place;
   place.addPlane({{0, 0, 1}, 0}, {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}});
@@ -169,12 +169,12 @@ TEST(RelationsFound, OfAFloorAndTwoWallsAreThreeRightAngles) {
   const auto found = place.relations();
   EXPECT_EQ(found.size(), 3U);
   EXPECT_TRUE(place.relations(acting(found)).empty());
-  // The wall across is in parallel to one of them, and all else follows.
+  // The wall across is parallel to one of them, and all other relations follow.
   place.addPlane({{-1, 0, 0}, 4}, {{4, 0, 0}, {4, 4, 0}, {4, 4, 2}, {4, 0, 2}});
   EXPECT_EQ(place.names(acting(found)), Names{"parallel"});
 }
 
-TEST(RelationsFound, OnePlaneIsToldThoughDirectionsAre) {
+TEST(RelationsFound, OnePlaneIsRelatedThoughDirectionsAre) {
   Place place;
   const auto a = place.addPlane({{0, 1, 0}, 0}, {{0, 0, 0}, {2, 0, 0}, {2, 0, 2}, {0, 0, 2}});
   const auto b = place.addPlane({{0, 1, 0}, 0}, {{5, 0, 0}, {7, 0, 0}, {7, 0, 2}, {5, 0, 2}});
@@ -186,7 +186,7 @@ TEST(RelationsFound, OnePlaneIsToldThoughDirectionsAre) {
   EXPECT_EQ(place.names({{aligned, false}}), Names{"parallel"});
 }
 
-// What stands on a table, say.
+// For example, an object on a table.
 TEST(RelationsFound, PointsOnATableAreThoseWithinItsOutline) {
   Place place;
   const auto table =
@@ -201,11 +201,13 @@ TEST(RelationsFound, PointsOnATableAreThoseWithinItsOutline) {
   EXPECT_TRUE(place.relations(acting(found)).empty());
 }
 
-// A wall aslant to the axes: the corners of the box around it are far from it.
+// A wall that is oblique to the axes: the corners of its bounding box are far from it.
 TEST(RelationsFound, PointsOnAWallAreNotBesideIt) {
   Place place;
   const Vector3d normal = Vector3d(1, 1, 0).normalized(), along(-normal.y(), normal.x(), 0);
-  const auto at = [&](double way, double z) -> Vector3d { return 2 * normal + way * along + Vector3d(0, 0, z); };
+  const auto at = [&](double distance, double z) -> Vector3d {
+    return 2 * normal + distance * along + Vector3d(0, 0, z);
+  };
   const auto wall = place.addPlane({-normal, 2}, {at(0, 0), at(3, 0), at(3, 2), at(0, 2)});
   const auto sign = place.addPoint(at(1, 1.5)), high = place.addPoint(at(3.1, 2.8));
   place.addPoint(at(3.5, 1.5));
@@ -216,7 +218,7 @@ TEST(RelationsFound, PointsOnAWallAreNotBesideIt) {
     points.push_back(relation.record.variables[0]);
   }
   std::sort(points.begin(), points.end());
-  EXPECT_EQ(points, (std::vector<base::VariableId>{sign, high})) << "nobody may have seen how high a wall goes";
+  EXPECT_EQ(points, (std::vector<base::VariableId>{sign, high})) << "the height of a wall may be seen only in part";
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST(RelationFactors, JacobiansMatchDifferences) {
   }
 }
 
-// Four walls that are off by a few degrees, and what they should be.
+// Four walls with errors of a few degrees, and their true values.
 TEST(RelationFactors, MakeABoxOfFourWalls) {
   graph::Graph graph;
   const std::vector<Segment2> truth = {{{3, 0}, {0, 0}}, {{3, 4}, {3, 0}}, {{0, 4}, {3, 4}}, {{0, 0}, {0, 4}}};

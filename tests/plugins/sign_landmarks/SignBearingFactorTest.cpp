@@ -73,7 +73,7 @@ graph::Evaluation at(const PanTiltBearingFactor& factor, const Se3& map_from_bas
   return {factor, {graph::se3(), graph::point3(), graph::panTilt()}, {graph::toValue(map_from_base), point, offsets}};
 }
 
-// The camera reports that it looks ahead; in truth its pan unit stands half a right angle to the left.
+// The camera reports that it looks ahead, but its pan unit is turned by 45 degrees to the left.
 TEST(PanTiltBearingFactor, ResidualAsWorkedByHand) {
   const PanTiltBearingFactor factor(SeenDirection({0, 0, 1}, Vector3d::UnitX()), Vector3d::UnitY());
   const double pan = geometry::kPi / 4;

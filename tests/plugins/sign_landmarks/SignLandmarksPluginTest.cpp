@@ -15,7 +15,7 @@
 
 #include "sign_landmarks/SignPayload.h"
 
-// Drives past beacons whose numbers are written on signs: what a camera sees of them is a direction and a text.
+// Drives past beacons whose numbers are written on signs: a camera measures the direction and the text of each.
 namespace omnimapper::plugins::sign_landmarks_plugin_test {
 namespace {
 
@@ -49,9 +49,9 @@ std::string numbered(int number) {
   return std::to_string(200 + number);
 }
 
-/// The log, its beacons as signs. `told_offset`: pan and tilt that are told less those that are true [rad].
+/// The log, with its beacons as signs. `reported_offset`: reported - true pan and tilt [rad].
 std::vector<CObservation::Ptr> signsOf(const SimulatedLog& log, const TextOf& text_of = numbered,
-                                       const Eigen::Vector2d& told_offset = Eigen::Vector2d::Zero()) {
+                                       const Eigen::Vector2d& reported_offset = Eigen::Vector2d::Zero()) {
   auto observations = log.observations();
   for (auto& observation : observations) {
     const auto seen = std::dynamic_pointer_cast<mrpt::obs::CObservationBearingRange>(observation);
@@ -61,10 +61,11 @@ std::vector<CObservation::Ptr> signsOf(const SimulatedLog& log, const TextOf& te
     signs->sensorLabel = "camera.signs";
     signs->source_label = "camera";
     const auto base_from_sensor = geometry::fromMrpt(seen->sensorLocationOnRobot);
-    const geometry::Se3 told{Eigen::AngleAxisd(told_offset[0], Eigen::Vector3d::UnitZ()) * base_from_sensor.rotation *
-                                 Eigen::AngleAxisd(told_offset[1], Eigen::Vector3d::UnitY()),
-                             base_from_sensor.translation};
-    signs->sensorPose = geometry::toMrpt(told * geometry::sensorFromOptical());
+    const geometry::Se3 reported{Eigen::AngleAxisd(reported_offset[0], Eigen::Vector3d::UnitZ()) *
+                                     base_from_sensor.rotation *
+                                     Eigen::AngleAxisd(reported_offset[1], Eigen::Vector3d::UnitY()),
+                                 base_from_sensor.translation};
+    signs->sensorPose = geometry::toMrpt(reported * geometry::sensorFromOptical());
     for (const auto& point : seen->sensedData) {
       const auto yaw = static_cast<double>(point.yaw), pitch = static_cast<double>(point.pitch);
       const Eigen::Vector3d direction(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw),
@@ -131,7 +132,7 @@ TEST(SignLandmarksPlugin, ASignThatIsMetAgainClosesTheLoop) {
   for (const auto& [title, places] : with.signs) EXPECT_EQ(places.size(), 1U) << title;
 }
 
-// By wheels and a camera nothing else says whether the map can be trusted.
+// With wheels and a camera, there is no other evidence for or against the map.
 TEST(SignLandmarksPlugin, NumbersThatAreMetAgainSpeakForTheMap) {
   const SimulatedLog log(drive(2)), once(drive(0.5));
   const auto verdictOf = [](const Mapped& mapped) { return mapped.engine->view().verdict; };
@@ -140,7 +141,7 @@ TEST(SignLandmarksPlugin, NumbersThatAreMetAgainSpeakForTheMap) {
   EXPECT_TRUE(verdictOf(Mapped(once, signsOf(once))).evidence.empty());
 }
 
-// A second round whose signs are all elsewhere: what each number stands on has been exchanged.
+// A second round in which all signs are elsewhere: their numbers have been exchanged.
 TEST(SignLandmarksPlugin, NumbersThatStandElsewhereSpeakAgainstIt) {
   const SimulatedLog log(drive(2));
   auto before = signsOf(log);
@@ -164,7 +165,7 @@ TEST(SignLandmarksPlugin, TheThirdVisitClosesTheLoopToo) {
   }
 }
 
-// Two doors with one word: neither is taken for the other, and both are in the map.
+// Two doors with the same word: they are not merged, and both are in the map.
 TEST(SignLandmarksPlugin, AWordThatIsRepeatedClosesNothing) {
   const auto options = drive(2);
   const SimulatedLog log(options);
@@ -184,7 +185,7 @@ TEST(SignLandmarksPlugin, AWordThatIsRepeatedClosesNothing) {
   }
 }
 
-// A robot whose camera believes that it looks two degrees to the left and two up of where it does.
+// A robot whose camera reports a direction two degrees to the left and two degrees above the true one.
 TEST(SignLandmarksPlugin, OffsetsOfThePanTiltAreFound) {
   const SimulatedLog log(drive(2));
   constexpr double kDegree = geometry::kPi / 180;
@@ -199,7 +200,7 @@ TEST(SignLandmarksPlugin, OffsetsOfThePanTiltAreFound) {
   EXPECT_LT(mapped.error, 1.3 * straight.error + 0.02);
 }
 
-// What a first session mapped, and a second whose start nobody knows.
+// A map of a first session, and a second session whose start is unknown.
 struct Continued {
   Continued(const Mapped& first, const SimulatedLog& log, const TextOf& text_of) : engine(testing::makeEngine(kIni)) {
     const auto view = first.engine->view();
@@ -213,7 +214,7 @@ TEST(SignLandmarksPlugin, TwoDrivesThatShareTwoSignsAreJoined) {
   const SimulatedLog log(drive(1));
   const Mapped first(log, signsOf(log));
   const SimulatedLog again(drive(1, 2));
-  // Of the second drive two signs are those of the first, all others say something else.
+  // In the second drive, two signs are those of the first, and all others have other texts.
   const auto shared = [](int number) { return std::to_string((number == 2 || number == 3 ? 200 : 400) + number); };
   const Continued second(first, again, shared);
   const auto view = second.engine->view();
@@ -224,21 +225,21 @@ TEST(SignLandmarksPlugin, TwoDrivesThatShareTwoSignsAreJoined) {
       ++landmarks[dynamic_cast<const SignPayload&>(*landmark.payload).title()];
   EXPECT_EQ(landmarks["202"], 1);
   EXPECT_EQ(landmarks["203"], 1);
-  // Both drive the same way from the same start.
+  // Both sessions drive the same path from the same start.
   const auto& frames = view.map.key_frames;
   const auto start =
       std::find_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.id.session == 1; });
   EXPECT_LT(frames.front().map_from_base.distanceTo((*start).map_from_base), 1);
 }
 
-// A poster or a number that is read wrong must not carry away a session whose start is known.
+// A poster, or a number that is misread, must not displace a session whose start is known.
 TEST(SignLandmarksPlugin, ASessionWhoseStartIsKnownStaysWhereItIs) {
   const SimulatedLog log(drive(1));
   const Mapped first(log, signsOf(log));
   const auto view = first.engine->view();
   const auto engine = testing::makeEngine(kIni);
   engine->sessions().continueFrom({view.map, view.graph, {}}, {{0, 0, 0, 0, 0, 0}, 0.5, 0.1});
-  // One sign says what another one says in the map; all others are new.
+  // One sign has the text of another one in the map; all others are new.
   testing::run(*engine, signsOf(SimulatedLog(drive(0.3, 2)),
                                 [](int number) { return std::to_string(number == 2 ? 208 : 400 + number); }));
   const auto& frames = engine->view().map.key_frames;
@@ -254,7 +255,7 @@ TEST(SignLandmarksPlugin, ADriveThatSharesNoSignIsNotJoined) {
   EXPECT_FALSE(second.engine->view().map.sessions.back().joined);
 }
 
-// The robot is set down somewhere in a map that stays as it is.
+// The robot is set down somewhere in a map that is held.
 TEST(SignLandmarksPlugin, ARobotInAMapThatIsHeldIsFoundBySigns) {
   const SimulatedLog log(drive(1));
   const Mapped first(log, signsOf(log));
@@ -280,7 +281,7 @@ TEST(SignLandmarksPlugin, ARobotInAMapThatIsHeldIsFoundBySigns) {
   EXPECT_EQ(near, located);
 }
 
-// As two storeys' doors, or those of two wings.
+// As with the doors of two storeys, or of two wings.
 TEST(SignLandmarksPlugin, ANumberThatStandsOnTwoDoorsClosesNothing) {
   const SimulatedLog log(drive(2));
   const Mapped mapped(log, signsOf(log, [](int number) { return numbered(number == 5 ? 0 : number); }));
@@ -300,7 +301,7 @@ TEST(SignLandmarksPlugin, ASignThatIsMovedToAnotherDoorBendsNothing) {
   EXPECT_EQ(mapped.signs.at("200").size(), 2U) << "where it was, and where it is";
 }
 
-// Of four readings one is wrong; the sign is one, with the number that was read most.
+// One of four readings is wrong: there is one sign, with the number that was read most often.
 TEST(SignLandmarksPlugin, ContradictoryTextsAtOnePlaceAreOneSign) {
   const SimulatedLog log(drive(1));
   int readings = 0;
@@ -330,7 +331,7 @@ TEST(SignLandmarksPlugin, ATextThatChangesBendsNothing) {
 TEST(SignLandmarksPlugin, AMeasurementOfAnUnknownOneWaitsAndSaysSo) {
   const SimulatedLog log(drive(1));
   auto observations = signsOf(log);
-  int left = 2;  // of three directions that are needed
+  int left = 2;  // of the three directions that are needed
   for (auto& observation : observations) {
     if (auto* seen = dynamic_cast<CObservationDoorSigns*>(observation.get())) {
       if (left == 0) seen->signs.clear();
@@ -396,7 +397,7 @@ TEST(SignPayload, KeepsItsLargestLook) {
   EXPECT_EQ(back.best_look->frame, written->best_look->frame);
   EXPECT_EQ(back.best_look->photograph->rgb, photograph.rgb);
   EXPECT_EQ(back.keyFrames(), std::vector<base::KeyFrameId>{written->best_look->frame});
-  // A small look of another sign does not replace it, a larger one does.
+  // A smaller look of another sign does not replace it, a larger one does.
   auto other = SignPayload().with({"213", {}, 0.9}, "a");
   other->best_look = SignLook{{0, 9}, Eigen::Vector3d::UnitX(), 100, nullptr};
   EXPECT_EQ(written->with(*other)->best_look->frame.index, 7U);

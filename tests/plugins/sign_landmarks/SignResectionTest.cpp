@@ -14,14 +14,14 @@ using geometry::Se3;
 
 constexpr double kDegree = geometry::kPi / 180;
 
-/// A base that drives along a corridor; what its camera sees of signs on the walls.
+/// A base that drives along a corridor, with the views of signs on the walls by its camera.
 class Drive {
  public:
   std::vector<SeenKnownSign> seen;
 
   explicit Drive(const Se3& map_from_session) : map_from_session_(map_from_session) {}
 
-  /// `normal_off`: by how much the sign's normal is turned from where it is seen from [rad].
+  /// `normal_off`: angle of the sign's normal from the direction to the viewpoint [rad].
   void see(std::uint32_t sign, const Vector3d& in_map, const Vector3d& base_in_map, double normal_off = 0,
            const Vector3d& truly_at = Vector3d::Zero()) {
     const Se3 map_from_base{map_from_session_.rotation, base_in_map};
@@ -65,7 +65,7 @@ void expectFound(const Drive& drive, const Se3& map_from_session) {
   EXPECT_LT(found->position_sigma, 0.35);
 }
 
-TEST(SignResection, TwoSignsSeenOnAWayTellWhereItIs) {
+TEST(SignResection, TwoSignsSeenWhileDrivingLocateTheSession) {
   const Se3 map_from_session{geometry::expSo3({0, 0, 2}), {1, -3, 0}};
   expectFound(pastTwoSigns(map_from_session), map_from_session);
 }
@@ -95,7 +95,7 @@ TEST(SignResection, ASignThatWasMovedIsOutvoted) {
   EXPECT_LT((found->map_from_session.translation - map_from_session.translation).norm(), 0.1);
 }
 
-TEST(SignResection, TooLittleTellsNothing) {
+TEST(SignResection, TooFewMeasurementsHaveNoResult) {
   const Se3 here;
   const auto drive = pastTwoSigns(here);
   EXPECT_FALSE(resection({}));
@@ -112,7 +112,7 @@ TEST(SignResection, TooLittleTellsNothing) {
   EXPECT_FALSE(resection(unnumbered.seen)) << "words alone";
 }
 
-// On a short way two signs are seen under nearly the same angle from a whole arc of places.
+// Over a short distance travelled, two signs are seen under nearly the same angle from a whole arc of places.
 TEST(SignResection, AnArcOfPlacesIsNoPlace) {
   Drive drive{Se3()};
   for (const double y : {0., 0.25, 0.5, 0.75}) {

@@ -16,13 +16,13 @@ using geometry::Se3;
 
 constexpr double kDegree = geometry::kPi / 180;
 
-/// Poses that look along x, and what a camera 1 m above each sees of a sign.
+/// Poses that look along x, and the views of a sign by a camera 1 m above each.
 class Views {
  public:
   std::vector<SignView> views;
   graph::Graph graph;
 
-  /// `error`: by how much the direction is off to the left [rad]. `range` 0: nobody measured it.
+  /// `error`: error of the direction to the left [rad]. `range` 0: not measured.
   void add(const Vector3d& base, const Vector3d& sign, double error = 0, double range = 0, double range_sigma = 0) {
     const auto pose = graph.addVariable(graph::se3(), graph::toValue(Se3{Eigen::Quaterniond::Identity(), base}));
     const Vector3d camera(0, 0, 1);
@@ -52,13 +52,13 @@ TEST(Triangulation, ThreeDirectionsFromThreePlacesMeetAtTheSign) {
   EXPECT_EQ(found->views.size(), 3U);
 }
 
-TEST(Triangulation, DirectionsFromOnePlaceTellNoDistance) {
+TEST(Triangulation, DirectionsFromOnePlaceDetermineNoDistance) {
   Views seen;
   for (const double error : {-0.3, 0., 0.3}) seen.add({0, 0, 0}, kSign, error * kDegree);
   EXPECT_FALSE(seen.meeting());
 }
 
-// Three ranges of the same standard deviation: that of their mean is smaller by the root of three.
+// The mean of three ranges with the same standard deviation has one that is smaller by the root of three.
 TEST(Triangulation, RangesPlaceASignThatIsSeenFromOnePlace) {
   const double range = (kSign - Vector3d(0, 0, 1)).norm();
   Views seen;
@@ -73,7 +73,7 @@ TEST(Triangulation, RangesPlaceASignThatIsSeenFromOnePlace) {
 TEST(Triangulation, ARangeThatFitsNoOtherViewIsLeftOut) {
   const double range = (kSign - Vector3d(0, 0, 1)).norm();
   Views seen;
-  seen.add({0, 0, 0}, kSign, 0, range - 1.5, 0.03);  // somebody stood before it
+  seen.add({0, 0, 0}, kSign, 0, range - 1.5, 0.03);  // as if a person stood in front of the sign
   for (int i = 0; i < 3; ++i) seen.add({0, 0, 0}, kSign, 0, range, 0.03);
   const auto found = seen.meeting();
   ASSERT_TRUE(found);
@@ -81,7 +81,7 @@ TEST(Triangulation, ARangeThatFitsNoOtherViewIsLeftOut) {
   EXPECT_EQ(found->views, (std::vector<std::size_t>{1, 2, 3}));
 }
 
-// Two signs that say the same stand 1.4 m apart on one wall: what is seen of both meets between them and the robot.
+// Two signs with the same text are 1.4 m apart on one wall: rays to both meet between them and the robot.
 TEST(Triangulation, DirectionsToTwoSignsOfOneTextAreNotMixed) {
   const Vector3d other = kSign + Vector3d(0, 1.4, 0);
   Views seen;

@@ -6,9 +6,9 @@
 
 namespace omnimapper::landmarks {
 
-/// Where it is not known how the sessions of a key frame and of the landmark it saw lie to each other, adds the
-/// measurement as a hypothesis for the consistency test, with its decision, and gives true: it would be the first thing
-/// that ties its session to the map, and if it were wrong, everything would be.
+/// If the relative pose of the sessions of the key frame and of the landmark is unknown, adds the measurement as a
+/// hypothesis for the consistency test, with its decision, and returns true. The measurement would be the first to tie
+/// its session to the map, and a wrong one would displace the whole session.
 bool addInterSessionHypothesis(const mapper::View& view, base::KeyFrameId frame, const mapper::Pairing& pairing,
                                mapper::Decision& decision, mapper::Batch& batch);
 

@@ -6,8 +6,8 @@
 
 namespace omnimapper::landmarks {
 
-/// Two axes on a plane. Of one that leans from level by more than 26 degrees the first is level and the second leads
-/// up; of others the first goes along the x of the map.
+/// Two axes on a plane. If the plane is tilted from level by more than 26 degrees, the first is level and the second
+/// points up; else the first points along the x axis of the map.
 struct PlaneAxes {
   explicit PlaneAxes(const geometry::Plane3& plane);
 

@@ -10,11 +10,11 @@
 
 namespace omnimapper::landmarks {
 
-/// What sensors say of a plane of the map. Derivations: doc/derivations/plane.md and line_on_plane.md.
+/// Measurements of a plane of the map. Derivations: doc/derivations/plane.md and line_on_plane.md.
 
-/// A plane seen as a plane (thesis 4.2.2.3, whose four rows are one too many). Variables: map_from_base, plane in map.
-/// Residual: minus(plane predicted in the base, plane measured in the base), geometry/PlaneTangent.h: two turns of the
-/// normal [rad], then the distance [m].
+/// A plane measured as a plane (thesis 4.2.2.3, but with three rows, because one of its four is redundant). Variables:
+/// map_from_base, plane in map. Residual: minus(plane predicted in the base, plane measured in the base),
+/// geometry/PlaneTangent.h: two rotations of the normal [rad], then the distance [m].
 class PlaneFactor : public graph::SizedFactor<3, graph::Se3Kind, PlaneKind> {
  public:
   explicit PlaneFactor(const geometry::Plane3& plane_in_base) : measured_(plane_in_base) {}
@@ -28,7 +28,8 @@ class PlaneFactor : public graph::SizedFactor<3, graph::Se3Kind, PlaneKind> {
   geometry::Plane3 measured_;
 };
 
-/// A straight line of a laser scan that lies on a plane (thesis 4.2.3): it leaves the turn about itself open.
+/// A straight line of a laser scan that lies on a plane (thesis 4.2.3). It does not determine the rotation of the plane
+/// about the line.
 /// Variables: map_from_base, plane in map. Residual: n . b, the sine of the angle between line and plane [rad]; then
 /// the distance of the line's middle from the plane [m], positive on the side of the normal n.
 class LineOnPlaneFactor : public graph::SizedFactor<2, graph::Se3Kind, PlaneKind> {
@@ -46,9 +47,9 @@ class LineOnPlaneFactor : public graph::SizedFactor<2, graph::Se3Kind, PlaneKind
   Eigen::Vector3d direction_, middle_;
 };
 
-/// That a plane is upright, for one that only lines of one height have shown. Variable: plane in map. Residual: the
-/// tangent of its lean, at most 100. A sine is at most 1: a few wrong lines could turn the plane level, where every
-/// line of a level laser fits it.
+/// Holds a plane upright of which only lines of one height were seen. Variable: plane in map. Residual: the tangent of
+/// its tilt from upright, at most 100. The sine, at most 1, would not do: a few wrong lines could tilt the plane level,
+/// where every line of a level laser fits it.
 class UprightFactor : public graph::SizedFactor<1, PlaneKind> {
  public:
   static constexpr std::string_view kKind = "upright_plane";

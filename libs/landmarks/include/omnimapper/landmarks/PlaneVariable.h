@@ -19,7 +19,7 @@ struct PlaneKind {
 };
 
 Eigen::Vector4d toValue(const geometry::Plane3& plane);
-/// The pointer is to a whole ambient value.
+/// `value` is a whole ambient value.
 inline geometry::Plane3 planeFromValue(const double* value) {
   return {{value[0], value[1], value[2]}, value[3]};
 }

@@ -83,19 +83,25 @@ Association associate(std::size_t measurements, const std::vector<Pairing>& pair
 
 template <class Options>
 base::OptionTable<Options>& AssociationOptions::declareIn(base::OptionTable<Options>& table) {
-  Method Options::*const method = &AssociationOptions::method;  // a member of the base is none for deduction
+  Method Options::*const method = &AssociationOptions::method;  // template deduction needs the pointer to be of Options
   return table
       .choice("association", method, {{"joint", Method::joint}, {"nearest", Method::nearest}},
-              "How a measurement finds its landmark: all of a moment together, or each the nearest.")
+              "How measurements find their landmarks: all of an observation jointly, or each by itself its nearest "
+              "landmark.")
       .number("association_confidence", &Options::confidence, base::Range{0.5, 0.999999999},
               "A true match passes a gate with this probability.")
-      .number("association_inflation", &Options::inflation, base::Range{1, 100},
-              "Factor on the standard deviations of what the map says: odometry is surer of itself than it should be.")
-      .number("association_min_ratio", &Options::min_likelihood_ratio, base::Range{1, 1e12},
-              "A match must be so many times likelier than the same moment with another landmark in its place; else "
-              "the measurement is left out. 1 takes the best. For association = joint.")
-      .integer("association_max_nodes", &Options::max_nodes, base::Range{1, 1e9},
-               "Interpretations looked at at most, for association = joint; then the best so far is taken.");
+      .number(
+          "association_inflation", &Options::inflation, base::Range{1, 100},
+          "Factor on the standard deviations that the map predicts, because odometry usually reports smaller ones than "
+          "it should.")
+      .number(
+          "association_min_ratio", &Options::min_likelihood_ratio, base::Range{1, 1e12},
+          "Smallest ratio of the likelihood of a match to that of the best interpretation with another landmark in its "
+          "place; below it, the measurement is left out. 1 takes the best match. Only for association = joint.")
+      .integer(
+          "association_max_nodes", &Options::max_nodes, base::Range{1, 1e9},
+          "Largest number of interpretations that are searched for association = joint; beyond it, the best so far is "
+          "taken.");
 }
 
 }  // namespace omnimapper::mapper

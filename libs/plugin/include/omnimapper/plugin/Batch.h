@@ -22,8 +22,8 @@ class Batch {
   base::VariableId addVariable(std::shared_ptr<const graph::Variable> kind, const Eigen::VectorXd& value,
                                bool fixed = false);
   void addFactor(graph::FactorRecord record) { added_factors_.push_back(std::move(record)); }
-  /// A factor that would bend the map if it were wrong. It has no weight until the consistency test accepts it, and the
-  /// result of the test completes `decision`.
+  /// A factor that would distort the map if it were wrong. It has no weight until the consistency test accepts it, and
+  /// the result of the test completes `decision`.
   void addHypothesis(graph::FactorRecord record, Decision decision);
   void removeFactor(base::FactorId id) { removed_factors_.push_back(id); }
   /// Every factor that binds the variable must have been removed before or in this batch.

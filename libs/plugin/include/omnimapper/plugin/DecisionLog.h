@@ -28,7 +28,7 @@ struct Decision {
 
 /// The kind of a decision about a search for a session in the whole map. If it is accepted, the session was moved to
 /// the place that was found, and a loop closure must still confirm it.
-inline constexpr char kRelocalisation[] = "relocalisation";
+inline constexpr char kRelocalization[] = "relocalization";
 
 using DecisionLog = std::vector<Decision>;
 

@@ -59,7 +59,8 @@ class SensorCorrections {
 
 template <class Options>
 base::OptionTable<Options>& SensorPoseTrust::declareIn(base::OptionTable<Options>& table) {
-  Estimate Options::*const estimate = &SensorPoseTrust::estimate;  // a member of the base is none for deduction
+  Estimate Options::*const estimate =
+      &SensorPoseTrust::estimate;  // template deduction needs the pointer to be of Options
   return table
       .choice("estimate_sensor_pose", estimate,
               {{"no", Estimate::no}, {"once", Estimate::once}, {"each_key_frame", Estimate::each_key_frame}},
